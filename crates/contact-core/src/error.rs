@@ -1,0 +1,103 @@
+//! What can go wrong, with the numbers that say how.
+
+use std::fmt::Display;
+
+/// Every failure of the core, for people: what is wrong, where, what is allowed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A value of the scene is out of its range.
+    #[error("{key} = {value}: must be {allowed}")]
+    InvalidScene {
+        /// Where the value stands, as in the scene file.
+        key: String,
+        /// The value found.
+        value: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A scene file does not follow the schema.
+    #[error("{file}:{line}: {message}")]
+    SceneFile {
+        /// Name of the file.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong and what is allowed.
+        message: String,
+    },
+    /// The contact reaches the border of the grid.
+    #[error(
+        "the contact touches the border of the grid at increment {increment} (W = {W} N); \
+         the grid is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide"
+    )]
+    OffGrid {
+        /// Increment, from 1.
+        increment: usize,
+        /// Normal force \[N\].
+        W: f64,
+        /// Length of the grid along x \[m\].
+        extent_x: f64,
+        /// Length of the grid along y \[m\].
+        extent_y: f64,
+        /// Recommended length \[m\].
+        needed: f64,
+    },
+    /// A solver stopped before its tolerance.
+    #[error(
+        "increment {increment}: the {solver} solver stopped at residual {residual:.2e} \
+         (tolerance {tolerance:.2e}) after {iterations} iterations"
+    )]
+    NotConverged {
+        /// Increment, from 1.
+        increment: usize,
+        /// Which solver.
+        solver: &'static str,
+        /// Residual reached, in the unit of the tolerance.
+        residual: f64,
+        /// Residual asked for.
+        tolerance: f64,
+        /// Iterations done.
+        iterations: usize,
+    },
+    /// The conversion of a frequency response missed its tolerance.
+    #[error(
+        "the influence coefficients have an estimated error of {estimate:.2e} C33(0,0), \
+         more than the {tolerance:.2e} asked for"
+    )]
+    KernelInaccurate {
+        /// Estimated error over C33(0,0).
+        estimate: f64,
+        /// Tolerance asked for.
+        tolerance: f64,
+    },
+    /// A file could not be written or read.
+    #[error("{path}: {message}")]
+    File {
+        /// The file or folder.
+        path: String,
+        /// What the system says.
+        message: String,
+    },
+    /// The run was stopped from outside (Ctrl-C, an observer).
+    #[error("stopped after increment {increment}")]
+    Interrupted {
+        /// Last finished increment.
+        increment: usize,
+    },
+}
+
+impl Error {
+    /// A value out of its range.
+    pub fn invalid(
+        key: impl Into<String>,
+        value: impl Display,
+        allowed: impl Into<String>,
+    ) -> Self {
+        Self::InvalidScene {
+            key: key.into(),
+            value: value.to_string(),
+            allowed: allowed.into(),
+        }
+    }
+}

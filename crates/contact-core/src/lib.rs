@@ -1,0 +1,30 @@
+//! Fretting contact of elastic bodies, homogeneous or coated.
+//!
+//! The unknowns are the pressure p and the shear tractions q = (q_x, q_y) on the contact plane.
+//! With the relative surface displacement u = C * (q_x, q_y, p), the gap h = h_init + u_z - delta_z
+//! and the slip increment ds = du - d(delta), each cell obeys
+//!
+//! ```text
+//! p >= 0,  h >= 0,  p h = 0                     contact
+//! |q| <= mu p,  ds = 0  where |q| < mu p,       stick
+//! q = -mu p ds/|ds|  where ds != 0              slip
+//! ```
+//!
+//! and the sums of the tractions balance the applied forces. Axes, signs and words are fixed in
+//! `docs/conventions.md`. The modules stand in the order of the computation:
+//!
+//! [`scene`] -> [`kernels`] -> [`convolution`] -> [`solvers`] -> [`march`] -> `fields` ->
+//! `output`, with [`reference`] (closed forms) beside them. The method is that of S. Spinu,
+//! Tribology in Industry 42 (2020) 131-145, doi:10.24874/ti.2020.42.01.13 ("the paper"); where we
+//! left it, the module says why.
+
+#![forbid(unsafe_code)]
+
+pub mod error;
+pub mod kernels;
+pub mod march;
+pub mod reference;
+pub mod scene;
+
+pub use error::Error;
+pub use scene::Scene;

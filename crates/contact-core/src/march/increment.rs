@@ -1,0 +1,124 @@
+//! What one increment ends with: the numbers a user reads, the residuals and the work done.
+
+use crate::scene::LoadPoint;
+
+/// Rigid-body motion of body 1 relative to body 2, from the unloaded state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Approach \[m\], positive when the bodies come together.
+    pub delta_z: f64,
+    /// Relative tangential shift along x \[m\], of the sign of the force T_x that drives it.
+    pub delta_x: f64,
+    /// Relative tangential shift along y \[m\].
+    pub delta_y: f64,
+}
+
+/// State of the interface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Status {
+    /// No cell transmits pressure.
+    #[default]
+    NoContact,
+    /// Every contact cell sticks.
+    FullStick,
+    /// Stick and slip cells.
+    PartialSlip,
+    /// Every contact cell slips: friction carries its limit, the shift is that of incipient sliding.
+    GrossSlip,
+}
+
+/// Energy of one increment, with mid-increment (trapezoidal) tractions \[J\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Work of the applied forces, W d(delta_z) + T . d(delta).
+    pub work: f64,
+    /// Change of the elastic energy, 1/2 sum of traction times displacement.
+    pub elastic: f64,
+    /// Energy dissipated by friction, -sum of q . ds dA, >= 0.
+    pub dissipated: f64,
+    /// Work of the pressure on cells that close or open, -sum of p dh dA; it vanishes with the
+    /// increment.
+    pub opening: f64,
+}
+
+impl Energy {
+    /// What the balance misses \[J\]: zero up to the solver's tolerance.
+    pub fn imbalance(&self) -> f64 {
+        self.work - self.elastic - self.dissipated - self.opening
+    }
+}
+
+/// How well the equations hold at the end of an increment, in physical terms.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Residuals {
+    /// Root-mean-square gap in the contact over the Hertz approach.
+    pub gap: f64,
+    /// Deepest penetration outside the contact over the Hertz approach.
+    pub penetration: f64,
+    /// Largest |q| - mu p over mu p_max; zero or below if Coulomb's law holds everywhere.
+    pub coulomb: f64,
+    /// Root-mean-square slip in stick cells over mu times the Hertz approach.
+    pub stick: f64,
+    /// Root-mean-square part of the slip that is not opposite to q, over mu times the approach.
+    pub direction: f64,
+    /// Largest relative error of the force balances.
+    pub balance: f64,
+    /// Energy imbalance over the work done so far.
+    pub energy: f64,
+}
+
+/// Work counters; they do not jitter as times do.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Work {
+    /// Convolutions in units of three components (six two-dimensional transforms).
+    pub convolutions: f64,
+    /// Passes of the intermediate loop (normal, then tangential).
+    pub alternations: usize,
+    /// Conjugate-gradient iterations of the normal solver.
+    pub normal_iterations: usize,
+    /// Conjugate-gradient iterations of the tangential solver.
+    pub tangential_iterations: usize,
+}
+
+/// One increment of the load path: scalars, residuals, work.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Increment {
+    /// Increment, from 1.
+    pub index: usize,
+    /// The loads and the place in the path.
+    pub point: LoadPoint,
+    /// Rigid-body motion.
+    pub motion: Motion,
+    /// State of the interface.
+    pub status: Status,
+    /// Area of the cells in contact \[m^2\].
+    pub contact_area: f64,
+    /// Area of the cells that stick \[m^2\].
+    pub stick_area: f64,
+    /// Largest pressure \[Pa\].
+    pub p_max: f64,
+    /// Largest shear traction |q| \[Pa\].
+    pub q_max: f64,
+    /// Energies of the increment.
+    pub energy: Energy,
+    /// How well the equations hold.
+    pub residuals: Residuals,
+    /// What it cost.
+    pub work: Work,
+}
+
+impl Increment {
+    /// Stick area over contact area; 1 where there is no contact.
+    pub fn stick_ratio(&self) -> f64 {
+        if self.contact_area > 0.0 {
+            self.stick_area / self.contact_area
+        } else {
+            1.0
+        }
+    }
+
+    /// Radius of the circle of the contact's area \[m\].
+    pub fn contact_radius(&self) -> f64 {
+        (self.contact_area / std::f64::consts::PI).sqrt()
+    }
+}

@@ -1,0 +1,69 @@
+//! Bodies: a substrate, the coatings bonded to it, and a surface shape.
+
+use super::{Elastic, Shape};
+use crate::error::Error;
+
+/// A layer of constant thickness, perfectly bonded to what is below it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coating {
+    /// Material of the layer.
+    pub material: Elastic,
+    /// Thickness h \[m\], positive.
+    pub thickness: f64,
+}
+
+/// One of the two bodies, an elastic half-space under a gently curved surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Material of the half-space below the coatings.
+    pub substrate: Elastic,
+    /// Layers from the surface down: `coatings[0]` is the outermost.
+    pub coatings: Vec<Coating>,
+    /// Shape of the undeformed surface.
+    pub shape: Shape,
+}
+
+impl Body {
+    /// A homogeneous body.
+    pub fn homogeneous(material: Elastic, shape: Shape) -> Self {
+        Self {
+            substrate: material,
+            coatings: Vec::new(),
+            shape,
+        }
+    }
+
+    /// The material at the surface.
+    pub fn outermost(&self) -> Elastic {
+        self.coatings.first().map_or(self.substrate, |c| c.material)
+    }
+
+    /// Whether every layer has the properties of the substrate.
+    pub fn is_homogeneous(&self) -> bool {
+        self.coatings.iter().all(|c| c.material == self.substrate)
+    }
+
+    /// Fails if a material or a thickness is out of its range; `key` is `body1` or `body2`.
+    pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
+        self.substrate.check(key)?;
+        for (i, coating) in self.coatings.iter().enumerate() {
+            let key = format!("{key}.coatings[{i}]");
+            coating.material.check(&key)?;
+            if !(coating.thickness > 0.0 && coating.thickness.is_finite()) {
+                return Err(Error::invalid(
+                    format!("{key}.thickness"),
+                    coating.thickness,
+                    "a positive length in m",
+                ));
+            }
+            if coating.material.is_rigid() {
+                return Err(Error::invalid(
+                    format!("{key}.E"),
+                    coating.material.E,
+                    "a finite modulus (a rigid layer makes the whole body rigid)",
+                ));
+            }
+        }
+        self.shape.check(&format!("{key}.shape"))
+    }
+}

@@ -1,0 +1,78 @@
+//! The rectangular mesh of the contact plane.
+
+use ndarray::Array2;
+
+use crate::error::Error;
+
+/// `nx` by `ny` rectangular cells of `dx` by `dy`; tractions are constant on each.
+///
+/// Cell (i, j) is centred at (`x(i)`, `y(j)`); the grid's middle is the initial point of contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    /// Number of cells along x.
+    pub nx: usize,
+    /// Number of cells along y.
+    pub ny: usize,
+    /// Cell length along x \[m\].
+    pub dx: f64,
+    /// Cell length along y \[m\].
+    pub dy: f64,
+}
+
+impl Grid {
+    /// `n` by `n` cells on a square of side `extent` \[m\].
+    pub fn centred(extent: f64, n: usize) -> Result<Self, Error> {
+        Self::from_spacing((n, n), (extent / n as f64, extent / n as f64))
+    }
+
+    /// Cells of given number and size \[m\].
+    pub fn from_spacing(n: (usize, usize), d: (f64, f64)) -> Result<Self, Error> {
+        let grid = Self {
+            nx: n.0,
+            ny: n.1,
+            dx: d.0,
+            dy: d.1,
+        };
+        grid.check()?;
+        Ok(grid)
+    }
+
+    /// Number of cells.
+    pub fn cells(&self) -> usize {
+        self.nx * self.ny
+    }
+
+    /// Area of a cell \[m^2\].
+    pub fn cell_area(&self) -> f64 {
+        self.dx * self.dy
+    }
+
+    /// Coordinate of the centre of the i-th column of cells \[m\].
+    pub fn x(&self, i: usize) -> f64 {
+        (i as f64 - (self.nx - 1) as f64 / 2.0) * self.dx
+    }
+
+    /// Coordinate of the centre of the j-th row of cells \[m\].
+    pub fn y(&self, j: usize) -> f64 {
+        (j as f64 - (self.ny - 1) as f64 / 2.0) * self.dy
+    }
+
+    /// `f(x, y)` at every cell centre, shape (nx, ny).
+    pub fn map(&self, f: impl Fn(f64, f64) -> f64) -> Array2<f64> {
+        Array2::from_shape_fn((self.nx, self.ny), |(i, j)| f(self.x(i), self.y(j)))
+    }
+
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        for (key, n) in [("grid.nx", self.nx), ("grid.ny", self.ny)] {
+            if n == 0 {
+                return Err(Error::invalid(key, n, "at least one cell"));
+            }
+        }
+        for (key, d) in [("grid.dx", self.dx), ("grid.dy", self.dy)] {
+            if !(d > 0.0 && d.is_finite()) {
+                return Err(Error::invalid(key, d, "a positive cell size in m"));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,157 @@
+//! How a scene is solved and what of it is kept.
+
+use crate::error::Error;
+
+/// All settings; `Settings::default()` is what most users want.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// Conversion of the frequency response.
+    pub kernel: KernelSettings,
+    /// The three levels of iteration.
+    pub solver: SolverSettings,
+    /// What may be skipped when the scene does not need it.
+    pub skip: SkipSettings,
+    /// Which increments keep their fields.
+    pub save: SaveFields,
+}
+
+/// How influence coefficients are made from the frequency response of a coated body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KernelSettings {
+    /// Method of conversion (default: [`KernelMethod::Hankel`]).
+    pub method: KernelMethod,
+    /// Largest error allowed, over `C33(0,0)` (default 1e-10). Only the Hankel method can promise it.
+    pub tolerance: f64,
+}
+
+impl Default for KernelSettings {
+    fn default() -> Self {
+        Self {
+            method: KernelMethod::Hankel,
+            tolerance: 1e-10,
+        }
+    }
+}
+
+/// Method of conversion of a frequency response to influence coefficients.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KernelMethod {
+    /// Closed form of the outermost material's half-space plus Hankel integrals of the smooth
+    /// remainder. Exact to round-off.
+    Hankel,
+    /// The paper's eq. (9)-(13): inverse FFT on a domain enlarged `lambda` times, zero frequency
+    /// averaged over its cell, with the alias sums up to order `aliases` (the paper: 0).
+    InverseFft {
+        /// Enlargement of the domain, 1 to 12.
+        lambda: usize,
+        /// Order of the alias sum.
+        aliases: usize,
+    },
+    /// The paper's reference \[15\]: no coefficients at all; every convolution is done directly
+    /// with the frequency response on a domain enlarged `lambda` times.
+    FrequencyDomain {
+        /// Enlargement of the domain, 1 to 12.
+        lambda: usize,
+    },
+}
+
+/// Settings of the iterations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolverSettings {
+    /// Which algorithms (default: [`Preset::Fast`]).
+    pub preset: Preset,
+    /// Relative tolerance of the solution (default 1e-5): root-mean-square gap error in the
+    /// contact over the Hertz approach, tangential misfit over mu times the Hertz approach, and
+    /// the change of p and q in the last pass of the intermediate loop over their norms.
+    pub tolerance: f64,
+    /// Most passes of the intermediate loop per increment (default 60).
+    pub max_alternations: usize,
+    /// Most iterations of an inner loop (default 1000).
+    pub max_iterations: usize,
+}
+
+impl Default for SolverSettings {
+    fn default() -> Self {
+        Self {
+            preset: Preset::Fast,
+            tolerance: 1e-5,
+            max_alternations: 60,
+            max_iterations: 1000,
+        }
+    }
+}
+
+/// Families of algorithms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Preset {
+    /// Preconditioned solvers, sets and fields carried over and extrapolated.
+    Fast,
+    /// The paper's method: unpreconditioned conjugate gradients of the Polonsky-Keer type in both
+    /// directions, plain alternation, warm start from the last increment.
+    Spinu2020,
+}
+
+/// What may be skipped. Every rule leaves the answer as it is; each can be switched off to prove it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SkipSettings {
+    /// Treat a body whose layers all equal its substrate as homogeneous (default true).
+    pub equal_layers: bool,
+    /// Leave out the normal-tangential kernels and the intermediate loop where they vanish
+    /// (default true).
+    pub coupling: bool,
+    /// Solve on half of a mirror-symmetric scene (default true).
+    pub mirror: bool,
+}
+
+impl Default for SkipSettings {
+    fn default() -> Self {
+        Self {
+            equal_layers: true,
+            coupling: true,
+            mirror: true,
+        }
+    }
+}
+
+/// Which increments keep their fields; scalars are kept for all.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum SaveFields {
+    /// The ends of the branches (default).
+    #[default]
+    Branches,
+    /// Every increment.
+    All,
+    /// The increments with these indices, from 1, and the last.
+    Indices(Vec<usize>),
+}
+
+impl Settings {
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let lambda = match self.kernel.method {
+            KernelMethod::Hankel => 1,
+            KernelMethod::InverseFft { lambda, .. } | KernelMethod::FrequencyDomain { lambda } => {
+                lambda
+            }
+        };
+        if !(1..=12).contains(&lambda) {
+            return Err(Error::invalid("kernel.lambda", lambda, "1 to 12"));
+        }
+        for (key, value) in [
+            ("kernel.tolerance", self.kernel.tolerance),
+            ("solver.tolerance", self.solver.tolerance),
+        ] {
+            if !(value > 0.0 && value < 1.0) {
+                return Err(Error::invalid(key, value, "between 0 and 1"));
+            }
+        }
+        for (key, value) in [
+            ("solver.max_alternations", self.solver.max_alternations),
+            ("solver.max_iterations", self.solver.max_iterations),
+        ] {
+            if value == 0 {
+                return Err(Error::invalid(key, value, "at least 1"));
+            }
+        }
+        Ok(())
+    }
+}
