@@ -20,6 +20,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod convolution;
 pub mod error;
 pub mod kernels;
 pub mod march;
