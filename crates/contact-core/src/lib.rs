@@ -26,6 +26,7 @@ pub mod kernels;
 pub mod march;
 pub mod reference;
 pub mod scene;
+pub mod solvers;
 
 pub use error::Error;
 pub use scene::Scene;

@@ -8,6 +8,7 @@ mod dc_fft;
 mod direct;
 mod good_size;
 mod mirror;
+mod preconditioner;
 mod spectra;
 mod spectral_product;
 mod y_transform;
@@ -15,6 +16,7 @@ mod y_transform;
 pub use dc_fft::DcFft;
 pub use direct::Direct;
 pub use mirror::{Half, Mirror};
+pub use preconditioner::CirculantInverse;
 pub(crate) use spectra::Spectra;
 pub(crate) use spectral_product::SpectralProduct;
 
@@ -41,7 +43,7 @@ pub struct Displacements<'a> {
 }
 
 /// The linear response of the pair of bodies, eq. (2)-(4) of the paper: u = C * (q_x, q_y, p).
-pub trait SurfaceOperator {
+pub trait SurfaceOperator: Send {
     /// Shape (nx, ny) of the fields.
     fn shape(&self) -> (usize, usize);
 

@@ -96,10 +96,6 @@ impl SpectralProduct {
         }
     }
 
-    pub(crate) fn period(&self) -> (usize, usize) {
-        self.period
-    }
-
     /// Applies the kernels to the tractions.
     pub(crate) fn apply(
         &mut self,

@@ -205,7 +205,7 @@ impl YTransform {
     fn run_inverse(&self, s: &mut YScratch) {
         // A real row has real first and last frequencies; rounding must not say otherwise.
         s.spectrum[0].im = 0.0;
-        if self.length % 2 == 0 {
+        if self.length.is_multiple_of(2) {
             s.spectrum[self.length / 2].im = 0.0;
         }
         self.inverse
