@@ -1,0 +1,248 @@
+//! One Newton step of the tangential problem: the linear system on the tangent space.
+
+use super::Response;
+use super::tangential::{Shear, TangentialProblem};
+use super::vector::{add_scaled, dot, sum};
+
+type Pair = [Vec<f64>; 2];
+
+/// The linear system
+///
+/// ```text
+/// find x in the tangent space, sum x = 0:   Pi (C x + D x + ds) = Pi d(delta)'
+/// ```
+///
+/// with Pi the projection on the tangent space (stick cells: both components; slip cells: across
+/// q) and D the curvature |ds|/g of the circle.
+#[derive(Debug)]
+pub(crate) struct NewtonStep {
+    tangent: Tangent,
+    /// D \[m/Pa\].
+    diagonal: Vec<f64>,
+    /// S = (1 + D/C_xx(0,0))^(-1/2).
+    scale: Vec<f64>,
+    /// Solution \[Pa\].
+    pub(crate) x: Pair,
+    /// C x \[m\].
+    pub(crate) response_x: Pair,
+    residual: Pair,
+    z: Pair,
+    direction: Pair,
+    response_direction: Pair,
+}
+
+/// The projection on the tangent space and on a sum of zero.
+#[derive(Debug)]
+struct Tangent {
+    xx: Vec<f64>,
+    xy: Vec<f64>,
+    yy: Vec<f64>,
+    /// Inverse of the sum of the projections over the cells: xx, xy, yy.
+    inverse_sum: [f64; 3],
+}
+
+impl NewtonStep {
+    pub(crate) fn new(cells: usize) -> Self {
+        let field = || vec![0.0; cells];
+        let pair = || [field(), field()];
+        Self {
+            tangent: Tangent {
+                xx: field(),
+                xy: field(),
+                yy: field(),
+                inverse_sum: [0.0; 3],
+            },
+            diagonal: field(),
+            scale: field(),
+            x: pair(),
+            response_x: pair(),
+            residual: pair(),
+            z: pair(),
+            direction: pair(),
+            response_direction: pair(),
+        }
+    }
+
+    /// Tangent space, curvature and residual at the present shear and slip; x starts from zero.
+    pub(crate) fn linearise(
+        &mut self,
+        problem: &TangentialProblem<'_>,
+        shear: &Shear<'_>,
+        shift: [f64; 2],
+        c_xx: f64,
+    ) {
+        let t = &mut self.tangent;
+        for n in 0..problem.bound.len() {
+            let g = problem.bound[n];
+            let slip = shear.slip_of(problem, shift, n);
+            let (tangent, diagonal) = if g <= 0.0 {
+                ([0.0, 0.0, 0.0], 0.0)
+            } else if shear.slip[n] {
+                let e = [shear.q[0][n] / g, shear.q[1][n] / g];
+                let against = -(slip[0] * e[0] + slip[1] * e[1]);
+                (
+                    [e[1] * e[1], -e[0] * e[1], e[0] * e[0]],
+                    against.max(0.0) / g,
+                )
+            } else {
+                ([1.0, 0.0, 1.0], 0.0)
+            };
+            [t.xx[n], t.xy[n], t.yy[n]] = tangent;
+            self.diagonal[n] = diagonal;
+            self.scale[n] = 1.0 / (1.0 + diagonal / c_xx).sqrt();
+            self.residual[0][n] = -slip[0];
+            self.residual[1][n] = -slip[1];
+        }
+        t.inverse_sum = invert([sum(&t.xx), sum(&t.xy), sum(&t.yy)], problem.free);
+        t.project(&mut self.residual);
+        for c in 0..2 {
+            self.x[c].fill(0.0);
+            self.response_x[c].fill(0.0);
+        }
+    }
+
+    /// Norm of the residual \[m\], root of the sum of squares.
+    pub(crate) fn residual_norm(&self) -> f64 {
+        dot_pair(&self.residual, &self.residual).sqrt()
+    }
+
+    /// Conjugate gradients until the residual norm is below `target` or `max_passes` are done;
+    /// returns the passes.
+    pub(crate) fn solve(
+        &mut self,
+        response: &mut Response<'_>,
+        target: f64,
+        max_passes: usize,
+    ) -> usize {
+        let mut last_product = 0.0;
+        for pass in 0..max_passes {
+            if self.residual_norm() <= target {
+                return pass;
+            }
+            self.precondition(response);
+            let product = dot_pair(&self.residual, &self.z);
+            let beta = if pass == 0 {
+                0.0
+            } else {
+                product / last_product
+            };
+            last_product = product;
+            for c in 0..2 {
+                for (d, z) in self.direction[c].iter_mut().zip(&self.z[c]) {
+                    *d = z + beta * *d;
+                }
+            }
+            let [d_x, d_y] = &self.direction;
+            let [r_x, r_y] = &mut self.response_direction;
+            response.tangential([d_x, d_y], [r_x, r_y]);
+            // z = Pi (C + D) d; d lies in the tangent space.
+            for c in 0..2 {
+                let terms = self.z[c].iter_mut().zip(&self.response_direction[c]);
+                for ((z, r), (d, k)) in terms.zip(self.direction[c].iter().zip(&self.diagonal)) {
+                    *z = r + k * d;
+                }
+            }
+            self.tangent.project(&mut self.z);
+            let curvature = dot_pair(&self.direction, &self.z);
+            if !(curvature > 0.0 && product > 0.0) {
+                return pass + 1;
+            }
+            let step = product / curvature;
+            for c in 0..2 {
+                add_scaled(&mut self.x[c], step, &self.direction[c]);
+                add_scaled(&mut self.response_x[c], step, &self.response_direction[c]);
+                add_scaled(&mut self.residual[c], -step, &self.z[c]);
+            }
+        }
+        max_passes
+    }
+
+    /// z = Pi S P S r
+    fn precondition(&mut self, response: &mut Response<'_>) {
+        for c in 0..2 {
+            let scaled = self.response_direction[c].iter_mut().zip(&self.scale);
+            for ((s, scale), r) in scaled.zip(&self.residual[c]) {
+                *s = scale * r;
+            }
+        }
+        let [s_x, s_y] = &self.response_direction;
+        let [z_x, z_y] = &mut self.z;
+        response.invert_tangential([s_x, s_y], [z_x, z_y]);
+        for z in &mut self.z {
+            for (z, scale) in z.iter_mut().zip(&self.scale) {
+                *z *= scale;
+            }
+        }
+        self.tangent.project(&mut self.z);
+    }
+
+    /// The shift that the equations of the tangent space ask for after the step, with u updated.
+    pub(crate) fn shift(&mut self, problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 2] {
+        for c in 0..2 {
+            let slips = shear.u[c].iter().zip(problem.u_ref[c]);
+            let curved = self.diagonal.iter().zip(&self.x[c]);
+            for ((z, (u, u_ref)), (k, x)) in self.z[c].iter_mut().zip(slips).zip(curved) {
+                *z = u - u_ref + k * x;
+            }
+        }
+        let sums = self.tangent.project_cells(&mut self.z);
+        self.tangent.solve_sum(sums)
+    }
+}
+
+impl Tangent {
+    /// Projects on the tangent space and on sum = 0.
+    fn project(&self, v: &mut Pair) {
+        let sums = self.project_cells(v);
+        let shift = self.solve_sum(sums);
+        let (xx, xy, yy) = (&self.xx[..], &self.xy[..], &self.yy[..]);
+        let n = xx.len();
+        let [v_x, v_y] = v;
+        let (v_x, v_y, xy, yy) = (&mut v_x[..n], &mut v_y[..n], &xy[..n], &yy[..n]);
+        for i in 0..n {
+            v_x[i] -= xx[i] * shift[0] + xy[i] * shift[1];
+            v_y[i] -= xy[i] * shift[0] + yy[i] * shift[1];
+        }
+    }
+
+    /// Projects on the tangent space of each cell; returns the sums over the cells.
+    fn project_cells(&self, v: &mut Pair) -> [f64; 2] {
+        let (xx, xy, yy) = (&self.xx[..], &self.xy[..], &self.yy[..]);
+        let n = xx.len();
+        let [v_x, v_y] = v;
+        let (v_x, v_y, xy, yy) = (&mut v_x[..n], &mut v_y[..n], &xy[..n], &yy[..n]);
+        for i in 0..n {
+            let (a, b) = (v_x[i], v_y[i]);
+            v_x[i] = xx[i] * a + xy[i] * b;
+            v_y[i] = xy[i] * a + yy[i] * b;
+        }
+        [sum(v_x), sum(v_y)]
+    }
+
+    fn solve_sum(&self, sums: [f64; 2]) -> [f64; 2] {
+        let [xx, xy, yy] = self.inverse_sum;
+        [xx * sums[0] + xy * sums[1], xy * sums[0] + yy * sums[1]]
+    }
+}
+
+fn dot_pair(a: &Pair, b: &Pair) -> f64 {
+    dot(&a[0], &b[0]) + dot(&a[1], &b[1])
+}
+
+/// Inverse of the symmetric 2 x 2 matrix (xx, xy, yy) on the free shifts, zero on the others.
+fn invert([xx, xy, yy]: [f64; 3], free: [bool; 2]) -> [f64; 3] {
+    let reciprocal = |v: f64| if v > 0.0 { 1.0 / v } else { 0.0 };
+    match free {
+        [false, false] => [0.0; 3],
+        [true, false] => [reciprocal(xx), 0.0, 0.0],
+        [false, true] => [0.0, 0.0, reciprocal(yy)],
+        [true, true] => {
+            let det = xx * yy - xy * xy;
+            if det > 0.0 {
+                [yy / det, -xy / det, xx / det]
+            } else {
+                [0.0; 3]
+            }
+        }
+    }
+}
