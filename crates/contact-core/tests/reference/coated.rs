@@ -16,8 +16,11 @@ fn material(value: &Value) -> Elastic {
     if value == "rigid" {
         return Elastic::RIGID;
     }
-    let number = |key: &str| value[key].as_f64().unwrap();
-    Elastic::new(number("E"), number("nu")).unwrap()
+    let number = |key: &str| value[key].as_f64().expect(key);
+    Elastic {
+        E: number("E"),
+        nu: number("nu"),
+    }
 }
 
 #[test]

@@ -35,7 +35,7 @@ fn another_program_finds_the_same_contact() {
 #[test]
 fn dundurs_parameter_of_known_pairs() {
     let of = |nu: f64| Elastic { E: 70e9, nu };
-    assert_eq!(dundurs_beta(of(0.3), of(0.3)), 0.0);
+    assert!(dundurs_beta(of(0.3), of(0.3)).abs() < 1e-16);
     assert!((dundurs_beta(of(0.3), Elastic::RIGID) - 2.0 / 7.0).abs() < 1e-15);
     assert!((dundurs_beta(Elastic::RIGID, of(0.0)) + 0.5).abs() < 1e-15);
 }

@@ -20,6 +20,9 @@ fn partial_slip(material: Elastic) -> CattaneoMindlin {
     CattaneoMindlin::new(hertz(R, material, material, W), material, material, MU)
 }
 
+/// q_x at (r, T).
+type Traction = Box<dyn Fn(f64, f64) -> f64>;
+
 /// Cerruti's surface kernel times 2 pi G rho: (u_x under q_x, u_y under q_x).
 fn cerruti(nu: f64, cos: f64, sin: f64) -> (f64, f64) {
     (1.0 - nu + nu * cos * cos, nu * cos * sin)
@@ -54,7 +57,6 @@ fn the_hertz_shaped_shear_displaces_as_cerruti_integrated() {
 fn tractions_carry_the_force_and_obey_coulomb() {
     let c = partial_slip(STEEL);
     let (a, T_m) = (c.hertz.a, 0.9 * c.T_limit());
-    type Traction = Box<dyn Fn(f64, f64) -> f64>;
     let laws: [Traction; 3] = [
         Box::new(move |r, T| c.q_loading(r, T)),
         Box::new(move |r, T| c.q_unloading(r, T, T_m)),
