@@ -1,7 +1,7 @@
 //! The result store: what a run leaves behind, whole at every moment.
 
 // What is read back is what was written: equality is meant to the bit.
-#![allow(clippy::float_cmp)]
+#![allow(clippy::float_cmp, clippy::unwrap_used)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -153,7 +153,7 @@ pub const SCALARS: &[Scalar] = &[
         "contact_radius",
         "m",
         "radius of the circle of the contact area",
-        |i| i.contact_radius(),
+        Increment::contact_radius,
     ),
     real("p_max", "Pa", "largest pressure", |i| i.p_max),
     real("q_max", "Pa", "largest shear traction", |i| i.q_max),

@@ -55,7 +55,7 @@ impl Folder {
     }
 
     /// An error about this folder.
-    pub(super) fn error(&self, message: impl ToString) -> Error {
+    pub(super) fn error(&self, message: &dyn std::fmt::Display) -> Error {
         Error::File {
             path: self.root.display().to_string(),
             message: message.to_string(),

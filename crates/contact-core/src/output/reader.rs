@@ -29,28 +29,28 @@ impl Store {
         let folder = Folder::new(path.as_ref());
         let text = folder
             .read(".zmetadata")
-            .map_err(|e| folder.error(e))?
-            .ok_or_else(|| folder.error("is not a result store (it has no .zmetadata)"))?;
+            .map_err(|e| folder.error(&e))?
+            .ok_or_else(|| folder.error(&"is not a result store (it has no .zmetadata)"))?;
         let document: Value = serde_json::from_slice(&text)
-            .map_err(|e| folder.error(format!(".zmetadata is damaged: {e}")))?;
+            .map_err(|e| folder.error(&format!(".zmetadata is damaged: {e}")))?;
         let metadata = &document["metadata"];
         let attributes = &metadata[".zattrs"];
         if attributes["schema"] != SCHEMA {
-            return Err(folder.error(format!(
+            return Err(folder.error(&format!(
                 "is a store of schema {}: this version reads schema {SCHEMA}",
                 attributes["schema"]
             )));
         }
         let scene = attributes["scene"]
             .as_str()
-            .ok_or_else(|| folder.error("holds no scene"))?;
+            .ok_or_else(|| folder.error(&"holds no scene"))?;
         let file = format!("scene in {}", folder.root().display());
         let scene = Scene::from_toml_str(scene, &file, &[])?;
         let length = |name: &str| {
             metadata[format!("{name}/.zarray")]["shape"][0]
                 .as_u64()
                 .map(|n| n as usize)
-                .ok_or_else(|| folder.error(format!("holds no {name}")))
+                .ok_or_else(|| folder.error(&format!("holds no {name}")))
         };
         Ok(Self {
             increments: length("increment")?,
@@ -87,12 +87,12 @@ impl Store {
     pub fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
         let (array, dtype) = self.array(name)?;
         numbers(&array, dtype, &array.subset_all())
-            .map_err(|e| self.folder.error(format!("{name}: {e}")))
+            .map_err(|e| self.folder.error(&format!("{name}: {e}")))
     }
 
     /// A field of the `saved`-th increment whose fields are kept, from 0; a mask is 0 and 1.
     pub fn field(&self, name: &str, saved: usize) -> Result<Array2<f64>, Error> {
-        let failed = |e: &dyn std::fmt::Display| self.folder.error(format!("{name}: {e}"));
+        let failed = |e: &dyn std::fmt::Display| self.folder.error(&format!("{name}: {e}"));
         let (array, dtype) = self.array(name)?;
         let (nx, ny) = (self.scene.grid.nx, self.scene.grid.ny);
         let part = saved as u64..saved as u64 + 1;
@@ -104,7 +104,7 @@ impl Store {
     fn array(&self, name: &str) -> Result<(Array<Folder>, Option<&str>), Error> {
         let zarray = &self.metadata[format!("{name}/.zarray")];
         if zarray.is_null() {
-            return Err(self.folder.error(format!("holds no {name}")));
+            return Err(self.folder.error(&format!("holds no {name}")));
         }
         let array = open_array(&self.folder, name, zarray.clone())?;
         Ok((array, zarray["dtype"].as_str()))

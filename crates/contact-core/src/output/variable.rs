@@ -127,7 +127,7 @@ impl Variable {
             Kind::Code => array.store_chunk(chunk, values.map(|v| v as i8).collect::<Vec<_>>()),
             Kind::Flag => array.store_chunk(chunk, values.map(|v| v != 0.0).collect::<Vec<_>>()),
         }
-        .map_err(|e| folder.error(format!("{}: {e}", self.name)))
+        .map_err(|e| folder.error(&format!("{}: {e}", self.name)))
     }
 }
 
@@ -137,7 +137,7 @@ pub(super) fn open_array(
     name: &str,
     zarray: Value,
 ) -> Result<Array<Folder>, Error> {
-    let failed = |e: &dyn std::fmt::Display| folder.error(format!("{name}: {e}"));
+    let failed = |e: &dyn std::fmt::Display| folder.error(&format!("{name}: {e}"));
     let metadata: ArrayMetadataV2 = serde_json::from_value(zarray).map_err(|e| failed(&e))?;
     // A chunk of zeros is stored like any other: there is no fill value to stand for it.
     let options = CodecOptions::default().with_store_empty_chunks(true);

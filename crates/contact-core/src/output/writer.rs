@@ -238,7 +238,7 @@ impl Open {
     fn write(&self, key: &str, document: &Value) -> Result<(), Error> {
         self.folder
             .write(key, format!("{document:#}").as_bytes())
-            .map_err(|e| self.folder.error(format!("{key}: {e}")))
+            .map_err(|e| self.folder.error(&format!("{key}: {e}")))
     }
 }
 
