@@ -3,7 +3,8 @@
 use contact_core::march::{Increment, March};
 use contact_core::reference::{Hertz, hertz};
 use contact_core::scene::{
-    Body, Coating, Elastic, Friction, Grid, LoadPath, Scene, Settings, Shape,
+    Body, Branch, Coating, Elastic, Friction, Grid, LoadPath, Loads, Scene, Settings, Shape,
+    Spacing,
 };
 use ndarray::Array2;
 
@@ -15,6 +16,13 @@ pub(crate) const W: f64 = 1e3;
 pub(crate) const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
 /// Without lateral contraction the shear kernel is isotropic.
 pub(crate) const CORK: Elastic = Elastic { E: 210e9, nu: 0.0 };
+
+/// Error of a rim's radius, in cells: the area of whole cells inside a circle scatters by this.
+pub(crate) const RIM: f64 = 0.25;
+/// Error of a field in the L2 norm, relative, over the cell size in contact radii.
+pub(crate) const FIELD: f64 = 0.22;
+/// Error of smooth values, relative, over the square of the cell size in contact radii.
+pub(crate) const SMOOTH: f64 = 0.1;
 
 /// A sphere of `upper` on a flat of `lower`, `n` x `n` cells over `extent` times the Hertz radius.
 pub(crate) fn sphere_on_flat(
@@ -45,9 +53,27 @@ pub(crate) fn coated(mut scene: Scene, material: Elastic, thickness: f64) -> Sce
     scene
 }
 
+/// Indentation to W in steps of equal contact radius.
+pub(crate) fn indentation(increments: usize) -> LoadPath {
+    LoadPath::start().branch(Branch {
+        to: Loads {
+            W,
+            ..Loads::default()
+        },
+        increments,
+        spacing: Spacing::EqualRadius,
+        t_end: 1.0,
+    })
+}
+
 /// The Hertz contact of the uncoated pair.
 pub(crate) fn hertz_of(scene: &Scene) -> Hertz {
     scene.hertz().expect("a Hertz contact")
+}
+
+/// Cell size over the Hertz radius.
+pub(crate) fn cell(scene: &Scene) -> f64 {
+    scene.grid.dx / hertz_of(scene).a
 }
 
 /// Runs the path; `watch` sees every increment.
@@ -62,8 +88,22 @@ pub(crate) fn run(scene: &Scene, mut watch: impl FnMut(&March, &Increment)) -> V
     increments
 }
 
-/// Distance of two fields in the L2 norm, relative to the second.
-pub(crate) fn distance(field: &Array2<f64>, truth: &Array2<f64>) -> f64 {
-    let norm = |f: &Array2<f64>| f.iter().map(|x| x * x).sum::<f64>().sqrt();
-    norm(&(field - truth)) / norm(truth)
+/// Radius of the circle of an area.
+pub(crate) fn radius(area: f64) -> f64 {
+    (area / std::f64::consts::PI).sqrt()
+}
+
+/// The L2 norm over cells.
+pub(crate) fn norm(field: &Array2<f64>) -> f64 {
+    field.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Asserts |`value` - `truth`| <= `tolerance` and says all three if not.
+#[track_caller]
+pub(crate) fn close(what: &str, value: f64, truth: f64, tolerance: f64) {
+    assert!(
+        (value - truth).abs() <= tolerance,
+        "{what}: {value} is not {truth}, off by {:+.2e}, allowed {tolerance:.1e}",
+        value - truth
+    );
 }
