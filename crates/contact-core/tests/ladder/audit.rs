@@ -15,6 +15,8 @@ pub(crate) struct Audit {
     mu: f64,
     h_init: Array2<f64>,
     cell_area: f64,
+    /// Solver's tolerance, relative: displacements are those of the tractions to this part.
+    relative: f64,
     /// Solver's tolerance as a length along z \[m\].
     tolerance: f64,
     last: Option<(Fields, Motion)>,
@@ -28,6 +30,7 @@ impl Audit {
             mu: scene.friction.mu,
             h_init: scene.h_init(),
             cell_area: scene.grid.cell_area(),
+            relative: scene.settings.solver.tolerance,
             tolerance: scene.settings.solver.tolerance * hertz_of(scene).delta_z,
             last: None,
             elastic: 0.0,
@@ -141,7 +144,7 @@ impl Audit {
         let missing = e.work - (stored - self.elastic) - e.dissipated - e.opening;
         self.elastic = stored;
         assert!(
-            missing.abs() < 1e-9 * self.work.max(1e-300),
+            missing.abs() <= self.relative * self.work,
             "energy {missing:e} of {:e} at {}",
             self.work,
             increment.index
