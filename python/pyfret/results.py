@@ -18,8 +18,16 @@ __all__ = ["Result", "Snapshot", "open"]
 
 #: Scalars of an increment that add up over a branch.
 SUMMED = frozenset(
-    ("work", "elastic", "dissipated", "opening", "convolutions", "alternations")
-    + ("normal_iterations", "tangential_iterations")
+    (
+        "work",
+        "elastic",
+        "dissipated",
+        "opening",
+        "convolutions",
+        "alternations",
+        "normal_iterations",
+        "tangential_iterations",
+    )
 )
 
 #: Columns of the summary: title, variable, decimals, measure.
@@ -55,7 +63,11 @@ class Snapshot:
         """Give the variable `name` of the dataset."""
         if name != "dataset" and name in self.dataset.variables:
             return self.dataset[name]
-        raise AttributeError(f"a snapshot has no {name!r}; it has {sorted(self.dataset.variables)}")
+        raise AttributeError(f"a snapshot has no {name!r}; it has {self.names()}")
+
+    def names(self) -> list[str]:
+        """Names of all variables, in order."""
+        return sorted(str(name) for name in self.dataset.variables)
 
     @property
     def a_H(self) -> float:
@@ -81,9 +93,8 @@ class Snapshot:
         below = max(above - 1, 0)
         share = (y - rows[below]) / (rows[above] - rows[below]) if above else 0.0
         fields = self.dataset[[k for k, v in self.dataset.items() if v.dtype.kind == "f"]]
-        with xr.set_options(keep_attrs=True):
-            cut = fields.isel(y=below, drop=True) * (1 - share)
-            return (cut + fields.isel(y=above, drop=True) * share).assign_coords(y=y)
+        row = fields.isel(y=below, drop=True) * (1 - share)
+        return row + fields.isel(y=above, drop=True) * share
 
     def __repr__(self) -> str:
         """Say which increment this is and under which loads."""
@@ -146,17 +157,17 @@ class Result:
     @property
     def stick_ratio(self) -> xr.DataArray:
         """Stick area over contact area, every increment."""
-        return self.dataset.stick_ratio
+        return self.dataset["stick_ratio"]
 
     @property
     def delta_x(self) -> xr.DataArray:
         """Relative tangential shift of the bodies along x [m], every increment."""
-        return self.dataset.delta_x
+        return self.dataset["delta_x"]
 
     @property
     def dissipated_energy(self) -> xr.DataArray:
         """Energy dissipated by friction since the start of the path [J], every increment."""
-        total = self.dataset.dissipated.cumsum("increment")
+        total = self.dataset["dissipated"].cumsum("increment")
         return total.assign_attrs(units="J", long_name="energy dissipated since the start")
 
     def at(self, which: float) -> Snapshot:
@@ -175,10 +186,12 @@ class Result:
         """
         saved = self.dataset.saved_increment.values
         times = self.dataset.saved_t.values
-        if isinstance(which, numbers.Integral):
-            places = np.flatnonzero(saved == which) if which > 0 else np.arange(saved.size)[which:][:1]
-        else:
+        if not isinstance(which, numbers.Integral):
             places = np.flatnonzero(np.isclose(times, which, rtol=1e-9, atol=1e-12))
+        elif which > 0:
+            places = np.flatnonzero(saved == which)
+        else:
+            places = np.arange(saved.size)[which:][:1]
         if places.size == 0 or which == 0:
             raise KeyError(
                 f"no fields were kept at {which!r}; kept are the increments {saved.tolist()} "
@@ -227,6 +240,6 @@ class Result:
         )
 
 
-def open(path: str | os.PathLike[str]) -> Result:  # noqa: A001
+def open(path: str | os.PathLike[str]) -> Result:
     """Open a result store; fields are read when they are asked for."""
     return Result(xr.open_zarr(path, chunks=None))

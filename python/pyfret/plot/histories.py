@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyfret.plot.style import axes
+from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from pyfret.results import Result
 
 
+@styled
 def fretting_loop(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
     r"""Tangential force over relative shift, :math:`T_x/(\mu W_{max})` over :math:`\delta_x`.
 
@@ -33,6 +34,7 @@ def fretting_loop(result: Result, *, ax: Axes | None = None, **line: Any) -> Axe
     return ax
 
 
+@styled
 def stick_ratio(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
     r"""Stick area over contact area along the load path, over :math:`t/\tau`."""
     ax = axes(ax)
@@ -45,6 +47,7 @@ def stick_ratio(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
     return ax
 
 
+@styled
 def load_path(path: LoadPath | Result, *, mu: float = 1.0, ax: Axes | None = None) -> Axes:
     r"""Normal and tangential force over :math:`t/\tau`.
 

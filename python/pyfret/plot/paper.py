@@ -7,15 +7,15 @@ Industry 42 (2020) 131-145, doi:10.24874/ti.2020.42.01.13.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
-from pyfret.plot.maps import shear_streamlines
+from pyfret.plot.maps import label_scale, shear_streamlines
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
-from pyfret.plot.style import REFERENCE, style
+from pyfret.plot.style import style
 
 if TYPE_CHECKING:
     import os
@@ -67,23 +67,31 @@ def profiles(result: Result, ratio: float) -> Figure:
 
 def streamlines(results: Mapping[float, Result], times: tuple[float, ...]) -> Figure:
     r"""Figures 8 to 10: directions of the shear at the given :math:`t/\tau`."""
-    columns = len(results) * len(times)
-    figure, row = plt.subplots(1, columns, figsize=(3.5 * columns, 3.1), sharey=True, squeeze=False)
-    shown = [(ratio, t) for ratio in results for t in times]
-    for ax, letter, (ratio, t) in zip(row[0], "abcdef", shown, strict=False):
-        tau = float(results[ratio].dataset.t[-1])
-        shear_streamlines(results[ratio].at(t * tau), ax=ax)
+    shown = [
+        (ratio, results[ratio].at(t * tau(results[ratio])), t) for ratio in results for t in times
+    ]
+    n = len(shown)
+    figure, row = plt.subplots(1, n, figsize=(0.9 + 3.0 * n, 3.4), sharey=True, squeeze=False)
+    largest = max(float(snapshot.q_max) / (snapshot.mu * snapshot.p_H) for _, snapshot, _ in shown)
+    for ax, letter, (ratio, snapshot, t) in zip(row[0], "abcdef", shown, strict=False):
+        shear_streamlines(snapshot, ax=ax, largest=largest, colorbar=False)
         ax.set_title(rf"({letter})  {name(ratio)},  $t = {t:g}\,\tau$")
         ax.label_outer()
+    label_scale(figure, row[0][0].images[0], list(row[0]))
     return figure
 
 
-def compare(draw: Callable[..., Axes], results: Mapping[float, Result]) -> Figure:
+def tau(result: Result) -> float:
+    """Path time at the end of the load history."""
+    return float(result.dataset.t[-1])
+
+
+def compare(draw: Callable[..., Axes], results: Mapping[float, Result], **legend: Any) -> Figure:
     """Figures 11 and 12: the same curve of every ratio."""
     figure, ax = plt.subplots()
     for ratio, result in sorted(results.items()):
         draw(result, ax=ax, label=name(ratio), color=COLOURS.get(ratio))
-    ax.legend(loc="best")
+    ax.legend(**legend)
     return figure
 
 
@@ -124,8 +132,10 @@ def paper_figures(
         for number, ratio in (("09", 0.5), ("10", 2.0)):
             if ratio in results:
                 figures[number] = streamlines({ratio: results[ratio]}, (0.8, 0.9, 1.0))
-        figures["11"] = compare(stick_ratio, results)
-        figures["12"] = compare(fretting_loop, results)
+        figures["11"] = compare(
+            stick_ratio, results, loc="lower center", ncols=4, columnspacing=1.2
+        )
+        figures["12"] = compare(fretting_loop, results, loc="upper left")
         paths = []
         for number, figure in figures.items():
             paths.append(folder / f"figure_{number}.png")

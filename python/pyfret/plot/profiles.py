@@ -7,16 +7,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib import colormaps
 
-from pyfret.plot.style import axes
+from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from matplotlib.axes import Axes
 
     from pyfret.results import Result, Snapshot
 
 
+@styled
 def pressure_profile(snapshot: Snapshot, *, ax: Axes | None = None, **line: Any) -> Axes:
     """Pressure over the Hertz peak pressure along y = 0."""
     ax = axes(ax)
@@ -27,6 +26,7 @@ def pressure_profile(snapshot: Snapshot, *, ax: Axes | None = None, **line: Any)
     return ax
 
 
+@styled
 def shear_profile(snapshot: Snapshot, *, ax: Axes | None = None, **line: Any) -> Axes:
     r"""Shear traction :math:`q_1/(\mu p_H)` along y = 0."""
     ax = axes(ax)
@@ -37,6 +37,7 @@ def shear_profile(snapshot: Snapshot, *, ax: Axes | None = None, **line: Any) ->
     return ax
 
 
+@styled
 def shear_profiles(result: Result, *, ax: Axes | None = None) -> Axes:
     """Shear traction along y = 0 for every increment whose fields were kept.
 
@@ -53,7 +54,7 @@ def shear_profiles(result: Result, *, ax: Axes | None = None) -> Axes:
             n = result.dataset.sizes["x"]
             every = max(1, n // 28)
             line |= {
-                "linestyle": "none",
+                "linewidth": 0.5,
                 "marker": MARKERS[(visit - 1) % len(MARKERS)],
                 "markerfacecolor": "none",
                 "markeredgewidth": 0.8,
