@@ -20,11 +20,13 @@
 
 #![forbid(unsafe_code)]
 
+pub mod convolution;
 pub mod error;
 pub mod kernels;
 pub mod march;
 pub mod reference;
 pub mod scene;
+pub mod solvers;
 
 pub use error::Error;
 pub use scene::Scene;

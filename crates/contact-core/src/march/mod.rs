@@ -1,7 +1,235 @@
-//! Stage 5: THE LOAD PATH, one increment at a time.
+//! Stage 5: THE LOAD PATH, one increment at a time (the outer loop of figure 2 of the paper).
 
+mod balance;
 mod fields;
 mod increment;
+mod predict;
+mod solve;
+mod state;
 
 pub use fields::Fields;
 pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
+pub use solve::{BranchSummary, Observer, solve, summarise};
+pub use state::State;
+
+use crate::convolution::{CirculantInverse, DcFft, Half, Mirror, SurfaceOperator};
+use crate::error::Error;
+use crate::kernels::influence_coefficients;
+use crate::scene::{LoadPoint, Plan, Preset, Scene};
+use crate::solvers::{
+    CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, Interface, NormalParams,
+    Response, TangentialParams, coupled,
+};
+
+/// A load path being run through.
+pub struct March {
+    scene: Scene,
+    plan: Plan,
+    points: Vec<LoadPoint>,
+    /// Gap between the undeformed surfaces on the kept cells \[m\].
+    h_init: Vec<f64>,
+    op: Box<dyn SurfaceOperator + Send>,
+    inverse: Option<CirculantInverse>,
+    /// Approach that lengths are measured against \[m\].
+    approach: f64,
+    state: State,
+    workspace: CoupledWorkspace,
+}
+
+impl March {
+    /// Checks the scene, plans, and computes the kernels.
+    pub fn new(scene: &Scene) -> Result<Self, Error> {
+        scene.check()?;
+        let plan = Plan::new(scene);
+        let settings = &scene.settings;
+        let coefficients = |body| {
+            influence_coefficients(
+                body,
+                &scene.grid,
+                &settings.kernel,
+                settings.skip.equal_layers,
+            )
+        };
+        let pair = coefficients(&scene.body2)?.pair(&coefficients(&scene.body1)?);
+        let inverse = match settings.solver.preset {
+            Preset::Fast => Some(CirculantInverse::new(&pair, plan.mirror)),
+            Preset::Spinu2020 => None,
+        };
+        let op: Box<dyn SurfaceOperator + Send> =
+            Box::new(DcFft::new(&pair, plan.mirror, plan.coupling));
+        let h_init = plan.mirror.fold(&scene.h_init());
+        let cells = h_init.len();
+        let approach = scene.hertz().map_or_else(
+            || scene.h_init().iter().fold(0.0, |m: f64, h| m.max(*h)),
+            |hertz| hertz.delta_z,
+        );
+        Ok(Self {
+            points: scene.path.points(),
+            scene: scene.clone(),
+            plan,
+            h_init,
+            op,
+            inverse,
+            approach,
+            state: State::unloaded(cells),
+            workspace: CoupledWorkspace::new(cells),
+        })
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// What is skipped and why.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The loads at the end of every increment of the path.
+    pub fn points(&self) -> &[LoadPoint] {
+        &self.points
+    }
+
+    /// The state after the last increment: all that the next one depends on.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Computes the next increment; `None` at the end of the path.
+    ///
+    /// After an error the state is that of the last increment that was solved.
+    pub fn advance(&mut self) -> Option<Result<Increment, Error>> {
+        let point = *self.points.get(self.state.increments)?;
+        Some(self.increment(&point))
+    }
+
+    /// One increment: predict, solve, account, keep.
+    fn increment(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
+        let index = self.state.increments + 1;
+        let transforms = self.op.transforms();
+        let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
+        let per_cell = |force: f64| force / cell_area;
+        let sum_q = [per_cell(point.loads.T_x), per_cell(point.loads.T_y)];
+        let sum_p = per_cell(point.loads.W);
+
+        let mut now = self
+            .state
+            .predict(point, &self.h_init, sum_p, self.approach_at(point));
+        let problem = IncrementProblem {
+            h_init: &self.h_init,
+            u_ref: [&self.state.interface.u[0], &self.state.interface.u[1]],
+            mu: self.scene.friction.mu,
+            sum_p,
+            sum_q,
+            free: [true, self.plan.mirror == Mirror::None],
+        };
+        let mut response = Response {
+            op: &mut *self.op,
+            inverse: self.inverse.as_mut(),
+        };
+        let info = if sum_p > 0.0 {
+            let params = params(&self.scene, self.approach);
+            coupled(
+                &mut response,
+                &problem,
+                &mut now,
+                &mut self.workspace,
+                &params,
+            )
+            .map_err(|e| Error::NotConverged {
+                increment: index,
+                solver: e.solver,
+                residual: e.residual,
+                tolerance: e.tolerance,
+                iterations: e.iterations,
+            })?
+        } else {
+            CoupledInfo::default()
+        };
+        self.check_border(&now, index, point)?;
+        let transforms = self.op.transforms() - transforms;
+        Ok(self.account(point, now, &info, transforms))
+    }
+
+    /// Hertz's approach at the loads of a point \[m\], for the first guess.
+    fn approach_at(&self, point: &LoadPoint) -> f64 {
+        self.approach * (point.loads.W / self.scene.path.W_max()).powf(2.0 / 3.0)
+    }
+
+    /// Fails if a cell at the border of the grid is in contact.
+    fn check_border(&self, now: &Interface, index: usize, point: &LoadPoint) -> Result<(), Error> {
+        let grid = &self.scene.grid;
+        let rows = self.plan.mirror.rows(grid.ny);
+        let touches = |n: usize| {
+            let (i, j) = (n / rows, n % rows);
+            let outer_row = j + 1 == rows || (j == 0 && rows == grid.ny);
+            (i == 0 || i + 1 == grid.nx || outer_row) && now.p[n] > 0.0
+        };
+        if !(0..now.p.len()).any(touches) {
+            return Ok(());
+        }
+        let extent = (grid.nx as f64 * grid.dx, grid.ny as f64 * grid.dy);
+        let hertz = self.scene.hertz().map_or(0.0, |h| 2.6 * h.a);
+        Err(Error::OffGrid {
+            increment: index,
+            W: point.loads.W,
+            extent_x: extent.0,
+            extent_y: extent.1,
+            needed: hertz.max(1.3 * extent.0.max(extent.1)),
+        })
+    }
+
+    /// The fields after the last increment on the whole grid.
+    pub fn fields(&self) -> Fields {
+        let (nx, ny) = (self.scene.grid.nx, self.scene.grid.ny);
+        let unfold = |f: &[f64], half| self.plan.mirror.unfold(f, nx, ny, half);
+        let s = &self.state;
+        let now = &s.interface;
+        let p = unfold(&now.p, Half::Even);
+        let u_z = unfold(&now.u_z, Half::Even);
+        let slips: Vec<f64> = now.slip.iter().map(|&s| f64::from(u8::from(s))).collect();
+        let slips = unfold(&slips, Half::Even);
+        let contact = p.mapv(|p| p > 0.0);
+        let stick = ndarray::Zip::from(&contact)
+            .and(&slips)
+            .map_collect(|&c, &slips| c && slips == 0.0);
+        Fields {
+            gap: (&u_z + &self.scene.h_init() - s.motion.delta_z).mapv(|h| h),
+            q_x: unfold(&now.q[0], Half::Even),
+            q_y: unfold(&now.q[1], Half::Odd),
+            u_x: unfold(&now.u[0], Half::Even),
+            u_y: unfold(&now.u[1], Half::Odd),
+            slip_x: unfold(&s.slip[0], Half::Even),
+            slip_y: unfold(&s.slip[1], Half::Odd),
+            dissipated: unfold(&s.dissipated, Half::Even),
+            p,
+            u_z,
+            contact,
+            stick,
+        }
+    }
+}
+
+/// Share of the tolerance that the inner solvers get, so that their errors add up to it.
+const INNER_SHARE: f64 = 0.5;
+
+/// The settings of the loops, with lengths in metres.
+fn params(scene: &Scene, approach: f64) -> CoupledParams {
+    let solver = &scene.settings.solver;
+    let gap = solver.tolerance * approach;
+    let plain = solver.preset == Preset::Spinu2020;
+    CoupledParams {
+        normal: NormalParams {
+            tolerance: INNER_SHARE * gap,
+            max_iterations: solver.max_iterations,
+        },
+        tangential: TangentialParams {
+            tolerance: INNER_SHARE * scene.friction.mu * gap,
+            max_iterations: solver.max_iterations,
+            forcing: if plain { 1e-3 } else { 0.15 },
+            max_passes: if plain { 100 } else { 12 },
+        },
+        max_alternations: solver.max_alternations,
+    }
+}

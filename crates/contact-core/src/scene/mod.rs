@@ -8,6 +8,7 @@ mod friction;
 mod grid;
 mod load_path;
 mod material;
+mod plan;
 mod settings;
 mod shape;
 
@@ -16,6 +17,7 @@ pub use friction::Friction;
 pub use grid::Grid;
 pub use load_path::{Branch, LoadPath, LoadPoint, Loads, Spacing};
 pub use material::Elastic;
+pub use plan::{Plan, PlanLine};
 pub use settings::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
 };

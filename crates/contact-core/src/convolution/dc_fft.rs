@@ -1,0 +1,54 @@
+//! Discrete convolution by fast Fourier transforms on a doubled domain.
+
+use super::good_size::good_size;
+use super::{Displacements, Mirror, Spectra, SpectralProduct, SurfaceOperator, Tractions};
+use crate::kernels::InfluenceCoefficients;
+
+/// The DC-FFT operator: exact up to rounding for tractions that are constant on each cell.
+///
+/// S. Liu, Q. Wang, G. Liu, Wear 243 (2000) 101-111.
+pub struct DcFft {
+    shape: (usize, usize),
+    product: SpectralProduct,
+    spectra: Spectra,
+    coupled: bool,
+    self_coefficients: (f64, f64),
+}
+
+impl DcFft {
+    /// For the coefficients of a pair of bodies. With [`Mirror::Y`] the fields are those of the
+    /// half y > 0; without `coupling` the normal-tangential kernels are taken as zero.
+    pub fn new(coefficients: &InfluenceCoefficients, mirror: Mirror, coupling: bool) -> Self {
+        let (nx, ny) = coefficients.zz.dim();
+        let period = (good_size(2 * nx - 1), good_size(2 * ny - 1));
+        Self {
+            shape: (nx, mirror.rows(ny)),
+            product: SpectralProduct::new(nx, ny, mirror, period),
+            spectra: Spectra::of(coefficients, period, coupling),
+            coupled: coupling,
+            self_coefficients: (coefficients.xx[(0, 0)], coefficients.zz[(0, 0)]),
+        }
+    }
+}
+
+impl SurfaceOperator for DcFft {
+    fn shape(&self) -> (usize, usize) {
+        self.shape
+    }
+
+    fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
+        self.product.apply(&self.spectra, tractions, displacements);
+    }
+
+    fn transforms(&self) -> usize {
+        self.product.transforms
+    }
+
+    fn is_coupled(&self) -> bool {
+        self.coupled
+    }
+
+    fn self_coefficients(&self) -> (f64, f64) {
+        self.self_coefficients
+    }
+}

@@ -1,0 +1,64 @@
+//! Stage 3: u = C * q, the displacement that tractions cause.
+//!
+//! [`SurfaceOperator`] is the only thing the solvers know of elasticity. [`DcFft`] computes it by
+//! discrete convolution with transforms on a doubled domain (S. Liu, Q. Wang, G. Liu, Wear 243
+//! (2000) 101-111); [`Direct`] sums cell by cell and exists to check the others.
+
+mod dc_fft;
+mod direct;
+mod good_size;
+mod mirror;
+mod preconditioner;
+mod spectra;
+mod spectral_product;
+mod y_transform;
+
+pub use dc_fft::DcFft;
+pub use direct::Direct;
+pub use mirror::{Half, Mirror};
+pub use preconditioner::CirculantInverse;
+pub(crate) use spectra::Spectra;
+pub(crate) use spectral_product::SpectralProduct;
+
+/// The tractions that act, each a field \[Pa\] in row-major (nx, ny) order; those left out are zero.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tractions<'a> {
+    /// Shear traction on body 2 along x.
+    pub q_x: Option<&'a [f64]>,
+    /// Shear traction on body 2 along y.
+    pub q_y: Option<&'a [f64]>,
+    /// Pressure.
+    pub p: Option<&'a [f64]>,
+}
+
+/// The relative displacements u = u(2) - u(1) asked for \[m\]; those left out are not computed.
+#[derive(Debug, Default)]
+pub struct Displacements<'a> {
+    /// Along x.
+    pub u_x: Option<&'a mut [f64]>,
+    /// Along y.
+    pub u_y: Option<&'a mut [f64]>,
+    /// Along z, into body 2.
+    pub u_z: Option<&'a mut [f64]>,
+}
+
+/// The linear response of the pair of bodies, eq. (2)-(4) of the paper: u = C * (q_x, q_y, p).
+pub trait SurfaceOperator: Send {
+    /// Shape (nx, ny) of the fields.
+    fn shape(&self) -> (usize, usize);
+
+    /// Computes the displacements asked for under the tractions given.
+    ///
+    /// # Panics
+    /// If a field does not have nx ny entries.
+    fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>);
+
+    /// Two-dimensional transforms done so far; a three-component convolution takes six.
+    fn transforms(&self) -> usize;
+
+    /// Whether pressure moves the surfaces tangentially and shear moves them apart.
+    fn is_coupled(&self) -> bool;
+
+    /// The self coefficients C_xx(0,0) and C_zz(0,0) \[m/Pa\].
+    fn self_coefficients(&self) -> (f64, f64);
+}

@@ -1,0 +1,107 @@
+//! An approximate inverse of the surface operator, one transform on the unpadded grid.
+//!
+//! The coefficients, cut at half the grid and continued periodically (G. Strang, Stud. Appl. Math.
+//! 74 (1986) 171-176), are a circulant matrix, which a transform inverts. It knows the layers,
+//! since it is made of their coefficients. Masked to the contact it is used for C restricted to
+//! the contact; normal and tangential parts are inverted separately.
+
+use super::good_size::good_size;
+use super::{Displacements, Mirror, Spectra, SpectralProduct, Tractions};
+use crate::kernels::{InfluenceCoefficients, Quadrant};
+
+/// Circulant inverse of the normal and of the tangential part of an operator.
+pub struct CirculantInverse {
+    product: SpectralProduct,
+    inverse: Spectra,
+}
+
+impl CirculantInverse {
+    /// For the coefficients of a pair of bodies, on the whole grid or its mirrored half.
+    pub fn new(c: &InfluenceCoefficients, mirror: Mirror) -> Self {
+        let (nx, ny) = c.zz.dim();
+        let period = (good_size(nx), good_size(ny));
+        let cut = |q: &Quadrant, odd: bool| cut_at_half(q, period, odd);
+        let half = InfluenceCoefficients {
+            xx: cut(&c.xx, false),
+            yy: cut(&c.yy, false),
+            zz: cut(&c.zz, false),
+            xy: cut(&c.xy, true),
+            xz: Quadrant::zeros((1, 1)),
+            yz: Quadrant::zeros((1, 1)),
+        };
+        let forward = Spectra::of(&half, period, false);
+        Self {
+            product: SpectralProduct::new(nx, ny, mirror, period),
+            inverse: invert(&forward, (period.0 * period.1) as f64),
+        }
+    }
+
+    /// z ~ C_zz^-1 r.
+    pub fn normal(&mut self, r: &[f64], z: &mut [f64]) {
+        let tractions = Tractions {
+            p: Some(r),
+            ..Tractions::default()
+        };
+        let displacements = Displacements {
+            u_z: Some(z),
+            ..Displacements::default()
+        };
+        self.product.apply(&self.inverse, tractions, displacements);
+    }
+
+    /// z ~ C_tt^-1 r.
+    pub fn tangential(&mut self, r: [&[f64]; 2], z: [&mut [f64]; 2]) {
+        let [z_x, z_y] = z;
+        let tractions = Tractions {
+            q_x: Some(r[0]),
+            q_y: Some(r[1]),
+            p: None,
+        };
+        let displacements = Displacements {
+            u_x: Some(z_x),
+            u_y: Some(z_y),
+            u_z: None,
+        };
+        self.product.apply(&self.inverse, tractions, displacements);
+    }
+}
+
+/// The offsets up to half the period; where the two ends of the period meet an odd kernel vanishes.
+fn cut_at_half(q: &Quadrant, period: (usize, usize), odd: bool) -> Quadrant {
+    let (nx, ny) = q.dim();
+    let shape = (nx.min(period.0 / 2 + 1), ny.min(period.1 / 2 + 1));
+    Quadrant::from_shape_fn(shape, |(i, j)| {
+        let meets = 2 * i == period.0 || 2 * j == period.1;
+        if odd && meets { 0.0 } else { q[(i, j)] }
+    })
+}
+
+/// Inverts frequency by frequency: 1/zz, and the 2 x 2 block of xx, xy, yy.
+///
+/// `cells` undoes the factor of the inverse transform inside the spectra and puts it back.
+fn invert(s: &Spectra, cells: f64) -> Spectra {
+    let positive = |s: &[f64]| {
+        // A cut kernel can dip below zero where it should be small; the inverse must not.
+        let floor = s.iter().fold(0.0, |m: f64, v| m.max(v.abs())) * 1e-6;
+        s.iter().map(|v| v.max(floor) * cells).collect::<Vec<_>>()
+    };
+    let (xx, yy, zz) = (positive(&s.xx), positive(&s.yy), positive(&s.zz));
+    let xy: Vec<f64> = (s.xy.iter().zip(&xx).zip(&yy))
+        .map(|((xy, xx), yy)| {
+            let limit = 0.999 * (xx * yy).sqrt();
+            (xy * cells).clamp(-limit, limit)
+        })
+        .collect();
+    let mut inverse = Spectra {
+        xy: xy.clone(),
+        ..Spectra::default()
+    };
+    for (k, xy) in inverse.xy.iter_mut().enumerate() {
+        let det = (xx[k] * yy[k] - *xy * *xy) * cells;
+        inverse.xx.push(yy[k] / det);
+        inverse.yy.push(xx[k] / det);
+        inverse.zz.push(1.0 / (zz[k] * cells));
+        *xy = -*xy / det;
+    }
+    inverse
+}

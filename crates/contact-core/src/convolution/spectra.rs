@@ -1,0 +1,120 @@
+//! Real spectra of kernels of definite parity.
+
+use rayon::prelude::*;
+use realfft::RealFftPlanner;
+use rustfft::num_complex::Complex64;
+
+use super::Half;
+use crate::kernels::{InfluenceCoefficients, Quadrant};
+
+/// One real spectrum S, k_y-major, shape (period_y/2 + 1, period_x/2 + 1); the transform of the
+/// kernel is (-i)^n S with n the number of axes along which it is odd.
+pub(crate) type Spectrum = Vec<f64>;
+
+/// The spectra of the six independent coefficients, the inverse transform's factor included.
+///
+/// An empty spectrum stands for a coefficient that vanishes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Spectra {
+    pub(crate) xx: Spectrum,
+    pub(crate) yy: Spectrum,
+    pub(crate) zz: Spectrum,
+    pub(crate) xy: Spectrum,
+    pub(crate) xz: Spectrum,
+    pub(crate) yz: Spectrum,
+}
+
+impl Spectra {
+    /// Spectra of influence coefficients on a domain of the given periods; without `coupling` the
+    /// normal-tangential ones are left out.
+    pub(crate) fn of(c: &InfluenceCoefficients, period: (usize, usize), coupling: bool) -> Self {
+        use Half::{Even, Odd};
+        let transform = |q: &Quadrant, x, y| transform(q, (x, y), period);
+        let if_coupled = |q: &Quadrant, x, y| {
+            if coupling {
+                transform(q, x, y)
+            } else {
+                Spectrum::new()
+            }
+        };
+        Self {
+            xx: transform(&c.xx, Even, Even),
+            yy: transform(&c.yy, Even, Even),
+            zz: transform(&c.zz, Even, Even),
+            xy: transform(&c.xy, Odd, Odd),
+            xz: if_coupled(&c.xz, Odd, Even),
+            yz: if_coupled(&c.yz, Even, Odd),
+        }
+    }
+}
+
+/// The spectrum of a kernel given on the offsets >= 0, along x and then along y.
+fn transform(quadrant: &Quadrant, half: (Half, Half), period: (usize, usize)) -> Spectrum {
+    let (nx, ny) = quadrant.dim();
+    let along_x = by_parity(ny, nx, |j, i| quadrant[(i, j)], half.0, period.0);
+    let frequencies_x = period.0 / 2 + 1;
+    let along_y = by_parity(
+        frequencies_x,
+        ny,
+        |k, j| along_x[j * frequencies_x + k],
+        half.1,
+        period.1,
+    );
+    let frequencies_y = period.1 / 2 + 1;
+    let norm = 1.0 / (period.0 * period.1) as f64;
+    (0..frequencies_y)
+        .flat_map(|l| (0..frequencies_x).map(move |k| (k, l)))
+        .map(|(k, l)| norm * along_y[k * frequencies_y + l])
+        .collect()
+}
+
+/// For each of `lines` sequences `f(line, i)`, i < n, continued to i < 0 by their parity: the sums
+/// of f cos(2 pi k i / period), or of f sin, for k = 0 to period/2.
+fn by_parity(
+    lines: usize,
+    n: usize,
+    f: impl Fn(usize, usize) -> f64 + Sync,
+    half: Half,
+    period: usize,
+) -> Vec<f64> {
+    let fft = RealFftPlanner::<f64>::new().plan_fft_forward(period);
+    let frequencies = period / 2 + 1;
+    let mut out = vec![0.0; lines * frequencies];
+    let buffers = || {
+        let scratch = vec![Complex64::default(); fft.get_scratch_len()];
+        (
+            vec![0.0; period],
+            vec![Complex64::default(); frequencies],
+            scratch,
+        )
+    };
+    out.par_chunks_mut(frequencies).enumerate().for_each_init(
+        buffers,
+        |(real, spectrum, scratch), (line, out)| {
+            real.fill(0.0);
+            for i in 0..n {
+                let value = f(line, i);
+                match half {
+                    Half::Even => {
+                        real[i] = value;
+                        real[(period - i) % period] = value;
+                    }
+                    Half::Odd if i > 0 => {
+                        real[i] = value;
+                        real[period - i] = -value;
+                    }
+                    Half::Odd => {}
+                }
+            }
+            fft.process_with_scratch(real, spectrum, scratch)
+                .expect("buffers have the planned lengths");
+            for (s, v) in out.iter_mut().zip(spectrum.iter()) {
+                *s = match half {
+                    Half::Even => v.re,
+                    Half::Odd => -v.im,
+                };
+            }
+        },
+    );
+    out
+}

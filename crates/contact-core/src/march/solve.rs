@@ -1,0 +1,92 @@
+//! The whole load path at once, and what each branch comes to.
+
+use super::{Increment, March, Motion, Work};
+use crate::error::Error;
+use crate::scene::{LoadPoint, Loads, SaveFields, Scene};
+
+/// Watches a run: progress, files, a stop from outside. The solution does not depend on it.
+pub trait Observer {
+    /// Called after each increment; an error ends the run and is returned by [`solve`].
+    fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error>;
+}
+
+/// Nobody watches.
+impl Observer for () {
+    fn on_increment(&mut self, _: &March, _: &Increment) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// Runs through the whole path and returns every increment.
+pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Vec<Increment>, Error> {
+    let mut march = March::new(scene)?;
+    let mut increments = Vec::with_capacity(march.points().len());
+    while let Some(increment) = march.advance() {
+        let increment = increment?;
+        observer.on_increment(&march, &increment)?;
+        increments.push(increment);
+    }
+    Ok(increments)
+}
+
+impl SaveFields {
+    /// Whether the increment `index` (from 1), the `last` of the path or not, keeps its fields.
+    pub fn keeps(&self, point: &LoadPoint, index: usize, last: bool) -> bool {
+        match self {
+            Self::Branches => point.ends_branch || last,
+            Self::All => true,
+            Self::Indices(indices) => indices.contains(&index) || last,
+        }
+    }
+}
+
+/// One branch of the load path in numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BranchSummary {
+    /// Branch, from 0.
+    pub branch: usize,
+    /// Increments done in it.
+    pub increments: usize,
+    /// Loads at its end.
+    pub loads: Loads,
+    /// Rigid-body motion at its end.
+    pub motion: Motion,
+    /// Radius of the circle of the contact's area at its end \[m\].
+    pub contact_radius: f64,
+    /// Stick area over contact area at its end.
+    pub stick_ratio: f64,
+    /// Largest pressure at its end \[Pa\].
+    pub p_max: f64,
+    /// Energy dissipated in it \[J\].
+    pub dissipated: f64,
+    /// Work done by the solvers in it.
+    pub work: Work,
+}
+
+/// One summary per branch begun.
+pub fn summarise(increments: &[Increment]) -> Vec<BranchSummary> {
+    increments
+        .chunk_by(|a, b| a.point.branch == b.point.branch)
+        .filter_map(|of_branch| {
+            let end = of_branch.last()?;
+            let mut work = Work::default();
+            for w in of_branch.iter().map(|i| i.work) {
+                work.convolutions += w.convolutions;
+                work.alternations += w.alternations;
+                work.normal_iterations += w.normal_iterations;
+                work.tangential_iterations += w.tangential_iterations;
+            }
+            Some(BranchSummary {
+                branch: end.point.branch,
+                increments: of_branch.len(),
+                loads: end.point.loads,
+                motion: end.motion,
+                contact_radius: end.contact_radius(),
+                stick_ratio: end.stick_ratio(),
+                p_max: end.p_max,
+                dissipated: of_branch.iter().map(|i| i.energy.dissipated).sum(),
+                work,
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,50 @@
+//! All that the next increment depends on.
+
+use super::Motion;
+use crate::scene::Loads;
+use crate::solvers::Interface;
+
+/// State after an increment, on the kept cells (half of the grid where the scene is symmetric).
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// Increments done.
+    pub increments: usize,
+    /// Loads at the end of the last one.
+    pub loads: Loads,
+    /// Tractions, displacements, slip set.
+    pub interface: Interface,
+    /// Rigid-body motion.
+    pub motion: Motion,
+    /// Slip added up over the path \[m\].
+    pub slip: [Vec<f64>; 2],
+    /// Energy dissipated per area over the path \[J/m^2\].
+    pub dissipated: Vec<f64>,
+    /// Work of the applied forces over the path \[J\].
+    pub work: f64,
+    /// Pressure before the last increment \[Pa\].
+    pub(crate) p_before: Vec<f64>,
+    /// Shear before the last increment \[Pa\].
+    pub(crate) q_before: [Vec<f64>; 2],
+    /// Change of the loads in the last increment.
+    pub(crate) step: Loads,
+}
+
+impl State {
+    /// Two bodies just touching.
+    pub(crate) fn unloaded(cells: usize) -> Self {
+        let field = || vec![0.0; cells];
+        let pair = || [field(), field()];
+        Self {
+            increments: 0,
+            loads: Loads::default(),
+            interface: Interface::unloaded(cells),
+            motion: Motion::default(),
+            slip: pair(),
+            dissipated: field(),
+            work: 0.0,
+            p_before: field(),
+            q_before: pair(),
+            step: Loads::default(),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! What a scene needs, decided before anything is computed.
+
+use super::{Body, KernelMethod, Scene};
+use crate::convolution::Mirror;
+
+/// What is computed and what is left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Whether pressure and shear act on each other: the normal-tangential kernels and the
+    /// intermediate loop.
+    pub coupling: bool,
+    /// Whether there is friction: the tangential kernels and solver.
+    pub friction: bool,
+    /// Part of the grid that is solved for.
+    pub mirror: Mirror,
+    /// One line per rule, for people.
+    pub lines: Vec<PlanLine>,
+}
+
+/// One rule of the plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanLine {
+    /// What the rule is about.
+    pub subject: String,
+    /// Whether it is skipped in this scene.
+    pub skipped: bool,
+    /// Why.
+    pub reason: String,
+}
+
+impl Plan {
+    /// The plan of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        let mut lines = Vec::new();
+        let mut rule = |subject: &str, verdict: Result<&str, &str>| {
+            let (skipped, reason) = match verdict {
+                Ok(reason) => (true, reason),
+                Err(reason) => (false, reason),
+            };
+            lines.push(PlanLine {
+                subject: subject.into(),
+                skipped,
+                reason: reason.into(),
+            });
+            skipped
+        };
+        let friction = !rule(
+            "tangential kernels and solver",
+            if scene.friction.mu == 0.0 {
+                Ok("the contact is frictionless")
+            } else {
+                Err("friction transmits shear")
+            },
+        );
+        let coupling = !rule("normal-tangential coupling", uncoupled(scene));
+        let half = rule("the half y < 0 of the grid", mirror(scene));
+        Self {
+            coupling,
+            friction,
+            mirror: if half { Mirror::Y } else { Mirror::None },
+            lines,
+        }
+    }
+}
+
+/// Whether, and why, pressure causes no tangential mismatch.
+fn uncoupled(scene: &Scene) -> Result<&'static str, &'static str> {
+    if scene.friction.mu == 0.0 {
+        return Ok("without shear there is nothing to couple");
+    }
+    if !scene.settings.skip.coupling {
+        return Err("skip.coupling is off");
+    }
+    let (body1, body2) = (&scene.body1, &scene.body2);
+    if layers(body1, scene) == layers(body2, scene) {
+        return Ok("the bodies are elastically alike, eq. (4): C_13(2) = C_13(1)");
+    }
+    let alone = |b: &Body| {
+        let homogeneous = b.coatings.is_empty() || is_shortcut(b, scene);
+        homogeneous.then(|| (1.0 - 2.0 * b.substrate.nu) / b.substrate.G())
+    };
+    match (alone(body1), alone(body2)) {
+        (Some(a), Some(b)) if a.to_bits() == b.to_bits() => {
+            Ok("(1 - 2 nu)/G is the same in both bodies")
+        }
+        _ => Err("the bodies differ in elasticity"),
+    }
+}
+
+fn is_shortcut(body: &Body, scene: &Scene) -> bool {
+    scene.settings.skip.equal_layers && body.is_homogeneous()
+}
+
+/// The elastic make-up of a body.
+fn layers(body: &Body, scene: &Scene) -> Vec<(f64, f64, f64)> {
+    let coatings = if is_shortcut(body, scene) {
+        &[][..]
+    } else {
+        &body.coatings[..]
+    };
+    let coatings = coatings
+        .iter()
+        .map(|c| (c.material.E, c.material.nu, c.thickness));
+    coatings
+        .chain([(body.substrate.E, body.substrate.nu, 0.0)])
+        .collect()
+}
+
+/// Whether, and why, the solution is its own mirror image under y -> -y.
+fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
+    if !scene.settings.skip.mirror {
+        return Err("skip.mirror is off");
+    }
+    if matches!(
+        scene.settings.kernel.method,
+        KernelMethod::FrequencyDomain { .. }
+    ) {
+        return Err("the frequency-domain operator works on the whole grid");
+    }
+    if !scene.grid.ny.is_multiple_of(2) {
+        return Err("the grid has an odd number of rows along y");
+    }
+    let shapes = [&scene.body1.shape, &scene.body2.shape];
+    if !shapes.iter().all(|s| s.is_mirror_symmetric_in_y()) {
+        return Err("the surfaces are not mirror-symmetric in y");
+    }
+    if scene.path.branches.iter().any(|b| b.to.T_y != 0.0) {
+        return Err("the load path has a force along y");
+    }
+    Ok("shapes and loads are mirror-symmetric in y")
+}

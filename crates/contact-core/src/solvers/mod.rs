@@ -1,0 +1,41 @@
+//! Stage 4: ONE INCREMENT, the inner and the intermediate loop (figures 2 and 3 of the paper).
+//!
+//! - [`normal`]: the pressure for known shear, eq. (5)-(6);
+//! - [`tangential`]: the shear for known pressure, eq. (7)-(8);
+//! - [`coupled`]: one after the other until neither changes what the other was solved for.
+//!
+//! The solvers know no elasticity, only a [`SurfaceOperator`](crate::convolution::SurfaceOperator).
+//! Each takes Params and gives Info or an Error with numbers. Lengths are those of the scene; a
+//! tolerance is a length too, so that "how wrong" can be read off.
+
+mod coupled;
+mod newton_step;
+mod normal;
+mod response;
+mod tangential;
+mod vector;
+
+pub use coupled::{
+    CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, Interface, coupled,
+};
+pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
+pub use response::Response;
+pub use tangential::{
+    Shear, TangentialInfo, TangentialParams, TangentialProblem, TangentialWorkspace, tangential,
+};
+
+/// A solver that stopped before its tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "the {solver} solver stopped at {residual:.2e} m (tolerance {tolerance:.2e} m) after {iterations} iterations"
+)]
+pub struct SolverError {
+    /// Which solver.
+    pub solver: &'static str,
+    /// Residual reached \[m\].
+    pub residual: f64,
+    /// Residual asked for \[m\].
+    pub tolerance: f64,
+    /// Iterations done.
+    pub iterations: usize,
+}

@@ -1,0 +1,76 @@
+//! What the solvers ask of the bodies: displacements under tractions, and a guess of the inverse.
+
+use crate::convolution::{CirculantInverse, Displacements, SurfaceOperator, Tractions};
+
+/// The surface operator and, where there is one, its approximate inverse.
+pub struct Response<'a> {
+    /// u = C * q.
+    pub op: &'a mut dyn SurfaceOperator,
+    /// Preconditioner; without it the conjugate gradients are plain.
+    pub inverse: Option<&'a mut CirculantInverse>,
+}
+
+impl Response<'_> {
+    /// u_z under p alone.
+    pub(crate) fn normal(&mut self, p: &[f64], u_z: &mut [f64]) {
+        let tractions = Tractions {
+            p: Some(p),
+            ..Tractions::default()
+        };
+        self.op.apply(
+            tractions,
+            Displacements {
+                u_z: Some(u_z),
+                ..Displacements::default()
+            },
+        );
+    }
+
+    /// u_x, u_y under shear alone.
+    pub(crate) fn tangential(&mut self, q: [&[f64]; 2], u: [&mut [f64]; 2]) {
+        let [u_x, u_y] = u;
+        let tractions = Tractions {
+            q_x: Some(q[0]),
+            q_y: Some(q[1]),
+            p: None,
+        };
+        let displacements = Displacements {
+            u_x: Some(u_x),
+            u_y: Some(u_y),
+            u_z: None,
+        };
+        self.op.apply(tractions, displacements);
+    }
+
+    /// u_z under shear alone.
+    pub(crate) fn normal_under_shear(&mut self, q: [&[f64]; 2], u_z: &mut [f64]) {
+        let tractions = Tractions {
+            q_x: Some(q[0]),
+            q_y: Some(q[1]),
+            p: None,
+        };
+        self.op.apply(
+            tractions,
+            Displacements {
+                u_z: Some(u_z),
+                ..Displacements::default()
+            },
+        );
+    }
+
+    /// z ~ C_zz^-1 r, up to a factor.
+    pub(crate) fn invert_normal(&mut self, r: &[f64], z: &mut [f64]) {
+        match &mut self.inverse {
+            Some(inverse) => inverse.normal(r, z),
+            None => z.copy_from_slice(r),
+        }
+    }
+
+    /// z ~ C_tt^-1 r, up to a factor.
+    pub(crate) fn invert_tangential(&mut self, r: [&[f64]; 2], z: [&mut [f64]; 2]) {
+        match &mut self.inverse {
+            Some(inverse) => inverse.tangential(r, z),
+            None => z.into_iter().zip(r).for_each(|(z, r)| z.copy_from_slice(r)),
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Ladder of truth, second rung: the fast operator against the direct sum, on grids even, odd,
+//! prime and elongated, whole and halved by symmetry, with any part of the tractions.
+
+use contact_core::convolution::{
+    DcFft, Direct, Displacements, Half, Mirror, SurfaceOperator, Tractions,
+};
+use contact_core::kernels::InfluenceCoefficients;
+use ndarray::Array2;
+
+/// A reproducible sequence in (-1, 1).
+fn noise(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// Coefficients of the right parities with no other structure.
+fn coefficients(nx: usize, ny: usize) -> InfluenceCoefficients {
+    let mut random = noise(7);
+    let mut quadrant = |odd: (bool, bool)| {
+        Array2::from_shape_fn((nx, ny), |(i, j)| {
+            let vanishes = (odd.0 && i == 0) || (odd.1 && j == 0);
+            let value = random() / (1.0 + i as f64 + j as f64);
+            if vanishes { 0.0 } else { value }
+        })
+    };
+    InfluenceCoefficients {
+        xx: quadrant((false, false)),
+        yy: quadrant((false, false)),
+        zz: quadrant((false, false)),
+        xy: quadrant((true, true)),
+        xz: quadrant((true, false)),
+        yz: quadrant((false, true)),
+    }
+}
+
+fn apply(op: &mut dyn SurfaceOperator, q: &[Vec<f64>; 3], given: [bool; 3]) -> [Vec<f64>; 3] {
+    let (nx, ny) = op.shape();
+    let mut u: [Vec<f64>; 3] = std::array::from_fn(|_| vec![0.0; nx * ny]);
+    let [u_x, u_y, u_z] = &mut u;
+    let pick = |c: usize| given[c].then_some(&q[c][..]);
+    op.apply(
+        Tractions {
+            q_x: pick(0),
+            q_y: pick(1),
+            p: pick(2),
+        },
+        Displacements {
+            u_x: Some(u_x),
+            u_y: Some(u_y),
+            u_z: Some(u_z),
+        },
+    );
+    u
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter()
+        .zip(b)
+        .fold(0.0, |m, (a, b)| f64::max(m, (a - b).abs()))
+}
+
+/// Rounding of transforms of length 200 on data of order one.
+const ROUNDING: f64 = 2e-13;
+
+#[test]
+fn dc_fft_equals_the_direct_sum() {
+    for (nx, ny) in [
+        (8, 8),
+        (7, 7),
+        (13, 8),
+        (16, 5),
+        (1, 9),
+        (9, 1),
+        (23, 17),
+        (12, 48),
+    ] {
+        let c = coefficients(nx, ny);
+        let mut random = noise(3);
+        let q: [Vec<f64>; 3] = std::array::from_fn(|_| (0..nx * ny).map(|_| random()).collect());
+        let mut direct = Direct::new(c.clone());
+        let mut fast = DcFft::new(&c, Mirror::None, true);
+        for given in [
+            [true, true, true],
+            [false, false, true],
+            [true, true, false],
+            [true, false, false],
+        ] {
+            let (truth, found) = (apply(&mut direct, &q, given), apply(&mut fast, &q, given));
+            for (t, f) in truth.iter().zip(&found) {
+                let error = largest_difference(t, f);
+                assert!(error < ROUNDING, "{nx} x {ny}, {given:?}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_mirrored_half_equals_the_whole() {
+    let halves = [Half::Even, Half::Odd, Half::Even];
+    for (nx, ny) in [(8, 8), (9, 6), (20, 2), (5, 14), (31, 50), (80, 96)] {
+        let c = coefficients(nx, ny);
+        let mut random = noise(5);
+        let half: [Vec<f64>; 3] =
+            std::array::from_fn(|_| (0..nx * ny / 2).map(|_| random()).collect());
+        let whole: [Vec<f64>; 3] = std::array::from_fn(|k| {
+            Mirror::Y
+                .unfold(&half[k], nx, ny, halves[k])
+                .into_raw_vec_and_offset()
+                .0
+        });
+        let truth = apply(&mut DcFft::new(&c, Mirror::None, true), &whole, [true; 3]);
+        let found = apply(&mut DcFft::new(&c, Mirror::Y, true), &half, [true; 3]);
+        for k in 0..3 {
+            let truth = Array2::from_shape_vec((nx, ny), truth[k].clone()).unwrap();
+            let error = largest_difference(&Mirror::Y.fold(&truth), &found[k]);
+            assert!(error < ROUNDING, "{nx} x {ny}, component {k}: {error:e}");
+        }
+    }
+}
