@@ -49,9 +49,7 @@ INDENTED = fret.LoadPath.start().normal(W, increments=1)
         (lambda: sphere_on_flat(n=0), r"grid\.nx = 0: must be at least one cell"),
     ],
 )
-def test_a_scene_without_meaning_is_refused(
-    broken: Callable[[], fret.Scene], message: str
-) -> None:
+def test_a_scene_without_meaning_is_refused(broken: Callable[[], fret.Scene], message: str) -> None:
     with pytest.raises(fret.InvalidSceneError, match=message):
         broken().replace(path=INDENTED).check()
 
@@ -62,7 +60,10 @@ def test_a_scene_without_meaning_is_refused(
         (fret.LoadPath.start(), r"path = empty: must be at least one branch"),
         (fret.LoadPath.start().normal(W, increments=0), r"path\[0\]\.increments = 0"),
         (fret.LoadPath.start().normal(-W, increments=1), r"path\[0\]\.W = -1000"),
-        (INDENTED.tangential(1.01 * 0.3 * W, increments=1), r"path\[1\]\.T_x = 303: must be \|T\| <= mu W"),
+        (
+            INDENTED.tangential(1.01 * 0.3 * W, increments=1),
+            r"path\[1\]\.T_x = 303: must be \|T\| <= mu W",
+        ),
         (INDENTED.tangential(math.inf, increments=1), r"path\[1\]\.T_x = inf"),
     ],
 )
@@ -117,7 +118,9 @@ def test_parts_are_read_back_as_they_were_given() -> None:
 
 
 def test_a_scene_survives_its_file() -> None:
-    settings = fret.Settings(tolerance=1e-6, skip=fret.Skip(mirror=False), preset=fret.Preset.SPINU2020)
+    settings = fret.Settings(
+        tolerance=1e-6, skip=fret.Skip(mirror=False), preset=fret.Preset.SPINU2020
+    )
     path = INDENTED.tangential([100.0, -100.0], increments=3)
     scene = sphere_on_flat(ratio=2.0).replace(path=path, settings=settings)
     assert fret.Scene.from_toml(scene.to_toml()) == scene
