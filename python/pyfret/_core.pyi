@@ -4,7 +4,7 @@ SI units everywhere; axes, signs and names are those of ``docs/conventions.md``.
 """
 
 from collections.abc import Sequence
-from typing import ClassVar, Final, TypeAlias, final
+from typing import ClassVar, Final, Literal, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -367,6 +367,8 @@ class FrequencyDomain:
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
+_Save: TypeAlias = Literal["branches", "all"] | Sequence[int]
+
 _KernelMethod: TypeAlias = Hankel | InverseFft | FrequencyDomain
 
 @final
@@ -420,6 +422,9 @@ class Settings:
         Largest error of the influence coefficients over C33(0, 0) (default 1e-10).
     skip : Skip, optional
         What may be left out (default: all that the scene does not need).
+    save : "branches", "all" or sequence of int, optional
+        Which increments keep their fields (default ``"branches"``: the last of each branch).
+        Increments count from 1; the last of the path is always kept.
     """
 
     def __new__(
@@ -432,6 +437,7 @@ class Settings:
         kernel: _KernelMethod | None = None,
         kernel_tolerance: float | None = None,
         skip: Skip | None = None,
+        save: _Save | None = None,
     ) -> Settings: ...
     @property
     def preset(self) -> Preset:
@@ -454,6 +460,9 @@ class Settings:
     @property
     def skip(self) -> Skip:
         """What may be left out."""
+    @property
+    def save(self) -> str | list[int]:
+        """Which increments keep their fields."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -494,6 +503,7 @@ class Scene:
         *,
         path: LoadPath | None = None,
         settings: Settings | None = None,
+        save: _Save | None = None,
         mu: float | None = None,
         title: str | None = None,
     ) -> Scene:

@@ -9,6 +9,7 @@
 )]
 
 mod error;
+mod march;
 mod reference;
 mod scene;
 
@@ -24,7 +25,12 @@ mod _core {
         InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError, StoreError,
     };
     #[pymodule_export]
-    use crate::reference::{Hertz, hertz};
+    use crate::march::March;
+    #[pymodule_export]
+    use crate::reference::{
+        CattaneoMindlin, Hertz, HertzEllipse, Lubkin, dundurs_beta, goodman_stick_ratio, hertz,
+        hertz_ellipse,
+    };
     #[pymodule_export]
     use crate::scene::{
         Body, Branch, Coating, Elastic, Flat, FrequencyDomain, Grid, Hankel, InverseFft, LoadPath,

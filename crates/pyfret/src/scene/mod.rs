@@ -12,6 +12,6 @@ pub(crate) use body::{Body, Coating};
 pub(crate) use grid::Grid;
 pub(crate) use load_path::{Branch, LoadPath, Spacing};
 pub(crate) use material::Elastic;
-pub(crate) use settings::{FrequencyDomain, Hankel, InverseFft, Preset, Settings, Skip};
+pub(crate) use settings::{FrequencyDomain, Hankel, InverseFft, Preset, Save, Settings, Skip};
 pub(crate) use shape::{Flat, Sphere};
 pub(crate) use whole::Scene;

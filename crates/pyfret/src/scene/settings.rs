@@ -1,7 +1,10 @@
 //! How a scene is solved.
 
+use contact_core::Error;
 use contact_core::scene as core;
 use pyo3::prelude::*;
+
+use crate::error::to_python;
 
 /// Families of algorithms.
 #[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
@@ -135,6 +138,37 @@ impl Skip {
     }
 }
 
+/// Which increments keep their fields, on its way in or out.
+#[derive(FromPyObject, IntoPyObject)]
+pub(crate) enum Save {
+    Indices(Vec<usize>),
+    Named(String),
+}
+
+impl Save {
+    pub(crate) fn to_core(self) -> PyResult<core::SaveFields> {
+        match self {
+            Self::Indices(indices) => Ok(core::SaveFields::Indices(indices)),
+            Self::Named(name) if name == "branches" => Ok(core::SaveFields::Branches),
+            Self::Named(name) if name == "all" => Ok(core::SaveFields::All),
+            Self::Named(name) => {
+                let allowed = "\"branches\", \"all\" or a list of increments, from 1";
+                Err(to_python(Error::invalid("output.save", name, allowed)))
+            }
+        }
+    }
+}
+
+impl From<&core::SaveFields> for Save {
+    fn from(save: &core::SaveFields) -> Self {
+        match save {
+            core::SaveFields::Branches => Self::Named("branches".into()),
+            core::SaveFields::All => Self::Named("all".into()),
+            core::SaveFields::Indices(indices) => Self::Indices(indices.clone()),
+        }
+    }
+}
+
 /// All settings of the solution.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, Default, PartialEq)]
@@ -145,7 +179,7 @@ impl Settings {
     #[new]
     #[pyo3(signature = (
         *, preset = None, tolerance = None, max_alternations = None, max_iterations = None,
-        kernel = None, kernel_tolerance = None, skip = None,
+        kernel = None, kernel_tolerance = None, skip = None, save = None,
     ))]
     fn new(
         preset: Option<Preset>,
@@ -155,7 +189,8 @@ impl Settings {
         kernel: Option<Method>,
         kernel_tolerance: Option<f64>,
         skip: Option<Skip>,
-    ) -> Self {
+        save: Option<Save>,
+    ) -> PyResult<Self> {
         let mut settings = core::Settings::default();
         let solver = &mut settings.solver;
         solver.preset = match preset {
@@ -169,7 +204,10 @@ impl Settings {
         settings.kernel.method = kernel.map_or(settings.kernel.method, Into::into);
         settings.kernel.tolerance = kernel_tolerance.unwrap_or(settings.kernel.tolerance);
         settings.skip = skip.map_or(settings.skip, |s| s.0);
-        Self(settings)
+        if let Some(save) = save {
+            settings.save = save.to_core()?;
+        }
+        Ok(Self(settings))
     }
 
     #[getter]
@@ -203,6 +241,11 @@ impl Settings {
     #[getter]
     fn kernel_tolerance(&self) -> f64 {
         self.0.kernel.tolerance
+    }
+
+    #[getter]
+    fn save(&self) -> Save {
+        (&self.0.save).into()
     }
 
     #[getter]

@@ -3,7 +3,7 @@
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
-use super::{Body, Grid, LoadPath, Settings};
+use super::{Body, Grid, LoadPath, Save, Settings};
 use crate::error::to_python;
 use crate::reference::Hertz;
 
@@ -36,14 +36,15 @@ impl Scene {
         })
     }
 
-    #[pyo3(signature = (*, path = None, settings = None, mu = None, title = None))]
+    #[pyo3(signature = (*, path = None, settings = None, save = None, mu = None, title = None))]
     fn replace(
         &self,
         path: Option<LoadPath>,
         settings: Option<Settings>,
+        save: Option<Save>,
         mu: Option<f64>,
         title: Option<String>,
-    ) -> Self {
+    ) -> PyResult<Self> {
         let mut scene = self.0.clone();
         if let Some(path) = path {
             scene.path = path.0;
@@ -51,13 +52,16 @@ impl Scene {
         if let Some(settings) = settings {
             scene.settings = settings.0;
         }
+        if let Some(save) = save {
+            scene.settings.save = save.to_core()?;
+        }
         if let Some(mu) = mu {
             scene.friction.mu = mu;
         }
         if let Some(title) = title {
             scene.title = title;
         }
-        Self(scene)
+        Ok(Self(scene))
     }
 
     fn check(&self) -> PyResult<()> {
