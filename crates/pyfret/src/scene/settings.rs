@@ -146,7 +146,7 @@ pub(crate) enum Save {
 }
 
 impl Save {
-    pub(crate) fn to_core(self) -> PyResult<core::SaveFields> {
+    pub(crate) fn into_core(self) -> PyResult<core::SaveFields> {
         match self {
             Self::Indices(indices) => Ok(core::SaveFields::Indices(indices)),
             Self::Named(name) if name == "branches" => Ok(core::SaveFields::Branches),
@@ -205,7 +205,7 @@ impl Settings {
         settings.kernel.tolerance = kernel_tolerance.unwrap_or(settings.kernel.tolerance);
         settings.skip = skip.map_or(settings.skip, |s| s.0);
         if let Some(save) = save {
-            settings.save = save.to_core()?;
+            settings.save = save.into_core()?;
         }
         Ok(Self(settings))
     }

@@ -53,7 +53,7 @@ impl Scene {
             scene.settings = settings.0;
         }
         if let Some(save) = save {
-            scene.settings.save = save.to_core()?;
+            scene.settings.save = save.into_core()?;
         }
         if let Some(mu) = mu {
             scene.friction.mu = mu;
