@@ -24,7 +24,7 @@ mod tests {
         for n in 1..3000 {
             let size = good_size(n);
             assert!(
-                size >= n && size % 2 == 0 && size < 2 * n.max(2),
+                size >= n && size.is_multiple_of(2) && size < 2 * n.max(2),
                 "{n} -> {size}"
             );
         }

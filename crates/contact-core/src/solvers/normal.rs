@@ -219,11 +219,12 @@ fn descend(
         0.0
     };
     let drift = beta * sum / count.max(1) as f64;
-    for (d, z) in ws.direction.iter_mut().zip(&ws.z) {
-        *d = if z.is_nan() {
-            0.0
+    for n in 0..cells {
+        let d = ws.direction[n];
+        ws.direction[n] = if ws.free[n] {
+            ws.z[n] + beta * d - drift
         } else {
-            z + beta * *d - drift
+            0.0
         };
     }
     product
