@@ -13,6 +13,7 @@ __all__ = [
     "RIGID",
     "Body",
     "Branch",
+    "CattaneoMindlin",
     "Coating",
     "Elastic",
     "Flat",
@@ -20,10 +21,13 @@ __all__ = [
     "Grid",
     "Hankel",
     "Hertz",
+    "HertzEllipse",
     "InvalidSceneError",
     "InverseFft",
     "KernelInaccurateError",
     "LoadPath",
+    "Lubkin",
+    "March",
     "NoConvergenceError",
     "OffGridError",
     "Preset",
@@ -34,7 +38,10 @@ __all__ = [
     "Sphere",
     "StoreError",
     "__version__",
+    "dundurs_beta",
+    "goodman_stick_ratio",
     "hertz",
+    "hertz_ellipse",
 ]
 
 _Array: TypeAlias = NDArray[np.float64]
@@ -571,6 +578,158 @@ class Hertz:
 
 def hertz(*, R: float, bodies: tuple[Elastic, Elastic], W: float) -> Hertz:
     """Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N]."""
+
+@final
+class HertzEllipse:
+    """Elliptical Hertz contact, K. L. Johnson, Contact Mechanics (1985), sec. 4.2."""
+
+    @property
+    def W(self) -> float:
+        """Normal force [N]."""
+    @property
+    def E_star(self) -> float:
+        """Contact modulus [Pa]."""
+    @property
+    def a_x(self) -> float:
+        """Semi-axis of the contact along x [m]."""
+    @property
+    def a_y(self) -> float:
+        """Semi-axis of the contact along y [m]."""
+    @property
+    def p0(self) -> float:
+        """Peak pressure [Pa], 3 W / (2 pi a_x a_y)."""
+    @property
+    def delta_z(self) -> float:
+        """Approach [m]."""
+
+def hertz_ellipse(*, R_x: float, R_y: float, E_star: float, W: float) -> HertzEllipse:
+    """Hertz contact of relative principal radii `R_x`, `R_y` [m] along the axes.
+
+    1/R_x is the sum of both bodies' curvatures along x; `E_star` [Pa], `W` [N].
+    """
+
+@final
+class CattaneoMindlin:
+    """Partial slip of a sphere under constant normal force and a force T along x.
+
+    C. Cattaneo (1938); R. D. Mindlin, J. Appl. Mech. 16 (1949) 259; reversals after R. D. Mindlin
+    and H. Deresiewicz, J. Appl. Mech. 20 (1953) 327. Exact for similar bodies of nu = 0; for other
+    nu the slip is not quite along x and the shift over the force stays a good approximation.
+    All forces obey abs(T) <= mu W.
+
+    Parameters
+    ----------
+    hertz : Hertz
+        The normal contact.
+    bodies : tuple of Elastic
+        Materials of body 1 and body 2.
+    mu : float
+        Friction coefficient.
+    """
+
+    def __new__(
+        cls, hertz: Hertz, *, bodies: tuple[Elastic, Elastic], mu: float
+    ) -> CattaneoMindlin: ...
+    @property
+    def hertz(self) -> Hertz:
+        """The normal contact."""
+    @property
+    def mu(self) -> float:
+        """Friction coefficient."""
+    @property
+    def G_star(self) -> float:
+        """Tangential modulus [Pa], 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2."""
+    @property
+    def T_limit(self) -> float:
+        """Largest tangential force [N], mu W."""
+    @property
+    def shift_limit(self) -> float:
+        """Shift at which gross sliding starts [m], 3 mu W / (16 a G*)."""
+    def stick_radius(self, T: float) -> float:
+        """Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m]."""
+    def stick_radius_reversed(self, T: float, *, T_m: float) -> float:
+        """Stick radius after the force changed from the reversal at `T_m` to `T` [N] [m].
+
+        a [1 - abs(T_m - T)/(2 mu W)]^(1/3)
+        """
+    def q_loading(self, r: ArrayLike, *, T: float) -> _Array:
+        """Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa]."""
+    def q_unloading(self, r: ArrayLike, *, T: float, T_m: float) -> _Array:
+        """Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa]."""
+    def q_reloading(self, r: ArrayLike, *, T: float, T_m: float) -> _Array:
+        """Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa]."""
+    def shift_loading(self, T: ArrayLike) -> _Array:
+        """Shift delta_x of the first loading to `T` [N] [m]."""
+    def shift_unloading(self, T: ArrayLike, *, T_m: float) -> _Array:
+        """Shift delta_x at `T` on the way back from `T_m` [N] [m]."""
+    def shift_reloading(self, T: ArrayLike, *, T_m: float) -> _Array:
+        """Shift delta_x at `T` on the way from -`T_m` back to `T_m` [N] [m]."""
+    def loop_energy(self, T_m: float) -> float:
+        """Energy dissipated in one closed loop between -`T_m` and `T_m` [J]."""
+    def energy_ratio(self, T_m: float) -> float:
+        """Loop energy over 4 T_m delta_x(T_m); 0.2 where partial slip ends."""
+
+@final
+class Lubkin:
+    """Partial slip of a sphere under constant normal force and a torsional moment.
+
+    J. L. Lubkin, J. Appl. Mech. 18 (1951) 183; exact for every nu.
+
+    Parameters
+    ----------
+    hertz : Hertz
+        The normal contact.
+    bodies : tuple of Elastic
+        Materials of body 1 and body 2.
+    mu : float
+        Friction coefficient.
+    """
+
+    def __new__(cls, hertz: Hertz, *, bodies: tuple[Elastic, Elastic], mu: float) -> Lubkin: ...
+    @property
+    def M_limit(self) -> float:
+        """Moment of full slip [N m], (3 pi/16) mu W a."""
+    @property
+    def stiffness(self) -> float:
+        """Torsional stiffness without slip [N m/rad], 16 G a^3/3."""
+    def phi(self, c: ArrayLike) -> _Array:
+        """Rotation phi_z at the stick radius `c` [m] [rad]."""
+    def M_z(self, c: ArrayLike) -> _Array:
+        """Moment M_z at the stick radius `c` [m] [N m]."""
+    def stick_radius(self, *, M_z: float) -> float:
+        """Stick radius under the moment `M_z` [N m] [m]."""
+    def q(self, r: ArrayLike, *, c: float) -> _Array:
+        """Circumferential traction at `r` for the stick radius `c` [m] [Pa]."""
+
+def dundurs_beta(body1: Elastic, body2: Elastic) -> float:
+    """Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
+
+    beta = [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2] / (2 [(1 - nu1)/G1 + (1 - nu2)/G2])
+    """
+
+def goodman_stick_ratio(*, beta: float, mu: float) -> float:
+    """Stick over contact radius of an indentation with friction, after Goodman and Spence.
+
+    (1/(2 c)) ln[(1 + c)/(1 - c)] = (mu/abs(beta)) K(sqrt(1 - c^2)); the effect of the shear on the
+    pressure is neglected.
+    """
+
+@final
+class March:
+    """A load path being run through; iterating solves one increment after the other.
+
+    Use :func:`pyfret.march`, which labels what this one gives.
+    """
+
+    def __new__(cls, scene: Scene) -> March: ...
+    @property
+    def done(self) -> int:
+        """Increments solved so far."""
+    def fields(self) -> dict[str, NDArray[np.float64 | np.bool_]]:
+        """Fields after the last increment, shape (nx, ny)."""
+    def __iter__(self) -> March: ...
+    def __next__(self) -> dict[str, float]:
+        """Solve the next increment and give its scalars."""
 
 class InvalidSceneError(ValueError):
     """A scene, or a scene file, has no meaning."""

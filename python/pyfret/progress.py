@@ -52,7 +52,9 @@ class Progress:
         share = self.done / max(self.total, 1)
         bar = ("=" * round(WIDTH * share)).ljust(WIDTH)
         left = elapsed * (1 - share) / share if share > 0 else 0.0
-        text = f"\r{self.title} [{bar}] {self.done}/{self.total} {elapsed:.0f} s, {left:.0f} s left "
+        text = (
+            f"\r{self.title} [{bar}] {self.done}/{self.total} {elapsed:.0f} s, {left:.0f} s left "
+        )
         sys.stderr.write(text)
         sys.stderr.flush()
 

@@ -5,7 +5,8 @@
 
 #![allow(
     clippy::needless_pass_by_value,
-    reason = "PyO3 hands arguments over by value"
+    clippy::too_many_arguments,
+    reason = "PyO3 hands keyword arguments over one by one and by value"
 )]
 
 mod error;

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import matplotlib.pyplot as plt
 import numpy as np
 
+from pyfret._core import CattaneoMindlin
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import label_scale, shear_streamlines
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
     from pyfret.results import Result
 
@@ -51,10 +53,31 @@ def loading_history(result: Result, jump: Result) -> Figure:
 
 
 def similar_bodies(result: Result) -> Figure:
-    """Figure 6: shear along the fretting loop of similar bodies over the closed form."""
+    """Figure 6: shear along the fretting loop of similar bodies over the closed form, in grey."""
     figure, ax = plt.subplots(figsize=(6.4, 4.2))
+    r = np.linspace(-1.1, 1.1, 1101)
+    for increment in result.dataset.saved_increment.values:
+        q = mindlin_shear(result, int(increment), np.abs(r) * result.a_H)
+        ax.plot(r, q / (result.mu * result.p_H), color=REFERENCE, linewidth=3.5, alpha=0.5)
+    ax.lines[0].set_label("closed form")
     shear_profiles(result, ax=ax)
     return figure
+
+
+def mindlin_shear(result: Result, increment: int, r: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Closed form of q_x at the distance `r` after an increment of a cycle between -T_m and T_m."""
+    scene = result.scene
+    hertz = scene.hertz
+    T = result.dataset.T_x.values[:increment]
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(T, prepend=0.0))[T != 0.0]))
+    if hertz is None or not T.any():
+        return np.zeros_like(r)
+    bodies = (scene.body1.substrate, scene.body2.substrate)
+    contact = CattaneoMindlin(hertz, bodies=bodies, mu=scene.mu)
+    if turns.size == 0:
+        return contact.q_loading(r, T=T[-1])
+    back = contact.q_unloading if turns.size % 2 else contact.q_reloading
+    return back(r, T=T[-1], T_m=np.abs(T).max())
 
 
 def profiles(result: Result, ratio: float) -> Figure:
