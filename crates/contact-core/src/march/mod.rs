@@ -101,7 +101,8 @@ impl March {
     /// After an error the state is that of the last increment that was solved.
     pub fn advance(&mut self) -> Option<Result<Increment, Error>> {
         let point = *self.points.get(self.state.increments)?;
-        Some(self.increment(&point))
+        // On a thread of the pool, so that the others are a steal away and not a wake-up.
+        Some(rayon::scope(|_| self.increment(&point)))
     }
 
     /// One increment: predict, solve, account, keep.

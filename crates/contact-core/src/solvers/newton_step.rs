@@ -2,7 +2,7 @@
 
 use super::Response;
 use super::tangential::{Shear, TangentialProblem};
-use super::vector::{add_scaled, dot};
+use super::vector::{add_scaled, dot, sum};
 
 type Pair = [Vec<f64>; 2];
 
@@ -16,16 +16,11 @@ type Pair = [Vec<f64>; 2];
 /// q) and D the curvature |ds|/g of the circle.
 #[derive(Debug)]
 pub(crate) struct NewtonStep {
-    /// Entries xx, xy, yy of the projection in each cell.
-    tangent: [Vec<f64>; 3],
+    tangent: Tangent,
     /// D \[m/Pa\].
     diagonal: Vec<f64>,
     /// S = (1 + D/C_xx(0,0))^(-1/2).
     scale: Vec<f64>,
-    /// Slip of the state that is linearised \[m\].
-    slip: Pair,
-    /// Inverse of the sum of the projections over the cells: xx, xy, yy.
-    inverse_sum: [f64; 3],
     /// Solution \[Pa\].
     pub(crate) x: Pair,
     /// C x \[m\].
@@ -36,16 +31,29 @@ pub(crate) struct NewtonStep {
     response_direction: Pair,
 }
 
+/// The projection on the tangent space and on a sum of zero.
+#[derive(Debug)]
+struct Tangent {
+    xx: Vec<f64>,
+    xy: Vec<f64>,
+    yy: Vec<f64>,
+    /// Inverse of the sum of the projections over the cells: xx, xy, yy.
+    inverse_sum: [f64; 3],
+}
+
 impl NewtonStep {
     pub(crate) fn new(cells: usize) -> Self {
         let field = || vec![0.0; cells];
         let pair = || [field(), field()];
         Self {
-            tangent: [field(), field(), field()],
+            tangent: Tangent {
+                xx: field(),
+                xy: field(),
+                yy: field(),
+                inverse_sum: [0.0; 3],
+            },
             diagonal: field(),
             scale: field(),
-            slip: pair(),
-            inverse_sum: [0.0; 3],
             x: pair(),
             response_x: pair(),
             residual: pair(),
@@ -55,18 +63,18 @@ impl NewtonStep {
         }
     }
 
-    /// Tangent space and curvature at the present shear and slip.
+    /// Tangent space, curvature and residual at the present shear and slip; x starts from zero.
     pub(crate) fn linearise(
         &mut self,
         problem: &TangentialProblem<'_>,
         shear: &Shear<'_>,
         shift: [f64; 2],
+        c_xx: f64,
     ) {
-        let mut sum = [0.0; 3];
+        let t = &mut self.tangent;
         for n in 0..problem.bound.len() {
             let g = problem.bound[n];
-            let slip: [f64; 2] =
-                std::array::from_fn(|c| shear.u[c][n] - problem.u_ref[c][n] - shift[c]);
+            let slip = shear.slip_of(problem, shift, n);
             let (tangent, diagonal) = if g <= 0.0 {
                 ([0.0, 0.0, 0.0], 0.0)
             } else if shear.slip[n] {
@@ -79,40 +87,23 @@ impl NewtonStep {
             } else {
                 ([1.0, 0.0, 1.0], 0.0)
             };
-            for (k, t) in tangent.into_iter().enumerate() {
-                self.tangent[k][n] = t;
-                sum[k] += t;
-            }
+            [t.xx[n], t.xy[n], t.yy[n]] = tangent;
             self.diagonal[n] = diagonal;
-            self.slip[0][n] = slip[0];
-            self.slip[1][n] = slip[1];
+            self.scale[n] = 1.0 / (1.0 + diagonal / c_xx).sqrt();
+            self.residual[0][n] = -slip[0];
+            self.residual[1][n] = -slip[1];
         }
-        self.inverse_sum = invert(sum, problem.free);
-    }
-
-    /// Starts from x = 0: the residual is the projected slip.
-    pub(crate) fn start(&mut self, response: &Response<'_>) {
-        let (c_xx, _) = response.op.self_coefficients();
-        for (scale, d) in self.scale.iter_mut().zip(&self.diagonal) {
-            *scale = 1.0 / (1.0 + d / c_xx).sqrt();
-        }
+        t.inverse_sum = invert([sum(&t.xx), sum(&t.xy), sum(&t.yy)], problem.free);
+        t.project(&mut self.residual);
         for c in 0..2 {
             self.x[c].fill(0.0);
             self.response_x[c].fill(0.0);
-            self.residual[c]
-                .iter_mut()
-                .zip(&self.slip[c])
-                .for_each(|(r, s)| *r = -s);
         }
-        let mut residual = std::mem::take(&mut self.residual);
-        self.project(&mut residual);
-        self.residual = residual;
     }
 
     /// Norm of the residual \[m\], root of the sum of squares.
     pub(crate) fn residual_norm(&self) -> f64 {
-        (dot(&self.residual[0], &self.residual[0]) + dot(&self.residual[1], &self.residual[1]))
-            .sqrt()
+        dot_pair(&self.residual, &self.residual).sqrt()
     }
 
     /// Conjugate gradients until the residual norm is below `target` or `max_passes` are done;
@@ -128,7 +119,8 @@ impl NewtonStep {
             if self.residual_norm() <= target {
                 return pass;
             }
-            let product = self.precondition(response);
+            self.precondition(response);
+            let product = dot_pair(&self.residual, &self.z);
             let beta = if pass == 0 {
                 0.0
             } else {
@@ -136,19 +128,22 @@ impl NewtonStep {
             };
             last_product = product;
             for c in 0..2 {
-                let terms = self.direction[c].iter_mut().zip(&self.z[c]);
-                terms.for_each(|(d, z)| *d = z + beta * *d);
+                for (d, z) in self.direction[c].iter_mut().zip(&self.z[c]) {
+                    *d = z + beta * *d;
+                }
             }
             let [d_x, d_y] = &self.direction;
             let [r_x, r_y] = &mut self.response_direction;
             response.tangential([d_x, d_y], [r_x, r_y]);
-            let mut curvature = 0.0;
+            // z = Pi (C + D) d; d lies in the tangent space.
             for c in 0..2 {
-                for n in 0..self.diagonal.len() {
-                    let d = self.direction[c][n];
-                    curvature += d * (self.response_direction[c][n] + self.diagonal[n] * d);
+                let terms = self.z[c].iter_mut().zip(&self.response_direction[c]);
+                for ((z, r), (d, k)) in terms.zip(self.direction[c].iter().zip(&self.diagonal)) {
+                    *z = r + k * d;
                 }
             }
+            self.tangent.project(&mut self.z);
+            let curvature = dot_pair(&self.direction, &self.z);
             if !(curvature > 0.0 && product > 0.0) {
                 return pass + 1;
             }
@@ -156,79 +151,82 @@ impl NewtonStep {
             for c in 0..2 {
                 add_scaled(&mut self.x[c], step, &self.direction[c]);
                 add_scaled(&mut self.response_x[c], step, &self.response_direction[c]);
-                for n in 0..self.diagonal.len() {
-                    let change =
-                        self.response_direction[c][n] + self.diagonal[n] * self.direction[c][n];
-                    self.z[c][n] = change;
-                }
-            }
-            let mut change = std::mem::take(&mut self.z);
-            self.project(&mut change);
-            self.z = change;
-            for c in 0..2 {
                 add_scaled(&mut self.residual[c], -step, &self.z[c]);
             }
         }
         max_passes
     }
 
-    /// z = Pi S P S r; returns r . z.
-    fn precondition(&mut self, response: &mut Response<'_>) -> f64 {
+    /// z = Pi S P S r
+    fn precondition(&mut self, response: &mut Response<'_>) {
         for c in 0..2 {
-            for n in 0..self.scale.len() {
-                self.response_direction[c][n] = self.scale[n] * self.residual[c][n];
+            let scaled = self.response_direction[c].iter_mut().zip(&self.scale);
+            for ((s, scale), r) in scaled.zip(&self.residual[c]) {
+                *s = scale * r;
             }
         }
-        let mut z = std::mem::take(&mut self.z);
-        let [z_x, z_y] = &mut z;
         let [s_x, s_y] = &self.response_direction;
+        let [z_x, z_y] = &mut self.z;
         response.invert_tangential([s_x, s_y], [z_x, z_y]);
-        for z in &mut z {
-            z.iter_mut().zip(&self.scale).for_each(|(z, s)| *z *= s);
+        for z in &mut self.z {
+            for (z, scale) in z.iter_mut().zip(&self.scale) {
+                *z *= scale;
+            }
         }
-        self.project(&mut z);
-        self.z = z;
-        dot(&self.residual[0], &self.z[0]) + dot(&self.residual[1], &self.z[1])
+        self.tangent.project(&mut self.z);
     }
 
     /// The shift that the equations of the tangent space ask for after the step, with u updated.
-    pub(crate) fn shift(&self, problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 2] {
-        let mut sum = [0.0; 2];
-        for n in 0..self.diagonal.len() {
-            let [xx, xy, yy] = [0, 1, 2].map(|k| self.tangent[k][n]);
-            let v: [f64; 2] = std::array::from_fn(|c| {
-                shear.u[c][n] - problem.u_ref[c][n] + self.diagonal[n] * self.x[c][n]
-            });
-            sum[0] += xx * v[0] + xy * v[1];
-            sum[1] += xy * v[0] + yy * v[1];
+    pub(crate) fn shift(&mut self, problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 2] {
+        for c in 0..2 {
+            let slips = shear.u[c].iter().zip(problem.u_ref[c]);
+            let curved = self.diagonal.iter().zip(&self.x[c]);
+            for ((z, (u, u_ref)), (k, x)) in self.z[c].iter_mut().zip(slips).zip(curved) {
+                *z = u - u_ref + k * x;
+            }
         }
-        self.solve_sum(sum)
+        let sums = self.tangent.project_cells(&mut self.z);
+        self.tangent.solve_sum(sums)
     }
+}
 
-    fn solve_sum(&self, sum: [f64; 2]) -> [f64; 2] {
-        let [xx, xy, yy] = self.inverse_sum;
-        [xx * sum[0] + xy * sum[1], xy * sum[0] + yy * sum[1]]
-    }
-
+impl Tangent {
     /// Projects on the tangent space and on sum = 0.
     fn project(&self, v: &mut Pair) {
+        let sums = self.project_cells(v);
+        let shift = self.solve_sum(sums);
+        let (xx, xy, yy) = (&self.xx[..], &self.xy[..], &self.yy[..]);
+        let n = xx.len();
         let [v_x, v_y] = v;
-        let mut sum = [0.0; 2];
-        for n in 0..self.diagonal.len() {
-            let [xx, xy, yy] = [0, 1, 2].map(|k| self.tangent[k][n]);
-            let (a, b) = (xx * v_x[n] + xy * v_y[n], xy * v_x[n] + yy * v_y[n]);
-            v_x[n] = a;
-            v_y[n] = b;
-            sum[0] += a;
-            sum[1] += b;
-        }
-        let shift = self.solve_sum(sum);
-        for n in 0..self.diagonal.len() {
-            let [xx, xy, yy] = [0, 1, 2].map(|k| self.tangent[k][n]);
-            v_x[n] -= xx * shift[0] + xy * shift[1];
-            v_y[n] -= xy * shift[0] + yy * shift[1];
+        let (v_x, v_y, xy, yy) = (&mut v_x[..n], &mut v_y[..n], &xy[..n], &yy[..n]);
+        for i in 0..n {
+            v_x[i] -= xx[i] * shift[0] + xy[i] * shift[1];
+            v_y[i] -= xy[i] * shift[0] + yy[i] * shift[1];
         }
     }
+
+    /// Projects on the tangent space of each cell; returns the sums over the cells.
+    fn project_cells(&self, v: &mut Pair) -> [f64; 2] {
+        let (xx, xy, yy) = (&self.xx[..], &self.xy[..], &self.yy[..]);
+        let n = xx.len();
+        let [v_x, v_y] = v;
+        let (v_x, v_y, xy, yy) = (&mut v_x[..n], &mut v_y[..n], &xy[..n], &yy[..n]);
+        for i in 0..n {
+            let (a, b) = (v_x[i], v_y[i]);
+            v_x[i] = xx[i] * a + xy[i] * b;
+            v_y[i] = xy[i] * a + yy[i] * b;
+        }
+        [sum(v_x), sum(v_y)]
+    }
+
+    fn solve_sum(&self, sums: [f64; 2]) -> [f64; 2] {
+        let [xx, xy, yy] = self.inverse_sum;
+        [xx * sums[0] + xy * sums[1], xy * sums[0] + yy * sums[1]]
+    }
+}
+
+fn dot_pair(a: &Pair, b: &Pair) -> f64 {
+    dot(&a[0], &b[0]) + dot(&a[1], &b[1])
 }
 
 /// Inverse of the symmetric 2 x 2 matrix (xx, xy, yy) on the free shifts, zero on the others.

@@ -15,7 +15,7 @@
 //! slip, and slip cells whose slip would go along q stick again.
 
 use super::newton_step::NewtonStep;
-use super::vector::{add_scaled, mean_where};
+use super::vector::{add_scaled, mean_where, size, sum};
 use super::{Response, SolverError};
 
 /// What is given: the friction bound, the reference of the slip, the force.
@@ -87,6 +87,21 @@ pub struct Shear<'a> {
     pub slip: &'a mut [bool],
 }
 
+impl Shear<'_> {
+    /// Slip ds = u - u_ref - shift in cell n \[m\].
+    pub(crate) fn slip_of(
+        &self,
+        problem: &TangentialProblem<'_>,
+        shift: [f64; 2],
+        n: usize,
+    ) -> [f64; 2] {
+        [
+            self.u[0][n] - problem.u_ref[0][n] - shift[0],
+            self.u[1][n] - problem.u_ref[1][n] - shift[1],
+        ]
+    }
+}
+
 /// A slip set counts as settled when no slip cell moves along its shear by more than this part of
 /// the tolerance, and a change of q is negligible when it moves no cell by more than that.
 const SETTLED: f64 = 0.1;
@@ -108,8 +123,7 @@ pub fn tangential(
     };
     loop {
         let released = release(problem, shear, info.shift, SETTLED * params.tolerance);
-        ws.step.linearise(problem, shear, info.shift);
-        ws.step.start(response);
+        ws.step.linearise(problem, shear, info.shift, c_xx);
         info.misfit = ws.step.residual_norm() / root_of_contact;
         if released == 0 && info.misfit <= params.tolerance {
             return Ok(info);
@@ -173,7 +187,7 @@ fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64
             power(problem, shear, shift, n) <= 0.0
         } else {
             let g = problem.bound[n];
-            g > 0.0 && shear.q[0][n].hypot(shear.q[1][n]) > g
+            g > 0.0 && size([shear.q[0][n], shear.q[1][n]]) > g
         };
     }
 }
@@ -197,9 +211,8 @@ fn release(
 
 /// q . ds in cell n, negative where friction dissipates \[Pa m\].
 fn power(problem: &TangentialProblem<'_>, shear: &Shear<'_>, shift: [f64; 2], n: usize) -> f64 {
-    (0..2)
-        .map(|c| shear.q[c][n] * (shear.u[c][n] - problem.u_ref[c][n] - shift[c]))
-        .sum()
+    let slip = shear.slip_of(problem, shift, n);
+    shear.q[0][n] * slip[0] + shear.q[1][n] * slip[1]
 }
 
 /// Rounds of clipping and balancing; each leaves a small part of the imbalance of the last.
@@ -220,13 +233,13 @@ pub(crate) fn admissible(
     for c in 0..2 {
         change[c].copy_from_slice(q[c]);
     }
-    let enough = 1e-13 * problem.bound.iter().sum::<f64>();
+    let enough = 1e-13 * sum(problem.bound);
     for _ in 0..ROUNDS {
         let mut missing = problem.sum_q;
         let mut sticking = 0;
         for n in 0..cells {
             let g = problem.bound[n];
-            let size = q[0][n].hypot(q[1][n]);
+            let size = size([q[0][n], q[1][n]]);
             let factor = if g <= 0.0 {
                 0.0
             } else if size > g || (slip[n] && size > 0.0) {
