@@ -4,6 +4,7 @@ SI units everywhere; axes, signs and names are those of ``docs/conventions.md``.
 """
 
 from collections.abc import Sequence
+from os import PathLike
 from typing import ClassVar, Final, Literal, TypeAlias, final
 
 import numpy as np
@@ -505,6 +506,28 @@ class Scene:
         settings: Settings | None = None,
         title: str = ...,
     ) -> Scene: ...
+    @staticmethod
+    def from_file(path: str | PathLike[str], *, set: Sequence[str] = ...) -> Scene:
+        """Read a scene file.
+
+        Parameters
+        ----------
+        path : path
+            The file: TOML, ``schema = 1``, SI units.
+        set : sequence of str, optional
+            Values to exchange, each ``"key=value"`` as after ``fret run --set``, e.g.
+            ``"friction.mu=0.5"`` or ``"body2.coatings.0.E.E_substrate=4"``.
+
+        Raises
+        ------
+        InvalidSceneError
+            With the line, the key and what is allowed; an unknown key names the nearest valid one.
+        """
+    @staticmethod
+    def from_toml(text: str, *, set: Sequence[str] = ...) -> Scene:
+        """Read a scene from the text of a scene file; see :meth:`from_file`."""
+    def to_toml(self) -> str:
+        """Write the text of a scene file, all numbers in SI units."""
     def replace(
         self,
         *,

@@ -49,19 +49,19 @@ class Snapshot:
     """The contact at the end of one increment: its scalars and its fields.
 
     Every variable of :attr:`dataset` is an attribute as well, e.g. ``snapshot.p``.
-
-    Attributes
-    ----------
-    dataset : xarray.Dataset
-        Fields of dims (x, y), the scalars of the increment, and the attrs of the run.
     """
 
     def __init__(self, dataset: xr.Dataset) -> None:
-        self.dataset = dataset
+        self._dataset = dataset
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Fields of dims (x, y), the scalars of the increment, and the attrs of the run."""
+        return self._dataset
 
     def __getattr__(self, name: str) -> xr.DataArray:
         """Give the variable `name` of the dataset."""
-        if name != "dataset" and name in self.dataset.variables:
+        if not name.startswith("_") and name in self.dataset.variables:
             return self.dataset[name]
         raise AttributeError(f"a snapshot has no {name!r}; it has {self.names()}")
 

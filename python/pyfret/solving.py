@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 from pyfret import _core
 from pyfret.progress import Progress
-from pyfret.results import Increment, Result, open
+from pyfret.results import Result, Snapshot, open
 
 if TYPE_CHECKING:
     import os
@@ -83,3 +83,31 @@ def march(scene: Scene, path: LoadPath | None = None) -> Iterator[Increment]:
     running = _core.March(scene.replace(path=path))
     for scalars in running:
         yield Increment(running, scalars)
+
+
+class Increment(Snapshot):
+    """One increment of a running march: a snapshot whose fields are computed when asked for."""
+
+    def __init__(self, running: _core.March, scalars: dict[str, float]) -> None:
+        self._running = running
+        self._scalars = scalars
+        self._labelled: xr.Dataset | None = None
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Fields of dims (x, y), the scalars of the increment, and the attrs of the run."""
+        if self._labelled is None:
+            mine, reached = self._scalars["increment"], self._running.done
+            if mine != reached:
+                raise RuntimeError(
+                    f"the march has gone on to increment {reached}; "
+                    f"ask for the fields of increment {mine} before that"
+                )
+            self._labelled = labelled(self._running, self._scalars)
+        return self._labelled
+
+    def __getattr__(self, name: str) -> xr.DataArray:
+        """Give a scalar at once, a field by way of the dataset."""
+        if not name.startswith("_") and name in self._scalars:
+            return xr.DataArray(self._scalars[name], name=name)
+        return super().__getattr__(name)

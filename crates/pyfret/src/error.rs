@@ -40,7 +40,9 @@ create_exception!(
 pub(crate) fn to_python(error: Error) -> PyErr {
     let text = error.to_string();
     match error {
-        Error::InvalidScene { .. } | Error::SceneFile { .. } => InvalidSceneError::new_err(text),
+        Error::InvalidScene { .. } | Error::SceneFile { .. } | Error::Setting { .. } => {
+            InvalidSceneError::new_err(text)
+        }
         Error::OffGrid { .. } => OffGridError::new_err(text),
         Error::NotConverged { .. } => NoConvergenceError::new_err(text),
         Error::KernelInaccurate { .. } => KernelInaccurateError::new_err(text),

@@ -1,5 +1,7 @@
 //! The scene as a whole.
 
+use std::path::PathBuf;
+
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
@@ -34,6 +36,26 @@ impl Scene {
             path: path.map_or_else(core::LoadPath::start, |p| p.0),
             settings: settings.unwrap_or_default().0,
         })
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (path, *, set = Vec::new()))]
+    fn from_file(path: PathBuf, set: Vec<String>) -> PyResult<Self> {
+        core::Scene::from_file(path, &set)
+            .map(Self)
+            .map_err(to_python)
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (text, *, set = Vec::new()))]
+    fn from_toml(text: &str, set: Vec<String>) -> PyResult<Self> {
+        core::Scene::from_toml_str(text, "scene", &set)
+            .map(Self)
+            .map_err(to_python)
+    }
+
+    fn to_toml(&self) -> String {
+        self.0.to_toml()
     }
 
     #[pyo3(signature = (*, path = None, settings = None, save = None, mu = None, title = None))]
