@@ -15,7 +15,9 @@ __all__ = [
     "Body",
     "Branch",
     "CattaneoMindlin",
+    "CoatedIndentation",
     "Coating",
+    "CoupledIndentation",
     "Elastic",
     "Flat",
     "FrequencyDomain",
@@ -39,6 +41,8 @@ __all__ = [
     "Sphere",
     "StoreError",
     "__version__",
+    "coated_indentation",
+    "coupled_indentation",
     "dundurs_beta",
     "goodman_stick_ratio",
     "hertz",
@@ -736,6 +740,51 @@ def goodman_stick_ratio(*, beta: float, mu: float) -> float:
     (1/(2 c)) ln[(1 + c)/(1 - c)] = (mu/abs(beta)) K(sqrt(1 - c^2)); the effect of the shear on the
     pressure is neglected.
     """
+
+@final
+class CoupledIndentation:
+    """Indentation with friction of dissimilar bodies, fully coupled, in numbers without load."""
+
+    @property
+    def stick_ratio(self) -> float:
+        """Stick radius over contact radius."""
+    @property
+    def p0(self) -> float:
+        """Central pressure over 3 W / (2 pi a^2)."""
+    @property
+    def delta_z(self) -> float:
+        """Approach over a^2/R."""
+    @property
+    def W(self) -> float:
+        """Normal force over 4 E* a^3 / (3 R)."""
+
+def coupled_indentation(*, beta: float, mu: float) -> CoupledIndentation:
+    """Indentation by a sphere for Dundurs' `beta` and friction `mu` > 0.
+
+    The problem is D. A. Spence's, J. Elasticity 5 (1975) 297: the contact grows without changing
+    its shape.
+    """
+
+@final
+class CoatedIndentation:
+    """Frictionless contact of a sphere with a body that has one coating."""
+
+    @property
+    def a(self) -> float:
+        """Contact radius [m]."""
+    @property
+    def W(self) -> float:
+        """Normal force [N]."""
+    @property
+    def delta_z(self) -> float:
+        """Approach [m]."""
+    def p(self, r: ArrayLike) -> _Array:
+        """Pressure at distance `r` [m] from the middle [Pa]."""
+
+def coated_indentation(
+    *, R: float, indenter: Elastic, coating: Coating, substrate: Elastic, W: float
+) -> CoatedIndentation:
+    """Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction."""
 
 @final
 class March:

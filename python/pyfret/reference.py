@@ -2,9 +2,13 @@
 
 from pyfret._core import (
     CattaneoMindlin,
+    CoatedIndentation,
+    CoupledIndentation,
     Hertz,
     HertzEllipse,
     Lubkin,
+    coated_indentation,
+    coupled_indentation,
     dundurs_beta,
     goodman_stick_ratio,
     hertz,
@@ -13,9 +17,13 @@ from pyfret._core import (
 
 __all__ = [
     "CattaneoMindlin",
+    "CoatedIndentation",
+    "CoupledIndentation",
     "Hertz",
     "HertzEllipse",
     "Lubkin",
+    "coated_indentation",
+    "coupled_indentation",
     "dundurs_beta",
     "goodman_stick_ratio",
     "hertz",

@@ -29,7 +29,8 @@ mod _core {
     use crate::march::March;
     #[pymodule_export]
     use crate::reference::{
-        CattaneoMindlin, Hertz, HertzEllipse, Lubkin, dundurs_beta, goodman_stick_ratio, hertz,
+        CattaneoMindlin, CoatedIndentation, CoupledIndentation, Hertz, HertzEllipse, Lubkin,
+        coated_indentation, coupled_indentation, dundurs_beta, goodman_stick_ratio, hertz,
         hertz_ellipse,
     };
     #[pymodule_export]

@@ -10,7 +10,10 @@ use pyo3::prelude::*;
 
 pub(crate) use cattaneo_mindlin::CattaneoMindlin;
 pub(crate) use hertz_contact::{Hertz, HertzEllipse, hertz, hertz_ellipse};
-pub(crate) use indentation::{dundurs_beta, goodman_stick_ratio};
+pub(crate) use indentation::{
+    CoatedIndentation, CoupledIndentation, coated_indentation, coupled_indentation, dundurs_beta,
+    goodman_stick_ratio,
+};
 pub(crate) use lubkin::Lubkin;
 
 /// A number, a sequence or an array of any shape.
