@@ -2,7 +2,8 @@
 //!
 //! Only rows that hold data are transformed along y, and along x the lines never leave the cache:
 //! each is padded, transformed, multiplied, transformed back and cut. The transform of a traction
-//! is shared by all its kernels. Rows travel in blocks of eight, a cache line of each frequency.
+//! is shared by all its kernels. Between the two passes numbers travel in blocks of eight, a cache
+//! line at a time.
 //! Every number is computed by one thread alone, so the result does not depend on their number.
 
 use rayon::prelude::*;
@@ -14,7 +15,7 @@ use super::spectra::Spectrum;
 use super::y_transform::{YScratch, YTransform};
 use super::{Displacements, Half, Mirror, Spectra, Tractions};
 
-/// Rows per block.
+/// Rows, and frequencies k_y, per block.
 const BLOCK: usize = 8;
 /// Cells below which a second thread costs more than it brings.
 const PARALLEL_FROM: usize = 64 * 64;
@@ -32,7 +33,7 @@ pub(crate) struct SpectralProduct {
     x_inverse: Arc<dyn ComplexToReal<f64>>,
     /// (block, component, family, k_y, row in block)
     by_row: Vec<f64>,
-    /// (k_y, component, family, x)
+    /// (block of k_y, component, family, x, k_y in block)
     by_line: Vec<f64>,
     scratch: Vec<Scratch>,
     /// Two-dimensional transforms done.
@@ -42,10 +43,26 @@ pub(crate) struct SpectralProduct {
 /// Buffers of one thread.
 struct Scratch {
     y: YScratch,
+    /// (component, family, k_y in block, x)
+    tile: Vec<f64>,
     real: Vec<f64>,
     input: [Vec<Complex64>; 3],
     sum: Vec<Complex64>,
     fft: Vec<Complex64>,
+}
+
+impl Scratch {
+    /// Lines of up to eight frequencies of one component and family, from blocks of eight rows:
+    /// `from` starts at the first block's first frequency.
+    fn gather(&mut self, line: usize, from: &[f64], per_block: usize, nx: usize, count: usize) {
+        let tile = &mut self.tile[line * BLOCK * nx..(line + 1) * BLOCK * nx];
+        for (b, block) in from.chunks(per_block).enumerate() {
+            let rows = BLOCK.min(nx - b * BLOCK);
+            for (k, values) in block.chunks(BLOCK).take(count).enumerate() {
+                tile[k * nx + b * BLOCK..][..rows].copy_from_slice(&values[..rows]);
+            }
+        }
+    }
 }
 
 /// A power of i.
@@ -75,6 +92,7 @@ impl SpectralProduct {
         let scratch = (0..threads)
             .map(|_| Scratch {
                 y: y.scratch(),
+                tile: vec![0.0; 3 * y.families() * BLOCK * nx],
                 real: vec![0.0; period.0],
                 input: std::array::from_fn(|_| complex(frequencies)),
                 sum: complex(frequencies),
@@ -89,7 +107,7 @@ impl SpectralProduct {
             x_forward,
             x_inverse,
             by_row: vec![0.0; nx.div_ceil(BLOCK) * BLOCK * size],
-            by_line: vec![0.0; nx * size],
+            by_line: vec![0.0; 3 * y.families() * y.frequencies().div_ceil(BLOCK) * nx * BLOCK],
             scratch,
             y,
             transforms: 0,
@@ -167,47 +185,61 @@ impl SpectralProduct {
     /// Along x: transforms of all lines of one frequency k_y, product, and back.
     fn lines(&mut self, spectra: &Spectra, given: [bool; 3], wanted: [bool; 3]) {
         let (nx, families, frequencies) = (self.nx, self.y.families(), self.y.frequencies());
-        let per_line = 3 * families * nx;
-        let lines_each = frequencies.div_ceil(self.scratch.len());
+        let per_block = 3 * families * nx * BLOCK;
+        let blocks_each = frequencies.div_ceil(BLOCK).div_ceil(self.scratch.len());
         let (by_row, forward, inverse) = (&self.by_row, &self.x_forward, &self.x_inverse);
         let frequencies_x = self.period.0 / 2 + 1;
         let work = |(part, (chunk, s)): (usize, (&mut [f64], &mut Scratch))| {
-            for (l, line) in chunk.chunks_mut(per_line).enumerate() {
-                let k = part * lines_each + l;
-                for family in 0..families {
-                    for component in (0..3).filter(|&c| given[c]) {
-                        let at = ((component * families + family) * frequencies + k) * BLOCK;
-                        let per_block = 3 * families * frequencies * BLOCK;
-                        let blocks = by_row[at..].chunks(per_block);
-                        for (to, from) in s.real[..nx].chunks_mut(BLOCK).zip(blocks) {
-                            to.copy_from_slice(&from[..to.len()]);
-                        }
-                        s.real[nx..].fill(0.0);
-                        forward
-                            .process_with_scratch(&mut s.real, &mut s.input[component], &mut s.fft)
-                            .expect("buffers have the planned lengths");
+            for (b, block) in chunk.chunks_mut(per_block).enumerate() {
+                let first = (part * blocks_each + b) * BLOCK;
+                let count = BLOCK.min(frequencies - first);
+                for component in (0..3).filter(|&c| given[c]) {
+                    for family in 0..families {
+                        let line = component * families + family;
+                        let from = &by_row[(line * frequencies + first) * BLOCK..];
+                        s.gather(line, from, 3 * families * frequencies * BLOCK, nx, count);
                     }
-                    for component in (0..3).filter(|&c| wanted[c]) {
-                        s.sum.fill(Complex64::default());
-                        for cause in (0..3).filter(|&c| given[c]) {
-                            let (spectrum, unit) = spectra.pair(component, cause);
-                            if !spectrum.is_empty() {
-                                let row = &spectrum[k * frequencies_x..(k + 1) * frequencies_x];
-                                add_product(&mut s.sum, row, &s.input[cause], unit);
+                }
+                for l in 0..count {
+                    let k = first + l;
+                    let row_of = k * frequencies_x..(k + 1) * frequencies_x;
+                    for family in 0..families {
+                        for component in (0..3).filter(|&c| given[c]) {
+                            let line = component * families + family;
+                            s.real[..nx].copy_from_slice(&s.tile[(line * BLOCK + l) * nx..][..nx]);
+                            s.real[nx..].fill(0.0);
+                            forward
+                                .process_with_scratch(
+                                    &mut s.real,
+                                    &mut s.input[component],
+                                    &mut s.fft,
+                                )
+                                .expect("buffers have the planned lengths");
+                        }
+                        for component in (0..3).filter(|&c| wanted[c]) {
+                            s.sum.fill(Complex64::default());
+                            for cause in (0..3).filter(|&c| given[c]) {
+                                let (spectrum, unit) = spectra.pair(component, cause);
+                                if !spectrum.is_empty() {
+                                    let row = &spectrum[row_of.clone()];
+                                    add_product(&mut s.sum, row, &s.input[cause], unit);
+                                }
+                            }
+                            s.sum[0].im = 0.0;
+                            s.sum[frequencies_x - 1].im = 0.0;
+                            inverse
+                                .process_with_scratch(&mut s.sum, &mut s.real, &mut s.fft)
+                                .expect("buffers have the planned lengths");
+                            let lines = &mut block[(component * families + family) * nx * BLOCK..];
+                            for (to, from) in lines.chunks_mut(BLOCK).zip(&s.real[..nx]) {
+                                to[l] = *from;
                             }
                         }
-                        s.sum[0].im = 0.0;
-                        s.sum[frequencies_x - 1].im = 0.0;
-                        inverse
-                            .process_with_scratch(&mut s.sum, &mut s.real, &mut s.fft)
-                            .expect("buffers have the planned lengths");
-                        line[(component * families + family) * nx..][..nx]
-                            .copy_from_slice(&s.real[..nx]);
                     }
                 }
             }
         };
-        let chunk = lines_each * per_line;
+        let chunk = blocks_each * per_block;
         if self.scratch.len() == 1 {
             work((0, (&mut self.by_line, &mut self.scratch[0])));
         } else {
@@ -225,12 +257,13 @@ impl SpectralProduct {
         let families = y.families();
         let by_line = &self.by_line;
         let rows_each = nx.div_ceil(self.scratch.len());
-        let per_line = 3 * families * nx;
+        let per_block = 3 * families * nx * BLOCK;
         let work = |(part, (chunk, s)): (usize, (&mut [f64], &mut Scratch))| {
             for (i, row) in chunk.chunks_mut(rows).enumerate() {
                 let i = part * rows_each + i;
                 let get = |family: usize, k: usize| {
-                    by_line[k * per_line + (component * families + family) * nx + i]
+                    let line = (component * families + family) * nx + i;
+                    by_line[k / BLOCK * per_block + line * BLOCK + k % BLOCK]
                 };
                 y.inverse(HALF[component], &mut s.y, get, row);
             }
