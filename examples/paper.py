@@ -11,8 +11,11 @@ kept in the computation although it makes no difference, as in the paper's valid
 from __future__ import annotations
 
 import argparse
+import shutil
 import time
 from pathlib import Path
+
+import matplotlib.pyplot as plt
 
 import pyfret as fret
 
@@ -20,41 +23,65 @@ SCENE = Path(__file__).parents[1] / "scenes" / "coated_fretting.toml"
 RATIOS = (0.5, 1.0, 2.0, 4.0)
 
 
-def paper_scene(ratio: float, n: int | None = None) -> fret.Scene:
+def paper_scene(ratio: float, *, cells: int | None = None) -> fret.Scene:
     """The paper's scene for one ratio E1/E2, its fields kept at every tenth of the history."""
-    changes = {
-        "title": f"coated fretting, E1/E2 = {ratio:g}",
-        "body2.coatings[0].E.E_substrate": ratio,
-        "skip.equal_layers": False,
-    }
-    if n is not None:
-        changes["grid.n"] = n
-    return fret.Scene.from_file(SCENE, changes=changes)
+    settings = [
+        f'title="Coated fretting, E1/E2 = {ratio:g}"',
+        f"body2.coatings.0.E.E_substrate={ratio}",
+        "skip.equal_layers=false",
+    ]
+    if cells is not None:
+        settings.append(f"grid.n={cells}")
+    scene = fret.Scene.from_file(SCENE, set=settings)
+    tenths = [i for i, t in enumerate(scene.path.t, start=1) if abs(10 * t - round(10 * t)) < 1e-9]
+    return scene.replace(save=tenths)
 
 
 def one_jump(scene: fret.Scene) -> fret.Scene:
     """The indentation alone in one increment: what leaving out the load history costs."""
     path = fret.LoadPath.start().normal(scene.path.branches[0].W, increments=1)
-    return scene.replace(path=path, title=f"{scene.title}, one increment")
+    return scene.replace(path=path, save="all", title=f"{scene.title}, one increment")
+
+
+def front_page(results: dict[float, fret.Result], file: Path) -> None:
+    """The README's figure: loops of all ratios, and stick and shear for E1/E2 = 2."""
+    with fret.plot.style():
+        figure, (loops, zones, shear) = plt.subplots(1, 3, figsize=(10.2, 3.2))
+        for ratio, result in results.items():
+            fret.plot.fretting_loop(result, ax=loops, label=f"$E_1/E_2 = {ratio:g}$")
+        loops.legend()
+        fret.plot.stick_slip(results[2.0].at(-1), ax=zones)
+        fret.plot.shear_streamlines(results[2.0].at(0.9), ax=shear)
+        figure.savefig(file)
+        plt.close(figure)
+
+
+def solve(scene: fret.Scene, out: Path) -> fret.Result:
+    """Run a scene into the store `out`, whose last contents give way."""
+    if out.exists():
+        shutil.rmtree(out)
+    return fret.solve(scene, out=out)
 
 
 def main() -> None:
     """Run everything and say what came out."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description="The paper's runs and figures.")
     parser.add_argument("--out", type=Path, default=Path("out"), help="folder of the results")
     parser.add_argument("--cells", type=int, help="cells along each side (default: the scene's)")
     options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
+    out: Path = options.out
+    out.mkdir(parents=True, exist_ok=True)
 
     started = time.perf_counter()
     results = {}
     for ratio in RATIOS:
-        scene = paper_scene(ratio, options.cells)
-        results[ratio] = fret.solve(scene, out=options.out / f"coated_{ratio:g}.zarr")
+        scene = paper_scene(ratio, cells=options.cells)
+        results[ratio] = solve(scene, out / f"coated_{ratio:g}.zarr")
         print(results[ratio].summary(), end="\n\n")
-    jump = fret.solve(one_jump(results[2.0].scene), out=options.out / "one_increment_2.zarr")
+    jump = solve(one_jump(results[2.0].scene), out / "one_increment_2.zarr")
     print(f"runs: {time.perf_counter() - started:.0f} s")
-    for figure in fret.plot.paper_figures(results, options.out, jump=jump):
+    front_page(results, out / "front_page.png")
+    for figure in fret.plot.paper_figures(results, out, jump=jump):
         print(figure)
 
 

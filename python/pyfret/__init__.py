@@ -36,9 +36,11 @@ from pyfret._core import (
     Spacing,
     Sphere,
     StoreError,
+    SurfaceOperator,
     __version__,
 )
 from pyfret.results import Result, Snapshot, open
+from pyfret.solving import Increment, march, solve
 
 __all__ = [
     "RIGID",
@@ -50,6 +52,7 @@ __all__ = [
     "FrequencyDomain",
     "Grid",
     "Hankel",
+    "Increment",
     "InvalidSceneError",
     "InverseFft",
     "KernelInaccurateError",
@@ -65,8 +68,11 @@ __all__ = [
     "Spacing",
     "Sphere",
     "StoreError",
+    "SurfaceOperator",
     "__version__",
+    "march",
     "open",
     "plot",
     "reference",
+    "solve",
 ]

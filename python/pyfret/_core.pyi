@@ -40,6 +40,7 @@ __all__ = [
     "Spacing",
     "Sphere",
     "StoreError",
+    "SurfaceOperator",
     "__version__",
     "coated_indentation",
     "coupled_indentation",
@@ -785,6 +786,39 @@ def coated_indentation(
     *, R: float, indenter: Elastic, coating: Coating, substrate: Elastic, W: float
 ) -> CoatedIndentation:
     """Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction."""
+
+@final
+class SurfaceOperator:
+    """The displacements that tractions cause on a pair of bodies, u = C * q.
+
+    Parameters
+    ----------
+    body1, body2 : Body
+        The upper body and the lower one; their shapes do not matter.
+    grid : Grid
+        Cells on which tractions are constant.
+    settings : Settings, optional
+        Its kernel settings are used.
+    """
+
+    def __new__(
+        cls, body1: Body, body2: Body, grid: Grid, *, settings: Settings | None = None
+    ) -> SurfaceOperator: ...
+    def displacement(
+        self,
+        p: ArrayLike | None = None,
+        q_x: ArrayLike | None = None,
+        q_y: ArrayLike | None = None,
+    ) -> _Array:
+        """Relative displacement u(2) - u(1) [m], shape (3, nx, ny): along x, y and z.
+
+        Parameters
+        ----------
+        p : array of shape (nx, ny), optional
+            Pressure [Pa] (default: none).
+        q_x, q_y : array of shape (nx, ny), optional
+            Shear tractions on body 2 [Pa] (default: none).
+        """
 
 @final
 class March:

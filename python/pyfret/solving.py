@@ -6,6 +6,8 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+import xarray as xr
+
 from pyfret import _core
 from pyfret.progress import Progress
 from pyfret.results import Result, Snapshot, open

@@ -11,6 +11,7 @@
 
 mod error;
 mod march;
+mod operator;
 mod reference;
 mod scene;
 
@@ -27,6 +28,8 @@ mod _core {
     };
     #[pymodule_export]
     use crate::march::March;
+    #[pymodule_export]
+    use crate::operator::SurfaceOperator;
     #[pymodule_export]
     use crate::reference::{
         CattaneoMindlin, CoatedIndentation, CoupledIndentation, Hertz, HertzEllipse, Lubkin,

@@ -8,7 +8,8 @@ of the paper from its four runs in one call.
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import shear_streamlines, stick_slip
 from pyfret.plot.paper import paper_figures
-from pyfret.plot.profiles import pressure_profile, shear_profile
+from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
+from pyfret.plot.style import style
 
 __all__ = [
     "fretting_loop",
@@ -16,7 +17,9 @@ __all__ = [
     "paper_figures",
     "pressure_profile",
     "shear_profile",
+    "shear_profiles",
     "shear_streamlines",
     "stick_ratio",
     "stick_slip",
+    "style",
 ]

@@ -16,7 +16,7 @@ from pyfret._core import CattaneoMindlin
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import label_scale, shear_streamlines
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
-from pyfret.plot.style import style
+from pyfret.plot.style import REFERENCE, style
 
 if TYPE_CHECKING:
     import os

@@ -49,7 +49,7 @@ def shear_profiles(result: Result, *, ax: Axes | None = None) -> Axes:
     visits = load_states(result)
     colours = colormaps["viridis"](np.linspace(0.0, 0.88, 1 + max(state for state, _ in visits)))
     for t, (state, visit) in zip(result.dataset.saved_t.values, visits, strict=True):
-        line: dict[str, Any] = {"color": colours[state], "label": f"{t / tau:.3g}"}
+        line: dict[str, Any] = {"color": colours[state], "label": f"{round(float(t / tau), 3)}"}
         if visit > 0:
             n = result.dataset.sizes["x"]
             every = max(1, n // 28)
