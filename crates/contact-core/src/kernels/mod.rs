@@ -6,6 +6,7 @@
 mod bessel;
 mod cell;
 mod coefficients;
+mod depth_frf;
 mod gauss;
 mod half_space;
 mod layered_frf;
@@ -14,6 +15,8 @@ mod radial_table;
 mod surface;
 
 pub use coefficients::{InfluenceCoefficients, Quadrant};
+pub use depth_frf::FrequencyResponse;
+pub use rustfft::num_complex::Complex64;
 pub use layered_frf::{RadialResponse, Stack};
 
 use crate::error::Error;
