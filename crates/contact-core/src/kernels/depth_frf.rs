@@ -70,19 +70,11 @@ impl WaveFields {
             traction,
             u: m.down() * down + m.up() * up,
             s_rr,
-            s_tt: [
-                m.nu * (s_rr[0] - traction.2),
-                m.nu * (s_rr[1] - traction.3),
-            ],
+            s_tt: [m.nu * (s_rr[0] - traction.2), m.nu * (s_rr[1] - traction.3)],
             q_t: down_t + up_t,
             u_t: m.c * (down_t - up_t),
             s_rt: down_t - up_t,
         }
-    }
-
-    /// In a half-space.
-    pub(crate) fn half_space(m: &HalfSpace, x: f64) -> Self {
-        Self::new(m, propagate_down(x), Matrix2::default(), (-x).exp(), 0.0)
     }
 }
 
@@ -115,7 +107,10 @@ impl Stack {
         Err(Error::invalid(
             "layer",
             layer.unwrap_or_default(),
-            format!("the layer (0 to {}) in which z = {z} m lies", self.layers.len()),
+            format!(
+                "the layer (0 to {}) in which z = {z} m lies",
+                self.layers.len()
+            ),
         ))
     }
 
@@ -131,9 +126,7 @@ impl Stack {
         }
         let x = k * place.below_top;
         let down_to = propagate_down(x);
-        let Some((wave, (material, h))) = waves
-            .get(place.layer)
-            .zip(self.layers.get(place.layer))
+        let Some((wave, (material, h))) = waves.get(place.layer).zip(self.layers.get(place.layer))
         else {
             let (down, down_t) = (down_to * traction, (-x).exp() * traction_t);
             return WaveFields::new(&self.substrate, down, Matrix2::default(), down_t, 0.0);
@@ -144,7 +137,10 @@ impl Stack {
         let up_t = wave.r0_t * (-rest - k * h).exp() * start_t;
         let (down, down_t) = if remainder {
             // (1 + R)^-1 - 1 = -R (1 + R)^-1
-            (-(down_to * wave.r * wave.down), -(-x).exp() * wave.r_t * wave.down_t)
+            (
+                -(down_to * wave.r * wave.down),
+                -(-x).exp() * wave.r_t * wave.down_t,
+            )
         } else {
             (down_to * start, (-x).exp() * start_t)
         };
