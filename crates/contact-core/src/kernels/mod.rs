@@ -6,7 +6,7 @@
 mod bessel;
 mod cell;
 mod coefficients;
-mod gauss;
+pub(crate) mod gauss;
 mod half_space;
 mod layered_frf;
 mod matrix;
