@@ -26,6 +26,14 @@ pub enum Error {
         /// What is wrong and what is allowed.
         message: String,
     },
+    /// A value set from outside the scene file (`--set key=value`) is wrong.
+    #[error("setting {setting}: {message}")]
+    Setting {
+        /// The setting, `key=value`.
+        setting: String,
+        /// What is wrong and what is allowed.
+        message: String,
+    },
     /// The contact reaches the border of the grid.
     #[error(
         "the contact touches the border of the grid at increment {increment} (W = {W} N); \

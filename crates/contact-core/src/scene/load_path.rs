@@ -176,8 +176,17 @@ impl LoadPath {
         if self.branches.is_empty() {
             return Err(Error::invalid("path", "empty", "at least one branch"));
         }
+        let mut t = 0.0;
         for (i, b) in self.branches.iter().enumerate() {
             let key = |name: &str| format!("path[{i}].{name}");
+            if !(b.t_end > t && b.t_end.is_finite()) {
+                return Err(Error::invalid(
+                    key("t"),
+                    b.t_end,
+                    format!("a time after {t}, the end of the branch before"),
+                ));
+            }
+            t = b.t_end;
             if b.increments == 0 {
                 return Err(Error::invalid(
                     key("increments"),

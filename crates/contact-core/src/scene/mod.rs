@@ -4,6 +4,7 @@
 //! the solution. [`Scene::check`] refuses what has no meaning before anything is computed.
 
 mod body;
+mod case;
 mod friction;
 mod grid;
 mod load_path;

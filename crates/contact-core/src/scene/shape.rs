@@ -41,7 +41,7 @@ impl Shape {
     pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
         match self {
             Self::Sphere { R } if !(R.is_finite() && *R != 0.0) => Err(Error::invalid(
-                format!("{key}.R"),
+                format!("{key}.sphere.R"),
                 R,
                 "a finite radius in m, not zero",
             )),

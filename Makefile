@@ -1,0 +1,62 @@
+# Two commands on a bare machine (Rust toolchain, CPython >= 3.10, make):  make demo,  make test
+
+VENV := .venv
+BIN := $(VENV)/bin
+PY := $(BIN)/python
+MATURIN := maturin==1.16.0
+
+export PATH := $(HOME)/.cargo/bin:$(PATH)
+# The interpreter that the binding is built for, whatever else is installed.
+export PYO3_PYTHON := $(CURDIR)/$(PY)
+export MPLBACKEND ?= Agg
+
+RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
+
+.DEFAULT_GOAL := help
+.PHONY: help setup demo test check format bench clean
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' Makefile
+
+setup: $(VENV)/.installed target/release/fret ## .venv with pyfret and its tools, binary target/release/fret
+
+demo: setup ## the paper's four runs: results and figures in out/
+	$(PY) examples/paper.py --out out
+
+test: setup ## all tests: cargo, then pytest
+	cargo test --workspace --locked
+	$(PY) -m pytest
+
+check: setup ## formats, lints, types, spelling
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --locked -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
+	$(BIN)/ruff format --check
+	$(BIN)/ruff check
+	$(BIN)/mypy
+	$(PY) -m mypy.stubtest pyfret._core
+	$(BIN)/typos
+
+format: $(VENV)/.tools ## format all sources
+	cargo fmt --all
+	$(BIN)/ruff check --fix --exit-zero
+	$(BIN)/ruff format
+
+bench: ## criterion benches of every stage
+	cargo bench --workspace --locked
+
+clean: ## remove what was built, results excepted
+	rm -rf $(VENV) target python/pyfret/_core*.so
+
+$(VENV)/.tools: pyproject.toml tools/venv.sh
+	tools/venv.sh $(VENV)
+	$(PY) -m pip install --quiet --disable-pip-version-check $(MATURIN)
+	touch $@
+
+$(VENV)/.installed: $(VENV)/.tools $(RUST)
+	$(BIN)/maturin develop --release --locked --quiet --extras test,lint
+	touch $@
+
+target/release/fret: $(RUST)
+	cargo build --release --locked --package fret-cli
+	touch $@

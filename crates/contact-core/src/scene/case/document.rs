@@ -1,0 +1,190 @@
+//! The TOML document: changed by settings, and asked for the line of a key.
+
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table, Value};
+
+use super::measure;
+use super::section::Fault;
+use crate::error::Error;
+
+/// A scene file with the settings applied.
+pub(super) struct Document<'a> {
+    text: &'a str,
+    file: &'a str,
+    settings: &'a [String],
+    /// The file's own values with their places.
+    places: Spanned<DeTable<'a>>,
+    root: Table,
+}
+
+impl<'a> Document<'a> {
+    /// Parses the text and applies the settings (`key=value`).
+    pub(super) fn parse(
+        text: &'a str,
+        file: &'a str,
+        settings: &'a [String],
+    ) -> Result<Self, Error> {
+        let broken = |e: &toml::de::Error| Error::SceneFile {
+            file: file.to_owned(),
+            line: line_at(text, e.span().map_or(0, |span| span.start)),
+            message: e.message().trim_end().replace('\n', "; "),
+        };
+        let places = DeTable::parse(text).map_err(|e| broken(&e))?;
+        let mut root: Table = toml::from_str(text).map_err(|e| broken(&e))?;
+        for setting in settings {
+            apply(&mut root, setting).map_err(|message| Error::Setting {
+                setting: setting.clone(),
+                message,
+            })?;
+        }
+        Ok(Self {
+            text,
+            file,
+            settings,
+            places,
+            root,
+        })
+    }
+
+    /// The values.
+    pub(super) fn root(&self) -> &Table {
+        &self.root
+    }
+
+    /// The error for a user: at the setting that brought the key in, or at its line in the file.
+    pub(super) fn error(&self, fault: &Fault) -> Error {
+        let path = steps(&fault.key);
+        let related = |setting: &&String| {
+            let own = steps(setting.split('=').next().unwrap_or_default().trim());
+            own.iter().zip(&path).all(|(a, b)| a == b) && !path.is_empty()
+        };
+        if let Some(setting) = self.settings.iter().rev().find(related) {
+            return Error::Setting {
+                setting: setting.clone(),
+                message: fault.message.clone(),
+            };
+        }
+        Error::SceneFile {
+            file: self.file.to_owned(),
+            line: line_at(self.text, self.offset(&path)),
+            message: fault.message.clone(),
+        }
+    }
+
+    /// Where the key stands in the file, or the innermost table on the way to it that does.
+    fn offset(&self, path: &[&str]) -> usize {
+        let Some((first, rest)) = path.split_first() else {
+            return 0;
+        };
+        let Some((mut offset, mut value)) = entry(self.places.get_ref(), first) else {
+            return 0;
+        };
+        for step in rest {
+            let next = match value {
+                DeValue::Table(table) => entry(table, step),
+                DeValue::Array(array) => step
+                    .parse::<usize>()
+                    .ok()
+                    .and_then(|i| array.get(i))
+                    .map(|item| (item.span().start, item.get_ref())),
+                _ => None,
+            };
+            let Some(inner) = next else { break };
+            (offset, value) = inner;
+        }
+        offset
+    }
+}
+
+/// An entry of a table and where its key stands.
+fn entry<'t, 'a>(table: &'t DeTable<'a>, name: &str) -> Option<(usize, &'t DeValue<'a>)> {
+    let (key, value) = table.iter().find(|(key, _)| key.get_ref() == name)?;
+    Some((key.span().start, value.get_ref()))
+}
+
+/// Line of a byte of the text, from 1.
+fn line_at(text: &str, offset: usize) -> usize {
+    1 + text.bytes().take(offset).filter(|&b| b == b'\n').count()
+}
+
+/// The steps of a key: `body2.coatings[0].E` and `body2.coatings.0.E` have the same four.
+fn steps(key: &str) -> Vec<&str> {
+    key.split(['.', '[', ']'])
+        .map(str::trim)
+        .filter(|step| !step.is_empty())
+        .collect()
+}
+
+/// Applies `key=value` to the values; the message says what is wrong with it.
+fn apply(root: &mut Table, setting: &str) -> Result<(), String> {
+    let (key, value) = setting
+        .split_once('=')
+        .ok_or("a setting must be of the form key=value")?;
+    let value = parse_value(value.trim())?;
+    let path = steps(key);
+    let (last, way) = path.split_last().ok_or("the key is empty")?;
+    let Some((first, way)) = way.split_first() else {
+        root.insert((*last).to_owned(), value);
+        return Ok(());
+    };
+    let mut at = table_entry(root, first, way.first().unwrap_or(last));
+    let mut passed = (*first).to_owned();
+    for (i, step) in way.iter().enumerate() {
+        let next = way.get(i + 1).unwrap_or(last);
+        at = match at {
+            Value::Array(array) => element(array, step, &passed)?,
+            at => table_entry(as_table(at), step, next),
+        };
+        passed = format!("{passed}.{step}");
+    }
+    match at {
+        Value::Array(array) => *element(array, last, &passed)? = value,
+        at => {
+            let table = as_table(at);
+            if measure::is_name(last) {
+                table.clear();
+            }
+            table.insert((*last).to_owned(), value);
+        }
+    }
+    Ok(())
+}
+
+/// The entry `name` of a table, made where it is missing.
+fn table_entry<'t>(table: &'t mut Table, name: &str, next: &str) -> &'t mut Value {
+    let missing = if next.parse::<usize>().is_ok() {
+        Value::Array(Vec::new())
+    } else {
+        Value::Table(Table::new())
+    };
+    table.entry(name.to_owned()).or_insert(missing)
+}
+
+/// The value as a table; a plain number gives way to one.
+fn as_table(value: &mut Value) -> &mut Table {
+    if !value.is_table() {
+        *value = Value::Table(Table::new());
+    }
+    match value {
+        Value::Table(table) => table,
+        _ => unreachable!("made a table above"),
+    }
+}
+
+fn element<'t>(array: &'t mut [Value], step: &str, key: &str) -> Result<&'t mut Value, String> {
+    let count = array.len();
+    step.parse::<usize>()
+        .ok()
+        .and_then(|i| array.get_mut(i))
+        .ok_or_else(|| format!("{key} has {count} entries, counted from 0, and none is `{step}`"))
+}
+
+/// A TOML value; a bare word is a string.
+fn parse_value(text: &str) -> Result<Value, String> {
+    let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    match toml::from_str::<Table>(&format!("value = {text}")) {
+        Ok(mut table) if table.len() == 1 => table.remove("value").ok_or_else(String::new),
+        _ if !text.is_empty() && text.chars().all(bare) => Ok(Value::String(text.to_owned())),
+        _ => Err(format!("`{text}` is not a TOML value")),
+    }
+}

@@ -1,0 +1,260 @@
+//! The values of a scene, in the order that their measures need: a_H needs the substrates, the
+//! shapes and the loads; the coatings and the grid may be given in a_H.
+
+use toml::{Table, Value};
+
+use super::SCHEMA;
+use super::measure::{self, Measure};
+use super::section::{Fault, Section, count, pair};
+use crate::scene::{
+    Body, Branch, Coating, Elastic, Friction, Grid, KernelMethod, KernelSettings, LoadPath, Loads,
+    Preset, SaveFields, Scene, Settings, Shape, SkipSettings, SolverSettings, Spacing,
+};
+
+const ROOT: [&str; 11] = [
+    "schema", "title", "body1", "body2", "friction", "grid", "path", "kernel", "solver", "skip",
+    "output",
+];
+const BODY: [&str; 4] = ["shape", "E", "nu", "coatings"];
+
+/// The whole scene, not yet checked for meaning.
+pub(super) fn scene(table: &Table) -> Result<Scene, Fault> {
+    let root = Section::root(table, &ROOT)?;
+    let what = "1, the version of the scene file";
+    match root.need("schema", what)? {
+        Value::Integer(SCHEMA) => {}
+        other => return Err(Fault::value("schema", other, what)),
+    }
+    let title = root.get("title").map_or(Ok(""), |value| {
+        value
+            .as_str()
+            .ok_or_else(|| Fault::value("title", value, "a text in quotes"))
+    })?;
+    let bodies = [
+        root.need_section("body1", &BODY)?,
+        root.need_section("body2", &BODY)?,
+    ];
+    let mu = root
+        .need_section("friction", &["mu"])?
+        .number("mu", "a number >= 0", &[])?;
+    let mut scene = Scene {
+        title: title.to_owned(),
+        body1: uncoated(&bodies[0])?,
+        body2: uncoated(&bodies[1])?,
+        friction: Friction { mu },
+        grid: Grid {
+            nx: 0,
+            ny: 0,
+            dx: 0.0,
+            dy: 0.0,
+        },
+        path: path(&root, mu)?,
+        settings: settings(&root)?,
+    };
+    scene.body1.check("body1")?;
+    scene.body2.check("body2")?;
+    scene.friction.check()?;
+    scene.path.check(mu)?;
+
+    let hertz = scene.hertz();
+    let a_H = Measure::a_H(hertz.map(|h| h.a));
+    let p_H = Measure::p_H(hertz.map(|h| h.p0));
+    scene.body1.coatings = coatings(&bodies[0], &scene.body1, &[a_H, p_H])?;
+    scene.body2.coatings = coatings(&bodies[1], &scene.body2, &[a_H, p_H])?;
+    scene.grid = grid(&root, a_H)?;
+    Ok(scene)
+}
+
+fn uncoated(section: &Section<'_>) -> Result<Body, Fault> {
+    let rigid = section.get("E").and_then(Value::as_str) == Some("rigid");
+    let substrate = if rigid {
+        Elastic {
+            E: f64::INFINITY,
+            nu: section.number_or("nu", Elastic::RIGID.nu, &[])?,
+        }
+    } else {
+        Elastic {
+            E: section.number("E", "a modulus in Pa, or \"rigid\"", &[])?,
+            nu: section.number("nu", "Poisson's ratio", &[])?,
+        }
+    };
+    Ok(Body::homogeneous(substrate, shape(section)?))
+}
+
+fn shape(section: &Section<'_>) -> Result<Shape, Fault> {
+    let what = "\"flat\" or { sphere = { R = radius in m } }";
+    match section.need("shape", what)? {
+        Value::String(word) if word == "flat" => Ok(Shape::Flat),
+        table @ Value::Table(_) => {
+            let shape = Section::from_value(section.path("shape"), table, &["sphere"])?;
+            let sphere = shape.need_section("sphere", &["R"])?;
+            let R = sphere.number("R", "the radius in m", &[])?;
+            Ok(Shape::Sphere { R })
+        }
+        other => Err(Fault::value(&section.path("shape"), other, what)),
+    }
+}
+
+fn coatings(
+    section: &Section<'_>,
+    body: &Body,
+    hertz: &[Measure; 2],
+) -> Result<Vec<Coating>, Fault> {
+    let [a_H, p_H] = *hertz;
+    let moduli = [Measure::E_substrate(body.substrate.E), p_H];
+    section
+        .sections("coatings", &["E", "nu", "thickness"])?
+        .iter()
+        .map(|coating| {
+            Ok(Coating {
+                material: Elastic {
+                    E: coating.number("E", "a modulus in Pa", &moduli)?,
+                    nu: coating.number("nu", "Poisson's ratio", &[])?,
+                },
+                thickness: coating.number("thickness", "a length in m", &[a_H])?,
+            })
+        })
+        .collect()
+}
+
+/// Cells by number, and either the extent of the grid or the size of a cell.
+fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
+    let section = root.need_section("grid", &["n", "extent", "spacing"])?;
+    let n = section.need("n", "the number of cells, or two along x and y")?;
+    let n = pair(&section.path("n"), n, |key, value| count(key, value, 1))?;
+    let length = |key: &str, value: &Value| {
+        let length = measure::number(key, value, &[a_H])?;
+        if length > 0.0 && length.is_finite() {
+            Ok(length)
+        } else {
+            Err(Fault::value(key, value, "a positive length in m"))
+        }
+    };
+    let lengths = |name: &str| {
+        let value = section.need(name, "a length in m, or two along x and y")?;
+        pair(&section.path(name), value, length)
+    };
+    let d = match (section.get("extent"), section.get("spacing")) {
+        (Some(_), Some(_)) => {
+            return Err(Fault::new(
+                section.path("spacing"),
+                "grid.extent and grid.spacing are both given: only one of them may be",
+            ));
+        }
+        (None, Some(_)) => lengths("spacing")?,
+        _ => {
+            let (x, y) = lengths("extent")?;
+            (x / n.0 as f64, y / n.1 as f64)
+        }
+    };
+    Ok(Grid {
+        nx: n.0,
+        ny: n.1,
+        dx: d.0,
+        dy: d.1,
+    })
+}
+
+/// The branches; loads that one does not name keep their value.
+fn path(root: &Section<'_>, mu: f64) -> Result<LoadPath, Fault> {
+    let keys = ["W", "T_x", "T_y", "increments", "t", "spacing"];
+    let mut path = LoadPath::start();
+    let (mut at, mut t) = (Loads::default(), 0.0);
+    for section in root.sections("path", &keys)? {
+        at.W = section.number_or("W", at.W, &[])?;
+        let mu_W = [Measure::mu_W(mu * at.W)];
+        at.T_x = section.number_or("T_x", at.T_x, &mu_W)?;
+        at.T_y = section.number_or("T_y", at.T_y, &mu_W)?;
+        let t_end = section.number_or("t", t + 1.0, &[])?;
+        t = t_end;
+        path = path.branch(Branch {
+            to: at,
+            increments: section.count("increments", 1)?,
+            spacing: section.choice(
+                "spacing",
+                &[
+                    ("uniform", Spacing::Uniform),
+                    ("equal_radius", Spacing::EqualRadius),
+                ],
+            )?,
+            t_end,
+        });
+    }
+    Ok(path)
+}
+
+fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
+    let mut settings = Settings::default();
+    if let Some(section) = root.section("kernel", &["method", "tolerance"])? {
+        let default = settings.kernel;
+        settings.kernel = KernelSettings {
+            method: kernel_method(&section)?,
+            tolerance: section.number_or("tolerance", default.tolerance, &[])?,
+        };
+    }
+    let keys = ["preset", "tolerance", "max_alternations", "max_iterations"];
+    if let Some(section) = root.section("solver", &keys)? {
+        let default = settings.solver;
+        settings.solver = SolverSettings {
+            preset: section.choice(
+                "preset",
+                &[("fast", Preset::Fast), ("spinu2020", Preset::Spinu2020)],
+            )?,
+            tolerance: section.number_or("tolerance", default.tolerance, &[])?,
+            max_alternations: section.count_or("max_alternations", 1, default.max_alternations)?,
+            max_iterations: section.count_or("max_iterations", 1, default.max_iterations)?,
+        };
+    }
+    if let Some(section) = root.section("skip", &["equal_layers", "coupling", "mirror"])? {
+        let default = settings.skip;
+        settings.skip = SkipSettings {
+            equal_layers: section.flag_or("equal_layers", default.equal_layers)?,
+            coupling: section.flag_or("coupling", default.coupling)?,
+            mirror: section.flag_or("mirror", default.mirror)?,
+        };
+    }
+    if let Some(section) = root.section("output", &["save"])? {
+        settings.save = save(&section)?;
+    }
+    Ok(settings)
+}
+
+fn kernel_method(kernel: &Section<'_>) -> Result<KernelMethod, Fault> {
+    let what = "\"hankel\", { inverse_fft = { lambda = 8, aliases = 0 } } or \
+                { frequency_domain = { lambda = 8 } }";
+    let key = kernel.path("method");
+    let value = match kernel.get("method") {
+        None => return Ok(KernelSettings::default().method),
+        Some(Value::String(word)) if word == "hankel" => return Ok(KernelMethod::Hankel),
+        Some(table @ Value::Table(inner)) if inner.len() == 1 => table,
+        Some(other) => return Err(Fault::value(&key, other, what)),
+    };
+    let method = Section::from_value(key, value, &["inverse_fft", "frequency_domain"])?;
+    if let Some(section) = method.section("inverse_fft", &["lambda", "aliases"])? {
+        return Ok(KernelMethod::InverseFft {
+            lambda: section.count_or("lambda", 1, 8)?,
+            aliases: section.count_or("aliases", 0, 0)?,
+        });
+    }
+    let section = method.need_section("frequency_domain", &["lambda"])?;
+    Ok(KernelMethod::FrequencyDomain {
+        lambda: section.count_or("lambda", 1, 8)?,
+    })
+}
+
+fn save(output: &Section<'_>) -> Result<SaveFields, Fault> {
+    let what = "\"branches\", \"all\" or a list of increments, counted from 1";
+    let key = output.path("save");
+    match output.get("save") {
+        None => Ok(SaveFields::default()),
+        Some(Value::String(word)) if word == "branches" => Ok(SaveFields::Branches),
+        Some(Value::String(word)) if word == "all" => Ok(SaveFields::All),
+        Some(Value::Array(items)) => items
+            .iter()
+            .enumerate()
+            .map(|(i, item)| count(&format!("{key}[{i}]"), item, 1))
+            .collect::<Result<_, _>>()
+            .map(SaveFields::Indices),
+        Some(other) => Err(Fault::value(&key, other, what)),
+    }
+}

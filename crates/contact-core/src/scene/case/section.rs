@@ -1,0 +1,224 @@
+//! Tables of the scene file, read key by key.
+
+use toml::{Table, Value};
+
+use super::measure::{self, Measure};
+
+/// What is wrong, and at which key.
+#[derive(Debug)]
+pub(super) struct Fault {
+    /// The key, `body2.coatings[0].E`; it may be missing from the file.
+    pub(super) key: String,
+    /// One sentence.
+    pub(super) message: String,
+}
+
+impl Fault {
+    pub(super) fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
+        Self {
+            key: key.into(),
+            message: message.into(),
+        }
+    }
+
+    /// A value that is not what it must be.
+    pub(super) fn value(key: &str, value: &Value, allowed: &str) -> Self {
+        let shown = match value {
+            Value::Table(table) => {
+                let keys: Vec<_> = table.iter().map(|(k, v)| format!("{k} = {v}")).collect();
+                format!("{{ {} }}", keys.join(", "))
+            }
+            value => value.to_string(),
+        };
+        Self::new(key, format!("{key} = {shown}: must be {allowed}"))
+    }
+}
+
+/// A table of the file with its place in it.
+pub(super) struct Section<'a> {
+    key: String,
+    table: &'a Table,
+}
+
+impl<'a> Section<'a> {
+    /// The whole file.
+    pub(super) fn root(table: &'a Table, allowed: &[&str]) -> Result<Self, Fault> {
+        Self::new(String::new(), table, allowed)
+    }
+
+    /// A table with no other keys than the allowed ones.
+    fn new(key: String, table: &'a Table, allowed: &[&str]) -> Result<Self, Fault> {
+        let section = Self { key, table };
+        match table.keys().find(|k| !allowed.contains(&k.as_str())) {
+            None => Ok(section),
+            Some(unknown) => Err(Fault::new(
+                section.path(unknown),
+                format!(
+                    "unknown key `{}`: {}",
+                    section.path(unknown),
+                    section.hint(unknown, allowed)
+                ),
+            )),
+        }
+    }
+
+    /// The value as a table.
+    pub(super) fn from_value(
+        key: String,
+        value: &'a Value,
+        allowed: &[&str],
+    ) -> Result<Self, Fault> {
+        match value {
+            Value::Table(table) => Self::new(key, table, allowed),
+            value => Err(Fault::value(
+                &key,
+                value,
+                &format!("a table of {}", allowed.join(", ")),
+            )),
+        }
+    }
+
+    fn hint(&self, unknown: &str, allowed: &[&str]) -> String {
+        let likeness = |name: &&&str| strsim::normalized_damerau_levenshtein(unknown, name);
+        let nearest = allowed
+            .iter()
+            .max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+        match nearest {
+            Some(name) => format!(
+                "the nearest valid key is `{}` (of {})",
+                self.path(name),
+                allowed.join(", ")
+            ),
+            None => "no key is allowed here".to_owned(),
+        }
+    }
+
+    /// The full key of an entry.
+    pub(super) fn path(&self, name: &str) -> String {
+        if self.key.is_empty() {
+            name.to_owned()
+        } else {
+            format!("{}.{name}", self.key)
+        }
+    }
+
+    pub(super) fn get(&self, name: &str) -> Option<&'a Value> {
+        self.table.get(name)
+    }
+
+    /// The entry, which must be there.
+    pub(super) fn need(&self, name: &str, what: &str) -> Result<&'a Value, Fault> {
+        self.get(name).ok_or_else(|| {
+            let key = self.path(name);
+            Fault::new(&key, format!("{key} is missing: it must be {what}"))
+        })
+    }
+
+    /// A table inside; the empty one where it is missing.
+    pub(super) fn section(&self, name: &str, allowed: &[&str]) -> Result<Option<Self>, Fault> {
+        self.get(name)
+            .map(|value| Self::from_value(self.path(name), value, allowed))
+            .transpose()
+    }
+
+    /// A table inside, which must be there.
+    pub(super) fn need_section(&self, name: &str, allowed: &[&str]) -> Result<Self, Fault> {
+        let value = self.need(name, &format!("a table of {}", allowed.join(", ")))?;
+        Self::from_value(self.path(name), value, allowed)
+    }
+
+    /// The tables of a list; none where it is missing.
+    pub(super) fn sections(&self, name: &str, allowed: &[&str]) -> Result<Vec<Self>, Fault> {
+        let Some(value) = self.get(name) else {
+            return Ok(Vec::new());
+        };
+        let key = self.path(name);
+        let list = value
+            .as_array()
+            .ok_or_else(|| Fault::value(&key, value, &format!("a list of tables, [[{key}]]")))?;
+        list.iter()
+            .enumerate()
+            .map(|(i, item)| Self::from_value(format!("{key}[{i}]"), item, allowed))
+            .collect()
+    }
+
+    pub(super) fn number(
+        &self,
+        name: &str,
+        what: &str,
+        measures: &[Measure],
+    ) -> Result<f64, Fault> {
+        measure::number(&self.path(name), self.need(name, what)?, measures)
+    }
+
+    pub(super) fn number_or(
+        &self,
+        name: &str,
+        default: f64,
+        measures: &[Measure],
+    ) -> Result<f64, Fault> {
+        self.get(name).map_or(Ok(default), |value| {
+            measure::number(&self.path(name), value, measures)
+        })
+    }
+
+    /// A whole number of at least `least`.
+    pub(super) fn count(&self, name: &str, least: i64) -> Result<usize, Fault> {
+        let what = format!("a whole number >= {least}");
+        count(&self.path(name), self.need(name, &what)?, least)
+    }
+
+    pub(super) fn count_or(&self, name: &str, least: i64, default: usize) -> Result<usize, Fault> {
+        self.get(name)
+            .map_or(Ok(default), |value| count(&self.path(name), value, least))
+    }
+
+    pub(super) fn flag_or(&self, name: &str, default: bool) -> Result<bool, Fault> {
+        self.get(name).map_or(Ok(default), |value| {
+            value
+                .as_bool()
+                .ok_or_else(|| Fault::value(&self.path(name), value, "true or false"))
+        })
+    }
+
+    /// One of several words; the first stands for a missing key.
+    pub(super) fn choice<T: Copy>(&self, name: &str, choices: &[(&str, T)]) -> Result<T, Fault> {
+        let Some(value) = self.get(name) else {
+            return Ok(choices[0].1);
+        };
+        let chosen = choices
+            .iter()
+            .find(|(word, _)| value.as_str() == Some(word));
+        chosen.map(|(_, choice)| *choice).ok_or_else(|| {
+            let words: Vec<_> = choices.iter().map(|(w, _)| format!("\"{w}\"")).collect();
+            Fault::value(&self.path(name), value, &words.join(" or "))
+        })
+    }
+}
+
+/// A whole number of at least `least`.
+pub(super) fn count(key: &str, value: &Value, least: i64) -> Result<usize, Fault> {
+    value
+        .as_integer()
+        .filter(|n| *n >= least)
+        .and_then(|n| usize::try_from(n).ok())
+        .ok_or_else(|| Fault::value(key, value, &format!("a whole number >= {least}")))
+}
+
+/// One value for both directions, or a pair along x and y.
+pub(super) fn pair<T: Copy>(
+    key: &str,
+    value: &Value,
+    read: impl Fn(&str, &Value) -> Result<T, Fault>,
+) -> Result<(T, T), Fault> {
+    match value {
+        Value::Array(items) => match items.as_slice() {
+            [x, y] => Ok((
+                read(&format!("{key}[0]"), x)?,
+                read(&format!("{key}[1]"), y)?,
+            )),
+            _ => Err(Fault::value(key, value, "one value, or two along x and y")),
+        },
+        value => read(key, value).map(|one| (one, one)),
+    }
+}

@@ -1,0 +1,111 @@
+//! A scene as a scene file in SI: every value in full, so that it reads back to an equal scene.
+
+use std::fmt::Write as _;
+
+use toml::Value;
+
+use super::SCHEMA;
+use crate::scene::{Body, Elastic, KernelMethod, Preset, SaveFields, Scene, Shape, Spacing};
+
+impl Scene {
+    /// The scene in the format of the scene file, every number in SI, nothing left to a default.
+    pub fn to_toml(&self) -> String {
+        let mut text = format!("schema = {SCHEMA}\ntitle = {}\n", quoted(&self.title));
+        let mut line = |line: std::fmt::Arguments<'_>| {
+            // Writing to a text cannot fail.
+            let _ = writeln!(text, "{line}");
+        };
+        for (name, body) in [("body1", &self.body1), ("body2", &self.body2)] {
+            line(format_args!("\n[{name}]\n{}", substrate(body)));
+            for coating in &body.coatings {
+                line(format_args!("\n[[{name}.coatings]]"));
+                line(format_args!("{}", material(coating.material)));
+                line(format_args!("thickness = {:?}", coating.thickness));
+            }
+        }
+        line(format_args!("\n[friction]\nmu = {:?}", self.friction.mu));
+        let grid = &self.grid;
+        line(format_args!("\n[grid]\nn = [{}, {}]", grid.nx, grid.ny));
+        line(format_args!("spacing = [{:?}, {:?}]", grid.dx, grid.dy));
+        for branch in &self.path.branches {
+            let to = branch.to;
+            line(format_args!("\n[[path]]"));
+            line(format_args!(
+                "W = {:?}\nT_x = {:?}\nT_y = {:?}",
+                to.W, to.T_x, to.T_y
+            ));
+            line(format_args!("increments = {}", branch.increments));
+            line(format_args!("t = {:?}", branch.t_end));
+            let spacing = match branch.spacing {
+                Spacing::Uniform => "uniform",
+                Spacing::EqualRadius => "equal_radius",
+            };
+            line(format_args!("spacing = \"{spacing}\""));
+        }
+        let settings = &self.settings;
+        let method = kernel_method(settings.kernel.method);
+        line(format_args!("\n[kernel]\nmethod = {method}"));
+        line(format_args!("tolerance = {:?}", settings.kernel.tolerance));
+        let solver = &settings.solver;
+        let preset = match solver.preset {
+            Preset::Fast => "fast",
+            Preset::Spinu2020 => "spinu2020",
+        };
+        line(format_args!("\n[solver]\npreset = \"{preset}\""));
+        line(format_args!("tolerance = {:?}", solver.tolerance));
+        line(format_args!(
+            "max_alternations = {}",
+            solver.max_alternations
+        ));
+        line(format_args!("max_iterations = {}", solver.max_iterations));
+        let skip = &settings.skip;
+        line(format_args!(
+            "\n[skip]\nequal_layers = {}",
+            skip.equal_layers
+        ));
+        line(format_args!(
+            "coupling = {}\nmirror = {}",
+            skip.coupling, skip.mirror
+        ));
+        let save = match &settings.save {
+            SaveFields::Branches => "\"branches\"".to_owned(),
+            SaveFields::All => "\"all\"".to_owned(),
+            SaveFields::Indices(indices) => format!("{indices:?}"),
+        };
+        line(format_args!("\n[output]\nsave = {save}"));
+        text
+    }
+}
+
+fn quoted(text: &str) -> String {
+    Value::String(text.to_owned()).to_string()
+}
+
+fn substrate(body: &Body) -> String {
+    let shape = match body.shape {
+        Shape::Flat => "shape = \"flat\"".to_owned(),
+        Shape::Sphere { R } => format!("shape.sphere.R = {R:?}"),
+    };
+    format!("{shape}\n{}", material(body.substrate))
+}
+
+fn material(material: Elastic) -> String {
+    let E = if material.is_rigid() {
+        "\"rigid\"".to_owned()
+    } else {
+        format!("{:?}", material.E)
+    };
+    format!("E = {E}\nnu = {:?}", material.nu)
+}
+
+fn kernel_method(method: KernelMethod) -> String {
+    match method {
+        KernelMethod::Hankel => "\"hankel\"".to_owned(),
+        KernelMethod::InverseFft { lambda, aliases } => {
+            format!("{{ inverse_fft = {{ lambda = {lambda}, aliases = {aliases} }} }}")
+        }
+        KernelMethod::FrequencyDomain { lambda } => {
+            format!("{{ frequency_domain = {{ lambda = {lambda} }} }}")
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Python module `pyfret._core`: the public types of `contact-core` under the same names.
+//!
+//! Nothing is computed here. Each file translates one noun; what users read about it stands in
+//! `python/pyfret/_core.pyi`.
+
+#![allow(
+    clippy::needless_pass_by_value,
+    clippy::too_many_arguments,
+    reason = "PyO3 hands keyword arguments over one by one and by value"
+)]
+
+mod error;
+mod march;
+mod operator;
+mod reference;
+mod scene;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _core {
+    use super::Bound;
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use crate::error::{
+        InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError, StoreError,
+    };
+    #[pymodule_export]
+    use crate::march::March;
+    #[pymodule_export]
+    use crate::operator::SurfaceOperator;
+    #[pymodule_export]
+    use crate::reference::{
+        CattaneoMindlin, CoatedIndentation, CoupledIndentation, Hertz, HertzEllipse, Lubkin,
+        coated_indentation, coupled_indentation, dundurs_beta, goodman_stick_ratio, hertz,
+        hertz_ellipse,
+    };
+    #[pymodule_export]
+    use crate::scene::{
+        Body, Branch, Coating, Elastic, Flat, FrequencyDomain, Grid, Hankel, InverseFft, LoadPath,
+        Preset, Scene, Settings, Skip, Spacing, Sphere,
+    };
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        module.add("RIGID", Elastic::RIGID)
+    }
+}

@@ -1,0 +1,101 @@
+//! u = C * q for people who build their own models.
+
+use std::sync::{Mutex, PoisonError};
+
+use contact_core::convolution::{DcFft, Displacements, Mirror, SurfaceOperator as _, Tractions};
+use contact_core::kernels::influence_coefficients;
+use ndarray::{Array3, ArrayViewMut2, Axis};
+use numpy::{AllowTypeChange, PyArray3, PyArrayLike2, ToPyArray};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::error::to_python;
+use crate::scene::{Body, Grid, Settings};
+
+/// The displacements that tractions cause on a pair of bodies.
+#[pyclass(frozen, module = "pyfret")]
+pub(crate) struct SurfaceOperator {
+    shape: (usize, usize),
+    inner: Mutex<DcFft>,
+}
+
+/// A field on the grid.
+type Field<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
+
+#[pymethods]
+impl SurfaceOperator {
+    #[new]
+    #[pyo3(signature = (body1, body2, grid, *, settings = None))]
+    fn new(
+        py: Python<'_>,
+        body1: Body,
+        body2: Body,
+        grid: Grid,
+        settings: Option<Settings>,
+    ) -> PyResult<Self> {
+        let settings = settings.unwrap_or_default().0;
+        let of = |body: &Body| {
+            influence_coefficients(
+                &body.0,
+                &grid.0,
+                &settings.kernel,
+                settings.skip.equal_layers,
+            )
+        };
+        let pair = py
+            .detach(|| Ok(of(&body2)?.pair(&of(&body1)?)))
+            .map_err(to_python)?;
+        Ok(Self {
+            shape: (grid.0.nx, grid.0.ny),
+            inner: Mutex::new(DcFft::new(&pair, Mirror::None, true)),
+        })
+    }
+
+    #[pyo3(signature = (p = None, q_x = None, q_y = None))]
+    fn displacement<'py>(
+        &self,
+        py: Python<'py>,
+        p: Option<Field<'py>>,
+        q_x: Option<Field<'py>>,
+        q_y: Option<Field<'py>>,
+    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let (p, q_x, q_y) = (
+            self.cells("p", p)?,
+            self.cells("q_x", q_x)?,
+            self.cells("q_y", q_y)?,
+        );
+        let mut u = Array3::zeros((3, self.shape.0, self.shape.1));
+        py.detach(|| {
+            let mut parts = u.axis_iter_mut(Axis(0)).filter_map(ArrayViewMut2::into_slice);
+            let displacements = Displacements {
+                u_x: parts.next(),
+                u_y: parts.next(),
+                u_z: parts.next(),
+            };
+            let tractions = Tractions {
+                q_x: q_x.as_deref(),
+                q_y: q_y.as_deref(),
+                p: p.as_deref(),
+            };
+            let mut operator = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
+            operator.apply(tractions, displacements);
+        });
+        Ok(u.to_pyarray(py))
+    }
+}
+
+impl SurfaceOperator {
+    /// The field in row-major order, if it has the shape of the grid.
+    fn cells(&self, name: &str, field: Option<Field<'_>>) -> PyResult<Option<Vec<f64>>> {
+        let Some(field) = field else { return Ok(None) };
+        let field = field.as_array();
+        if field.dim() != self.shape {
+            return Err(PyValueError::new_err(format!(
+                "{name} has the shape {:?}: must be that of the grid, {:?}",
+                field.dim(),
+                self.shape
+            )));
+        }
+        Ok(Some(field.iter().copied().collect()))
+    }
+}

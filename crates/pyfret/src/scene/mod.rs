@@ -1,0 +1,17 @@
+//! WHAT is in contact, as the user writes it: one file per part of the scene.
+
+mod body;
+mod grid;
+mod load_path;
+mod material;
+mod settings;
+mod shape;
+mod whole;
+
+pub(crate) use body::{Body, Coating};
+pub(crate) use grid::Grid;
+pub(crate) use load_path::{Branch, LoadPath, Spacing};
+pub(crate) use material::Elastic;
+pub(crate) use settings::{FrequencyDomain, Hankel, InverseFft, Preset, Save, Settings, Skip};
+pub(crate) use shape::{Flat, Sphere};
+pub(crate) use whole::Scene;

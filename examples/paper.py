@@ -1,0 +1,89 @@
+"""The paper's runs: coated fretting for E1/E2 = 0.5, 1, 2, 4, its figures and a table.
+
+S. Spinu, Numerical Study on the Influence of the Coating in the Fretting Contact, Tribology in
+Industry 42 (2020) 131-145. The scene is ``scenes/coated_fretting.toml``: a steel sphere on coated
+steel, indentation, then two and a half cycles of tangential force. For E1/E2 = 1 the coating is
+kept in the computation although it makes no difference, as in the paper's validation.
+
+    python examples/paper.py --out out
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import time
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+
+import pyfret as fret
+
+SCENE = Path(__file__).parents[1] / "scenes" / "coated_fretting.toml"
+RATIOS = (0.5, 1.0, 2.0, 4.0)
+
+
+def paper_scene(ratio: float, *, cells: int | None = None) -> fret.Scene:
+    """The paper's scene for one ratio E1/E2, its fields kept at every tenth of the history."""
+    settings = [
+        f'title="Coated fretting, E1/E2 = {ratio:g}"',
+        f"body2.coatings.0.E.E_substrate={ratio}",
+        "skip.equal_layers=false",
+    ]
+    if cells is not None:
+        settings.append(f"grid.n={cells}")
+    scene = fret.Scene.from_file(SCENE, set=settings)
+    tenths = [i for i, t in enumerate(scene.path.t, start=1) if abs(10 * t - round(10 * t)) < 1e-9]
+    return scene.replace(save=tenths)
+
+
+def one_jump(scene: fret.Scene) -> fret.Scene:
+    """The indentation alone in one increment: what leaving out the load history costs."""
+    path = fret.LoadPath.start().normal(scene.path.branches[0].W, increments=1)
+    return scene.replace(path=path, save="all", title=f"{scene.title}, one increment")
+
+
+def front_page(results: dict[float, fret.Result], file: Path) -> None:
+    """The README's figure: loops of all ratios, and stick and shear for E1/E2 = 2."""
+    with fret.plot.style():
+        figure, (loops, zones, shear) = plt.subplots(1, 3, figsize=(10.2, 3.2))
+        for ratio, result in results.items():
+            fret.plot.fretting_loop(result, ax=loops, label=f"$E_1/E_2 = {ratio:g}$")
+        loops.legend()
+        fret.plot.stick_slip(results[2.0].at(-1), ax=zones)
+        fret.plot.shear_streamlines(results[2.0].at(0.9), ax=shear)
+        figure.savefig(file)
+        plt.close(figure)
+
+
+def solve(scene: fret.Scene, out: Path) -> fret.Result:
+    """Run a scene into the store `out`, whose last contents give way."""
+    if out.exists():
+        shutil.rmtree(out)
+    return fret.solve(scene, out=out)
+
+
+def main() -> None:
+    """Run everything and say what came out."""
+    parser = argparse.ArgumentParser(description="The paper's runs and figures.")
+    parser.add_argument("--out", type=Path, default=Path("out"), help="folder of the results")
+    parser.add_argument("--cells", type=int, help="cells along each side (default: the scene's)")
+    options = parser.parse_args()
+    out: Path = options.out
+    out.mkdir(parents=True, exist_ok=True)
+
+    started = time.perf_counter()
+    results = {}
+    for ratio in RATIOS:
+        scene = paper_scene(ratio, cells=options.cells)
+        results[ratio] = solve(scene, out / f"coated_{ratio:g}.zarr")
+        print(results[ratio].summary(), end="\n\n")
+    jump = solve(one_jump(results[2.0].scene), out / "one_increment_2.zarr")
+    print(f"runs: {time.perf_counter() - started:.0f} s")
+    front_page(results, out / "front_page.png")
+    for figure in fret.plot.paper_figures(results, out, jump=jump):
+        print(figure)
+
+
+if __name__ == "__main__":
+    main()

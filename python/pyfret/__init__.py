@@ -1,0 +1,78 @@
+"""Fretting contact of coated elastic bodies.
+
+Describe two bodies, each homogeneous or coated, a load history and a friction law; get the
+tractions, the stick and slip zones and the fretting loop at every load increment::
+
+    import pyfret as fret
+
+    scene = fret.Scene.from_file("scenes/coated_fretting.toml")
+    result = fret.solve(scene)
+    fret.plot.fretting_loop(result)
+
+Axes, signs and names are those of ``docs/conventions.md``; SI units everywhere.
+"""
+
+from pyfret import plot, reference
+from pyfret._core import (
+    RIGID,
+    Body,
+    Branch,
+    Coating,
+    Elastic,
+    Flat,
+    FrequencyDomain,
+    Grid,
+    Hankel,
+    InvalidSceneError,
+    InverseFft,
+    KernelInaccurateError,
+    LoadPath,
+    NoConvergenceError,
+    OffGridError,
+    Preset,
+    Scene,
+    Settings,
+    Skip,
+    Spacing,
+    Sphere,
+    StoreError,
+    SurfaceOperator,
+    __version__,
+)
+from pyfret.results import Result, Snapshot, open
+from pyfret.solving import Increment, march, solve
+
+__all__ = [
+    "RIGID",
+    "Body",
+    "Branch",
+    "Coating",
+    "Elastic",
+    "Flat",
+    "FrequencyDomain",
+    "Grid",
+    "Hankel",
+    "Increment",
+    "InvalidSceneError",
+    "InverseFft",
+    "KernelInaccurateError",
+    "LoadPath",
+    "NoConvergenceError",
+    "OffGridError",
+    "Preset",
+    "Result",
+    "Scene",
+    "Settings",
+    "Skip",
+    "Snapshot",
+    "Spacing",
+    "Sphere",
+    "StoreError",
+    "SurfaceOperator",
+    "__version__",
+    "march",
+    "open",
+    "plot",
+    "reference",
+    "solve",
+]

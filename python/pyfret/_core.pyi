@@ -1,0 +1,853 @@
+"""The compiled part of pyfret: the scene, its solution and the closed forms.
+
+SI units everywhere; axes, signs and names are those of ``docs/conventions.md``.
+"""
+
+from collections.abc import Sequence
+from os import PathLike
+from typing import ClassVar, Final, Literal, TypeAlias, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "RIGID",
+    "Body",
+    "Branch",
+    "CattaneoMindlin",
+    "CoatedIndentation",
+    "Coating",
+    "CoupledIndentation",
+    "Elastic",
+    "Flat",
+    "FrequencyDomain",
+    "Grid",
+    "Hankel",
+    "Hertz",
+    "HertzEllipse",
+    "InvalidSceneError",
+    "InverseFft",
+    "KernelInaccurateError",
+    "LoadPath",
+    "Lubkin",
+    "March",
+    "NoConvergenceError",
+    "OffGridError",
+    "Preset",
+    "Scene",
+    "Settings",
+    "Skip",
+    "Spacing",
+    "Sphere",
+    "StoreError",
+    "SurfaceOperator",
+    "__version__",
+    "coated_indentation",
+    "coupled_indentation",
+    "dundurs_beta",
+    "goodman_stick_ratio",
+    "hertz",
+    "hertz_ellipse",
+]
+
+_Array: TypeAlias = NDArray[np.float64]
+
+__version__: Final[str]
+
+RIGID: Final[Elastic]
+"""A material that does not deform."""
+
+@final
+class Elastic:
+    """A homogeneous isotropic elastic material.
+
+    Parameters
+    ----------
+    E : float
+        Young's modulus [Pa], positive.
+    nu : float
+        Poisson's ratio, -1 < nu < 0.5.
+
+    Examples
+    --------
+    >>> steel = Elastic(E=210e9, nu=0.3)
+    >>> round(steel.G / 1e9, 2)
+    80.77
+    """
+
+    def __new__(cls, *, E: float, nu: float) -> Elastic: ...
+    @property
+    def E(self) -> float:
+        """Young's modulus [Pa]; infinite for :data:`RIGID`."""
+    @property
+    def nu(self) -> float:
+        """Poisson's ratio."""
+    @property
+    def G(self) -> float:
+        """Shear modulus E / (2 (1 + nu)) [Pa]."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Coating:
+    """A layer of constant thickness, perfectly bonded to what is below it.
+
+    Parameters
+    ----------
+    material : Elastic
+        Material of the layer.
+    thickness : float
+        Thickness [m], positive.
+    """
+
+    def __new__(cls, material: Elastic, *, thickness: float) -> Coating: ...
+    @property
+    def material(self) -> Elastic:
+        """Material of the layer."""
+    @property
+    def thickness(self) -> float:
+        """Thickness [m]."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Flat:
+    """The contact plane itself."""
+
+    def __new__(cls) -> Flat: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Sphere:
+    """A sphere, taken as the paraboloid r^2/(2 R) as in Hertz's theory.
+
+    Parameters
+    ----------
+    R : float
+        Radius [m]; negative for a hollow.
+    """
+
+    def __new__(cls, *, R: float) -> Sphere: ...
+    @property
+    def R(self) -> float:
+        """Radius [m]."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+_Shape: TypeAlias = Flat | Sphere
+
+@final
+class Body:
+    """An elastic half-space under its coatings and a gently curved surface.
+
+    Parameters
+    ----------
+    substrate : Elastic
+        Material below the coatings.
+    coatings : sequence of Coating
+        Layers from the surface down: ``coatings[0]`` is the outermost (default: none).
+    shape : Flat or Sphere
+        Undeformed surface (default: flat).
+    """
+
+    def __new__(
+        cls, substrate: Elastic, *, coatings: Sequence[Coating] = ..., shape: _Shape = ...
+    ) -> Body: ...
+    @property
+    def substrate(self) -> Elastic:
+        """Material below the coatings."""
+    @property
+    def coatings(self) -> list[Coating]:
+        """Layers from the surface down."""
+    @property
+    def shape(self) -> _Shape:
+        """Undeformed surface."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Grid:
+    """Rectangular cells around the initial point of contact; tractions are constant on each.
+
+    Arrays over the grid have the shape (nx, ny), x first.
+    """
+
+    @staticmethod
+    def centred(*, extent: float, n: int) -> Grid:
+        """`n` by `n` cells on a square of side `extent` [m]."""
+    @staticmethod
+    def from_spacing(n: tuple[int, int], spacing: tuple[float, float]) -> Grid:
+        """`n` = (nx, ny) cells of size `spacing` = (dx, dy) [m]."""
+    @property
+    def nx(self) -> int:
+        """Number of cells along x."""
+    @property
+    def ny(self) -> int:
+        """Number of cells along y."""
+    @property
+    def dx(self) -> float:
+        """Cell length along x [m]."""
+    @property
+    def dy(self) -> float:
+        """Cell length along y [m]."""
+    @property
+    def cell_area(self) -> float:
+        """Area of a cell [m^2]."""
+    @property
+    def x(self) -> _Array:
+        """Centres of the cells along x [m], shape (nx,)."""
+    @property
+    def y(self) -> _Array:
+        """Centres of the cells along y [m], shape (ny,)."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Spacing:
+    """How the increments of a branch are spaced."""
+
+    UNIFORM: ClassVar[Spacing]
+    """Equal increments of force."""
+    EQUAL_RADIUS: ClassVar[Spacing]
+    """Increments of equal contact radius of a paraboloid; natural for an indentation."""
+
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+
+@final
+class Branch:
+    """One straight piece of a load history."""
+
+    @property
+    def W(self) -> float:
+        """Normal force at its end [N]."""
+    @property
+    def T_x(self) -> float:
+        """Tangential force along x on body 2 at its end [N]."""
+    @property
+    def T_y(self) -> float:
+        """Tangential force along y on body 2 at its end [N]."""
+    @property
+    def increments(self) -> int:
+        """Number of increments."""
+    @property
+    def spacing(self) -> Spacing:
+        """How the increments are spaced."""
+    @property
+    def t(self) -> float:
+        """Path time at its end."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class LoadPath:
+    """The load history, from two bodies just touching.
+
+    Built by chaining; every call gives a new path with more branches.
+
+    Examples
+    --------
+    >>> path = LoadPath.start().normal(1e3, increments=100)
+    >>> path.tangential([270.0, -270.0, 270.0], increments=500)
+    LoadPath(4 branches, 600 increments)
+    """
+
+    @staticmethod
+    def start() -> LoadPath:
+        """The path before its first branch."""
+    def normal(self, W: float, *, increments: int) -> LoadPath:
+        """Go to the normal force `W` [N], the tangential forces kept, in one unit of path time."""
+    def tangential(self, T_x: float | Sequence[float], *, increments: int) -> LoadPath:
+        """Visit the tangential forces `T_x` [N] in turn.
+
+        The increments are shared out in proportion to the change of force. Path time runs as in
+        the first branch: one unit for as many increments as that one has.
+        """
+    def force(
+        self,
+        *,
+        W: float | None = None,
+        T_x: float | None = None,
+        T_y: float | None = None,
+        increments: int,
+        spacing: Spacing = ...,
+        t: float | None = None,
+    ) -> LoadPath:
+        """Go to the given forces on a straight line; those not named keep their value.
+
+        Parameters
+        ----------
+        W, T_x, T_y : float, optional
+            Normal force and tangential forces on body 2 [N].
+        increments : int
+            Number of increments.
+        spacing : Spacing
+            How they are spaced (default: equal increments of force).
+        t : float, optional
+            Path time at the end (default: one unit later).
+        """
+    @property
+    def branches(self) -> list[Branch]:
+        """The branches in their order."""
+    @property
+    def t(self) -> _Array:
+        """Path time at the end of every increment."""
+    @property
+    def W(self) -> _Array:
+        """Normal force at the end of every increment [N]."""
+    @property
+    def T_x(self) -> _Array:
+        """Tangential force along x at the end of every increment [N]."""
+    @property
+    def T_y(self) -> _Array:
+        """Tangential force along y at the end of every increment [N]."""
+    def __len__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Preset:
+    """Families of algorithms."""
+
+    FAST: ClassVar[Preset]
+    """Preconditioned solvers; sets and fields carried over and extrapolated."""
+    SPINU2020: ClassVar[Preset]
+    """The paper's: plain conjugate gradients in both directions, plain alternation."""
+
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+
+@final
+class Hankel:
+    """Influence coefficients by Hankel integrals: exact to round-off."""
+
+    def __new__(cls) -> Hankel: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class InverseFft:
+    """Influence coefficients by the paper's inverse FFT, eq. (9)-(13).
+
+    Parameters
+    ----------
+    enlargement : int
+        How many times larger the domain is, the paper's lambda, 1 to 12 (default 8).
+    aliases : int
+        Order of the alias sums (default 0, as in the paper).
+    """
+
+    def __new__(cls, *, enlargement: int = 8, aliases: int = 0) -> InverseFft: ...
+    @property
+    def enlargement(self) -> int:
+        """How many times larger the domain is."""
+    @property
+    def aliases(self) -> int:
+        """Order of the alias sums."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class FrequencyDomain:
+    """No coefficients: every convolution with the frequency response on an enlarged domain.
+
+    Parameters
+    ----------
+    enlargement : int
+        How many times larger the domain is, 1 to 12 (default 8).
+    """
+
+    def __new__(cls, *, enlargement: int = 8) -> FrequencyDomain: ...
+    @property
+    def enlargement(self) -> int:
+        """How many times larger the domain is."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+_Save: TypeAlias = Literal["branches", "all"] | Sequence[int]
+
+_KernelMethod: TypeAlias = Hankel | InverseFft | FrequencyDomain
+
+@final
+class Skip:
+    """What may be left out when the scene does not need it; the answer stays as it is.
+
+    Parameters
+    ----------
+    equal_layers : bool
+        Treat a body whose layers all equal its substrate as homogeneous (default True).
+    coupling : bool
+        Leave out the normal-tangential kernels where they vanish (default True).
+    mirror : bool
+        Solve on half of a mirror-symmetric scene (default True).
+    """
+
+    def __new__(
+        cls, *, equal_layers: bool = True, coupling: bool = True, mirror: bool = True
+    ) -> Skip: ...
+    @property
+    def equal_layers(self) -> bool:
+        """Whether a body of equal layers is treated as homogeneous."""
+    @property
+    def coupling(self) -> bool:
+        """Whether vanishing normal-tangential kernels are left out."""
+    @property
+    def mirror(self) -> bool:
+        """Whether a mirror-symmetric scene is solved on its half."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Settings:
+    """How a scene is solved; the defaults are what most users want.
+
+    Parameters
+    ----------
+    preset : Preset, optional
+        Which algorithms (default ``Preset.FAST``).
+    tolerance : float, optional
+        Relative tolerance of the solution (default 1e-5): gap error in the contact over the Hertz
+        approach, tangential misfit over mu times it, change of the tractions in the last pass.
+    max_alternations : int, optional
+        Most passes of the intermediate loop per increment (default 60).
+    max_iterations : int, optional
+        Most iterations of an inner loop (default 1000).
+    kernel : Hankel, InverseFft or FrequencyDomain, optional
+        Conversion of the frequency response of coated bodies (default ``Hankel()``).
+    kernel_tolerance : float, optional
+        Largest error of the influence coefficients over C33(0, 0) (default 1e-10).
+    skip : Skip, optional
+        What may be left out (default: all that the scene does not need).
+    save : "branches", "all" or sequence of int, optional
+        Which increments keep their fields (default ``"branches"``: the last of each branch).
+        Increments count from 1; the last of the path is always kept.
+    """
+
+    def __new__(
+        cls,
+        *,
+        preset: Preset | None = None,
+        tolerance: float | None = None,
+        max_alternations: int | None = None,
+        max_iterations: int | None = None,
+        kernel: _KernelMethod | None = None,
+        kernel_tolerance: float | None = None,
+        skip: Skip | None = None,
+        save: _Save | None = None,
+    ) -> Settings: ...
+    @property
+    def preset(self) -> Preset:
+        """Which algorithms."""
+    @property
+    def tolerance(self) -> float:
+        """Relative tolerance of the solution."""
+    @property
+    def max_alternations(self) -> int:
+        """Most passes of the intermediate loop per increment."""
+    @property
+    def max_iterations(self) -> int:
+        """Most iterations of an inner loop."""
+    @property
+    def kernel(self) -> _KernelMethod:
+        """Conversion of the frequency response."""
+    @property
+    def kernel_tolerance(self) -> float:
+        """Largest error of the influence coefficients over C33(0, 0)."""
+    @property
+    def skip(self) -> Skip:
+        """What may be left out."""
+    @property
+    def save(self) -> str | list[int]:
+        """Which increments keep their fields."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Scene:
+    """A fretting contact problem.
+
+    Parameters
+    ----------
+    body1, body2 : Body
+        The upper body (the indenter) and the lower one.
+    mu : float
+        Friction coefficient, >= 0.
+    grid : Grid
+        Mesh of the contact plane; it has to hold the contact.
+    path : LoadPath, optional
+        Load history; it can be given when the scene is solved instead.
+    settings : Settings, optional
+        How the scene is solved.
+    title : str
+        One line that names the scene in results and figures.
+    """
+
+    def __new__(
+        cls,
+        *,
+        body1: Body,
+        body2: Body,
+        mu: float,
+        grid: Grid,
+        path: LoadPath | None = None,
+        settings: Settings | None = None,
+        title: str = ...,
+    ) -> Scene: ...
+    @staticmethod
+    def from_file(path: str | PathLike[str], *, set: Sequence[str] = ...) -> Scene:
+        """Read a scene file.
+
+        Parameters
+        ----------
+        path : path
+            The file: TOML, ``schema = 1``, SI units.
+        set : sequence of str, optional
+            Values to exchange, each ``"key=value"`` as after ``fret run --set``, e.g.
+            ``"friction.mu=0.5"`` or ``"body2.coatings.0.E.E_substrate=4"``.
+
+        Raises
+        ------
+        InvalidSceneError
+            With the line, the key and what is allowed; an unknown key names the nearest valid one.
+        """
+    @staticmethod
+    def from_toml(text: str, *, set: Sequence[str] = ...) -> Scene:
+        """Read a scene from the text of a scene file; see :meth:`from_file`."""
+    def to_toml(self) -> str:
+        """Write the text of a scene file, all numbers in SI units."""
+    def replace(
+        self,
+        *,
+        path: LoadPath | None = None,
+        settings: Settings | None = None,
+        save: _Save | None = None,
+        mu: float | None = None,
+        title: str | None = None,
+    ) -> Scene:
+        """The same scene with some of its parts exchanged."""
+    def check(self) -> None:
+        """Refuse a scene that has no meaning.
+
+        Raises
+        ------
+        InvalidSceneError
+            With the key, the value and what is allowed.
+        """
+    @property
+    def title(self) -> str:
+        """One line that names the scene."""
+    @property
+    def body1(self) -> Body:
+        """The upper body."""
+    @property
+    def body2(self) -> Body:
+        """The lower body."""
+    @property
+    def mu(self) -> float:
+        """Friction coefficient."""
+    @property
+    def grid(self) -> Grid:
+        """Mesh of the contact plane."""
+    @property
+    def path(self) -> LoadPath:
+        """Load history."""
+    @property
+    def settings(self) -> Settings:
+        """How the scene is solved."""
+    @property
+    def hertz(self) -> Hertz | None:
+        """The yardstick a_H, p_H: the uncoated pair at the largest normal force of the path."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Hertz:
+    """Frictionless contact of two paraboloids of revolution.
+
+    K. L. Johnson, Contact Mechanics (1985), eq. (4.22)-(4.24).
+    """
+
+    @property
+    def W(self) -> float:
+        """Normal force [N]."""
+    @property
+    def E_star(self) -> float:
+        """Contact modulus [Pa], 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2."""
+    @property
+    def a(self) -> float:
+        """Contact radius [m], a^3 = 3 W R / (4 E*)."""
+    @property
+    def p0(self) -> float:
+        """Peak pressure [Pa], 3 W / (2 pi a^2)."""
+    @property
+    def delta_z(self) -> float:
+        """Approach [m], a^2 / R."""
+    def p(self, r: ArrayLike) -> _Array:
+        """Pressure at distance `r` [m] from the middle [Pa], p0 sqrt(1 - r^2/a^2)."""
+
+def hertz(*, R: float, bodies: tuple[Elastic, Elastic], W: float) -> Hertz:
+    """Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N]."""
+
+@final
+class HertzEllipse:
+    """Elliptical Hertz contact, K. L. Johnson, Contact Mechanics (1985), sec. 4.2."""
+
+    @property
+    def W(self) -> float:
+        """Normal force [N]."""
+    @property
+    def E_star(self) -> float:
+        """Contact modulus [Pa]."""
+    @property
+    def a_x(self) -> float:
+        """Semi-axis of the contact along x [m]."""
+    @property
+    def a_y(self) -> float:
+        """Semi-axis of the contact along y [m]."""
+    @property
+    def p0(self) -> float:
+        """Peak pressure [Pa], 3 W / (2 pi a_x a_y)."""
+    @property
+    def delta_z(self) -> float:
+        """Approach [m]."""
+
+def hertz_ellipse(*, R_x: float, R_y: float, E_star: float, W: float) -> HertzEllipse:
+    """Hertz contact of relative principal radii `R_x`, `R_y` [m] along the axes.
+
+    1/R_x is the sum of both bodies' curvatures along x; `E_star` [Pa], `W` [N].
+    """
+
+@final
+class CattaneoMindlin:
+    """Partial slip of a sphere under constant normal force and a force T along x.
+
+    C. Cattaneo (1938); R. D. Mindlin, J. Appl. Mech. 16 (1949) 259; reversals after R. D. Mindlin
+    and H. Deresiewicz, J. Appl. Mech. 20 (1953) 327. Exact for similar bodies of nu = 0; for other
+    nu the slip is not quite along x and the shift over the force stays a good approximation.
+    All forces obey abs(T) <= mu W.
+
+    Parameters
+    ----------
+    hertz : Hertz
+        The normal contact.
+    bodies : tuple of Elastic
+        Materials of body 1 and body 2.
+    mu : float
+        Friction coefficient.
+    """
+
+    def __new__(
+        cls, hertz: Hertz, *, bodies: tuple[Elastic, Elastic], mu: float
+    ) -> CattaneoMindlin: ...
+    @property
+    def hertz(self) -> Hertz:
+        """The normal contact."""
+    @property
+    def mu(self) -> float:
+        """Friction coefficient."""
+    @property
+    def G_star(self) -> float:
+        """Tangential modulus [Pa], 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2."""
+    @property
+    def T_limit(self) -> float:
+        """Largest tangential force [N], mu W."""
+    @property
+    def shift_limit(self) -> float:
+        """Shift at which gross sliding starts [m], 3 mu W / (16 a G*)."""
+    def stick_radius(self, T: float) -> float:
+        """Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m]."""
+    def stick_radius_reversed(self, T: float, *, T_m: float) -> float:
+        """Stick radius after the force changed from the reversal at `T_m` to `T` [N] [m].
+
+        a [1 - abs(T_m - T)/(2 mu W)]^(1/3)
+        """
+    def q_loading(self, r: ArrayLike, *, T: float) -> _Array:
+        """Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa]."""
+    def q_unloading(self, r: ArrayLike, *, T: float, T_m: float) -> _Array:
+        """Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa]."""
+    def q_reloading(self, r: ArrayLike, *, T: float, T_m: float) -> _Array:
+        """Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa]."""
+    def shift_loading(self, T: ArrayLike) -> _Array:
+        """Shift delta_x of the first loading to `T` [N] [m]."""
+    def shift_unloading(self, T: ArrayLike, *, T_m: float) -> _Array:
+        """Shift delta_x at `T` on the way back from `T_m` [N] [m]."""
+    def shift_reloading(self, T: ArrayLike, *, T_m: float) -> _Array:
+        """Shift delta_x at `T` on the way from -`T_m` back to `T_m` [N] [m]."""
+    def loop_energy(self, T_m: float) -> float:
+        """Energy dissipated in one closed loop between -`T_m` and `T_m` [J]."""
+    def energy_ratio(self, T_m: float) -> float:
+        """Loop energy over 4 T_m delta_x(T_m); 0.2 where partial slip ends."""
+
+@final
+class Lubkin:
+    """Partial slip of a sphere under constant normal force and a torsional moment.
+
+    J. L. Lubkin, J. Appl. Mech. 18 (1951) 183; exact for every nu.
+
+    Parameters
+    ----------
+    hertz : Hertz
+        The normal contact.
+    bodies : tuple of Elastic
+        Materials of body 1 and body 2.
+    mu : float
+        Friction coefficient.
+    """
+
+    def __new__(cls, hertz: Hertz, *, bodies: tuple[Elastic, Elastic], mu: float) -> Lubkin: ...
+    @property
+    def M_limit(self) -> float:
+        """Moment of full slip [N m], (3 pi/16) mu W a."""
+    @property
+    def stiffness(self) -> float:
+        """Torsional stiffness without slip [N m/rad], 16 G a^3/3."""
+    def phi(self, c: ArrayLike) -> _Array:
+        """Rotation phi_z at the stick radius `c` [m] [rad]."""
+    def M_z(self, c: ArrayLike) -> _Array:
+        """Moment M_z at the stick radius `c` [m] [N m]."""
+    def stick_radius(self, *, M_z: float) -> float:
+        """Stick radius under the moment `M_z` [N m] [m]."""
+    def q(self, r: ArrayLike, *, c: float) -> _Array:
+        """Circumferential traction at `r` for the stick radius `c` [m] [Pa]."""
+
+def dundurs_beta(body1: Elastic, body2: Elastic) -> float:
+    """Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
+
+    beta = [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2] / (2 [(1 - nu1)/G1 + (1 - nu2)/G2])
+    """
+
+def goodman_stick_ratio(*, beta: float, mu: float) -> float:
+    """Stick over contact radius of an indentation with friction, after Goodman and Spence.
+
+    (1/(2 c)) ln[(1 + c)/(1 - c)] = (mu/abs(beta)) K(sqrt(1 - c^2)); the effect of the shear on the
+    pressure is neglected.
+    """
+
+@final
+class CoupledIndentation:
+    """Indentation with friction of dissimilar bodies, fully coupled, in numbers without load."""
+
+    @property
+    def stick_ratio(self) -> float:
+        """Stick radius over contact radius."""
+    @property
+    def p0(self) -> float:
+        """Central pressure over 3 W / (2 pi a^2)."""
+    @property
+    def delta_z(self) -> float:
+        """Approach over a^2/R."""
+    @property
+    def W(self) -> float:
+        """Normal force over 4 E* a^3 / (3 R)."""
+
+def coupled_indentation(*, beta: float, mu: float) -> CoupledIndentation:
+    """Indentation by a sphere for Dundurs' `beta` and friction `mu` > 0.
+
+    The problem is D. A. Spence's, J. Elasticity 5 (1975) 297: the contact grows without changing
+    its shape.
+    """
+
+@final
+class CoatedIndentation:
+    """Frictionless contact of a sphere with a body that has one coating."""
+
+    @property
+    def a(self) -> float:
+        """Contact radius [m]."""
+    @property
+    def W(self) -> float:
+        """Normal force [N]."""
+    @property
+    def delta_z(self) -> float:
+        """Approach [m]."""
+    def p(self, r: ArrayLike) -> _Array:
+        """Pressure at distance `r` [m] from the middle [Pa]."""
+
+def coated_indentation(
+    *, R: float, indenter: Elastic, coating: Coating, substrate: Elastic, W: float
+) -> CoatedIndentation:
+    """Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction."""
+
+@final
+class SurfaceOperator:
+    """The displacements that tractions cause on a pair of bodies, u = C * q.
+
+    Parameters
+    ----------
+    body1, body2 : Body
+        The upper body and the lower one; their shapes do not matter.
+    grid : Grid
+        Cells on which tractions are constant.
+    settings : Settings, optional
+        Its kernel settings are used.
+    """
+
+    def __new__(
+        cls, body1: Body, body2: Body, grid: Grid, *, settings: Settings | None = None
+    ) -> SurfaceOperator: ...
+    def displacement(
+        self,
+        p: ArrayLike | None = None,
+        q_x: ArrayLike | None = None,
+        q_y: ArrayLike | None = None,
+    ) -> _Array:
+        """Relative displacement u(2) - u(1) [m], shape (3, nx, ny): along x, y and z.
+
+        Parameters
+        ----------
+        p : array of shape (nx, ny), optional
+            Pressure [Pa] (default: none).
+        q_x, q_y : array of shape (nx, ny), optional
+            Shear tractions on body 2 [Pa] (default: none).
+        """
+
+@final
+class March:
+    """A load path being run through; iterating solves one increment after the other.
+
+    Use :func:`pyfret.march`, which labels what this one gives.
+    """
+
+    def __new__(cls, scene: Scene) -> March: ...
+    @property
+    def done(self) -> int:
+        """Increments solved so far."""
+    def fields(self) -> dict[str, NDArray[np.float64 | np.bool_]]:
+        """Fields after the last increment, shape (nx, ny)."""
+    def __iter__(self) -> March: ...
+    def __next__(self) -> dict[str, float]:
+        """Solve the next increment and give its scalars."""
+
+class InvalidSceneError(ValueError):
+    """A scene, or a scene file, has no meaning."""
+
+class OffGridError(InvalidSceneError):
+    """The contact reaches the border of the grid."""
+
+class NoConvergenceError(RuntimeError):
+    """A solver stopped before its tolerance."""
+
+class KernelInaccurateError(RuntimeError):
+    """Influence coefficients missed the tolerance asked for."""
+
+class StoreError(OSError):
+    """A file or a result store could not be read or written."""

@@ -1,0 +1,25 @@
+"""Figures of fretting contacts.
+
+Every function draws on the axes given as ``ax`` (by default a new figure) and returns them, so that
+results can be laid over each other and figures composed. :func:`paper_figures` makes the figures
+of the paper from its four runs in one call.
+"""
+
+from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
+from pyfret.plot.maps import shear_streamlines, stick_slip
+from pyfret.plot.paper import paper_figures
+from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
+from pyfret.plot.style import style
+
+__all__ = [
+    "fretting_loop",
+    "load_path",
+    "paper_figures",
+    "pressure_profile",
+    "shear_profile",
+    "shear_profiles",
+    "shear_streamlines",
+    "stick_ratio",
+    "stick_slip",
+    "style",
+]

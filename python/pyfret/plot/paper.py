@@ -1,0 +1,167 @@
+"""The figures of the paper, in one call.
+
+S. Spinu, Numerical Study on the Influence of the Coating in the Fretting Contact, Tribology in
+Industry 42 (2020) 131-145, doi:10.24874/ti.2020.42.01.13.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from pyfret._core import CattaneoMindlin
+from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
+from pyfret.plot.maps import label_scale, shear_streamlines
+from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
+from pyfret.plot.style import REFERENCE, style
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Mapping
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    from pyfret.results import Result
+
+#: Line of each ratio E1/E2 wherever several share the axes.
+COLOURS = {0.5: "#0072B2", 1.0: "#000000", 2.0: "#D55E00", 4.0: "#009E73"}
+
+
+def name(ratio: float) -> str:
+    """Label the ratio of the moduli."""
+    return f"$E_1/E_2 = {ratio:g}$"
+
+
+def loading_history(result: Result, jump: Result) -> Figure:
+    """Figure 5: tractions after indentation, with and without reproduction of the load path."""
+    figure, (left, right) = plt.subplots(1, 2, figsize=(7.6, 3.2))
+    ends = result.dataset.branch_of_increment.values
+    indented = int(np.flatnonzero(ends == ends[0])[-1]) + 1
+    for run, label, line in (
+        (result.at(indented), f"{indented} increments", {"color": COLOURS[2.0]}),
+        (jump.at(-1), "one increment", {"color": "0.25", "linestyle": "--"}),
+    ):
+        pressure_profile(run, ax=left, label=label, **line)
+        shear_profile(run, ax=right, label=label, **line)
+    left.legend(loc="lower center")
+    return figure
+
+
+def similar_bodies(result: Result) -> Figure:
+    """Figure 6: shear along the fretting loop of similar bodies over the closed form, in grey."""
+    figure, ax = plt.subplots(figsize=(6.4, 4.2))
+    r = np.linspace(-1.1, 1.1, 1101)
+    for increment in result.dataset.saved_increment.values:
+        q = mindlin_shear(result, int(increment), np.abs(r) * result.a_H)
+        ax.plot(r, q / (result.mu * result.p_H), color=REFERENCE, linewidth=3.5, alpha=0.5)
+    ax.lines[0].set_label("closed form")
+    shear_profiles(result, ax=ax)
+    return figure
+
+
+def mindlin_shear(result: Result, increment: int, r: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Closed form of q_x at the distance `r` after an increment of a cycle between -T_m and T_m."""
+    scene = result.scene
+    hertz = scene.hertz
+    T = result.dataset.T_x.values[:increment]
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(T, prepend=0.0))[T != 0.0]))
+    if hertz is None or not T.any():
+        return np.zeros_like(r)
+    bodies = (scene.body1.substrate, scene.body2.substrate)
+    contact = CattaneoMindlin(hertz, bodies=bodies, mu=scene.mu)
+    if turns.size == 0:
+        return contact.q_loading(r, T=T[-1])
+    back = contact.q_unloading if turns.size % 2 else contact.q_reloading
+    return back(r, T=T[-1], T_m=np.abs(T).max())
+
+
+def profiles(result: Result, ratio: float) -> Figure:
+    """Figure 7: shear along the fretting loop."""
+    figure, ax = plt.subplots(figsize=(6.4, 4.2))
+    shear_profiles(result, ax=ax)
+    ax.set_title(name(ratio))
+    return figure
+
+
+def streamlines(results: Mapping[float, Result], times: tuple[float, ...]) -> Figure:
+    r"""Figures 8 to 10: directions of the shear at the given :math:`t/\tau`."""
+    shown = [
+        (ratio, results[ratio].at(t * tau(results[ratio])), t) for ratio in results for t in times
+    ]
+    n = len(shown)
+    figure, row = plt.subplots(1, n, figsize=(0.9 + 3.0 * n, 3.4), sharey=True, squeeze=False)
+    largest = max(float(snapshot.q_max) / (snapshot.mu * snapshot.p_H) for _, snapshot, _ in shown)
+    for ax, letter, (ratio, snapshot, t) in zip(row[0], "abcdef", shown, strict=False):
+        shear_streamlines(snapshot, ax=ax, largest=largest, colorbar=False)
+        ax.set_title(rf"({letter})  {name(ratio)},  $t = {t:g}\,\tau$")
+        ax.label_outer()
+    label_scale(figure, row[0][0].images[0], list(row[0]))
+    return figure
+
+
+def tau(result: Result) -> float:
+    """Path time at the end of the load history."""
+    return float(result.dataset.t[-1])
+
+
+def compare(draw: Callable[..., Axes], results: Mapping[float, Result], **legend: Any) -> Figure:
+    """Figures 11 and 12: the same curve of every ratio."""
+    figure, ax = plt.subplots()
+    for ratio, result in sorted(results.items()):
+        draw(result, ax=ax, label=name(ratio), color=COLOURS.get(ratio))
+    ax.legend(**legend)
+    return figure
+
+
+def paper_figures(
+    results: Mapping[float, Result],
+    out: str | os.PathLike[str],
+    *,
+    jump: Result | None = None,
+) -> list[Path]:
+    """Draw figures 4 to 12 of the paper into the folder `out`; give the files written.
+
+    Parameters
+    ----------
+    results : mapping of float to Result
+        The run of each ratio E1/E2 of the moduli of coating and substrate. A figure is drawn if
+        the ratios it shows are there.
+    out : path
+        Folder of the figures, made if need be.
+    jump : Result, optional
+        The indentation of E1/E2 = 2 in one single increment, for figure 5.
+    """
+    folder = Path(out)
+    folder.mkdir(parents=True, exist_ok=True)
+    figures: dict[str, Figure] = {}
+    with style():
+        first = next(iter(results.values()))
+        figures["04"], ax = plt.subplots()
+        load_path(first, ax=ax)
+        if jump is not None and 2.0 in results:
+            figures["05"] = loading_history(results[2.0], jump)
+        if 1.0 in results:
+            figures["06"] = similar_bodies(results[1.0])
+        for letter, ratio in zip("abc", (0.5, 2.0, 4.0), strict=True):
+            if ratio in results:
+                figures[f"07{letter}"] = profiles(results[ratio], ratio)
+        if 0.5 in results and 2.0 in results:
+            figures["08"] = streamlines({r: results[r] for r in (0.5, 2.0)}, (0.1,))
+        for number, ratio in (("09", 0.5), ("10", 2.0)):
+            if ratio in results:
+                figures[number] = streamlines({ratio: results[ratio]}, (0.8, 0.9, 1.0))
+        figures["11"] = compare(
+            stick_ratio, results, loc="lower center", ncols=4, columnspacing=1.2
+        )
+        figures["12"] = compare(fretting_loop, results, loc="upper left")
+        paths = []
+        for number, figure in figures.items():
+            paths.append(folder / f"figure_{number}.png")
+            figure.savefig(paths[-1])
+            plt.close(figure)
+    return paths

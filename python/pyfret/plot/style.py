@@ -1,0 +1,47 @@
+"""The look shared by all figures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from functools import wraps
+from pathlib import Path
+from typing import ParamSpec, TypeVar
+
+import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+
+#: Colours with a meaning, of the Okabe-Ito palette.
+STICK = "#0072B2"
+SLIP = "#F2C9A9"
+REFERENCE = "#9A9A9A"
+
+
+def style() -> AbstractContextManager[None]:
+    """Set the look of figures made inside the ``with`` block."""
+    return plt.style.context(Path(__file__).with_name("pyfret.mplstyle"))
+
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def styled(draw: Callable[P, T]) -> Callable[P, T]:
+    """Make `draw` work in the shared look, whatever the user's own settings are."""
+
+    @wraps(draw)
+    def inside(*args: P.args, **kwargs: P.kwargs) -> T:
+        with style():
+            return draw(*args, **kwargs)
+
+    return inside
+
+
+def axes(ax: Axes | None, *, square: bool = False) -> Axes:
+    """Give `ax`, or the axes of a new figure; `square` ones for maps of the contact plane."""
+    if ax is None:
+        ax = plt.figure(figsize=(4.2, 3.9) if square else None).add_subplot()
+    if square:
+        ax.set_aspect("equal")
+        ax.grid(visible=False)
+    return ax

@@ -1,0 +1,31 @@
+"""Closed forms: the truths that the numerical solution is measured against."""
+
+from pyfret._core import (
+    CattaneoMindlin,
+    CoatedIndentation,
+    CoupledIndentation,
+    Hertz,
+    HertzEllipse,
+    Lubkin,
+    coated_indentation,
+    coupled_indentation,
+    dundurs_beta,
+    goodman_stick_ratio,
+    hertz,
+    hertz_ellipse,
+)
+
+__all__ = [
+    "CattaneoMindlin",
+    "CoatedIndentation",
+    "CoupledIndentation",
+    "Hertz",
+    "HertzEllipse",
+    "Lubkin",
+    "coated_indentation",
+    "coupled_indentation",
+    "dundurs_beta",
+    "goodman_stick_ratio",
+    "hertz",
+    "hertz_ellipse",
+]

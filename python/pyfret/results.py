@@ -1,0 +1,245 @@
+"""What a run leaves behind: scalars of every increment, fields of some, the scene inside."""
+
+from __future__ import annotations
+
+import numbers
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from pyfret._core import Scene
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable
+
+__all__ = ["Result", "Snapshot", "open"]
+
+#: Scalars of an increment that add up over a branch.
+SUMMED = frozenset(
+    (
+        "work",
+        "elastic",
+        "dissipated",
+        "opening",
+        "convolutions",
+        "alternations",
+        "normal_iterations",
+        "tangential_iterations",
+    )
+)
+
+#: Columns of the summary: title, variable, decimals, measure.
+COLUMNS: list[tuple[str, str, int, Callable[[Result], float]]] = [
+    ("t", "t", 3, lambda _: 1.0),
+    ("W [N]", "W", 1, lambda _: 1.0),
+    ("T_x [N]", "T_x", 1, lambda _: 1.0),
+    ("a/a_H", "contact_radius", 4, lambda r: 1.0 / r.a_H),
+    ("stick ratio", "stick_ratio", 4, lambda _: 1.0),
+    ("p_max/p_H", "p_max", 4, lambda r: 1.0 / r.p_H),
+    ("delta_z [um]", "delta_z", 4, lambda _: 1e6),
+    ("delta_x [um]", "delta_x", 4, lambda _: 1e6),
+    ("dissipated [uJ]", "dissipated", 3, lambda _: 1e6),
+    ("convolutions", "convolutions", 0, lambda _: 1.0),
+]
+
+
+class Snapshot:
+    """The contact at the end of one increment: its scalars and its fields.
+
+    Every variable of :attr:`dataset` is an attribute as well, e.g. ``snapshot.p``.
+    """
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self._dataset = dataset
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Fields of dims (x, y), the scalars of the increment, and the attrs of the run."""
+        return self._dataset
+
+    def __getattr__(self, name: str) -> xr.DataArray:
+        """Give the variable `name` of the dataset."""
+        if not name.startswith("_") and name in self.dataset.variables:
+            return self.dataset[name]
+        raise AttributeError(f"a snapshot has no {name!r}; it has {self.names()}")
+
+    def names(self) -> list[str]:
+        """Names of all variables, in order."""
+        return sorted(str(name) for name in self.dataset.variables)
+
+    @property
+    def a_H(self) -> float:
+        """Hertz radius of the uncoated pair at the largest load [m]."""
+        return float(self.dataset.attrs["a_H"])
+
+    @property
+    def p_H(self) -> float:
+        """Hertz peak pressure of the uncoated pair at the largest load [Pa]."""
+        return float(self.dataset.attrs["p_H"])
+
+    @property
+    def mu(self) -> float:
+        """Friction coefficient."""
+        return float(self.dataset.attrs["mu"])
+
+    def along_x(self, *, y: float = 0.0) -> xr.Dataset:
+        """Fields along the line of constant `y` [m], linear between the rows of cells."""
+        rows = self.dataset.y.values
+        if not rows[0] <= y <= rows[-1]:
+            raise ValueError(f"y = {y}: must be {rows[0]} to {rows[-1]}, the rows of the grid")
+        above = int(np.clip(np.searchsorted(rows, y), 1, rows.size - 1)) if rows.size > 1 else 0
+        below = max(above - 1, 0)
+        share = (y - rows[below]) / (rows[above] - rows[below]) if above else 0.0
+        fields = self.dataset[[k for k, v in self.dataset.items() if v.dtype.kind == "f"]]
+        row = fields.isel(y=below, drop=True) * (1 - share)
+        return row + fields.isel(y=above, drop=True) * share
+
+    def __repr__(self) -> str:
+        """Say which increment this is and under which loads."""
+        d = self.dataset
+        return (
+            f"Snapshot(increment {int(d.increment)}, t = {float(d.t):.4g}, "
+            f"W = {float(d.W):.4g} N, T_x = {float(d.T_x):.4g} N)"
+        )
+
+
+class Result:
+    """The result of a run.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Scalars over ``increment``; fields over (``saved``, ``x``, ``y``) for the increments whose
+        fields were kept; ``attrs`` holds the scene, the version, ``a_H``, ``p_H`` and ``mu``.
+        Every variable carries ``units`` and ``long_name``.
+    """
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self.dataset = dataset
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that was solved."""
+        return Scene.from_toml(self.dataset.attrs["scene"])
+
+    @property
+    def status(self) -> str:
+        """``"done"``, ``"running"``, or the sentence that says why the run stopped."""
+        return str(self.dataset.attrs["status"])
+
+    @property
+    def a_H(self) -> float:
+        """Hertz radius of the uncoated pair at the largest load [m]."""
+        return float(self.dataset.attrs["a_H"])
+
+    @property
+    def p_H(self) -> float:
+        """Hertz peak pressure of the uncoated pair at the largest load [Pa]."""
+        return float(self.dataset.attrs["p_H"])
+
+    @property
+    def mu(self) -> float:
+        """Friction coefficient."""
+        return float(self.dataset.attrs["mu"])
+
+    @property
+    def delta_H(self) -> float:
+        """Hertz approach of the uncoated pair at the largest load [m], a_H^2/R."""
+        return self.a_H**2 / float(self.dataset.attrs["R"])
+
+    @property
+    def W_max(self) -> float:
+        """Largest normal force of the path [N]."""
+        return float(self.dataset.W.max())
+
+    @property
+    def stick_ratio(self) -> xr.DataArray:
+        """Stick area over contact area, every increment."""
+        return self.dataset["stick_ratio"]
+
+    @property
+    def delta_x(self) -> xr.DataArray:
+        """Relative tangential shift of the bodies along x [m], every increment."""
+        return self.dataset["delta_x"]
+
+    @property
+    def dissipated_energy(self) -> xr.DataArray:
+        """Energy dissipated by friction since the start of the path [J], every increment."""
+        total = self.dataset["dissipated"].cumsum("increment")
+        return total.assign_attrs(units="J", long_name="energy dissipated since the start")
+
+    def at(self, which: float) -> Snapshot:
+        """Give the contact at the end of one increment whose fields were kept.
+
+        Parameters
+        ----------
+        which : int or float
+            An integer counts increments from 1; negative ones count the kept increments from the
+            last. A float is a path time t.
+
+        Raises
+        ------
+        KeyError
+            The fields of that increment were not kept; the message lists those that were.
+        """
+        saved = self.dataset.saved_increment.values
+        times = self.dataset.saved_t.values
+        if not isinstance(which, numbers.Integral):
+            places = np.flatnonzero(np.isclose(times, which, rtol=1e-9, atol=1e-12))
+        elif which > 0:
+            places = np.flatnonzero(saved == which)
+        else:
+            places = np.arange(saved.size)[which:][:1]
+        if places.size == 0 or which == 0:
+            raise KeyError(
+                f"no fields were kept at {which!r}; kept are the increments {saved.tolist()} "
+                f"at t = {times.tolist()}"
+            )
+        place = int(places[-1])
+        fields = self.dataset.isel(saved=place)
+        increment = int(saved[place])
+        here = fields.sel(increment=increment).drop_vars(("saved_increment", "saved_t"))
+        return Snapshot(here)
+
+    def branches(self) -> xr.Dataset:
+        """Scalars at the end of every branch; energies and work are sums over the branch."""
+        of = self.dataset.branch_of_increment.values
+        starts = np.flatnonzero(np.diff(of, prepend=of[0] - 1))
+        ends = np.append(starts[1:], of.size) - 1
+        table = xr.Dataset(coords={"branch": of[ends]}, attrs=self.dataset.attrs)
+        for name, variable in self.dataset.variables.items():
+            if variable.dims == ("increment",) and name not in self.dataset.indexes:
+                values = variable.values
+                kept = np.add.reduceat(values, starts) if name in SUMMED else values[ends]
+                table[name] = ("branch", kept, variable.attrs)
+        return table
+
+    def summary(self) -> str:
+        """Tabulate what the run ended with, one line per branch."""
+        ends = self.branches()
+        columns = [
+            [title, *(f"{value:.{digits}f}" for value in np.asarray(scale(self) * ends[name]))]
+            for title, name, digits, scale in COLUMNS
+            if name in ends
+        ]
+        widths = [max(len(cell) for cell in column) for column in columns]
+        rows = [
+            "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))
+            for row in zip(*columns, strict=True)
+        ]
+        return "\n".join([f"{self.dataset.attrs['title']}: {self.status}", *rows])
+
+    def __repr__(self) -> str:
+        """Give the title and the size of the result."""
+        d = self.dataset
+        return (
+            f"Result({d.attrs['title']!r}, {d.sizes['increment']} increments, "
+            f"{d.sizes['saved']} with fields of {d.sizes['x']} x {d.sizes['y']}, {self.status})"
+        )
+
+
+def open(path: str | os.PathLike[str]) -> Result:
+    """Open a result store; fields are read when they are asked for."""
+    return Result(xr.open_zarr(path, chunks=None))

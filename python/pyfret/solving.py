@@ -1,0 +1,115 @@
+"""Solving a scene: the whole load path at once, or one increment at a time."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import xarray as xr
+
+from pyfret import _core
+from pyfret.progress import Progress
+from pyfret.results import Result, Snapshot, open
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Iterator, Sequence
+
+    from pyfret._core import LoadPath, Scene
+
+__all__ = ["march", "solve"]
+
+
+def solve(
+    scene: Scene,
+    path: LoadPath | None = None,
+    *,
+    save: Literal["branches", "all"] | Sequence[int] | None = None,
+    out: str | os.PathLike[str] | None = None,
+    progress: bool = True,
+) -> Result:
+    """Run through the load path and give the scalars of all increments and the fields of some.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is in contact.
+    path : LoadPath, optional
+        Load history (default: that of the scene).
+    save : "branches", "all" or sequence of int, optional
+        Increments that keep their fields, counted from 1 (default: as the scene says, which is the
+        last of each branch unless it was set).
+    out : path, optional
+        Result store to write while the run goes on; it must not exist. An interrupted run leaves
+        everything so far in it. Without it the result is in memory only.
+    progress : bool
+        Whether to draw a progress bar on a terminal or in a notebook.
+
+    Raises
+    ------
+    InvalidSceneError
+        The scene has no meaning; the message names the key, the value and what is allowed.
+    OffGridError
+        The contact reached the border of the grid.
+    NoConvergenceError
+        A solver stopped before its tolerance.
+    """
+    scene = scene.replace(path=path, save=save)
+    with Progress(len(scene.path), title=scene.title or "fretting", shown=progress) as bar:
+        if out is not None:
+            _core.solve(scene, store=out, on_increment=bar.update)
+            return open(out)
+        with tempfile.TemporaryDirectory(prefix="pyfret-") as folder:
+            store = Path(folder) / "run.zarr"
+            _core.solve(scene, store=store, on_increment=bar.update)
+            return Result(open(store).dataset.load())
+
+
+def march(scene: Scene, path: LoadPath | None = None) -> Iterator[Increment]:
+    """Run through the load path one increment at a time, the careful way.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is in contact.
+    path : LoadPath, optional
+        Load history (default: that of the scene).
+
+    Yields
+    ------
+    Increment
+        The contact after each increment. Its fields are computed when they are asked for, which
+        has to be before the next increment is.
+    """
+    running = _core.March(scene.replace(path=path))
+    for scalars in running:
+        yield Increment(running, scalars)
+
+
+class Increment(Snapshot):
+    """One increment of a running march: a snapshot whose fields are computed when asked for."""
+
+    def __init__(self, running: _core.March, scalars: dict[str, float]) -> None:
+        self._running = running
+        self._scalars = scalars
+        self._labelled: xr.Dataset | None = None
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Fields of dims (x, y), the scalars of the increment, and the attrs of the run."""
+        if self._labelled is None:
+            mine, reached = self._scalars["increment"], self._running.done
+            if mine != reached:
+                raise RuntimeError(
+                    f"the march has gone on to increment {reached}; "
+                    f"ask for the fields of increment {mine} before that"
+                )
+            self._labelled = labelled(self._running, self._scalars)
+        return self._labelled
+
+    def __getattr__(self, name: str) -> xr.DataArray:
+        """Give a scalar at once, a field by way of the dataset."""
+        if not name.startswith("_") and name in self._scalars:
+            return xr.DataArray(self._scalars[name], name=name)
+        return super().__getattr__(name)

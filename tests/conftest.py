@@ -1,0 +1,58 @@
+"""Scenes that are small enough to be solved in a moment."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import pyfret as fret
+
+ROOT = Path(__file__).parents[1]
+
+R, W, MU = 0.018, 1e3, 0.3
+T_MAX = 0.9 * MU * W
+
+
+def pair(nu: float) -> tuple[fret.Elastic, fret.Elastic]:
+    """Two like bodies."""
+    material = fret.Elastic(E=210e9, nu=nu)
+    return material, material
+
+
+def sphere_on_flat(*, nu: float = 0.3, ratio: float = 1.0, n: int = 32) -> fret.Scene:
+    """The paper's geometry; a coating of `ratio` times the modulus unless it is 1."""
+    steel, _ = pair(nu)
+    a_H = fret.reference.hertz(R=R, bodies=(steel, steel), W=W).a
+    coat = fret.Coating(fret.Elastic(E=ratio * steel.E, nu=nu), thickness=a_H)
+    return fret.Scene(
+        body1=fret.Body(steel, shape=fret.Sphere(R=R)),
+        body2=fret.Body(steel, coatings=[] if ratio == 1.0 else [coat]),
+        mu=MU,
+        grid=fret.Grid.centred(extent=2.4 * a_H, n=n),
+        title=f"E1/E2 = {ratio:g}",
+    )
+
+
+def paper_path(indentation: int = 10, cycles: int = 45) -> fret.LoadPath:
+    """The paper's load history: indentation, then two and a half cycles; t ends at 1."""
+    path = fret.LoadPath.start().force(W=W, increments=indentation, t=0.1)
+    for i, t in enumerate((0.2, 0.4, 0.6, 0.8, 1.0)):
+        share = 1 if i == 0 else 2
+        T = T_MAX if i % 2 == 0 else -T_MAX
+        path = path.force(T_x=T, increments=share * cycles // 9, t=t)
+    return path
+
+
+@pytest.fixture(scope="session")
+def coated() -> fret.Result:
+    """The paper's scene with E1/E2 = 2 on a coarse grid, every tenth of the history kept."""
+    path = paper_path()
+    kept = [int(i) + 1 for i in range(len(path)) if abs(path.t[i] * 10 % 1) < 1e-9]
+    return fret.solve(sphere_on_flat(ratio=2.0), path, save=kept, progress=False)
+
+
+@pytest.fixture(scope="session")
+def scene_file() -> Path:
+    """The paper's scene as data."""
+    return ROOT / "scenes" / "coated_fretting.toml"

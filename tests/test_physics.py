@@ -1,0 +1,82 @@
+"""What holds in every cell and increment, whatever the bodies are."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import MU, T_MAX, W, paper_path, sphere_on_flat
+
+
+def test_forces_balance(coated: fret.Result) -> None:
+    d = coated.dataset
+    for i, area in enumerate([coated.scene.grid.cell_area] * d.sizes["saved"]):
+        fields = d.isel(saved=i)
+        loads = d.sel(increment=int(fields.saved_increment))
+        assert float(fields.p.sum()) * area == pytest.approx(float(loads.W), rel=1e-9)
+        assert float(fields.q_x.sum()) * area == pytest.approx(float(loads.T_x), abs=1e-9 * MU * W)
+        assert float(fields.q_y.sum()) * area == pytest.approx(0.0, abs=1e-9 * MU * W)
+
+
+def test_complementarity_and_coulomb(coated: fret.Result) -> None:
+    d = coated.dataset
+    contact = d.contact.values.astype(bool)
+    stick = d.stick.values.astype(bool)
+    p, gap = d.p.values, d.gap.values
+    q = np.hypot(d.q_x.values, d.q_y.values)
+    slip = contact & ~stick
+    assert (p >= 0).all()
+    assert (p[contact] > 0).all()
+    assert (p[~contact] == 0).all()
+    assert (gap[~contact] >= -1e-5 * coated.delta_H).all()
+    assert np.abs(gap[contact]).max() < 1e-4 * coated.delta_H
+    assert (q <= MU * p * (1 + 1e-9)).all()
+    np.testing.assert_allclose(q[slip], MU * p[slip], rtol=1e-9)
+
+
+def test_every_reversal_starts_in_full_stick(coated: fret.Result) -> None:
+    d = coated.dataset
+    turns = np.flatnonzero(np.diff(d.branch_of_increment.values))[1:] + 1
+    assert (d.stick_ratio.values[turns] > 0.9).all()
+
+
+def test_friction_only_takes_energy(coated: fret.Result) -> None:
+    assert (coated.dataset.dissipated.values >= -1e-9 * T_MAX * coated.delta_H).all()
+    assert (np.diff(coated.dissipated_energy.values) >= -1e-12).all()
+
+
+def test_energy_balances(coated: fret.Result) -> None:
+    d = coated.dataset
+    imbalance = (d.work - d.elastic - d.dissipated - d.opening).values
+    total = np.cumsum(np.abs(d.work.values))
+    # Ten times the solver's tolerance, as the identity is algebra.
+    assert np.abs(imbalance[1:] / total[1:]).max() < 1e-4
+
+
+def test_the_loop_settles_after_the_first_loading(coated: fret.Result) -> None:
+    per_branch = coated.branches().dissipated.values
+    assert per_branch[4] == pytest.approx(per_branch[2], rel=0.01)
+    assert per_branch[5] == pytest.approx(per_branch[3], rel=0.01)
+
+
+@pytest.mark.parametrize(("ratio", "sign"), [(0.5, -1), (2.0, 1), (4.0, 1)])
+def test_the_stick_zone_moves_against_x_below_a_soft_coating(ratio: float, sign: int) -> None:
+    """The paper, section 4: opposite to x for E1/E2 < 1, along x for E1/E2 > 1."""
+    path = paper_path(20, 45)
+    end = fret.solve(sphere_on_flat(ratio=ratio, n=48), path, progress=False).at(0.2)
+    stick = end.stick.values.astype(bool)
+    middle = end.x.values[stick.any(axis=1)].mean() / end.a_H
+    assert sign * middle > 0.02
+
+
+def test_answers_do_not_depend_on_the_mirror(coated: fret.Result) -> None:
+    settings = fret.Settings(skip=fret.Skip(mirror=False))
+    scene = coated.scene.replace(settings=settings)
+    whole = fret.solve(scene, progress=False)
+    np.testing.assert_allclose(whole.at(-1).q_x, coated.at(-1).q_x, atol=1e-4 * MU * coated.p_H)
+
+
+def test_two_runs_are_the_same_bit_for_bit(coated: fret.Result) -> None:
+    again = fret.solve(coated.scene, progress=False)
+    assert again.dataset.identical(coated.dataset)

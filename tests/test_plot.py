@@ -1,0 +1,81 @@
+"""Every figure is drawn without a screen and shows what it says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from PIL import Image
+
+import pyfret as fret
+from conftest import paper_path, sphere_on_flat
+
+
+@pytest.fixture(autouse=True)
+def _close_figures() -> Iterator[None]:
+    yield
+    plt.close("all")
+
+
+def test_the_loop_starts_at_the_end_of_indentation(coated: fret.Result) -> None:
+    (line,) = fret.plot.fretting_loop(coated, label="2").lines
+    assert line.get_xdata()[0] == 0.0
+    np.testing.assert_allclose(np.max(line.get_ydata()), 0.9)
+
+
+def test_the_map_shows_stick_inside_slip(coated: fret.Result) -> None:
+    ax = fret.plot.stick_slip(coated.at(-1))
+    zones = np.asarray(ax.images[0].get_array())
+    middle = zones.shape[0] // 2
+    assert zones[middle, middle] == 2
+    assert zones[0, 0] == 0
+    assert 1 in zones
+
+
+def test_profiles_are_dimensionless(coated: fret.Result) -> None:
+    (pressure,) = fret.plot.pressure_profile(coated.at(-1)).lines
+    (shear,) = fret.plot.shear_profile(coated.at(-1)).lines
+    assert 1.1 < np.max(pressure.get_ydata()) < 1.25
+    assert np.max(shear.get_ydata()) < np.max(pressure.get_ydata())
+
+
+def test_curves_can_be_laid_over_each_other(coated: fret.Result) -> None:
+    ax = fret.plot.stick_ratio(coated, label="a")
+    assert fret.plot.stick_ratio(coated, ax=ax, label="b") is ax
+    assert len(ax.lines) == 2
+
+
+def test_the_load_path_can_be_drawn_before_it_is_run() -> None:
+    ax = fret.plot.load_path(paper_path(), mu=0.3)
+    assert np.max(ax.lines[0].get_ydata()) == 1.0
+
+
+def test_streamlines(coated: fret.Result) -> None:
+    assert fret.plot.shear_streamlines(coated.at(0.1)).collections
+
+
+def test_the_users_own_settings_stay_as_they_were(coated: fret.Result) -> None:
+    before = dict(plt.rcParams)
+    fret.plot.fretting_loop(coated)
+    assert dict(plt.rcParams) == before
+
+
+def test_the_figures_of_the_paper_in_one_call(coated: fret.Result, tmp_path: Path) -> None:
+    saved = coated.dataset.saved_increment.values.tolist()
+    results = {2.0: coated}
+    for ratio in (0.5, 1.0, 4.0):
+        scene = sphere_on_flat(ratio=ratio)
+        results[ratio] = fret.solve(scene, coated.scene.path, save=saved, progress=False)
+    jump = fret.LoadPath.start().normal(1e3, increments=1)
+    figures = fret.plot.paper_figures(
+        results, tmp_path, jump=fret.solve(sphere_on_flat(ratio=2.0), jump, progress=False)
+    )
+    numbers = ["04", "05", "06", "07a", "07b", "07c", "08", "09", "10", "11", "12"]
+    assert [figure.name for figure in figures] == [f"figure_{n}.png" for n in numbers]
+    for figure in figures:
+        with Image.open(figure) as image:
+            assert min(image.size) > 500
+            assert len(image.convert("L").getcolors() or []) > 20, f"{figure.name} is empty"

@@ -1,0 +1,141 @@
+"""The result: an xarray dataset with everything inside, in memory and as a store."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import pyfret as fret
+from conftest import MU, T_MAX, R, W, paper_path, sphere_on_flat
+
+SCALARS = [
+    "W",
+    "T_x",
+    "T_y",
+    "delta_z",
+    "delta_x",
+    "delta_y",
+    "status",
+    "contact_area",
+    "stick_area",
+    "stick_ratio",
+    "contact_radius",
+    "p_max",
+    "q_max",
+    "work",
+    "elastic",
+    "dissipated",
+    "opening",
+    "residual_gap",
+    "residual_penetration",
+    "residual_coulomb",
+    "residual_stick",
+    "residual_direction",
+    "residual_balance",
+    "residual_energy",
+    "convolutions",
+    "alternations",
+    "normal_iterations",
+    "tangential_iterations",
+]
+FIELDS = [
+    "p",
+    "q_x",
+    "q_y",
+    "u_x",
+    "u_y",
+    "u_z",
+    "gap",
+    "slip_x",
+    "slip_y",
+    "dissipated_density",
+    "contact",
+    "stick",
+]
+
+
+def test_the_dataset_has_all_scalars_and_fields_with_their_units(coated: fret.Result) -> None:
+    d = coated.dataset
+    for name in SCALARS:
+        assert d[name].dims == ("increment",), name
+    for name in FIELDS:
+        assert d[name].dims == ("saved", "x", "y"), name
+    for name, variable in d.data_vars.items():
+        assert {"units", "long_name"} <= set(variable.attrs), name
+    np.testing.assert_array_equal(d.increment, np.arange(1, len(coated.scene.path) + 1))
+    np.testing.assert_array_equal(d.t, coated.scene.path.t)
+    np.testing.assert_array_equal(d.x, coated.scene.grid.x)
+
+
+def test_the_result_knows_its_scene(coated: fret.Result) -> None:
+    attrs = coated.dataset.attrs
+    assert attrs["schema"] == 1
+    assert attrs["version"] == fret.__version__
+    assert attrs["R"] == pytest.approx(R)
+    assert coated.mu == MU
+    assert coated.status == "done"
+    assert coated.scene.body2 == sphere_on_flat(ratio=2.0).body2
+
+
+def test_increments_are_found_by_number_from_the_end_and_by_time(coated: fret.Result) -> None:
+    end = coated.at(-1)
+    assert int(end.increment) == len(coated.scene.path)
+    assert float(end.T_x) == T_MAX
+    assert end.p.identical(coated.at(int(end.increment)).p)
+    assert end.p.identical(coated.at(1.0).p)
+    assert float(coated.at(0.3).T_x) == pytest.approx(0.0, abs=1e-9)
+    for missing in (0, 3, 0.123, -99):
+        with pytest.raises(KeyError, match="no fields were kept at"):
+            coated.at(missing)
+
+
+def test_a_line_is_the_mean_of_the_rows_beside_it(coated: fret.Result) -> None:
+    end = coated.at(-1)
+    n = end.p.sizes["y"]
+    np.testing.assert_allclose(end.along_x().p, end.p[:, n // 2 - 1 : n // 2 + 1].mean("y"))
+    np.testing.assert_allclose(end.along_x(y=float(end.y[3])).p, end.p[:, 3])
+    with pytest.raises(ValueError, match="the rows of the grid"):
+        end.along_x(y=1.0)
+
+
+def test_the_summary_has_a_line_per_branch(coated: fret.Result) -> None:
+    title, header, *rows = coated.summary().splitlines()
+    assert title == "E1/E2 = 2: done"
+    assert "stick ratio" in header
+    assert len(rows) == len(coated.scene.path.branches)
+
+
+def test_a_store_holds_what_memory_holds(coated: fret.Result, tmp_path: Path) -> None:
+    stored = fret.solve(coated.scene, out=tmp_path / "run.zarr", progress=False)
+    assert stored.dataset.identical(coated.dataset)
+    again = fret.open(tmp_path / "run.zarr")
+    assert again.dataset.identical(coated.dataset)
+    assert xr.open_zarr(tmp_path / "run.zarr", consolidated=False).identical(coated.dataset)
+
+
+def test_a_store_is_not_overwritten(tmp_path: Path) -> None:
+    (tmp_path / "run.zarr").mkdir()
+    (tmp_path / "run.zarr" / "precious").write_text("data")
+    path = fret.LoadPath.start().normal(W, increments=1)
+    with pytest.raises(fret.StoreError, match="exists"):
+        fret.solve(sphere_on_flat(), path, out=tmp_path / "run.zarr", progress=False)
+    assert (tmp_path / "run.zarr" / "precious").read_text() == "data"
+
+
+def test_marching_gives_the_increments_of_the_whole(coated: fret.Result) -> None:
+    for increment, t in zip(fret.march(coated.scene), coated.dataset.t.values, strict=True):
+        assert float(increment.t) == t
+        if t in (0.2, 1.0):
+            np.testing.assert_array_equal(increment.q_x, coated.at(float(t)).q_x)
+            assert float(increment.delta_x) == float(coated.at(float(t)).delta_x)
+
+
+def test_fields_of_a_march_are_those_of_its_last_increment() -> None:
+    march = fret.march(sphere_on_flat(), paper_path(2, 9))
+    first = next(march)
+    next(march)
+    with pytest.raises(RuntimeError, match="the march has gone on"):
+        _ = first.p
