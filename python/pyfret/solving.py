@@ -87,6 +87,27 @@ def march(scene: Scene, path: LoadPath | None = None) -> Iterator[Increment]:
         yield Increment(running, scalars)
 
 
+def labelled(running: _core.March, scalars: dict[str, float]) -> xr.Dataset:
+    """The last increment of a march as a dataset, labelled as in a result store."""
+    labels = {
+        name: {"units": units, "long_name": meaning}
+        for name, (units, meaning) in _core.labels().items()
+    }
+    scene = running.scene
+    hertz = scene.hertz
+    attrs = {"title": scene.title, "mu": scene.mu}
+    if hertz is not None:
+        attrs |= {"a_H": hertz.a, "p_H": hertz.p0, "R": hertz.a**2 / hertz.delta_z}
+    coordinates = ("increment", "t", "branch_of_increment")
+    return xr.Dataset(
+        {k: ((), v, labels[k]) for k, v in scalars.items() if k not in coordinates}
+        | {k: (("x", "y"), v, labels[k]) for k, v in running.fields().items()},
+        coords={k: ((), scalars[k], labels[k]) for k in coordinates}
+        | {"x": scene.grid.x, "y": scene.grid.y},
+        attrs=attrs,
+    )
+
+
 class Increment(Snapshot):
     """One increment of a running march: a snapshot whose fields are computed when asked for."""
 
