@@ -1,53 +1,91 @@
-//! Closed-form coefficients of a homogeneous half-space (Boussinesq, Cerruti over a rectangle).
+//! A homogeneous half-space: Boussinesq's and Cerruti's solutions over a rectangle.
+//!
+//! Under unit traction at a point, with r the distance and c = 1/(2 pi G),
+//!
+//! ```text
+//! u_x(q_x) = c [(1 - nu)/r + nu x^2/r^3]      u_z(p) = c (1 - nu)/r
+//! u_x(q_y) = c nu x y/r^3                     u_x(p) = -c (1 - 2 nu)/2 x/r^2
+//! ```
+//!
+//! K. L. Johnson, Contact Mechanics (1985), eq. (3.19), (3.75). Over a rectangle each term is the
+//! difference of a function of x and y between the four corners (A. E. H. Love, Phil. Trans. R.
+//! Soc. A 228 (1929) 377-420); far away, where that difference would lose digits, a Gauss rule of
+//! two or three nodes is exact to rounding.
 
 use std::f64::consts::PI;
 
-use super::{InfluenceCoefficients, Quadrant};
-use crate::error::Error;
-use crate::scene::{Body, Grid, KernelSettings};
+use super::cell::Cell;
+use super::layered_frf::HalfSpace;
 
-/// Coefficients of a body on a grid.
-pub fn influence_coefficients(
-    body: &Body,
-    grid: &Grid,
-    _settings: &KernelSettings,
-    shortcut_equal_layers: bool,
-) -> Result<InfluenceCoefficients, Error> {
-    if !(body.coatings.is_empty() || shortcut_equal_layers && body.is_homogeneous()) {
-        return Err(Error::invalid(
-            "coatings",
-            body.coatings.len(),
-            "none: homogeneous bodies only",
-        ));
-    }
-    let (G, nu) = (body.substrate.G(), body.substrate.nu);
-    let (a, b) = (grid.dx / 2.0, grid.dy / 2.0);
-    let over_cell = |f: &dyn Fn(f64, f64) -> f64| {
-        Quadrant::from_shape_fn((grid.nx, grid.ny), |(i, j)| {
-            let (x, y) = (i as f64 * grid.dx, j as f64 * grid.dy);
-            f(x + a, y + b) - f(x - a, y + b) - f(x + a, y - b) + f(x - a, y - b)
-        })
+/// The six coefficients at one offset, in the order xx, yy, zz, xy, xz, yz.
+pub(crate) type Six = [f64; 6];
+
+/// The radial functions of a surface kernel at s = r^2: zz, (xx + yy)/2, the amplitude of
+/// x^2 - y^2 in (yy - xx)/2, and that of x in -xz.
+pub(crate) type Radial = [f64; 4];
+
+/// Adds `weight` times the kernel at (x, y).
+pub(crate) fn add_kernel(sum: &mut Six, x: f64, y: f64, weight: f64, g: Radial) {
+    let [zz, mean, deviation, odd] = g.map(|g| weight * g);
+    let difference = (x * x - y * y) * deviation;
+    sum[0] += mean - difference;
+    sum[1] += mean + difference;
+    sum[2] += zz;
+    sum[3] -= 2.0 * x * y * deviation;
+    sum[4] -= x * odd;
+    sum[5] -= y * odd;
+}
+
+/// The radial functions of a half-space.
+pub(crate) fn radial(material: &HalfSpace, s: f64) -> Radial {
+    let HalfSpace { a, b, c, .. } = *material;
+    let inverse_r = 1.0 / (2.0 * PI * s.sqrt());
+    [
+        a * inverse_r,
+        f64::midpoint(a, c) * inverse_r,
+        (a - c) / 2.0 * inverse_r / s,
+        b / (2.0 * PI * s),
+    ]
+}
+
+/// The closed form over a cell; it loses about as many digits as the cell is cells away.
+pub(crate) fn over_cell(material: &HalfSpace, cell: &Cell) -> Six {
+    let HalfSpace { a, b, c, .. } = *material;
+    let corners = |f: fn(f64, f64) -> f64| {
+        let (x0, x1) = (cell.x - cell.half_x, cell.x + cell.half_x);
+        let (y0, y1) = (cell.y - cell.half_y, cell.y + cell.half_y);
+        ((f(x1, y1) - f(x0, y1)) - (f(x1, y0) - f(x0, y0))) / (2.0 * PI)
     };
-    let log_atan = |x: f64, y: f64| y * x.hypot(y).ln() + x * (y / x).atan();
-    let x_sinh = |x: f64, y: f64| x * (y / x.abs()).asinh();
-    let i_1 = over_cell(&|x, y| x_sinh(x, y) + x_sinh(y, x));
-    let i_xx = over_cell(&|x, y| x_sinh(y, x));
-    let i_yy = over_cell(&|x, y| x_sinh(x, y));
-    let i_xy = over_cell(&|x, y| -x.hypot(y));
-    let i_x = over_cell(&|x, y| log_atan(x, y));
-    let i_y = over_cell(&|x, y| log_atan(y, x));
-    let c = if body.substrate.is_rigid() {
+    // Integrals of x^2/r^3, y^2/r^3 (their sum is that of 1/r), x y/r^3, x/r^2, y/r^2.
+    let xx = corners(y_asinh);
+    let yy = corners(|x, y| y_asinh(y, x));
+    let xy = corners(|x, y| -x.hypot(y));
+    let x = corners(log_atan);
+    let y = corners(|x, y| log_atan(y, x));
+    let inverse_r = xx + yy;
+    // (1 - nu)/G = a and nu/G = c - a.
+    [
+        a * inverse_r + (c - a) * xx,
+        a * inverse_r + (c - a) * yy,
+        a * inverse_r,
+        (c - a) * xy,
+        -b * x,
+        -b * y,
+    ]
+}
+
+/// y asinh(x/|y|): its second derivative in x and y is x^2/r^3.
+fn y_asinh(x: f64, y: f64) -> f64 {
+    if y == 0.0 {
         0.0
     } else {
-        1.0 / (2.0 * PI * G)
-    };
-    let coupling = -c * (1.0 - 2.0 * nu) / 2.0;
-    Ok(InfluenceCoefficients {
-        xx: (&i_1 * (1.0 - nu) + i_xx * nu) * c,
-        yy: (&i_1 * (1.0 - nu) + i_yy * nu) * c,
-        zz: i_1 * ((1.0 - nu) * c),
-        xy: i_xy * (nu * c),
-        xz: i_x * coupling,
-        yz: i_y * coupling,
-    })
+        y * (x / y.abs()).asinh()
+    }
+}
+
+/// y ln r + x atan(y/x): its second derivative in x and y is x/r^2.
+fn log_atan(x: f64, y: f64) -> f64 {
+    let log = if y == 0.0 { 0.0 } else { y * x.hypot(y).ln() };
+    let angle = if x == 0.0 { 0.0 } else { x * (y / x).atan() };
+    log + angle
 }

@@ -8,6 +8,11 @@ use crate::scene::{LoadPoint, Loads, SaveFields, Scene};
 pub trait Observer {
     /// Called after each increment; an error ends the run and is returned by [`solve`].
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error>;
+
+    /// Called once after the last increment, or after the failure that ended the run.
+    fn on_end(&mut self, _march: &March, _failure: Option<&Error>) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 /// Nobody watches.
@@ -21,12 +26,22 @@ impl Observer for () {
 pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Vec<Increment>, Error> {
     let mut march = March::new(scene)?;
     let mut increments = Vec::with_capacity(march.points().len());
+    let outcome = run(&mut march, observer, &mut increments);
+    let ended = observer.on_end(&march, outcome.as_ref().err());
+    outcome.and(ended).map(|()| increments)
+}
+
+fn run(
+    march: &mut March,
+    observer: &mut dyn Observer,
+    increments: &mut Vec<Increment>,
+) -> Result<(), Error> {
     while let Some(increment) = march.advance() {
         let increment = increment?;
-        observer.on_increment(&march, &increment)?;
         increments.push(increment);
+        observer.on_increment(march, &increment)?;
     }
-    Ok(increments)
+    Ok(())
 }
 
 impl SaveFields {

@@ -28,6 +28,13 @@ pub struct PlanLine {
     pub reason: String,
 }
 
+impl std::fmt::Display for PlanLine {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let verdict = if self.skipped { "skipped" } else { "kept" };
+        write!(f, "{verdict}: {} ({})", self.subject, self.reason)
+    }
+}
+
 impl Plan {
     /// The plan of a scene.
     pub fn new(scene: &Scene) -> Self {

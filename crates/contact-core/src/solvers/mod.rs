@@ -11,6 +11,7 @@
 mod coupled;
 mod newton_step;
 mod normal;
+mod projected_gradient;
 mod response;
 mod tangential;
 mod vector;

@@ -12,9 +12,11 @@
 //! a linear system on that tangent space with the force constraint projected out, solved by
 //! conjugate gradients preconditioned with S P S, P the inverse of the operator and
 //! S = (1 + diag/C_xx(0,0))^(-1/2). Then q returns to the circle, stick cells beyond it start to
-//! slip, and slip cells whose slip would go along q stick again.
+//! slip, and slip cells whose slip would go along q stick again. A step that raises the energy is
+//! taken back and projected gradients, which cannot, go on from there.
 
 use super::newton_step::NewtonStep;
+use super::projected_gradient::{ProjectedGradient, mark_circle, project};
 use super::vector::{add_scaled, mean_where, size, sum};
 use super::{Response, SolverError};
 
@@ -61,6 +63,9 @@ pub struct TangentialInfo {
 #[derive(Debug)]
 pub struct TangentialWorkspace {
     step: NewtonStep,
+    descent: ProjectedGradient,
+    q_before: [Vec<f64>; 2],
+    u_before: [Vec<f64>; 2],
     change: [Vec<f64>; 2],
     response: [Vec<f64>; 2],
 }
@@ -71,6 +76,9 @@ impl TangentialWorkspace {
         let pair = || [vec![0.0; cells], vec![0.0; cells]];
         Self {
             step: NewtonStep::new(cells),
+            descent: ProjectedGradient::new(cells),
+            q_before: pair(),
+            u_before: pair(),
             change: pair(),
             response: pair(),
         }
@@ -105,6 +113,9 @@ impl Shear<'_> {
 /// A slip set counts as settled when no slip cell moves along its shear by more than this part of
 /// the tolerance, and a change of q is negligible when it moves no cell by more than that.
 const SETTLED: f64 = 0.1;
+
+/// Passes of projected gradients after a Newton step that would have raised the energy.
+const DESCENT: usize = 30;
 
 /// Solves for the shear. On entry it must be [`admissible`].
 pub fn tangential(
@@ -142,6 +153,10 @@ pub fn tangential(
             .step
             .solve(response, target * root_of_contact, params.max_passes);
         for c in 0..2 {
+            ws.q_before[c].copy_from_slice(shear.q[c]);
+            ws.u_before[c].copy_from_slice(shear.u[c]);
+        }
+        for c in 0..2 {
             add_scaled(shear.q[c], 1.0, &ws.step.x[c]);
             add_scaled(shear.u[c], 1.0, &ws.step.response_x[c]);
         }
@@ -155,7 +170,36 @@ pub fn tangential(
                 add_scaled(shear.u[c], 1.0, &ws.response[c]);
             }
         }
+        if rises(problem, shear, ws, params.tolerance) {
+            for c in 0..2 {
+                shear.q[c].copy_from_slice(&ws.q_before[c]);
+                shear.u[c].copy_from_slice(&ws.u_before[c]);
+            }
+            info.shift = ws.descent.run(response, problem, shear, DESCENT);
+            info.passes += DESCENT;
+        }
     }
+}
+
+/// Whether the energy is higher than before the step, by more than the tolerance makes of the
+/// change of shear. With C symmetric and the sum of the change zero, the difference of the energy
+/// is the change times the mean slip.
+fn rises(
+    problem: &TangentialProblem<'_>,
+    shear: &Shear<'_>,
+    ws: &TangentialWorkspace,
+    tolerance: f64,
+) -> bool {
+    let (mut rise, mut moved) = (0.0, 0.0);
+    for c in 0..2 {
+        for n in 0..problem.bound.len() {
+            let change = shear.q[c][n] - ws.q_before[c][n];
+            let mean = 0.5 * (shear.u[c][n] + ws.u_before[c][n]) - problem.u_ref[c][n];
+            rise += change * mean;
+            moved += change.abs();
+        }
+    }
+    rise > SETTLED * tolerance * moved
 }
 
 /// The shift that fits the stick cells best, or all contact cells where none sticks.
@@ -215,12 +259,12 @@ fn power(problem: &TangentialProblem<'_>, shear: &Shear<'_>, shift: [f64; 2], n:
     shear.q[0][n] * slip[0] + shear.q[1][n] * slip[1]
 }
 
-/// Rounds of clipping and balancing; each leaves a small part of the imbalance of the last.
-const ROUNDS: usize = 60;
+/// Rounds of clipping and balancing before the stick cells are taken to be too few.
+const ROUNDS: usize = 8;
 
 /// Makes the shear admissible without asking for its response: slip cells and cells beyond the
 /// bound go to the circle |q| = g, cells outside the contact to zero, and stick cells share the
-/// force that is missing. At least one cell sticks: the force is below full sliding.
+/// force that is missing. Where they cannot carry it, the nearest admissible shear is taken.
 ///
 /// The change of q goes to `change`; returns the root of its sum of squares \[Pa\].
 pub(crate) fn admissible(
@@ -229,10 +273,31 @@ pub(crate) fn admissible(
     slip: &mut [bool],
     change: &mut [Vec<f64>; 2],
 ) -> f64 {
-    let cells = problem.bound.len();
     for c in 0..2 {
         change[c].copy_from_slice(q[c]);
     }
+    if !share_force(problem, q, slip) {
+        project(problem, q, &mut [0.0; 2]);
+        mark_circle(problem, q, slip);
+    }
+    let mut squares = 0.0;
+    for c in 0..2 {
+        for (change, q) in change[c].iter_mut().zip(q[c].iter()) {
+            *change = q - *change;
+            squares += *change * *change;
+        }
+    }
+    squares.sqrt()
+}
+
+/// Cuts the shear to the bound and lets the stick cells share the missing force; whether that
+/// ended with both conditions met.
+fn share_force(
+    problem: &TangentialProblem<'_>,
+    q: &mut [&mut [f64]; 2],
+    slip: &mut [bool],
+) -> bool {
+    let cells = problem.bound.len();
     let enough = 1e-13 * sum(problem.bound);
     for _ in 0..ROUNDS {
         let mut missing = problem.sum_q;
@@ -254,12 +319,8 @@ pub(crate) fn admissible(
                 missing[c] -= q[c][n];
             }
         }
-        if sticking == 0 {
-            stick_somewhere(problem, slip);
-            continue;
-        }
         if (0..2).all(|c| !problem.free[c] || missing[c].abs() <= enough) {
-            break;
+            return true;
         }
         for n in (0..cells).filter(|&n| problem.bound[n] > 0.0 && !slip[n]) {
             for c in (0..2).filter(|&c| problem.free[c]) {
@@ -267,20 +328,5 @@ pub(crate) fn admissible(
             }
         }
     }
-    let mut squares = 0.0;
-    for c in 0..2 {
-        for (change, q) in change[c].iter_mut().zip(q[c].iter()) {
-            *change = q - *change;
-            squares += *change * *change;
-        }
-    }
-    squares.sqrt()
-}
-
-/// Lets the cells of the largest bound stick, the last ones that would slip.
-fn stick_somewhere(problem: &TangentialProblem<'_>, slip: &mut [bool]) {
-    let largest = problem.bound.iter().fold(0.0, |m: f64, &g| m.max(g));
-    for (slip, &g) in slip.iter_mut().zip(problem.bound) {
-        *slip &= g < largest;
-    }
+    false
 }

@@ -1,0 +1,78 @@
+//! Integrals over one rectangular cell.
+
+use super::gauss::gauss;
+
+/// Most Gauss nodes along one side; a cell that needs more is halved.
+const MOST: usize = 10;
+
+/// A rectangle of the contact plane, seen from the point where the effect is asked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cell {
+    /// Middle \[m\].
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    /// Half lengths of the sides \[m\].
+    pub(crate) half_x: f64,
+    pub(crate) half_y: f64,
+}
+
+impl Cell {
+    /// Gauss nodes along x and y that integrate functions of x, y analytic for x^2 + y^2 != -zeta^2
+    /// to about the relative error `tolerance`, or `None` if they are too many.
+    ///
+    /// Along a side the integrand is analytic within the ellipse through the nearest of the points
+    /// +- i sqrt(zeta^2 + y^2); with rho the sum of its half axes the error is rho^(-2 n).
+    pub(crate) fn orders(&self, zeta: f64, tolerance: f64) -> Option<(usize, usize)> {
+        let order = |x: f64, half_x: f64, y: f64, half_y: f64| {
+            let nearest = (y.abs() - half_y).max(0.0);
+            let height = zeta.hypot(nearest) / half_x;
+            let (left, right) = (x / half_x - 1.0, x / half_x + 1.0);
+            let axis = (left.hypot(height) + right.hypot(height)) / 2.0;
+            let rho = axis + (axis * axis - 1.0).max(0.0).sqrt();
+            let mut error = 1.0 / (rho * rho);
+            let mut n = 1;
+            while error > tolerance && n <= MOST {
+                error /= rho * rho;
+                n += 1;
+            }
+            n
+        };
+        let nx = order(self.x, self.half_x, self.y, self.half_y);
+        let ny = order(self.y, self.half_y, self.x, self.half_x);
+        (nx <= MOST && ny <= MOST).then_some((nx, ny))
+    }
+
+    /// Calls `f` with each node's x, y and weight \[m^2\].
+    pub(crate) fn nodes(&self, orders: (usize, usize), mut f: impl FnMut(f64, f64, f64)) {
+        for (tx, wx) in gauss(orders.0) {
+            for (ty, wy) in gauss(orders.1) {
+                let weight = wx * wy * self.half_x * self.half_y;
+                f(self.x + tx * self.half_x, self.y + ty * self.half_y, weight);
+            }
+        }
+    }
+
+    /// The same over parts of the cell small enough for the function's scale zeta.
+    pub(crate) fn nodes_of_parts(
+        &self,
+        zeta: f64,
+        tolerance: f64,
+        f: &mut impl FnMut(f64, f64, f64),
+    ) {
+        if let Some(orders) = self.orders(zeta, tolerance) {
+            self.nodes(orders, f);
+            return;
+        }
+        for side in [-0.5, 0.5] {
+            let mut part = *self;
+            if self.half_x > self.half_y {
+                part.half_x /= 2.0;
+                part.x += side * self.half_x;
+            } else {
+                part.half_y /= 2.0;
+                part.y += side * self.half_y;
+            }
+            part.nodes_of_parts(zeta, tolerance, f);
+        }
+    }
+}

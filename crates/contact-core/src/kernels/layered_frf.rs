@@ -1,0 +1,321 @@
+//! Frequency response of a stack of bonded layers on a half-space.
+//!
+//! Tractions exp(i k.x) split into an in-plane problem along the wave vector (r, z) and an
+//! out-of-plane problem across it (t). With u_r = i U, q_r = i Q the in-plane problem is real:
+//! the material below a plane answers the tractions T = (Q, p) on it with (U, u_z) = Y T / k,
+//! Y symmetric. In a layer of shear modulus G and Poisson's ratio nu, fields that decay downwards
+//! obey Y = Y_d, those that decay upwards Y = Y_u,
+//!
+//! ```text
+//! Y_d = [a b; b a],  Y_u = [-a b; b -a],  a = (1 - nu)/G,  b = (1 - 2 nu)/(2 G),
+//! ```
+//!
+//! so that Y_u - Y_d = -2 a, and over a thickness x = k h their tractions change by
+//!
+//! ```text
+//! P_d = exp(-x) (1 + x [-1 -1; 1 1]),  P_u = exp(-x) (1 + x [-1 1; -1 1]),
+//! ```
+//!
+//! for every nu (from p' = k Q, Q' = k s_rr and Hooke's law). Above a stack that answers with Y_s
+//! the tractions of the two families stand in the ratio R_0 = -(2a + D)^-1 D at the bottom of the
+//! layer, D = Y_s - Y_d, and R = P_u R_0 P_d at its top, where therefore
+//!
+//! ```text
+//! Y - Y_d = -2a R (1 + R)^-1.
+//! ```
+//!
+//! Only decaying exponentials occur, and the difference to the half-space of the layer's own
+//! material comes out with full relative accuracy. With S = 2a (2a + D)^-1 = 1 + R_0, the matrix
+//! 1 + R = (1 - P_u P_d) + P_u S P_d adds positive parts, and Y - Y_s is found without
+//! cancellation where x is small.
+
+use super::matrix::Matrix2;
+use crate::scene::{Body, Elastic};
+
+/// Phase thickness k h below which Y is built on the response of what lies below the layer, above
+/// which on that of the layer's own half-space; both hold at either side.
+const THIN: f64 = 0.5;
+
+/// The constants of a material: k times its half-space compliance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct HalfSpace {
+    /// u_z/p and u_r/q_r: (1 - nu)/G \[1/Pa\].
+    pub(crate) a: f64,
+    /// u_r/(i p): (1 - 2 nu)/(2 G) \[1/Pa\].
+    pub(crate) b: f64,
+    /// u_t/q_t: 1/G \[1/Pa\].
+    pub(crate) c: f64,
+    /// Poisson's ratio.
+    pub(crate) nu: f64,
+}
+
+impl HalfSpace {
+    pub(crate) fn new(material: Elastic) -> Self {
+        let (G, nu) = (material.G(), material.nu);
+        Self {
+            a: (1.0 - nu) / G,
+            b: (0.5 - nu) / G,
+            c: 1.0 / G,
+            nu,
+        }
+    }
+
+    /// Y_d.
+    pub(crate) fn down(&self) -> Matrix2 {
+        Matrix2(self.a, self.b, self.b, self.a)
+    }
+
+    /// Y_u.
+    pub(crate) fn up(&self) -> Matrix2 {
+        Matrix2(-self.a, self.b, self.b, -self.a)
+    }
+}
+
+/// Surface response times k: four real functions of k \[1/Pa\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RadialResponse {
+    /// k u_z / p.
+    pub zz: f64,
+    /// k u_r / q_r, along the wave vector.
+    pub rr: f64,
+    /// k u_t / q_t, across it.
+    pub tt: f64,
+    /// k u_r / (i p) = k u_z / (-i q_r).
+    pub rz: f64,
+}
+
+/// P_d: change of the tractions of the downward family over x = k h.
+pub(crate) fn propagate_down(x: f64) -> Matrix2 {
+    let e = (-x).exp();
+    let xe = if e == 0.0 { 0.0 } else { x * e };
+    Matrix2(e - xe, -xe, xe, e + xe)
+}
+
+/// P_u: change of the tractions of the upward family over x = k h.
+pub(crate) fn propagate_up(x: f64) -> Matrix2 {
+    let e = (-x).exp();
+    let xe = if e == 0.0 { 0.0 } else { x * e };
+    Matrix2(e - xe, xe, -xe, e + xe)
+}
+
+/// 1 - P_u P_d, without cancellation as x -> 0.
+fn one_minus_round_trip(x: f64) -> Matrix2 {
+    let e = (-2.0 * x).exp();
+    if e == 0.0 {
+        return Matrix2::ONE;
+    }
+    let first = -(-2.0 * x).exp_m1() + e * (2.0 * x - 2.0 * x * x);
+    // 1 - exp(-2x) (1 + 2x + 2x^2) = exp(-2x) times the rest of the exponential series.
+    let last = if x < 1.0 {
+        let y = 2.0 * x;
+        let mut term = y * y * y / 6.0;
+        let mut sum = 0.0;
+        let mut n = 4.0;
+        while term > sum * f64::EPSILON / 4.0 {
+            sum += term;
+            term *= y / n;
+            n += 1.0;
+        }
+        e * sum
+    } else {
+        1.0 - e * (1.0 + 2.0 * x + 2.0 * x * x)
+    };
+    let off = -e * 2.0 * x * x;
+    Matrix2(first, off, off, last)
+}
+
+/// What lies below a plane, as seen from the plane.
+#[derive(Clone, Copy, Debug)]
+struct Below {
+    /// In-plane response.
+    y: Matrix2,
+    /// The same less that of the half-space of the uppermost material.
+    y_rest: Matrix2,
+    /// Out-of-plane response.
+    t: f64,
+    /// The same less that of the half-space of the uppermost material.
+    t_rest: f64,
+    /// The uppermost material.
+    top: HalfSpace,
+}
+
+/// The two families of fields in one layer at one wave number, from the recursion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LayerWaves {
+    /// R_0: upward over downward tractions at the bottom, in-plane.
+    pub(crate) r0: Matrix2,
+    /// S = 1 + R_0.
+    pub(crate) s: Matrix2,
+    /// R = P_u R_0 P_d: the same ratio at the top.
+    pub(crate) r: Matrix2,
+    /// (1 + R)^-1: downward traction at the top over the traction there.
+    pub(crate) down: Matrix2,
+    /// The same four out-of-plane.
+    pub(crate) r0_t: f64,
+    pub(crate) s_t: f64,
+    pub(crate) r_t: f64,
+    pub(crate) down_t: f64,
+}
+
+impl Below {
+    fn half_space(material: HalfSpace) -> Self {
+        Self {
+            y: material.down(),
+            y_rest: Matrix2::default(),
+            t: material.c,
+            t_rest: 0.0,
+            top: material,
+        }
+    }
+
+    /// The response less that of the half-space of `layer`, by whichever of its two forms
+    /// cancels less.
+    fn mismatch(&self, layer: HalfSpace) -> (Matrix2, f64) {
+        let in_plane = if self.y_rest.size() < 0.5 * self.top.a {
+            (self.top.down() - layer.down()) + self.y_rest
+        } else {
+            self.y - layer.down()
+        };
+        let out_of_plane = if self.t_rest.abs() < 0.5 * self.top.c {
+            (self.top.c - layer.c) + self.t_rest
+        } else {
+            self.t - layer.c
+        };
+        (in_plane, out_of_plane)
+    }
+
+    /// The response once `layer` of phase thickness x = k h lies on top.
+    fn under(&self, layer: HalfSpace, x: f64) -> (Self, LayerWaves) {
+        let (d, d_t) = self.mismatch(layer);
+        let (a2, c2) = (2.0 * layer.a, 2.0 * layer.c);
+        let sum = Matrix2::ONE * a2 + d;
+        let inverse = sum.inverse();
+        let (r0, s) = (-(inverse * d), inverse * a2);
+        let (pd, pu) = (propagate_down(x), propagate_up(x));
+        let r = pu * r0 * pd;
+        let closed = one_minus_round_trip(x);
+        let down = (closed + pu * s * pd).inverse();
+        let y_rest = (r * down * -a2).symmetric();
+
+        let (r0_t, s_t) = (-d_t / (c2 + d_t), c2 / (c2 + d_t));
+        let round_trip = (-2.0 * x).exp();
+        let closed_t = -(-2.0 * x).exp_m1();
+        let r_t = r0_t * round_trip;
+        let down_t = 1.0 / (closed_t + s_t * round_trip);
+        let t_rest = -c2 * r_t * down_t;
+
+        let (y, t) = if x < THIN {
+            let em = (-x).exp_m1();
+            let xe = x * (-x).exp();
+            let (ed, eu) = (
+                Matrix2(em - xe, -xe, xe, em + xe),
+                Matrix2(em - xe, xe, -xe, em + xe),
+            );
+            let change = closed + eu * s + s * ed + eu * s * ed;
+            let change_t = -closed_t * r0_t;
+            (
+                self.y - (sum * change * down).symmetric(),
+                self.t - (c2 + d_t) * change_t * down_t,
+            )
+        } else {
+            (layer.down() + y_rest, layer.c + t_rest)
+        };
+        let below = Self {
+            y,
+            y_rest,
+            t,
+            t_rest,
+            top: layer,
+        };
+        let waves = LayerWaves {
+            r0,
+            s,
+            r,
+            down,
+            r0_t,
+            s_t,
+            r_t,
+            down_t,
+        };
+        (below, waves)
+    }
+}
+
+/// A stack of bonded layers on a half-space, ready for any wave number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stack {
+    /// Layers from the surface down, with their thickness \[m\].
+    pub(crate) layers: Vec<(HalfSpace, f64)>,
+    /// The half-space below.
+    pub(crate) substrate: HalfSpace,
+}
+
+impl Stack {
+    /// The layers of a body.
+    pub fn new(body: &Body) -> Self {
+        let layer = |c: &crate::scene::Coating| (HalfSpace::new(c.material), c.thickness);
+        Self {
+            layers: body.coatings.iter().map(layer).collect(),
+            substrate: HalfSpace::new(body.substrate),
+        }
+    }
+
+    /// The material at the surface.
+    pub(crate) fn outermost(&self) -> HalfSpace {
+        self.layers.first().map_or(self.substrate, |l| l.0)
+    }
+
+    /// From the substrate up.
+    fn surface(&self, k: f64) -> Below {
+        let start = Below::half_space(self.substrate);
+        let layers = self.layers.iter().rev();
+        layers.fold(start, |below, (layer, h)| below.under(*layer, k * h).0)
+    }
+
+    /// The surface response times k, at the wave number `k` \[1/m\] >= 0.
+    pub fn response(&self, k: f64) -> RadialResponse {
+        let Below { y, t, .. } = self.surface(k);
+        RadialResponse {
+            zz: y.3,
+            rr: y.0,
+            tt: t,
+            rz: y.1,
+        }
+    }
+
+    /// The surface response times k less that of the half-space of the outermost material; it
+    /// decays like exp(-2 k h) with the thickness h of the outermost layer.
+    pub fn remainder(&self, k: f64) -> RadialResponse {
+        let Below { y_rest, t_rest, .. } = self.surface(k);
+        RadialResponse {
+            zz: y_rest.3,
+            rr: y_rest.0,
+            tt: t_rest,
+            rz: y_rest.1,
+        }
+    }
+
+    /// The two families of fields in every layer, from the surface down.
+    pub(crate) fn waves(&self, k: f64) -> Vec<LayerWaves> {
+        let mut below = Below::half_space(self.substrate);
+        let mut waves = Vec::with_capacity(self.layers.len());
+        for (layer, h) in self.layers.iter().rev() {
+            let (next, wave) = below.under(*layer, k * h);
+            waves.push(wave);
+            below = next;
+        }
+        waves.reverse();
+        waves
+    }
+
+    /// A wave number below which the response is well within its power series at k = 0: the
+    /// nearest singularity lies at 1/(H contrast) or beyond, H the height of the stack.
+    pub(crate) fn lowest_scale(&self) -> f64 {
+        let materials = || self.layers.iter().map(|l| l.0).chain([self.substrate]);
+        let finite = || materials().map(|m| m.c).filter(|c| *c > 0.0);
+        let stiffest = finite().fold(f64::INFINITY, f64::min);
+        let softest = finite().fold(0.0, f64::max);
+        let height: f64 = self.layers.iter().map(|l| l.1).sum();
+        stiffest / (softest * height)
+    }
+}

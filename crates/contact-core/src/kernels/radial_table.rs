@@ -1,0 +1,277 @@
+//! Radial functions tabulated by their Hankel integrals.
+//!
+//! g_n(r) = 1/(2 pi) integral of A_n(k) J_m(k r) dk, with an amplitude A_n that decays like
+//! exp(-k zeta). Then g_n(r)/r^m is analytic in s = r^2 but for s <= -zeta^2, so that Chebyshev
+//! polynomials in s on panels that grow with s converge like 9.9^-n.
+//!
+//! The integral. Where k r is large only the smooth decay of A_n with k makes the integral small,
+//! and a smooth window shows it: A_n(k) is cut off by erfc((k r_a - C)/w)/2. What is cut off is,
+//! on the contour shifted by i w^2/(2 r) into the upper half-plane, of the order exp(-w^2/4). A
+//! fixed number of Gauss nodes is thus enough for every r. The radii of one octave [r_a, 2 r_a)
+//! share their nodes, and octaves are similar: in units of r_a nodes, radii and Bessel functions
+//! are the same, so these are computed once.
+
+use std::f64::consts::PI;
+
+use rayon::prelude::*;
+
+use super::bessel::bessel;
+use super::gauss::gauss;
+
+/// Chebyshev nodes per panel: 9.9^-16 is below rounding.
+const ORDER: usize = 16;
+/// Panels per octave of s.
+const SPLITS: usize = 2;
+/// Panels per octave of r.
+const PANELS: usize = 2 * SPLITS;
+/// Width w of the window in k r: exp(-w^2/4) = 2e-16.
+const WINDOW_WIDTH: f64 = 12.0;
+/// Middle C of the window in k r: six widths from 0, where the window is 1 to rounding.
+const WINDOW_MIDDLE: f64 = 72.0;
+/// Phase k zeta beyond which the amplitude, exp(-k zeta) times a low power, is below rounding.
+const DECAY: f64 = 48.0;
+/// Longest panel of the k-integral in k r_a.
+const LONGEST: f64 = 8.0;
+/// Gauss nodes per panel of the k-integral: exact to rounding for J_m(2 t) over a panel, and
+/// for amplitudes with singularities at 15 degrees from the real axis.
+const NODES: usize = 20;
+
+/// What is to be tabulated.
+pub(crate) struct Hankel<'a, const N: usize> {
+    /// The amplitudes A_n(k).
+    pub(crate) amplitude: &'a (dyn Fn(f64) -> [f64; N] + Sync),
+    /// Order m of the Bessel function of each, 0 to 3.
+    pub(crate) orders: [usize; N],
+    /// Decay length of the amplitudes \[m\]: A_n ~ exp(-k zeta).
+    pub(crate) zeta: f64,
+    /// Wave number below which the amplitudes are well resolved by low polynomials \[1/m\].
+    pub(crate) k_low: f64,
+}
+
+/// g_n(r)/r^m for s = r^2 from 0 to a largest one.
+pub(crate) struct RadialTable<const N: usize> {
+    /// End of the first panel, a power of four \[m^2\].
+    s_first: f64,
+    /// Chebyshev coefficients, `ORDER` per panel.
+    coefficients: Vec<[f64; N]>,
+}
+
+/// Nodes and weights of the k-integral in units of 1/r_a, for r up to 2 r_a.
+struct Rule(Vec<(f64, f64)>);
+
+impl Rule {
+    /// From 0 to `high`, with the panels doubling from `low` to the longest.
+    fn new(low: f64, high: f64, nodes: usize) -> Self {
+        let mut points = Vec::new();
+        let mut panel = |from: f64, to: f64| {
+            let (middle, half) = (f64::midpoint(from, to), (to - from) / 2.0);
+            points.extend(
+                gauss(nodes)
+                    .iter()
+                    .map(|(x, w)| (middle + half * x, half * w)),
+            );
+        };
+        let mut to = LONGEST;
+        while to > low {
+            panel(to / 2.0, to);
+            to /= 2.0;
+        }
+        panel(0.0, to);
+        let mut from = LONGEST;
+        while from < high {
+            panel(from, from + LONGEST);
+            from += LONGEST;
+        }
+        Self(points)
+    }
+}
+
+impl<const N: usize> Hankel<'_, N> {
+    /// End of the first panel in r, a power of two between 0.35 and 0.71 zeta, or what is needed.
+    fn r_first(&self, r_max: f64) -> f64 {
+        let zeta = (0.5 * self.zeta).log2().round();
+        zeta.min(r_max.log2().ceil()).exp2()
+    }
+
+    /// Smallest scale of a rule whose unit is 1/r \[-\].
+    fn low(&self, r: f64) -> f64 {
+        self.k_low * r / 8.0
+    }
+
+    /// The amplitudes times weight and window at the nodes of a rule for radii from `r_a`.
+    fn weighted(&self, rule: &Rule, r_a: f64, window: Option<f64>) -> Vec<[f64; N]> {
+        let at = |&(t, w): &(f64, f64)| {
+            let k = t / r_a;
+            if k * self.zeta > DECAY {
+                return [0.0; N];
+            }
+            let open = window.map_or(1.0, |c| libm::erfc((t - c) / WINDOW_WIDTH) / 2.0);
+            let factor = open * w / r_a / (2.0 * PI);
+            (self.amplitude)(k).map(|a| a * factor)
+        };
+        rule.0.par_iter().map(at).collect()
+    }
+
+    /// g_n(r)/r^m at r = `rho` r_a, from the weighted amplitudes.
+    fn sum(&self, rule: &Rule, weighted: &[[f64; N]], rho: f64, r_a: f64) -> [f64; N] {
+        let mut g = [0.0; N];
+        for (&(t, _), a) in rule.0.iter().zip(weighted) {
+            if a != &[0.0; N] {
+                let j = bessel(t * rho);
+                for n in 0..N {
+                    g[n] += a[n] * j[self.orders[n]];
+                }
+            }
+        }
+        self.reduced(g, rho * r_a)
+    }
+
+    fn reduced(&self, mut g: [f64; N], r: f64) -> [f64; N] {
+        for (g, m) in g.iter_mut().zip(self.orders) {
+            *g /= r.powi(m as i32);
+        }
+        g
+    }
+
+    /// The functions at one radius by a finer rule than the table's.
+    fn check(&self, r: f64) -> [f64; N] {
+        let middle = 1.25 * WINDOW_MIDDLE;
+        let high = (2.0 * middle).min(DECAY / self.zeta * r);
+        let rule = Rule::new(self.low(r) / 2.0, high, NODES + 6);
+        let window = (high > middle / 4.0).then_some(middle);
+        let weighted = self.weighted(&rule, r, window);
+        self.sum(&rule, &weighted, 1.0, r)
+    }
+
+    /// Tabulates the functions for r <= `r_max`.
+    pub(crate) fn tabulate(&self, r_max: f64) -> RadialTable<N> {
+        let r_first = self.r_first(r_max);
+        let mut coefficients = self.first_panel(r_first);
+        let octaves = (r_max / r_first).log2().ceil().max(0.0) as usize;
+        if octaves > 0 {
+            coefficients.extend(self.octaves(r_first, octaves));
+        }
+        RadialTable {
+            s_first: r_first * r_first,
+            coefficients,
+        }
+    }
+
+    fn first_panel(&self, r_first: f64) -> Vec<[f64; N]> {
+        let rule = Rule::new(self.low(r_first), DECAY / self.zeta * r_first, NODES);
+        let weighted = self.weighted(&rule, r_first, None);
+        let radii = cosines().map(|x| f64::midpoint(1.0, x).sqrt());
+        let values = radii.map(|rho| self.sum(&rule, &weighted, rho, r_first));
+        transform(&values).to_vec()
+    }
+
+    fn octaves(&self, r_first: f64, octaves: usize) -> Vec<[f64; N]> {
+        let rule = Rule::new(self.low(r_first), 2.0 * WINDOW_MIDDLE, NODES);
+        let radii: Vec<f64> = (0..PANELS)
+            .flat_map(|panel| {
+                let octave = (1 << (panel / SPLITS)) as f64;
+                let sub = (panel % SPLITS) as f64;
+                cosines().map(|x| {
+                    let from = 1.0 + sub / SPLITS as f64;
+                    (octave * (from + f64::midpoint(1.0, x) / SPLITS as f64)).sqrt()
+                })
+            })
+            .collect();
+        let bessels: Vec<Vec<[f64; 4]>> = radii
+            .par_iter()
+            .map(|rho| rule.0.iter().map(|(t, _)| bessel(t * rho)).collect())
+            .collect();
+        (0..octaves)
+            .into_par_iter()
+            .flat_map_iter(|octave| {
+                let r_a = r_first * (octave as f64).exp2();
+                let weighted = self.weighted(&rule, r_a, Some(WINDOW_MIDDLE));
+                let values: Vec<[f64; N]> = bessels
+                    .iter()
+                    .zip(&radii)
+                    .map(|(bessels, rho)| {
+                        let mut g = [0.0; N];
+                        for (j, a) in bessels.iter().zip(&weighted) {
+                            for n in 0..N {
+                                g[n] += a[n] * j[self.orders[n]];
+                            }
+                        }
+                        self.reduced(g, rho * r_a)
+                    })
+                    .collect();
+                let panels = values.chunks_exact(ORDER);
+                panels
+                    .flat_map(|v| transform(v.try_into().expect("a panel has ORDER nodes")))
+                    .collect::<Vec<_>>()
+            })
+            .collect()
+    }
+
+    /// Largest deviation of the table from a finer integration, each function in the unit r^m,
+    /// times `r`: one radius in each octave, off the nodes.
+    pub(crate) fn error(&self, table: &RadialTable<N>, r_max: f64) -> f64 {
+        let mut radii = vec![0.37 * table.s_first.sqrt()];
+        let mut r = 1.23 * table.s_first.sqrt();
+        while r < r_max {
+            radii.push(r);
+            r *= 2.13;
+        }
+        let deviation = |r: &f64| {
+            let (fine, table) = (self.check(*r), table.at(r * r));
+            let each = (0..N).map(|n| (fine[n] - table[n]).abs() * r.powi(self.orders[n] as i32));
+            r * each.fold(0.0, f64::max)
+        };
+        radii.par_iter().map(deviation).reduce(|| 0.0, f64::max)
+    }
+}
+
+impl<const N: usize> RadialTable<N> {
+    /// g_n(r)/r^m at s = r^2, within the range tabulated.
+    pub(crate) fn at(&self, s: f64) -> [f64; N] {
+        let ratio = s / self.s_first;
+        let (panel, x) = if ratio < 1.0 {
+            (0, 2.0 * ratio - 1.0)
+        } else {
+            let bits = ratio.to_bits();
+            let octave = (bits >> 52) as usize - 1023;
+            let mantissa = f64::from_bits((bits & ((1 << 52) - 1)) | (1023 << 52));
+            let place = (mantissa - 1.0) * SPLITS as f64;
+            let sub = place as usize;
+            (1 + octave * SPLITS + sub, 2.0 * (place - sub as f64) - 1.0)
+        };
+        clenshaw(&self.coefficients[panel * ORDER..][..ORDER], x)
+    }
+}
+
+/// The Chebyshev nodes on \[-1, 1\].
+fn cosines() -> [f64; ORDER] {
+    std::array::from_fn(|i| (PI * (i as f64 + 0.5) / ORDER as f64).cos())
+}
+
+/// Chebyshev coefficients of the values at the nodes.
+fn transform<const N: usize>(values: &[[f64; N]; ORDER]) -> [[f64; N]; ORDER] {
+    std::array::from_fn(|j| {
+        let mut c = [0.0; N];
+        for (i, value) in values.iter().enumerate() {
+            let phase = PI * j as f64 * (i as f64 + 0.5) / ORDER as f64;
+            let weight = if j == 0 { 1.0 } else { 2.0 } / ORDER as f64 * phase.cos();
+            for n in 0..N {
+                c[n] += weight * value[n];
+            }
+        }
+        c
+    })
+}
+
+/// The sum of Chebyshev polynomials at x.
+fn clenshaw<const N: usize>(coefficients: &[[f64; N]], x: f64) -> [f64; N] {
+    let (mut b, mut last) = ([0.0; N], [0.0; N]);
+    for c in coefficients[1..].iter().rev() {
+        for n in 0..N {
+            let next = c[n] + 2.0 * x * b[n] - last[n];
+            last[n] = b[n];
+            b[n] = next;
+        }
+    }
+    std::array::from_fn(|n| coefficients[0][n] + x * b[n] - last[n])
+}

@@ -1,0 +1,315 @@
+//! Every variable of the store: name, unit, meaning, and where its value stands in the results.
+
+use ndarray::Array2;
+
+use crate::march::{Fields, Increment, Status};
+
+/// How the numbers of a variable are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Real number, 8 bytes.
+    Real,
+    /// Whole number, 4 bytes.
+    Count,
+    /// One of a few cases, 1 byte.
+    Code,
+    /// Yes or no.
+    Flag,
+}
+
+/// A number of every increment.
+#[derive(Clone, Copy, Debug)]
+pub struct Scalar {
+    /// Name.
+    pub name: &'static str,
+    /// Unit; `1` for a number without.
+    pub units: &'static str,
+    /// What it is.
+    pub long_name: &'static str,
+    /// How it is stored.
+    pub kind: Kind,
+    /// Its value.
+    pub value: fn(&Increment) -> f64,
+}
+
+/// A field of the increments that are saved.
+#[derive(Clone, Copy, Debug)]
+pub struct Field {
+    /// Name.
+    pub name: &'static str,
+    /// Unit; `1` for a number without.
+    pub units: &'static str,
+    /// What it is.
+    pub long_name: &'static str,
+    /// How it is stored.
+    pub kind: Kind,
+    /// Its values.
+    pub values: fn(&Fields) -> FieldView<'_>,
+}
+
+/// The values of a field, shape (nx, ny).
+#[derive(Clone, Copy, Debug)]
+pub enum FieldView<'a> {
+    /// A real number per cell.
+    Real(&'a Array2<f64>),
+    /// Yes or no per cell.
+    Mask(&'a Array2<bool>),
+}
+
+/// Words for the codes of `status`, in their order.
+pub(super) const STATUS_MEANINGS: &str = "no_contact full_stick partial_slip gross_slip";
+
+fn status_code(status: Status) -> f64 {
+    match status {
+        Status::NoContact => 0.0,
+        Status::FullStick => 1.0,
+        Status::PartialSlip => 2.0,
+        Status::GrossSlip => 3.0,
+    }
+}
+
+const fn real(
+    name: &'static str,
+    units: &'static str,
+    long_name: &'static str,
+    value: fn(&Increment) -> f64,
+) -> Scalar {
+    Scalar {
+        name,
+        units,
+        long_name,
+        kind: Kind::Real,
+        value,
+    }
+}
+
+const fn count(
+    name: &'static str,
+    long_name: &'static str,
+    value: fn(&Increment) -> f64,
+) -> Scalar {
+    Scalar {
+        name,
+        units: "1",
+        long_name,
+        kind: Kind::Count,
+        value,
+    }
+}
+
+/// The variables over `increment`. The first three are coordinates.
+pub const SCALARS: &[Scalar] = &[
+    count("increment", "increment, counted from 1", |i| i.index as f64),
+    real("t", "1", "path time", |i| i.point.t),
+    count(
+        "branch_of_increment",
+        "branch of the load path, counted from 0",
+        |i| i.point.branch as f64,
+    ),
+    real("W", "N", "normal force, compression positive", |i| {
+        i.point.loads.W
+    }),
+    real("T_x", "N", "tangential force on body 2 along x", |i| {
+        i.point.loads.T_x
+    }),
+    real("T_y", "N", "tangential force on body 2 along y", |i| {
+        i.point.loads.T_y
+    }),
+    real("delta_z", "m", "approach of the bodies", |i| {
+        i.motion.delta_z
+    }),
+    real(
+        "delta_x",
+        "m",
+        "relative tangential shift of the bodies along x",
+        |i| i.motion.delta_x,
+    ),
+    real(
+        "delta_y",
+        "m",
+        "relative tangential shift of the bodies along y",
+        |i| i.motion.delta_y,
+    ),
+    Scalar {
+        name: "status",
+        units: "1",
+        long_name: "state of the interface",
+        kind: Kind::Code,
+        value: |i| status_code(i.status),
+    },
+    real("contact_area", "m^2", "area of the cells in contact", |i| {
+        i.contact_area
+    }),
+    real("stick_area", "m^2", "area of the cells that stick", |i| {
+        i.stick_area
+    }),
+    real(
+        "stick_ratio",
+        "1",
+        "stick area over contact area",
+        Increment::stick_ratio,
+    ),
+    real(
+        "contact_radius",
+        "m",
+        "radius of the circle of the contact area",
+        Increment::contact_radius,
+    ),
+    real("p_max", "Pa", "largest pressure", |i| i.p_max),
+    real("q_max", "Pa", "largest shear traction", |i| i.q_max),
+    real(
+        "work",
+        "J",
+        "work of the applied forces in the increment",
+        |i| i.energy.work,
+    ),
+    real(
+        "elastic",
+        "J",
+        "change of the elastic energy in the increment",
+        |i| i.energy.elastic,
+    ),
+    real(
+        "dissipated",
+        "J",
+        "energy dissipated by friction in the increment",
+        |i| i.energy.dissipated,
+    ),
+    real(
+        "opening",
+        "J",
+        "work of the pressure on closing and opening cells",
+        |i| i.energy.opening,
+    ),
+    real(
+        "residual_gap",
+        "1",
+        "root-mean-square gap in the contact over the Hertz approach",
+        |i| i.residuals.gap,
+    ),
+    real(
+        "residual_penetration",
+        "1",
+        "deepest penetration over the Hertz approach",
+        |i| i.residuals.penetration,
+    ),
+    real(
+        "residual_coulomb",
+        "1",
+        "largest |q| - mu p over mu p_max",
+        |i| i.residuals.coulomb,
+    ),
+    real(
+        "residual_stick",
+        "1",
+        "root-mean-square slip in stick cells over mu approach",
+        |i| i.residuals.stick,
+    ),
+    real(
+        "residual_direction",
+        "1",
+        "root-mean-square slip across q over mu approach",
+        |i| i.residuals.direction,
+    ),
+    real(
+        "residual_balance",
+        "1",
+        "largest relative error of the force balances",
+        |i| i.residuals.balance,
+    ),
+    real(
+        "residual_energy",
+        "1",
+        "energy imbalance over the work done so far",
+        |i| i.residuals.energy,
+    ),
+    real(
+        "convolutions",
+        "1",
+        "convolutions of three components",
+        |i| i.work.convolutions,
+    ),
+    count("alternations", "passes of the intermediate loop", |i| {
+        i.work.alternations as f64
+    }),
+    count(
+        "normal_iterations",
+        "iterations of the normal solver",
+        |i| i.work.normal_iterations as f64,
+    ),
+    count(
+        "tangential_iterations",
+        "iterations of the tangential solver",
+        |i| i.work.tangential_iterations as f64,
+    ),
+];
+
+const fn real_field(
+    name: &'static str,
+    units: &'static str,
+    long_name: &'static str,
+    values: fn(&Fields) -> FieldView<'_>,
+) -> Field {
+    Field {
+        name,
+        units,
+        long_name,
+        kind: Kind::Real,
+        values,
+    }
+}
+
+const fn mask(
+    name: &'static str,
+    long_name: &'static str,
+    values: fn(&Fields) -> FieldView<'_>,
+) -> Field {
+    Field {
+        name,
+        units: "1",
+        long_name,
+        kind: Kind::Flag,
+        values,
+    }
+}
+
+/// The variables over `saved`, `x`, `y`.
+pub const FIELDS: &[Field] = &[
+    real_field("p", "Pa", "pressure", |f| FieldView::Real(&f.p)),
+    real_field("q_x", "Pa", "shear traction on body 2 along x", |f| {
+        FieldView::Real(&f.q_x)
+    }),
+    real_field("q_y", "Pa", "shear traction on body 2 along y", |f| {
+        FieldView::Real(&f.q_y)
+    }),
+    real_field("u_x", "m", "relative surface displacement along x", |f| {
+        FieldView::Real(&f.u_x)
+    }),
+    real_field("u_y", "m", "relative surface displacement along y", |f| {
+        FieldView::Real(&f.u_y)
+    }),
+    real_field("u_z", "m", "relative surface displacement along z", |f| {
+        FieldView::Real(&f.u_z)
+    }),
+    real_field("gap", "m", "gap between the surfaces", |f| {
+        FieldView::Real(&f.gap)
+    }),
+    real_field("slip_x", "m", "slip along x added up over the path", |f| {
+        FieldView::Real(&f.slip_x)
+    }),
+    real_field("slip_y", "m", "slip along y added up over the path", |f| {
+        FieldView::Real(&f.slip_y)
+    }),
+    real_field(
+        "dissipated_density",
+        "J/m^2",
+        "energy dissipated per area",
+        |f| FieldView::Real(&f.dissipated),
+    ),
+    mask("contact", "cells that transmit pressure", |f| {
+        FieldView::Mask(&f.contact)
+    }),
+    mask("stick", "contact cells that do not slip", |f| {
+        FieldView::Mask(&f.stick)
+    }),
+];

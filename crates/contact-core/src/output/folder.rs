@@ -1,0 +1,130 @@
+//! A folder of files that are replaced as a whole.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use zarrs::storage::byte_range::{ByteRangeIterator, extract_byte_ranges};
+use zarrs::storage::{
+    Bytes, MaybeBytes, MaybeBytesIterator, OffsetBytesIterator, ReadableStorageTraits,
+    StorageError, StoreKey, StorePrefix, WritableStorageTraits, store_set_partial_many,
+};
+
+use crate::error::Error;
+
+/// Name of a file on its way; no Zarr library looks at it.
+const UNFINISHED: &str = ".unfinished";
+
+/// The folder of a store.
+#[derive(Debug)]
+pub(super) struct Folder {
+    root: PathBuf,
+}
+
+impl Folder {
+    pub(super) fn new(root: &Path) -> Arc<Self> {
+        Arc::new(Self {
+            root: root.to_owned(),
+        })
+    }
+
+    pub(super) fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// Writes beside the file and renames: a reader sees the old file or the new one. The rename
+    /// outlives the process; only a power failure can undo what was written last.
+    pub(super) fn write(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
+        let path = self.root.join(key);
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent)?;
+        }
+        let unfinished = path.with_file_name(UNFINISHED);
+        fs::write(&unfinished, bytes)?;
+        fs::rename(&unfinished, &path)
+    }
+
+    /// The content of a file; `None` if there is none.
+    pub(super) fn read(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
+        match fs::read(self.root.join(key)) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(e) => Err(e),
+        }
+    }
+
+    /// An error about this folder.
+    pub(super) fn error(&self, message: &dyn std::fmt::Display) -> Error {
+        Error::File {
+            path: self.root.display().to_string(),
+            message: message.to_string(),
+        }
+    }
+}
+
+fn storage_error(error: io::Error) -> StorageError {
+    StorageError::IOError(Arc::new(error))
+}
+
+impl ReadableStorageTraits for Folder {
+    fn get(&self, key: &StoreKey) -> Result<MaybeBytes, StorageError> {
+        let bytes = self.read(key.as_str()).map_err(storage_error)?;
+        Ok(bytes.map(Bytes::from))
+    }
+
+    fn get_partial_many<'a>(
+        &'a self,
+        key: &StoreKey,
+        byte_ranges: ByteRangeIterator<'a>,
+    ) -> Result<MaybeBytesIterator<'a>, StorageError> {
+        let Some(bytes) = self.get(key)? else {
+            return Ok(None);
+        };
+        let parts = extract_byte_ranges(&bytes, byte_ranges)?;
+        Ok(Some(Box::new(
+            parts.into_iter().map(|part| Ok(Bytes::from(part))),
+        )))
+    }
+
+    fn size_key(&self, key: &StoreKey) -> Result<Option<u64>, StorageError> {
+        match fs::metadata(self.root.join(key.as_str())) {
+            Ok(metadata) => Ok(Some(metadata.len())),
+            Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(e) => Err(storage_error(e)),
+        }
+    }
+
+    fn supports_get_partial(&self) -> bool {
+        false
+    }
+}
+
+impl WritableStorageTraits for Folder {
+    fn set(&self, key: &StoreKey, value: Bytes) -> Result<(), StorageError> {
+        self.write(key.as_str(), &value).map_err(storage_error)
+    }
+
+    fn set_partial_many(
+        &self,
+        key: &StoreKey,
+        offset_values: OffsetBytesIterator<'_>,
+    ) -> Result<(), StorageError> {
+        store_set_partial_many(self, key, offset_values)
+    }
+
+    fn erase(&self, key: &StoreKey) -> Result<(), StorageError> {
+        match fs::remove_file(self.root.join(key.as_str())) {
+            Err(e) if e.kind() != io::ErrorKind::NotFound => Err(storage_error(e)),
+            _ => Ok(()),
+        }
+    }
+
+    fn erase_prefix(&self, prefix: &StorePrefix) -> Result<(), StorageError> {
+        fs::remove_dir_all(self.root.join(prefix.as_str())).map_err(storage_error)
+    }
+
+    fn supports_set_partial(&self) -> bool {
+        false
+    }
+}

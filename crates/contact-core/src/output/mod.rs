@@ -1,0 +1,22 @@
+//! Stage 7: FILES. The result store, one Zarr group that `xarray.open_zarr` opens.
+//!
+//! Zarr of version 2, which every Zarr library reads, with the dimension names of xarray. Scalars
+//! have the dimension `increment`, fields `saved`, `x`, `y`; [`SCALARS`] and [`FIELDS`] say what
+//! each variable is. The attributes of the group hold the scene and how the run ended.
+//!
+//! [`StoreWriter`] appends while the run goes on. Every file is replaced as a whole, the
+//! consolidated metadata last: whoever reads it, or is left with it after a crash, sees the store
+//! as it was at one moment.
+
+mod catalogue;
+mod folder;
+mod reader;
+mod variable;
+mod writer;
+
+pub use catalogue::{FIELDS, Field, FieldView, Kind, SCALARS, Scalar};
+pub use reader::Store;
+pub use writer::StoreWriter;
+
+/// The version of the store's layout.
+const SCHEMA: u64 = 1;

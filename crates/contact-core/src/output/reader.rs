@@ -1,0 +1,112 @@
+//! A store being read.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use ndarray::Array2;
+use serde_json::Value;
+use zarrs::array::{Array, ArraySubset};
+
+use super::SCHEMA;
+use super::folder::Folder;
+use super::variable::{numbers, open_array};
+use crate::error::Error;
+use crate::scene::Scene;
+
+/// A result store as it was when it was opened.
+pub struct Store {
+    folder: Arc<Folder>,
+    /// The consolidated metadata.
+    metadata: Value,
+    scene: Scene,
+    increments: usize,
+    saved: usize,
+}
+
+impl Store {
+    /// Opens a store; fails if there is none, or one of another layout.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let folder = Folder::new(path.as_ref());
+        let text = folder
+            .read(".zmetadata")
+            .map_err(|e| folder.error(&e))?
+            .ok_or_else(|| folder.error(&"is not a result store (it has no .zmetadata)"))?;
+        let document: Value = serde_json::from_slice(&text)
+            .map_err(|e| folder.error(&format!(".zmetadata is damaged: {e}")))?;
+        let metadata = &document["metadata"];
+        let attributes = &metadata[".zattrs"];
+        if attributes["schema"] != SCHEMA {
+            return Err(folder.error(&format!(
+                "is a store of schema {}: this version reads schema {SCHEMA}",
+                attributes["schema"]
+            )));
+        }
+        let scene = attributes["scene"]
+            .as_str()
+            .ok_or_else(|| folder.error(&"holds no scene"))?;
+        let file = format!("scene in {}", folder.root().display());
+        let scene = Scene::from_toml_str(scene, &file, &[])?;
+        let length = |name: &str| {
+            metadata[format!("{name}/.zarray")]["shape"][0]
+                .as_u64()
+                .map(|n| n as usize)
+                .ok_or_else(|| folder.error(&format!("holds no {name}")))
+        };
+        Ok(Self {
+            increments: length("increment")?,
+            saved: length("saved_increment")?,
+            metadata: metadata.clone(),
+            folder,
+            scene,
+        })
+    }
+
+    /// The scene that was solved.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// `running`, `done` or the sentence that says why the run stopped.
+    pub fn status(&self) -> &str {
+        self.metadata[".zattrs"]["status"]
+            .as_str()
+            .unwrap_or_default()
+    }
+
+    /// Increments solved.
+    pub fn increments(&self) -> usize {
+        self.increments
+    }
+
+    /// Increments whose fields are kept.
+    pub fn saved(&self) -> usize {
+        self.saved
+    }
+
+    /// A variable over `increment`, `saved`, `x` or `y`.
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
+        let (array, dtype) = self.array(name)?;
+        numbers(&array, dtype, &array.subset_all())
+            .map_err(|e| self.folder.error(&format!("{name}: {e}")))
+    }
+
+    /// A field of the `saved`-th increment whose fields are kept, from 0; a mask is 0 and 1.
+    pub fn field(&self, name: &str, saved: usize) -> Result<Array2<f64>, Error> {
+        let failed = |e: &dyn std::fmt::Display| self.folder.error(&format!("{name}: {e}"));
+        let (array, dtype) = self.array(name)?;
+        let (nx, ny) = (self.scene.grid.nx, self.scene.grid.ny);
+        let part = saved as u64..saved as u64 + 1;
+        let part = ArraySubset::new_with_ranges(&[part, 0..nx as u64, 0..ny as u64]);
+        let values = numbers(&array, dtype, &part).map_err(|e| failed(&e))?;
+        Array2::from_shape_vec((nx, ny), values).map_err(|e| failed(&e))
+    }
+
+    fn array(&self, name: &str) -> Result<(Array<Folder>, Option<&str>), Error> {
+        let zarray = &self.metadata[format!("{name}/.zarray")];
+        if zarray.is_null() {
+            return Err(self.folder.error(&format!("holds no {name}")));
+        }
+        let array = open_array(&self.folder, name, zarray.clone())?;
+        Ok((array, zarray["dtype"].as_str()))
+    }
+}

@@ -1,0 +1,238 @@
+//! Accelerated projected gradients for the tangential problem: slow, but every step goes down.
+//!
+//! The Newton method hands over here when a step would raise the energy, which happens when many
+//! cells change between stick and slip at once. Y. Nesterov's acceleration with restart
+//! (B. O'Donoghue, E. Candes, Found. Comput. Math. 15 (2015) 715-732) on the convex set
+//! |q| <= g, sum q = T.
+
+use super::Response;
+use super::tangential::{Shear, TangentialProblem};
+use super::vector::{size, sum};
+
+type Pair = [Vec<f64>; 2];
+
+/// Buffers of the projected gradients.
+#[derive(Debug)]
+pub(crate) struct ProjectedGradient {
+    /// Point that the gradient is taken at, ahead of q, and its displacement.
+    ahead: Pair,
+    u_ahead: Pair,
+    q_last: Pair,
+    u_last: Pair,
+}
+
+/// The part of the bound from which a cell counts as slipping.
+const ON_CIRCLE: f64 = 1.0 - 1e-9;
+
+impl ProjectedGradient {
+    pub(crate) fn new(cells: usize) -> Self {
+        let pair = || [vec![0.0; cells], vec![0.0; cells]];
+        Self {
+            ahead: pair(),
+            u_ahead: pair(),
+            q_last: pair(),
+            u_last: pair(),
+        }
+    }
+
+    /// Does `passes` iterations, one convolution each, and one more; sets the slip set to the cells
+    /// on the circle and returns the rigid shift \[m\], the multiplier of the force.
+    pub(crate) fn run(
+        &mut self,
+        response: &mut Response<'_>,
+        problem: &TangentialProblem<'_>,
+        shear: &mut Shear<'_>,
+        passes: usize,
+    ) -> [f64; 2] {
+        let cells = problem.bound.len();
+        let mut stiffness = 1.0 / self.largest_compliance(response, problem);
+        for c in 0..2 {
+            self.ahead[c].copy_from_slice(shear.q[c]);
+            self.u_ahead[c].copy_from_slice(shear.u[c]);
+        }
+        let mut momentum = 1.0_f64;
+        let mut shift = [0.0; 2];
+        for _ in 0..passes {
+            for c in 0..2 {
+                self.q_last[c].copy_from_slice(shear.q[c]);
+                self.u_last[c].copy_from_slice(shear.u[c]);
+                for n in 0..cells {
+                    let slip = self.u_ahead[c][n] - problem.u_ref[c][n];
+                    shear.q[c][n] = self.ahead[c][n] - stiffness * slip;
+                }
+            }
+            project(problem, &mut shear.q, &mut shift);
+            let (q, u) = (&shear.q, &mut shear.u);
+            let [u_x, u_y] = u;
+            for c in 0..2 {
+                for n in 0..cells {
+                    self.ahead[c][n] = q[c][n] - self.q_last[c][n];
+                }
+            }
+            let [change_x, change_y] = &self.ahead;
+            response.tangential([change_x, change_y], [u_x, u_y]);
+            let (mut change_size, mut curvature, mut descent) = (0.0, 0.0, 0.0);
+            for c in 0..2 {
+                for n in 0..cells {
+                    let (change, response) = (self.ahead[c][n], shear.u[c][n]);
+                    change_size += change * change;
+                    curvature += change * response;
+                    let before = self.u_last[c][n] - problem.u_ref[c][n];
+                    descent += change * (before + 0.5 * response);
+                    shear.u[c][n] = self.u_last[c][n] + response;
+                }
+            }
+            if change_size == 0.0 {
+                break;
+            }
+            // The step must not exceed the inverse of the compliance met.
+            stiffness = stiffness.min(change_size / curvature.max(f64::MIN_POSITIVE));
+            if descent > 0.0 {
+                // Uphill: go back and start anew without momentum.
+                for c in 0..2 {
+                    shear.q[c].copy_from_slice(&self.q_last[c]);
+                    shear.u[c].copy_from_slice(&self.u_last[c]);
+                }
+                momentum = 1.0;
+            }
+            let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
+            let beta = (momentum - 1.0) / next;
+            momentum = next;
+            for c in 0..2 {
+                for n in 0..cells {
+                    let (q, u) = (shear.q[c][n], shear.u[c][n]);
+                    self.ahead[c][n] = q + beta * (q - self.q_last[c][n]);
+                    self.u_ahead[c][n] = u + beta * (u - self.u_last[c][n]);
+                }
+            }
+        }
+        mark_circle(problem, &shear.q, shear.slip);
+        shift.map(|s| -s / stiffness)
+    }
+
+    /// Estimate of the largest eigenvalue of C_tt on the contact \[m/Pa\]: the largest displacement
+    /// under unit shear.
+    fn largest_compliance(
+        &mut self,
+        response: &mut Response<'_>,
+        problem: &TangentialProblem<'_>,
+    ) -> f64 {
+        for (a, g) in self.ahead[0].iter_mut().zip(problem.bound) {
+            *a = f64::from(u8::from(*g > 0.0));
+        }
+        self.ahead[1].fill(0.0);
+        let [a_x, a_y] = &self.ahead;
+        let [u_x, u_y] = &mut self.u_ahead;
+        response.tangential([a_x, a_y], [u_x, u_y]);
+        self.u_ahead[0]
+            .iter()
+            .fold(f64::MIN_POSITIVE, |m, u| m.max(*u))
+    }
+}
+
+/// Slip cells are those on the circle.
+pub(crate) fn mark_circle(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], slip: &mut [bool]) {
+    for n in 0..problem.bound.len() {
+        let g = problem.bound[n];
+        slip[n] = g > 0.0 && size([q[0][n], q[1][n]]) >= ON_CIRCLE * g;
+    }
+}
+
+/// Nearest shear with |q| <= g in each cell and the sum asked for: q - shift, cut to the circle.
+///
+/// The shift is the root of a monotone function: Newton steps, halved until the excess falls; where
+/// none does, a step with the weights min(1, g/|q - shift|) of Weiszfeld, which cannot overshoot.
+pub(crate) fn project(
+    problem: &TangentialProblem<'_>,
+    q: &mut [&mut [f64]; 2],
+    shift: &mut [f64; 2],
+) {
+    let enough = 1e-13 * sum(problem.bound);
+    let mut trial = *shift;
+    let mut here = excess(problem, q, trial);
+    for _ in 0..100 {
+        if size(here.sum) <= enough {
+            break;
+        }
+        (trial, here) = newton(problem, q, trial, &here).unwrap_or_else(|| {
+            let weighted: [f64; 2] = std::array::from_fn(|c| trial[c] + here.sum[c] / here.weight);
+            (weighted, excess(problem, q, weighted))
+        });
+    }
+    *shift = trial;
+    for n in 0..problem.bound.len() {
+        let v = [q[0][n] - trial[0], q[1][n] - trial[1]];
+        let factor = problem.bound[n] / size(v).max(problem.bound[n]).max(f64::MIN_POSITIVE);
+        q[0][n] = factor * v[0];
+        q[1][n] = factor * v[1];
+    }
+}
+
+/// A Newton step of the shift that lowers the excess, if there is one.
+fn newton(
+    problem: &TangentialProblem<'_>,
+    q: &[&mut [f64]; 2],
+    at: [f64; 2],
+    here: &Excess,
+) -> Option<([f64; 2], Excess)> {
+    let [xx, xy, yy] = here.slope;
+    let det = xx * yy - xy * xy;
+    if det <= 0.0 {
+        return None;
+    }
+    let step = [
+        (yy * here.sum[0] - xy * here.sum[1]) / det,
+        (xx * here.sum[1] - xy * here.sum[0]) / det,
+    ];
+    (0..12)
+        .map(|halvings| 0.5_f64.powi(halvings))
+        .find_map(|part| {
+            let to = [at[0] + part * step[0], at[1] + part * step[1]];
+            let there = excess(problem, q, to);
+            (size(there.sum) < (1.0 - 0.1 * part) * size(here.sum)).then_some((to, there))
+        })
+}
+
+/// The sum of the cut shear over the sum asked for, as a function of the shift.
+struct Excess {
+    sum: [f64; 2],
+    /// Minus the derivative by the shift: xx, xy, yy.
+    slope: [f64; 3],
+    /// Sum of the factors by which cells are cut.
+    weight: f64,
+}
+
+fn excess(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], shift: [f64; 2]) -> Excess {
+    let mut sum = [-problem.sum_q[0], -problem.sum_q[1]];
+    let mut slope = [0.0; 3];
+    let mut weight = 0.0;
+    for n in 0..problem.bound.len() {
+        let g = problem.bound[n];
+        if g <= 0.0 {
+            continue;
+        }
+        let v = [q[0][n] - shift[0], q[1][n] - shift[1]];
+        let length = size(v);
+        let cut = if length > g { g / length } else { 1.0 };
+        sum[0] += cut * v[0];
+        sum[1] += cut * v[1];
+        weight += cut;
+        // Cells beyond the circle give way only across their direction.
+        let e = if length > g {
+            [v[0] / length, v[1] / length]
+        } else {
+            [0.0, 0.0]
+        };
+        slope[0] += cut * (1.0 - e[0] * e[0]);
+        slope[1] -= cut * e[0] * e[1];
+        slope[2] += cut * (1.0 - e[1] * e[1]);
+    }
+    for c in 0..2 {
+        if !problem.free[c] {
+            sum[c] = 0.0;
+            slope[1] = 0.0;
+            slope[2 * c] = 1.0;
+        }
+    }
+    Excess { sum, slope, weight }
+}

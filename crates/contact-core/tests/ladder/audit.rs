@@ -1,0 +1,156 @@
+//! What must hold at every increment of every scene, computed from the fields alone.
+
+use contact_core::march::{Fields, Increment, March, Motion};
+use contact_core::scene::Scene;
+use ndarray::{Array2, Zip};
+
+use crate::bench::hertz_of;
+
+/// Misfits are given in these parts of the solver's tolerance: it bounds root-mean-square values,
+/// a single cell may be some times worse.
+const WORST_CELL: f64 = 20.0;
+
+/// Follows a run and checks each increment against the last one.
+pub(crate) struct Audit {
+    mu: f64,
+    h_init: Array2<f64>,
+    cell_area: f64,
+    /// Solver's tolerance, relative: displacements are those of the tractions to this part.
+    relative: f64,
+    /// Solver's tolerance as a length along z \[m\].
+    tolerance: f64,
+    last: Option<(Fields, Motion)>,
+    elastic: f64,
+    work: f64,
+}
+
+impl Audit {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        Self {
+            mu: scene.friction.mu,
+            h_init: scene.h_init(),
+            cell_area: scene.grid.cell_area(),
+            relative: scene.settings.solver.tolerance,
+            tolerance: scene.settings.solver.tolerance * hertz_of(scene).delta_z,
+            last: None,
+            elastic: 0.0,
+            work: 0.0,
+        }
+    }
+
+    pub(crate) fn check(&mut self, march: &March, increment: &Increment) {
+        let now = march.fields();
+        self.balance(&now, increment);
+        self.contact(&now, increment);
+        self.friction(&now, increment);
+        self.energy(&now, increment);
+        self.last = Some((now, increment.motion));
+    }
+
+    /// The tractions carry the forces.
+    fn balance(&self, now: &Fields, increment: &Increment) {
+        let loads = increment.point.loads;
+        let force = |traction: &Array2<f64>| traction.sum() * self.cell_area;
+        let worst = [
+            (force(&now.p) - loads.W) / loads.W.max(1e-300),
+            (force(&now.q_x) - loads.T_x) / (self.mu * loads.W).max(1e-300),
+            (force(&now.q_y) - loads.T_y) / (self.mu * loads.W).max(1e-300),
+        ];
+        assert!(
+            worst.iter().all(|e| e.abs() < 1e-9),
+            "balance {worst:?} at {}",
+            increment.index
+        );
+    }
+
+    /// p >= 0, gap >= 0, and not both.
+    fn contact(&self, now: &Fields, increment: &Increment) {
+        let gap = &now.u_z + &self.h_init - increment.motion.delta_z;
+        Zip::from(&now.p).and(&gap).for_each(|&p, &gap| {
+            let allowed = WORST_CELL * self.tolerance;
+            assert!(p >= 0.0, "p = {p} at {}", increment.index);
+            assert!(gap > -allowed, "penetration {gap:e} at {}", increment.index);
+            assert!(
+                p <= 0.0 || gap < allowed,
+                "gap {gap:e} under p at {}",
+                increment.index
+            );
+        });
+    }
+
+    /// |q| <= mu p, no slip in stick cells, slip against q in slip cells.
+    fn friction(&self, now: &Fields, increment: &Increment) {
+        let still = Array2::zeros(now.p.dim());
+        let (last_u, last_motion) = match &self.last {
+            Some((fields, motion)) => ([&fields.u_x, &fields.u_y], *motion),
+            None => ([&still, &still], Motion::default()),
+        };
+        let shift = [
+            increment.motion.delta_x - last_motion.delta_x,
+            increment.motion.delta_y - last_motion.delta_y,
+        ];
+        let allowed = WORST_CELL * self.mu * self.tolerance;
+        for (n, &p) in now.p.indexed_iter() {
+            let q = [now.q_x[n], now.q_y[n]];
+            let size = q[0].hypot(q[1]);
+            assert!(
+                size <= self.mu * p * (1.0 + 1e-9),
+                "Coulomb at {n:?} of {}",
+                increment.index
+            );
+            if p <= 0.0 || self.mu == 0.0 {
+                continue;
+            }
+            let ds = [
+                now.u_x[n] - last_u[0][n] - shift[0],
+                now.u_y[n] - last_u[1][n] - shift[1],
+            ];
+            let slip = ds[0].hypot(ds[1]);
+            if now.stick[n] {
+                assert!(
+                    slip < allowed,
+                    "slip {slip:e} in a stick cell at {}",
+                    increment.index
+                );
+                continue;
+            }
+            assert!(
+                size > self.mu * p * (1.0 - 1e-9),
+                "slip below the limit at {}",
+                increment.index
+            );
+            let along = -(ds[0] * q[0] + ds[1] * q[1]) / size;
+            let across = (ds[0] * q[1] - ds[1] * q[0]).abs() / size;
+            assert!(
+                along > -allowed,
+                "slip along q by {along:e} at {}",
+                increment.index
+            );
+            assert!(
+                across < 1e-3 * slip + allowed,
+                "slip at an angle, {across:e} of {slip:e} at {}",
+                increment.index
+            );
+        }
+    }
+
+    /// Work of the forces = elastic energy stored + friction + what opening and closing take.
+    fn energy(&mut self, now: &Fields, increment: &Increment) {
+        let stored = 0.5
+            * self.cell_area
+            * (&now.p * &now.u_z + &now.q_x * &now.u_x + &now.q_y * &now.u_y).sum();
+        let e = increment.energy;
+        self.work += e.work.abs();
+        let missing = e.work - (stored - self.elastic) - e.dissipated - e.opening;
+        self.elastic = stored;
+        assert!(
+            missing.abs() <= self.relative * self.work,
+            "energy {missing:e} of {:e} at {}",
+            self.work,
+            increment.index
+        );
+        // The solver's tolerance may leave a trace of slip along q.
+        let least = -1e-3 * self.tolerance * self.mu * increment.point.loads.W;
+        assert!(e.dissipated > least, "friction gives {:e} J", e.dissipated);
+    }
+}

@@ -1,0 +1,109 @@
+//! The test rig: a sphere on a flat, run through a path.
+
+use contact_core::march::{Increment, March};
+use contact_core::reference::{Hertz, hertz};
+use contact_core::scene::{
+    Body, Branch, Coating, Elastic, Friction, Grid, LoadPath, Loads, Scene, Settings, Shape,
+    Spacing,
+};
+use ndarray::Array2;
+
+/// Radius of the sphere \[m\].
+pub(crate) const R: f64 = 0.018;
+/// Largest normal force \[N\].
+pub(crate) const W: f64 = 1e3;
+/// The paper's material.
+pub(crate) const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
+/// Without lateral contraction the shear kernel is isotropic.
+pub(crate) const CORK: Elastic = Elastic { E: 210e9, nu: 0.0 };
+
+/// Error of a rim's radius, in cells: the area of whole cells inside a circle scatters by this.
+pub(crate) const RIM: f64 = 0.25;
+/// Error of a field in the L2 norm, relative, over the cell size in contact radii.
+pub(crate) const FIELD: f64 = 0.22;
+/// Error of smooth values, relative, over the square of the cell size in contact radii.
+pub(crate) const SMOOTH: f64 = 0.1;
+
+/// A sphere of `upper` on a flat of `lower`, `n` x `n` cells over `extent` times the Hertz radius.
+pub(crate) fn sphere_on_flat(
+    upper: Elastic,
+    lower: Elastic,
+    mu: f64,
+    (extent, n): (f64, usize),
+    path: LoadPath,
+) -> Scene {
+    let a = hertz(R, upper, lower, W).a;
+    Scene {
+        title: "ladder".into(),
+        body1: Body::homogeneous(upper, Shape::Sphere { R }),
+        body2: Body::homogeneous(lower, Shape::Flat),
+        friction: Friction { mu },
+        grid: Grid::centred(extent * a, n).expect("a grid"),
+        path,
+        settings: Settings::default(),
+    }
+}
+
+/// The same with one coating on the flat.
+pub(crate) fn coated(mut scene: Scene, material: Elastic, thickness: f64) -> Scene {
+    scene.body2.coatings = vec![Coating {
+        material,
+        thickness,
+    }];
+    scene
+}
+
+/// Indentation to W in steps of equal contact radius.
+pub(crate) fn indentation(increments: usize) -> LoadPath {
+    LoadPath::start().branch(Branch {
+        to: Loads {
+            W,
+            ..Loads::default()
+        },
+        increments,
+        spacing: Spacing::EqualRadius,
+        t_end: 1.0,
+    })
+}
+
+/// The Hertz contact of the uncoated pair.
+pub(crate) fn hertz_of(scene: &Scene) -> Hertz {
+    scene.hertz().expect("a Hertz contact")
+}
+
+/// Cell size over the Hertz radius.
+pub(crate) fn cell(scene: &Scene) -> f64 {
+    scene.grid.dx / hertz_of(scene).a
+}
+
+/// Runs the path; `watch` sees every increment.
+pub(crate) fn run(scene: &Scene, mut watch: impl FnMut(&March, &Increment)) -> Vec<Increment> {
+    let mut march = March::new(scene).expect("a scene");
+    let mut increments = Vec::new();
+    while let Some(increment) = march.advance() {
+        let increment = increment.expect("a solution");
+        watch(&march, &increment);
+        increments.push(increment);
+    }
+    increments
+}
+
+/// Radius of the circle of an area.
+pub(crate) fn radius(area: f64) -> f64 {
+    (area / std::f64::consts::PI).sqrt()
+}
+
+/// The L2 norm over cells.
+pub(crate) fn norm(field: &Array2<f64>) -> f64 {
+    field.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Asserts |`value` - `truth`| <= `tolerance` and says all three if not.
+#[track_caller]
+pub(crate) fn close(what: &str, value: f64, truth: f64, tolerance: f64) {
+    assert!(
+        (value - truth).abs() <= tolerance,
+        "{what}: {value} is not {truth}, off by {:+.2e}, allowed {tolerance:.1e}",
+        value - truth
+    );
+}

@@ -1,0 +1,83 @@
+//! Dissimilar bodies, friction, W alone: the self-similar contact of Spence.
+
+use contact_core::reference::{coupled_indentation, dundurs_beta};
+use contact_core::scene::{Elastic, LoadPath};
+
+use crate::audit::Audit;
+use crate::bench::{
+    CORK, RIM, STEEL, W, cell, close, hertz_of, indentation, norm, run, sphere_on_flat,
+};
+
+/// Error of c/a times the number of increments of equal radius: a cell that comes into contact
+/// within an increment has moved freely before it sticks, a first-order error.
+const PATH: f64 = 0.45;
+
+#[test]
+fn stick_radius_pressure_and_approach_of_every_pair() {
+    let increments = 40;
+    for (material, mu) in [(STEEL, 0.2), (STEEL, 0.5), (CORK, 0.2), (CORK, 0.5)] {
+        let scene = sphere_on_flat(
+            material,
+            Elastic::RIGID,
+            mu,
+            (2.2, 96),
+            indentation(increments),
+        );
+        let (hertz, d) = (hertz_of(&scene), cell(&scene));
+        let truth = coupled_indentation(dundurs_beta(material, Elastic::RIGID), mu);
+        let mut audit = Audit::new(&scene);
+        let all = run(&scene, |march, increment| audit.check(march, increment));
+        for at in [increments / 2, increments - 1] {
+            let increment = &all[at];
+            // Lengths grow with the contact radius, so a cell counts for more at half of it.
+            let part = (at + 1) as f64 / increments as f64;
+            let (d, steps) = (d / part, (at + 1) as f64);
+            let a = hertz.a * part * truth.W.cbrt().recip();
+            close("a", increment.contact_radius() / a, 1.0, RIM * d);
+            let ratio = (increment.stick_area / increment.contact_area).sqrt();
+            close("c/a", ratio, truth.stick_ratio, PATH / steps + RIM * d);
+            // p has a cusp in the middle: first order in the cell.
+            let p0 = truth.p0 * truth.W.powf(2.0 / 3.0) * hertz.p0 * part;
+            close("p0", increment.p_max / p0, 1.0, 0.15 * d);
+            let delta_z = truth.delta_z * a * a / crate::bench::R;
+            close("delta_z", increment.motion.delta_z / delta_z, 1.0, 1e-3);
+        }
+    }
+}
+
+#[test]
+fn more_increments_lead_to_the_self_similar_stick_radius() {
+    let error = |increments: usize| {
+        let scene = sphere_on_flat(
+            CORK,
+            Elastic::RIGID,
+            0.5,
+            (2.2, 128),
+            indentation(increments),
+        );
+        let all = run(&scene, |_, _| {});
+        let last = all.last().expect("an increment");
+        let truth = coupled_indentation(0.5, 0.5).stick_ratio;
+        (last.stick_area / last.contact_area).sqrt() - truth
+    };
+    let (coarse, fine) = (error(10), error(80));
+    // What the grid leaves of eight times less.
+    assert!(fine.abs() < coarse.abs() / 4.0, "{coarse} {fine}");
+}
+
+#[test]
+fn increments_of_equal_radius_are_the_natural_ones() {
+    let shear = |path: LoadPath| {
+        let scene = sphere_on_flat(CORK, Elastic::RIGID, 0.5, (2.2, 64), path);
+        let mut q_x = None;
+        run(&scene, |march, _| q_x = Some(march.fields().q_x));
+        q_x.expect("an increment")
+    };
+    let limit = shear(indentation(120));
+    let error = |q: &ndarray::Array2<f64>| norm(&(q - &limit)) / norm(&limit);
+    let (equal, uniform) = (
+        error(&shear(indentation(20))),
+        error(&shear(LoadPath::start().normal(W, 20))),
+    );
+    assert!(equal < uniform, "{equal} {uniform}");
+}

@@ -1,0 +1,53 @@
+//! Frictionless and homogeneous: Hertz, and its convergence with the grid.
+
+use contact_core::scene::LoadPath;
+
+use crate::bench::{
+    FIELD, RIM, SMOOTH, STEEL, W, cell, close, hertz_of, norm, run, sphere_on_flat,
+};
+
+#[test]
+fn radius_pressure_and_approach_converge_with_the_grid() {
+    let mut errors = Vec::new();
+    for n in [64, 128, 256] {
+        let path = LoadPath::start().normal(W, 1);
+        let scene = sphere_on_flat(STEEL, STEEL, 0.0, (2.4, n), path);
+        let (hertz, d) = (hertz_of(&scene), cell(&scene));
+        // The solver stops at 1e-5 of the approach.
+        let smooth = SMOOTH * d * d + 2e-5;
+        run(&scene, |march, increment| {
+            let truth = scene.grid.map(|x, y| hertz.p(x.hypot(y)));
+            let p = march.fields().p;
+            let error = norm(&(&p - &truth)) / norm(&truth);
+            let highest = hertz.p(scene.grid.dx / 2f64.sqrt());
+            close("a", increment.contact_radius() / hertz.a, 1.0, RIM * d);
+            close("p0", increment.p_max / highest, 1.0, smooth);
+            close(
+                "delta_z",
+                increment.motion.delta_z / hertz.delta_z,
+                1.0,
+                smooth,
+            );
+            close("p", error, 0.0, FIELD * d);
+            errors.push(error);
+        });
+    }
+    // First order: the rim, where p rises like a square root.
+    assert!(errors[0] / errors[2] > 3.0, "{errors:?}");
+}
+
+#[test]
+fn the_path_does_not_matter() {
+    let run_in = |increments: usize| {
+        let path = LoadPath::start().normal(W, increments);
+        let mut scene = sphere_on_flat(STEEL, STEEL, 0.0, (2.4, 64), path);
+        scene.settings.solver.tolerance = 1e-9;
+        let mut p = None;
+        run(&scene, |march, _| p = Some(march.fields().p));
+        p.expect("an increment")
+    };
+    let (once, often) = (run_in(1), run_in(7));
+    let error = norm(&(&once - &often)) / norm(&once);
+    // The shortest waves cost a few tens of times less displacement than pressure.
+    assert!(error < 1e-7, "{error}");
+}

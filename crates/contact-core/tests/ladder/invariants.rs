@@ -1,0 +1,162 @@
+//! Random bodies, grids and load paths: what holds for every contact.
+
+use contact_core::march::{Fields, Motion};
+use contact_core::scene::{
+    Body, Branch, Elastic, Friction, Grid, LoadPath, Loads, Scene, Settings, Shape, Spacing,
+};
+use ndarray::Array2;
+use proptest::prelude::*;
+
+use crate::audit::Audit;
+use crate::bench::{R, W, hertz_of, norm, run};
+
+/// An elastic material; nu near 1/2 and below zero included.
+fn material() -> impl Strategy<Value = Elastic> {
+    (0.0..2.0, -0.3..0.49).prop_map(|(log, nu)| Elastic {
+        E: 1e10 * 10f64.powf(log),
+        nu,
+    })
+}
+
+/// A branch to a part of W and, as parts of mu W, T_x and T_y.
+fn branch() -> impl Strategy<Value = (f64, f64, f64, usize)> {
+    let angle = 0.0..std::f64::consts::TAU;
+    (0.3..1.0, 0.0..0.95, angle, 2..5usize).prop_map(|(part, size, angle, increments)| {
+        (part, size * angle.cos(), size * angle.sin(), increments)
+    })
+}
+
+prop_compose! {
+    fn scene()(
+        upper in material(),
+        lower in material(),
+        mu in 0.05..0.9,
+        (nx, ny) in (18..27usize, 18..27usize),
+        (long, wide) in (2.7..3.4f64, 2.7..3.4f64),
+        branches in prop::collection::vec(branch(), 1..4),
+    ) -> Scene {
+        let body1 = Body::homogeneous(upper, Shape::Sphere { R });
+        let body2 = Body::homogeneous(lower, Shape::Flat);
+        let mut path = LoadPath::start().branch(Branch {
+            to: Loads { W, ..Loads::default() },
+            increments: 4,
+            spacing: Spacing::EqualRadius,
+            t_end: 1.0,
+        });
+        for (i, (part, x, y, increments)) in branches.into_iter().enumerate() {
+            let load = part * W;
+            path = path.branch(Branch {
+                to: Loads {
+                    W: load,
+                    T_x: x * mu * load,
+                    T_y: y * mu * load,
+                },
+                increments,
+                spacing: Spacing::Uniform,
+                t_end: i as f64 + 2.0,
+            });
+        }
+        let mut scene = Scene {
+            title: "any".into(),
+            body1,
+            body2,
+            friction: Friction { mu },
+            grid: Grid::from_spacing((nx, ny), (1.0, 1.0)).expect("a grid"),
+            path,
+            settings: Settings::default(),
+        };
+        let a = hertz_of(&scene).a;
+        scene.grid.dx = long * a / nx as f64;
+        scene.grid.dy = wide * a / ny as f64;
+        scene
+    }
+}
+
+/// Fields and motion at the end of the path.
+fn end(scene: &Scene) -> (Fields, Motion) {
+    let mut kept = None;
+    run(scene, |march, increment| {
+        kept = Some((march.fields(), increment.motion));
+    });
+    kept.expect("an increment")
+}
+
+fn loads_mapped(scene: &Scene, f: impl Fn(Loads) -> Loads) -> LoadPath {
+    let mut path = scene.path.clone();
+    for branch in &mut path.branches {
+        branch.to = f(branch.to);
+    }
+    path
+}
+
+/// Distance of `field` from `sign` times `other`, over the norm of `scale`.
+fn distance(field: &Array2<f64>, sign: f64, other: &Array2<f64>, scale: &Array2<f64>) -> f64 {
+    norm(&(field - &(other * sign))) / norm(scale)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Balance, complementarity, Coulomb's law, the direction of slip, the energy.
+    #[test]
+    fn every_increment_stands_the_audit(scene in scene()) {
+        let mut audit = Audit::new(&scene);
+        run(&scene, |march, increment| audit.check(march, increment));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Lengths, moduli and loads scaled together: the same contact. Powers of two make it exact.
+    #[test]
+    fn scaled_twins_are_alike(scene in scene(), length in -3..4i32, modulus in -3..4i32) {
+        let (length, modulus) = (2f64.powi(2 * length), 2f64.powi(2 * modulus));
+        let force = modulus * length * length;
+        let mut twin = scene.clone();
+        twin.body1.shape = Shape::Sphere { R: R * length };
+        for body in [&mut twin.body1, &mut twin.body2] {
+            body.substrate.E *= modulus;
+        }
+        twin.grid.dx *= length;
+        twin.grid.dy *= length;
+        twin.path = loads_mapped(&scene, |l| Loads {
+            W: l.W * force,
+            T_x: l.T_x * force,
+            T_y: l.T_y * force,
+        });
+        let ((ours, motion), (theirs, other)) = (end(&scene), end(&twin));
+        prop_assert!(distance(&theirs.p, modulus, &ours.p, &theirs.p) < 1e-9);
+        prop_assert!(distance(&theirs.q_x, modulus, &ours.q_x, &theirs.p) < 1e-9);
+        prop_assert!(distance(&theirs.q_y, modulus, &ours.q_y, &theirs.p) < 1e-9);
+        prop_assert!((other.delta_z / motion.delta_z / length - 1.0).abs() < 1e-9);
+    }
+
+    /// The same contact mirrored at the diagonal, and with the bodies exchanged.
+    #[test]
+    fn mirrored_and_exchanged_scenes_are_alike(mut scene in scene()) {
+        scene.settings.solver.tolerance = 1e-8;
+        let (ours, motion) = end(&scene);
+
+        let mut mirrored = scene.clone();
+        (mirrored.grid.nx, mirrored.grid.ny) = (scene.grid.ny, scene.grid.nx);
+        (mirrored.grid.dx, mirrored.grid.dy) = (scene.grid.dy, scene.grid.dx);
+        mirrored.path = loads_mapped(&scene, |l| Loads { T_x: l.T_y, T_y: l.T_x, ..l });
+        let (theirs, other) = end(&mirrored);
+        let across = |f: &Array2<f64>| f.t().to_owned();
+        prop_assert!(distance(&across(&theirs.p), 1.0, &ours.p, &ours.p) < 1e-5);
+        prop_assert!(distance(&across(&theirs.q_y), 1.0, &ours.q_x, &ours.p) < 1e-5);
+        prop_assert!(distance(&across(&theirs.q_x), 1.0, &ours.q_y, &ours.p) < 1e-5);
+        prop_assert!((other.delta_y - motion.delta_x).abs() < 1e-5 * motion.delta_z);
+
+        // What acted on the lower body now acts on the upper one.
+        let mut exchanged = scene.clone();
+        std::mem::swap(&mut exchanged.body1, &mut exchanged.body2);
+        exchanged.path = loads_mapped(&scene, |l| Loads { T_x: -l.T_x, T_y: -l.T_y, ..l });
+        let (theirs, other) = end(&exchanged);
+        prop_assert!(distance(&theirs.p, 1.0, &ours.p, &ours.p) < 1e-5);
+        prop_assert!(distance(&theirs.q_x, -1.0, &ours.q_x, &ours.p) < 1e-5);
+        prop_assert!(distance(&theirs.q_y, -1.0, &ours.q_y, &ours.p) < 1e-5);
+        prop_assert!((other.delta_x + motion.delta_x).abs() < 1e-5 * motion.delta_z);
+    }
+}
