@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -60,10 +61,26 @@ def solve(
         if out is not None:
             _core.solve(scene, store=out, on_increment=bar.update)
             return open(out)
-        with tempfile.TemporaryDirectory(prefix="pyfret-") as folder:
+        with tempfile.TemporaryDirectory(prefix="pyfret-", dir=memory(scene)) as folder:
             store = Path(folder) / "run.zarr"
             _core.solve(scene, store=store, on_increment=bar.update)
             return Result(open(store).dataset.load())
+
+
+#: A file system in memory, where there is one.
+SHARED_MEMORY = Path("/dev/shm")
+
+
+def memory(scene: Scene) -> Path | None:
+    """Where a passing store is written: in memory if it fits, else the usual temporary folder."""
+    kept = len(scene.path) if scene.settings.save == "all" else len(scene.path.branches)
+    if isinstance(scene.settings.save, list):
+        kept = len(scene.settings.save)
+    size = 8 * (len(_core.labels()) * (len(scene.path) + kept * scene.grid.nx * scene.grid.ny))
+    try:
+        return SHARED_MEMORY if shutil.disk_usage(SHARED_MEMORY).free > 2 * size else None
+    except OSError:
+        return None
 
 
 def march(scene: Scene, path: LoadPath | None = None) -> Iterator[Increment]:
