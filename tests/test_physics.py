@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import MU, T_MAX, W, paper_path, sphere_on_flat
+from conftest import MU, W, paper_path, sphere_on_flat
 
 
 def test_forces_balance(coated: fret.Result) -> None:
