@@ -1,10 +1,12 @@
 //! The binary as a user meets it: what it says, where, and how it ends.
 
-#![allow(clippy::unwrap_used)]
+// What is read back is what was written: equality is meant to the bit.
+#![allow(clippy::unwrap_used, clippy::float_cmp)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::time::Duration;
 
 use contact_core::output::Store;
 
@@ -149,26 +151,26 @@ fn a_store_is_overwritten_only_on_demand() {
 #[test]
 fn a_run_that_does_not_converge_keeps_what_it_has() {
     let out = free("stuck.zarr");
-    // One iteration is enough for the indentation by its good first guess, not for what follows.
-    let output = run(
-        &out,
-        &[
-            "--set",
-            "solver.max_iterations=3",
-            "--set",
-            "solver.tolerance=1e-9",
-        ],
-    );
+    // Five iterations do for the indentation, whose first guess is Hertz's, and not for shear.
+    let few = [
+        "--set",
+        "solver.max_iterations=5",
+        "--set",
+        "solver.tolerance=1e-9",
+    ];
+    let output = run(&out, &few);
     let error = text(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{error}");
-    assert!(error.contains("solver stopped at residual"), "{error}");
+    assert!(error.contains("increments are kept in"), "{error}");
+    let last = error.lines().last().unwrap();
     assert!(
-        !out.exists()
-            || Store::open(&out)
-                .unwrap()
-                .status()
-                .contains("solver stopped")
+        last.contains("the tangential solver stopped at residual"),
+        "{error}"
     );
+    assert!(text(&output.stdout).contains("1000.0"));
+    let store = Store::open(&out).unwrap();
+    assert!(store.increments() >= 1);
+    assert_eq!(format!("fret: {}", store.status()), last);
 }
 
 #[test]
@@ -233,4 +235,46 @@ fn an_interrupted_run_ends_cleanly() {
     assert!(rest.iter().any(|line| line.ends_with(&last)));
     let saved = store.column("saved_increment").unwrap();
     assert_eq!(saved.last().map(|&n| n as usize), Some(store.increments()));
+}
+
+/// kill -9 at any moment: the store opens, and is as it was at its last flush.
+#[test]
+fn a_killed_run_leaves_a_whole_store() {
+    let out = free("killed.zarr");
+    let mut lengths = Vec::new();
+    for milliseconds in [120, 170, 230, 310, 430] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_fret"))
+            .args([
+                "run",
+                SCENE,
+                "-o",
+                out.to_str().unwrap(),
+                "--overwrite",
+                "--quiet",
+            ])
+            .args(["--set", "path.2.increments=1000000", "--set", "grid.n=32"])
+            .args(["--set", "output.save=all", "--flush", "0"])
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        if !out.exists() {
+            continue;
+        }
+        let store = Store::open(&out).unwrap();
+        assert_eq!(store.status(), "running");
+        let n = store.increments();
+        assert_eq!(store.saved(), n);
+        if n > 0 {
+            assert!(store.column("W").unwrap().iter().all(|&W| W == 1000.0));
+            let counts: Vec<_> = (1..=n).map(|i| i as f64).collect();
+            assert_eq!(store.column("increment").unwrap(), counts);
+            let p_max = store.column("p_max").unwrap()[n - 1];
+            let p = store.field("p", n - 1).unwrap();
+            assert_eq!(p.iter().copied().fold(0.0, f64::max), p_max);
+        }
+        lengths.push(n);
+    }
+    assert!(lengths.iter().any(|&n| n > 0), "{lengths:?}");
 }
