@@ -66,7 +66,9 @@ impl SurfaceOperator {
         );
         let mut u = Array3::zeros((3, self.shape.0, self.shape.1));
         py.detach(|| {
-            let mut parts = u.axis_iter_mut(Axis(0)).filter_map(ArrayViewMut2::into_slice);
+            let mut parts = u
+                .axis_iter_mut(Axis(0))
+                .filter_map(ArrayViewMut2::into_slice);
             let displacements = Displacements {
                 u_x: parts.next(),
                 u_y: parts.next(),
