@@ -6,15 +6,22 @@
 mod bessel;
 mod cell;
 mod coefficients;
+mod depth_frf;
 pub(crate) mod gauss;
 mod half_space;
+mod half_space_stress;
 mod layered_frf;
 mod matrix;
 mod radial_table;
+mod stress;
 mod surface;
 
 pub use coefficients::{InfluenceCoefficients, Quadrant};
+pub use depth_frf::FrequencyResponse;
+pub use half_space_stress::StressResponse;
 pub use layered_frf::{RadialResponse, Stack};
+pub use rustfft::num_complex::Complex64;
+pub use stress::{StressCoefficients, stress_at, stress_coefficients};
 
 use crate::error::Error;
 use crate::scene::{Body, Grid, KernelSettings};
