@@ -7,7 +7,7 @@ mod bessel;
 mod cell;
 mod coefficients;
 mod depth_frf;
-mod gauss;
+pub(crate) mod gauss;
 mod half_space;
 mod half_space_stress;
 mod layered_frf;
