@@ -46,12 +46,15 @@ def one_jump(scene: fret.Scene) -> fret.Scene:
 def front_page(results: dict[float, fret.Result], file: Path) -> None:
     """The README's figure: loops of all ratios, and stick and shear for E1/E2 = 2."""
     with fret.plot.style():
-        figure, (loops, zones, shear) = plt.subplots(1, 3, figsize=(10.2, 3.2))
+        figure, (loops, zones, shear) = plt.subplots(1, 3, figsize=(10.2, 3.4))
         for ratio, result in results.items():
             fret.plot.fretting_loop(result, ax=loops, label=f"$E_1/E_2 = {ratio:g}$")
         loops.legend()
-        fret.plot.stick_slip(results[2.0].at(-1), ax=zones)
+        fret.plot.stick_slip(results[2.0].at(1.0), ax=zones)
         fret.plot.shear_streamlines(results[2.0].at(0.9), ax=shear)
+        loops.set_title("Fretting loops")
+        zones.set_title(r"Stick and slip, $E_1/E_2 = 2$, $t = \tau$")
+        shear.set_title(r"Shear on the coated body, $t = 0.9\,\tau$")
         figure.savefig(file)
         plt.close(figure)
 

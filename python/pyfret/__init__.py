@@ -12,7 +12,12 @@ tractions, the stick and slip zones and the fretting loop at every load incremen
 Axes, signs and names are those of ``docs/conventions.md``; SI units everywhere.
 """
 
-from pyfret import plot, reference
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from pyfret import reference
 from pyfret._core import (
     RIGID,
     Body,
@@ -41,6 +46,9 @@ from pyfret._core import (
 )
 from pyfret.results import Result, Snapshot, open
 from pyfret.solving import Increment, march, solve
+
+if TYPE_CHECKING:
+    from pyfret import plot
 
 __all__ = [
     "RIGID",
@@ -76,3 +84,10 @@ __all__ = [
     "reference",
     "solve",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import the figures, and with them matplotlib, when they are first asked for."""
+    if name == "plot":
+        return import_module("pyfret.plot")
+    raise AttributeError(f"module 'pyfret' has no attribute {name!r}")

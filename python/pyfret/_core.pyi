@@ -3,7 +3,7 @@
 SI units everywhere; axes, signs and names are those of ``docs/conventions.md``.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import ClassVar, Final, Literal, TypeAlias, final
 
@@ -48,6 +48,8 @@ __all__ = [
     "goodman_stick_ratio",
     "hertz",
     "hertz_ellipse",
+    "labels",
+    "solve",
 ]
 
 _Array: TypeAlias = NDArray[np.float64]
@@ -831,11 +833,28 @@ class March:
     @property
     def done(self) -> int:
         """Increments solved so far."""
+    @property
+    def scene(self) -> Scene:
+        """The scene that is being solved."""
     def fields(self) -> dict[str, NDArray[np.float64 | np.bool_]]:
         """Fields after the last increment, shape (nx, ny)."""
     def __iter__(self) -> March: ...
     def __next__(self) -> dict[str, float]:
         """Solve the next increment and give its scalars."""
+
+def labels() -> dict[str, tuple[str, str]]:
+    """Units and meaning of every variable of a result, scalars and fields."""
+
+def solve(
+    scene: Scene,
+    *,
+    store: str | PathLike[str],
+    on_increment: Callable[[int], object] | None = None,
+) -> None:
+    """Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
+
+    `on_increment` is called with the number of each increment solved.
+    """
 
 class InvalidSceneError(ValueError):
     """A scene, or a scene file, has no meaning."""

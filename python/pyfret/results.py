@@ -191,7 +191,7 @@ class Result:
         elif which > 0:
             places = np.flatnonzero(saved == which)
         else:
-            places = np.arange(saved.size)[which:][:1]
+            places = np.flatnonzero(np.arange(saved.size) == saved.size + which)
         if places.size == 0 or which == 0:
             raise KeyError(
                 f"no fields were kept at {which!r}; kept are the increments {saved.tolist()} "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -60,10 +61,26 @@ def solve(
         if out is not None:
             _core.solve(scene, store=out, on_increment=bar.update)
             return open(out)
-        with tempfile.TemporaryDirectory(prefix="pyfret-") as folder:
+        with tempfile.TemporaryDirectory(prefix="pyfret-", dir=memory(scene)) as folder:
             store = Path(folder) / "run.zarr"
             _core.solve(scene, store=store, on_increment=bar.update)
             return Result(open(store).dataset.load())
+
+
+#: A file system in memory, where there is one.
+SHARED_MEMORY = Path("/dev/shm")
+
+
+def memory(scene: Scene) -> Path | None:
+    """Where a passing store is written: in memory if it fits, else the usual temporary folder."""
+    kept = len(scene.path) if scene.settings.save == "all" else len(scene.path.branches)
+    if isinstance(scene.settings.save, list):
+        kept = len(scene.settings.save)
+    size = 8 * (len(_core.labels()) * (len(scene.path) + kept * scene.grid.nx * scene.grid.ny))
+    try:
+        return SHARED_MEMORY if shutil.disk_usage(SHARED_MEMORY).free > 2 * size else None
+    except OSError:
+        return None
 
 
 def march(scene: Scene, path: LoadPath | None = None) -> Iterator[Increment]:
@@ -85,6 +102,27 @@ def march(scene: Scene, path: LoadPath | None = None) -> Iterator[Increment]:
     running = _core.March(scene.replace(path=path))
     for scalars in running:
         yield Increment(running, scalars)
+
+
+def labelled(running: _core.March, scalars: dict[str, float]) -> xr.Dataset:
+    """The last increment of a march as a dataset, labelled as in a result store."""
+    labels = {
+        name: {"units": units, "long_name": meaning}
+        for name, (units, meaning) in _core.labels().items()
+    }
+    scene = running.scene
+    hertz = scene.hertz
+    attrs = {"title": scene.title, "mu": scene.mu}
+    if hertz is not None:
+        attrs |= {"a_H": hertz.a, "p_H": hertz.p0, "R": hertz.a**2 / hertz.delta_z}
+    coordinates = ("increment", "t", "branch_of_increment")
+    return xr.Dataset(
+        {k: ((), v, labels[k]) for k, v in scalars.items() if k not in coordinates}
+        | {k: (("x", "y"), v, labels[k]) for k, v in running.fields().items()},
+        coords={k: ((), scalars[k], labels[k]) for k in coordinates}
+        | {"x": scene.grid.x, "y": scene.grid.y},
+        attrs=attrs,
+    )
 
 
 class Increment(Snapshot):

@@ -13,6 +13,7 @@ mod error;
 mod march;
 mod operator;
 mod reference;
+mod result;
 mod scene;
 
 use pyo3::prelude::*;
@@ -27,7 +28,7 @@ mod _core {
         InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError, StoreError,
     };
     #[pymodule_export]
-    use crate::march::March;
+    use crate::march::{March, labels};
     #[pymodule_export]
     use crate::operator::SurfaceOperator;
     #[pymodule_export]
@@ -36,6 +37,8 @@ mod _core {
         coated_indentation, coupled_indentation, dundurs_beta, goodman_stick_ratio, hertz,
         hertz_ellipse,
     };
+    #[pymodule_export]
+    use crate::result::solve;
     #[pymodule_export]
     use crate::scene::{
         Body, Branch, Coating, Elastic, Flat, FrequencyDomain, Grid, Hankel, InverseFft, LoadPath,

@@ -1,8 +1,10 @@
 //! The load path, one increment at a time.
 
+use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
 use contact_core::march as core;
+use contact_core::output::{FIELDS, FieldView, Kind, SCALARS};
 use numpy::ToPyArray;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -40,6 +42,11 @@ impl March {
         self.inner().state().increments
     }
 
+    #[getter]
+    fn scene(&mut self) -> Scene {
+        Scene(self.inner().scene().clone())
+    }
+
     fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
         slf
     }
@@ -50,82 +57,37 @@ impl March {
         match py.detach(|| march.advance()) {
             None => Ok(None),
             Some(Err(error)) => Err(to_python(error)),
-            Some(Ok(increment)) => scalars(py, &increment).map(Some),
+            Some(Ok(increment)) => {
+                let scalars = PyDict::new(py);
+                for scalar in SCALARS {
+                    let value = (scalar.value)(&increment);
+                    match scalar.kind {
+                        Kind::Real => scalars.set_item(scalar.name, value)?,
+                        _ => scalars.set_item(scalar.name, value as i64)?,
+                    }
+                }
+                Ok(Some(scalars))
+            }
         }
     }
 
     fn fields<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let f = self.inner().fields();
+        let all = self.inner().fields();
         let fields = PyDict::new(py);
-        for (name, field) in [
-            ("p", &f.p),
-            ("q_x", &f.q_x),
-            ("q_y", &f.q_y),
-            ("u_x", &f.u_x),
-            ("u_y", &f.u_y),
-            ("u_z", &f.u_z),
-            ("gap", &f.gap),
-            ("slip_x", &f.slip_x),
-            ("slip_y", &f.slip_y),
-            ("dissipated_density", &f.dissipated),
-        ] {
-            fields.set_item(name, field.to_pyarray(py))?;
-        }
-        for (name, mask) in [("contact", &f.contact), ("stick", &f.stick)] {
-            fields.set_item(name, mask.to_pyarray(py))?;
+        for field in FIELDS {
+            match (field.values)(&all) {
+                FieldView::Real(values) => fields.set_item(field.name, values.to_pyarray(py))?,
+                FieldView::Mask(values) => fields.set_item(field.name, values.to_pyarray(py))?,
+            }
         }
         Ok(fields)
     }
 }
 
-/// The scalars of an increment under the names of the result store.
-fn scalars<'py>(py: Python<'py>, increment: &core::Increment) -> PyResult<Bound<'py, PyDict>> {
-    let core::Increment {
-        point,
-        motion,
-        energy,
-        residuals,
-        work,
-        ..
-    } = increment;
-    let scalars = PyDict::new(py);
-    for (name, value) in [
-        ("t", point.t),
-        ("W", point.loads.W),
-        ("T_x", point.loads.T_x),
-        ("T_y", point.loads.T_y),
-        ("delta_z", motion.delta_z),
-        ("delta_x", motion.delta_x),
-        ("delta_y", motion.delta_y),
-        ("contact_area", increment.contact_area),
-        ("stick_area", increment.stick_area),
-        ("stick_ratio", increment.stick_ratio()),
-        ("contact_radius", increment.contact_radius()),
-        ("p_max", increment.p_max),
-        ("q_max", increment.q_max),
-        ("work", energy.work),
-        ("elastic", energy.elastic),
-        ("dissipated", energy.dissipated),
-        ("opening", energy.opening),
-        ("residual_gap", residuals.gap),
-        ("residual_penetration", residuals.penetration),
-        ("residual_coulomb", residuals.coulomb),
-        ("residual_stick", residuals.stick),
-        ("residual_direction", residuals.direction),
-        ("residual_balance", residuals.balance),
-        ("residual_energy", residuals.energy),
-        ("convolutions", work.convolutions),
-    ] {
-        scalars.set_item(name, value)?;
-    }
-    for (name, count) in [
-        ("increment", increment.index),
-        ("branch_of_increment", point.branch),
-        ("alternations", work.alternations),
-        ("normal_iterations", work.normal_iterations),
-        ("tangential_iterations", work.tangential_iterations),
-    ] {
-        scalars.set_item(name, count)?;
-    }
-    Ok(scalars)
+/// Units and meaning of every variable of a result, scalars and fields.
+#[pyfunction]
+pub(crate) fn labels() -> HashMap<&'static str, (&'static str, &'static str)> {
+    let scalars = SCALARS.iter().map(|s| (s.name, (s.units, s.long_name)));
+    let fields = FIELDS.iter().map(|f| (f.name, (f.units, f.long_name)));
+    scalars.chain(fields).collect()
 }

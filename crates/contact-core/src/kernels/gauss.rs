@@ -16,8 +16,9 @@ pub(crate) fn gauss(n: usize) -> &'static [(f64, f64)] {
     &RULES[n]
 }
 
-/// Newton's iteration on the Legendre polynomial from Tricomi's starting values.
-fn rule(n: usize) -> Vec<(f64, f64)> {
+/// The rule of any number of nodes: Newton's iteration on the Legendre polynomial from Tricomi's
+/// starting values.
+pub(crate) fn rule(n: usize) -> Vec<(f64, f64)> {
     let node = |i: usize| {
         let mut x = (PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
         let mut slope = 1.0;

@@ -10,7 +10,7 @@ mod cell;
 mod coefficients;
 mod convert;
 mod depth_frf;
-mod gauss;
+pub(crate) mod gauss;
 mod graded;
 mod half_space;
 mod half_space_stress;

@@ -37,11 +37,12 @@ impl Folder {
     /// outlives the process; only a power failure can undo what was written last.
     pub(super) fn write(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
         let path = self.root.join(key);
-        if let Some(parent) = path.parent() {
-            fs::create_dir_all(parent)?;
-        }
         let unfinished = path.with_file_name(UNFINISHED);
-        fs::write(&unfinished, bytes)?;
+        if fs::write(&unfinished, bytes).is_err() {
+            // The folder may be missing; anything else fails again, and says why.
+            fs::create_dir_all(path.parent().unwrap_or(&self.root))?;
+            fs::write(&unfinished, bytes)?;
+        }
         fs::rename(&unfinished, &path)
     }
 

@@ -16,13 +16,14 @@ use crate::error::Error;
 use crate::march::{Fields, Increment, March, Observer};
 use crate::scene::{LoadPoint, Plan, Scene};
 
-/// Longest time between two flushes: what a crash may lose.
-const FLUSH_INTERVAL: Duration = Duration::from_secs(2);
+/// Time between two flushes: what a crash may lose. A flush replaces some eighty small files.
+const FLUSH_INTERVAL: Duration = Duration::from_secs(5);
 
 /// Appends a run to a store while it goes on. Give it to [`crate::march::solve`].
 pub struct StoreWriter {
     path: PathBuf,
     overwrite: bool,
+    flush_interval: Duration,
     open: Option<Open>,
 }
 
@@ -38,6 +39,8 @@ struct Open {
     last: Option<(usize, LoadPoint)>,
     saved: usize,
     saved_increment: usize,
+    /// Metadata documents as they were last written.
+    documents: Map<String, Value>,
     flushed: Instant,
 }
 
@@ -67,8 +70,17 @@ impl StoreWriter {
         Ok(Self {
             path: path.to_owned(),
             overwrite,
+            flush_interval: FLUSH_INTERVAL,
             open: None,
         })
+    }
+
+    /// Brings the store up to date whenever `interval` of run time has passed (default 5 s), and
+    /// at the end of the run.
+    #[must_use]
+    pub fn with_flush_interval(mut self, interval: Duration) -> Self {
+        self.flush_interval = interval;
+        self
     }
 }
 
@@ -92,7 +104,7 @@ impl Observer for StoreWriter {
         if save.keeps(&increment.point, increment.index, last) {
             open.save(&march.fields())?;
         }
-        if increment.point.ends_branch || open.flushed.elapsed() > FLUSH_INTERVAL {
+        if open.flushed.elapsed() >= self.flush_interval {
             open.flush()?;
         }
         Ok(())
@@ -116,7 +128,7 @@ impl Observer for StoreWriter {
 }
 
 impl Open {
-    /// Writes the empty store.
+    /// Begins the store: the group, without a variable.
     fn new(path: &Path, scene: &Scene, plan: &Plan) -> Result<Self, Error> {
         let grid = &scene.grid;
         let scalars = SCALARS.iter().map(|s| {
@@ -165,9 +177,10 @@ impl Open {
             last: None,
             saved: 0,
             saved_increment: 0,
+            documents: Map::new(),
             flushed: Instant::now(),
         };
-        open.flush()?;
+        open.write_documents(open.group_documents())?;
         Ok(open)
     }
 
@@ -216,22 +229,35 @@ impl Open {
         for column in self.scalars.iter_mut().chain(&mut self.others) {
             column.flush(&self.folder)?;
         }
-        let group = json!({ "zarr_format": 2 });
-        let mut documents = Map::new();
-        documents.insert(".zgroup".into(), group);
-        documents.insert(".zattrs".into(), Value::Object(self.attributes.clone()));
+        let mut documents = self.group_documents();
         let columns = self.scalars.iter().chain(&self.others);
         for variable in columns.map(Column::variable).chain(&self.fields) {
             let name = variable.name();
             documents.insert(format!("{name}/.zarray"), variable.zarray());
             documents.insert(format!("{name}/.zattrs"), variable.attributes());
         }
+        self.write_documents(documents)?;
+        self.flushed = Instant::now();
+        Ok(())
+    }
+
+    fn group_documents(&self) -> Map<String, Value> {
+        let mut documents = Map::new();
+        documents.insert(".zgroup".into(), json!({ "zarr_format": 2 }));
+        documents.insert(".zattrs".into(), Value::Object(self.attributes.clone()));
+        documents
+    }
+
+    /// Writes the metadata documents that have changed, and all of them as consolidated metadata.
+    fn write_documents(&mut self, documents: Map<String, Value>) -> Result<(), Error> {
         for (key, document) in &documents {
-            self.write(key, document)?;
+            if self.documents.get(key) != Some(document) {
+                self.write(key, document)?;
+            }
         }
         let consolidated = json!({ "zarr_consolidated_format": 1, "metadata": documents });
         self.write(".zmetadata", &consolidated)?;
-        self.flushed = Instant::now();
+        self.documents = documents;
         Ok(())
     }
 

@@ -1,33 +1,12 @@
 //! Gauss-Legendre quadrature and a bracketed root, for the closed forms that end in one.
 
-use std::f64::consts::PI;
+use crate::kernels::gauss::rule;
 
 /// Nodes and weights of the `n`-point Gauss-Legendre rule on (a, b).
-///
-/// Newton's method on the Legendre polynomial from the asymptotic roots cos(pi (i + 3/4)/(n + 1/2)).
 pub(crate) fn gauss_legendre(n: usize, a: f64, b: f64) -> Vec<(f64, f64)> {
     let (middle, half) = (f64::midpoint(a, b), (b - a) / 2.0);
-    (0..n)
-        .map(|i| {
-            let mut x = -(PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-            let mut slope = 1.0;
-            for _ in 0..10 {
-                let (mut p, mut before) = (1.0, 0.0);
-                for k in 0..n {
-                    let k = k as f64;
-                    (p, before) = (((2.0 * k + 1.0) * x * p - k * before) / (k + 1.0), p);
-                }
-                slope = n as f64 * (x * p - before) / (x * x - 1.0);
-                let change = p / slope;
-                x -= change;
-                if change.abs() < 1e-15 {
-                    break;
-                }
-            }
-            let weight = 2.0 / ((1.0 - x * x) * slope * slope);
-            (middle + half * x, half * weight)
-        })
-        .collect()
+    let place = |(x, w)| (middle + half * x, half * w);
+    rule(n).into_iter().map(place).collect()
 }
 
 /// Integral of `f` over (a, b) by the `n`-point Gauss-Legendre rule.

@@ -47,6 +47,11 @@ impl Grid {
         self.dx * self.dy
     }
 
+    /// Length along x and along y \[m\].
+    pub fn extent(&self) -> (f64, f64) {
+        (self.nx as f64 * self.dx, self.ny as f64 * self.dy)
+    }
+
     /// Coordinate of the centre of the i-th column of cells \[m\].
     pub fn x(&self, i: usize) -> f64 {
         (i as f64 - (self.nx - 1) as f64 / 2.0) * self.dx

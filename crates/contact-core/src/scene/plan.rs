@@ -1,6 +1,6 @@
 //! What a scene needs, decided before anything is computed.
 
-use super::{Body, KernelMethod, Scene};
+use super::{Body, Grid, KernelMethod, Scene};
 use crate::convolution::Mirror;
 
 /// What is computed and what is left out.
@@ -67,6 +67,11 @@ impl Plan {
             mirror: if half { Mirror::Y } else { Mirror::None },
             lines,
         }
+    }
+
+    /// Peak memory of a solution on the grid \[bytes\], an estimate.
+    pub fn memory(&self, grid: &Grid) -> f64 {
+        grid.cells() as f64
     }
 }
 

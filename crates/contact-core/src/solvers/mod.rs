@@ -8,6 +8,7 @@
 //! Each takes Params and gives Info or an Error with numbers. Lengths are those of the scene; a
 //! tolerance is a length too, so that "how wrong" can be read off.
 
+mod contact_cells;
 mod coupled;
 mod newton_step;
 mod normal;

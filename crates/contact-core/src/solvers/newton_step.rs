@@ -1,6 +1,7 @@
 //! One Newton step of the tangential problem: the linear system on the tangent space.
 
 use super::Response;
+use super::contact_cells::ContactCells;
 use super::tangential::{Shear, TangentialProblem};
 use super::vector::{add_scaled, dot, sum};
 
@@ -13,22 +14,27 @@ type Pair = [Vec<f64>; 2];
 /// ```
 ///
 /// with Pi the projection on the tangent space (stick cells: both components; slip cells: across
-/// q) and D the curvature |ds|/g of the circle.
+/// q) and D the curvature |ds|/g of the circle. The unknowns are packed contact cells; what goes
+/// through the operator covers the grid.
 #[derive(Debug)]
 pub(crate) struct NewtonStep {
+    contact: ContactCells,
     tangent: Tangent,
     /// D \[m/Pa\].
     diagonal: Vec<f64>,
     /// S = (1 + D/C_xx(0,0))^(-1/2).
     scale: Vec<f64>,
     /// Solution \[Pa\].
-    pub(crate) x: Pair,
-    /// C x \[m\].
-    pub(crate) response_x: Pair,
+    x: Pair,
     residual: Pair,
     z: Pair,
     direction: Pair,
     response_direction: Pair,
+    /// C x \[m\] on the grid.
+    response_x: Pair,
+    /// Traction and displacement on the grid.
+    traction: Pair,
+    displacement: Pair,
 }
 
 /// The projection on the tangent space and on a sum of zero.
@@ -43,9 +49,11 @@ struct Tangent {
 
 impl NewtonStep {
     pub(crate) fn new(cells: usize) -> Self {
-        let field = || vec![0.0; cells];
+        let field = || Vec::with_capacity(cells);
         let pair = || [field(), field()];
+        let on_grid = || [vec![0.0; cells], vec![0.0; cells]];
         Self {
+            contact: ContactCells::default(),
             tangent: Tangent {
                 xx: field(),
                 xy: field(),
@@ -55,12 +63,40 @@ impl NewtonStep {
             diagonal: field(),
             scale: field(),
             x: pair(),
-            response_x: pair(),
             residual: pair(),
             z: pair(),
             direction: pair(),
             response_direction: pair(),
+            response_x: on_grid(),
+            traction: on_grid(),
+            displacement: on_grid(),
         }
+    }
+
+    /// Packs the contact cells, those with a friction bound.
+    pub(crate) fn set_contact(&mut self, bound: &[f64]) {
+        self.contact.find(bound.len(), |n| bound[n] > 0.0);
+        let count = self.contact.count();
+        let t = &mut self.tangent;
+        for field in [
+            &mut t.xx,
+            &mut t.xy,
+            &mut t.yy,
+            &mut self.diagonal,
+            &mut self.scale,
+        ] {
+            field.resize(count, 0.0);
+        }
+        for pair in [
+            &mut self.x,
+            &mut self.residual,
+            &mut self.z,
+            &mut self.direction,
+            &mut self.response_direction,
+        ] {
+            pair.iter_mut().for_each(|field| field.resize(count, 0.0));
+        }
+        self.traction.iter_mut().for_each(|field| field.fill(0.0));
     }
 
     /// Tangent space, curvature and residual at the present shear and slip; x starts from zero.
@@ -72,12 +108,10 @@ impl NewtonStep {
         c_xx: f64,
     ) {
         let t = &mut self.tangent;
-        for n in 0..problem.bound.len() {
-            let g = problem.bound[n];
+        for (i, n) in self.contact.iter().enumerate() {
             let slip = shear.slip_of(problem, shift, n);
-            let (tangent, diagonal) = if g <= 0.0 {
-                ([0.0, 0.0, 0.0], 0.0)
-            } else if shear.slip[n] {
+            let (tangent, diagonal) = if shear.slip[n] {
+                let g = problem.bound[n];
                 let e = [shear.q[0][n] / g, shear.q[1][n] / g];
                 let against = -(slip[0] * e[0] + slip[1] * e[1]);
                 (
@@ -87,18 +121,14 @@ impl NewtonStep {
             } else {
                 ([1.0, 0.0, 1.0], 0.0)
             };
-            [t.xx[n], t.xy[n], t.yy[n]] = tangent;
-            self.diagonal[n] = diagonal;
-            self.scale[n] = 1.0 / (1.0 + diagonal / c_xx).sqrt();
-            self.residual[0][n] = -slip[0];
-            self.residual[1][n] = -slip[1];
+            [t.xx[i], t.xy[i], t.yy[i]] = tangent;
+            self.diagonal[i] = diagonal;
+            self.scale[i] = 1.0 / (1.0 + diagonal / c_xx).sqrt();
+            self.residual[0][i] = -slip[0];
+            self.residual[1][i] = -slip[1];
         }
         t.inverse_sum = invert([sum(&t.xx), sum(&t.xy), sum(&t.yy)], problem.free);
         t.project(&mut self.residual);
-        for c in 0..2 {
-            self.x[c].fill(0.0);
-            self.response_x[c].fill(0.0);
-        }
     }
 
     /// Norm of the residual \[m\], root of the sum of squares.
@@ -114,6 +144,10 @@ impl NewtonStep {
         target: f64,
         max_passes: usize,
     ) -> usize {
+        for c in 0..2 {
+            self.x[c].fill(0.0);
+            self.response_x[c].fill(0.0);
+        }
         let mut last_product = 0.0;
         for pass in 0..max_passes {
             if self.residual_norm() <= target {
@@ -131,12 +165,16 @@ impl NewtonStep {
                 for (d, z) in self.direction[c].iter_mut().zip(&self.z[c]) {
                     *d = z + beta * *d;
                 }
+                self.contact
+                    .unpack(&self.direction[c], &mut self.traction[c]);
             }
-            let [d_x, d_y] = &self.direction;
-            let [r_x, r_y] = &mut self.response_direction;
-            response.tangential([d_x, d_y], [r_x, r_y]);
+            let [d_x, d_y] = &self.traction;
+            let [u_x, u_y] = &mut self.displacement;
+            response.tangential([d_x, d_y], [u_x, u_y]);
             // z = Pi (C + D) d; d lies in the tangent space.
             for c in 0..2 {
+                self.contact
+                    .pack(&self.displacement[c], &mut self.response_direction[c]);
                 let terms = self.z[c].iter_mut().zip(&self.response_direction[c]);
                 for ((z, r), (d, k)) in terms.zip(self.direction[c].iter().zip(&self.diagonal)) {
                     *z = r + k * d;
@@ -150,7 +188,7 @@ impl NewtonStep {
             let step = product / curvature;
             for c in 0..2 {
                 add_scaled(&mut self.x[c], step, &self.direction[c]);
-                add_scaled(&mut self.response_x[c], step, &self.response_direction[c]);
+                add_scaled(&mut self.response_x[c], step, &self.displacement[c]);
                 add_scaled(&mut self.residual[c], -step, &self.z[c]);
             }
         }
@@ -160,29 +198,37 @@ impl NewtonStep {
     /// z = Pi S P S r
     fn precondition(&mut self, response: &mut Response<'_>) {
         for c in 0..2 {
-            let scaled = self.response_direction[c].iter_mut().zip(&self.scale);
-            for ((s, scale), r) in scaled.zip(&self.residual[c]) {
-                *s = scale * r;
+            let scaled = self.z[c].iter_mut().zip(&self.scale);
+            for ((z, scale), r) in scaled.zip(&self.residual[c]) {
+                *z = scale * r;
             }
+            self.contact.unpack(&self.z[c], &mut self.traction[c]);
         }
-        let [s_x, s_y] = &self.response_direction;
-        let [z_x, z_y] = &mut self.z;
+        let [s_x, s_y] = &self.traction;
+        let [z_x, z_y] = &mut self.displacement;
         response.invert_tangential([s_x, s_y], [z_x, z_y]);
-        for z in &mut self.z {
-            for (z, scale) in z.iter_mut().zip(&self.scale) {
+        for c in 0..2 {
+            self.contact.pack(&self.displacement[c], &mut self.z[c]);
+            for (z, scale) in self.z[c].iter_mut().zip(&self.scale) {
                 *z *= scale;
             }
         }
         self.tangent.project(&mut self.z);
     }
 
-    /// The shift that the equations of the tangent space ask for after the step, with u updated.
-    pub(crate) fn shift(&mut self, problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 2] {
+    /// Adds x and C x to the shear; returns the shift that the equations of the tangent space ask
+    /// for there.
+    pub(crate) fn take(
+        &mut self,
+        problem: &TangentialProblem<'_>,
+        shear: &mut Shear<'_>,
+    ) -> [f64; 2] {
         for c in 0..2 {
-            let slips = shear.u[c].iter().zip(problem.u_ref[c]);
-            let curved = self.diagonal.iter().zip(&self.x[c]);
-            for ((z, (u, u_ref)), (k, x)) in self.z[c].iter_mut().zip(slips).zip(curved) {
-                *z = u - u_ref + k * x;
+            add_scaled(shear.u[c], 1.0, &self.response_x[c]);
+            for (i, n) in self.contact.iter().enumerate() {
+                let x = self.x[c][i];
+                shear.q[c][n] += x;
+                self.z[c][i] = shear.u[c][n] - problem.u_ref[c][n] + self.diagonal[i] * x;
             }
         }
         let sums = self.tangent.project_cells(&mut self.z);

@@ -126,6 +126,7 @@ pub fn tangential(
     params: &TangentialParams,
 ) -> Result<TangentialInfo, SolverError> {
     let root_of_contact = (problem.bound.iter().filter(|&&g| g > 0.0).count() as f64).sqrt();
+    ws.step.set_contact(problem.bound);
     let (c_xx, _) = response.op.self_coefficients();
     let negligible = SETTLED * params.tolerance / c_xx;
     let mut info = TangentialInfo {
@@ -156,11 +157,7 @@ pub fn tangential(
             ws.q_before[c].copy_from_slice(shear.q[c]);
             ws.u_before[c].copy_from_slice(shear.u[c]);
         }
-        for c in 0..2 {
-            add_scaled(shear.q[c], 1.0, &ws.step.x[c]);
-            add_scaled(shear.u[c], 1.0, &ws.step.response_x[c]);
-        }
-        info.shift = ws.step.shift(problem, shear);
+        info.shift = ws.step.take(problem, shear);
         mark_slip(problem, shear, info.shift);
         if admissible(problem, &mut shear.q, shear.slip, &mut ws.change) > negligible {
             let [change_x, change_y] = &ws.change;

@@ -6,10 +6,6 @@ use ndarray::{Array2, Zip};
 
 use crate::bench::hertz_of;
 
-/// Misfits are given in these parts of the solver's tolerance: it bounds root-mean-square values,
-/// a single cell may be some times worse.
-const WORST_CELL: f64 = 20.0;
-
 /// Follows a run and checks each increment against the last one.
 pub(crate) struct Audit {
     mu: f64,
@@ -19,7 +15,7 @@ pub(crate) struct Audit {
     relative: f64,
     /// Solver's tolerance as a length along z \[m\].
     tolerance: f64,
-    last: Option<(Fields, Motion)>,
+    last: (Fields, Motion),
     elastic: f64,
     work: f64,
 }
@@ -32,7 +28,7 @@ impl Audit {
             cell_area: scene.grid.cell_area(),
             relative: scene.settings.solver.tolerance,
             tolerance: scene.settings.solver.tolerance * hertz_of(scene).delta_z,
-            last: None,
+            last: (unloaded(scene), Motion::default()),
             elastic: 0.0,
             work: 0.0,
         }
@@ -44,7 +40,7 @@ impl Audit {
         self.contact(&now, increment);
         self.friction(&now, increment);
         self.energy(&now, increment);
-        self.last = Some((now, increment.motion));
+        self.last = (now, increment.motion);
     }
 
     /// The tractions carry the forces.
@@ -66,8 +62,8 @@ impl Audit {
     /// p >= 0, gap >= 0, and not both.
     fn contact(&self, now: &Fields, increment: &Increment) {
         let gap = &now.u_z + &self.h_init - increment.motion.delta_z;
+        let allowed = worst_cell(now) * self.tolerance;
         Zip::from(&now.p).and(&gap).for_each(|&p, &gap| {
-            let allowed = WORST_CELL * self.tolerance;
             assert!(p >= 0.0, "p = {p} at {}", increment.index);
             assert!(gap > -allowed, "penetration {gap:e} at {}", increment.index);
             assert!(
@@ -78,60 +74,60 @@ impl Audit {
         });
     }
 
-    /// |q| <= mu p, no slip in stick cells, slip against q in slip cells.
+    /// |q| <= mu p, no slip in stick cells, slip against q in slip cells, friction takes energy.
     fn friction(&self, now: &Fields, increment: &Increment) {
-        let still = Array2::zeros(now.p.dim());
-        let (last_u, last_motion) = match &self.last {
-            Some((fields, motion)) => ([&fields.u_x, &fields.u_y], *motion),
-            None => ([&still, &still], Motion::default()),
-        };
+        let at = increment.index;
+        let (last, last_motion) = &self.last;
         let shift = [
             increment.motion.delta_x - last_motion.delta_x,
             increment.motion.delta_y - last_motion.delta_y,
         ];
-        let allowed = WORST_CELL * self.mu * self.tolerance;
+        let allowed = worst_cell(now) * self.mu * self.tolerance;
+        let mut dissipated = 0.0;
         for (n, &p) in now.p.indexed_iter() {
             let q = [now.q_x[n], now.q_y[n]];
             let size = q[0].hypot(q[1]);
+            assert!(size <= self.mu * p * (1.0 + 1e-9), "Coulomb's law at {at}");
+            let ds = [
+                now.u_x[n] - last.u_x[n] - shift[0],
+                now.u_y[n] - last.u_y[n] - shift[1],
+            ];
+            let slip = ds[0].hypot(ds[1]);
+            let taken = -0.5 * ((q[0] + last.q_x[n]) * ds[0] + (q[1] + last.q_y[n]) * ds[1]);
+            dissipated += taken * self.cell_area;
+            // With the mean of the tractions, a pressure that falls while the cell slips back
+            // takes off at most this.
+            let fall = 0.5 * self.mu * (last.p[n] - p).max(0.0) * slip;
+            let trace = self.mu * last.p[n].max(p) * allowed;
             assert!(
-                size <= self.mu * p * (1.0 + 1e-9),
-                "Coulomb at {n:?} of {}",
-                increment.index
+                taken >= -fall - trace,
+                "friction gives {taken:e} J/m^2 at {at}"
             );
             if p <= 0.0 || self.mu == 0.0 {
                 continue;
             }
-            let ds = [
-                now.u_x[n] - last_u[0][n] - shift[0],
-                now.u_y[n] - last_u[1][n] - shift[1],
-            ];
-            let slip = ds[0].hypot(ds[1]);
             if now.stick[n] {
-                assert!(
-                    slip < allowed,
-                    "slip {slip:e} in a stick cell at {}",
-                    increment.index
-                );
+                assert!(slip < allowed, "slip {slip:e} in a stick cell at {at}");
                 continue;
             }
             assert!(
                 size > self.mu * p * (1.0 - 1e-9),
-                "slip below the limit at {}",
-                increment.index
+                "slip below the limit at {at}"
             );
             let along = -(ds[0] * q[0] + ds[1] * q[1]) / size;
             let across = (ds[0] * q[1] - ds[1] * q[0]).abs() / size;
-            assert!(
-                along > -allowed,
-                "slip along q by {along:e} at {}",
-                increment.index
-            );
+            assert!(along > -allowed, "slip along q by {along:e} at {at}");
             assert!(
                 across < 1e-3 * slip + allowed,
-                "slip at an angle, {across:e} of {slip:e} at {}",
-                increment.index
+                "slip at an angle, {across:e} of {slip:e} at {at}"
             );
         }
+        let theirs = increment.energy.dissipated;
+        let off = (dissipated - theirs).abs();
+        assert!(
+            off <= 1e-9 * self.work.max(theirs.abs()),
+            "{dissipated:e} J or {theirs:e} J"
+        );
     }
 
     /// Work of the forces = elastic energy stored + friction + what opening and closing take.
@@ -149,8 +145,31 @@ impl Audit {
             self.work,
             increment.index
         );
-        // The solver's tolerance may leave a trace of slip along q.
-        let least = -1e-3 * self.tolerance * self.mu * increment.point.loads.W;
-        assert!(e.dissipated > least, "friction gives {:e} J", e.dissipated);
+    }
+}
+
+/// The solver bounds root-mean-square misfits over the contact: one cell may hold all of it.
+fn worst_cell(now: &Fields) -> f64 {
+    let cells = now.contact.iter().filter(|c| **c).count();
+    (cells as f64).sqrt()
+}
+
+/// The fields of two bodies just touching.
+fn unloaded(scene: &Scene) -> Fields {
+    let zero = Array2::zeros((scene.grid.nx, scene.grid.ny));
+    let nowhere = zero.mapv(|_: f64| false);
+    Fields {
+        p: zero.clone(),
+        q_x: zero.clone(),
+        q_y: zero.clone(),
+        u_x: zero.clone(),
+        u_y: zero.clone(),
+        u_z: zero.clone(),
+        gap: scene.h_init(),
+        slip_x: zero.clone(),
+        slip_y: zero.clone(),
+        dissipated: zero,
+        contact: nowhere.clone(),
+        stick: nowhere,
     }
 }

@@ -1,1 +1,113 @@
+//! One coating, no friction: the integral-equation solution, any indenter.
 
+use contact_core::reference::{CoatedIndentation, coated_indentation, hertz};
+use contact_core::scene::{Body, Coating, Elastic, Grid, LoadPath, Scene, Shape};
+use serde_json::Value;
+
+use crate::bench::{FIELD, R, RIM, SMOOTH, STEEL, W, close, coated, norm, run, sphere_on_flat};
+
+/// Runs one frictionless increment and compares it with the truth.
+fn compare(scene: &Scene, truth: &CoatedIndentation) {
+    let d = scene.grid.dx / truth.a;
+    // A stiff coating narrows the field it carries to its own thickness.
+    let h = scene.body2.coatings[0].thickness;
+    let narrow = (scene.grid.dx / h).powi(2);
+    let smooth = SMOOTH * (d * d + narrow) + 1e-4;
+    run(scene, |march, increment| {
+        let exact = scene.grid.map(|x, y| truth.p(x.hypot(y)));
+        let p = march.fields().p;
+        let highest = truth.p(scene.grid.dx / 2f64.sqrt());
+        close("a", increment.contact_radius() / truth.a, 1.0, RIM * d);
+        close("p_max", increment.p_max / highest, 1.0, smooth);
+        close(
+            "delta_z",
+            increment.motion.delta_z / truth.delta_z,
+            1.0,
+            smooth,
+        );
+        close("p", norm(&(&p - &exact)) / norm(&exact), 0.0, FIELD * d);
+    });
+}
+
+#[test]
+fn a_rigid_sphere_at_the_load_of_the_bare_substrate() {
+    let bare = hertz(R, Elastic::RIGID, STEEL, W);
+    for (ratio, h) in [
+        (0.25, 0.25),
+        (2.0, 0.25),
+        (0.5, 0.5),
+        (4.0, 0.5),
+        (0.25, 1.0),
+        (2.0, 1.0),
+        (0.5, 2.0),
+        (4.0, 2.0),
+    ] {
+        let layer = Coating {
+            material: Elastic {
+                E: ratio * STEEL.E,
+                nu: 0.3,
+            },
+            thickness: h * bare.a,
+        };
+        let truth = coated_indentation(R, Elastic::RIGID, layer, STEEL, W);
+        let path = LoadPath::start().normal(W, 1);
+        let extent = 2.3 * truth.a / bare.a;
+        let scene = sphere_on_flat(Elastic::RIGID, STEEL, 0.0, (extent, 128), path);
+        compare(&coated(scene, layer.material, layer.thickness), &truth);
+    }
+}
+
+#[test]
+fn the_grid_converges_to_the_integral_equation() {
+    let bare = hertz(R, Elastic::RIGID, STEEL, W);
+    let layer = Coating {
+        material: Elastic {
+            E: 4.0 * STEEL.E,
+            nu: 0.3,
+        },
+        thickness: 0.5 * bare.a,
+    };
+    let truth = coated_indentation(R, Elastic::RIGID, layer, STEEL, W);
+    let error = |n: usize| {
+        let path = LoadPath::start().normal(W, 1);
+        let scene = sphere_on_flat(Elastic::RIGID, STEEL, 0.0, (2.0, n), path);
+        let mut scene = coated(scene, layer.material, layer.thickness);
+        scene.settings.solver.tolerance = 1e-8;
+        run(&scene, |_, _| {})[0].motion.delta_z / truth.delta_z - 1.0
+    };
+    let (coarse, fine) = (error(32), error(128));
+    // Second order: sixteen times less with a quarter of the cell.
+    assert!(fine.abs() < coarse.abs() / 8.0, "{coarse:e} {fine:e}");
+}
+
+#[test]
+fn another_program_in_extended_precision_finds_the_same_contact() {
+    let data: Value =
+        serde_json::from_str(include_str!("../data/axisym_indentation.json")).expect("JSON");
+    let material = |value: &Value| {
+        if value == "rigid" {
+            return Elastic::RIGID;
+        }
+        Elastic {
+            E: value["E"].as_f64().expect("E"),
+            nu: value["nu"].as_f64().expect("nu"),
+        }
+    };
+    for entry in data["entries"].as_array().expect("entries") {
+        let number = |key: &str| entry[key].as_f64().expect(key);
+        let (a, load) = (number("a"), number("load_W"));
+        let layer = &entry["layers"][0];
+        let coating = Coating {
+            material: material(layer),
+            thickness: layer["h"].as_f64().expect("h"),
+        };
+        let (indenter, substrate) = (material(&entry["indenter"]), material(&entry["substrate"]));
+        let path = LoadPath::start().normal(load, 1);
+        let mut scene = sphere_on_flat(indenter, substrate, 0.0, (1.0, 96), path);
+        scene.body1 = Body::homogeneous(indenter, Shape::Sphere { R: number("R") });
+        scene.body2.coatings = vec![coating];
+        scene.grid = Grid::centred(2.3 * a, 96).expect("a grid");
+        let truth = CoatedIndentation::of_radius(number("R"), indenter, coating, substrate, a);
+        compare(&scene, &truth);
+    }
+}

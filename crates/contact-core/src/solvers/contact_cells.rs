@@ -1,0 +1,89 @@
+//! The contact cells, packed one behind the other.
+//!
+//! The unknowns live on the contact alone, often less than half of the grid. Contact cells that
+//! lie side by side are copied together.
+
+use std::ops::Range;
+
+/// Runs of contact cells in the order of the grid.
+#[derive(Debug, Default)]
+pub(crate) struct ContactCells {
+    runs: Vec<Range<usize>>,
+    count: usize,
+}
+
+impl ContactCells {
+    /// Finds the cells where `inside` holds, of `cells` in all.
+    pub(crate) fn find(&mut self, cells: usize, inside: impl Fn(usize) -> bool) {
+        self.runs.clear();
+        self.count = 0;
+        let mut start = None;
+        for n in 0..=cells {
+            match (n < cells && inside(n), start) {
+                (true, None) => start = Some(n),
+                (false, Some(from)) => {
+                    self.runs.push(from..n);
+                    self.count += n - from;
+                    start = None;
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Number of contact cells.
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Cells of the grid in packed order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = usize> {
+        self.runs.iter().flat_map(Clone::clone)
+    }
+
+    /// Takes the values of the contact cells from a field.
+    pub(crate) fn pack(&self, field: &[f64], packed: &mut [f64]) {
+        for (run, at) in self.runs() {
+            packed[at..at + run.len()].copy_from_slice(&field[run]);
+        }
+    }
+
+    /// Puts values into the contact cells of a field; the others stay as they are.
+    pub(crate) fn unpack(&self, packed: &[f64], field: &mut [f64]) {
+        for (run, at) in self.runs() {
+            let length = run.len();
+            field[run].copy_from_slice(&packed[at..at + length]);
+        }
+    }
+
+    /// Runs and where each begins in packed order.
+    fn runs(&self) -> impl Iterator<Item = (Range<usize>, usize)> {
+        self.runs.iter().scan(0, |at, run| {
+            let begin = *at;
+            *at += run.len();
+            Some((run.clone(), begin))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ContactCells;
+
+    #[test]
+    fn packing_and_unpacking_are_inverse() {
+        let field: Vec<f64> = (0..20).map(f64::from).collect();
+        let inside = |n: usize| n < 2 || (5..9).contains(&n) || n == 19;
+        let mut cells = ContactCells::default();
+        cells.find(20, inside);
+        let mut packed = vec![0.0; cells.count()];
+        cells.pack(&field, &mut packed);
+        assert_eq!(packed, [0.0, 1.0, 5.0, 6.0, 7.0, 8.0, 19.0]);
+        assert_eq!(cells.iter().collect::<Vec<_>>(), [0, 1, 5, 6, 7, 8, 19]);
+        let mut back = vec![-1.0; 20];
+        cells.unpack(&packed, &mut back);
+        for n in 0..20 {
+            assert_eq!(back[n], if inside(n) { field[n] } else { -1.0 });
+        }
+    }
+}

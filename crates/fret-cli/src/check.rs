@@ -1,0 +1,56 @@
+//! `fret check`.
+
+use contact_core::Scene;
+use contact_core::scene::Plan;
+
+use crate::{Failure, SceneOptions, print};
+
+/// Says what the scene means and what its solution needs.
+pub(crate) fn check(options: &SceneOptions) -> Result<(), Failure> {
+    let scene = options.read().map_err(Failure::BadInput)?;
+    print(&description(&scene, &Plan::new(&scene)));
+    Ok(())
+}
+
+fn description(scene: &Scene, plan: &Plan) -> String {
+    let grid = &scene.grid;
+    let (length_x, length_y) = grid.extent();
+    let mut lines = vec![scene.title.clone()];
+    let mut line = |subject: &str, text: String| lines.push(format!("{subject:<14}{text}"));
+    match scene.hertz() {
+        None => line(
+            "a_H, p_H",
+            "none: no Hertz contact of the uncoated bodies".into(),
+        ),
+        Some(hertz) => {
+            let cells = (hertz.a / grid.dx, hertz.a / grid.dy);
+            line("a_H", format!("{:.6e} m", hertz.a));
+            line("p_H", format!("{:.6e} Pa", hertz.p0));
+            line(
+                "cells per a_H",
+                format!("{:.2} along x, {:.2} along y", cells.0, cells.1),
+            );
+        }
+    }
+    line(
+        "grid",
+        format!(
+            "{} x {} cells on {length_x:.4e} m x {length_y:.4e} m",
+            grid.nx, grid.ny
+        ),
+    );
+    line(
+        "load path",
+        format!(
+            "{} branches, {} increments, W up to {} N",
+            scene.path.branches.len(),
+            scene.path.increments(),
+            scene.path.W_max()
+        ),
+    );
+    line("memory", format!("about {:.0} MB", plan.memory(grid) / 1e6));
+    for rule in &plan.lines {
+        line("plan", rule.to_string());
+    }
+    lines.join("\n")
+}

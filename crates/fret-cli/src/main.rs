@@ -1,0 +1,94 @@
+//! `fret`: fretting contact of coated bodies from the command line.
+//!
+//! It reads a scene file, hands it to `contact_core` and shows what comes back; it computes
+//! nothing itself.
+
+#![forbid(unsafe_code)]
+
+mod check;
+mod progress;
+mod run;
+mod summary;
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+use contact_core::{Error, Scene};
+
+/// Fretting contact of elastic bodies, homogeneous or coated.
+#[derive(Parser)]
+#[command(name = "fret", version, after_help = EXIT_CODES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 done; 1 the run ended early, everything so far is kept; \
+                          2 bad scene or bad command line, nothing was written";
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run through the load path of a scene and write a result store
+    Run(run::Options),
+    /// Say what a scene means and what its solution needs; solve nothing
+    Check(SceneOptions),
+}
+
+/// A scene file and what is changed in it.
+#[derive(Args)]
+struct SceneOptions {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Replace a value of the scene file, such as friction.mu=0.5 or
+    /// body2.coatings.0.E.E_substrate=4
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    settings: Vec<String>,
+}
+
+impl SceneOptions {
+    fn read(&self) -> Result<Scene, Error> {
+        Scene::from_file(&self.scene, &self.settings)
+    }
+}
+
+/// How a command that failed ends.
+enum Failure {
+    /// The run ended early; what it had is kept.
+    EndedEarly(Error),
+    /// The scene or the command line has no meaning.
+    BadInput(Error),
+}
+
+impl Failure {
+    fn report(&self) -> ExitCode {
+        let (error, code) = match self {
+            Self::EndedEarly(error) => (error, 1),
+            Self::BadInput(error) => (error, 2),
+        };
+        say(&format!("fret: {error}"));
+        ExitCode::from(code)
+    }
+}
+
+fn main() -> ExitCode {
+    let outcome = match Cli::parse().command {
+        Command::Run(options) => run::run(&options),
+        Command::Check(options) => check::check(&options),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+/// Writes a line to the standard error; if nobody listens, nobody is told.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// Writes to the standard output, the same way.
+fn print(text: &str) {
+    let _ = writeln!(std::io::stdout(), "{text}");
+}

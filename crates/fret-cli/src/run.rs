@@ -1,0 +1,116 @@
+//! `fret run`.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::Args;
+use contact_core::Error;
+use contact_core::march::{Increment, March, Observer, solve};
+use contact_core::output::StoreWriter;
+
+use crate::progress::Progress;
+use crate::{Failure, SceneOptions, print, say, summary};
+
+/// Options of `fret run`.
+#[derive(Args)]
+pub(crate) struct Options {
+    #[command(flatten)]
+    scene: SceneOptions,
+    /// Result store to write (a Zarr folder)
+    #[arg(short, long, value_name = "STORE")]
+    out: PathBuf,
+    /// Replace a result store that exists
+    #[arg(long)]
+    overwrite: bool,
+    /// Number of threads (default: one per core); the result does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Show neither progress nor summary
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Runs through the load path.
+pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+    let scene = options.scene.read().map_err(Failure::BadInput)?;
+    let writer = StoreWriter::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
+    if let Some(threads) = options.threads {
+        // The pool has no other user in this process, so it cannot have been built before.
+        let _ = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build_global();
+    }
+    let mut watcher = Watcher {
+        writer,
+        progress: Progress::new(&scene, options.quiet),
+        stop: stop_on_interrupt(),
+        increments: Vec::with_capacity(scene.path.increments()),
+    };
+    let outcome = solve(&scene, &mut watcher);
+    let Watcher {
+        progress,
+        increments,
+        ..
+    } = watcher;
+    progress.end();
+    if !options.quiet && !increments.is_empty() {
+        print(&summary::table(&scene, &increments));
+    }
+    outcome.map(drop).map_err(|error| {
+        if !increments.is_empty() {
+            say(&format!(
+                "fret: {} of {} increments are kept in {}",
+                increments.len(),
+                scene.path.increments(),
+                options.out.display()
+            ));
+        }
+        match error {
+            Error::InvalidScene { .. } | Error::OffGrid { .. } => Failure::BadInput(error),
+            error => Failure::EndedEarly(error),
+        }
+    })
+}
+
+/// Hands every increment to the store and to the progress, and ends the run when asked to.
+struct Watcher {
+    writer: StoreWriter,
+    progress: Progress,
+    stop: Arc<AtomicBool>,
+    increments: Vec<Increment>,
+}
+
+impl Observer for Watcher {
+    fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
+        self.increments.push(*increment);
+        self.writer.on_increment(march, increment)?;
+        self.progress.on_increment(&self.increments);
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted {
+                increment: increment.index,
+            });
+        }
+        Ok(())
+    }
+
+    fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
+        self.writer.on_end(march, failure)
+    }
+}
+
+/// A flag that the first Ctrl-C raises; the second ends the process.
+fn stop_on_interrupt() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = stop.clone();
+    let handler = move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(1);
+        }
+        say("fret: stopping after this increment (Ctrl-C again: at once)");
+    };
+    if let Err(error) = ctrlc::set_handler(handler) {
+        say(&format!("fret: Ctrl-C will end the run at once: {error}"));
+    }
+    stop
+}
