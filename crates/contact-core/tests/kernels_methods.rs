@@ -1,6 +1,8 @@
 //! The paper's conversion, the frequency-domain operator and a user's own response, against the
 //! exact coefficients and against each other.
 
+#![allow(clippy::unwrap_used)]
+
 use contact_core::convolution::{
     DcFft, Displacements, FrequencyDomain, Mirror, SurfaceOperator, Tractions,
 };

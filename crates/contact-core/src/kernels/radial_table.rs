@@ -116,7 +116,7 @@ impl<const N: usize> Hankel<'_, N> {
     fn sum(&self, rule: &Rule, weighted: &[[f64; N]], rho: f64, r_a: f64) -> [f64; N] {
         let mut g = [0.0; N];
         for (&(t, _), a) in rule.0.iter().zip(weighted) {
-            if a != &[0.0; N] {
+            if a.iter().any(|a| a.abs() > 0.0) {
                 let j = bessel(t * rho);
                 for n in 0..N {
                     g[n] += a[n] * j[self.orders[n]];
@@ -169,7 +169,7 @@ impl<const N: usize> Hankel<'_, N> {
         let rule = Rule::new(self.low(r_first), 2.0 * WINDOW_MIDDLE, NODES);
         let radii: Vec<f64> = (0..PANELS)
             .flat_map(|panel| {
-                let octave = (1 << (panel / SPLITS)) as f64;
+                let octave = f64::from(1 << (panel / SPLITS));
                 let sub = (panel % SPLITS) as f64;
                 cosines().map(|x| {
                     let from = 1.0 + sub / SPLITS as f64;
