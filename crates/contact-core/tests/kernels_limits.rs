@@ -151,6 +151,7 @@ fn far_away_is_the_substrate() {
     let grid = grid((600, 2), (1e-6, 1e-6));
     let substrate = coefficients(&body(&[], STEEL), &grid);
     let coated = coefficients(&body(&[(420e9, 0.2, 1e-6)], STEEL), &grid);
+    // Twice the ratio: the layer is twice as stiff as the substrate.
     for (name, bare, coated, order) in [
         ("zz", &substrate.zz, &coated.zz, 2),
         ("xx", &substrate.xx, &coated.xx, 1),
@@ -160,7 +161,7 @@ fn far_away_is_the_substrate() {
         for i in [20, 50, 100, 200, 400, 599] {
             let error = (coated[(i, 0)] / bare[(i, 0)] - 1.0).abs();
             assert!(
-                error < (i as f64).powi(-order),
+                error < 2.0 * (i as f64).powi(-order),
                 "{name} at {i} h: {error:.1e}"
             );
         }
