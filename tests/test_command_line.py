@@ -29,7 +29,7 @@ def test_the_same_scene_gives_the_same_bits(coated: fret.Result, tmp_path: Path)
     [
         ("mue = 0.3", "mu"),
         ("mu = -1.0", "friction.mu = -1"),
-        ("mu = nan", "friction.mu = NaN"),
+        ("mu = nan", "friction.mu = nan"),
     ],
 )
 def test_a_bad_scene_file_is_refused(change: str, names: str, tmp_path: Path) -> None:

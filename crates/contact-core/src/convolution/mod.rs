@@ -6,6 +6,7 @@
 
 mod dc_fft;
 mod direct;
+mod frequency_domain;
 mod good_size;
 mod mirror;
 mod preconditioner;
@@ -15,6 +16,7 @@ mod y_transform;
 
 pub use dc_fft::DcFft;
 pub use direct::Direct;
+pub use frequency_domain::FrequencyDomain;
 pub use mirror::{Half, Mirror};
 pub use preconditioner::CirculantInverse;
 pub(crate) use spectra::Spectra;

@@ -1,46 +1,75 @@
 //! Stage 2: RESPONSE of a body to tractions on its surface.
 //!
-//! [`Stack`] knows the frequency response of any number of bonded layers; [`influence_coefficients`]
-//! turns it into the displacements that unit traction on one cell causes.
+//! [`Stack`] knows the frequency response of any number of bonded layers. [`influence_coefficients`]
+//! turns it into the displacements that unit traction on one cell causes, by the method of the
+//! [`KernelSettings`]; [`stress_coefficients`] does so for the stress at any depth.
 
 mod bessel;
+mod cache;
 mod cell;
 mod coefficients;
+mod convert;
 mod depth_frf;
 pub(crate) mod gauss;
+mod graded;
 mod half_space;
 mod half_space_stress;
+mod inverse_fft;
 mod layered_frf;
 mod matrix;
 mod radial_table;
+mod sampled_frf;
 mod stress;
 mod surface;
 
+pub use cache::clear_cache;
 pub use coefficients::{InfluenceCoefficients, Quadrant};
+pub use convert::{Conversion, SurfaceFrf, convert};
 pub use depth_frf::FrequencyResponse;
+pub use graded::{Graded, Profile};
 pub use half_space_stress::StressResponse;
 pub use layered_frf::{RadialResponse, Stack};
 pub use rustfft::num_complex::Complex64;
+pub(crate) use sampled_frf::SampledFrf;
 pub use stress::{StressCoefficients, stress_at, stress_coefficients};
 
-use crate::error::Error;
-use crate::scene::{Body, Grid, KernelSettings};
+use std::sync::Arc;
 
-/// The surface coefficients of a body on a grid.
+use crate::error::Error;
+use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
+
+/// The surface coefficients of a body on a grid, computed once per process and kept.
 ///
-/// A rigid body gives zeros, a homogeneous one the closed form; with `shortcut_equal_layers` also
-/// one whose layers all equal its substrate.
+/// A rigid body gives zeros. A homogeneous body needs no conversion whatever the method: its
+/// closed form is used; with `shortcut_equal_layers` also for a body whose layers all equal its
+/// substrate. Under [`KernelMethod::FrequencyDomain`], which convolves without coefficients, they
+/// are those of the default method.
 pub fn influence_coefficients(
     body: &Body,
     grid: &Grid,
     settings: &KernelSettings,
     shortcut_equal_layers: bool,
 ) -> Result<InfluenceCoefficients, Error> {
+    let bare = shortcut_equal_layers && body.is_homogeneous();
+    let key = cache::Key::new(body, grid, settings, bare);
+    if let Some(kept) = cache::get(&key) {
+        return Ok((*kept).clone());
+    }
     let mut stack = Stack::new(body);
-    if shortcut_equal_layers && body.is_homogeneous() {
+    if bare {
         stack.layers.clear();
     }
-    let (coefficients, estimate) = surface::surface_coefficients(&stack, grid);
-    surface::check(estimate, settings.tolerance)?;
-    Ok(coefficients)
+    let coefficients = match settings.method {
+        KernelMethod::InverseFft { lambda, aliases } if !stack.layers.is_empty() => {
+            inverse_fft::inverse_fft(&stack, grid, lambda, aliases)
+        }
+        _ => {
+            let (coefficients, estimate) = surface::surface_coefficients(&stack, grid);
+            surface::check(estimate, settings.tolerance)?;
+            coefficients
+        }
+    };
+    let coefficients = Arc::new(coefficients);
+    cache::keep(key, &coefficients);
+    Ok(Arc::unwrap_or_clone(coefficients))
 }

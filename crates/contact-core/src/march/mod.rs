@@ -12,10 +12,10 @@ pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
 pub use solve::{BranchSummary, Observer, solve, summarise};
 pub use state::State;
 
-use crate::convolution::{CirculantInverse, DcFft, Half, Mirror, SurfaceOperator};
+use crate::convolution::{CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, SurfaceOperator};
 use crate::error::Error;
 use crate::kernels::influence_coefficients;
-use crate::scene::{LoadPoint, Plan, Preset, Scene};
+use crate::scene::{KernelMethod, LoadPoint, Plan, Preset, Scene};
 use crate::solvers::{
     CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, Interface, NormalParams,
     Response, TangentialParams, coupled,
@@ -55,8 +55,16 @@ impl March {
             Preset::Fast => Some(CirculantInverse::new(&pair, plan.mirror)),
             Preset::Spinu2020 => None,
         };
-        let op: Box<dyn SurfaceOperator + Send> =
-            Box::new(DcFft::new(&pair, plan.mirror, plan.coupling));
+        let op: Box<dyn SurfaceOperator + Send> = match settings.kernel.method {
+            KernelMethod::FrequencyDomain { lambda } => Box::new(FrequencyDomain::new(
+                (&scene.body1, &scene.body2),
+                &scene.grid,
+                lambda,
+                plan.coupling,
+                &pair,
+            )),
+            _ => Box::new(DcFft::new(&pair, plan.mirror, plan.coupling)),
+        };
         let h_init = plan.mirror.fold(&scene.h_init());
         let cells = h_init.len();
         let approach = scene.hertz().map_or_else(

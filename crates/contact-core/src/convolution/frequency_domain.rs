@@ -1,0 +1,81 @@
+//! Convolution directly with the frequency response: the method the paper compares with.
+//!
+//! T. Nogi, T. Kato, J. Tribology 119 (1997) 493-500 (the paper's reference \[15\]): no influence
+//! coefficients at all; the tractions are transformed on a domain lambda times as long as the
+//! grid, multiplied by the response and transformed back, in every iteration. The periodic images
+//! of the load remain in the answer and fade slowly with lambda.
+
+use super::{Displacements, Mirror, Spectra, SpectralProduct, SurfaceOperator, Tractions};
+use crate::kernels::{InfluenceCoefficients, SampledFrf, Stack};
+use crate::scene::{Body, Grid};
+
+/// The frequency-domain operator.
+pub struct FrequencyDomain {
+    shape: (usize, usize),
+    product: SpectralProduct,
+    spectra: Spectra,
+    coupled: bool,
+    self_coefficients: (f64, f64),
+}
+
+impl FrequencyDomain {
+    /// For the bodies 1 and 2 on a domain enlarged `lambda` times; without `coupling` the
+    /// normal-tangential responses are taken as zero. `coefficients` are those of the pair.
+    pub fn new(
+        bodies: (&Body, &Body),
+        grid: &Grid,
+        lambda: usize,
+        coupling: bool,
+        coefficients: &InfluenceCoefficients,
+    ) -> Self {
+        let (stack1, stack2) = (Stack::new(bodies.0), Stack::new(bodies.1));
+        let lower = SampledFrf::new(&stack2, grid, lambda, 0);
+        let upper = SampledFrf::new(&stack1, grid, lambda, 0);
+        let (px, py) = lower.period;
+        let norm = 1.0 / (px * py) as f64;
+        let mut spectra = Spectra::default();
+        for n in 0..=py / 2 {
+            for m in 0..=px / 2 {
+                let (two, one) = (lower.at(m, n), upper.at(m, n));
+                // A kernel odd along n axes has the transform (-i)^n times its spectrum.
+                spectra.xx.push(norm * (two[0] + one[0]));
+                spectra.yy.push(norm * (two[1] + one[1]));
+                spectra.zz.push(norm * (two[2] + one[2]));
+                spectra.xy.push(-norm * (two[3] + one[3]));
+                if coupling {
+                    spectra.xz.push(-norm * (two[4] - one[4]));
+                    spectra.yz.push(-norm * (two[5] - one[5]));
+                }
+            }
+        }
+        Self {
+            shape: (grid.nx, grid.ny),
+            product: SpectralProduct::new(grid.nx, grid.ny, Mirror::None, (px, py)),
+            spectra,
+            coupled: coupling,
+            self_coefficients: (coefficients.xx[(0, 0)], coefficients.zz[(0, 0)]),
+        }
+    }
+}
+
+impl SurfaceOperator for FrequencyDomain {
+    fn shape(&self) -> (usize, usize) {
+        self.shape
+    }
+
+    fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
+        self.product.apply(&self.spectra, tractions, displacements);
+    }
+
+    fn transforms(&self) -> usize {
+        self.product.transforms
+    }
+
+    fn is_coupled(&self) -> bool {
+        self.coupled
+    }
+
+    fn self_coefficients(&self) -> (f64, f64) {
+        self.self_coefficients
+    }
+}

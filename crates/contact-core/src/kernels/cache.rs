@@ -1,0 +1,80 @@
+//! Coefficients already computed: a sweep over friction or load computes its kernels once.
+
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+
+use super::InfluenceCoefficients;
+use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
+
+/// Most memory kept, in numbers: 128 MiB, or the six coefficients of a 1024 x 1024 grid and more.
+const CAPACITY: usize = 1 << 24;
+
+/// All that the coefficients depend on; reals by their bits.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Key {
+    /// E and nu of the substrate, then E, nu and h of each layer.
+    body: Vec<u64>,
+    grid: [u64; 4],
+    method: KernelMethod,
+    tolerance: u64,
+}
+
+impl Key {
+    pub(crate) fn new(body: &Body, grid: &Grid, settings: &KernelSettings, bare: bool) -> Self {
+        let coatings = if bare { &[][..] } else { &body.coatings };
+        let layers = coatings
+            .iter()
+            .flat_map(|c| [c.material.E, c.material.nu, c.thickness]);
+        let substrate = [body.substrate.E, body.substrate.nu];
+        Self {
+            body: substrate
+                .into_iter()
+                .chain(layers)
+                .map(f64::to_bits)
+                .collect(),
+            grid: [
+                grid.nx as u64,
+                grid.ny as u64,
+                grid.dx.to_bits(),
+                grid.dy.to_bits(),
+            ],
+            method: settings.method,
+            tolerance: settings.tolerance.to_bits(),
+        }
+    }
+}
+
+/// The entries, least recently used first.
+static ENTRIES: LazyLock<Mutex<Vec<(Key, Arc<InfluenceCoefficients>)>>> =
+    LazyLock::new(Mutex::default);
+
+/// What was kept under `key`.
+pub(crate) fn get(key: &Key) -> Option<Arc<InfluenceCoefficients>> {
+    let mut entries = ENTRIES.lock().unwrap_or_else(PoisonError::into_inner);
+    let found = entries.iter().position(|(k, _)| k == key)?;
+    let entry = entries.remove(found);
+    let coefficients = Arc::clone(&entry.1);
+    entries.push(entry);
+    Some(coefficients)
+}
+
+/// Keeps coefficients, and forgets the longest unused ones if there are too many.
+pub(crate) fn keep(key: Key, coefficients: &Arc<InfluenceCoefficients>) {
+    let size = |c: &InfluenceCoefficients| 6 * c.zz.len();
+    if size(coefficients) > CAPACITY {
+        return;
+    }
+    let mut entries = ENTRIES.lock().unwrap_or_else(PoisonError::into_inner);
+    entries.retain(|(k, _)| *k != key);
+    entries.push((key, Arc::clone(coefficients)));
+    while entries.iter().map(|(_, c)| size(c)).sum::<usize>() > CAPACITY {
+        entries.remove(0);
+    }
+}
+
+/// Forgets all coefficients kept by this process.
+pub fn clear_cache() {
+    ENTRIES
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .clear();
+}

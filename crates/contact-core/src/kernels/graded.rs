@@ -1,0 +1,123 @@
+//! Coatings whose properties change with depth, as stacks of thin homogeneous layers.
+
+use crate::error::Error;
+use crate::scene::{Coating, Elastic};
+
+/// How a property changes from the surface of a graded coating to its bottom.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Profile {
+    /// The same everywhere.
+    Constant(f64),
+    /// v = top + (bottom - top) s with s = z/h from 0 to 1.
+    Linear {
+        /// Value at the surface.
+        top: f64,
+        /// Value at the bottom.
+        bottom: f64,
+    },
+    /// v = top + (bottom - top) s^exponent.
+    Power {
+        /// Value at the surface.
+        top: f64,
+        /// Value at the bottom.
+        bottom: f64,
+        /// Exponent, positive.
+        exponent: f64,
+    },
+    /// v = top (bottom/top)^s.
+    Exponential {
+        /// Value at the surface, of the sign of the other.
+        top: f64,
+        /// Value at the bottom.
+        bottom: f64,
+    },
+    /// Linear between the points (s, v), s rising from 0 to 1.
+    Table(Vec<(f64, f64)>),
+}
+
+impl Profile {
+    /// The value at s = z/h.
+    pub fn at(&self, s: f64) -> f64 {
+        match self {
+            Self::Constant(v) => *v,
+            Self::Linear { top, bottom } => top + (bottom - top) * s,
+            Self::Power {
+                top,
+                bottom,
+                exponent,
+            } => top + (bottom - top) * s.powf(*exponent),
+            Self::Exponential { top, bottom } => top * (bottom / top).powf(s),
+            Self::Table(points) => {
+                let next = points
+                    .partition_point(|p| p.0 < s)
+                    .clamp(1, points.len() - 1);
+                let ((s0, v0), (s1, v1)) = (points[next - 1], points[next]);
+                v0 + (v1 - v0) * (s - s0) / (s1 - s0)
+            }
+        }
+    }
+
+    fn check(&self, key: &str) -> Result<(), Error> {
+        match self {
+            Self::Power { exponent, .. } if !(*exponent > 0.0 && exponent.is_finite()) => Err(
+                Error::invalid(format!("{key}.exponent"), exponent, "positive"),
+            ),
+            Self::Exponential { top, bottom } if !(top * bottom > 0.0) => Err(Error::invalid(
+                format!("{key}.bottom"),
+                bottom,
+                "of the sign of the value at the surface, and not zero",
+            )),
+            Self::Table(points) => {
+                let rises = points.windows(2).all(|p| p[0].0 < p[1].0);
+                let spans =
+                    points.len() >= 2 && points[0].0 == 0.0 && points[points.len() - 1].0 == 1.0;
+                if rises && spans {
+                    return Ok(());
+                }
+                let allowed = "at least two points (z/h, value), z/h rising from 0 to 1";
+                Err(Error::invalid(
+                    format!("{key}.table"),
+                    format!("{points:?}"),
+                    allowed,
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A coating graded in depth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Graded {
+    /// Young's modulus E \[Pa\] over the depth.
+    pub E: Profile,
+    /// Poisson's ratio over the depth.
+    pub nu: Profile,
+    /// Thickness h \[m\].
+    pub thickness: f64,
+    /// Number of layers that stand for it; the error falls with its square.
+    pub layers: usize,
+}
+
+impl Graded {
+    /// The stack of equally thick layers, outermost first, each with the properties of its middle.
+    pub fn coatings(&self) -> Result<Vec<Coating>, Error> {
+        self.E.check("E")?;
+        self.nu.check("nu")?;
+        if self.layers == 0 {
+            return Err(Error::invalid("layers", 0, "at least 1"));
+        }
+        if !(self.thickness > 0.0 && self.thickness.is_finite()) {
+            let allowed = "a positive length in m";
+            return Err(Error::invalid("thickness", self.thickness, allowed));
+        }
+        let layer = |i: usize| {
+            let s = (i as f64 + 0.5) / self.layers as f64;
+            Ok(Coating {
+                material: Elastic::new(self.E.at(s), self.nu.at(s))?,
+                thickness: self.thickness / self.layers as f64,
+            })
+        };
+        (0..self.layers).map(layer).collect()
+    }
+}
