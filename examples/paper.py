@@ -55,7 +55,7 @@ def front_page(results: dict[float, fret.Result], file: Path) -> None:
         loops.set_title("Fretting loops")
         zones.set_title(r"Stick and slip, $E_1/E_2 = 2$, $t = \tau$")
         shear.set_title(r"Shear on the coated body, $t = 0.9\,\tau$")
-        figure.savefig(file)
+        figure.savefig(file, dpi=120)
         plt.close(figure)
 
 

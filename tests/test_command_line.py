@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import pyfret as fret
-from conftest import ROOT, sphere_on_flat
+from conftest import ROOT
 
 FRET = ROOT / "target" / "release" / "fret"
 
@@ -25,23 +25,46 @@ def test_the_same_scene_gives_the_same_bits(coated: fret.Result, tmp_path: Path)
 
 
 @pytest.mark.parametrize(
-    ("change", "names"),
+    ("setting", "says"),
     [
-        ("mue = 0.3", "mu"),
-        ("mu = -1.0", "friction.mu = -1"),
-        ("mu = nan", "friction.mu = nan"),
+        ("friction.mue=0.3", "unknown key"),
+        ("friction.mu=-1.0", "friction.mu = -1: must be"),
+        ("friction.mu=nan", "friction.mu = nan: must be"),
+        ("body1.E=-210e9", "body1.E = -210000000000: must be"),
+        ("body2.nu=0.5", "body2.nu = 0.5: must be"),
+        ("body2.nu=-1.0", "body2.nu = -1: must be"),
+        ("body2.coatings.0.thickness=0.0", "body2.coatings[0].thickness = 0: must be"),
+        ("grid.n=0", "grid.n"),
+        ("path.1.T_x.mu_W=1.01", "path[1].T_x = 303"),
+        ("grid.extent=1e-5", "should be about"),
     ],
 )
-def test_a_bad_scene_file_is_refused(change: str, names: str, tmp_path: Path) -> None:
-    path = fret.LoadPath.start().normal(1e3, increments=1)
-    text = sphere_on_flat().replace(path=path).to_toml()
+def test_a_bad_scene_is_refused_with_one_sentence(
+    setting: str, says: str, scene_file: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "out.zarr"
+    run = fret_run("run", scene_file, "--set", "grid.n=16", "--set", setting, "-o", out)
+    assert run.returncode == 2, run.stderr
+    assert says in run.stderr
+    assert len(run.stderr.strip().splitlines()) == 1
+    assert not out.exists()
+
+
+def test_a_bad_file_names_the_line_and_the_nearest_key(scene_file: Path, tmp_path: Path) -> None:
     bad = tmp_path / "bad.toml"
-    bad.write_text(text.replace("mu = 0.3", change))
+    lines = scene_file.read_text().replace("mu = 0.3", "mue = 0.3").splitlines()
+    bad.write_text("\n".join(lines))
     run = fret_run("run", bad, "-o", tmp_path / "out.zarr")
     assert run.returncode == 2
-    assert names in run.stderr
-    assert len(run.stderr.strip().splitlines()) == 1
-    assert not (tmp_path / "out.zarr").exists()
+    assert f"bad.toml:{lines.index('mue = 0.3') + 1}:" in run.stderr
+    assert "nearest valid key is `friction.mu`" in run.stderr
+
+
+def test_what_is_there_is_not_overwritten(scene_file: Path, tmp_path: Path) -> None:
+    (tmp_path / "out.zarr").write_text("precious")
+    run = fret_run("run", scene_file, "-o", tmp_path / "out.zarr")
+    assert run.returncode == 2
+    assert (tmp_path / "out.zarr").read_text() == "precious"
 
 
 def test_check_solves_nothing_and_says_what_is_skipped(scene_file: Path) -> None:

@@ -17,7 +17,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from pyfret import reference
+from pyfret import kernels, reference
 from pyfret._core import (
     RIGID,
     Body,
@@ -78,6 +78,7 @@ __all__ = [
     "StoreError",
     "SurfaceOperator",
     "__version__",
+    "kernels",
     "march",
     "open",
     "plot",

@@ -48,8 +48,12 @@ __all__ = [
     "goodman_stick_ratio",
     "hertz",
     "hertz_ellipse",
+    "influence_coefficients",
     "labels",
     "solve",
+    "stress_at",
+    "stress_coefficients",
+    "surface_frf",
 ]
 
 _Array: TypeAlias = NDArray[np.float64]
@@ -841,6 +845,65 @@ class March:
     def __iter__(self) -> March: ...
     def __next__(self) -> dict[str, float]:
         """Solve the next increment and give its scalars."""
+
+def surface_frf(body: Body, k_x: _Array, k_y: _Array) -> NDArray[np.complex128]:
+    """Surface response at one-dimensional arrays of wave numbers; see :mod:`pyfret.kernels`."""
+
+def influence_coefficients(body: Body, grid: Grid, *, settings: Settings | None = None) -> _Array:
+    """Surface displacement under unit traction on one cell, C_ij [m/Pa].
+
+    Parameters
+    ----------
+    body : Body
+        Homogeneous or coated, taken as the lower body.
+    grid : Grid
+        The cells; only their number and size matter.
+    settings : Settings, optional
+        Its kernel settings are used.
+
+    Returns
+    -------
+    array of shape (3, 3, 2 nx - 1, 2 ny - 1)
+        u_x, u_y, u_z under q_x, q_y, p at all offsets of the observed cell from the loaded one;
+        the offset (0, 0) is in the middle.
+    """
+
+def stress_coefficients(body: Body, grid: Grid, z: float, *, layer: int | None = None) -> _Array:
+    """Stress at the depth `z` [m] under unit traction on one cell, tension positive.
+
+    Parameters
+    ----------
+    body : Body
+        Homogeneous or coated, taken as the lower body.
+    grid : Grid
+        The cells; only their number and size matter.
+    z : float
+        Depth [m].
+    layer : int, optional
+        Layer from the surface down (their number for the substrate); it decides at an interface,
+        where stresses jump (default: the upper one).
+
+    Returns
+    -------
+    array of shape (6, 3, 2 nx - 1, 2 ny - 1)
+        s_xx, s_yy, s_zz, s_xy, s_xz, s_yz under q_x, q_y, p at all offsets; the offset (0, 0) is in
+        the middle.
+    """
+
+def stress_at(
+    body: Body,
+    cell: tuple[float, float],
+    point: tuple[float, float, float],
+    *,
+    layer: int | None = None,
+) -> _Array:
+    """Stress at a point under unit traction on the cell of sides `cell` [m] around the origin.
+
+    Returns
+    -------
+    array of shape (6, 3)
+        s_xx, s_yy, s_zz, s_xy, s_xz, s_yz under q_x, q_y, p; tension is positive.
+    """
 
 def labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of every variable of a result, scalars and fields."""

@@ -10,6 +10,7 @@
 )]
 
 mod error;
+mod kernels;
 mod march;
 mod operator;
 mod reference;
@@ -27,6 +28,8 @@ mod _core {
     use crate::error::{
         InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError, StoreError,
     };
+    #[pymodule_export]
+    use crate::kernels::{influence_coefficients, stress_at, stress_coefficients, surface_frf};
     #[pymodule_export]
     use crate::march::{March, labels};
     #[pymodule_export]

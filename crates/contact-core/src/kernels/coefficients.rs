@@ -1,6 +1,6 @@
 //! Influence coefficients: the surface displacement that unit traction on one cell causes.
 
-use ndarray::Array2;
+use ndarray::{Array2, Array4};
 
 /// One coefficient on the non-negative offsets, shape (nx, ny): entry (i, j) belongs to the offset
 /// (i dx, j dy) of the observed cell from the loaded one. The other quadrants follow by parity.
@@ -54,4 +54,29 @@ impl InfluenceCoefficients {
     pub fn pair(&self, body1: &Self) -> Self {
         self.map2(body1, |c2, c1, sign| c2 + &(c1 * sign))
     }
+
+    /// C_ij on all offsets, shape (3, 3, 2 nx - 1, 2 ny - 1) with the offset (0, 0) in the middle.
+    pub fn matrix(&self) -> Array4<f64> {
+        let (nx, ny) = self.zz.dim();
+        let mut matrix = Array4::zeros((3, 3, 2 * nx - 1, 2 * ny - 1));
+        let parts = [
+            [(&self.xx, 1.0), (&self.xy, 1.0), (&self.xz, 1.0)],
+            [(&self.xy, 1.0), (&self.yy, 1.0), (&self.yz, 1.0)],
+            [(&self.xz, -1.0), (&self.yz, -1.0), (&self.zz, 1.0)],
+        ];
+        for ((i, j, a, b), entry) in matrix.indexed_iter_mut() {
+            let (part, sign) = parts[i][j];
+            let odd = ((i == 0) != (j == 0), (i == 1) != (j == 1));
+            *entry = sign * at_offset(part, (a, b), odd);
+        }
+        matrix
+    }
+}
+
+/// The coefficient at (a - nx + 1, b - ny + 1) cells, by its parity along x and y.
+pub(super) fn at_offset(part: &Quadrant, (a, b): (usize, usize), odd: (bool, bool)) -> f64 {
+    let (nx, ny) = part.dim();
+    let mirrored = (a + 1 < nx && odd.0) != (b + 1 < ny && odd.1);
+    let value = part[(a.abs_diff(nx - 1), b.abs_diff(ny - 1))];
+    if mirrored { -value } else { value }
 }

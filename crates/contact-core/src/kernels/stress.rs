@@ -15,10 +15,11 @@
 //! yz     J_1 sin(theta)        J_2 sin 2theta
 //! ```
 
-use ndarray::Array2;
+use ndarray::{Array2, Array4};
 use rayon::prelude::*;
 
 use super::cell::Cell;
+use super::coefficients::at_offset;
 use super::depth_frf::{Place, WaveFields};
 use super::half_space_stress::{StressResponse, corner, difference, under_cell};
 use super::layered_frf::Stack;
@@ -54,6 +55,16 @@ impl StressCoefficients {
             _ => (false, false),
         };
         (x != (column == 0), y != (column == 1))
+    }
+
+    /// The stress on all offsets, shape (6, 3, 2 nx - 1, 2 ny - 1) with the offset (0, 0) in the
+    /// middle.
+    pub fn matrix(&self) -> Array4<f64> {
+        let (nx, ny) = self.s[0][0].dim();
+        Array4::from_shape_fn((6, 3, 2 * nx - 1, 2 * ny - 1), |(row, column, a, b)| {
+            let odd = Self::is_odd(row, column);
+            at_offset(&self.s[row][column], (a, b), odd)
+        })
     }
 }
 

@@ -1,0 +1,80 @@
+//! The response of a body to tractions on its surface.
+
+use contact_core::kernels as core;
+use contact_core::kernels::{Complex64, Stack};
+use ndarray::{Array2, Array3};
+use numpy::{PyArray2, PyArray3, PyArray4, PyReadonlyArray1, ToPyArray};
+use pyo3::prelude::*;
+
+use crate::error::to_python;
+use crate::scene::{Body, Grid, Settings};
+
+/// One 3 x 3 matrix per wave vector.
+#[pyfunction]
+pub(crate) fn surface_frf<'py>(
+    py: Python<'py>,
+    body: Body,
+    k_x: PyReadonlyArray1<'py, f64>,
+    k_y: PyReadonlyArray1<'py, f64>,
+) -> PyResult<Bound<'py, PyArray3<Complex64>>> {
+    let stack = Stack::new(&body.0);
+    let mut frf = Array3::zeros((k_x.len()?, 3, 3));
+    let waves = k_x.as_array().into_iter().zip(k_y.as_array());
+    for (n, (&k_x, &k_y)) in waves.enumerate() {
+        let matrix = stack.surface_frf(k_x, k_y).map_err(to_python)?;
+        for (i, row) in matrix.iter().enumerate() {
+            for (j, &entry) in row.iter().enumerate() {
+                frf[(n, i, j)] = entry;
+            }
+        }
+    }
+    Ok(frf.to_pyarray(py))
+}
+
+#[pyfunction]
+#[pyo3(signature = (body, grid, *, settings = None))]
+pub(crate) fn influence_coefficients<'py>(
+    py: Python<'py>,
+    body: Body,
+    grid: Grid,
+    settings: Option<Settings>,
+) -> PyResult<Bound<'py, PyArray4<f64>>> {
+    let settings = settings.unwrap_or_default().0;
+    let shortcut = settings.skip.equal_layers;
+    let matrix = py.detach(|| {
+        core::influence_coefficients(&body.0, &grid.0, &settings.kernel, shortcut)
+            .map(|coefficients| coefficients.matrix())
+    });
+    Ok(matrix.map_err(to_python)?.to_pyarray(py))
+}
+
+#[pyfunction]
+#[pyo3(signature = (body, grid, z, *, layer = None))]
+pub(crate) fn stress_coefficients<'py>(
+    py: Python<'py>,
+    body: Body,
+    grid: Grid,
+    z: f64,
+    layer: Option<usize>,
+) -> PyResult<Bound<'py, PyArray4<f64>>> {
+    let matrix = py.detach(|| {
+        core::stress_coefficients(&body.0, &grid.0, z, layer)
+            .map(|coefficients| coefficients.matrix())
+    });
+    Ok(matrix.map_err(to_python)?.to_pyarray(py))
+}
+
+#[pyfunction]
+#[pyo3(signature = (body, cell, point, *, layer = None))]
+pub(crate) fn stress_at<'py>(
+    py: Python<'py>,
+    body: Body,
+    cell: (f64, f64),
+    point: (f64, f64, f64),
+    layer: Option<usize>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let stress = py
+        .detach(|| core::stress_at(&body.0, cell, point, layer))
+        .map_err(to_python)?;
+    Ok(Array2::from_shape_fn((6, 3), |(i, j)| stress[i][j]).to_pyarray(py))
+}
