@@ -6,11 +6,14 @@ use ndarray::Array2;
 
 use super::layered_response::layered_normal_remainder;
 use super::linear_system::solve;
-use super::quadrature::{bisect, gauss_legendre};
+use super::quadrature::gauss_legendre;
 use crate::scene::{Coating, Elastic};
 
 /// Wave numbers beyond this over the thickness change nothing: exp(-40) is below round-off.
 const LAST_WAVE: f64 = 20.0;
+
+/// Secants converge in half a dozen steps; rounding may keep the last one from being below 1e-13.
+const MOST_SECANTS: usize = 20;
 
 /// Axisymmetric frictionless contact of a sphere with a body that has one coating.
 ///
@@ -39,6 +42,8 @@ pub struct CoatedIndentation {
 }
 
 /// The contact of an elastic or rigid sphere of radius `R` \[m\] with a coated body under `W` \[N\].
+///
+/// The work grows like (a/h)^3: a second or so at h = a/100.
 pub fn coated_indentation(
     R: f64,
     indenter: Elastic,
@@ -46,15 +51,25 @@ pub fn coated_indentation(
     substrate: Elastic,
     W: f64,
 ) -> CoatedIndentation {
-    let of_radius = |a: f64| CoatedIndentation::of_radius(R, indenter, coating, substrate, a);
-    // Between the contacts on the softer and on the stiffer of the two half-spaces.
-    let radius_on = |body: Elastic| super::hertz(R, indenter, body, W).a;
-    let (on_coating, on_substrate) = (radius_on(coating.material), radius_on(substrate));
-    let (small, large) = (
-        0.5 * on_coating.min(on_substrate),
-        2.0 * on_coating.max(on_substrate),
-    );
-    of_radius(bisect(small, large, |a| of_radius(a).W - W))
+    // Secants of ln W over ln a; W grows like a power of a, the cube on a half-space.
+    let mut a = super::hertz(R, indenter, coating.material, W).a;
+    let mut power = 3.0;
+    let mut contact = CoatedIndentation::of_radius(R, indenter, coating, substrate, a);
+    for _ in 0..MOST_SECANTS {
+        let next = a * (W / contact.W).powf(1.0 / power);
+        if (next - a).abs() <= 1e-13 * a {
+            break;
+        }
+        let W_before = contact.W;
+        contact = CoatedIndentation::of_radius(R, indenter, coating, substrate, next);
+        let local = (contact.W / W_before).ln() / (next / a).ln();
+        if local.is_finite() {
+            // Between a half-space (3) and an incompressible film (6), with room.
+            power = local.clamp(1.0, 8.0);
+        }
+        a = next;
+    }
+    contact
 }
 
 impl CoatedIndentation {
@@ -79,7 +94,7 @@ impl CoatedIndentation {
                 waves.push((kh / h, w / h * A));
             }
         }
-        let n = 32 + (6.0 * a / h).ceil() as usize;
+        let n = 24 + (3.5 * a / h).ceil() as usize;
         // The edge itself, without weight, is the last node: phi(a) comes with the solution.
         let mut nodes = gauss_legendre(n, 0.0, a);
         nodes.push((a, 0.0));

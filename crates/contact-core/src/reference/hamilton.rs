@@ -13,13 +13,12 @@ pub type Stress = [f64; 6];
 ///
 /// F = int sqrt(1 - r'^2/a^2) phi dA', phi = z ln(rho + z) - rho,
 ///
-/// of which Boussinesq's and Cerruti's solutions are derivatives. With s = x^2 + y^2, for pressure
-/// (u = F_z in the first line of each pair) and shear along x,
+/// of which Boussinesq's and Cerruti's solutions are derivatives:
 ///
-/// 2 pi s_xx = 2 nu F_zzz - (1 - 2 nu) F_xxz - z F_xxzz,
-/// 2 pi s_xx = 2 (1 + nu) F_xzz + 2 nu F_xxx - z F_xxxz,
+/// 2 pi s_xx = 2 nu F_zzz - (1 - 2 nu) F_xxz - z F_xxzz under the pressure,
+/// 2 pi s_xx = 2 (1 + nu) F_xzz + 2 nu F_xxx - z F_xxxz under the shear,
 ///
-/// and so on, as the code has them.
+/// and so on, as the code has them with s = x^2 + y^2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HertzStress {
     /// Radius of the loaded circle \[m\].

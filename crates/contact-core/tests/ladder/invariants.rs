@@ -2,7 +2,8 @@
 
 use contact_core::march::{Fields, Motion};
 use contact_core::scene::{
-    Body, Branch, Elastic, Friction, Grid, LoadPath, Loads, Scene, Settings, Shape, Spacing,
+    Body, Branch, Coating, Elastic, Friction, Grid, LoadPath, Loads, Scene, Settings, Shape,
+    Spacing,
 };
 use ndarray::Array2;
 use proptest::prelude::*;
@@ -19,6 +20,11 @@ fn material() -> impl Strategy<Value = Elastic> {
     })
 }
 
+/// No coating or one: its material and its thickness over the Hertz radius.
+fn layer() -> impl Strategy<Value = Option<(Elastic, f64)>> {
+    prop::option::of((material(), 0.05..3.0f64))
+}
+
 /// A branch to a part of W and, as parts of mu W, T_x and T_y.
 fn branch() -> impl Strategy<Value = (f64, f64, f64, usize)> {
     let angle = 0.0..std::f64::consts::TAU;
@@ -31,6 +37,7 @@ prop_compose! {
     fn scene()(
         upper in material(),
         lower in material(),
+        layers in [layer(), layer()],
         mu in 0.05..0.9,
         (nx, ny) in (18..27usize, 18..27usize),
         (long, wide) in (2.7..3.4f64, 2.7..3.4f64),
@@ -69,9 +76,23 @@ prop_compose! {
         let a = hertz_of(&scene).a;
         scene.grid.dx = long * a / nx as f64;
         scene.grid.dy = wide * a / ny as f64;
+        // A layer much softer than its substrate widens the contact.
+        let mut widest = 1.0_f64;
+        for (body, layer) in [&mut scene.body1, &mut scene.body2].into_iter().zip(layers) {
+            if let Some((material, h)) = layer {
+                widest = widest.max(body.substrate.E / material.E);
+                body.coatings = vec![Coating { material, thickness: h * a }];
+            }
+        }
+        scene.grid.dx *= widest.cbrt();
+        scene.grid.dy *= widest.cbrt();
         scene
     }
 }
+
+/// How far solutions of one contact may differ that were solved to 1e-6: waves of a few cells make
+/// of a misfit a hundred times as much traction.
+const ALIKE: f64 = 1e-4;
 
 /// Fields and motion at the end of the path.
 fn end(scene: &Scene) -> (Fields, Motion) {
@@ -107,7 +128,7 @@ fn cases(cases: u32) -> ProptestConfig {
 }
 
 proptest! {
-    #![proptest_config(cases(40))]
+    #![proptest_config(cases(60))]
 
     /// Balance, complementarity, Coulomb's law, the direction of slip, the energy.
     #[test]
@@ -118,17 +139,22 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(cases(8))]
+    #![proptest_config(cases(12))]
 
-    /// Lengths, moduli and loads scaled together: the same contact. Powers of two make it exact.
+    /// Lengths, moduli and loads scaled together: the same contact.
     #[test]
-    fn scaled_twins_are_alike(scene in scene(), length in -3..4i32, modulus in -3..4i32) {
+    fn scaled_twins_are_alike(mut scene in scene(), length in -3..4i32, modulus in -3..4i32) {
+        scene.settings.solver.tolerance = 1e-6;
         let (length, modulus) = (2f64.powi(2 * length), 2f64.powi(2 * modulus));
         let force = modulus * length * length;
         let mut twin = scene.clone();
         twin.body1.shape = Shape::Sphere { R: R * length };
         for body in [&mut twin.body1, &mut twin.body2] {
             body.substrate.E *= modulus;
+            for coating in &mut body.coatings {
+                coating.material.E *= modulus;
+                coating.thickness *= length;
+            }
         }
         twin.grid.dx *= length;
         twin.grid.dy *= length;
@@ -138,16 +164,15 @@ proptest! {
             T_y: l.T_y * force,
         });
         let ((ours, motion), (theirs, other)) = (end(&scene), end(&twin));
-        prop_assert!(distance(&theirs.p, modulus, &ours.p, &theirs.p) < 1e-9);
-        prop_assert!(distance(&theirs.q_x, modulus, &ours.q_x, &theirs.p) < 1e-9);
-        prop_assert!(distance(&theirs.q_y, modulus, &ours.q_y, &theirs.p) < 1e-9);
-        prop_assert!((other.delta_z / motion.delta_z / length - 1.0).abs() < 1e-9);
+        prop_assert!(distance(&theirs.p, modulus, &ours.p, &theirs.p) < ALIKE);
+        prop_assert!(distance(&theirs.q_x, modulus, &ours.q_x, &theirs.p) < ALIKE);
+        prop_assert!(distance(&theirs.q_y, modulus, &ours.q_y, &theirs.p) < ALIKE);
+        prop_assert!((other.delta_z / motion.delta_z / length - 1.0).abs() < ALIKE);
     }
 
     /// The same contact mirrored at the diagonal, and with the bodies exchanged.
     #[test]
     fn mirrored_and_exchanged_scenes_are_alike(mut scene in scene()) {
-        // Waves of a few cells make of a misfit of 1e-6 a hundred times as much traction.
         scene.settings.solver.tolerance = 1e-6;
         let (ours, motion) = end(&scene);
 
@@ -157,19 +182,19 @@ proptest! {
         mirrored.path = loads_mapped(&scene, |l| Loads { T_x: l.T_y, T_y: l.T_x, ..l });
         let (theirs, other) = end(&mirrored);
         let across = |f: &Array2<f64>| f.t().to_owned();
-        prop_assert!(distance(&across(&theirs.p), 1.0, &ours.p, &ours.p) < 1e-4);
-        prop_assert!(distance(&across(&theirs.q_y), 1.0, &ours.q_x, &ours.p) < 1e-4);
-        prop_assert!(distance(&across(&theirs.q_x), 1.0, &ours.q_y, &ours.p) < 1e-4);
-        prop_assert!((other.delta_y - motion.delta_x).abs() < 1e-4 * motion.delta_z);
+        prop_assert!(distance(&across(&theirs.p), 1.0, &ours.p, &ours.p) < ALIKE);
+        prop_assert!(distance(&across(&theirs.q_y), 1.0, &ours.q_x, &ours.p) < ALIKE);
+        prop_assert!(distance(&across(&theirs.q_x), 1.0, &ours.q_y, &ours.p) < ALIKE);
+        prop_assert!((other.delta_y - motion.delta_x).abs() < ALIKE * motion.delta_z);
 
         // What acted on the lower body now acts on the upper one.
         let mut exchanged = scene.clone();
         std::mem::swap(&mut exchanged.body1, &mut exchanged.body2);
         exchanged.path = loads_mapped(&scene, |l| Loads { T_x: -l.T_x, T_y: -l.T_y, ..l });
         let (theirs, other) = end(&exchanged);
-        prop_assert!(distance(&theirs.p, 1.0, &ours.p, &ours.p) < 1e-4);
-        prop_assert!(distance(&theirs.q_x, -1.0, &ours.q_x, &ours.p) < 1e-4);
-        prop_assert!(distance(&theirs.q_y, -1.0, &ours.q_y, &ours.p) < 1e-4);
-        prop_assert!((other.delta_x + motion.delta_x).abs() < 1e-4 * motion.delta_z);
+        prop_assert!(distance(&theirs.p, 1.0, &ours.p, &ours.p) < ALIKE);
+        prop_assert!(distance(&theirs.q_x, -1.0, &ours.q_x, &ours.p) < ALIKE);
+        prop_assert!(distance(&theirs.q_y, -1.0, &ours.q_y, &ours.p) < ALIKE);
+        prop_assert!((other.delta_x + motion.delta_x).abs() < ALIKE * motion.delta_z);
     }
 }

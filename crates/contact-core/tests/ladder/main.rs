@@ -6,6 +6,7 @@
 //! the L2 norm ([`bench::FIELD`]); integrals and smooth values are off by the square of the cell
 //! ([`bench::SMOOTH`]). A path-dependent state is off by a part of an increment.
 
+mod any_path;
 mod audit;
 mod bench;
 mod cattaneo_mindlin;

@@ -94,6 +94,35 @@ fn the_load_finds_its_radius() {
 }
 
 #[test]
+fn the_load_is_met_from_films_to_bulk() {
+    for (ratio, nu, h) in [
+        (1e-2, 0.49, 0.05),
+        (1e3, 0.0, 0.05),
+        (0.1, 0.3, 100.0),
+        (50.0, -0.5, 1.0),
+    ] {
+        let bare = hertz(R, STEEL, STEEL, 1e3);
+        let coating = Coating {
+            material: Elastic {
+                E: ratio * STEEL.E,
+                nu,
+            },
+            thickness: h * bare.a,
+        };
+        let contact = coated_indentation(R, STEEL, coating, STEEL, 1e3);
+        assert!(
+            (contact.W / 1e3 - 1.0).abs() < 1e-11,
+            "{ratio} {h}: {}",
+            contact.W
+        );
+        // The pressure, computed on its own, carries the load.
+        let a = contact.a;
+        let carried = integrate(0.0, a, |r| 2.0 * std::f64::consts::PI * r * contact.p(r));
+        assert!((carried / 1e3 - 1.0).abs() < 1e-8, "{ratio} {h}: {carried}");
+    }
+}
+
+#[test]
 fn a_coating_of_the_substrates_material_gives_hertz() {
     let bare = hertz(R, STEEL, STEEL, 1e3);
     let coating = Coating {
