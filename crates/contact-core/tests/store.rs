@@ -114,6 +114,21 @@ fn everything_comes_back() {
     }
 }
 
+/// A field of zeros is a field like any other: no reader is left to guess what is missing.
+#[test]
+fn zeros_are_stored() {
+    let path = free("zeros.zarr");
+    let mut writer = StoreWriter::create(&path, false).unwrap();
+    solve(
+        &scene(&["friction.mu=0.0", "path.1.T_x=0", "path.2.T_x=0"]),
+        &mut writer,
+    )
+    .unwrap();
+    let store = Store::open(&path).unwrap();
+    assert_eq!(store.field("q_x", 2).unwrap().sum(), 0.0);
+    assert!(path.join("q_x/2.0.0").exists() && path.join("T_x/0").exists());
+}
+
 #[test]
 fn a_run_that_is_stopped_keeps_everything_so_far() {
     let path = free("stopped.zarr");
@@ -237,11 +252,13 @@ fn damage_is_named() {
     let chunk = fs::read(path.join("p/1.0.0")).unwrap();
     fs::write(path.join("p/1.0.0"), &chunk[..chunk.len() / 2]).unwrap();
     fs::write(path.join("W/0"), "nonsense").unwrap();
+    fs::remove_file(path.join("T_x/0")).unwrap();
     let store = Store::open(&path).unwrap();
     assert!(store.field("p", 0).is_ok());
     let text = |error: Error| error.to_string();
     assert!(text(store.field("p", 1).unwrap_err()).contains("damaged.zarr: p: "));
     assert!(text(store.column("W").unwrap_err()).contains("damaged.zarr: W: "));
+    assert!(text(store.column("T_x").unwrap_err()).contains("the file T_x/0 is missing"));
     assert!(text(store.column("F").unwrap_err()).contains("holds no F"));
 
     let metadata = fs::read_to_string(path.join(".zmetadata")).unwrap();

@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::{say, summary};
 
-const TEMPLATE: &str = "{bar:30} {pos}/{len} increments, {elapsed} elapsed, {eta} left  {msg}";
+const TEMPLATE: &str = "{bar:20} {pos}/{len} increments, {elapsed} elapsed, {eta} left  {msg}";
 const TICK: Duration = Duration::from_millis(200);
 
 /// What is shown on the standard error while the run goes on.

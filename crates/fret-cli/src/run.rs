@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use clap::Args;
 use contact_core::Error;
@@ -23,6 +24,9 @@ pub(crate) struct Options {
     /// Replace a result store that exists
     #[arg(long)]
     overwrite: bool,
+    /// Bring the store up to date every so many seconds of the run: what a crash may lose
+    #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
+    flush: Duration,
     /// Number of threads (default: one per core); the result does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -31,10 +35,17 @@ pub(crate) struct Options {
     quiet: bool,
 }
 
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().map_err(|_| "must be a number of seconds")?;
+    Duration::try_from_secs_f64(seconds).map_err(|_| "must be a number of seconds >= 0".into())
+}
+
 /// Runs through the load path.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let scene = options.scene.read().map_err(Failure::BadInput)?;
-    let writer = StoreWriter::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
+    let writer = StoreWriter::create(&options.out, options.overwrite)
+        .map_err(Failure::BadInput)?
+        .with_flush_interval(options.flush);
     if let Some(threads) = options.threads {
         // The pool has no other user in this process, so it cannot have been built before.
         let _ = rayon::ThreadPoolBuilder::new()

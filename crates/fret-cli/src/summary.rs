@@ -52,60 +52,68 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
     )
 }
 
+/// A column of the table: title, and its cell for a branch that ended at path time t.
+type Column = (String, Box<dyn Fn(&BranchSummary, f64) -> String>);
+
+fn column(
+    title: impl Into<String>,
+    cell: impl Fn(&BranchSummary, f64) -> String + 'static,
+) -> Column {
+    (title.into(), Box::new(cell))
+}
+
+fn columns(scene: &Scene) -> Vec<Column> {
+    let Measures { radius, pressure } = Measures::of(scene);
+    let micro = |x: f64| format!("{:.4}", x * MICRO);
+    let mut columns = vec![
+        column("branch", |b, _| (b.branch + 1).to_string()),
+        column("t", |_, t| t.to_string()),
+        column("W\n[N]", |b, _| format!("{:.1}", b.loads.W)),
+        column("T_x\n[N]", |b, _| format!("{:.1}", b.loads.T_x)),
+        column(format!("contact\nradius\n[{}]", radius.0), move |b, _| {
+            format!("{:.4}", b.contact_radius / radius.1)
+        }),
+        column("stick\nratio", |b, _| format!("{:.4}", b.stick_ratio)),
+        column(format!("p_max\n\n[{}]", pressure.0), move |b, _| {
+            format!("{:.4}", b.p_max / pressure.1)
+        }),
+        column("approach\ndelta_z\n[um]", move |b, _| {
+            micro(b.motion.delta_z)
+        }),
+        column("shift\ndelta_x\n[um]", move |b, _| micro(b.motion.delta_x)),
+    ];
+    if scene.path.branches.iter().any(|b| b.to.T_y != 0.0) {
+        columns.insert(4, column("T_y\n[N]", |b, _| format!("{:.1}", b.loads.T_y)));
+        let title = "shift\ndelta_y\n[um]";
+        columns.push(column(title, move |b, _| micro(b.motion.delta_y)));
+    }
+    columns.extend([
+        column("dissipated\n\n[uJ]", |b, _| {
+            format!("{:.3}", b.dissipated * MICRO)
+        }),
+        column("incre-\nments", |b, _| b.increments.to_string()),
+        column("convo-\nlutions", |b, _| {
+            format!("{:.0}", b.work.convolutions)
+        }),
+        column("passes\np, q", |b, _| b.work.alternations.to_string()),
+        column("CG\np", |b, _| b.work.normal_iterations.to_string()),
+        column("CG\nq", |b, _| b.work.tangential_iterations.to_string()),
+    ]);
+    columns
+}
+
 /// One row per branch that has begun.
 pub(crate) fn table(scene: &Scene, increments: &[Increment]) -> String {
-    let Measures { radius, pressure } = Measures::of(scene);
+    let columns = columns(scene);
     let mut table = Table::new();
     table
         .load_style(presets::ASCII_BORDERS_ONLY_CONDENSED)
-        .set_header([
-            "branch".to_owned(),
-            "t".to_owned(),
-            "W\n[N]".to_owned(),
-            "T_x\n[N]".to_owned(),
-            "T_y\n[N]".to_owned(),
-            format!("contact\nradius\n[{}]", radius.0),
-            "stick\nratio".to_owned(),
-            format!("p_max\n[{}]", pressure.0),
-            "delta_z\n[um]".to_owned(),
-            "delta_x\n[um]".to_owned(),
-            "delta_y\n[um]".to_owned(),
-            "dissipated\n[uJ]".to_owned(),
-            "incre-\nments".to_owned(),
-            "convo-\nlutions".to_owned(),
-            "alter-\nnations".to_owned(),
-            "CG\nnormal".to_owned(),
-            "CG\ntangential".to_owned(),
-        ]);
+        .set_header(columns.iter().map(|(title, _)| title));
     let mut done = 0;
     for branch in summarise(increments) {
         done += branch.increments;
         let t = increments[done - 1].point.t;
-        let BranchSummary {
-            loads,
-            motion,
-            work,
-            ..
-        } = branch;
-        table.add_row([
-            (branch.branch + 1).to_string(),
-            format!("{t:.4}"),
-            format!("{:.2}", loads.W),
-            format!("{:.2}", loads.T_x),
-            format!("{:.2}", loads.T_y),
-            format!("{:.4}", branch.contact_radius / radius.1),
-            format!("{:.4}", branch.stick_ratio),
-            format!("{:.4}", branch.p_max / pressure.1),
-            format!("{:.4}", motion.delta_z * MICRO),
-            format!("{:.4}", motion.delta_x * MICRO),
-            format!("{:.4}", motion.delta_y * MICRO),
-            format!("{:.3}", branch.dissipated * MICRO),
-            branch.increments.to_string(),
-            format!("{:.0}", work.convolutions),
-            work.alternations.to_string(),
-            work.normal_iterations.to_string(),
-            work.tangential_iterations.to_string(),
-        ]);
+        table.add_row(columns.iter().map(|(_, cell)| cell(&branch, t)));
     }
     for column in table.column_iter_mut() {
         column.set_cell_alignment(CellAlignment::Right);

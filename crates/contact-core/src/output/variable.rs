@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 use zarrs::array::{
     Array, ArrayError, ArrayMetadata, ArrayMetadataV2, ArraySubset, CodecOptions, ElementOwned,
 };
+use zarrs::storage::ReadableStorageTraits;
 
 use super::catalogue::Kind;
 use super::folder::Folder;
@@ -121,11 +122,23 @@ impl Variable {
         let array = self.array(folder)?;
         let size = self.chunks.iter().product::<u64>() as usize;
         let values = values.chain(std::iter::repeat(0.0)).take(size);
+        // A chunk of zeros is stored like any other: there is no fill value to stand for it.
+        let options = CodecOptions::default().with_store_empty_chunks(true);
         match self.kind {
-            Kind::Real => array.store_chunk(chunk, values.collect::<Vec<_>>()),
-            Kind::Count => array.store_chunk(chunk, values.map(|v| v as i32).collect::<Vec<_>>()),
-            Kind::Code => array.store_chunk(chunk, values.map(|v| v as i8).collect::<Vec<_>>()),
-            Kind::Flag => array.store_chunk(chunk, values.map(|v| v != 0.0).collect::<Vec<_>>()),
+            Kind::Real => array.store_chunk_opt(chunk, values.collect::<Vec<_>>(), &options),
+            Kind::Count => array.store_chunk_opt(
+                chunk,
+                values.map(|v| v as i32).collect::<Vec<_>>(),
+                &options,
+            ),
+            Kind::Code => {
+                array.store_chunk_opt(chunk, values.map(|v| v as i8).collect::<Vec<_>>(), &options)
+            }
+            Kind::Flag => array.store_chunk_opt(
+                chunk,
+                values.map(|v| v != 0.0).collect::<Vec<_>>(),
+                &options,
+            ),
         }
         .map_err(|e| folder.error(&format!("{}: {e}", self.name)))
     }
@@ -139,14 +152,11 @@ pub(super) fn open_array(
 ) -> Result<Array<Folder>, Error> {
     let failed = |e: &dyn std::fmt::Display| folder.error(&format!("{name}: {e}"));
     let metadata: ArrayMetadataV2 = serde_json::from_value(zarray).map_err(|e| failed(&e))?;
-    // A chunk of zeros is stored like any other: there is no fill value to stand for it.
-    let options = CodecOptions::default().with_store_empty_chunks(true);
     Array::new_with_metadata(
         folder.clone(),
         &format!("/{name}"),
         ArrayMetadata::V2(metadata),
     )
-    .map(|array| array.with_codec_options(options))
     .map_err(|e| failed(&e))
 }
 
@@ -160,6 +170,22 @@ pub(super) fn numbers(
         .into_iter()
         .find(|kind| Some(kind.dtype()) == dtype);
     let kind = kind.ok_or("has numbers of an unknown type")?;
+    let chunks = array.chunks_in_array_subset(part);
+    for chunk in chunks
+        .map_err(|e| e.to_string())?
+        .into_iter()
+        .flat_map(|c| c.indices())
+    {
+        let key = array.chunk_key(&chunk);
+        if array
+            .storage()
+            .size_key(&key)
+            .map_err(|e| e.to_string())?
+            .is_none()
+        {
+            return Err(format!("the file {key} is missing"));
+        }
+    }
     let f64s = match kind {
         Kind::Real => array.retrieve_array_subset(part),
         Kind::Count => of::<i32>(array, part, f64::from),

@@ -88,9 +88,9 @@ impl Observer for StoreWriter {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         if self.open.is_none() {
             if self.overwrite && self.path.exists() {
-                fs::remove_dir_all(&self.path).map_err(|e| Error::File {
+                remove(&self.path).map_err(|e| Error::File {
                     path: self.path.display().to_string(),
-                    message: e.to_string(),
+                    message: format!("cannot be replaced: {e}"),
                 })?;
             }
             self.open = Some(Open::new(&self.path, march.scene(), march.plan())?);
@@ -266,6 +266,18 @@ impl Open {
             .write(key, format!("{document:#}").as_bytes())
             .map_err(|e| self.folder.error(&format!("{key}: {e}")))
     }
+}
+
+/// Removes a store: first from its place, at once, then from the disk.
+fn remove(path: &Path) -> std::io::Result<()> {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".replaced-by-fret");
+    let aside = PathBuf::from(name);
+    if aside.exists() {
+        fs::remove_dir_all(&aside)?;
+    }
+    fs::rename(path, &aside)?;
+    fs::remove_dir_all(&aside)
 }
 
 /// What the group says about the run.

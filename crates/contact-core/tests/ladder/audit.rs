@@ -122,10 +122,10 @@ impl Audit {
                 "slip at an angle, {across:e} of {slip:e} at {at}"
             );
         }
-        let theirs = increment.energy.dissipated;
+        let (theirs, scale) = (increment.energy.dissipated, increment.energy.work.abs());
         let off = (dissipated - theirs).abs();
         assert!(
-            off <= 1e-9 * self.work.max(theirs.abs()),
+            off <= 1e-9 * (self.work + scale),
             "{dissipated:e} J or {theirs:e} J"
         );
     }

@@ -13,4 +13,5 @@ mod coated_hertz;
 mod coupled_indentation;
 mod hertz;
 mod invariants;
+mod mindlin_shear;
 mod paper_scene;

@@ -79,10 +79,9 @@ impl<'a> Section<'a> {
     }
 
     fn hint(&self, unknown: &str, allowed: &[&str]) -> String {
-        let likeness = |name: &&&str| strsim::normalized_damerau_levenshtein(unknown, name);
         let nearest = allowed
             .iter()
-            .max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+            .min_by_key(|name| strsim::damerau_levenshtein(unknown, name));
         match nearest {
             Some(name) => format!(
                 "the nearest valid key is `{}` (of {})",

@@ -1,0 +1,280 @@
+//! The binary as a user meets it: what it says, where, and how it ends.
+
+// What is read back is what was written: equality is meant to the bit.
+#![allow(clippy::unwrap_used, clippy::float_cmp)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+
+use contact_core::output::Store;
+
+/// A scene of the repository, made small enough for a moment.
+const SCENE: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../../scenes/cattaneo_mindlin.toml"
+);
+const SMALL: [&str; 4] = ["--set", "grid.n=24", "--set", "path.3.increments=8"];
+
+fn fret(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_fret"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+/// A path in the build folder that is free.
+fn free(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    if path.exists() {
+        fs::remove_dir_all(&path).unwrap();
+    }
+    path
+}
+
+fn run(out: &Path, more: &[&str]) -> Output {
+    let mut arguments = vec!["run", SCENE, "-o", out.to_str().unwrap()];
+    arguments.extend(SMALL);
+    arguments.extend(more);
+    fret(&arguments)
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Exit code 2, one sentence on the standard error with all the words, nothing elsewhere.
+#[track_caller]
+fn assert_bad_input(output: &Output, words: &[&str]) {
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert_eq!(error.lines().count(), 1, "{error}");
+    assert!(output.stdout.is_empty());
+    for word in words {
+        assert!(error.contains(word), "{error:?} lacks {word:?}");
+    }
+}
+
+#[test]
+fn a_run_says_what_it_does_and_leaves_a_store() {
+    let out = free("run.zarr");
+    let output = run(&out, &[]);
+    let (told, error) = (text(&output.stdout), text(&output.stderr));
+    assert!(output.status.success(), "{error}");
+    let branches: Vec<_> = error.lines().filter(|l| l.starts_with("branch ")).collect();
+    assert_eq!(branches.len(), 4, "{error}");
+    assert!(branches[1].starts_with("branch 2/4: t = 2, W = 1000 N, T_x = 270 N: contact radius"));
+    for title in ["stick", "p_max", "delta_x", "dissipated", "lutions"] {
+        assert!(told.contains(title), "{told}");
+    }
+    assert_eq!(
+        told.lines().filter(|line| line.contains("1000.0")).count(),
+        4
+    );
+
+    let store = Store::open(&out).unwrap();
+    assert_eq!(store.status(), "done");
+    assert_eq!(store.increments(), 1 + 10 + 20 + 8);
+    assert_eq!(store.scene().grid.nx, 24);
+}
+
+#[test]
+fn quiet_is_quiet() {
+    let output = run(&free("quiet.zarr"), &["--quiet"]);
+    assert!(output.status.success());
+    assert!(output.stdout.is_empty() && output.stderr.is_empty());
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_the_result() {
+    let column = |name: &str, threads: &str| {
+        let out = free(name);
+        let output = run(&out, &["--threads", threads, "--set", "grid.n=66"]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        Store::open(&out).unwrap().column("delta_x").unwrap()
+    };
+    let bits = |values: Vec<f64>| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
+    assert_eq!(
+        bits(column("one.zarr", "1")),
+        bits(column("three.zarr", "3"))
+    );
+}
+
+#[test]
+fn bad_input_is_refused_before_anything_is_written() {
+    let out = free("bad.zarr");
+    for (setting, words) in [
+        ("friction.mu=-0.3", &["friction.mu = -0.3", ">= 0"][..]),
+        ("body1.E=-1.0", &["body1.E = -1", "a positive modulus"]),
+        ("body2.nu=0.5", &["body2.nu = 0.5", "-1 < nu < 0.5"]),
+        ("grid.n=0", &["grid.n = 0", ">= 1"]),
+        (
+            "path.1.T_x.mu_W=1.5",
+            &["path[1].T_x = 450", "|T| <= mu W = 300 N"],
+        ),
+        ("grid.m=3", &["grid.m", "`grid.n`"]),
+        // The contact leaves the grid.
+        (
+            "grid.extent.a_H=1.0",
+            &["touches the border", "should be about"],
+        ),
+    ] {
+        let output = run(&out, &["--quiet", "--set", setting]);
+        assert_bad_input(&output, words);
+        assert!(!out.exists(), "{setting}");
+    }
+}
+
+#[test]
+fn a_bad_file_is_named_with_its_line() {
+    let scene = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bad_scene.toml");
+    let good = fs::read_to_string(SCENE).unwrap();
+    fs::write(&scene, good.replace("[friction]", "[frction]")).unwrap();
+    let output = fret(&["check", scene.to_str().unwrap()]);
+    assert_bad_input(&output, &["bad_scene.toml:16: ", "`frction`", "`friction`"]);
+    let output = fret(&["check", "no/such/scene.toml"]);
+    assert_bad_input(&output, &["no/such/scene.toml: "]);
+}
+
+#[test]
+fn a_store_is_overwritten_only_on_demand() {
+    let out = free("twice.zarr");
+    assert!(run(&out, &["--quiet"]).status.success());
+    assert_bad_input(&run(&out, &[]), &["twice.zarr", "exists", "--overwrite"]);
+    assert!(run(&out, &["--quiet", "--overwrite"]).status.success());
+    let bad = run(&out, &["--overwrite", "--set", "friction.mu=-1"]);
+    assert_bad_input(&bad, &["friction.mu"]);
+    assert_eq!(Store::open(&out).unwrap().increments(), 39);
+}
+
+#[test]
+fn a_run_that_does_not_converge_keeps_what_it_has() {
+    let out = free("stuck.zarr");
+    // Five iterations do for the indentation, whose first guess is Hertz's, and not for shear.
+    let few = [
+        "--set",
+        "solver.max_iterations=5",
+        "--set",
+        "solver.tolerance=1e-9",
+    ];
+    let output = run(&out, &few);
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(error.contains("increments are kept in"), "{error}");
+    let last = error.lines().last().unwrap();
+    assert!(
+        last.contains("the tangential solver stopped at residual"),
+        "{error}"
+    );
+    assert!(text(&output.stdout).contains("1000.0"));
+    let store = Store::open(&out).unwrap();
+    assert!(store.increments() >= 1);
+    assert_eq!(format!("fret: {}", store.status()), last);
+}
+
+#[test]
+fn check_solves_nothing() {
+    let mut arguments = vec!["check", SCENE];
+    arguments.extend(SMALL);
+    let output = fret(&arguments);
+    let told = text(&output.stdout);
+    assert!(output.status.success());
+    for words in [
+        "a_H           5.0471",
+        "p_H           1.87",
+        "cells per a_H 10.00 along x, 10.00 along y",
+        "24 x 24 cells",
+        "4 branches, 39 increments",
+        "memory        about 10 MB",
+        "skipped: normal-tangential coupling",
+    ] {
+        assert!(told.contains(words), "{told:?} lacks {words:?}");
+    }
+}
+
+/// Ctrl-C: the increment is finished, the store is whole.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_ends_cleanly() {
+    use std::io::{BufRead, BufReader};
+
+    let out = free("interrupted.zarr");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_fret"))
+        .args(["run", SCENE, "-o", out.to_str().unwrap()])
+        .args(["--set", "path.2.increments=1000000", "--set", "grid.n=32"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    // The handler is in place once the run has begun.
+    lines.find(|line| line.as_ref().unwrap().starts_with("branch 1/4"));
+    let id = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let rest: Vec<_> = lines.map(Result::unwrap).collect();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{rest:?}");
+    assert!(
+        rest.iter()
+            .any(|line| line.contains("stopping after this increment"))
+    );
+    assert!(
+        rest.iter()
+            .any(|line| line.contains("increments are kept in"))
+    );
+    let store = Store::open(&out).unwrap();
+    let last = format!("stopped after increment {}", store.increments());
+    assert_eq!(store.status(), last);
+    assert!(rest.iter().any(|line| line.ends_with(&last)));
+    let saved = store.column("saved_increment").unwrap();
+    assert_eq!(saved.last().map(|&n| n as usize), Some(store.increments()));
+}
+
+/// kill -9 at any moment: the store opens, and is as it was at its last flush.
+#[test]
+fn a_killed_run_leaves_a_whole_store() {
+    let out = free("killed.zarr");
+    let mut lengths = Vec::new();
+    for milliseconds in [120, 170, 230, 310, 430] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_fret"))
+            .args([
+                "run",
+                SCENE,
+                "-o",
+                out.to_str().unwrap(),
+                "--overwrite",
+                "--quiet",
+            ])
+            .args(["--set", "path.2.increments=1000000", "--set", "grid.n=32"])
+            .args(["--set", "output.save=all", "--flush", "0"])
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        if !out.exists() {
+            continue;
+        }
+        let store = Store::open(&out).unwrap();
+        assert_eq!(store.status(), "running");
+        let n = store.increments();
+        assert_eq!(store.saved(), n);
+        if n > 0 {
+            assert!(store.column("W").unwrap().iter().all(|&W| W == 1000.0));
+            let counts: Vec<_> = (1..=n).map(|i| i as f64).collect();
+            assert_eq!(store.column("increment").unwrap(), counts);
+            let p_max = store.column("p_max").unwrap()[n - 1];
+            let p = store.field("p", n - 1).unwrap();
+            assert_eq!(p.iter().copied().fold(0.0, f64::max), p_max);
+        }
+        lengths.push(n);
+    }
+    assert!(lengths.iter().any(|&n| n > 0), "{lengths:?}");
+}
