@@ -87,3 +87,26 @@ def test_interfaces_carry_traction_and_strain_alike() -> None:
     scale = np.abs(base).max() / STEEL.E
     np.testing.assert_allclose(strain(coat, HARD), strain(base, STEEL), atol=1e-7 * scale)
     assert np.abs(coat[0] - base[0]).max() > 0.05
+
+
+def test_a_response_of_ones_own_is_converted_as_the_paper_does() -> None:
+    """First order in the enlargement: each doubling halves the error at least."""
+    exact = fret.kernels.influence_coefficients(COATED, GRID)[2, 2]
+
+    def error(enlargement: int) -> float:
+        own = fret.kernels.convert(
+            lambda k_x, k_y: fret.kernels.surface_frf(COATED, k_x, k_y),
+            GRID,
+            enlargement=enlargement,
+            aliases=2,
+        )
+        return float(np.abs(own[2, 2] - exact).max() / exact.max())
+
+    coarse, fine = error(4), error(8)
+    assert fine < 0.55 * coarse
+    assert fine < 0.02
+
+
+def test_a_response_of_another_shape_is_refused() -> None:
+    with pytest.raises(ValueError, match="one matrix per wave vector"):
+        fret.kernels.convert(lambda k_x, k_y: np.ones((5, 3, 3), dtype=complex), GRID)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -139,3 +142,37 @@ def test_fields_of_a_march_are_those_of_its_last_increment() -> None:
     next(march)
     with pytest.raises(RuntimeError, match="the march has gone on"):
         _ = first.p
+
+
+def test_ctrl_c_keeps_everything_so_far(tmp_path: Path) -> None:
+    counted = []
+    ended = threading.Event()
+
+    def count_and_interrupt() -> None:
+        """Runs only if the solver lets other threads run."""
+        while not ended.wait(0.01):
+            counted.append(len(counted))
+            if len(counted) == 20:
+                os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=count_and_interrupt, daemon=True).start()
+    long_path = paper_path(500, 4500)
+    with pytest.raises(KeyboardInterrupt):
+        fret.solve(sphere_on_flat(ratio=2.0), long_path, out=tmp_path / "run.zarr", progress=False)
+    ended.set()
+    left = fret.open(tmp_path / "run.zarr")
+    reached = left.dataset.sizes["increment"]
+    assert 0 < reached < len(long_path)
+    assert left.status == f"stopped after increment {reached}"
+    assert int(left.at(-1).increment) == reached
+
+
+def test_an_exception_of_an_observer_stops_the_run(tmp_path: Path) -> None:
+    def stop(increment: int) -> None:
+        if increment == 3:
+            raise LookupError("enough")
+
+    scene = sphere_on_flat().replace(path=paper_path(5, 9))
+    with pytest.raises(LookupError, match="enough"):
+        fret._core.solve(scene, store=tmp_path / "run.zarr", on_increment=stop)
+    assert fret.open(tmp_path / "run.zarr").dataset.sizes["increment"] == 3

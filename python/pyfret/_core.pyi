@@ -17,6 +17,7 @@ __all__ = [
     "CattaneoMindlin",
     "CoatedIndentation",
     "Coating",
+    "Conversion",
     "CoupledIndentation",
     "Elastic",
     "Flat",
@@ -904,6 +905,16 @@ def stress_at(
     array of shape (6, 3)
         s_xx, s_yy, s_zz, s_xy, s_xz, s_yz under q_x, q_y, p; tension is positive.
     """
+
+@final
+class Conversion:
+    """The paper's conversion, planned; see :func:`pyfret.kernels.convert`."""
+
+    def __new__(cls, grid: Grid, *, enlargement: int = 8, aliases: int = 0) -> Conversion: ...
+    def wave_vectors(self) -> tuple[_Array, _Array]:
+        """Wave numbers k_x, k_y [1/m] at which the response is needed, never both zero."""
+    def convert(self, frf: NDArray[np.complex128]) -> _Array:
+        """Influence coefficients from the response at the wave vectors, shape (n, 3, 3)."""
 
 def labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of every variable of a result, scalars and fields."""

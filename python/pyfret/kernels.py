@@ -14,11 +14,13 @@ from pyfret import _core
 from pyfret._core import influence_coefficients, stress_at, stress_coefficients
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import ArrayLike, NDArray
 
-    from pyfret._core import Body
+    from pyfret._core import Body, Grid
 
-__all__ = ["influence_coefficients", "stress_at", "stress_coefficients", "surface_frf"]
+__all__ = ["convert", "influence_coefficients", "stress_at", "stress_coefficients", "surface_frf"]
 
 
 def surface_frf(body: Body, k_x: ArrayLike, k_y: ArrayLike) -> NDArray[np.complex128]:
@@ -39,3 +41,34 @@ def surface_frf(body: Body, k_x: ArrayLike, k_y: ArrayLike) -> NDArray[np.comple
     waves = np.broadcast_arrays(np.asarray(k_x, dtype=float), np.asarray(k_y, dtype=float))
     frf = _core.surface_frf(body, *(np.ravel(k) for k in waves))
     return frf.reshape(*waves[0].shape, 3, 3)
+
+
+def convert(
+    frf: Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.complex128]],
+    grid: Grid,
+    *,
+    enlargement: int = 8,
+    aliases: int = 0,
+) -> NDArray[np.float64]:
+    """Influence coefficients of your own frequency response, by the paper's eq. (9)-(13).
+
+    Parameters
+    ----------
+    frf : callable
+        Gives the response at arrays k_x, k_y of shape (n,) [1/m], never both zero: an array of
+        shape (n, 3, 3), rows u_x, u_y, u_z, columns q_x, q_y, p [m/Pa], with f(-k) = conj f(k).
+    grid : Grid
+        The cells; only their number and size matter.
+    enlargement : int
+        How many times larger the domain of the inverse transform is, at least 2 (default 8).
+    aliases : int
+        Order of the alias sums (default 0, as in the paper).
+
+    Returns
+    -------
+    array of shape (3, 3, 2 nx - 1, 2 ny - 1)
+        As :func:`influence_coefficients` gives them.
+    """
+    conversion = _core.Conversion(grid, enlargement=enlargement, aliases=aliases)
+    response = np.asarray(frf(*conversion.wave_vectors()), dtype=np.complex128)
+    return conversion.convert(response)

@@ -1,5 +1,7 @@
 //! Influence coefficients against tables made with multi-precision arithmetic, and their limits.
 
+#![allow(clippy::unwrap_used)]
+
 mod kernel_tables;
 
 use contact_core::kernels::influence_coefficients;
@@ -11,7 +13,6 @@ const TOLERANCE: f64 = 1e-11;
 
 #[test]
 fn reproduce_the_table() {
-    let mut worst: f64 = 0.0;
     for entry in load("kernel_ic.json") {
         let (i, j) = (whole(&entry, "i"), whole(&entry, "j"));
         let n = (i.unsigned_abs() as usize + 1, j.unsigned_abs() as usize + 1);
@@ -26,10 +27,8 @@ fn reproduce_the_table() {
         for (row, theirs) in ours.iter().zip(matrix(&entry["C"])) {
             for (ours, theirs) in row.iter().zip(theirs) {
                 let error = (ours - theirs).abs() / scale;
-                worst = worst.max(error);
                 assert!(error < TOLERANCE, "entry {}: {error:.2e}", entry["id"]);
             }
         }
     }
-    println!("largest error {worst:.2e} C33(0,0)");
 }

@@ -1,6 +1,8 @@
 //! The paper's conversion, the frequency-domain operator and a user's own response, against the
 //! exact coefficients and against each other.
 
+#![allow(clippy::unwrap_used)]
+
 use contact_core::convolution::{
     DcFft, Displacements, FrequencyDomain, Mirror, SurfaceOperator, Tractions,
 };
@@ -68,10 +70,9 @@ fn converges_with_the_first_power_of_lambda() {
         let c = inverse_fft(lambda, 0, &grid);
         (c.zz[(16, 0)] / exact.zz[(16, 0)] - 1.0).abs()
     };
-    for lambda in [2, 4] {
-        let rate = (error(lambda) / error(2 * lambda)).log2();
-        assert!((0.7..1.5).contains(&rate), "{lambda}: {rate}");
-    }
+    // Long enough for the images to lie where the far field is that of the substrate.
+    let rate = (error(6) / error(12)).log2();
+    assert!((0.75..1.25).contains(&rate), "{rate}");
 }
 
 /// All six coefficients come near the exact ones: parities and signs of the sine and cosine sums.

@@ -259,6 +259,7 @@ fn damage_is_named() {
     assert!(text(store.field("p", 1).unwrap_err()).contains("damaged.zarr: p: "));
     assert!(text(store.column("W").unwrap_err()).contains("damaged.zarr: W: "));
     assert!(text(store.column("T_x").unwrap_err()).contains("the file T_x/0 is missing"));
+    assert!(text(store.column("p").unwrap_err()).contains("no column"));
     assert!(text(store.column("F").unwrap_err()).contains("holds no F"));
 
     let metadata = fs::read_to_string(path.join(".zmetadata")).unwrap();
@@ -267,6 +268,13 @@ fn damage_is_named() {
     let error = text(Store::open(&path).err().unwrap());
     assert!(
         error.contains("schema 9: this version reads schema 1"),
+        "{error}"
+    );
+    let endless = metadata.replace("      12\n", "      1200000000000\n");
+    fs::write(path.join(".zmetadata"), endless).unwrap();
+    let error = text(Store::open(&path).err().unwrap());
+    assert!(
+        error.contains("scalars of 1200000000000 increments"),
         "{error}"
     );
     fs::write(path.join(".zmetadata"), &metadata[..metadata.len() / 2]).unwrap();

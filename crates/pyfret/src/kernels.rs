@@ -2,8 +2,11 @@
 
 use contact_core::kernels as core;
 use contact_core::kernels::{Complex64, Stack};
-use ndarray::{Array2, Array3};
-use numpy::{PyArray2, PyArray3, PyArray4, PyReadonlyArray1, ToPyArray};
+use ndarray::{Array2, Array3, ArrayView2};
+use numpy::{
+    PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray3, ToPyArray,
+};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::to_python;
@@ -77,4 +80,45 @@ pub(crate) fn stress_at<'py>(
         .detach(|| core::stress_at(&body.0, cell, point, layer))
         .map_err(to_python)?;
     Ok(Array2::from_shape_fn((6, 3), |(i, j)| stress[i][j]).to_pyarray(py))
+}
+
+/// The paper's conversion of a user's own frequency response.
+#[pyclass(frozen, module = "pyfret.kernels")]
+pub(crate) struct Conversion(core::Conversion);
+
+#[pymethods]
+impl Conversion {
+    #[new]
+    #[pyo3(signature = (grid, *, enlargement = 8, aliases = 0))]
+    fn new(grid: Grid, enlargement: usize, aliases: usize) -> PyResult<Self> {
+        core::Conversion::new(&grid.0, enlargement, aliases)
+            .map(Self)
+            .map_err(to_python)
+    }
+
+    fn wave_vectors<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
+        let (k_x, k_y): (Vec<f64>, Vec<f64>) = self.0.wave_vectors().unzip();
+        (k_x.to_pyarray(py), k_y.to_pyarray(py))
+    }
+
+    fn convert<'py>(
+        &self,
+        py: Python<'py>,
+        frf: PyReadonlyArray3<'py, Complex64>,
+    ) -> PyResult<Bound<'py, PyArray4<f64>>> {
+        let frf = frf.as_array();
+        let expected = (self.0.wave_vectors().len(), 3, 3);
+        if frf.dim() != expected {
+            return Err(PyValueError::new_err(format!(
+                "the response has the shape {:?}: must be {expected:?}, one matrix per wave vector",
+                frf.dim()
+            )));
+        }
+        let matrix = |m: ArrayView2<'_, Complex64>| [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[(i, j)]));
+        let samples: Vec<_> = frf.outer_iter().map(matrix).collect();
+        Ok(py.detach(|| self.0.convert(&samples)).to_pyarray(py))
+    }
 }

@@ -29,7 +29,9 @@ mod _core {
         InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError, StoreError,
     };
     #[pymodule_export]
-    use crate::kernels::{influence_coefficients, stress_at, stress_coefficients, surface_frf};
+    use crate::kernels::{
+        Conversion, influence_coefficients, stress_at, stress_coefficients, surface_frf,
+    };
     #[pymodule_export]
     use crate::march::{March, labels};
     #[pymodule_export]

@@ -43,9 +43,10 @@ impl Key {
     }
 }
 
+type Entries = Vec<(Key, Arc<InfluenceCoefficients>)>;
+
 /// The entries, least recently used first.
-static ENTRIES: LazyLock<Mutex<Vec<(Key, Arc<InfluenceCoefficients>)>>> =
-    LazyLock::new(Mutex::default);
+static ENTRIES: LazyLock<Mutex<Entries>> = LazyLock::new(Mutex::default);
 
 /// What was kept under `key`.
 pub(crate) fn get(key: &Key) -> Option<Arc<InfluenceCoefficients>> {

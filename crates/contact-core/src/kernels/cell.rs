@@ -27,7 +27,7 @@ impl Cell {
             let nearest = (y.abs() - half_y).max(0.0);
             let height = zeta.hypot(nearest) / half_x;
             let (left, right) = (x / half_x - 1.0, x / half_x + 1.0);
-            let axis = (left.hypot(height) + right.hypot(height)) / 2.0;
+            let axis = f64::midpoint(left.hypot(height), right.hypot(height));
             let rho = axis + (axis * axis - 1.0).max(0.0).sqrt();
             let mut error = 1.0 / (rho * rho);
             let mut n = 1;

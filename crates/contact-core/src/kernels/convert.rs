@@ -21,7 +21,7 @@ use crate::scene::Grid;
 pub type SurfaceFrf = [[Complex64; 3]; 3];
 
 /// Gauss nodes in angle and radius of the mean at zero frequency.
-const MEAN: usize = 8;
+const MEAN: usize = 16;
 
 /// A conversion planned: grid, enlargement of the domain, order of the alias sums.
 #[derive(Clone, Debug)]
@@ -75,11 +75,16 @@ impl Conversion {
                         continue;
                     }
                     let phase = |m: i64, period: usize| PI * m as f64 / period as f64;
-                    points.push(Point {
-                        k: (m as f64 * step.0, n as f64 * step.1),
+                    let weight = sinc(phase(m, period.0)) * sinc(phase(n, period.1));
+                    let (k_x, k_y) = (m as f64 * step.0, n as f64 * step.1);
+                    // The Nyquist frequency stands for both signs of k_x.
+                    let nyquist = 2 * (index / frequencies) == period.0;
+                    let signs: &[f64] = if nyquist { &[1.0, -1.0] } else { &[1.0] };
+                    points.extend(signs.iter().map(|sign| Point {
+                        k: (sign * k_x, k_y),
                         index,
-                        weight: sinc(phase(m, period.0)) * sinc(phase(n, period.1)),
-                    });
+                        weight: weight / signs.len() as f64,
+                    }));
                 }
             }
         }

@@ -62,15 +62,17 @@ impl Profile {
             Self::Power { exponent, .. } if !(*exponent > 0.0 && exponent.is_finite()) => Err(
                 Error::invalid(format!("{key}.exponent"), exponent, "positive"),
             ),
-            Self::Exponential { top, bottom } if !(top * bottom > 0.0) => Err(Error::invalid(
-                format!("{key}.bottom"),
-                bottom,
-                "of the sign of the value at the surface, and not zero",
-            )),
+            Self::Exponential { top, bottom } if (top * bottom).is_nan() || top * bottom <= 0.0 => {
+                Err(Error::invalid(
+                    format!("{key}.bottom"),
+                    bottom,
+                    "of the sign of the value at the surface, and not zero",
+                ))
+            }
             Self::Table(points) => {
                 let rises = points.windows(2).all(|p| p[0].0 < p[1].0);
-                let spans =
-                    points.len() >= 2 && points[0].0 == 0.0 && points[points.len() - 1].0 == 1.0;
+                let ends = [points.first(), points.last()].map(|p| p.map(|p| p.0.to_bits()));
+                let spans = ends == [Some(0.0_f64.to_bits()), Some(1.0_f64.to_bits())];
                 if rises && spans {
                     return Ok(());
                 }

@@ -116,7 +116,7 @@ impl<const N: usize> Hankel<'_, N> {
     fn sum(&self, rule: &Rule, weighted: &[[f64; N]], rho: f64, r_a: f64) -> [f64; N] {
         let mut g = [0.0; N];
         for (&(t, _), a) in rule.0.iter().zip(weighted) {
-            if a != &[0.0; N] {
+            if a.iter().any(|a| a.abs() > 0.0) {
                 let j = bessel(t * rho);
                 for n in 0..N {
                     g[n] += a[n] * j[self.orders[n]];
@@ -169,7 +169,7 @@ impl<const N: usize> Hankel<'_, N> {
         let rule = Rule::new(self.low(r_first), 2.0 * WINDOW_MIDDLE, NODES);
         let radii: Vec<f64> = (0..PANELS)
             .flat_map(|panel| {
-                let octave = (1 << (panel / SPLITS)) as f64;
+                let octave = f64::from(1 << (panel / SPLITS));
                 let sub = (panel % SPLITS) as f64;
                 cosines().map(|x| {
                     let from = 1.0 + sub / SPLITS as f64;
@@ -274,4 +274,83 @@ fn clenshaw<const N: usize>(coefficients: &[[f64; N]], x: f64) -> [f64; N] {
         }
     }
     std::array::from_fn(|n| coefficients[0][n] + x * b[n] - last[n])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cell::Cell;
+    use super::super::half_space::add_kernel;
+    use super::*;
+
+    /// Amplitudes exp(-k z) of all orders, whose integrals are known, as an image source has.
+    fn image(z: f64, r_max: f64) -> (RadialTable<4>, f64) {
+        let hankel = Hankel {
+            amplitude: &|k| [(-k * z).exp(); 4],
+            orders: [0, 1, 2, 3],
+            zeta: z,
+            k_low: 1.0 / z,
+        };
+        let table = hankel.tabulate(r_max);
+        let error = hankel.error(&table, r_max);
+        (table, error)
+    }
+
+    /// (rho - z)^n/(r^n rho), rho^2 = r^2 + z^2; over r^n, without cancellation.
+    fn exact(z: f64, r: f64, n: usize) -> f64 {
+        let rho = r.hypot(z);
+        1.0 / (rho * (rho + z).powi(n as i32)) / (2.0 * PI)
+    }
+
+    #[test]
+    fn reproduces_image_sources() {
+        for (z, r_max) in [(1.0, 1e5), (1e-4, 3.0), (7e3, 1.0)] {
+            let (table, estimate) = image(z, r_max);
+            assert!(estimate < 1e-13, "{estimate:.1e}");
+            for i in 0..500 {
+                let r = r_max * (f64::from(i) / 500.0).powi(4);
+                let values = table.at(r * r);
+                for (n, value) in values.iter().enumerate() {
+                    let scale = (r + z).powi(n as i32 + 1);
+                    let error = (value - exact(z, r, n)).abs() * scale;
+                    assert!(error < 1e-13, "z = {z}, r = {r}, J_{n}: {error:.1e}");
+                }
+            }
+        }
+    }
+
+    /// The integral of 1/sqrt(r^2 + z^2) over a cell is known: the image's depth from a tenth of
+    /// the short side to a hundred of it, cells up to twenty times as long as wide.
+    #[test]
+    fn integrates_image_sources_over_cells() {
+        for (z, half_y) in [(0.05, 0.5), (0.2, 10.0), (2.0, 0.5), (100.0, 0.025)] {
+            let (table, _) = image(z, 100.0);
+            for (x, y) in [
+                (0.0, 0.0),
+                (1.0, 0.0),
+                (0.0, 2.0 * half_y),
+                (7.0, 4.0 * half_y),
+            ] {
+                let cell = Cell {
+                    x,
+                    y,
+                    half_x: 0.5,
+                    half_y,
+                };
+                let mut sum = [0.0; 6];
+                cell.nodes_of_parts(z, 1e-14, &mut |x, y, w| {
+                    let g = table.at(x * x + y * y);
+                    add_kernel(&mut sum, x, y, w, [g[0], 0.0, 0.0, 0.0]);
+                });
+                let corner = |x: f64, y: f64| {
+                    let rho = x.hypot(y).hypot(z);
+                    x * (y / x.hypot(z)).asinh() + y * (x / y.hypot(z)).asinh()
+                        - z * (x * y / (z * rho)).atan()
+                };
+                let (x0, x1, y0, y1) = (x - 0.5, x + 0.5, y - half_y, y + half_y);
+                let closed = corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0);
+                let error = (sum[2] * 2.0 * PI / closed - 1.0).abs();
+                assert!(error < 3e-13, "z = {z} at ({x}, {y}): {error:.1e}");
+            }
+        }
+    }
 }

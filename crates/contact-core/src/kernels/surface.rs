@@ -42,7 +42,7 @@ pub(crate) fn surface_coefficients(stack: &Stack, grid: &Grid) -> (InfluenceCoef
         let hankel = Hankel {
             amplitude: &|k| {
                 let d = stack.remainder(k);
-                [d.zz, (d.rr + d.tt) / 2.0, (d.rr - d.tt) / 2.0, d.rz]
+                [d.zz, f64::midpoint(d.rr, d.tt), (d.rr - d.tt) / 2.0, d.rz]
             },
             orders: [0, 0, 2, 1],
             zeta,

@@ -18,7 +18,7 @@ use crate::kernels::influence_coefficients;
 use crate::scene::{KernelMethod, LoadPoint, Plan, Preset, Scene};
 use crate::solvers::{
     CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, Interface, NormalParams,
-    Response, TangentialParams, coupled,
+    Response, TangentialMethod, TangentialParams, coupled,
 };
 
 /// A load path being run through.
@@ -122,9 +122,13 @@ impl March {
         let sum_q = [per_cell(point.loads.T_x), per_cell(point.loads.T_y)];
         let sum_p = per_cell(point.loads.W);
 
-        let mut now = self
-            .state
-            .predict(point, &self.h_init, sum_p, self.approach_at(point));
+        let mut now = self.state.predict(
+            point,
+            &self.h_init,
+            sum_p,
+            self.approach_at(point),
+            self.scene.settings.solver.preset,
+        );
         let problem = IncrementProblem {
             h_init: &self.h_init,
             u_ref: [&self.state.interface.u[0], &self.state.interface.u[1]],
@@ -234,10 +238,15 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
             max_iterations: solver.max_iterations,
         },
         tangential: TangentialParams {
+            method: if plain {
+                TangentialMethod::Gradient
+            } else {
+                TangentialMethod::Newton
+            },
             tolerance: INNER_SHARE * scene.friction.mu * gap,
             max_iterations: solver.max_iterations,
-            forcing: if plain { 1e-3 } else { 0.15 },
-            max_passes: if plain { 100 } else { 12 },
+            forcing: 0.15,
+            max_passes: 12,
         },
         max_alternations: solver.max_alternations,
     }

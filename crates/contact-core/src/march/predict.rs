@@ -1,7 +1,7 @@
 //! The first guess of an increment.
 
 use super::State;
-use crate::scene::{LoadPoint, Loads};
+use crate::scene::{LoadPoint, Loads, Preset};
 use crate::solvers::Interface;
 
 impl Loads {
@@ -16,7 +16,7 @@ impl Loads {
 
 impl State {
     /// Tractions and slip set to start from: the last increment's, extrapolated while the loads
-    /// keep their direction. At a reversal every cell is taken to stick: slip needs the load to
+    /// keep their direction (the paper takes them as they are). At a reversal every cell is taken to stick: slip needs the load to
     /// move on before it sets in again.
     pub(crate) fn predict(
         &self,
@@ -24,6 +24,7 @@ impl State {
         h_init: &[f64],
         sum_p: f64,
         approach: f64,
+        preset: Preset,
     ) -> Interface {
         let mut guess = self.interface.clone();
         if sum_p <= 0.0 {
@@ -37,13 +38,14 @@ impl State {
             T_x: point.loads.T_x - self.loads.T_x,
             T_y: point.loads.T_y - self.loads.T_y,
         };
-        if let (Some(factor), true) = (step.along(&self.step), self.increments > 1) {
+        let same_way = step.along(&self.step).filter(|_| self.increments > 1);
+        if let (Some(factor), Preset::Fast) = (same_way, preset) {
             extrapolate(&mut guess.p, &self.p_before, factor);
             guess.p.iter_mut().for_each(|p| *p = p.max(0.0));
             for c in 0..2 {
                 extrapolate(&mut guess.q[c], &self.q_before[c], factor);
             }
-        } else {
+        } else if same_way.is_none() {
             guess.slip.fill(false);
         }
         let factor = sum_p / guess.p.iter().sum::<f64>();

@@ -51,9 +51,17 @@ impl Store {
             let length = &metadata[format!("{name}/.zarray")]["shape"][0];
             length.as_u64().unwrap_or(0) as usize
         };
+        let (increments, saved) = (length("increment"), length("saved_increment"));
+        if saved > increments || increments > scene.path.increments() {
+            return Err(folder.error(&format!(
+                ".zmetadata is damaged: fields of {saved} and scalars of {increments} increments, \
+                 for a path of {}",
+                scene.path.increments()
+            )));
+        }
         Ok(Self {
-            increments: length("increment"),
-            saved: length("saved_increment"),
+            increments,
+            saved,
             metadata: metadata.clone(),
             folder,
             scene,
@@ -85,6 +93,14 @@ impl Store {
     /// A variable over `increment`, `saved`, `x` or `y`.
     pub fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
         let (array, dtype) = self.array(name)?;
+        let grid = &self.scene.grid;
+        let longest = self.increments.max(grid.nx).max(grid.ny) as u64;
+        if array.shape().len() != 1 || array.shape()[0] > longest {
+            let shape = array.shape();
+            return Err(self
+                .folder
+                .error(&format!("{name}: is of shape {shape:?}, no column")));
+        }
         numbers(&array, dtype, &array.subset_all())
             .map_err(|e| self.folder.error(&format!("{name}: {e}")))
     }

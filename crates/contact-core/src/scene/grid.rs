@@ -4,6 +4,9 @@ use ndarray::Array2;
 
 use crate::error::Error;
 
+/// Most cells of a grid: 16384 by 16384 take some 200 GB.
+const MOST_CELLS: usize = 1 << 28;
+
 /// `nx` by `ny` rectangular cells of `dx` by `dy`; tractions are constant on each.
 ///
 /// Cell (i, j) is centred at (`x(i)`, `y(j)`); the grid's middle is the initial point of contact.
@@ -72,6 +75,13 @@ impl Grid {
             if n == 0 {
                 return Err(Error::invalid(key, n, "at least one cell"));
             }
+        }
+        if self.nx.checked_mul(self.ny).is_none_or(|n| n > MOST_CELLS) {
+            return Err(Error::invalid(
+                "grid.n",
+                format!("[{}, {}]", self.nx, self.ny),
+                format!("at most {MOST_CELLS} cells in all"),
+            ));
         }
         for (key, d) in [("grid.dx", self.dx), ("grid.dy", self.dy)] {
             if !(d > 0.0 && d.is_finite()) {

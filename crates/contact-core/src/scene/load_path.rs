@@ -37,6 +37,9 @@ pub struct Branch {
     pub t_end: f64,
 }
 
+/// Most increments of a path: the points alone take some 60 bytes each.
+const MOST_INCREMENTS: usize = 100_000_000;
+
 /// The load history, from the unloaded state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoadPath {
@@ -175,6 +178,14 @@ impl LoadPath {
     pub(crate) fn check(&self, mu: f64) -> Result<(), Error> {
         if self.branches.is_empty() {
             return Err(Error::invalid("path", "empty", "at least one branch"));
+        }
+        let total = self.branches.iter().map(|b| b.increments);
+        if total.fold(0, usize::saturating_add) > MOST_INCREMENTS {
+            return Err(Error::invalid(
+                "path",
+                "of more increments",
+                format!("at most {MOST_INCREMENTS} increments in all"),
+            ));
         }
         let mut t = 0.0;
         for (i, b) in self.branches.iter().enumerate() {

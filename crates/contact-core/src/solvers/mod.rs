@@ -14,6 +14,7 @@ mod newton_step;
 mod normal;
 mod projected_gradient;
 mod response;
+mod shear_gradient;
 mod tangential;
 mod vector;
 
@@ -23,7 +24,8 @@ pub use coupled::{
 pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub use response::Response;
 pub use tangential::{
-    Shear, TangentialInfo, TangentialParams, TangentialProblem, TangentialWorkspace, tangential,
+    Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem,
+    TangentialWorkspace, tangential,
 };
 
 /// A solver that stopped before its tolerance.

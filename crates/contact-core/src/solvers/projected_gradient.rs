@@ -112,7 +112,7 @@ impl ProjectedGradient {
 
     /// Estimate of the largest eigenvalue of C_tt on the contact \[m/Pa\]: the largest displacement
     /// under unit shear.
-    fn largest_compliance(
+    pub(crate) fn largest_compliance(
         &mut self,
         response: &mut Response<'_>,
         problem: &TangentialProblem<'_>,

@@ -17,6 +17,7 @@
 
 use super::newton_step::NewtonStep;
 use super::projected_gradient::{ProjectedGradient, mark_circle, project};
+use super::shear_gradient::shear_gradient;
 use super::vector::{add_scaled, mean_where, size, sum};
 use super::{Response, SolverError};
 
@@ -33,9 +34,20 @@ pub struct TangentialProblem<'a> {
     pub free: [bool; 2],
 }
 
+/// How the tangential problem is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TangentialMethod {
+    /// Semi-smooth Newton steps, [`tangential`].
+    Newton,
+    /// Conjugate gradients of the Polonsky-Keer type, as in the paper.
+    Gradient,
+}
+
 /// Settings of the tangential solver.
 #[derive(Clone, Copy, Debug)]
 pub struct TangentialParams {
+    /// How the problem is solved.
+    pub method: TangentialMethod,
     /// Largest root-mean-square misfit of the slip conditions over the contact \[m\].
     pub tolerance: f64,
     /// Most Newton steps.
@@ -63,11 +75,13 @@ pub struct TangentialInfo {
 #[derive(Debug)]
 pub struct TangentialWorkspace {
     step: NewtonStep,
-    descent: ProjectedGradient,
-    q_before: [Vec<f64>; 2],
+    pub(crate) descent: ProjectedGradient,
     u_before: [Vec<f64>; 2],
-    change: [Vec<f64>; 2],
-    response: [Vec<f64>; 2],
+    pub(crate) q_before: [Vec<f64>; 2],
+    pub(crate) residual: [Vec<f64>; 2],
+    pub(crate) direction: [Vec<f64>; 2],
+    pub(crate) change: [Vec<f64>; 2],
+    pub(crate) response: [Vec<f64>; 2],
 }
 
 impl TangentialWorkspace {
@@ -77,8 +91,10 @@ impl TangentialWorkspace {
         Self {
             step: NewtonStep::new(cells),
             descent: ProjectedGradient::new(cells),
-            q_before: pair(),
             u_before: pair(),
+            q_before: pair(),
+            residual: pair(),
+            direction: pair(),
             change: pair(),
             response: pair(),
         }
@@ -126,6 +142,9 @@ pub fn tangential(
     params: &TangentialParams,
 ) -> Result<TangentialInfo, SolverError> {
     let root_of_contact = (problem.bound.iter().filter(|&&g| g > 0.0).count() as f64).sqrt();
+    if params.method == TangentialMethod::Gradient {
+        return shear_gradient(response, problem, shear, ws, params);
+    }
     ws.step.set_contact(problem.bound);
     let (c_xx, _) = response.op.self_coefficients();
     let negligible = SETTLED * params.tolerance / c_xx;
@@ -200,7 +219,7 @@ fn rises(
 }
 
 /// The shift that fits the stick cells best, or all contact cells where none sticks.
-fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 2] {
+pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 2] {
     let cells = problem.bound.len();
     let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slip[n];
     let any_sticks = (0..cells).any(sticks);

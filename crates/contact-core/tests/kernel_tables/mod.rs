@@ -1,4 +1,5 @@
 //! Reading of the tables in `tests/data`.
+#![allow(clippy::unwrap_used)]
 #![allow(dead_code, reason = "each test file reads its own table")]
 
 use contact_core::scene::{Body, Coating, Elastic, Shape};

@@ -27,14 +27,14 @@ impl<'a> Document<'a> {
         let broken = |e: &toml::de::Error| Error::SceneFile {
             file: file.to_owned(),
             line: line_at(text, e.span().map_or(0, |span| span.start)),
-            message: e.message().trim_end().replace('\n', "; "),
+            message: one_line(e.message().trim_end()),
         };
         let places = DeTable::parse(text).map_err(|e| broken(&e))?;
         let mut root: Table = toml::from_str(text).map_err(|e| broken(&e))?;
         for setting in settings {
             apply(&mut root, setting).map_err(|message| Error::Setting {
-                setting: setting.clone(),
-                message,
+                setting: one_line(setting),
+                message: one_line(&message),
             })?;
         }
         Ok(Self {
@@ -60,14 +60,14 @@ impl<'a> Document<'a> {
         };
         if let Some(setting) = self.settings.iter().rev().find(related) {
             return Error::Setting {
-                setting: setting.clone(),
-                message: fault.message.clone(),
+                setting: one_line(setting),
+                message: one_line(&fault.message),
             };
         }
         Error::SceneFile {
             file: self.file.to_owned(),
             line: line_at(self.text, self.offset(&path)),
-            message: fault.message.clone(),
+            message: one_line(&fault.message),
         }
     }
 
@@ -100,6 +100,11 @@ impl<'a> Document<'a> {
 fn entry<'t, 'a>(table: &'t DeTable<'a>, name: &str) -> Option<(usize, &'t DeValue<'a>)> {
     let (key, value) = table.iter().find(|(key, _)| key.get_ref() == name)?;
     Some((key.span().start, value.get_ref()))
+}
+
+/// The text without its line breaks: an error is one sentence.
+fn one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
 }
 
 /// Line of a byte of the text, from 1.

@@ -334,3 +334,45 @@ fn a_missing_file_is_named() {
     let text = complaint(Scene::from_file("no/such/scene.toml", &[]));
     assert!(text.starts_with("no/such/scene.toml: "), "{text}");
 }
+
+/// Text of any kind gives a scene that reads back equal, or an error of one line; nothing panics.
+#[test]
+fn hostile_text_is_survived() {
+    // Knuth's 64-bit congruential generator: the same texts every time.
+    let mut state = 1_u64;
+    let mut random = move |n: usize| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % n
+    };
+    let scraps = "|=|[|]]|\"|{|}|0|-1|1e308|nan|inf|1e-320|[[path]]|\n|.|é|9223372036854775807|true|a_H|#|'''|99999999999999999999|T_x";
+    let scraps: Vec<_> = scraps.split('|').collect();
+    let (mut good, mut bad) = (0, 0);
+    for _ in 0..20_000 {
+        let mut text = GOOD.to_owned();
+        for _ in 0..=random(2) {
+            let from = random(text.len());
+            let to = (from + random(5)).min(text.len());
+            if text.is_char_boundary(from) && text.is_char_boundary(to) {
+                text.replace_range(from..to, scraps[random(scraps.len())]);
+            }
+        }
+        let [key, value] = [0; 2].map(|_| scraps[random(scraps.len())]);
+        let settings = [format!("path.1.{key}={value}")];
+        let settings = &settings[..usize::from(random(8) == 0)];
+        match Scene::from_toml_str(&text, FILE, settings) {
+            Ok(scene) => {
+                let again = Scene::from_toml_str(&scene.to_toml(), FILE, &[]).unwrap();
+                assert_eq!(again, scene);
+                good += 1;
+            }
+            Err(error) => {
+                let sentence = error.to_string();
+                assert_eq!(sentence.lines().count(), 1, "{sentence}");
+                bad += 1;
+            }
+        }
+    }
+    assert!(good > 100 && bad > 100, "{good} good, {bad} bad");
+}
