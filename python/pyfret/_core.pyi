@@ -430,7 +430,7 @@ class Settings:
     preset : Preset, optional
         Which algorithms (default ``Preset.FAST``).
     tolerance : float, optional
-        Relative tolerance of the solution (default 1e-5): gap error in the contact over the Hertz
+        Relative tolerance of the solution (default 1e-6): gap error in the contact over the Hertz
         approach, tangential misfit over mu times it, change of the tractions in the last pass.
     max_alternations : int, optional
         Most passes of the intermediate loop per increment (default 60).

@@ -60,7 +60,7 @@ pub enum KernelMethod {
 pub struct SolverSettings {
     /// Which algorithms (default: [`Preset::Fast`]).
     pub preset: Preset,
-    /// Relative tolerance of the solution (default 1e-5): root-mean-square gap error in the
+    /// Relative tolerance of the solution (default 1e-6): root-mean-square gap error in the
     /// contact over the Hertz approach, tangential misfit over mu times the Hertz approach, and
     /// the change of p and q in the last pass of the intermediate loop over their norms.
     pub tolerance: f64,
@@ -74,7 +74,7 @@ impl Default for SolverSettings {
     fn default() -> Self {
         Self {
             preset: Preset::Fast,
-            tolerance: 1e-5,
+            tolerance: 1e-6,
             max_alternations: 60,
             max_iterations: 1000,
         }

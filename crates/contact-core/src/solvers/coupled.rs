@@ -5,11 +5,12 @@
 //! the other and one pass is exact. The displacements are carried along: each solver adds the
 //! response to what it changed, and one full convolution at the start ties them to the tractions.
 
-use super::tangential::admissible;
+use super::admissible::admissible;
+use super::shear_gradient::shear_gradient;
 use super::vector::{add_scaled, mean_where};
 use super::{
-    NormalParams, NormalProblem, NormalWorkspace, Response, Shear, SolverError, TangentialParams,
-    TangentialProblem, TangentialWorkspace, normal, tangential,
+    NormalParams, NormalProblem, NormalWorkspace, Response, Shear, SolverError, TangentialMethod,
+    TangentialParams, TangentialProblem, TangentialWorkspace, normal, tangential,
 };
 use crate::convolution::{Displacements, Tractions};
 
@@ -203,7 +204,11 @@ pub fn coupled(
                 u: [u_x, u_y],
                 slip: &mut now.slip,
             };
-            let found = tangential(
+            let solve = match params.tangential.method {
+                TangentialMethod::Newton => tangential,
+                TangentialMethod::Gradient => shear_gradient,
+            };
+            let found = solve(
                 response,
                 &slip,
                 &mut shear,

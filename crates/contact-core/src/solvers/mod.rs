@@ -8,12 +8,14 @@
 //! Each takes Params and gives Info or an Error with numbers. Lengths are those of the scene; a
 //! tolerance is a length too, so that "how wrong" can be read off.
 
+mod admissible;
 mod contact_cells;
 mod coupled;
 mod newton_step;
 mod normal;
 mod projected_gradient;
 mod response;
+mod shear;
 mod shear_gradient;
 mod tangential;
 mod vector;
@@ -23,10 +25,8 @@ pub use coupled::{
 };
 pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub use response::Response;
-pub use tangential::{
-    Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem,
-    TangentialWorkspace, tangential,
-};
+pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
+pub use tangential::{TangentialWorkspace, tangential};
 
 /// A solver that stopped before its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

@@ -2,7 +2,7 @@
 
 use super::Response;
 use super::contact_cells::ContactCells;
-use super::tangential::{Shear, TangentialProblem};
+use super::shear::{Shear, TangentialProblem};
 use super::vector::{add_scaled, dot, sum};
 
 type Pair = [Vec<f64>; 2];

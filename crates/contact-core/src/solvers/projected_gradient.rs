@@ -6,8 +6,8 @@
 //! |q| <= g, sum q = T.
 
 use super::Response;
-use super::tangential::{Shear, TangentialProblem};
-use super::vector::{size, sum};
+use super::admissible::{mark_circle, project};
+use super::shear::{Shear, TangentialProblem};
 
 type Pair = [Vec<f64>; 2];
 
@@ -20,9 +20,6 @@ pub(crate) struct ProjectedGradient {
     q_last: Pair,
     u_last: Pair,
 }
-
-/// The part of the bound from which a cell counts as slipping.
-const ON_CIRCLE: f64 = 1.0 - 1e-9;
 
 impl ProjectedGradient {
     pub(crate) fn new(cells: usize) -> Self {
@@ -128,111 +125,4 @@ impl ProjectedGradient {
             .iter()
             .fold(f64::MIN_POSITIVE, |m, u| m.max(*u))
     }
-}
-
-/// Slip cells are those on the circle.
-pub(crate) fn mark_circle(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], slip: &mut [bool]) {
-    for n in 0..problem.bound.len() {
-        let g = problem.bound[n];
-        slip[n] = g > 0.0 && size([q[0][n], q[1][n]]) >= ON_CIRCLE * g;
-    }
-}
-
-/// Nearest shear with |q| <= g in each cell and the sum asked for: q - shift, cut to the circle.
-///
-/// The shift is the root of a monotone function: Newton steps, halved until the excess falls; where
-/// none does, a step with the weights min(1, g/|q - shift|) of Weiszfeld, which cannot overshoot.
-pub(crate) fn project(
-    problem: &TangentialProblem<'_>,
-    q: &mut [&mut [f64]; 2],
-    shift: &mut [f64; 2],
-) {
-    let enough = 1e-13 * sum(problem.bound);
-    let mut trial = *shift;
-    let mut here = excess(problem, q, trial);
-    for _ in 0..100 {
-        if size(here.sum) <= enough {
-            break;
-        }
-        (trial, here) = newton(problem, q, trial, &here).unwrap_or_else(|| {
-            let weighted: [f64; 2] = std::array::from_fn(|c| trial[c] + here.sum[c] / here.weight);
-            (weighted, excess(problem, q, weighted))
-        });
-    }
-    *shift = trial;
-    for n in 0..problem.bound.len() {
-        let v = [q[0][n] - trial[0], q[1][n] - trial[1]];
-        let factor = problem.bound[n] / size(v).max(problem.bound[n]).max(f64::MIN_POSITIVE);
-        q[0][n] = factor * v[0];
-        q[1][n] = factor * v[1];
-    }
-}
-
-/// A Newton step of the shift that lowers the excess, if there is one.
-fn newton(
-    problem: &TangentialProblem<'_>,
-    q: &[&mut [f64]; 2],
-    at: [f64; 2],
-    here: &Excess,
-) -> Option<([f64; 2], Excess)> {
-    let [xx, xy, yy] = here.slope;
-    let det = xx * yy - xy * xy;
-    if det <= 0.0 {
-        return None;
-    }
-    let step = [
-        (yy * here.sum[0] - xy * here.sum[1]) / det,
-        (xx * here.sum[1] - xy * here.sum[0]) / det,
-    ];
-    (0..12)
-        .map(|halvings| 0.5_f64.powi(halvings))
-        .find_map(|part| {
-            let to = [at[0] + part * step[0], at[1] + part * step[1]];
-            let there = excess(problem, q, to);
-            (size(there.sum) < (1.0 - 0.1 * part) * size(here.sum)).then_some((to, there))
-        })
-}
-
-/// The sum of the cut shear over the sum asked for, as a function of the shift.
-struct Excess {
-    sum: [f64; 2],
-    /// Minus the derivative by the shift: xx, xy, yy.
-    slope: [f64; 3],
-    /// Sum of the factors by which cells are cut.
-    weight: f64,
-}
-
-fn excess(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], shift: [f64; 2]) -> Excess {
-    let mut sum = [-problem.sum_q[0], -problem.sum_q[1]];
-    let mut slope = [0.0; 3];
-    let mut weight = 0.0;
-    for n in 0..problem.bound.len() {
-        let g = problem.bound[n];
-        if g <= 0.0 {
-            continue;
-        }
-        let v = [q[0][n] - shift[0], q[1][n] - shift[1]];
-        let length = size(v);
-        let cut = if length > g { g / length } else { 1.0 };
-        sum[0] += cut * v[0];
-        sum[1] += cut * v[1];
-        weight += cut;
-        // Cells beyond the circle give way only across their direction.
-        let e = if length > g {
-            [v[0] / length, v[1] / length]
-        } else {
-            [0.0, 0.0]
-        };
-        slope[0] += cut * (1.0 - e[0] * e[0]);
-        slope[1] -= cut * e[0] * e[1];
-        slope[2] += cut * (1.0 - e[1] * e[1]);
-    }
-    for c in 0..2 {
-        if !problem.free[c] {
-            sum[c] = 0.0;
-            slope[1] = 0.0;
-            slope[2 * c] = 1.0;
-        }
-    }
-    Excess { sum, slope, weight }
 }

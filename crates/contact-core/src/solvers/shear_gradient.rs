@@ -6,10 +6,9 @@
 //! missing force. No preconditioner, no Newton steps: the baseline that
 //! [`tangential`](super::tangential()) is measured against.
 
-use super::tangential::{
-    Shear, TangentialInfo, TangentialParams, TangentialProblem, TangentialWorkspace, admissible,
-    first_shift,
-};
+use super::admissible::admissible;
+use super::shear::{Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift};
+use super::tangential::TangentialWorkspace;
 use super::vector::{add_scaled, dot, size};
 use super::{Response, SolverError};
 

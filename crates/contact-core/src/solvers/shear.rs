@@ -1,0 +1,111 @@
+//! What the tangential solvers are given, work on and end with.
+
+use super::vector::mean_where;
+
+/// What is given: the friction bound, the reference of the slip, the force.
+#[derive(Clone, Copy, Debug)]
+pub struct TangentialProblem<'a> {
+    /// Largest shear g = mu p in each cell \[Pa\], zero outside the contact.
+    pub bound: &'a [f64],
+    /// Displacements that mean no slip, those of the last increment \[m\].
+    pub u_ref: [&'a [f64]; 2],
+    /// Sum of the shear over the cells, T over the area of a cell \[Pa\].
+    pub sum_q: [f64; 2],
+    /// Whether each shift is free to balance its force; a fixed one is zero (by symmetry).
+    pub free: [bool; 2],
+}
+
+/// How the tangential problem is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TangentialMethod {
+    /// Semi-smooth Newton steps, [`tangential`].
+    Newton,
+    /// Conjugate gradients of the Polonsky-Keer type, as in the paper.
+    Gradient,
+}
+
+/// Settings of the tangential solver.
+#[derive(Clone, Copy, Debug)]
+pub struct TangentialParams {
+    /// How the problem is solved.
+    pub method: TangentialMethod,
+    /// Largest root-mean-square misfit of the slip conditions over the contact \[m\].
+    pub tolerance: f64,
+    /// Most Newton steps.
+    pub max_iterations: usize,
+    /// Each linear system is solved to this fraction of its first residual.
+    pub forcing: f64,
+    /// Most conjugate-gradient passes of a Newton step.
+    pub max_passes: usize,
+}
+
+/// What the tangential solver ended with.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TangentialInfo {
+    /// Rigid shift of this increment \[m\].
+    pub shift: [f64; 2],
+    /// Root-mean-square misfit \[m\].
+    pub misfit: f64,
+    /// Newton steps.
+    pub iterations: usize,
+    /// Conjugate-gradient passes, one convolution each.
+    pub passes: usize,
+}
+
+/// Shear, displacement and slip set, in and out.
+pub struct Shear<'a> {
+    /// q_x, q_y \[Pa\]; on entry a guess.
+    pub q: [&'a mut [f64]; 2],
+    /// Total u_x, u_y \[m\], belonging to q on entry and on exit.
+    pub u: [&'a mut [f64]; 2],
+    /// Contact cells that slip; on entry a guess.
+    pub slip: &'a mut [bool],
+}
+
+impl Shear<'_> {
+    /// Slip ds = u - u_ref - shift in cell n \[m\].
+    pub(crate) fn slip_of(
+        &self,
+        problem: &TangentialProblem<'_>,
+        shift: [f64; 2],
+        n: usize,
+    ) -> [f64; 2] {
+        [
+            self.u[0][n] - problem.u_ref[0][n] - shift[0],
+            self.u[1][n] - problem.u_ref[1][n] - shift[1],
+        ]
+    }
+}
+
+/// The shift that fits the stick cells best, or all contact cells where none sticks.
+pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 2] {
+    let cells = problem.bound.len();
+    let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slip[n];
+    let any_sticks = (0..cells).any(sticks);
+    std::array::from_fn(|c| {
+        let mask = |n: usize| {
+            if any_sticks {
+                sticks(n)
+            } else {
+                problem.bound[n] > 0.0
+            }
+        };
+        let slip = |n: usize| shear.u[c][n] - problem.u_ref[c][n];
+        if problem.free[c] {
+            mean_where(cells, mask, slip).0
+        } else {
+            0.0
+        }
+    })
+}
+
+/// q . ds in cell n, negative where friction dissipates \[Pa m\].
+pub(crate) fn power(
+    problem: &TangentialProblem<'_>,
+    shear: &Shear<'_>,
+    shift: [f64; 2],
+    n: usize,
+) -> f64 {
+    let slip = shear.slip_of(problem, shift, n);
+    shear.q[0][n] * slip[0] + shear.q[1][n] * slip[1]
+}
