@@ -36,12 +36,12 @@ pub(crate) fn surface_frf<'py>(
 
 #[pyfunction]
 #[pyo3(signature = (body, grid, *, settings = None))]
-pub(crate) fn influence_coefficients<'py>(
-    py: Python<'py>,
+pub(crate) fn influence_coefficients(
+    py: Python<'_>,
     body: Body,
     grid: Grid,
     settings: Option<Settings>,
-) -> PyResult<Bound<'py, PyArray4<f64>>> {
+) -> PyResult<Bound<'_, PyArray4<f64>>> {
     let settings = settings.unwrap_or_default().0;
     let shortcut = settings.skip.equal_layers;
     let matrix = py.detach(|| {
@@ -53,13 +53,13 @@ pub(crate) fn influence_coefficients<'py>(
 
 #[pyfunction]
 #[pyo3(signature = (body, grid, z, *, layer = None))]
-pub(crate) fn stress_coefficients<'py>(
-    py: Python<'py>,
+pub(crate) fn stress_coefficients(
+    py: Python<'_>,
     body: Body,
     grid: Grid,
     z: f64,
     layer: Option<usize>,
-) -> PyResult<Bound<'py, PyArray4<f64>>> {
+) -> PyResult<Bound<'_, PyArray4<f64>>> {
     let matrix = py.detach(|| {
         core::stress_coefficients(&body.0, &grid.0, z, layer)
             .map(|coefficients| coefficients.matrix())
@@ -69,13 +69,13 @@ pub(crate) fn stress_coefficients<'py>(
 
 #[pyfunction]
 #[pyo3(signature = (body, cell, point, *, layer = None))]
-pub(crate) fn stress_at<'py>(
-    py: Python<'py>,
+pub(crate) fn stress_at(
+    py: Python<'_>,
     body: Body,
     cell: (f64, f64),
     point: (f64, f64, f64),
     layer: Option<usize>,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
+) -> PyResult<Bound<'_, PyArray2<f64>>> {
     let stress = py
         .detach(|| core::stress_at(&body.0, cell, point, layer))
         .map_err(to_python)?;

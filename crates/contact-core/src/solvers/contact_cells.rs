@@ -82,8 +82,9 @@ mod tests {
         assert_eq!(cells.iter().collect::<Vec<_>>(), [0, 1, 5, 6, 7, 8, 19]);
         let mut back = vec![-1.0; 20];
         cells.unpack(&packed, &mut back);
-        for n in 0..20 {
-            assert_eq!(back[n], if inside(n) { field[n] } else { -1.0 });
-        }
+        let expected: Vec<f64> = (0..20)
+            .map(|n| if inside(n) { field[n] } else { -1.0 })
+            .collect();
+        assert_eq!(back, expected);
     }
 }

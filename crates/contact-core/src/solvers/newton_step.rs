@@ -94,9 +94,13 @@ impl NewtonStep {
             &mut self.direction,
             &mut self.response_direction,
         ] {
-            pair.iter_mut().for_each(|field| field.resize(count, 0.0));
+            for field in pair {
+                field.resize(count, 0.0);
+            }
         }
-        self.traction.iter_mut().for_each(|field| field.fill(0.0));
+        for field in &mut self.traction {
+            field.fill(0.0);
+        }
     }
 
     /// Tangent space, curvature and residual at the present shear and slip; x starts from zero.

@@ -133,7 +133,7 @@ const SETTLED: f64 = 0.1;
 /// Passes of projected gradients after a Newton step that would have raised the energy.
 const DESCENT: usize = 30;
 
-/// Solves for the shear. On entry it must be [`admissible`].
+/// Solves for the shear. On entry it must be admissible: within the bound and balanced.
 pub fn tangential(
     response: &mut Response<'_>,
     problem: &TangentialProblem<'_>,
