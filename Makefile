@@ -13,7 +13,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test check format bench clean
+.PHONY: help setup demo test check format bench bench-kernels clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' Makefile
@@ -44,6 +44,11 @@ format: $(VENV)/.tools ## format all sources
 
 bench: ## criterion benches of every stage
 	cargo bench --workspace --locked
+
+bench-kernels: ## error against time of every kernel conversion, out/kernel_methods.csv
+	mkdir -p out
+	cargo run --release --locked --package contact-core --example kernel_methods > out/kernel_methods.csv
+	cat out/kernel_methods.csv
 
 clean: ## remove what was built, results excepted
 	rm -rf $(VENV) target python/pyfret/_core*.so

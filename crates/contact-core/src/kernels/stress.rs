@@ -29,7 +29,7 @@ use crate::error::Error;
 use crate::scene::{Body, Grid};
 
 /// Relative error that a cell's Gauss rule may leave, against the stress under the load.
-const CUBATURE: f64 = 1e-12;
+const CUBATURE: f64 = 1e-13;
 /// Largest error of the tabulated part over the traction.
 const TOLERANCE: f64 = 1e-9;
 
@@ -263,6 +263,8 @@ pub fn stress_coefficients(
             let vanishes = odd.0 && i == 0 || odd.1 && j == 0;
             if vanishes {
                 0.0
+            } else if mirrored(i, j) {
+                rows[j][i][exchanged_row[row]][exchanged_column[column]]
             } else {
                 rows[i][j][row][column]
             }
