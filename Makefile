@@ -24,7 +24,7 @@ demo: setup ## the paper's four runs: results and figures in out/
 	$(PY) examples/paper.py --out out
 
 test: setup ## all tests: cargo, then pytest
-	cargo test --workspace --locked
+	cargo test --workspace --locked --release
 	$(PY) -m pytest
 
 check: setup ## formats, lints, types, spelling
