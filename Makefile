@@ -45,10 +45,12 @@ format: $(VENV)/.tools ## format all sources
 bench: ## criterion benches of every stage
 	cargo bench --workspace --locked
 
-bench-kernels: ## error against time of every kernel conversion, out/kernel_methods.csv
+bench-kernels: ## error against time of every kernel conversion, out/kernel_methods*.csv
 	mkdir -p out
 	cargo run --release --locked --package contact-core --example kernel_methods > out/kernel_methods.csv
-	cat out/kernel_methods.csv
+	cargo run --release --locked --package contact-core --example kernel_methods_run -- \
+		scenes/coated_fretting.toml grid.n=128 > out/kernel_methods_run.csv
+	cat out/kernel_methods.csv out/kernel_methods_run.csv
 
 clean: ## remove what was built, results excepted
 	rm -rf $(VENV) target python/pyfret/_core*.so

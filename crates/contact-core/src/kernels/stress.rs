@@ -186,6 +186,7 @@ pub fn stress_at(
     point: (f64, f64, f64),
     layer: Option<usize>,
 ) -> Result<StressResponse, Error> {
+    body.check("body")?;
     let stack = Stack::new(body);
     let place = stack.place(point.2, layer)?;
     Grid::from_spacing((1, 1), cell)?;
@@ -210,6 +211,7 @@ pub fn stress_coefficients(
     z: f64,
     layer: Option<usize>,
 ) -> Result<StressCoefficients, Error> {
+    body.check("body")?;
     let stack = Stack::new(body);
     let place = stack.place(z, layer)?;
     if rigid_at(body, place.layer) {
