@@ -18,13 +18,13 @@
 use ndarray::{Array2, Array4};
 use rayon::prelude::*;
 
+use super::Quadrant;
 use super::cell::Cell;
 use super::coefficients::at_offset;
 use super::depth_frf::{Place, WaveFields};
 use super::half_space_stress::{StressResponse, corner, difference, under_cell};
 use super::layered_frf::Stack;
 use super::radial_table::{Hankel, RadialTable};
-use super::{Quadrant, surface};
 use crate::error::Error;
 use crate::scene::{Body, Grid};
 
@@ -99,8 +99,14 @@ impl StressKernel {
         };
         let table = hankel.tabulate(r_max);
         // Stress falls off like 1/r^2: against 1/(2 pi zeta^2), the most that a unit force causes.
-        let error = hankel.error(&table, r_max) * zeta;
-        surface::check(error, TOLERANCE)?;
+        let estimate = hankel.error(&table, r_max) * zeta;
+        if estimate.is_nan() || estimate > TOLERANCE {
+            return Err(Error::StressInaccurate {
+                z: place.z,
+                estimate,
+                tolerance: TOLERANCE,
+            });
+        }
         Ok(Self {
             place,
             closed,
