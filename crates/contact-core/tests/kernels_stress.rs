@@ -82,7 +82,7 @@ fn a_layer_may_be_cut_in_two() {
             .wrapping_add(1);
         from + (to - from) * (state >> 11) as f64 / (1_u64 << 53) as f64
     };
-    for case in 0..60 {
+    for case in 0..30 {
         let mut layer = || Coating {
             material: Elastic::new(210e9 * 10_f64.powf(draw(-3.0, 3.0)), draw(-0.9, 0.4999))
                 .unwrap(),
