@@ -13,10 +13,10 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test check format bench clean
+.PHONY: help setup demo test check format bench bench-kernels clean
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
 
 setup: $(VENV)/.installed target/release/fret ## .venv with pyfret and its tools, binary target/release/fret
 
@@ -44,6 +44,14 @@ format: $(VENV)/.tools ## format all sources
 
 bench: ## criterion benches of every stage
 	cargo bench --workspace --locked
+
+bench-kernels: setup ## error against time of every kernel conversion: out/kernel_methods*
+	mkdir -p out
+	cargo run --release --locked --package contact-core --example kernel_methods > out/kernel_methods.csv
+	cargo run --release --locked --package contact-core --example kernel_methods_run -- \
+		scenes/coated_fretting.toml grid.n=128 > out/kernel_methods_run.csv
+	cat out/kernel_methods.csv out/kernel_methods_run.csv
+	$(PY) examples/kernel_methods.py --out out
 
 clean: ## remove what was built, results excepted
 	rm -rf $(VENV) target python/pyfret/_core*.so

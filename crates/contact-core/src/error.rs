@@ -79,6 +79,19 @@ pub enum Error {
         /// Tolerance asked for.
         tolerance: f64,
     },
+    /// The stress below a loaded cell missed the accuracy promised.
+    #[error(
+        "the stress coefficients at z = {z:.4e} m have an estimated error of {estimate:.2e} of the \
+         traction, more than {tolerance:.2e}"
+    )]
+    StressInaccurate {
+        /// Depth \[m\].
+        z: f64,
+        /// Estimated error over the traction.
+        estimate: f64,
+        /// Largest error allowed.
+        tolerance: f64,
+    },
     /// A file could not be written or read.
     #[error("{path}: {message}")]
     File {

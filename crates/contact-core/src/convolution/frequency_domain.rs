@@ -5,6 +5,8 @@
 //! grid, multiplied by the response and transformed back, in every iteration. The periodic images
 //! of the load remain in the answer and fade slowly with lambda.
 
+use rayon::prelude::*;
+
 use super::{Displacements, Mirror, Spectra, SpectralProduct, SurfaceOperator, Tractions};
 use crate::kernels::{InfluenceCoefficients, SampledFrf, Stack};
 use crate::scene::{Body, Grid};
@@ -33,21 +35,32 @@ impl FrequencyDomain {
         let upper = SampledFrf::new(&stack1, grid, lambda, 0);
         let (px, py) = lower.period;
         let norm = 1.0 / (px * py) as f64;
-        let mut spectra = Spectra::default();
-        for n in 0..=py / 2 {
-            for m in 0..=px / 2 {
-                let (two, one) = (lower.at(m, n), upper.at(m, n));
-                // A kernel odd along n axes has the transform (-i)^n times its spectrum.
-                spectra.xx.push(norm * (two[0] + one[0]));
-                spectra.yy.push(norm * (two[1] + one[1]));
-                spectra.zz.push(norm * (two[2] + one[2]));
-                spectra.xy.push(-norm * (two[3] + one[3]));
-                if coupling {
-                    spectra.xz.push(-norm * (two[4] - one[4]));
-                    spectra.yz.push(-norm * (two[5] - one[5]));
-                }
-            }
-        }
+        // A kernel odd along n axes has the transform (-i)^n times its spectrum; the coupling of
+        // the two bodies subtracts, eq. (4).
+        let at = |index: usize| {
+            let (n, m) = (index / (px / 2 + 1), index % (px / 2 + 1));
+            let (two, one) = (lower.at(m, n), upper.at(m, n));
+            [
+                norm * (two[0] + one[0]),
+                norm * (two[1] + one[1]),
+                norm * (two[2] + one[2]),
+                -norm * (two[3] + one[3]),
+                -norm * (two[4] - one[4]),
+                -norm * (two[5] - one[5]),
+            ]
+        };
+        let size = (px / 2 + 1) * (py / 2 + 1);
+        let samples: Vec<[f64; 6]> = (0..size).into_par_iter().map(at).collect();
+        let spectrum = |c: usize| samples.iter().map(|s| s[c]).collect();
+        let if_coupled = |c: usize| if coupling { spectrum(c) } else { Vec::new() };
+        let spectra = Spectra {
+            xx: spectrum(0),
+            yy: spectrum(1),
+            zz: spectrum(2),
+            xy: spectrum(3),
+            xz: if_coupled(4),
+            yz: if_coupled(5),
+        };
         Self {
             shape: (grid.nx, grid.ny),
             product: SpectralProduct::new(grid.nx, grid.ny, Mirror::None, (px, py)),

@@ -50,6 +50,8 @@ pub fn influence_coefficients(
     settings: &KernelSettings,
     shortcut_equal_layers: bool,
 ) -> Result<InfluenceCoefficients, Error> {
+    body.check("body")?;
+    grid.check()?;
     let bare = shortcut_equal_layers && body.is_homogeneous();
     let key = cache::Key::new(body, grid, settings, bare);
     if let Some(kept) = cache::get(&key) {

@@ -219,7 +219,12 @@ impl<const N: usize> Hankel<'_, N> {
         let deviation = |r: &f64| {
             let (fine, table) = (self.check(*r), table.at(r * r));
             let each = (0..N).map(|n| (fine[n] - table[n]).abs() * r.powi(self.orders[n] as i32));
-            r * each.fold(0.0, f64::max)
+            // A maximum would pass over what is not a number.
+            let largest = each.fold(
+                0.0,
+                |m: f64, v| if v.is_nan() { f64::INFINITY } else { m.max(v) },
+            );
+            r * largest
         };
         radii.par_iter().map(deviation).reduce(|| 0.0, f64::max)
     }

@@ -18,13 +18,13 @@
 use ndarray::{Array2, Array4};
 use rayon::prelude::*;
 
+use super::Quadrant;
 use super::cell::Cell;
 use super::coefficients::at_offset;
 use super::depth_frf::{Place, WaveFields};
 use super::half_space_stress::{StressResponse, corner, difference, under_cell};
 use super::layered_frf::Stack;
 use super::radial_table::{Hankel, RadialTable};
-use super::{Quadrant, surface};
 use crate::error::Error;
 use crate::scene::{Body, Grid};
 
@@ -99,8 +99,14 @@ impl StressKernel {
         };
         let table = hankel.tabulate(r_max);
         // Stress falls off like 1/r^2: against 1/(2 pi zeta^2), the most that a unit force causes.
-        let error = hankel.error(&table, r_max) * zeta;
-        surface::check(error, TOLERANCE)?;
+        let estimate = hankel.error(&table, r_max) * zeta;
+        if estimate.is_nan() || estimate > TOLERANCE {
+            return Err(Error::StressInaccurate {
+                z: place.z,
+                estimate,
+                tolerance: TOLERANCE,
+            });
+        }
         Ok(Self {
             place,
             closed,
@@ -186,6 +192,7 @@ pub fn stress_at(
     point: (f64, f64, f64),
     layer: Option<usize>,
 ) -> Result<StressResponse, Error> {
+    body.check("body")?;
     let stack = Stack::new(body);
     let place = stack.place(point.2, layer)?;
     Grid::from_spacing((1, 1), cell)?;
@@ -210,6 +217,7 @@ pub fn stress_coefficients(
     z: f64,
     layer: Option<usize>,
 ) -> Result<StressCoefficients, Error> {
+    body.check("body")?;
     let stack = Stack::new(body);
     let place = stack.place(z, layer)?;
     if rigid_at(body, place.layer) {
@@ -227,11 +235,21 @@ pub fn stress_coefficients(
             .map(|j| corner(x, (j as f64 - 0.5) * dy, z, nu))
             .collect()
     };
+    // Where cells are square, exchange of the axes gives one octant from the other.
+    let square = if dx.to_bits() == dy.to_bits() {
+        nx.min(ny)
+    } else {
+        0
+    };
+    let mirrored = |i: usize, j: usize| i < j && j < square;
     let rows: Vec<Vec<StressResponse>> = (0..nx)
         .into_par_iter()
         .map(|i| {
             let (low, high) = (corners(i), corners(i + 1));
             let stress = |j: usize| {
+                if mirrored(i, j) {
+                    return StressResponse::default();
+                }
                 let mut s = difference(&high[j + 1], &low[j + 1], &high[j], &low[j]);
                 let cell = Cell {
                     x: i as f64 * dx,
@@ -245,12 +263,16 @@ pub fn stress_coefficients(
             (0..ny).map(stress).collect()
         })
         .collect();
+    let exchanged_row = [1, 0, 2, 3, 5, 4];
+    let exchanged_column = [1, 0, 2];
     let entry = |row: usize, column: usize| {
         let odd = StressCoefficients::is_odd(row, column);
         Array2::from_shape_fn((nx, ny), |(i, j)| {
             let vanishes = odd.0 && i == 0 || odd.1 && j == 0;
             if vanishes {
                 0.0
+            } else if mirrored(i, j) {
+                rows[j][i][exchanged_row[row]][exchanged_column[column]]
             } else {
                 rows[i][j][row][column]
             }
