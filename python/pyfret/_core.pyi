@@ -940,7 +940,7 @@ class NoConvergenceError(RuntimeError):
     """A solver stopped before its tolerance."""
 
 class KernelInaccurateError(RuntimeError):
-    """Influence coefficients missed the tolerance asked for."""
+    """Influence or stress coefficients missed the tolerance asked for."""
 
 class StoreError(OSError):
     """A file or a result store could not be read or written."""

@@ -27,7 +27,7 @@ create_exception!(
     pyfret,
     KernelInaccurateError,
     PyRuntimeError,
-    "Influence coefficients missed the tolerance asked for."
+    "Influence or stress coefficients missed the tolerance asked for."
 );
 create_exception!(
     pyfret,
@@ -45,7 +45,9 @@ pub(crate) fn to_python(error: Error) -> PyErr {
         }
         Error::OffGrid { .. } => OffGridError::new_err(text),
         Error::NotConverged { .. } => NoConvergenceError::new_err(text),
-        Error::KernelInaccurate { .. } => KernelInaccurateError::new_err(text),
+        Error::KernelInaccurate { .. } | Error::StressInaccurate { .. } => {
+            KernelInaccurateError::new_err(text)
+        }
         Error::File { .. } => StoreError::new_err(text),
         Error::Interrupted { .. } => PyKeyboardInterrupt::new_err(text),
         _ => PyRuntimeError::new_err(text),

@@ -18,7 +18,7 @@ pub struct TangentialProblem<'a> {
 /// How the tangential problem is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentialMethod {
-    /// Semi-smooth Newton steps, [`tangential`].
+    /// Semi-smooth Newton steps, [`super::tangential`].
     Newton,
     /// Conjugate gradients of the Polonsky-Keer type, as in the paper.
     Gradient,
