@@ -61,8 +61,8 @@ pub struct SolverSettings {
     /// Which algorithms (default: [`Preset::Fast`]).
     pub preset: Preset,
     /// Relative tolerance of the solution (default 1e-6): root-mean-square gap error in the
-    /// contact over the Hertz approach, tangential misfit over mu times the Hertz approach, and
-    /// the change of p and q in the last pass of the intermediate loop over their norms.
+    /// contact and deepest overlap outside over the Hertz approach, tangential misfit over mu
+    /// times the Hertz approach.
     pub tolerance: f64,
     /// Most passes of the intermediate loop per increment (default 60).
     pub max_alternations: usize,
