@@ -29,31 +29,57 @@ fn compare(scene: &Scene, truth: &CoatedIndentation) {
     });
 }
 
+/// E1/E2 and h/a0 of the rows of the table.
+const ROWS: [(f64, f64); 8] = [
+    (0.25, 0.25),
+    (2.0, 0.25),
+    (0.5, 0.5),
+    (4.0, 0.5),
+    (0.25, 1.0),
+    (2.0, 1.0),
+    (0.5, 2.0),
+    (4.0, 2.0),
+];
+
+/// A rigid sphere under the Hertz load of the bare substrate, `n` cells a side, and the truth.
+fn row(ratio: f64, h: f64, n: usize) -> (Scene, CoatedIndentation) {
+    let bare = hertz(R, Elastic::RIGID, STEEL, W);
+    let layer = Coating {
+        material: Elastic {
+            E: ratio * STEEL.E,
+            nu: 0.3,
+        },
+        thickness: h * bare.a,
+    };
+    let truth = coated_indentation(R, Elastic::RIGID, layer, STEEL, W);
+    let path = LoadPath::start().normal(W, 1);
+    let extent = 2.3 * truth.a / bare.a;
+    let scene = sphere_on_flat(Elastic::RIGID, STEEL, 0.0, (extent, n), path);
+    (coated(scene, layer.material, layer.thickness), truth)
+}
+
 #[test]
 fn a_rigid_sphere_at_the_load_of_the_bare_substrate() {
-    let bare = hertz(R, Elastic::RIGID, STEEL, W);
-    for (ratio, h) in [
-        (0.25, 0.25),
-        (2.0, 0.25),
-        (0.5, 0.5),
-        (4.0, 0.5),
-        (0.25, 1.0),
-        (2.0, 1.0),
-        (0.5, 2.0),
-        (4.0, 2.0),
-    ] {
-        let layer = Coating {
-            material: Elastic {
-                E: ratio * STEEL.E,
-                nu: 0.3,
-            },
-            thickness: h * bare.a,
-        };
-        let truth = coated_indentation(R, Elastic::RIGID, layer, STEEL, W);
-        let path = LoadPath::start().normal(W, 1);
-        let extent = 2.3 * truth.a / bare.a;
-        let scene = sphere_on_flat(Elastic::RIGID, STEEL, 0.0, (extent, 128), path);
-        compare(&coated(scene, layer.material, layer.thickness), &truth);
+    for (ratio, h) in ROWS {
+        let (scene, truth) = row(ratio, h, 128);
+        compare(&scene, &truth);
+    }
+}
+
+#[test]
+fn radius_pressure_and_approach_within_three_per_mille_at_512() {
+    for (ratio, h) in ROWS {
+        let (scene, truth) = row(ratio, h, 512);
+        run(&scene, |_, increment| {
+            close("a", increment.contact_radius() / truth.a, 1.0, 3e-3);
+            close("p_max", increment.p_max / truth.p(0.0), 1.0, 3e-3);
+            close(
+                "delta_z",
+                increment.motion.delta_z / truth.delta_z,
+                1.0,
+                3e-3,
+            );
+        });
     }
 }
 
