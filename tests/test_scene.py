@@ -130,3 +130,12 @@ def test_an_unknown_key_names_the_nearest_valid_one_and_the_line() -> None:
     text = sphere_on_flat().replace(path=INDENTED).to_toml().replace("mu =", "mue =")
     with pytest.raises(fret.InvalidSceneError, match=r":\d+: .*mue.*mu"):
         fret.Scene.from_toml(text)
+
+
+def test_a_graded_coating_is_a_stack_with_the_properties_of_each_middle() -> None:
+    profile = fret.Profile.linear(top=400e9, bottom=200e9)
+    stack = fret.graded(E=profile, nu=fret.Profile.constant(0.3), thickness=1e-3, layers=4)
+    assert [c.material.E for c in stack] == pytest.approx([375e9, 325e9, 275e9, 225e9])
+    assert sum(c.thickness for c in stack) == pytest.approx(1e-3)
+    with pytest.raises(fret.InvalidSceneError, match="layers"):
+        fret.graded(E=profile, nu=fret.Profile.constant(0.3), thickness=1e-3, layers=0)

@@ -35,6 +35,7 @@ from pyfret._core import (
     NoConvergenceError,
     OffGridError,
     Preset,
+    Profile,
     Scene,
     Settings,
     Skip,
@@ -43,6 +44,7 @@ from pyfret._core import (
     StoreError,
     SurfaceOperator,
     __version__,
+    graded,
 )
 from pyfret.results import Result, Snapshot, open
 from pyfret.solving import Increment, march, solve
@@ -68,6 +70,7 @@ __all__ = [
     "NoConvergenceError",
     "OffGridError",
     "Preset",
+    "Profile",
     "Result",
     "Scene",
     "Settings",
@@ -78,6 +81,7 @@ __all__ = [
     "StoreError",
     "SurfaceOperator",
     "__version__",
+    "graded",
     "kernels",
     "march",
     "open",

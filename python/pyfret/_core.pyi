@@ -120,6 +120,49 @@ class Coating:
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
+class Profile:
+    """How a property changes from the surface of a graded coating to its bottom, s = z/h."""
+
+    @staticmethod
+    def constant(value: float) -> Profile:
+        """Return the same value everywhere."""
+    @staticmethod
+    def linear(*, top: float, bottom: float) -> Profile:
+        """Return top + (bottom - top) s."""
+    @staticmethod
+    def power(*, top: float, bottom: float, exponent: float) -> Profile:
+        """Return top + (bottom - top) s^exponent, with a positive exponent."""
+    @staticmethod
+    def exponential(*, top: float, bottom: float) -> Profile:
+        """Return top (bottom/top)^s, both of one sign."""
+    @staticmethod
+    def table(points: Sequence[tuple[float, float]]) -> Profile:
+        """Interpolate linearly between the points (s, value), s rising from 0 to 1."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+def graded(*, E: Profile, nu: Profile, thickness: float, layers: int) -> list[Coating]:
+    """Stack of equally thick layers that stands for a graded coating, outermost first.
+
+    Each layer has the properties of its middle; the error falls with the square of their number.
+
+    Parameters
+    ----------
+    E, nu : Profile
+        Young's modulus [Pa] and Poisson's ratio over the depth.
+    thickness : float
+        Thickness of the whole coating [m], positive.
+    layers : int
+        Number of layers, at least 1.
+
+    Raises
+    ------
+    InvalidSceneError
+        If a profile, the thickness or the number of layers is out of its range.
+    """
+
+@final
 class Flat:
     """The contact plane itself."""
 

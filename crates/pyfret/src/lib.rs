@@ -47,7 +47,7 @@ mod _core {
     #[pymodule_export]
     use crate::scene::{
         Body, Branch, Coating, Elastic, Flat, FrequencyDomain, Grid, Hankel, InverseFft, LoadPath,
-        Preset, Scene, Settings, Skip, Spacing, Sphere,
+        Preset, Profile, Scene, Settings, Skip, Spacing, Sphere, graded,
     };
 
     #[pymodule_init]
