@@ -4,7 +4,7 @@ use contact_core::kernels as core;
 use contact_core::kernels::{Complex64, Stack};
 use ndarray::{Array2, Array3, ArrayView2};
 use numpy::{
-    PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray3, ToPyArray,
+    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray3,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -31,7 +31,7 @@ pub(crate) fn surface_frf<'py>(
             }
         }
     }
-    Ok(frf.to_pyarray(py))
+    Ok(frf.into_pyarray(py))
 }
 
 #[pyfunction]
@@ -48,7 +48,7 @@ pub(crate) fn influence_coefficients(
         core::influence_coefficients(&body.0, &grid.0, &settings.kernel, shortcut)
             .map(|coefficients| coefficients.matrix())
     });
-    Ok(matrix.map_err(to_python)?.to_pyarray(py))
+    Ok(matrix.map_err(to_python)?.into_pyarray(py))
 }
 
 #[pyfunction]
@@ -64,7 +64,7 @@ pub(crate) fn stress_coefficients(
         core::stress_coefficients(&body.0, &grid.0, z, layer)
             .map(|coefficients| coefficients.matrix())
     });
-    Ok(matrix.map_err(to_python)?.to_pyarray(py))
+    Ok(matrix.map_err(to_python)?.into_pyarray(py))
 }
 
 #[pyfunction]
@@ -79,7 +79,7 @@ pub(crate) fn stress_at(
     let stress = py
         .detach(|| core::stress_at(&body.0, cell, point, layer))
         .map_err(to_python)?;
-    Ok(Array2::from_shape_fn((6, 3), |(i, j)| stress[i][j]).to_pyarray(py))
+    Ok(Array2::from_shape_fn((6, 3), |(i, j)| stress[i][j]).into_pyarray(py))
 }
 
 /// The paper's conversion of a user's own frequency response.
@@ -101,7 +101,7 @@ impl Conversion {
         py: Python<'py>,
     ) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
         let (k_x, k_y): (Vec<f64>, Vec<f64>) = self.0.wave_vectors().unzip();
-        (k_x.to_pyarray(py), k_y.to_pyarray(py))
+        (k_x.into_pyarray(py), k_y.into_pyarray(py))
     }
 
     fn convert<'py>(
@@ -119,6 +119,6 @@ impl Conversion {
         }
         let matrix = |m: ArrayView2<'_, Complex64>| [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[(i, j)]));
         let samples: Vec<_> = frf.outer_iter().map(matrix).collect();
-        Ok(py.detach(|| self.0.convert(&samples)).to_pyarray(py))
+        Ok(py.detach(|| self.0.convert(&samples)).into_pyarray(py))
     }
 }
