@@ -197,13 +197,9 @@ fn encode(head: &Head, state: &State, file: &File) -> io::Result<()> {
         failure: None,
     };
     to.write_all(MAGIC)?;
-    for part in [
-        postcard::to_io(head, &mut to).err(),
-        postcard::to_io(state, &mut to).err(),
-    ] {
-        if let Some(error) = part {
-            return Err(to.failure.unwrap_or_else(|| io::Error::other(error)));
-        }
+    let written = postcard::to_io(head, &mut to).and_then(|to| postcard::to_io(state, to));
+    if let Err(error) = written {
+        return Err(to.failure.unwrap_or_else(|| io::Error::other(error)));
     }
     let crc = to.crc.finalize();
     to.to.write_all(&crc.to_le_bytes())?;
