@@ -47,7 +47,7 @@ from pyfret._core import (
     graded,
 )
 from pyfret.results import Result, Snapshot, open
-from pyfret.solving import Increment, march, solve
+from pyfret.solving import Increment, march, resume, solve
 
 if TYPE_CHECKING:
     from pyfret import plot
@@ -87,6 +87,7 @@ __all__ = [
     "open",
     "plot",
     "reference",
+    "resume",
     "solve",
 ]
 

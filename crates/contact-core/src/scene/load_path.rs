@@ -1,9 +1,11 @@
 //! The load history: branches, each cut into increments.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::Error;
 
 /// The forces that the contact transmits at one moment.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Loads {
     /// Normal force W \[N\], compression positive.
     pub W: f64,
@@ -48,7 +50,7 @@ pub struct LoadPath {
 }
 
 /// One point of the load history: the loads at the end of an increment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoadPoint {
     /// Branch the increment belongs to, from 0.
     pub branch: usize,

@@ -101,7 +101,7 @@ pub fn normal(
         if info.gap <= params.tolerance && info.penetration <= params.tolerance {
             return Ok(info);
         }
-        if iterations == params.max_iterations {
+        if iterations == params.max_iterations || response.stopped() {
             return Err(SolverError {
                 solver: "normal",
                 residual: info.gap.max(info.penetration),
