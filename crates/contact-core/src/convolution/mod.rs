@@ -47,7 +47,7 @@ pub struct Displacements<'a> {
 }
 
 /// The linear response of the pair of bodies, eq. (2)-(4) of the paper: u = C * (q_x, q_y, p).
-pub trait SurfaceOperator: Send {
+pub trait SurfaceOperator: Send + Sync {
     /// Shape (nx, ny) of the fields.
     fn shape(&self) -> (usize, usize);
 
