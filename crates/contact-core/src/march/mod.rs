@@ -324,8 +324,13 @@ impl March {
     }
 }
 
-/// Share of the tolerance that the inner solvers get, so that their errors add up to it.
-const INNER_SHARE: f64 = 0.5;
+/// Share of the tolerance with which a predicted pressure is taken as it is: the shear moves it
+/// further.
+const PREDICTED_SHARE: f64 = 0.8;
+/// Share of the tolerance that the normal solver iterates to.
+const NORMAL_SHARE: f64 = 0.4;
+/// Share of the tolerance that the tangential solver iterates to; nothing moves after it.
+const TANGENTIAL_SHARE: f64 = 0.9;
 
 /// The settings of the loops, with lengths in metres.
 fn params(scene: &Scene, approach: f64) -> CoupledParams {
@@ -333,8 +338,10 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
     let gap = solver.tolerance * approach;
     let plain = solver.preset == Preset::Spinu2020;
     CoupledParams {
+        tolerance: gap,
         normal: NormalParams {
-            tolerance: INNER_SHARE * gap,
+            enough: PREDICTED_SHARE * gap,
+            tolerance: NORMAL_SHARE * gap,
             max_iterations: solver.max_iterations,
         },
         tangential: TangentialParams {
@@ -343,7 +350,7 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
             } else {
                 TangentialMethod::Newton
             },
-            tolerance: INNER_SHARE * scene.friction.mu * gap,
+            tolerance: TANGENTIAL_SHARE * scene.friction.mu * gap,
             max_iterations: solver.max_iterations,
             forcing: 0.2,
             max_passes: 12,

@@ -85,7 +85,9 @@ pub struct IncrementProblem<'a> {
 /// Settings of the intermediate loop.
 #[derive(Clone, Copy, Debug)]
 pub struct CoupledParams {
-    /// Settings of the normal solver; its tolerance is that of the gap.
+    /// Largest root-mean-square gap in the contact and deepest penetration outside at the end \[m\].
+    pub tolerance: f64,
+    /// Settings of the normal solver.
     pub normal: NormalParams,
     /// Settings of the tangential solver.
     pub tangential: TangentialParams,
@@ -243,14 +245,14 @@ pub fn coupled(
         let check = super::normal::assess(&gap, &now.p, &now.u_z);
         info.approach = check.motion;
         let residual = check.gap.max(check.penetration);
-        if residual <= params.normal.tolerance {
+        if residual <= params.tolerance {
             return Ok(info);
         }
         if info.alternations == params.max_alternations {
             return Err(SolverError {
                 solver: "coupled",
                 residual,
-                tolerance: params.normal.tolerance,
+                tolerance: params.tolerance,
                 iterations: info.alternations,
             });
         }

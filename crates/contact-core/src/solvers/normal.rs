@@ -31,7 +31,10 @@ pub struct NormalProblem<'a> {
 /// Settings of the normal solver.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalParams {
-    /// Largest root-mean-square gap in the contact and deepest penetration outside \[m\].
+    /// Largest root-mean-square gap in the contact and deepest penetration outside with which a
+    /// guess is taken as it is \[m\].
+    pub enough: f64,
+    /// The same for the end of the iterations, once there are any \[m\].
     pub tolerance: f64,
     /// Most iterations.
     pub max_iterations: usize,
@@ -102,7 +105,12 @@ pub fn normal(
     loop {
         let mut info = assess(problem, p, u_z);
         info.iterations = iterations;
-        let solved = info.gap <= params.tolerance && info.penetration <= params.tolerance;
+        let tolerance = if iterations == 0 {
+            params.enough
+        } else {
+            params.tolerance
+        };
+        let solved = info.gap.max(info.penetration) <= tolerance;
         if solved && is_balanced(problem, p) {
             return Ok(info);
         }
@@ -110,7 +118,7 @@ pub fn normal(
             return Err(SolverError {
                 solver: "normal",
                 residual: info.gap.max(info.penetration),
-                tolerance: params.tolerance,
+                tolerance,
                 iterations,
             });
         }
