@@ -31,7 +31,7 @@ pub(crate) fn interruptible<T: Send>(
                 if raised.is_some() {
                     continue;
                 }
-                if let Err(error) = Python::attach(|py| py.check_signals()) {
+                if let Err(error) = Python::attach(Python::check_signals) {
                     stop.store(true, Ordering::Relaxed);
                     raised = Some(error);
                 }

@@ -46,6 +46,7 @@ impl March {
                 alternations: info.alternations,
                 normal_iterations: info.normal_iterations,
                 tangential_iterations: info.tangential_iterations,
+                parts: 1,
             },
         };
         self.keep(point, now, motion, info.shift, increment.energy.work);
@@ -111,7 +112,7 @@ impl March {
             ..Residuals::default()
         };
         let (mut contact, mut slipping) = (0, 0);
-        let mut p_max = 0.0_f64;
+        let (mut p_max, mut slipped) = (0.0_f64, 0.0_f64);
         for n in 0..now.p.len() {
             let gap = now.u_z[n] + self.h_init[n] - info.delta_z;
             let q = [now.q[0][n], now.q[1][n]];
@@ -131,6 +132,7 @@ impl March {
                 let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
                 let off = [slip[0] - along * e[0], slip[1] - along * e[1]];
                 r.direction += off[0] * off[0] + off[1] * off[1];
+                slipped += slip[0] * slip[0] + slip[1] * slip[1];
             } else {
                 r.stick += slip[0] * slip[0] + slip[1] * slip[1];
             }
@@ -138,6 +140,9 @@ impl March {
         let rms = |squares: f64, count: usize| (squares / count.max(1) as f64).sqrt();
         r.gap = rms(r.gap, contact) / self.approach;
         r.penetration /= self.approach;
+        if slipped > 0.0 {
+            r.angle = (r.direction / slipped).sqrt().min(1.0).asin();
+        }
         if mu > 0.0 {
             r.stick = rms(r.stick, contact - slipping) / (mu * self.approach);
             r.direction = rms(r.direction, slipping) / (mu * self.approach);

@@ -2,6 +2,7 @@
 
 mod balance;
 mod fields;
+mod halving;
 mod increment;
 mod predict;
 mod solve;
@@ -131,13 +132,14 @@ impl March {
         &self.state
     }
 
-    /// Computes the next increment; `None` at the end of the path.
+    /// Computes the next increment, in pieces if it does not converge; `None` at the end of the
+    /// path.
     ///
     /// After an error the state is that of the last increment that was solved.
     pub fn advance(&mut self) -> Option<Result<Increment, Error>> {
         let point = *self.points.get(self.state.increments)?;
         // On a thread of the pool, so that the others are a steal away and not a wake-up.
-        Some(rayon::scope(|_| self.increment(&point)))
+        Some(rayon::scope(|_| self.reach(&point)))
     }
 
     /// One increment: predict, solve, account, keep.

@@ -62,6 +62,22 @@ pub struct LoadPoint {
     pub loads: Loads,
 }
 
+impl LoadPoint {
+    /// Half of the way from the loads `from` to this point; not the end of a branch.
+    pub(crate) fn middle(&self, from: &Loads) -> Self {
+        let mean = |a: f64, b: f64| 0.5 * (a + b);
+        Self {
+            ends_branch: false,
+            loads: Loads {
+                W: mean(from.W, self.loads.W),
+                T_x: mean(from.T_x, self.loads.T_x),
+                T_y: mean(from.T_y, self.loads.T_y),
+            },
+            ..*self
+        }
+    }
+}
+
 impl LoadPath {
     /// A path that starts from two bodies just touching.
     pub fn start() -> Self {
