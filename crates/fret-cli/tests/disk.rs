@@ -16,7 +16,7 @@ const SCENE: &str = concat!(
     "/../../scenes/coated_small.toml"
 );
 /// Fields of 144 x 144 cells take 2 to 50 kB, a state 1200 kB, the metadata 30 kB.
-const SETTINGS: &str = "--set grid.n=144 --set output.save=all --quiet --set path.2.increments=2 \
+const SETTINGS: &str = "--set grid.n=144 --set path.0.increments=8 --set output.save=all --quiet --set path.2.increments=2 \
                         --set path.3.increments=2 --set path.4.increments=2 --set path.5.increments=2";
 
 fn free(name: &str) -> PathBuf {
@@ -88,7 +88,7 @@ fn full_disk(name: &str, blocks: usize, checkpoint: f64, full: &str) {
 
 #[test]
 fn a_checkpoint_that_does_not_fit_on_the_disk() {
-    full_disk("no_state.zarr", 96, 0.0, "checkpoint/state.");
+    full_disk("no_state.zarr", 512, 0.0, "checkpoint/state.");
 }
 
 /// Pressures are the first fields to outgrow 40 kB.

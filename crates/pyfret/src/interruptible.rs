@@ -11,6 +11,10 @@ use pyo3::prelude::*;
 /// Time between two looks at the signals.
 const LOOK: Duration = Duration::from_millis(50);
 
+#[allow(
+    clippy::redundant_closure_for_method_calls,
+    reason = "the method is not general enough in its lifetime"
+)]
 /// Does `work` in a thread of its own while the interpreter's lock is free and the caller's thread
 /// hears signals. What a signal handler raises is returned; it raises `stop` too, on which the
 /// work is to end early.
@@ -31,7 +35,7 @@ pub(crate) fn interruptible<T: Send>(
                 if raised.is_some() {
                     continue;
                 }
-                if let Err(error) = Python::attach(Python::check_signals) {
+                if let Err(error) = Python::attach(|py| py.check_signals()) {
                     stop.store(true, Ordering::Relaxed);
                     raised = Some(error);
                 }
