@@ -154,6 +154,7 @@ impl March {
         let mut now = self.state.predict(
             point,
             &self.h_init,
+            self.scene.friction.mu,
             sum_p,
             self.approach_at(point),
             self.scene.settings.solver.preset,
@@ -282,7 +283,7 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
             },
             tolerance: INNER_SHARE * scene.friction.mu * gap,
             max_iterations: solver.max_iterations,
-            forcing: 0.15,
+            forcing: 0.2,
             max_passes: 12,
         },
         max_alternations: solver.max_alternations,

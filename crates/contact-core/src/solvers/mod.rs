@@ -27,6 +27,7 @@ pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, norma
 pub use response::Response;
 pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
 pub use tangential::{TangentialWorkspace, tangential};
+pub(crate) use vector::size;
 
 /// A solver that stopped before its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
