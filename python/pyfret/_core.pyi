@@ -39,6 +39,7 @@ __all__ = [
     "Scene",
     "Settings",
     "Skip",
+    "SlidingError",
     "Spacing",
     "Sphere",
     "StoreError",
@@ -281,14 +282,41 @@ class Branch:
     """One straight piece of a load history."""
 
     @property
-    def W(self) -> float:
-        """Normal force at its end [N]."""
+    def W(self) -> float | None:
+        """Normal force at its end [N]; None where the approach is given."""
     @property
-    def T_x(self) -> float:
-        """Tangential force along x on body 2 at its end [N]."""
+    def T_x(self) -> float | None:
+        """Tangential force along x on body 2 at its end [N]; None where the shift is given."""
     @property
-    def T_y(self) -> float:
-        """Tangential force along y on body 2 at its end [N]."""
+    def T_y(self) -> float | None:
+        """Tangential force along y on body 2 at its end [N]; None where the shift is given."""
+    @property
+    def M_x(self) -> float | None:
+        """Tilting moment about x at its end [N m]; None where the tilt is given."""
+    @property
+    def M_y(self) -> float | None:
+        """Tilting moment about y at its end [N m]; None where the tilt is given."""
+    @property
+    def M_z(self) -> float | None:
+        """Torsional moment on body 2 at its end [N m]; None where the rotation is given."""
+    @property
+    def delta_z(self) -> float | None:
+        """Approach at its end [m]; None where W is given."""
+    @property
+    def delta_x(self) -> float | None:
+        """Shift along x at its end [m]; None where T_x is given."""
+    @property
+    def delta_y(self) -> float | None:
+        """Shift along y at its end [m]; None where T_y is given."""
+    @property
+    def phi_x(self) -> float | None:
+        """Tilt about x at its end [rad]; None where M_x is given."""
+    @property
+    def phi_y(self) -> float | None:
+        """Tilt about y at its end [rad]; None where M_y is given."""
+    @property
+    def phi_z(self) -> float | None:
+        """Rotation about z at its end [rad]; None where M_z is given."""
     @property
     def increments(self) -> int:
         """Number of increments."""
@@ -326,26 +354,66 @@ class LoadPath:
         The increments are shared out in proportion to the change of force. Path time runs as in
         the first branch: one unit for as many increments as that one has.
         """
+    def torsion(self, M_z: float | Sequence[float], *, increments: int) -> LoadPath:
+        """Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces."""
     def force(
         self,
         *,
         W: float | None = None,
         T_x: float | None = None,
         T_y: float | None = None,
+        M_x: float | None = None,
+        M_y: float | None = None,
+        M_z: float | None = None,
         increments: int,
         spacing: Spacing = ...,
         t: float | None = None,
     ) -> LoadPath:
-        """Go to the given forces on a straight line; those not named keep their value.
+        """Go to the given loads on a straight line; what is not named stays as it was.
+
+        A load that is named is given from here on, and the motion that goes with it is free.
 
         Parameters
         ----------
         W, T_x, T_y : float, optional
             Normal force and tangential forces on body 2 [N].
+        M_x, M_y, M_z : float, optional
+            Tilting moments and torsional moment on body 2 [N m].
         increments : int
             Number of increments.
         spacing : Spacing
             How they are spaced (default: equal increments of force).
+        t : float, optional
+            Path time at the end (default: one unit later).
+        """
+    def displace(
+        self,
+        *,
+        delta_z: float | None = None,
+        delta_x: float | None = None,
+        delta_y: float | None = None,
+        phi_x: float | None = None,
+        phi_y: float | None = None,
+        phi_z: float | None = None,
+        increments: int,
+        spacing: Spacing = ...,
+        t: float | None = None,
+    ) -> LoadPath:
+        """Go to the given rigid motions of body 1 on a straight line.
+
+        A motion that is named is given from here on, and its load follows from the solution. What
+        is not named stays as it was; without a word, rotations are given as zero.
+
+        Parameters
+        ----------
+        delta_z, delta_x, delta_y : float, optional
+            Approach and shifts [m].
+        phi_x, phi_y, phi_z : float, optional
+            Tilts and rotation about z [rad].
+        increments : int
+            Number of increments.
+        spacing : Spacing
+            How they are spaced (default: equal increments).
         t : float, optional
             Path time at the end (default: one unit later).
         """
@@ -357,13 +425,16 @@ class LoadPath:
         """Path time at the end of every increment."""
     @property
     def W(self) -> _Array:
-        """Normal force at the end of every increment [N]."""
+        """Normal force at the end of every increment [N]; NaN where only the solution can say."""
     @property
     def T_x(self) -> _Array:
         """Tangential force along x at the end of every increment [N]."""
     @property
     def T_y(self) -> _Array:
         """Tangential force along y at the end of every increment [N]."""
+    @property
+    def M_z(self) -> _Array:
+        """Torsional moment at the end of every increment [N m]."""
     def __len__(self) -> int: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
@@ -993,6 +1064,9 @@ class OffGridError(InvalidSceneError):
 
 class NoConvergenceError(RuntimeError):
     """A solver stopped before its tolerance."""
+
+class SlidingError(RuntimeError):
+    """The tangential loads are more than friction can carry."""
 
 class KernelInaccurateError(RuntimeError):
     """Influence or stress coefficients missed the tolerance asked for."""

@@ -51,6 +51,17 @@ pub enum Error {
         /// Recommended length \[m\].
         needed: f64,
     },
+    /// The tangential forces and the torsional moment are more than friction can carry.
+    #[error(
+        "increment {increment}: the tangential loads are {used:.6} times what friction can carry; \
+         give the shift instead of the force to slide further"
+    )]
+    BeyondFriction {
+        /// Increment, from 1.
+        increment: usize,
+        /// Loads over the limit.
+        used: f64,
+    },
     /// A solver stopped before its tolerance.
     #[error(
         "increment {increment}: the {solver} solver stopped at residual {residual:.2e} \

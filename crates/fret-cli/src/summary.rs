@@ -3,6 +3,7 @@
 use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
 use contact_core::march::{BranchSummary, Increment, summarise};
+use contact_core::scene::{Branch, LOADS, MOTIONS};
 
 /// Micrometres, or microjoules, per SI unit.
 const MICRO: f64 = 1e6;
@@ -32,13 +33,14 @@ impl Measures {
 pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
     let Measures { radius, pressure } = Measures::of(scene);
     let loads = branch.loads;
-    let T_y = if loads.T_y == 0.0 {
-        String::new()
-    } else {
-        format!(", T_y = {} N", loads.T_y)
-    };
+    let others = OTHERS.iter().fold(String::new(), |text, &(k, unit, _)| {
+        match loads.forces()[k] {
+            0.0 => text,
+            load => text + &format!(", {} = {load} {unit}", LOADS[k]),
+        }
+    });
     format!(
-        "branch {}/{}: t = {t}, W = {} N, T_x = {} N{T_y}: contact radius {:.4} {}, \
+        "branch {}/{}: t = {t}, W = {} N, T_x = {} N{others}: contact radius {:.4} {}, \
          stick ratio {:.4}, p_max {:.4} {}",
         branch.branch + 1,
         scene.path.branches.len(),
@@ -51,6 +53,14 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
         pressure.0,
     )
 }
+
+/// Loads and motions that most paths leave at zero: place in [`LOADS`], units.
+const OTHERS: [(usize, &str, &str); 4] = [
+    (4, "N", "um"),
+    (1, "N m", "urad"),
+    (2, "N m", "urad"),
+    (5, "N m", "urad"),
+];
 
 /// A column of the table: title, and its cell for a branch that ended at path time t.
 type Column = (String, Box<dyn Fn(&BranchSummary, f64) -> String>);
@@ -82,10 +92,18 @@ fn columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
         }),
         column("shift\ndelta_x\n[um]", move |b, _| micro(b.motion.delta_x)),
     ];
-    if scene.path.branches.iter().any(|b| b.to.T_y != 0.0) {
-        columns.insert(4, column("T_y\n[N]", |b, _| format!("{:.1}", b.loads.T_y)));
-        let title = "shift\ndelta_y\n[um]";
-        columns.push(column(title, move |b, _| micro(b.motion.delta_y)));
+    for (k, unit, motion_unit) in OTHERS {
+        let drives = |b: &Branch| b.to.given.motions()[k].unwrap_or(b.to.forces()[k]) != 0.0;
+        if !scene.path.branches.iter().any(drives) {
+            continue;
+        }
+        let title = format!("{}\n[{unit}]", LOADS[k]);
+        columns.insert(
+            4,
+            column(title, move |b, _| format!("{:.4}", b.loads.forces()[k])),
+        );
+        let title = format!("{}\n[{motion_unit}]", MOTIONS[k]);
+        columns.push(column(title, move |b, _| micro(b.motion.motions()[k])));
     }
     columns.extend([
         column("dissipated\n\n[uJ]", |b, _| {

@@ -25,6 +25,12 @@ create_exception!(
 );
 create_exception!(
     pyfret,
+    SlidingError,
+    PyRuntimeError,
+    "The tangential loads are more than friction can carry; give the shift instead."
+);
+create_exception!(
+    pyfret,
     KernelInaccurateError,
     PyRuntimeError,
     "Influence or stress coefficients missed the tolerance asked for."
@@ -44,6 +50,7 @@ pub(crate) fn to_python(error: Error) -> PyErr {
             InvalidSceneError::new_err(text)
         }
         Error::OffGrid { .. } => OffGridError::new_err(text),
+        Error::BeyondFriction { .. } => SlidingError::new_err(text),
         Error::NotConverged { .. } => NoConvergenceError::new_err(text),
         Error::KernelInaccurate { .. } | Error::StressInaccurate { .. } => {
             KernelInaccurateError::new_err(text)

@@ -27,7 +27,8 @@ mod _core {
 
     #[pymodule_export]
     use crate::error::{
-        InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError, StoreError,
+        InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError, SlidingError,
+        StoreError,
     };
     #[pymodule_export]
     use crate::kernels::{

@@ -1,8 +1,9 @@
 //! The accounts of an increment: energies, residuals, areas.
 
 use super::{Energy, Increment, March, Motion, Residuals, State, Status, Work};
-use crate::scene::{LoadPoint, Loads};
-use crate::solvers::{CoupledInfo, Interface};
+use crate::convolution::Mirror;
+use crate::scene::{Given, LoadPoint, Loads};
+use crate::solvers::{CoupledInfo, Interface, add};
 
 impl March {
     /// Draws up the accounts of a solved increment and makes it the present state.
@@ -15,14 +16,14 @@ impl March {
     ) -> Increment {
         let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
         let last = &self.state;
-        let motion = Motion {
-            delta_z: info.delta_z,
-            delta_x: last.motion.delta_x + info.shift[0],
-            delta_y: last.motion.delta_y + info.shift[1],
+        let motion = self.motion(point, info);
+        let point = &LoadPoint {
+            loads: self.transmitted(point, &now, cell_area),
+            ..*point
         };
         let contact = now.p.iter().filter(|&&p| p > 0.0).count();
         let slipping = now.slip.iter().filter(|&&s| s).count();
-        let energy = self.energies(point, &now, &motion, info.shift, cell_area);
+        let energy = self.energies(point, &now, &motion, cell_area);
         let residuals = self.residuals(point, &now, info, cell_area);
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
         let mut increment = Increment {
@@ -49,11 +50,53 @@ impl March {
                 parts: 1,
             },
         };
-        self.keep(point, now, motion, info.shift, increment.energy.work);
+        self.keep(point, now, motion, increment.energy.work);
         if self.state.work != 0.0 {
             increment.residuals.energy = energy.imbalance() / self.state.work;
         }
         increment
+    }
+
+    /// The rigid motion at the end of the increment; what is given is kept as it was said.
+    fn motion(&self, point: &LoadPoint, info: &CoupledInfo) -> Motion {
+        let length = self.arms.length;
+        let last = &self.state.motion;
+        let given = &point.loads.given;
+        Motion {
+            delta_z: given.delta_z.unwrap_or(info.approach[0]),
+            phi_x: given.phi_x.unwrap_or(info.approach[1] / length),
+            phi_y: given.phi_y.unwrap_or(info.approach[2] / length),
+            delta_x: given.delta_x.unwrap_or(last.delta_x + info.shift[0]),
+            delta_y: given.delta_y.unwrap_or(last.delta_y + info.shift[1]),
+            phi_z: given.phi_z.unwrap_or(last.phi_z + info.shift[2] / length),
+        }
+    }
+
+    /// The loads of the increment: those given, and for given motions what the tractions come to.
+    fn transmitted(&self, point: &LoadPoint, now: &Interface, cell_area: f64) -> Loads {
+        let mut sums = [[0.0; 3]; 2];
+        for n in 0..now.p.len() {
+            sums[0] = add(sums[0], self.arms.sums_across(now.p[n], n));
+            let q = [now.q[0][n], now.q[1][n]];
+            sums[1] = add(sums[1], self.arms.sums_in_plane(q, n));
+        }
+        let mirrored = self.plan.mirror != Mirror::None;
+        let (forces, given) = (point.loads.forces(), point.loads.given);
+        let motions = given.motions();
+        let transmitted = std::array::from_fn(|k| {
+            let arm = if matches!(k, 1 | 2 | 5) {
+                self.arms.length
+            } else {
+                1.0
+            };
+            match motions[k] {
+                None => forces[k],
+                // The other half has the opposite.
+                Some(_) if mirrored && matches!(k, 1 | 4 | 5) => 0.0,
+                Some(_) => sums[k / 3][k % 3] * cell_area * arm,
+            }
+        });
+        Loads::from_forces(transmitted, given)
     }
 
     /// Energies with mid-increment tractions, an identity for any symmetric C: the sum of mean
@@ -63,7 +106,6 @@ impl March {
         point: &LoadPoint,
         now: &Interface,
         motion: &Motion,
-        shift: [f64; 2],
         cell_area: f64,
     ) -> Energy {
         let State {
@@ -73,16 +115,19 @@ impl March {
             ..
         } = &self.state;
         let mean = |a: f64, b: f64| 0.5 * (a + b);
-        let work = mean(loads.W, point.loads.W) * (motion.delta_z - before.delta_z)
-            + mean(loads.T_x, point.loads.T_x) * shift[0]
-            + mean(loads.T_y, point.loads.T_y) * shift[1];
+        let (from, to) = (loads.forces(), point.loads.forces());
+        let (started, ended) = (before.motions(), motion.motions());
+        let work = (0..6)
+            .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
+            .sum();
         let (mut elastic, mut dissipated, mut opening) = (0.0, 0.0, 0.0);
-        let approach = motion.delta_z - before.delta_z;
+        let (approach, shift) = self.change(motion);
         for n in 0..now.p.len() {
             let p = mean(now.p[n], last.p[n]);
             let du_z = now.u_z[n] - last.u_z[n];
             elastic += p * du_z;
-            opening -= p * (du_z - approach);
+            let shift = self.arms.in_plane(shift, n);
+            opening -= p * (du_z - self.arms.across(approach, n));
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
                 let du = now.u[c][n] - last.u[c][n];
@@ -96,6 +141,17 @@ impl March {
             dissipated: dissipated * cell_area,
             opening: opening * cell_area,
         }
+    }
+
+    /// Motions across and in the plane from the present state, rotations times the length \[m\].
+    fn change(&self, motion: &Motion) -> ([f64; 3], [f64; 3]) {
+        let (from, to) = (self.state.motion.motions(), motion.motions());
+        let length = self.arms.length;
+        let d: [f64; 6] = std::array::from_fn(|k| to[k] - from[k]);
+        (
+            [d[0], d[1] * length, d[2] * length],
+            [d[3], d[4], d[5] * length],
+        )
     }
 
     /// How well the equations hold.
@@ -114,7 +170,7 @@ impl March {
         let (mut contact, mut slipping) = (0, 0);
         let (mut p_max, mut slipped) = (0.0_f64, 0.0_f64);
         for n in 0..now.p.len() {
-            let gap = now.u_z[n] + self.h_init[n] - info.delta_z;
+            let gap = now.u_z[n] + self.h_init[n] - self.arms.across(info.approach, n);
             let q = [now.q[0][n], now.q[1][n]];
             p_max = p_max.max(now.p[n]);
             r.coulomb = r.coulomb.max(q[0].hypot(q[1]) - mu * now.p[n]);
@@ -124,8 +180,9 @@ impl March {
             }
             contact += 1;
             r.gap += gap * gap;
+            let shift = self.arms.in_plane(info.shift, n);
             let slip: [f64; 2] =
-                std::array::from_fn(|c| now.u[c][n] - self.state.interface.u[c][n] - info.shift[c]);
+                std::array::from_fn(|c| now.u[c][n] - self.state.interface.u[c][n] - shift[c]);
             if now.slip[n] {
                 slipping += 1;
                 let e = q.map(|q| q / (mu * now.p[n]));
@@ -150,34 +207,46 @@ impl March {
         if mu * p_max > 0.0 {
             r.coulomb /= mu * p_max;
         }
-        let sum = |f: &[f64]| f.iter().sum::<f64>() * cell_area;
-        let Loads { W, T_x, T_y } = point.loads;
-        if W > 0.0 {
-            r.balance = (sum(&now.p) - W).abs() / W;
-            if mu > 0.0 {
-                let missing = |q: &[f64], T: f64| (sum(q) - T).abs() / (mu * W);
-                r.balance = r.balance.max(missing(&now.q[0], T_x));
-                if self.plan.mirror == crate::convolution::Mirror::None {
-                    r.balance = r.balance.max(missing(&now.q[1], T_y));
-                }
-            }
-        }
+        r.balance = self.missing_loads(point, now, mu, cell_area);
         r
     }
 
+    /// Largest error of the balances of the loads that are given: across the plane over W, in it
+    /// over mu W, moments over these times the grid's half-length.
+    fn missing_loads(&self, point: &LoadPoint, now: &Interface, mu: f64, cell_area: f64) -> f64 {
+        let all_given = LoadPoint {
+            loads: Loads {
+                given: Given::from_motions([Some(0.0); 6]),
+                ..point.loads
+            },
+            ..*point
+        };
+        let carried = self.transmitted(&all_given, now, cell_area).forces();
+        let (asked, motions) = (point.loads.forces(), point.loads.given.motions());
+        let W = carried[0];
+        let scale = |k: usize| {
+            let arm = if matches!(k, 1 | 2 | 5) {
+                self.arms.length
+            } else {
+                1.0
+            };
+            if k < 3 { W * arm } else { mu * W * arm }
+        };
+        (0..6)
+            .filter(|&k| motions[k].is_none() && scale(k) > 0.0)
+            .fold(0.0, |worst, k| {
+                ((carried[k] - asked[k]) / scale(k)).abs().max(worst)
+            })
+    }
+
     /// Makes the increment the present state.
-    fn keep(
-        &mut self,
-        point: &LoadPoint,
-        now: Interface,
-        motion: Motion,
-        shift: [f64; 2],
-        work: f64,
-    ) {
+    fn keep(&mut self, point: &LoadPoint, now: Interface, motion: Motion, work: f64) {
+        let (_, shift) = self.change(&motion);
         let state = &mut self.state;
         let last = std::mem::replace(&mut state.interface, now);
         let now = &state.interface;
         for n in 0..now.p.len() {
+            let shift = self.arms.in_plane(shift, n);
             for c in 0..2 {
                 let slip = now.u[c][n] - last.u[c][n] - shift[c];
                 state.dissipated[n] -= 0.5 * (now.q[c][n] + last.q[c][n]) * slip;
@@ -186,11 +255,9 @@ impl March {
                 }
             }
         }
-        state.step = Loads {
-            W: point.loads.W - state.loads.W,
-            T_x: point.loads.T_x - state.loads.T_x,
-            T_y: point.loads.T_y - state.loads.T_y,
-        };
+        state.step = point
+            .loads
+            .since(state.loads.forces(), state.motion.motions());
         state.p_before = last.p;
         state.q_before = last.q;
         state.loads = point.loads;

@@ -13,6 +13,26 @@ pub struct Motion {
     pub delta_x: f64,
     /// Relative tangential shift along y \[m\].
     pub delta_y: f64,
+    /// Tilt about x \[rad\]: the gap grows by -y phi_x.
+    pub phi_x: f64,
+    /// Tilt about y \[rad\]: the gap grows by x phi_y.
+    pub phi_y: f64,
+    /// Rotation about z \[rad\], of the sign of the moment M_z that drives it.
+    pub phi_z: f64,
+}
+
+impl Motion {
+    /// The motions in the order of [`MOTIONS`](crate::scene::MOTIONS).
+    pub fn motions(&self) -> [f64; 6] {
+        [
+            self.delta_z,
+            self.phi_x,
+            self.phi_y,
+            self.delta_x,
+            self.delta_y,
+            self.phi_z,
+        ]
+    }
 }
 
 /// State of the interface.
@@ -25,14 +45,15 @@ pub enum Status {
     FullStick,
     /// Stick and slip cells.
     PartialSlip,
-    /// Every contact cell slips: friction carries its limit, the shift is that of incipient sliding.
+    /// Every contact cell slips: friction carries its limit. Under given forces the shift is that of
+    /// incipient sliding.
     GrossSlip,
 }
 
 /// Energy of one increment, with mid-increment (trapezoidal) tractions \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
-    /// Work of the applied forces, W d(delta_z) + T . d(delta).
+    /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi).
     pub work: f64,
     /// Change of the elastic energy, 1/2 sum of traction times displacement.
     pub elastic: f64,
@@ -92,7 +113,7 @@ pub struct Work {
 pub struct Increment {
     /// Increment, from 1.
     pub index: usize,
-    /// The loads and the place in the path.
+    /// The place in the path and the loads, those of given motions as the solution says.
     pub point: LoadPoint,
     /// Rigid-body motion.
     pub motion: Motion,

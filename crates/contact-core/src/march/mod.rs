@@ -21,8 +21,8 @@ use crate::error::Error;
 use crate::kernels::influence_coefficients;
 use crate::scene::{KernelMethod, LoadPoint, Plan, Preset, Scene};
 use crate::solvers::{
-    CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, Interface, NormalParams,
-    Response, TangentialMethod, TangentialParams, coupled,
+    Arms, CoupledInfo, CoupledParams, CoupledWorkspace, Drive, IncrementProblem, Interface,
+    NormalParams, Response, TangentialMethod, TangentialParams, coupled,
 };
 
 /// A load path being run through.
@@ -32,6 +32,8 @@ pub struct March {
     points: Vec<LoadPoint>,
     /// Gap between the undeformed surfaces on the kept cells \[m\].
     h_init: Vec<f64>,
+    /// Where the kept cells are.
+    arms: Arms,
     op: Box<dyn SurfaceOperator + Send>,
     inverse: Option<CirculantInverse>,
     /// Approach that lengths are measured against \[m\].
@@ -73,6 +75,17 @@ impl March {
         };
         let h_init = plan.mirror.fold(&scene.h_init());
         let cells = h_init.len();
+        let extent = scene.grid.extent();
+        let length = 0.5 * extent.0.max(extent.1);
+        let arm = |along: &dyn Fn(f64, f64) -> f64| {
+            plan.mirror
+                .fold(&scene.grid.map(|x, y| along(x, y) / length))
+        };
+        let arms = Arms {
+            length,
+            x: arm(&|x, _| x),
+            y: arm(&|_, y| y),
+        };
         let approach = scene.hertz().map_or_else(
             || scene.h_init().iter().fold(0.0, |m: f64, h| m.max(*h)),
             |hertz| hertz.delta_z,
@@ -82,6 +95,7 @@ impl March {
             scene: scene.clone(),
             plan,
             h_init,
+            arms,
             op,
             inverse,
             approach,
@@ -137,7 +151,10 @@ impl March {
     ///
     /// After an error the state is that of the last increment that was solved.
     pub fn advance(&mut self) -> Option<Result<Increment, Error>> {
-        let point = *self.points.get(self.state.increments)?;
+        let point = self.points.get(self.state.increments)?;
+        let end = &self.scene.path.branches[point.branch].to;
+        let state = &self.state;
+        let point = point.resolved(end, state.loads.forces(), state.motion.motions());
         // On a thread of the pool, so that the others are a steal away and not a wake-up.
         Some(rayon::scope(|_| self.reach(&point)))
     }
@@ -147,32 +164,34 @@ impl March {
         let index = self.state.increments + 1;
         let transforms = self.op.transforms();
         let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
-        let per_cell = |force: f64| force / cell_area;
-        let sum_q = [per_cell(point.loads.T_x), per_cell(point.loads.T_y)];
-        let sum_p = per_cell(point.loads.W);
-
-        let mut now = self.state.predict(
-            point,
-            &self.h_init,
-            self.scene.friction.mu,
-            sum_p,
-            self.approach_at(point),
-            self.scene.settings.solver.preset,
-        );
+        let (normal, tangential) = self.drives(point, cell_area);
+        let pressed = !normal.free[0] || normal.sums[0] > 0.0;
+        let mut now = if pressed {
+            self.state.predict(
+                point,
+                &self.h_init,
+                self.scene.friction.mu,
+                &normal,
+                self.approach_at(point),
+                self.scene.settings.solver.preset,
+            )
+        } else {
+            Interface::unloaded(self.h_init.len())
+        };
         let problem = IncrementProblem {
             h_init: &self.h_init,
             u_ref: [&self.state.interface.u[0], &self.state.interface.u[1]],
             mu: self.scene.friction.mu,
-            sum_p,
-            sum_q,
-            free: [true, self.plan.mirror == Mirror::None],
+            arms: &self.arms,
+            normal,
+            tangential,
         };
         let mut response = Response {
             op: &mut *self.op,
             inverse: self.inverse.as_mut(),
             stop: Some(&self.stop),
         };
-        let info = if sum_p > 0.0 {
+        let info = if pressed {
             let params = params(&self.scene, self.approach);
             coupled(
                 &mut response,
@@ -196,16 +215,54 @@ impl March {
                 }
             })?
         } else {
-            CoupledInfo::default()
+            CoupledInfo {
+                approach: normal.given,
+                shift: tangential.given,
+                ..CoupledInfo::default()
+            }
         };
+        if info.exceeds_friction() {
+            return Err(Error::BeyondFriction {
+                increment: index,
+                used: info.friction_used,
+            });
+        }
         self.check_border(&now, index, point)?;
         let transforms = self.op.transforms() - transforms;
         Ok(self.account(point, now, &info, transforms))
     }
 
+    /// What drives the motions across the plane, from the unloaded state, and those in it, in this
+    /// increment. By symmetry the half of a mirrored scene has no motion that turns it.
+    fn drives(&self, point: &LoadPoint, cell_area: f64) -> (Drive, Drive) {
+        let (forces, given) = (point.loads.forces(), point.loads.given.motions());
+        let before = self.state.motion.motions();
+        let mirrored = self.plan.mirror != Mirror::None;
+        let drive = |of: [usize; 3], from: [f64; 6]| {
+            let mut drive = Drive::default();
+            for (k, &load) in of.iter().enumerate() {
+                let turns = matches!(load, 1 | 2 | 5);
+                let arm = if turns { self.arms.length } else { 1.0 };
+                let odd = mirrored && matches!(load, 1 | 4 | 5);
+                match given[load] {
+                    _ if odd => {}
+                    Some(motion) => drive.given[k] = (motion - from[load]) * arm,
+                    None => {
+                        drive.free[k] = true;
+                        drive.sums[k] = forces[load] / (cell_area * arm);
+                    }
+                }
+            }
+            drive
+        };
+        (drive([0, 1, 2], [0.0; 6]), drive([3, 4, 5], before))
+    }
+
     /// Hertz's approach at the loads of a point \[m\], for the first guess.
     fn approach_at(&self, point: &LoadPoint) -> f64 {
-        self.approach * (point.loads.W / self.scene.path.W_max()).powf(2.0 / 3.0)
+        point.loads.given.delta_z.unwrap_or_else(|| {
+            self.approach * (point.loads.W / self.scene.path.W_max()).powf(2.0 / 3.0)
+        })
     }
 
     /// Fails if a cell at the border of the grid is in contact.
@@ -237,6 +294,13 @@ impl March {
         let unfold = |f: &[f64], half| self.plan.mirror.unfold(f, nx, ny, half);
         let s = &self.state;
         let now = &s.interface;
+        let Motion {
+            delta_z,
+            phi_x,
+            phi_y,
+            ..
+        } = s.motion;
+        let rigid = self.scene.grid.map(|x, y| delta_z + y * phi_x - x * phi_y);
         let p = unfold(&now.p, Half::Even);
         let u_z = unfold(&now.u_z, Half::Even);
         let slips: Vec<f64> = now.slip.iter().map(|&s| f64::from(u8::from(s))).collect();
@@ -246,7 +310,7 @@ impl March {
             .and(&slips)
             .map_collect(|&c, &slips| c && slips == 0.0);
         Fields {
-            gap: (&u_z + &self.scene.h_init() - s.motion.delta_z).mapv(|h| h),
+            gap: u_z.clone() + self.scene.h_init() - rigid,
             q_x: unfold(&now.q[0], Half::Even),
             q_y: unfold(&now.q[1], Half::Odd),
             u_x: unfold(&now.u[0], Half::Even),
@@ -281,7 +345,8 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
             } else {
                 TangentialMethod::Newton
             },
-            tolerance: INNER_SHARE * scene.friction.mu * gap,
+            // What the shear misses acts on the gap, however large mu is.
+            tolerance: INNER_SHARE * scene.friction.mu.min(1.0) * gap,
             max_iterations: solver.max_iterations,
             forcing: 0.2,
             max_passes: 12,

@@ -1,14 +1,41 @@
 //! The first guess of an increment.
 
 use super::State;
-use crate::scene::{LoadPoint, Loads, Preset};
-use crate::solvers::{Interface, size};
+use crate::scene::{Given, LoadPoint, Loads, Preset};
+use crate::solvers::{Drive, Interface, size};
 
 impl Loads {
-    /// The factor f with self = f other, if the two point the same way.
+    /// The change from `forces` and `motions` to here, of what is given.
+    pub(crate) fn since(&self, forces: [f64; 6], motions: [f64; 6]) -> Self {
+        let (to, given) = (self.forces(), self.given.motions());
+        let force = |k: usize| given[k].map_or(to[k] - forces[k], |_| 0.0);
+        let motion = |k: usize| given[k].map(|to| to - motions[k]);
+        Self::from_forces(
+            std::array::from_fn(force),
+            Given::from_motions(std::array::from_fn(motion)),
+        )
+    }
+
+    /// The factor f with self = f other, if the two changes are of the same kind and point the same
+    /// way.
     fn along(&self, other: &Self) -> Option<f64> {
-        let dot = |a: &Self, b: &Self| a.W * b.W + a.T_x * b.T_x + a.T_y * b.T_y;
-        let (both, own, its) = (dot(self, other), dot(self, self), dot(other, other));
+        let (a, b) = (self.given.motions(), other.given.motions());
+        if (0..6).any(|k| a[k].is_some() != b[k].is_some()) {
+            return None;
+        }
+        let (f, g) = (self.forces(), other.forces());
+        let pairs = (0..6).map(|k| a[k].zip(b[k]).unwrap_or((f[k], g[k])));
+        let (mut both, mut own, mut its) = (0.0, 0.0, 0.0);
+        for (a, b) in pairs {
+            // Forces, moments, lengths and angles compare as parts of the larger of the two.
+            let scale = a.abs().max(b.abs());
+            if scale > 0.0 {
+                let (a, b) = (a / scale, b / scale);
+                both += a * b;
+                own += a * a;
+                its += b * b;
+            }
+        }
         let parallel = both > 0.0 && both * both >= (1.0 - 1e-9) * own * its;
         parallel.then(|| both / its)
     }
@@ -23,22 +50,17 @@ impl State {
         point: &LoadPoint,
         h_init: &[f64],
         mu: f64,
-        sum_p: f64,
+        normal: &Drive,
         approach: f64,
         preset: Preset,
     ) -> Interface {
         let mut guess = self.interface.clone();
-        if sum_p <= 0.0 {
-            return Interface::unloaded(h_init.len());
-        }
         if self.loads.W <= 0.0 {
             first_touch(&mut guess, h_init, approach);
         }
-        let step = Loads {
-            W: point.loads.W - self.loads.W,
-            T_x: point.loads.T_x - self.loads.T_x,
-            T_y: point.loads.T_y - self.loads.T_y,
-        };
+        let step = point
+            .loads
+            .since(self.loads.forces(), self.motion.motions());
         let same_way = step.along(&self.step).filter(|_| self.increments > 1);
         if let (Some(factor), Preset::Fast) = (same_way, preset) {
             extrapolate(&mut guess.p, &self.p_before, factor);
@@ -47,8 +69,10 @@ impl State {
         } else if same_way.is_none() {
             guess.slip.fill(false);
         }
-        let factor = sum_p / guess.p.iter().sum::<f64>();
-        guess.p.iter_mut().for_each(|p| *p *= factor);
+        if normal.free[0] {
+            let factor = normal.sums[0] / guess.p.iter().sum::<f64>();
+            guess.p.iter_mut().for_each(|p| *p *= factor);
+        }
         guess
     }
 }
@@ -91,6 +115,9 @@ fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: f64, facto
 
 /// A pressure for bodies that have not touched: that of a Hertz contact of the given approach.
 fn first_touch(guess: &mut Interface, h_init: &[f64], approach: f64) {
+    if approach <= 0.0 {
+        return;
+    }
     let lowest = h_init.iter().fold(f64::INFINITY, |m, h| m.min(*h));
     for (p, h) in guess.p.iter_mut().zip(h_init) {
         *p = (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt();

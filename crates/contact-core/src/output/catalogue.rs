@@ -115,6 +115,15 @@ pub const SCALARS: &[Scalar] = &[
     real("T_y", "N", "tangential force on body 2 along y", |i| {
         i.point.loads.T_y
     }),
+    real("M_x", "N m", "tilting moment about x", |i| {
+        i.point.loads.M_x
+    }),
+    real("M_y", "N m", "tilting moment about y", |i| {
+        i.point.loads.M_y
+    }),
+    real("M_z", "N m", "torsional moment on body 2", |i| {
+        i.point.loads.M_z
+    }),
     real("delta_z", "m", "approach of the bodies", |i| {
         i.motion.delta_z
     }),
@@ -130,6 +139,11 @@ pub const SCALARS: &[Scalar] = &[
         "relative tangential shift of the bodies along y",
         |i| i.motion.delta_y,
     ),
+    real("phi_x", "rad", "tilt of body 1 about x", |i| i.motion.phi_x),
+    real("phi_y", "rad", "tilt of body 1 about y", |i| i.motion.phi_y),
+    real("phi_z", "rad", "rotation of body 1 about z", |i| {
+        i.motion.phi_z
+    }),
     Scalar {
         name: "status",
         units: "1",

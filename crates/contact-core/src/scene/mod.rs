@@ -16,7 +16,7 @@ mod shape;
 pub use body::{Body, Coating};
 pub use friction::Friction;
 pub use grid::Grid;
-pub use load_path::{Branch, LoadPath, LoadPoint, Loads, Spacing};
+pub use load_path::{Branch, Given, LOADS, LoadPath, LoadPoint, Loads, MOTIONS, Spacing};
 pub use material::Elastic;
 pub use plan::{Plan, PlanLine};
 pub use settings::{
@@ -73,21 +73,27 @@ impl Scene {
         self.settings.check()
     }
 
-    /// The Hertz contact of the uncoated pair at the largest normal load of the path: the
-    /// yardstick `a_H`, `p_H` of every dimensionless result. `None` where a substrate pair is
-    /// rigid or no normal load is applied.
+    /// The Hertz contact of the uncoated pair at the largest normal load of the path, or at the
+    /// largest approach that it gives: the yardstick `a_H`, `p_H` of every dimensionless result.
+    /// `None` where a substrate pair is rigid or nothing presses the bodies together.
     pub fn hertz(&self) -> Option<Hertz> {
         let curvature = self.body1.shape.curvature() + self.body2.shape.curvature();
-        let W = self.path.W_max();
         let both_rigid = self.body1.substrate.is_rigid() && self.body2.substrate.is_rigid();
-        (curvature > 0.0 && W > 0.0 && !both_rigid).then(|| {
+        if curvature <= 0.0 || both_rigid {
+            return None;
+        }
+        let at = |W| {
             hertz(
                 1.0 / curvature,
                 self.body1.substrate,
                 self.body2.substrate,
                 W,
             )
-        })
+        };
+        // delta_z grows with W^(2/3).
+        let delta_z = self.path.delta_z_max();
+        let W = self.path.W_max().max((delta_z / at(1.0).delta_z).powf(1.5));
+        (W > 0.0).then(|| at(W))
     }
 
     /// Gap between the undeformed surfaces, h_init \[m\], shape (nx, ny).

@@ -1,6 +1,6 @@
 //! What a scene needs, decided before anything is computed.
 
-use super::{Body, Grid, KernelMethod, Scene};
+use super::{Body, Grid, KernelMethod, Loads, Scene};
 use crate::convolution::Mirror;
 
 /// What is computed and what is left out.
@@ -144,8 +144,15 @@ fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     if !shapes.iter().all(|s| s.is_mirror_symmetric_in_y()) {
         return Err("the surfaces are not mirror-symmetric in y");
     }
-    if scene.path.branches.iter().any(|b| b.to.T_y != 0.0) {
-        return Err("the load path has a force along y");
+    let uneven = |to: &Loads| {
+        let (forces, given) = (to.forces(), to.given.motions());
+        // M_x, T_y, M_z and what goes with them change their sign under y -> -y.
+        [1, 4, 5]
+            .iter()
+            .any(|&k| given[k].unwrap_or(forces[k]) != 0.0)
+    };
+    if scene.path.branches.iter().any(|b| uneven(&b.to)) {
+        return Err("the load path drives a motion along y or a rotation about x or z");
     }
     Ok("shapes and loads are mirror-symmetric in y")
 }

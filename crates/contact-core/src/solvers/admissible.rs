@@ -1,7 +1,8 @@
-//! The shear that friction admits: |q| <= g in each cell, and the sum that the force asks for.
+//! The shear that friction admits: |q| <= g in each cell, and the sums that the loads ask for.
 
+use super::rigid_motion::{add, inverse, product};
 use super::shear::TangentialProblem;
-use super::vector::{size, sum};
+use super::vector::size;
 
 /// Rounds of clipping and balancing before the stick cells are taken to be too few.
 const ROUNDS: usize = 8;
@@ -21,7 +22,7 @@ pub(crate) fn admissible(
         change[c].copy_from_slice(q[c]);
     }
     if !share_force(problem, q, slip) {
-        project(problem, q, &mut [0.0; 2]);
+        project(problem, q, &mut [0.0; 3]);
         mark_circle(problem, q, slip);
     }
     let mut squares = 0.0;
@@ -34,18 +35,16 @@ pub(crate) fn admissible(
     squares.sqrt()
 }
 
-/// Cuts the shear to the bound and lets the stick cells share the missing force; whether that
-/// ended with both conditions met.
+/// Cuts the shear to the bound and lets the stick cells share the missing loads, by the smallest
+/// change; whether that ended with both conditions met.
 fn share_force(
     problem: &TangentialProblem<'_>,
     q: &mut [&mut [f64]; 2],
     slip: &mut [bool],
 ) -> bool {
     let cells = problem.bound.len();
-    let enough = 1e-13 * sum(problem.bound);
+    let enough = rounding(problem);
     for _ in 0..ROUNDS {
-        let mut missing = problem.sum_q;
-        let mut sticking = 0;
         for n in 0..cells {
             let g = problem.bound[n];
             let size = size([q[0][n], q[1][n]]);
@@ -57,22 +56,75 @@ fn share_force(
                 1.0
             };
             slip[n] &= g > 0.0 && size > 0.0;
-            sticking += usize::from(g > 0.0 && !slip[n]);
-            for c in 0..2 {
-                q[c][n] *= factor;
-                missing[c] -= q[c][n];
+            for q in q.iter_mut() {
+                q[n] *= factor;
             }
         }
-        if (0..2).all(|c| !problem.free[c] || missing[c].abs() <= enough) {
+        let missing = missing(problem, problem.sums(q));
+        if missing.iter().all(|m| m.abs() <= enough) {
             return true;
         }
-        for n in (0..cells).filter(|&n| problem.bound[n] > 0.0 && !slip[n]) {
-            for c in (0..2).filter(|&c| problem.free[c]) {
-                q[c][n] += missing[c] / sticking as f64;
+        let sticks = |n: &usize| problem.bound[*n] > 0.0 && !slip[*n];
+        let share = spread(problem, missing, (0..cells).filter(sticks));
+        for n in (0..cells).filter(sticks) {
+            let share = problem.arms.in_plane(share, n);
+            for c in 0..2 {
+                q[c][n] += share[c];
             }
         }
     }
     false
+}
+
+/// The loads that the sums lack; zero for motions that are given.
+fn missing(problem: &TangentialProblem<'_>, sums: [f64; 3]) -> [f64; 3] {
+    let drive = &problem.drive;
+    std::array::from_fn(|k| {
+        if drive.free[k] {
+            drive.sums[k] - sums[k]
+        } else {
+            0.0
+        }
+    })
+}
+
+/// The m with which tractions B m on the cells have the sums asked for.
+fn spread(
+    problem: &TangentialProblem<'_>,
+    sums: [f64; 3],
+    cells: impl Iterator<Item = usize>,
+) -> [f64; 3] {
+    let mut gram = [[0.0; 3]; 3];
+    for n in cells {
+        add_gram(
+            &mut gram,
+            problem.arms.x[n],
+            problem.arms.y[n],
+            [1.0, 0.0, 1.0],
+        );
+    }
+    product(&inverse(gram, problem.drive.free), sums)
+}
+
+/// gram += b^T S b for the modes b of a cell at (x, y), S the symmetric matrix (xx, xy, yy).
+fn add_gram(gram: &mut [[f64; 3]; 3], x: f64, y: f64, [xx, xy, yy]: [f64; 3]) {
+    let r = [xy * x - xx * y, yy * x - xy * y];
+    let rows = [
+        [xx, xy, r[0]],
+        [xy, yy, r[1]],
+        [r[0], r[1], x * r[1] - y * r[0]],
+    ];
+    for k in 0..3 {
+        gram[k] = add(gram[k], rows[k]);
+    }
+}
+
+/// What rounding may leave of the sums: a part of all that friction can carry, or of the loads
+/// where the bound is infinite.
+fn rounding(problem: &TangentialProblem<'_>) -> f64 {
+    let carried: f64 = problem.bound.iter().filter(|g| g.is_finite()).sum();
+    let asked = problem.drive.sums.iter().map(|s| s.abs()).sum::<f64>();
+    1e-13 * carried.max(asked)
 }
 
 /// The part of the bound from which a cell counts as slipping.
@@ -86,101 +138,109 @@ pub(crate) fn mark_circle(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], 
     }
 }
 
-/// Nearest shear with |q| <= g in each cell and the sum asked for: q - shift, cut to the circle.
+/// Nearest shear with |q| <= g in each cell and the sums asked for: q - B shift, cut to the circle.
 ///
 /// The shift is the root of a monotone function: Newton steps, halved until the excess falls; where
-/// none does, a step with the weights min(1, g/|q - shift|) of Weiszfeld, which cannot overshoot.
+/// none does, a step with the weights min(1, g/|q - B shift|) of Weiszfeld, which cannot overshoot.
 pub(crate) fn project(
     problem: &TangentialProblem<'_>,
     q: &mut [&mut [f64]; 2],
-    shift: &mut [f64; 2],
+    shift: &mut [f64; 3],
 ) {
-    let enough = 1e-13 * sum(problem.bound);
+    let enough = rounding(problem);
     let mut trial = *shift;
     let mut here = excess(problem, q, trial);
     for _ in 0..100 {
-        if size(here.sum) <= enough {
+        if norm(here.sums) <= enough {
             break;
         }
         (trial, here) = newton(problem, q, trial, &here).unwrap_or_else(|| {
-            let weighted: [f64; 2] = std::array::from_fn(|c| trial[c] + here.sum[c] / here.weight);
+            let weights = inverse(here.weights, problem.drive.free);
+            let weighted = add(trial, product(&weights, here.sums));
             (weighted, excess(problem, q, weighted))
         });
     }
     *shift = trial;
     for n in 0..problem.bound.len() {
-        let v = [q[0][n] - trial[0], q[1][n] - trial[1]];
-        let factor = problem.bound[n] / size(v).max(problem.bound[n]).max(f64::MIN_POSITIVE);
+        let v = cut_from(problem, q, trial, n);
+        let factor = cut(size(v), problem.bound[n]);
         q[0][n] = factor * v[0];
         q[1][n] = factor * v[1];
     }
+}
+
+/// q - B shift in cell n.
+fn cut_from(
+    problem: &TangentialProblem<'_>,
+    q: &[&mut [f64]; 2],
+    shift: [f64; 3],
+    n: usize,
+) -> [f64; 2] {
+    let shift = problem.arms.in_plane(shift, n);
+    [q[0][n] - shift[0], q[1][n] - shift[1]]
+}
+
+/// The factor that brings a traction of this size within the bound.
+fn cut(size: f64, bound: f64) -> f64 {
+    if size > bound { bound / size } else { 1.0 }
+}
+
+fn norm(v: [f64; 3]) -> f64 {
+    v.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
 /// A Newton step of the shift that lowers the excess, if there is one.
 fn newton(
     problem: &TangentialProblem<'_>,
     q: &[&mut [f64]; 2],
-    at: [f64; 2],
+    at: [f64; 3],
     here: &Excess,
-) -> Option<([f64; 2], Excess)> {
-    let [xx, xy, yy] = here.slope;
-    let det = xx * yy - xy * xy;
-    if det <= 0.0 {
-        return None;
-    }
-    let step = [
-        (yy * here.sum[0] - xy * here.sum[1]) / det,
-        (xx * here.sum[1] - xy * here.sum[0]) / det,
-    ];
+) -> Option<([f64; 3], Excess)> {
+    let step = product(&inverse(here.slope, problem.drive.free), here.sums);
     (0..12)
         .map(|halvings| 0.5_f64.powi(halvings))
         .find_map(|part| {
-            let to = [at[0] + part * step[0], at[1] + part * step[1]];
+            let to = add(at, step.map(|s| part * s));
             let there = excess(problem, q, to);
-            (size(there.sum) < (1.0 - 0.1 * part) * size(here.sum)).then_some((to, there))
+            (norm(there.sums) < (1.0 - 0.1 * part) * norm(here.sums)).then_some((to, there))
         })
 }
 
-/// The sum of the cut shear over the sum asked for, as a function of the shift.
+/// The sums of the cut shear over those asked for, as a function of the shift.
 struct Excess {
-    sum: [f64; 2],
-    /// Minus the derivative by the shift: xx, xy, yy.
-    slope: [f64; 3],
-    /// Sum of the factors by which cells are cut.
-    weight: f64,
+    sums: [f64; 3],
+    /// Minus the derivative by the shift.
+    slope: [[f64; 3]; 3],
+    /// The modes weighted with the factors by which cells are cut.
+    weights: [[f64; 3]; 3],
 }
 
-fn excess(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], shift: [f64; 2]) -> Excess {
-    let mut sum = [-problem.sum_q[0], -problem.sum_q[1]];
-    let mut slope = [0.0; 3];
-    let mut weight = 0.0;
+fn excess(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], shift: [f64; 3]) -> Excess {
+    let mut sums = [0.0; 3];
+    let (mut slope, mut weights) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
     for n in 0..problem.bound.len() {
         let g = problem.bound[n];
         if g <= 0.0 {
             continue;
         }
-        let v = [q[0][n] - shift[0], q[1][n] - shift[1]];
+        let v = cut_from(problem, q, shift, n);
         let length = size(v);
-        let cut = if length > g { g / length } else { 1.0 };
-        sum[0] += cut * v[0];
-        sum[1] += cut * v[1];
-        weight += cut;
+        let cut = cut(length, g);
+        sums = add(sums, problem.arms.sums_in_plane(v.map(|v| cut * v), n));
+        let (x, y) = (problem.arms.x[n], problem.arms.y[n]);
+        add_gram(&mut weights, x, y, [cut, 0.0, cut]);
         // Cells beyond the circle give way only across their direction.
         let e = if length > g {
             [v[0] / length, v[1] / length]
         } else {
             [0.0, 0.0]
         };
-        slope[0] += cut * (1.0 - e[0] * e[0]);
-        slope[1] -= cut * e[0] * e[1];
-        slope[2] += cut * (1.0 - e[1] * e[1]);
+        let across = [1.0 - e[0] * e[0], -e[0] * e[1], 1.0 - e[1] * e[1]];
+        add_gram(&mut slope, x, y, across.map(|a| cut * a));
     }
-    for c in 0..2 {
-        if !problem.free[c] {
-            sum[c] = 0.0;
-            slope[1] = 0.0;
-            slope[2 * c] = 1.0;
-        }
+    Excess {
+        sums: missing(problem, sums).map(|m| -m),
+        slope,
+        weights,
     }
-    Excess { sum, slope, weight }
 }

@@ -8,8 +8,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::admissible::admissible;
+use super::limit::{Sliding, exceeds, sliding};
+use super::mixing::Mixing;
+use super::rigid_motion::{Arms, Drive, add};
 use super::shear_gradient::shear_gradient;
-use super::vector::{add_scaled, mean_where};
+use super::vector::{add_scaled, size};
 use super::{
     NormalParams, NormalProblem, NormalWorkspace, Response, Shear, SolverError, TangentialMethod,
     TangentialParams, TangentialProblem, TangentialWorkspace, normal, tangential,
@@ -72,12 +75,12 @@ pub struct IncrementProblem<'a> {
     pub u_ref: [&'a [f64]; 2],
     /// Friction coefficient.
     pub mu: f64,
-    /// Sum of the pressure over the kept cells \[Pa\], positive.
-    pub sum_p: f64,
-    /// Sum of the shear over the kept cells \[Pa\].
-    pub sum_q: [f64; 2],
-    /// Whether each shift is free to balance its force.
-    pub free: [bool; 2],
+    /// Where the cells are.
+    pub arms: &'a Arms,
+    /// What drives approach and tilts, from the unloaded state.
+    pub normal: Drive,
+    /// What drives shifts and torsion in this increment.
+    pub tangential: Drive,
 }
 
 /// Settings of the intermediate loop.
@@ -94,18 +97,26 @@ pub struct CoupledParams {
 /// What the intermediate loop ended with.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CoupledInfo {
-    /// Approach \[m\].
-    pub delta_z: f64,
-    /// Rigid shift of this increment \[m\].
-    pub shift: [f64; 2],
-    /// Whether every contact cell slips.
-    pub gross_slip: bool,
+    /// Approach, and the tilts phi_x, phi_y times the length \[m\].
+    pub approach: [f64; 3],
+    /// Shifts of this increment, and the rotation phi_z times the length \[m\].
+    pub shift: [f64; 3],
+    /// What the loads ask for over what friction can carry; full sliding from 1 on.
+    pub friction_used: f64,
     /// Passes.
     pub alternations: usize,
     /// Iterations of the normal solver.
     pub normal_iterations: usize,
     /// Conjugate-gradient passes of the tangential solver.
     pub tangential_iterations: usize,
+}
+
+impl CoupledInfo {
+    /// Whether the loads are more than friction can carry: there is no equilibrium, and the shear
+    /// was not solved for.
+    pub fn exceeds_friction(&self) -> bool {
+        exceeds(self.friction_used)
+    }
 }
 
 /// Buffers of the intermediate loop.
@@ -118,6 +129,7 @@ pub struct CoupledWorkspace {
     q_before: [Vec<f64>; 2],
     change: [Vec<f64>; 2],
     response: [Vec<f64>; 2],
+    mixing: Mixing,
 }
 
 impl CoupledWorkspace {
@@ -133,12 +145,10 @@ impl CoupledWorkspace {
             q_before: pair(),
             change: pair(),
             response: pair(),
+            mixing: Mixing::new(cells),
         }
     }
 }
-
-/// |T| this close to mu W is full sliding; rounding decides below that.
-const FULL_SLIDING: f64 = 1e-12;
 
 /// Solves one increment, from a guess in `now` to the solution.
 pub fn coupled(
@@ -150,14 +160,10 @@ pub fn coupled(
 ) -> Result<CoupledInfo, SolverError> {
     let friction = problem.mu > 0.0;
     let coupled = response.op.is_coupled() && friction;
-    let force = problem.sum_q[0].hypot(problem.sum_q[1]);
-    let limit = problem.mu * problem.sum_p;
-    let mut info = CoupledInfo {
-        gross_slip: friction && force >= limit * (1.0 - FULL_SLIDING),
-        ..CoupledInfo::default()
-    };
-    make_admissible(problem, now, ws, info.gross_slip);
+    let mut info = CoupledInfo::default();
+    let mut slides = make_admissible(problem, now, ws, friction);
     now.evaluate(response, friction);
+    ws.mixing.restart();
     loop {
         info.alternations += 1;
 
@@ -165,7 +171,8 @@ pub fn coupled(
         ws.p_before.copy_from_slice(&now.p);
         let gap = NormalProblem {
             h_init: problem.h_init,
-            sum_p: problem.sum_p,
+            arms: problem.arms,
+            drive: problem.normal,
         };
         let found = normal(
             response,
@@ -176,8 +183,8 @@ pub fn coupled(
             &params.normal,
         )?;
         info.normal_iterations += found.iterations;
-        info.delta_z = found.delta_z;
-        if !friction {
+        info.approach = found.motion;
+        if !friction || now.p.iter().all(|&p| p <= 0.0) {
             return Ok(info);
         }
 
@@ -186,18 +193,16 @@ pub fn coupled(
             ws.q_before[c].copy_from_slice(&now.q[c]);
         }
         if found.iterations > 0 {
-            make_admissible(problem, now, ws, info.gross_slip);
+            slides = make_admissible(problem, now, ws, friction);
             follow_pressure(response, now, ws, coupled);
         }
-        let bound = &ws.bound;
-        let slip = TangentialProblem {
-            bound,
-            u_ref: problem.u_ref,
-            sum_q: problem.sum_q,
-            free: problem.free,
-        };
-        if info.gross_slip {
-            info.shift = incipient_shift(&slip, now, problem.sum_q);
+        info.friction_used = slides.used;
+        if info.exceeds_friction() {
+            return Ok(info);
+        }
+        let slip = problem.slip(&ws.bound);
+        if slides.is_full() {
+            info.shift = incipient_shift(&slip, now, slides.motion);
         } else {
             let [q_x, q_y] = &mut now.q;
             let [u_x, u_y] = &mut now.u;
@@ -233,14 +238,17 @@ pub fn coupled(
                 changed |= *change != 0.0;
             }
         }
-        if !changed {
+        if changed {
+            let [change_x, change_y] = &ws.change;
+            response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
+        } else if ws.mixing.mixes() {
+            ws.response[0].fill(0.0);
+        } else {
             return Ok(info);
         }
-        let [change_x, change_y] = &ws.change;
-        response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
-        add_scaled(&mut now.u_z, 1.0, &ws.response[0]);
-        let check = super::normal::assess(problem.h_init, &now.p, &now.u_z);
-        info.delta_z = check.delta_z;
+        ws.mixing.settle(&ws.response[0], &mut now.u_z);
+        let check = super::normal::assess(&gap, &now.p, &now.u_z);
+        info.approach = check.motion;
         let residual = check.gap.max(check.penetration);
         if residual <= params.normal.tolerance {
             return Ok(info);
@@ -253,42 +261,39 @@ pub fn coupled(
                 iterations: info.alternations,
             });
         }
+        ws.mixing.mix(&now.p, &mut now.u_z);
     }
 }
 
-/// Brings the shear within the bound mu p of the present pressure and to the force asked for.
+/// Brings the shear within the bound mu p of the present pressure and to the loads asked for.
 fn make_admissible(
     problem: &IncrementProblem<'_>,
     now: &mut Interface,
     ws: &mut CoupledWorkspace,
-    gross_slip: bool,
-) {
+    friction: bool,
+) -> Sliding {
+    if !friction {
+        return Sliding::default();
+    }
     for (bound, p) in ws.bound.iter_mut().zip(&now.p) {
         *bound = problem.mu * p;
     }
-    if gross_slip {
-        let force = problem.sum_q[0].hypot(problem.sum_q[1]);
+    let slip = problem.slip(&ws.bound);
+    let slides = sliding(&slip);
+    if slides.is_full() {
         for n in 0..now.p.len() {
             now.slip[n] = now.p[n] > 0.0;
+            let along = problem.arms.in_plane(slides.motion, n);
+            let size = size(along).max(f64::MIN_POSITIVE);
             for c in 0..2 {
-                let part = if force > 0.0 {
-                    problem.sum_q[c] / force
-                } else {
-                    0.0
-                };
-                now.q[c][n] = ws.bound[n] * part;
+                now.q[c][n] = ws.bound[n] * along[c] / size;
             }
         }
     } else {
-        let slip = TangentialProblem {
-            bound: &ws.bound,
-            u_ref: problem.u_ref,
-            sum_q: problem.sum_q,
-            free: problem.free,
-        };
         let [q_x, q_y] = &mut now.q;
         admissible(&slip, &mut [q_x, q_y], &mut now.slip, &mut ws.change);
     }
+    slides
 }
 
 /// u_t after the pressure changed from `p_before` and the shear from `q_before`.
@@ -325,17 +330,37 @@ fn follow_pressure(
     }
 }
 
-/// The smallest shift along the force at which every contact cell slips.
-fn incipient_shift(problem: &TangentialProblem<'_>, now: &Interface, sum_q: [f64; 2]) -> [f64; 2] {
-    let force = sum_q[0].hypot(sum_q[1]);
-    let along = |n: usize| -> f64 {
-        (0..2)
-            .map(|c| (now.u[c][n] - problem.u_ref[c][n]) * sum_q[c] / force)
-            .sum()
+/// The smallest motion of the kind `sliding` at which every contact cell slips.
+fn incipient_shift(
+    problem: &TangentialProblem<'_>,
+    now: &Interface,
+    sliding: [f64; 3],
+) -> [f64; 3] {
+    let given = problem.drive.given;
+    let needed = |n: usize| -> f64 {
+        let along = problem.arms.in_plane(sliding, n);
+        let given = problem.arms.in_plane(given, n);
+        let ahead: f64 = (0..2)
+            .map(|c| (now.u[c][n] - problem.u_ref[c][n] - given[c]) * along[c])
+            .sum();
+        ahead / (along[0] * along[0] + along[1] * along[1])
     };
-    let (mean, _) = mean_where(problem.bound.len(), |n| problem.bound[n] > 0.0, along);
     let furthest = (0..problem.bound.len())
         .filter(|&n| problem.bound[n] > 0.0)
-        .fold(mean, |m, n| m.max(along(n)));
-    std::array::from_fn(|c| furthest * sum_q[c] / force)
+        .map(needed)
+        .filter(|needed| needed.is_finite())
+        .fold(f64::NEG_INFINITY, f64::max);
+    add(given, sliding.map(|s| furthest * s))
+}
+
+impl<'a> IncrementProblem<'a> {
+    /// The tangential problem under a friction bound.
+    fn slip(&self, bound: &'a [f64]) -> TangentialProblem<'a> {
+        TangentialProblem {
+            bound,
+            u_ref: self.u_ref,
+            arms: self.arms,
+            drive: self.tangential,
+        }
+    }
 }

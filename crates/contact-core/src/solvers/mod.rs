@@ -11,10 +11,13 @@
 mod admissible;
 mod contact_cells;
 mod coupled;
+mod limit;
+mod mixing;
 mod newton_step;
 mod normal;
 mod projected_gradient;
 mod response;
+mod rigid_motion;
 mod shear;
 mod shear_gradient;
 mod tangential;
@@ -25,6 +28,8 @@ pub use coupled::{
 };
 pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub use response::Response;
+pub(crate) use rigid_motion::add;
+pub use rigid_motion::{Arms, Drive};
 pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
 pub use tangential::{TangentialWorkspace, tangential};
 pub(crate) use vector::size;

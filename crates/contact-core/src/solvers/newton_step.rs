@@ -2,6 +2,7 @@
 
 use super::Response;
 use super::contact_cells::ContactCells;
+use super::rigid_motion::{add, inverse, product};
 use super::shear::{Shear, TangentialProblem};
 use super::vector::{add_scaled, dot, sum};
 
@@ -10,10 +11,10 @@ type Pair = [Vec<f64>; 2];
 /// The linear system
 ///
 /// ```text
-/// find x in the tangent space, sum x = 0:   Pi (C x + D x + ds) = Pi d(delta)'
+/// find x in the tangent space, B^T x = 0:   Pi (C x + D x + ds) = Pi B d(delta)'
 /// ```
 ///
-/// with Pi the projection on the tangent space (stick cells: both components; slip cells: across
+/// with B the rigid motions that are free, Pi the projection on the tangent space (stick cells: both components; slip cells: across
 /// q) and D the curvature |ds|/g of the circle. The unknowns are packed contact cells; what goes
 /// through the operator covers the grid.
 #[derive(Debug)]
@@ -37,14 +38,17 @@ pub(crate) struct NewtonStep {
     displacement: Pair,
 }
 
-/// The projection on the tangent space and on a sum of zero.
+/// The projection on the tangent space and on sums of zero.
 #[derive(Debug)]
 struct Tangent {
     xx: Vec<f64>,
     xy: Vec<f64>,
     yy: Vec<f64>,
-    /// Inverse of the sum of the projections over the cells: xx, xy, yy.
-    inverse_sum: [f64; 3],
+    /// Inverse of B^T Pi B, Pi the projection on the tangent space of each cell.
+    inverse_sum: [[f64; 3]; 3],
+    /// Lever arms of the contact cells; empty where the rotation is not free.
+    arm_x: Vec<f64>,
+    arm_y: Vec<f64>,
 }
 
 impl NewtonStep {
@@ -58,7 +62,9 @@ impl NewtonStep {
                 xx: field(),
                 xy: field(),
                 yy: field(),
-                inverse_sum: [0.0; 3],
+                inverse_sum: [[0.0; 3]; 3],
+                arm_x: field(),
+                arm_y: field(),
             },
             diagonal: field(),
             scale: field(),
@@ -74,7 +80,8 @@ impl NewtonStep {
     }
 
     /// Packs the contact cells, those with a friction bound.
-    pub(crate) fn set_contact(&mut self, bound: &[f64]) {
+    pub(crate) fn set_contact(&mut self, problem: &TangentialProblem<'_>) {
+        let bound = problem.bound;
         self.contact.find(bound.len(), |n| bound[n] > 0.0);
         let count = self.contact.count();
         let t = &mut self.tangent;
@@ -86,6 +93,13 @@ impl NewtonStep {
             &mut self.scale,
         ] {
             field.resize(count, 0.0);
+        }
+        let arms = if problem.drive.free[2] { count } else { 0 };
+        t.arm_x.resize(arms, 0.0);
+        t.arm_y.resize(arms, 0.0);
+        if arms > 0 {
+            self.contact.pack(&problem.arms.x, &mut t.arm_x);
+            self.contact.pack(&problem.arms.y, &mut t.arm_y);
         }
         for pair in [
             &mut self.x,
@@ -108,7 +122,7 @@ impl NewtonStep {
         &mut self,
         problem: &TangentialProblem<'_>,
         shear: &Shear<'_>,
-        shift: [f64; 2],
+        shift: [f64; 3],
         c_xx: f64,
     ) {
         let t = &mut self.tangent;
@@ -131,7 +145,7 @@ impl NewtonStep {
             self.residual[0][i] = -slip[0];
             self.residual[1][i] = -slip[1];
         }
-        t.inverse_sum = invert([sum(&t.xx), sum(&t.xy), sum(&t.yy)], problem.free);
+        t.inverse_sum = inverse(t.gram(), problem.drive.free);
         t.project(&mut self.residual);
     }
 
@@ -226,37 +240,65 @@ impl NewtonStep {
         &mut self,
         problem: &TangentialProblem<'_>,
         shear: &mut Shear<'_>,
-    ) -> [f64; 2] {
+    ) -> [f64; 3] {
+        let given = problem.drive.given;
         for c in 0..2 {
             add_scaled(shear.u[c], 1.0, &self.response_x[c]);
             for (i, n) in self.contact.iter().enumerate() {
                 let x = self.x[c][i];
                 shear.q[c][n] += x;
-                self.z[c][i] = shear.u[c][n] - problem.u_ref[c][n] + self.diagonal[i] * x;
+                let slip = shear.u[c][n] - problem.u_ref[c][n] - problem.arms.in_plane(given, n)[c];
+                self.z[c][i] = slip + self.diagonal[i] * x;
             }
         }
         let sums = self.tangent.project_cells(&mut self.z);
-        self.tangent.solve_sum(sums)
+        add(given, product(&self.tangent.inverse_sum, sums))
     }
 }
 
 impl Tangent {
-    /// Projects on the tangent space and on sum = 0.
+    /// B^T Pi B
+    fn gram(&self) -> [[f64; 3]; 3] {
+        let (xx, xy, yy) = (sum(&self.xx), sum(&self.xy), sum(&self.yy));
+        let (mut xr, mut yr, mut rr) = (0.0, 0.0, 0.0);
+        for (i, (x, y)) in self.arm_x.iter().zip(&self.arm_y).enumerate() {
+            // The rotation moves the cell by (-y, x); Pi leaves r of it.
+            let r = [
+                self.xy[i] * x - self.xx[i] * y,
+                self.yy[i] * x - self.xy[i] * y,
+            ];
+            xr += r[0];
+            yr += r[1];
+            rr += x * r[1] - y * r[0];
+        }
+        [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]]
+    }
+
+    /// Projects on the tangent space and on B^T v = 0.
     fn project(&self, v: &mut Pair) {
         let sums = self.project_cells(v);
-        let shift = self.solve_sum(sums);
+        let shift = product(&self.inverse_sum, sums);
         let (xx, xy, yy) = (&self.xx[..], &self.xy[..], &self.yy[..]);
         let n = xx.len();
         let [v_x, v_y] = v;
         let (v_x, v_y, xy, yy) = (&mut v_x[..n], &mut v_y[..n], &xy[..n], &yy[..n]);
-        for i in 0..n {
-            v_x[i] -= xx[i] * shift[0] + xy[i] * shift[1];
-            v_y[i] -= xy[i] * shift[0] + yy[i] * shift[1];
+        if self.arm_x.is_empty() {
+            for i in 0..n {
+                v_x[i] -= xx[i] * shift[0] + xy[i] * shift[1];
+                v_y[i] -= xy[i] * shift[0] + yy[i] * shift[1];
+            }
+        } else {
+            for i in 0..n {
+                let a = shift[0] - self.arm_y[i] * shift[2];
+                let b = shift[1] + self.arm_x[i] * shift[2];
+                v_x[i] -= xx[i] * a + xy[i] * b;
+                v_y[i] -= xy[i] * a + yy[i] * b;
+            }
         }
     }
 
-    /// Projects on the tangent space of each cell; returns the sums over the cells.
-    fn project_cells(&self, v: &mut Pair) -> [f64; 2] {
+    /// Projects on the tangent space of each cell; returns B^T v.
+    fn project_cells(&self, v: &mut Pair) -> [f64; 3] {
         let (xx, xy, yy) = (&self.xx[..], &self.xy[..], &self.yy[..]);
         let n = xx.len();
         let [v_x, v_y] = v;
@@ -266,33 +308,15 @@ impl Tangent {
             v_x[i] = xx[i] * a + xy[i] * b;
             v_y[i] = xy[i] * a + yy[i] * b;
         }
-        [sum(v_x), sum(v_y)]
-    }
-
-    fn solve_sum(&self, sums: [f64; 2]) -> [f64; 2] {
-        let [xx, xy, yy] = self.inverse_sum;
-        [xx * sums[0] + xy * sums[1], xy * sums[0] + yy * sums[1]]
+        let moment = if self.arm_x.is_empty() {
+            0.0
+        } else {
+            dot(&self.arm_x, v_y) - dot(&self.arm_y, v_x)
+        };
+        [sum(v_x), sum(v_y), moment]
     }
 }
 
 fn dot_pair(a: &Pair, b: &Pair) -> f64 {
     dot(&a[0], &b[0]) + dot(&a[1], &b[1])
-}
-
-/// Inverse of the symmetric 2 x 2 matrix (xx, xy, yy) on the free shifts, zero on the others.
-fn invert([xx, xy, yy]: [f64; 3], free: [bool; 2]) -> [f64; 3] {
-    let reciprocal = |v: f64| if v > 0.0 { 1.0 / v } else { 0.0 };
-    match free {
-        [false, false] => [0.0; 3],
-        [true, false] => [reciprocal(xx), 0.0, 0.0],
-        [false, true] => [0.0, 0.0, reciprocal(yy)],
-        [true, true] => {
-            let det = xx * yy - xy * xy;
-            if det > 0.0 {
-                [yy / det, -xy / det, xx / det]
-            } else {
-                [0.0; 3]
-            }
-        }
-    }
 }

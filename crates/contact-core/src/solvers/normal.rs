@@ -1,27 +1,31 @@
 //! The normal problem: pressure for known shear.
 //!
 //! ```text
-//! minimise  1/2 p.C_zz p + p.h_0   over  p >= 0,  sum of p dA = W
+//! minimise  1/2 p.C_zz p + p.h_0   over  p >= 0,  sum of p dA = W, moments of p dA = M_x, M_y
 //! ```
 //!
-//! with h_0 = h_init + C_zx q_x + C_zy q_y; its multiplier is the approach delta_z, its gradient the
-//! gap h = C_zz p + h_0 - delta_z. Conjugate gradients on the contact with the force constraint
-//! projected out (I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219, eq. (5)-(6) of the paper),
+//! with h_0 = h_init + C_zx q_x + C_zy q_y; its multipliers are the approach delta_z and the tilts
+//! phi_x, phi_y, its gradient the gap h = C_zz p + h_0 - (delta_z + y phi_x - x phi_y). A motion that
+//! is given enters h_0, and its load has no constraint. Conjugate gradients on the contact with the
+//! constraints projected out (I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219, eq. (5)-(6) of the paper),
 //! preconditioned, and kept going when the contact set changes: cells whose pressure would turn
 //! negative leave, cells that overlap enter, and the Polak-Ribiere factor forgets the old
 //! direction as far as the change makes it useless. The displacement is carried along, so an
 //! iteration costs one convolution, and a second one only when cells leave.
 
-use super::vector::{add_scaled, dot, mean_where};
+use super::rigid_motion::{Arms, Drive, add};
+use super::vector::{add_scaled, dot};
 use super::{Response, SolverError};
 
-/// What is given: the gap and the force.
+/// What is given: the gap and what drives the approach and the tilts.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalProblem<'a> {
     /// Gap between the undeformed surfaces h_init \[m\].
     pub h_init: &'a [f64],
-    /// Sum of the pressure over the cells, W over the area of a cell \[Pa\], positive.
-    pub sum_p: f64,
+    /// Where the cells are.
+    pub arms: &'a Arms,
+    /// Normal force and tilting moments, or the motions where these are given.
+    pub drive: Drive,
 }
 
 /// Settings of the normal solver.
@@ -36,8 +40,8 @@ pub struct NormalParams {
 /// What the normal solver ended with.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NormalInfo {
-    /// Approach \[m\].
-    pub delta_z: f64,
+    /// Approach, and the tilts phi_x, phi_y times the length \[m\].
+    pub motion: [f64; 3],
     /// Root-mean-square gap in the contact \[m\].
     pub gap: f64,
     /// Deepest penetration outside the contact \[m\].
@@ -75,8 +79,8 @@ impl NormalWorkspace {
 
 /// Solves for `p`, with `u_z` the total normal displacement, that under the shear included.
 ///
-/// On entry `p` is >= 0 and not all zero and `u_z` belongs to it; on exit too, and p sums to
-/// `sum_p` up to rounding.
+/// On entry `p` is >= 0, not all zero where the approach is free, and `u_z` belongs to it; on exit
+/// too, and p has the sums asked for up to rounding.
 pub fn normal(
     response: &mut Response<'_>,
     problem: &NormalProblem<'_>,
@@ -86,7 +90,7 @@ pub fn normal(
     params: &NormalParams,
 ) -> Result<NormalInfo, SolverError> {
     ws.response.copy_from_slice(p);
-    balance(problem.sum_p, p);
+    balance(problem, p);
     if p.iter()
         .zip(&ws.response)
         .any(|(p, before)| (p - before).abs() > 1e-15 * p)
@@ -96,9 +100,10 @@ pub fn normal(
     let mut last_product = 0.0;
     let mut iterations = 0;
     loop {
-        let mut info = assess(problem.h_init, p, u_z);
+        let mut info = assess(problem, p, u_z);
         info.iterations = iterations;
-        if info.gap <= params.tolerance && info.penetration <= params.tolerance {
+        let solved = info.gap <= params.tolerance && info.penetration <= params.tolerance;
+        if solved && is_balanced(problem, p) {
             return Ok(info);
         }
         if iterations == params.max_iterations || response.stopped() {
@@ -110,8 +115,15 @@ pub fn normal(
             });
         }
         iterations += 1;
+        if solved {
+            // The contact was too small for the moments when it was balanced last.
+            ws.response.copy_from_slice(p);
+            balance(problem, p);
+            add_response_of_change(response, p, u_z, ws);
+            continue;
+        }
 
-        let product = descend(response, problem, info.delta_z, p, u_z, ws, last_product);
+        let product = descend(response, problem, info.motion, p, u_z, ws, last_product);
         let (slope, curvature) = line(response, ws);
         if !(slope > 0.0 && curvature > 0.0) {
             ws.direction.fill(0.0);
@@ -131,18 +143,62 @@ pub fn normal(
             p.iter_mut()
                 .zip(&ws.direction)
                 .for_each(|(p, d)| *p = (*p + step * d).max(0.0));
-            balance(problem.sum_p, p);
+            balance(problem, p);
             add_response_of_change(response, p, u_z, ws);
         }
     }
 }
 
-/// Scales p to the sum asked for.
-fn balance(sum_p: f64, p: &mut [f64]) {
-    let factor = sum_p / p.iter().sum::<f64>();
-    for p in p {
-        *p *= factor;
+/// Rounds of weighting and cutting that bring the pressure to its loads.
+const ROUNDS: usize = 20;
+
+/// Scales p to the force asked for, or weights it with a rigid motion, p (1 + B m), to the force
+/// and the moments.
+fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
+    let Drive { free, sums, .. } = problem.drive;
+    if free == [false; 3] {
+        return;
     }
+    if free[0] {
+        let factor = sums[0] / p.iter().sum::<f64>();
+        for p in p.iter_mut() {
+            *p *= factor;
+        }
+    }
+    if free == [true, false, false] {
+        return;
+    }
+    let enough = 1e-14 * p.iter().sum::<f64>();
+    for _ in 0..ROUNDS {
+        let missing = missing(problem, p);
+        if missing.iter().all(|m| m.abs() <= enough) {
+            return;
+        }
+        let loaded = (0..p.len()).filter(|&n| p[n] > 0.0).map(|n| (n, p[n]));
+        let m = problem.arms.spread_across(free, loaded, missing);
+        for n in 0..p.len() {
+            p[n] *= (1.0 + problem.arms.across(m, n)).max(0.0);
+        }
+    }
+}
+
+/// The loads that the pressure lacks; zero for motions that are given.
+fn missing(problem: &NormalProblem<'_>, p: &[f64]) -> [f64; 3] {
+    let now = (0..p.len()).fold([0.0; 3], |s, n| add(s, problem.arms.sums_across(p[n], n)));
+    let Drive { free, sums, .. } = problem.drive;
+    std::array::from_fn(|k| if free[k] { sums[k] - now[k] } else { 0.0 })
+}
+
+/// Part of the load that may be missing at the end; rounding leaves far less.
+const BALANCED: f64 = 1e-10;
+
+/// Whether the pressure carries the moments; the force is met by construction.
+fn is_balanced(problem: &NormalProblem<'_>, p: &[f64]) -> bool {
+    if problem.drive.free[1..] == [false; 2] {
+        return true;
+    }
+    let enough = BALANCED * p.iter().sum::<f64>();
+    missing(problem, p).iter().all(|m| m.abs() <= enough)
 }
 
 /// Adds to `u_z` the response to the change of p from `ws.response`.
@@ -159,14 +215,18 @@ fn add_response_of_change(
     add_scaled(u_z, 1.0, &ws.response);
 }
 
-/// The approach (the mean of h_init + u_z over the contact) and what the equations miss.
-pub(crate) fn assess(h_init: &[f64], p: &[f64], u_z: &[f64]) -> NormalInfo {
-    let surface = |n: usize| u_z[n] + h_init[n];
-    let (delta_z, contact) = mean_where(p.len(), |n| p[n] > 0.0, surface);
-    let (mut squares, mut penetration) = (0.0, 0.0_f64);
+/// The motion (what fits h_init + u_z best over the contact) and what the equations miss.
+pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> NormalInfo {
+    let Drive { free, given, .. } = problem.drive;
+    let gap_at = |n: usize, motion| u_z[n] + problem.h_init[n] - problem.arms.across(motion, n);
+    let contact = (0..p.len()).filter(|&n| p[n] > 0.0);
+    let fitted = contact.map(|n| (n, 1.0, gap_at(n, given)));
+    let motion = add(given, problem.arms.fit_across(free, fitted));
+    let (mut squares, mut penetration, mut contact) = (0.0, 0.0_f64, 0_usize);
     for n in 0..p.len() {
-        let gap = surface(n) - delta_z;
+        let gap = gap_at(n, motion);
         if p[n] > 0.0 {
+            contact += 1;
             squares += gap * gap;
         } else {
             penetration = penetration.max(-gap);
@@ -174,7 +234,7 @@ pub(crate) fn assess(h_init: &[f64], p: &[f64], u_z: &[f64]) -> NormalInfo {
     }
     let gap = (squares / contact.max(1) as f64).sqrt();
     NormalInfo {
-        delta_z,
+        motion,
         gap,
         penetration,
         iterations: 0,
@@ -185,7 +245,7 @@ pub(crate) fn assess(h_init: &[f64], p: &[f64], u_z: &[f64]) -> NormalInfo {
 fn descend(
     response: &mut Response<'_>,
     problem: &NormalProblem<'_>,
-    delta_z: f64,
+    motion: [f64; 3],
     p: &[f64],
     u_z: &[f64],
     ws: &mut NormalWorkspace,
@@ -194,23 +254,24 @@ fn descend(
     let cells = p.len();
     std::mem::swap(&mut ws.residual, &mut ws.last_residual);
     for n in 0..cells {
-        let gap = u_z[n] + problem.h_init[n] - delta_z;
+        let gap = u_z[n] + problem.h_init[n] - problem.arms.across(motion, n);
         ws.residual[n] = if p[n] > 0.0 || gap < 0.0 { -gap } else { 0.0 };
     }
     response.invert_normal(&ws.residual, &mut ws.z);
     let enters = |n: usize| ws.residual[n] > 0.0;
-    let (mean_of_all, _) = mean_where(cells, |n| p[n] > 0.0 || enters(n), |n| ws.z[n]);
+    let arms = problem.arms;
+    let of_all = fit(problem, &ws.z, |n| p[n] > 0.0 || enters(n));
     // A cell without pressure that the direction would pull at stays out.
-    let free = |n: usize| p[n] > 0.0 || (enters(n) && ws.z[n] > mean_of_all);
-    let (mean, count) = mean_where(cells, free, |n| ws.z[n]);
-    let (mut product, mut fresh, mut sum) = (0.0, 0.0, 0.0);
     for n in 0..cells {
-        ws.free[n] = p[n] > 0.0 || (enters(n) && ws.z[n] > mean_of_all);
+        ws.free[n] = p[n] > 0.0 || (enters(n) && ws.z[n] > arms.across(of_all, n));
+    }
+    let of_free = fit(problem, &ws.z, |n| ws.free[n]);
+    let (mut product, mut fresh) = (0.0, 0.0);
+    for n in 0..cells {
         if ws.free[n] {
-            ws.z[n] -= mean;
+            ws.z[n] -= arms.across(of_free, n);
             product += ws.residual[n] * ws.z[n];
             fresh += (ws.residual[n] - ws.last_residual[n]) * ws.z[n];
-            sum += ws.direction[n];
         }
     }
     let beta = if last_product > 0.0 {
@@ -218,16 +279,19 @@ fn descend(
     } else {
         0.0
     };
-    let drift = beta * sum / count.max(1) as f64;
+    let drift = fit(problem, &ws.direction, |n| ws.free[n]);
     for n in 0..cells {
-        let d = ws.direction[n];
-        ws.direction[n] = if ws.free[n] {
-            ws.z[n] + beta * d - drift
-        } else {
-            0.0
-        };
+        let d = ws.direction[n] - arms.across(drift, n);
+        ws.direction[n] = if ws.free[n] { ws.z[n] + beta * d } else { 0.0 };
     }
     product
+}
+
+/// The free motion that fits a field best over the cells inside.
+fn fit(problem: &NormalProblem<'_>, field: &[f64], inside: impl Fn(usize) -> bool) -> [f64; 3] {
+    let cells = (0..field.len()).filter(|&n| inside(n));
+    let fitted = cells.map(|n| (n, 1.0, field[n]));
+    problem.arms.fit_across(problem.drive.free, fitted)
 }
 
 /// Slope and curvature of the energy along the direction; its response goes to the workspace.

@@ -3,10 +3,11 @@
 //! The Newton method hands over here when a step would raise the energy, which happens when many
 //! cells change between stick and slip at once. Y. Nesterov's acceleration with restart
 //! (B. O'Donoghue, E. Candes, Found. Comput. Math. 15 (2015) 715-732) on the convex set
-//! |q| <= g, sum q = T.
+//! |q| <= g, B^T q = loads.
 
 use super::Response;
 use super::admissible::{mark_circle, project};
+use super::rigid_motion::add;
 use super::shear::{Shear, TangentialProblem};
 
 type Pair = [Vec<f64>; 2];
@@ -33,28 +34,30 @@ impl ProjectedGradient {
     }
 
     /// Does `passes` iterations, one convolution each, and one more; sets the slip set to the cells
-    /// on the circle and returns the rigid shift \[m\], the multiplier of the force.
+    /// on the circle and returns the rigid motion \[m\], the multiplier of the loads.
     pub(crate) fn run(
         &mut self,
         response: &mut Response<'_>,
         problem: &TangentialProblem<'_>,
         shear: &mut Shear<'_>,
         passes: usize,
-    ) -> [f64; 2] {
+    ) -> [f64; 3] {
         let cells = problem.bound.len();
+        let given = problem.drive.given;
+        let no_slip = |c: usize, n: usize| problem.u_ref[c][n] + problem.arms.in_plane(given, n)[c];
         let mut stiffness = 1.0 / self.largest_compliance(response, problem);
         for c in 0..2 {
             self.ahead[c].copy_from_slice(shear.q[c]);
             self.u_ahead[c].copy_from_slice(shear.u[c]);
         }
         let mut momentum = 1.0_f64;
-        let mut shift = [0.0; 2];
+        let mut shift = [0.0; 3];
         for _ in 0..passes {
             for c in 0..2 {
                 self.q_last[c].copy_from_slice(shear.q[c]);
                 self.u_last[c].copy_from_slice(shear.u[c]);
                 for n in 0..cells {
-                    let slip = self.u_ahead[c][n] - problem.u_ref[c][n];
+                    let slip = self.u_ahead[c][n] - no_slip(c, n);
                     shear.q[c][n] = self.ahead[c][n] - stiffness * slip;
                 }
             }
@@ -74,7 +77,7 @@ impl ProjectedGradient {
                     let (change, response) = (self.ahead[c][n], shear.u[c][n]);
                     change_size += change * change;
                     curvature += change * response;
-                    let before = self.u_last[c][n] - problem.u_ref[c][n];
+                    let before = self.u_last[c][n] - no_slip(c, n);
                     descent += change * (before + 0.5 * response);
                     shear.u[c][n] = self.u_last[c][n] + response;
                 }
@@ -104,7 +107,7 @@ impl ProjectedGradient {
             }
         }
         mark_circle(problem, &shear.q, shear.slip);
-        shift.map(|s| -s / stiffness)
+        add(given, shift.map(|s| -s / stiffness))
     }
 
     /// Estimate of the largest eigenvalue of C_tt on the contact \[m/Pa\]: the largest displacement

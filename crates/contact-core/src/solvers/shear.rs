@@ -1,18 +1,29 @@
 //! What the tangential solvers are given, work on and end with.
 
-use super::vector::mean_where;
+use super::rigid_motion::{Arms, Drive, add};
 
-/// What is given: the friction bound, the reference of the slip, the force.
+/// What is given: the friction bound, the reference of the slip, what drives the shift.
 #[derive(Clone, Copy, Debug)]
 pub struct TangentialProblem<'a> {
     /// Largest shear g = mu p in each cell \[Pa\], zero outside the contact.
     pub bound: &'a [f64],
     /// Displacements that mean no slip, those of the last increment \[m\].
     pub u_ref: [&'a [f64]; 2],
-    /// Sum of the shear over the cells, T over the area of a cell \[Pa\].
-    pub sum_q: [f64; 2],
-    /// Whether each shift is free to balance its force; a fixed one is zero (by symmetry).
-    pub free: [bool; 2],
+    /// Where the cells are.
+    pub arms: &'a Arms,
+    /// Forces and torsional moment, or the motions of this increment where these are given.
+    pub drive: Drive,
+}
+
+impl TangentialProblem<'_> {
+    /// Sums of the shear over the cells \[Pa\]: forces, and the moment about z over the length.
+    pub(crate) fn sums(&self, q: &[&mut [f64]; 2]) -> [f64; 3] {
+        (0..self.bound.len())
+            .filter(|&n| self.bound[n] > 0.0)
+            .fold([0.0; 3], |sums, n| {
+                add(sums, self.arms.sums_in_plane([q[0][n], q[1][n]], n))
+            })
+    }
 }
 
 /// How the tangential problem is solved.
@@ -42,8 +53,8 @@ pub struct TangentialParams {
 /// What the tangential solver ended with.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TangentialInfo {
-    /// Rigid shift of this increment \[m\].
-    pub shift: [f64; 2],
+    /// Rigid motion of this increment: delta_x, delta_y, phi_z times the length \[m\].
+    pub shift: [f64; 3],
     /// Root-mean-square misfit \[m\].
     pub misfit: f64,
     /// Newton steps.
@@ -67,43 +78,34 @@ impl Shear<'_> {
     pub(crate) fn slip_of(
         &self,
         problem: &TangentialProblem<'_>,
-        shift: [f64; 2],
+        shift: [f64; 3],
         n: usize,
     ) -> [f64; 2] {
+        let rigid = problem.arms.in_plane(shift, n);
         [
-            self.u[0][n] - problem.u_ref[0][n] - shift[0],
-            self.u[1][n] - problem.u_ref[1][n] - shift[1],
+            self.u[0][n] - problem.u_ref[0][n] - rigid[0],
+            self.u[1][n] - problem.u_ref[1][n] - rigid[1],
         ]
     }
 }
 
 /// The shift that fits the stick cells best, or all contact cells where none sticks.
-pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 2] {
+pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 3] {
     let cells = problem.bound.len();
     let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slip[n];
     let any_sticks = (0..cells).any(sticks);
-    std::array::from_fn(|c| {
-        let mask = |n: usize| {
-            if any_sticks {
-                sticks(n)
-            } else {
-                problem.bound[n] > 0.0
-            }
-        };
-        let slip = |n: usize| shear.u[c][n] - problem.u_ref[c][n];
-        if problem.free[c] {
-            mean_where(cells, mask, slip).0
-        } else {
-            0.0
-        }
-    })
+    let given = problem.drive.given;
+    let fitted = (0..cells)
+        .filter(|&n| problem.bound[n] > 0.0 && (sticks(n) || !any_sticks))
+        .map(|n| (n, 1.0, shear.slip_of(problem, given, n)));
+    add(given, problem.arms.fit_in_plane(problem.drive.free, fitted))
 }
 
 /// q . ds in cell n, negative where friction dissipates \[Pa m\].
 pub(crate) fn power(
     problem: &TangentialProblem<'_>,
     shear: &Shear<'_>,
-    shift: [f64; 2],
+    shift: [f64; 3],
     n: usize,
 ) -> f64 {
     let slip = shear.slip_of(problem, shift, n);

@@ -110,7 +110,7 @@ pub(crate) fn shear_gradient(
 
 /// Root-mean-square violation of the slip conditions \[m\]: the slip of stick cells; of slip cells
 /// the part across q, and along q where friction would push. Also the sum of squares on stick.
-fn misfit(problem: &TangentialProblem<'_>, shear: &Shear<'_>, shift: [f64; 2]) -> (f64, f64) {
+fn misfit(problem: &TangentialProblem<'_>, shear: &Shear<'_>, shift: [f64; 3]) -> (f64, f64) {
     let (mut stick, mut slipping, mut count) = (0.0, 0.0, 0);
     for n in 0..problem.bound.len() {
         let g = problem.bound[n];

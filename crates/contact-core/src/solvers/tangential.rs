@@ -1,11 +1,11 @@
 //! The tangential problem: shear for known pressure.
 //!
 //! ```text
-//! minimise  1/2 q.C_tt q + q.w   over  |q| <= g = mu p,  sum of q dA = T
+//! minimise  1/2 q.C_tt q + q.w   over  |q| <= g = mu p,  sum of q dA = T, moment of q dA = M_z
 //! ```
 //!
-//! with w = C_tz p - u_ref: convex, its multiplier is the rigid shift d(delta), its gradient the
-//! slip ds = u - u_ref - d(delta). Eq. (7)-(8) and (20) of the paper are its optimality conditions.
+//! with w = C_tz p - u_ref: convex, its multiplier is the rigid motion d(delta), its gradient the
+//! slip ds = u - u_ref - d(delta). A motion that is given enters w, and its force has no constraint. Eq. (7)-(8) and (20) of the paper are its optimality conditions.
 //!
 //! A semi-smooth Newton method: on stick cells both components are free; on slip cells q = g e and
 //! only the motion along the circle is, where the constraint adds the diagonal |ds|/g. Each step is
@@ -70,7 +70,7 @@ pub fn tangential(
     params: &TangentialParams,
 ) -> Result<TangentialInfo, SolverError> {
     let root_of_contact = (problem.bound.iter().filter(|&&g| g > 0.0).count() as f64).sqrt();
-    ws.step.set_contact(problem.bound);
+    ws.step.set_contact(problem);
     let (c_xx, _) = response.op.self_coefficients();
     let negligible = SETTLED * params.tolerance / c_xx;
     let mut info = TangentialInfo {
@@ -136,7 +136,7 @@ fn rises(
         for n in 0..problem.bound.len() {
             let change = shear.q[c][n] - ws.q_before[c][n];
             let mean = 0.5 * (shear.u[c][n] + ws.u_before[c][n]) - problem.u_ref[c][n];
-            rise += change * mean;
+            rise += change * (mean - problem.arms.in_plane(problem.drive.given, n)[c]);
             moved += change.abs();
         }
     }
@@ -144,7 +144,7 @@ fn rises(
 }
 
 /// Stick cells beyond the bound start to slip; slip cells whose slip goes along q stick.
-fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 2]) {
+fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
     for n in 0..problem.bound.len() {
         shear.slip[n] = if shear.slip[n] {
             power(problem, shear, shift, n) <= 0.0
@@ -159,7 +159,7 @@ fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64
 fn release(
     problem: &TangentialProblem<'_>,
     shear: &mut Shear<'_>,
-    shift: [f64; 2],
+    shift: [f64; 3],
     tolerance: f64,
 ) -> usize {
     let mut released = 0;

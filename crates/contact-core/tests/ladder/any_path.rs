@@ -29,7 +29,7 @@ fn scene(points: &[(f64, f64)], increments: usize, n: usize) -> Scene {
             to: Loads {
                 W: load,
                 T_x,
-                T_y: 0.0,
+                ..Loads::default()
             },
             increments,
             // From nothing the contact grows like the cube root of W.

@@ -58,6 +58,7 @@ prop_compose! {
                     W: load,
                     T_x: x * mu * load,
                     T_y: y * mu * load,
+                    ..Loads::default()
                 },
                 increments,
                 spacing: Spacing::Uniform,
@@ -162,6 +163,7 @@ proptest! {
             W: l.W * force,
             T_x: l.T_x * force,
             T_y: l.T_y * force,
+            ..l
         });
         let ((ours, motion), (theirs, other)) = (end(&scene), end(&twin));
         prop_assert!(distance(&theirs.p, modulus, &ours.p, &theirs.p) < ALIKE);

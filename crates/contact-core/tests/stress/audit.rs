@@ -185,7 +185,7 @@ impl Audit {
 
 fn balance(march: &March, now: &Fields, increment: &Increment) -> f64 {
     let scene = march.scene();
-    let Loads { W, T_x, T_y } = increment.point.loads;
+    let Loads { W, T_x, T_y, .. } = increment.point.loads;
     let force = |f: &Array2<f64>| f.sum() * scene.grid.cell_area();
     let scale = if W > 0.0 { W } else { scene.path.W_max() };
     let friction = (scene.friction.mu * scale).max(f64::MIN_POSITIVE);

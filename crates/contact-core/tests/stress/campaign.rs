@@ -103,7 +103,10 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
     let (end, violations) = match (audited(scene, stop), drawn.intent) {
         (Ok(solved), Intent::Solve) => solved,
         (Ok(_), intent) => return (Fate::Failed(format!("solved in spite of {intent:?}")), None),
-        (Err(error @ Error::InvalidScene { .. }), Intent::PastFriction)
+        (
+            Err(error @ (Error::InvalidScene { .. } | Error::BeyondFriction { .. })),
+            Intent::PastFriction,
+        )
         | (Err(error @ Error::OffGrid { .. }), Intent::OffGrid) => {
             return (Fate::Refused(error.to_string()), None);
         }
@@ -143,6 +146,7 @@ fn twins_of(scene: &Scene) -> Vec<(&'static str, Scene, Back)> {
         W: l.W * force,
         T_x: l.T_x * force,
         T_y: l.T_y * force,
+        ..l
     });
     for body in [&mut scaled.body1, &mut scaled.body2] {
         if let contact_core::scene::Shape::Sphere { R } = &mut body.shape {

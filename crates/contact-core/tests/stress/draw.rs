@@ -204,6 +204,7 @@ fn path(rng: &mut Rng, mu: f64, W: f64) -> LoadPath {
             } else {
                 part * mu * W * angle.sin()
             },
+            ..Loads::default()
         };
         let part = 0.95 * rng.f64();
         let increments = rng.usize(1..7);
@@ -227,6 +228,7 @@ fn path(rng: &mut Rng, mu: f64, W: f64) -> LoadPath {
                     W,
                     T_x: at.T_x * (1.0 - 1e-6),
                     T_y: at.T_y * (1.0 - 1e-6),
+                    ..at
                 };
             }
             5 => {

@@ -37,21 +37,74 @@ impl From<core::Spacing> for Spacing {
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Branch(core::Branch);
 
+impl Branch {
+    /// A load, `None` where the motion is given instead.
+    fn load(&self, k: usize) -> Option<f64> {
+        let free = self.0.to.given.motions()[k].is_none();
+        free.then(|| self.0.to.forces()[k])
+    }
+}
+
 #[pymethods]
 impl Branch {
     #[getter]
-    fn W(&self) -> f64 {
-        self.0.to.W
+    fn W(&self) -> Option<f64> {
+        self.load(0)
     }
 
     #[getter]
-    fn T_x(&self) -> f64 {
-        self.0.to.T_x
+    fn M_x(&self) -> Option<f64> {
+        self.load(1)
     }
 
     #[getter]
-    fn T_y(&self) -> f64 {
-        self.0.to.T_y
+    fn M_y(&self) -> Option<f64> {
+        self.load(2)
+    }
+
+    #[getter]
+    fn T_x(&self) -> Option<f64> {
+        self.load(3)
+    }
+
+    #[getter]
+    fn T_y(&self) -> Option<f64> {
+        self.load(4)
+    }
+
+    #[getter]
+    fn M_z(&self) -> Option<f64> {
+        self.load(5)
+    }
+
+    #[getter]
+    fn delta_z(&self) -> Option<f64> {
+        self.0.to.given.delta_z
+    }
+
+    #[getter]
+    fn delta_x(&self) -> Option<f64> {
+        self.0.to.given.delta_x
+    }
+
+    #[getter]
+    fn delta_y(&self) -> Option<f64> {
+        self.0.to.given.delta_y
+    }
+
+    #[getter]
+    fn phi_x(&self) -> Option<f64> {
+        self.0.to.given.phi_x
+    }
+
+    #[getter]
+    fn phi_y(&self) -> Option<f64> {
+        self.0.to.given.phi_y
+    }
+
+    #[getter]
+    fn phi_z(&self) -> Option<f64> {
+        self.0.to.given.phi_z
     }
 
     #[getter]
@@ -70,13 +123,22 @@ impl Branch {
     }
 
     fn __repr__(&self) -> String {
-        let core::Branch {
-            to: core::Loads { W, T_x, T_y },
-            increments,
-            t_end,
-            ..
-        } = self.0;
-        format!("Branch(W={W:?}, T_x={T_x:?}, T_y={T_y:?}, increments={increments}, t={t_end:?})")
+        let given = self.0.to.given.motions();
+        let parts = (0..6).filter_map(|k| match (self.load(k), given[k]) {
+            (Some(load), _) if load != 0.0 || k == 0 => {
+                Some(format!("{}={load:?}", core::LOADS[k]))
+            }
+            (None, Some(motion)) if motion != 0.0 || k % 3 == 0 => {
+                Some(format!("{}={motion:?}", core::MOTIONS[k]))
+            }
+            _ => None,
+        });
+        format!(
+            "Branch({}, increments={}, t={:?})",
+            parts.collect::<Vec<_>>().join(", "),
+            self.0.increments,
+            self.0.t_end
+        )
     }
 }
 
@@ -85,14 +147,48 @@ impl Branch {
 #[derive(Clone, PartialEq)]
 pub(crate) struct LoadPath(pub(crate) core::LoadPath);
 
-/// One force or several to visit in turn.
+/// One value or several to visit in turn.
 #[derive(FromPyObject)]
 enum Values {
     One(f64),
     Several(Vec<f64>),
 }
 
+impl Values {
+    fn list(self) -> Vec<f64> {
+        match self {
+            Self::One(value) => vec![value],
+            Self::Several(values) => values,
+        }
+    }
+}
+
 impl LoadPath {
+    /// Appends a branch; `change` makes of each load and given motion the new ones.
+    fn branch(
+        &self,
+        increments: usize,
+        spacing: Spacing,
+        t: Option<f64>,
+        change: impl Fn(usize, f64, Option<f64>) -> (f64, Option<f64>),
+    ) -> Self {
+        let (at, t_before) = self
+            .0
+            .branches
+            .last()
+            .map_or_else(Default::default, |b| (b.to, b.t_end));
+        let (mut forces, mut motions) = (at.forces(), at.given.motions());
+        for k in 0..6 {
+            (forces[k], motions[k]) = change(k, forces[k], motions[k]);
+        }
+        Self(self.0.clone().branch(core::Branch {
+            to: core::Loads::from_forces(forces, core::Given::from_motions(motions)),
+            increments,
+            spacing: spacing.into(),
+            t_end: t.unwrap_or(t_before + 1.0),
+        }))
+    }
+
     fn column<'py>(
         &self,
         py: Python<'py>,
@@ -117,38 +213,54 @@ impl LoadPath {
 
     #[pyo3(signature = (T_x, *, increments))]
     fn tangential(&self, T_x: Values, increments: usize) -> Self {
-        let T_x = match T_x {
-            Values::One(T) => vec![T],
-            Values::Several(T) => T,
-        };
-        Self(self.0.clone().tangential(&T_x, increments))
+        Self(self.0.clone().tangential(&T_x.list(), increments))
     }
 
-    #[pyo3(signature = (*, W = None, T_x = None, T_y = None, increments, spacing = Spacing::Uniform, t = None))]
+    #[pyo3(signature = (M_z, *, increments))]
+    fn torsion(&self, M_z: Values, increments: usize) -> Self {
+        Self(self.0.clone().torsion(&M_z.list(), increments))
+    }
+
+    #[pyo3(signature = (*, W = None, T_x = None, T_y = None, M_x = None, M_y = None, M_z = None, increments, spacing = Spacing::Uniform, t = None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn force(
         &self,
         W: Option<f64>,
         T_x: Option<f64>,
         T_y: Option<f64>,
+        M_x: Option<f64>,
+        M_y: Option<f64>,
+        M_z: Option<f64>,
         increments: usize,
         spacing: Spacing,
         t: Option<f64>,
     ) -> Self {
-        let (at, t_before) = self
-            .0
-            .branches
-            .last()
-            .map_or_else(Default::default, |b| (b.to, b.t_end));
-        Self(self.0.clone().branch(core::Branch {
-            to: core::Loads {
-                W: W.unwrap_or(at.W),
-                T_x: T_x.unwrap_or(at.T_x),
-                T_y: T_y.unwrap_or(at.T_y),
-            },
-            increments,
-            spacing: spacing.into(),
-            t_end: t.unwrap_or(t_before + 1.0),
-        }))
+        let named = [W, M_x, M_y, T_x, T_y, M_z];
+        self.branch(increments, spacing, t, |k, load, motion| match named[k] {
+            Some(load) => (load, None),
+            None => (load, motion),
+        })
+    }
+
+    #[pyo3(signature = (*, delta_z = None, delta_x = None, delta_y = None, phi_x = None, phi_y = None, phi_z = None, increments, spacing = Spacing::Uniform, t = None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn displace(
+        &self,
+        delta_z: Option<f64>,
+        delta_x: Option<f64>,
+        delta_y: Option<f64>,
+        phi_x: Option<f64>,
+        phi_y: Option<f64>,
+        phi_z: Option<f64>,
+        increments: usize,
+        spacing: Spacing,
+        t: Option<f64>,
+    ) -> Self {
+        let named = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
+        self.branch(increments, spacing, t, |k, load, motion| match named[k] {
+            Some(motion) => (0.0, Some(motion)),
+            None => (load, motion),
+        })
     }
 
     #[getter]
@@ -174,6 +286,11 @@ impl LoadPath {
     #[getter]
     fn T_y<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |point| point.loads.T_y)
+    }
+
+    #[getter]
+    fn M_z<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |point| point.loads.M_z)
     }
 
     fn __len__(&self) -> usize {

@@ -7,8 +7,9 @@ use super::SCHEMA;
 use super::measure::{self, Measure};
 use super::section::{Fault, Section, count, pair};
 use crate::scene::{
-    Body, Branch, Coating, Elastic, Friction, Grid, KernelMethod, KernelSettings, LoadPath, Loads,
-    Preset, SaveFields, Scene, Settings, Shape, SkipSettings, SolverSettings, Spacing,
+    Body, Branch, Coating, Elastic, Friction, Given, Grid, KernelMethod, KernelSettings, LOADS,
+    LoadPath, Loads, MOTIONS, Preset, SaveFields, Scene, Settings, Shape, SkipSettings,
+    SolverSettings, Spacing,
 };
 
 const ROOT: [&str; 11] = [
@@ -157,14 +158,11 @@ fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
 
 /// The branches; loads that one does not name keep their value.
 fn path(root: &Section<'_>, mu: f64) -> Result<LoadPath, Fault> {
-    let keys = ["W", "T_x", "T_y", "increments", "t", "spacing"];
+    let keys = [&LOADS[..], &MOTIONS[..], &["increments", "t", "spacing"]].concat();
     let mut path = LoadPath::start();
     let (mut at, mut t) = (Loads::default(), 0.0);
     for section in root.sections("path", &keys)? {
-        at.W = section.number_or("W", at.W, &[])?;
-        let mu_W = [Measure::mu_W(mu * at.W)];
-        at.T_x = section.number_or("T_x", at.T_x, &mu_W)?;
-        at.T_y = section.number_or("T_y", at.T_y, &mu_W)?;
+        at = loads(&section, at, mu)?;
         let t_end = section.number_or("t", t + 1.0, &[])?;
         t = t_end;
         path = path.branch(Branch {
@@ -181,6 +179,39 @@ fn path(root: &Section<'_>, mu: f64) -> Result<LoadPath, Fault> {
         });
     }
     Ok(path)
+}
+
+/// The loads and motions of a branch. Naming a load sets its motion free, naming a motion gives it.
+fn loads(section: &Section<'_>, at: Loads, mu: f64) -> Result<Loads, Fault> {
+    let (mut forces, mut motions) = (at.forces(), at.given.motions());
+    for (k, (load, motion)) in LOADS.into_iter().zip(MOTIONS).enumerate() {
+        let mu_W = [Measure::mu_W(mu * forces[0])];
+        let measures = if load.starts_with('T') {
+            &mu_W[..]
+        } else {
+            &[]
+        };
+        match (section.get(load), section.get(motion)) {
+            (Some(_), Some(_)) => {
+                let key = section.path(motion);
+                let message = format!(
+                    "{} and {key} are both given: the one follows from the other",
+                    section.path(load)
+                );
+                return Err(Fault::new(key, message));
+            }
+            (Some(_), None) => {
+                forces[k] = section.number(load, "a load", measures)?;
+                motions[k] = None;
+            }
+            (None, Some(_)) => {
+                forces[k] = 0.0;
+                motions[k] = Some(section.number(motion, "a motion", &[])?);
+            }
+            (None, None) => {}
+        }
+    }
+    Ok(Loads::from_forces(forces, Given::from_motions(motions)))
 }
 
 fn settings(root: &Section<'_>) -> Result<Settings, Fault> {

@@ -376,3 +376,24 @@ fn hostile_text_is_survived() {
     }
     assert!(good > 100 && bad > 100, "{good} good, {bad} bad");
 }
+
+#[test]
+fn a_branch_gives_loads_or_motions() {
+    let scene = changed("T_x = { mu_W = 0.9 }", "delta_x = 1e-6\nM_z = 0.5").unwrap();
+    let to = scene.path.branches[1].to;
+    assert_eq!(
+        to.given.motions(),
+        [None, Some(0.0), Some(0.0), Some(1e-6), None, None]
+    );
+    assert_eq!((to.W, to.T_x, to.M_z), (1000.0, 0.0, 0.5));
+    assert_eq!(
+        Scene::from_toml_str(&scene.to_toml(), FILE, &[]).unwrap(),
+        scene
+    );
+    let points = scene.path.points();
+    assert!(points[10].loads.T_x.is_nan() && points[19].loads.M_z.to_bits() == 0.5_f64.to_bits());
+    let both = changed("T_x = { mu_W = 0.9 }", "T_x = 10.0\ndelta_x = 1e-6");
+    assert_refused(both, 33, &["path[1].T_x", "path[1].delta_x", "both given"]);
+    let lifted = changed("T_x = { mu_W = 0.9 }", "W = 0.0\nM_y = 0.5");
+    assert_refused(lifted, 33, &["path[1].M_y = 0.5", "W = 0"]);
+}

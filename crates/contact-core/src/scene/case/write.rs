@@ -5,7 +5,9 @@ use std::fmt::Write as _;
 use toml::Value;
 
 use super::SCHEMA;
-use crate::scene::{Body, Elastic, KernelMethod, Preset, SaveFields, Scene, Shape, Spacing};
+use crate::scene::{
+    Body, Elastic, KernelMethod, LOADS, MOTIONS, Preset, SaveFields, Scene, Shape, Spacing,
+};
 
 impl Scene {
     /// The scene in the format of the scene file, every number in SI, nothing left to a default.
@@ -28,12 +30,14 @@ impl Scene {
         line(format_args!("\n[grid]\nn = [{}, {}]", grid.nx, grid.ny));
         line(format_args!("spacing = [{:?}, {:?}]", grid.dx, grid.dy));
         for branch in &self.path.branches {
-            let to = branch.to;
+            let (forces, motions) = (branch.to.forces(), branch.to.given.motions());
             line(format_args!("\n[[path]]"));
-            line(format_args!(
-                "W = {:?}\nT_x = {:?}\nT_y = {:?}",
-                to.W, to.T_x, to.T_y
-            ));
+            for k in 0..6 {
+                match motions[k] {
+                    None => line(format_args!("{} = {:?}", LOADS[k], forces[k])),
+                    Some(motion) => line(format_args!("{} = {motion:?}", MOTIONS[k])),
+                }
+            }
             line(format_args!("increments = {}", branch.increments));
             line(format_args!("t = {:?}", branch.t_end));
             let spacing = match branch.spacing {

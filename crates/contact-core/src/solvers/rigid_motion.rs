@@ -1,0 +1,211 @@
+//! Rigid motions of body 1 against body 2, each free to balance its load or given.
+//!
+//! Three lie in the contact plane, three across it. A motion m displaces cell n by B m:
+//!
+//! ```text
+//! in the plane      delta_x, delta_y, phi_z     B m = (m_0 - y m_2, m_1 + x m_2)
+//! across it         delta_z, phi_x, phi_y       B m = m_0 + y m_1 - x m_2
+//! ```
+//!
+//! and the sums of B^T times the traction are its forces and moments. Rotations are multiplied by
+//! the length that x and y are divided by, so that every m is a length and every sum a traction.
+
+/// Lever arms: where the cells are.
+#[derive(Clone, Debug, Default)]
+pub struct Arms {
+    /// The length \[m\] that x and y are measured in, and that turns rotations into lengths.
+    pub length: f64,
+    /// x of each cell over `length`.
+    pub x: Vec<f64>,
+    /// y of each cell over `length`.
+    pub y: Vec<f64>,
+}
+
+impl Arms {
+    /// B m in the plane at cell n \[m\].
+    pub(crate) fn in_plane(&self, m: [f64; 3], n: usize) -> [f64; 2] {
+        [m[0] - self.y[n] * m[2], m[1] + self.x[n] * m[2]]
+    }
+
+    /// B m across the plane at cell n \[m\].
+    pub(crate) fn across(&self, m: [f64; 3], n: usize) -> f64 {
+        m[0] + self.y[n] * m[1] - self.x[n] * m[2]
+    }
+
+    /// B^T q in the plane, of cell n.
+    pub(crate) fn sums_in_plane(&self, q: [f64; 2], n: usize) -> [f64; 3] {
+        [q[0], q[1], self.x[n] * q[1] - self.y[n] * q[0]]
+    }
+
+    /// B^T p across the plane, of cell n.
+    pub(crate) fn sums_across(&self, p: f64, n: usize) -> [f64; 3] {
+        [p, self.y[n] * p, -self.x[n] * p]
+    }
+
+    /// The motion within `free` that fits `value` best in the sum of `weight` times squares over
+    /// the cells of the plane; weights of zero leave cells out.
+    pub(crate) fn fit_in_plane(
+        &self,
+        free: [bool; 3],
+        cells: impl Iterator<Item = (usize, f64, [f64; 2])>,
+    ) -> [f64; 3] {
+        let mut fit = Fit::default();
+        for (n, weight, value) in cells {
+            let (x, y) = (self.x[n], self.y[n]);
+            fit.add([1.0, 0.0, -y], weight, value[0]);
+            fit.add([0.0, 1.0, x], weight, value[1]);
+        }
+        fit.solve(free)
+    }
+
+    /// The same across the plane.
+    pub(crate) fn fit_across(
+        &self,
+        free: [bool; 3],
+        cells: impl Iterator<Item = (usize, f64, f64)>,
+    ) -> [f64; 3] {
+        let mut fit = Fit::default();
+        if free == [true, false, false] {
+            for (_, weight, value) in cells {
+                fit.matrix[0][0] += weight;
+                fit.sums[0] += weight * value;
+            }
+        } else {
+            for (n, weight, value) in cells {
+                fit.add([1.0, self.y[n], -self.x[n]], weight, value);
+            }
+        }
+        fit.solve(free)
+    }
+
+    /// The motion m within `free` with which the weights times B m have the sums asked for.
+    pub(crate) fn spread_across(
+        &self,
+        free: [bool; 3],
+        weights: impl Iterator<Item = (usize, f64)>,
+        sums: [f64; 3],
+    ) -> [f64; 3] {
+        let mut fit = Fit::default();
+        for (n, weight) in weights {
+            fit.add([1.0, self.y[n], -self.x[n]], weight, 0.0);
+        }
+        fit.sums = sums;
+        fit.solve(free)
+    }
+}
+
+/// What drives three motions that belong together.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Drive {
+    /// Whether each motion is free to balance its load.
+    pub free: [bool; 3],
+    /// Sums of the traction that free motions balance \[Pa\]; zero where the motion is given.
+    pub sums: [f64; 3],
+    /// Motions that are given \[m\]; zero where they are free.
+    pub given: [f64; 3],
+}
+
+/// Normal equations of a motion.
+#[derive(Default)]
+struct Fit {
+    matrix: [[f64; 3]; 3],
+    sums: [f64; 3],
+}
+
+impl Fit {
+    fn add(&mut self, row: [f64; 3], weight: f64, value: f64) {
+        for k in 0..3 {
+            let part = weight * row[k];
+            self.sums[k] += part * value;
+            for l in 0..3 {
+                self.matrix[k][l] += part * row[l];
+            }
+        }
+    }
+
+    fn solve(&self, free: [bool; 3]) -> [f64; 3] {
+        product(&inverse(self.matrix, free), self.sums)
+    }
+}
+
+/// Part of a diagonal entry below which what elimination leaves of it is rounding.
+const PIVOT: f64 = 1e-13;
+
+/// Inverse of a symmetric positive semidefinite matrix on the motions that are free and that it
+/// determines, zero on the others.
+pub(crate) fn inverse(matrix: [[f64; 3]; 3], free: [bool; 3]) -> [[f64; 3]; 3] {
+    let mut a = matrix;
+    let mut kept = [false; 3];
+    for k in 0..3 {
+        let pivot = a[k][k];
+        if !free[k] || pivot <= PIVOT * matrix[k][k] {
+            continue;
+        }
+        kept[k] = true;
+        for j in 0..3 {
+            a[k][j] /= if j == k { pivot * pivot } else { pivot };
+        }
+        for i in (0..3).filter(|&i| i != k) {
+            let factor = a[i][k];
+            for j in (0..3).filter(|&j| j != k) {
+                a[i][j] -= factor * a[k][j];
+            }
+            a[i][k] = -factor / pivot;
+        }
+    }
+    for k in 0..3 {
+        for l in 0..3 {
+            if !(kept[k] && kept[l]) {
+                a[k][l] = 0.0;
+            }
+        }
+    }
+    a
+}
+
+/// Matrix times vector.
+pub(crate) fn product(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| (0..3).map(|l| matrix[k][l] * v[l]).sum())
+}
+
+/// a + b
+pub(crate) fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Arms, inverse, product};
+
+    #[test]
+    fn the_inverse_is_that_of_the_free_part() {
+        let a = [[4.0, 1.0, 0.5], [1.0, 3.0, -0.2], [0.5, -0.2, 2.0]];
+        let b = inverse(a, [true; 3]);
+        for v in [[1.0, 2.0, 3.0], [-1.0, 0.5, 0.0]] {
+            let back = product(&b, product(&a, v));
+            assert!((0..3).all(|k| (back[k] - v[k]).abs() < 1e-14), "{back:?}");
+        }
+        let b = inverse(a, [true, false, true]);
+        let det = 4.0 * 2.0 - 0.25;
+        assert!((b[0][0] - 2.0 / det).abs() < 1e-15 && b[1] == [0.0; 3]);
+        assert!((b[0][2] + 0.5 / det).abs() < 1e-15);
+        // Twice the same motion: one of them is left out.
+        let b = inverse([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0; 3]], [true; 3]);
+        assert_eq!(b, [[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]);
+    }
+
+    #[test]
+    fn a_rigid_motion_is_found_again() {
+        let arms = Arms {
+            length: 1.0,
+            x: vec![0.0, 1.0, -1.0, 2.0],
+            y: vec![0.5, 0.0, 1.0, -3.0],
+        };
+        let m = [0.3, -0.2, 0.7];
+        let plane = arms.fit_in_plane([true; 3], (0..4).map(|n| (n, 1.5, arms.in_plane(m, n))));
+        let across = arms.fit_across([true; 3], (0..4).map(|n| (n, 0.5, arms.across(m, n))));
+        for k in 0..3 {
+            assert!((plane[k] - m[k]).abs() < 1e-14 && (across[k] - m[k]).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! Tilting moments: flat and conformal contacts.
+
+use crate::bench::{R, STEEL, W, close, hertz_of, indentation, run, sphere_on_flat};
+
+#[test]
+fn a_moment_moves_the_contact_of_a_sphere() {
+    // A tilted paraboloid is a shifted one: the contact follows the force's line of action.
+    let (e_x, e_y) = (0.31, -0.22);
+    let scene = sphere_on_flat(STEEL, STEEL, 0.0, (3.2, 64), indentation(3));
+    let a = hertz_of(&scene).a;
+    let mut tilted = scene.clone();
+    tilted.path = indentation(1).to(
+        |to| {
+            to.given.phi_x = None;
+            to.given.phi_y = None;
+            to.M_x = W * e_y * a;
+            to.M_y = -W * e_x * a;
+        },
+        3,
+    );
+    let increments = run(&tilted, |_, _| ());
+    let end = increments.last().expect("an increment");
+    let straight = run(&scene, |_, _| ());
+    let reference = straight.last().expect("an increment");
+    // Rolled to (e_x, e_y): phi_y = -e_x/R, phi_x = e_y/R, and the approach is lower by e^2/(2R).
+    close("phi_y", end.motion.phi_y * R / a, -e_x, 2e-3);
+    close("phi_x", end.motion.phi_x * R / a, e_y, 2e-3);
+    let lowered = (e_x * e_x + e_y * e_y) * a * a / (2.0 * R);
+    close(
+        "delta_z",
+        (end.motion.delta_z + lowered) / reference.motion.delta_z,
+        1.0,
+        2e-3,
+    );
+    for i in &increments {
+        assert!(i.residuals.balance < 1e-9, "{:e}", i.residuals.balance);
+        assert!(i.residuals.energy.abs() < 1e-6, "{:e}", i.residuals.energy);
+    }
+}
