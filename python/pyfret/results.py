@@ -27,6 +27,7 @@ SUMMED = frozenset(
         "alternations",
         "normal_iterations",
         "tangential_iterations",
+        "parts",
     )
 )
 

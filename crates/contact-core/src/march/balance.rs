@@ -47,6 +47,7 @@ impl March {
                 alternations: info.alternations,
                 normal_iterations: info.normal_iterations,
                 tangential_iterations: info.tangential_iterations,
+                parts: 1,
             },
         };
         self.keep(point, now, motion, increment.energy.work);
@@ -167,9 +168,9 @@ impl March {
         let cells = now.p.len();
         let before = &self.state.interface.u;
         let gap = |n: usize| now.u_z[n] + self.h_init[n] - self.arms.across(info.approach, n);
-        let [contact, slipping, gap_squares, stick, direction] = sum_cells(cells, |n| {
+        let [contact, slipping, gap_squares, stick, direction, slipped] = sum_cells(cells, |n| {
             if now.p[n] <= 0.0 {
-                return [0.0; 5];
+                return [0.0; 6];
             }
             let shift = self.arms.in_plane(info.shift, n);
             let slip: [f64; 2] = std::array::from_fn(|c| now.u[c][n] - before[c][n] - shift[c]);
@@ -178,9 +179,9 @@ impl March {
                 let e = [now.q[0][n], now.q[1][n]].map(|q| q / (mu * now.p[n]));
                 let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
                 let off = [slip[0] - along * e[0], slip[1] - along * e[1]];
-                [1.0, 1.0, gap(n).powi(2), 0.0, square(off)]
+                [1.0, 1.0, gap(n).powi(2), 0.0, square(off), square(slip)]
             } else {
-                [1.0, 0.0, gap(n).powi(2), square(slip), 0.0]
+                [1.0, 0.0, gap(n).powi(2), square(slip), 0.0, 0.0]
             }
         });
         let p_max = largest(cells, |n| now.p[n]);
@@ -194,6 +195,9 @@ impl March {
         let rms = |squares: f64, count: f64| (squares / count.max(1.0)).sqrt();
         r.gap = rms(gap_squares, contact) / self.approach;
         r.penetration /= self.approach;
+        if slipped > 0.0 {
+            r.angle = (direction / slipped).sqrt().min(1.0).asin();
+        }
         if mu > 0.0 {
             r.stick = rms(stick, contact - slipping) / (mu * self.approach);
             r.direction = rms(direction, slipping) / (mu * self.approach);

@@ -84,6 +84,9 @@ pub struct Residuals {
     pub stick: f64,
     /// Root-mean-square part of the slip that is not opposite to q, over mu times the approach.
     pub direction: f64,
+    /// Angle between the slip and the shear that it opposes, root mean square over the slip
+    /// cells, each with the square of its slip \[rad\].
+    pub angle: f64,
     /// Largest relative error of the force balances.
     pub balance: f64,
     /// Energy imbalance over the work done so far.
@@ -101,6 +104,8 @@ pub struct Work {
     pub normal_iterations: usize,
     /// Conjugate-gradient iterations of the tangential solver.
     pub tangential_iterations: usize,
+    /// Pieces that the increment was solved in: more than one if it did not converge whole.
+    pub parts: usize,
 }
 
 /// One increment of the load path: scalars, residuals, work.

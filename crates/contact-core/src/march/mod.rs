@@ -2,6 +2,7 @@
 
 mod balance;
 mod fields;
+mod halving;
 mod increment;
 mod predict;
 mod solve;
@@ -145,7 +146,8 @@ impl March {
         &self.state
     }
 
-    /// Computes the next increment; `None` at the end of the path.
+    /// Computes the next increment, in pieces if it does not converge; `None` at the end of the
+    /// path.
     ///
     /// After an error the state is that of the last increment that was solved.
     pub fn advance(&mut self) -> Option<Result<Increment, Error>> {
@@ -154,7 +156,7 @@ impl March {
         let state = &self.state;
         let point = point.resolved(end, state.loads.forces(), state.motion.motions());
         // On a thread of the pool, so that the others are a steal away and not a wake-up.
-        Some(rayon::scope(|_| self.increment(&point)))
+        Some(rayon::scope(|_| self.reach(&point)))
     }
 
     /// One increment: predict, solve, account, keep.
@@ -350,7 +352,8 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
             } else {
                 TangentialMethod::Newton
             },
-            tolerance: TANGENTIAL_SHARE * scene.friction.mu * gap,
+            // What the shear misses acts on the gap, however large mu is.
+            tolerance: TANGENTIAL_SHARE * scene.friction.mu.min(1.0) * gap,
             max_iterations: solver.max_iterations,
             forcing: 0.2,
             max_passes: 12,

@@ -226,6 +226,12 @@ pub const SCALARS: &[Scalar] = &[
         |i| i.residuals.direction,
     ),
     real(
+        "residual_angle",
+        "rad",
+        "root-mean-square angle between slip and the shear it opposes",
+        |i| i.residuals.angle,
+    ),
+    real(
         "residual_balance",
         "1",
         "largest relative error of the force balances",
@@ -256,6 +262,9 @@ pub const SCALARS: &[Scalar] = &[
         "iterations of the tangential solver",
         |i| i.work.tangential_iterations as f64,
     ),
+    count("parts", "pieces that the increment was solved in", |i| {
+        i.work.parts as f64
+    }),
 ];
 
 const fn real_field(

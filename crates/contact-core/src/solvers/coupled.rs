@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::admissible::admissible;
 use super::limit::{Sliding, exceeds, sliding};
+use super::mixing::Mixing;
 use super::rigid_motion::{Arms, Drive, add};
 use super::shear_gradient::shear_gradient;
 use super::vector::{add_scaled, size};
@@ -130,6 +131,7 @@ pub struct CoupledWorkspace {
     q_before: [Vec<f64>; 2],
     change: [Vec<f64>; 2],
     response: [Vec<f64>; 2],
+    mixing: Mixing,
 }
 
 impl CoupledWorkspace {
@@ -145,6 +147,7 @@ impl CoupledWorkspace {
             q_before: pair(),
             change: pair(),
             response: pair(),
+            mixing: Mixing::new(cells),
         }
     }
 }
@@ -162,6 +165,7 @@ pub fn coupled(
     let mut info = CoupledInfo::default();
     let mut slides = make_admissible(problem, now, ws, friction);
     now.evaluate(response, friction);
+    ws.mixing.restart();
     loop {
         info.alternations += 1;
 
@@ -236,12 +240,15 @@ pub fn coupled(
                 changed |= *change != 0.0;
             }
         }
-        if !changed {
+        if changed {
+            let [change_x, change_y] = &ws.change;
+            response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
+        } else if ws.mixing.mixes() {
+            ws.response[0].fill(0.0);
+        } else {
             return Ok(info);
         }
-        let [change_x, change_y] = &ws.change;
-        response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
-        add_scaled(&mut now.u_z, 1.0, &ws.response[0]);
+        ws.mixing.settle(&ws.response[0], &mut now.u_z);
         let check = super::normal::assess(&gap, &now.p, &now.u_z);
         info.approach = check.motion;
         let residual = check.gap.max(check.penetration);
@@ -256,6 +263,7 @@ pub fn coupled(
                 iterations: info.alternations,
             });
         }
+        ws.mixing.mix(&now.p, &mut now.u_z);
     }
 }
 

@@ -12,6 +12,7 @@ mod admissible;
 mod contact_cells;
 mod coupled;
 mod limit;
+mod mixing;
 mod newton_step;
 mod normal;
 mod projected_gradient;

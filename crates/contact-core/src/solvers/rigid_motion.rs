@@ -190,7 +190,7 @@ mod tests {
         }
         let b = inverse(a, [true, false, true]);
         let det = 4.0 * 2.0 - 0.25;
-        assert!((b[0][0] - 2.0 / det).abs() < 1e-15 && b[1] == [0.0; 3]);
+        assert!((b[0][0] - 2.0 / det).abs() < 1e-15 && b[1].iter().all(|b| b.abs() <= 0.0));
         assert!((b[0][2] + 0.5 / det).abs() < 1e-15);
         // Twice the same motion: one of them is left out.
         let b = inverse([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0; 3]], [true; 3]);

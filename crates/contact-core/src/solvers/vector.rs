@@ -78,7 +78,9 @@ fn sums_of<const K: usize>(
     }
     (n..cells.end).for_each(|n| add(&mut lanes[0], term(n)));
     let [mut total, rest @ ..] = lanes;
-    rest.into_iter().for_each(|lane| add(&mut total, lane));
+    for lane in rest {
+        add(&mut total, lane);
+    }
     total
 }
 
