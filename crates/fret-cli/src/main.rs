@@ -8,6 +8,7 @@
 mod check;
 mod progress;
 mod run;
+mod stress;
 mod summary;
 
 use std::io::Write;
@@ -34,6 +35,8 @@ enum Command {
     Run(run::Options),
     /// Say what a scene means and what its solution needs; solve nothing
     Check(SceneOptions),
+    /// Stress below the contact of a result: its largest values, and files of it
+    Stress(stress::Options),
 }
 
 /// A scene file and what is changed in it.
@@ -76,6 +79,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Run(options) => run::run(&options),
         Command::Check(options) => check::check(&options),
+        Command::Stress(options) => stress::stress(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,4 +1,5 @@
-//! Stage 6: WHAT FOLLOWS from the tractions below the surface: stress and displacement.
+//! Stage 6: WHAT FOLLOWS from the tractions below the surface: stress and displacement; energy of
+//! the loops.
 //!
 //! Three ways to ask, each computing that and nothing else: [`Section`], lines along x or y at any
 //! depths, by one-dimensional transforms; [`Slices`], whole planes parallel to the surface, by
@@ -14,14 +15,26 @@
 //! is integrated over the cell.
 
 mod depth;
+mod derived;
+mod energy;
+mod envelope;
 mod loads;
+mod maximum;
 mod parity;
 mod points;
 mod section;
 mod slices;
+mod stream;
 
 pub use depth::{Depth, Side, depths};
-
+pub use derived::{
+    MEASURES, Measure, Principal, StressTensor, hydrostatic, measure_named, principal,
+    principal_values, tresca, von_mises,
+};
+pub use energy::{Cycle, Direction, cycles, loops};
+pub use envelope::{DepthEnvelope, Envelope, Extremes};
+pub use maximum::{Maximum, maximum};
 pub use points::{Point, Points};
 pub use section::{Line, Section};
 pub use slices::Slices;
+pub use stream::{Accumulate, Moment, Stream};

@@ -141,7 +141,7 @@ impl Points {
             let from_y = y - middle(j, patch.start.1, n.1, d.1);
             for i in 0..patch.columns {
                 let q = rows.map(|row| row[i]);
-                if q == [0.0; 3] {
+                if q.iter().all(|q| *q == 0.0) {
                     continue;
                 }
                 let from_x = x - middle(i, patch.start.0, n.0, d.0);

@@ -81,7 +81,7 @@ impl Section {
         };
         let plane = Plane::new(grid, exchanged);
         let half = plane.n.1 as f64 * plane.d.1 / 2.0;
-        if !(at.abs() <= half * (1.0 + 1e-9)) {
+        if at.is_nan() || at.abs() > half * (1.0 + 1e-9) {
             let key = if exchanged { "x" } else { "y" };
             return Err(Error::invalid(
                 key,
@@ -113,15 +113,18 @@ impl Section {
         self.gather::<Displacement, 5, 3>(depths)
     }
 
-    /// Hands the stresses of all states on a line to `f` as soon as they are known, depths in
-    /// parallel: arrays of shape (6, cells along the line).
-    pub fn map_stress<T: Send>(
+    /// Hands the stresses of all states on each line, of shape (6, cells along the line), to `f`
+    /// as soon as they are known, with what it keeps of that depth; depths in parallel.
+    pub fn pass_stress<T: Send>(
         &self,
         depths: &[Depth],
-        f: impl Fn(Depth, &[Array2<f64>]) -> T + Sync,
-    ) -> Result<Vec<T>, Error> {
-        let at = |depth: &Depth| Ok(f(*depth, &self.at::<Stress, 10, 6>(*depth)?));
-        depths.par_iter().map(at).collect()
+        kept: &mut [T],
+        f: impl Fn(&mut T, &[Array2<f64>]) + Sync,
+    ) -> Result<(), Error> {
+        depths.par_iter().zip(kept).try_for_each(|(depth, kept)| {
+            f(kept, &self.at::<Stress, 10, 6>(*depth)?);
+            Ok(())
+        })
     }
 
     fn gather<Q: Quantity<N, R>, const N: usize, const R: usize>(
@@ -324,12 +327,15 @@ impl Rows {
     }
 }
 
+/// Row and column of a kernel's entry.
+type Entry = (usize, usize);
+
 /// The kernel's entries that meet loads, by their parity along the line.
 fn needed<Q: Quantity<N, R>, const N: usize, const R: usize>(
     pair: &RowPair,
-) -> (Vec<(usize, usize)>, Vec<(usize, usize)>) {
+) -> (Vec<Entry>, Vec<Entry>) {
     let entries = (0..R).flat_map(|row| (0..3).map(move |column| (row, column)));
-    let meets = |&(row, column): &(usize, usize)| {
+    let meets = |&(row, column): &Entry| {
         let across = usize::from(Q::is_odd(row, column).1);
         !pair.spectra[column][across].is_empty()
     };

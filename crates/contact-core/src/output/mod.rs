@@ -7,15 +7,24 @@
 //! [`StoreWriter`] appends while the run goes on. Every file is replaced as a whole, the
 //! consolidated metadata last: whoever reads it, or is left with it after a crash, sees the store
 //! as it was at one moment.
+//!
+//! Stress below the surface goes to a group of its own ([`StressStore`]) or to VTK image data
+//! ([`ImageData`]), volumes plane by plane while they are computed ([`write_volume`]).
 
 mod catalogue;
 mod folder;
+mod image_data;
 mod reader;
+mod stress_store;
 mod variable;
+mod volume;
 mod writer;
 
 pub use catalogue::{FIELDS, Field, FieldView, Kind, SCALARS, Scalar};
+pub use image_data::ImageData;
 pub use reader::Store;
+pub use stress_store::StressStore;
+pub use volume::{VolumeMaximum, VolumeSink, write_volume};
 pub use writer::StoreWriter;
 
 /// The version of the store's layout.
