@@ -5,7 +5,8 @@
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::fields::{
-    Direction, Envelope, Line, Section, Side, Slices, Stream, cycles, depths, loops, measure_named,
+    Direction, Envelope, Line, LoopPoint, Section, Side, Slices, Stream, cycles, depths, loops,
+    measure_named,
 };
 use contact_core::march::{Increment, March, Observer, Status, solve};
 use contact_core::output::{ImageData, StressStore, write_volume};
@@ -40,7 +41,12 @@ fn loops_are_mindlins() {
         let increments = solve(&scene, &mut ()).unwrap();
         let found = cycles(&scene.path);
         assert_eq!(found, [(2, 3)]);
-        let cycle = loops(&increments, &found, Direction::X)[0];
+        let history: Vec<_> = increments
+            .iter()
+            .map(|i| LoopPoint::new(i, Direction::X))
+            .collect();
+        let cycle = loops(&scene.path, &history)[0];
+        assert_eq!(loops(&scene.path, &history[..history.len() - 1]), []);
         let closed = CattaneoMindlin::new(scene.hertz().unwrap(), STEEL, STEEL, MU);
         let close = |ours: f64, exact: f64, tolerance: f64, what: &str| {
             assert!(

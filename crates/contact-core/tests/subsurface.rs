@@ -214,6 +214,44 @@ fn surface_values_are_the_tractions_and_the_surface_displacement() {
     }
 }
 
+/// Between two rows of equal loads the surface stress is as continuous as through their middles.
+#[test]
+fn surface_stress_on_a_border_is_the_mean_of_both_sides() {
+    let body = coated();
+    let grid = Grid::from_spacing((21, 22), (1.0, 0.3)).unwrap();
+    let smooth = |x: f64, y: f64| (1.0 - (x / 8.0).powi(2) - (y / 2.7).powi(2)).max(0.0);
+    let (p, q_x) = (grid.map(smooth), grid.map(|x, y| 0.2 * smooth(x, y)));
+    let state = Tractions {
+        q_x: q_x.as_slice(),
+        q_y: None,
+        p: p.as_slice(),
+    };
+    let top = [Depth { z: 0.0, layer: 0 }];
+    let on = |y: f64| {
+        let section = Section::new(&body, Side::Body2, &grid, Line::AlongX(y), &[state]);
+        section.unwrap().stress(&top).unwrap().remove(0)
+    };
+    let (border, middle) = (on(0.0), on(grid.y(11)));
+    let points = Points::new(&body, Side::Body2, &grid, &[state]).unwrap();
+    // y = 0.9 is a border; in tenths of the cell it is not a whole number.
+    for y in [0.0, 3.0 * 0.3] {
+        let line = on(y);
+        for i in 4..17 {
+            let point = points.stress(&[(grid.x(i), y, top[0])]).unwrap()[0][0];
+            for c in 0..6 {
+                assert!((line[(c, 0, i)] - point[c]).abs() < 1e-11, "{y} {i} {c}");
+            }
+        }
+    }
+    for i in 4..17 {
+        for c in 0..6 {
+            // The fields change by a few per mille over half a cell.
+            let step = (border[(c, 0, i)] - middle[(c, 0, i)]).abs();
+            assert!(step < 0.02, "component {c} at {i}: {step:.1e}");
+        }
+    }
+}
+
 #[test]
 fn what_must_be_continuous_across_interfaces_is() {
     let body = coated();

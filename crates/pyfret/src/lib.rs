@@ -16,6 +16,7 @@ mod operator;
 mod reference;
 mod result;
 mod scene;
+mod subsurface;
 
 use pyo3::prelude::*;
 
@@ -48,6 +49,11 @@ mod _core {
     use crate::scene::{
         Body, Branch, Coating, Elastic, Flat, FrequencyDomain, Grid, Hankel, InverseFft, LoadPath,
         Preset, Profile, Scene, Settings, Skip, Spacing, Sphere, graded,
+    };
+
+    #[pymodule_export]
+    use crate::subsurface::{
+        Envelope, Subsurface, depths, loops, maximum, principal, stress_labels,
     };
 
     #[pymodule_init]

@@ -93,97 +93,101 @@ pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
     found
 }
 
-/// The loops of the `cycles` of a run along a direction; cycles that were not run through to the
-/// end are left out.
-pub fn loops(
-    increments: &[Increment],
-    cycles: &[(usize, usize)],
-    direction: Direction,
-) -> Vec<Cycle> {
-    let force = |i: &Increment| match direction {
-        Direction::X => i.point.loads.T_x,
-        Direction::Y => i.point.loads.T_y,
-    };
-    let shift = |i: &Increment| match direction {
-        Direction::X => i.motion.delta_x,
-        Direction::Y => i.motion.delta_y,
-    };
-    let of = |&(first, last): &(usize, usize)| {
-        let range = first..=last;
-        let start = increments
-            .iter()
-            .position(|i| range.contains(&i.point.branch))?;
-        let inside = |i: &&Increment| range.contains(&i.point.branch);
-        let count = increments[start..].iter().take_while(inside).count();
-        let part = &increments[start..start + count];
-        let end = part.last()?;
-        if end.point.branch != last || !end.point.ends_branch {
-            return None;
-        }
-        // With the turning point that the cycle starts from, unless that is the unloaded state.
-        let curve: Vec<(usize, f64, f64)> = increments[start.saturating_sub(1)..start + count]
-            .iter()
-            .map(|i| (i.point.branch, force(i), shift(i)))
-            .collect();
-        let half_range = |f: &dyn Fn(&(usize, f64, f64)) -> f64| {
-            let (low, high) = curve
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |m, c| {
-                    (m.0.min(f(c)), m.1.max(f(c)))
-                });
-            ((high - low) / 2.0, f64::midpoint(low, high))
-        };
-        let (T, middle) = half_range(&|c| c.1);
-        let (delta, _) = half_range(&|c| c.2);
-        let worst = |a: Status, b: Status| if rank(b) > rank(a) { b } else { a };
-        Some(Cycle {
-            branches: (first, last),
-            dissipated: part.iter().map(|i| i.energy.dissipated).sum(),
-            T,
-            delta,
-            stiffness: reversal_stiffness(&curve),
-            opening: opening(&curve, middle),
-            status: part.iter().map(|i| i.status).fold(Status::NoContact, worst),
-        })
-    };
-    cycles.iter().filter_map(of).collect()
+/// What a loop is made of, at the end of an increment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoopPoint {
+    /// Branch of the load path, from 0.
+    pub branch: usize,
+    /// Tangential force \[N\].
+    pub T: f64,
+    /// Tangential shift \[m\].
+    pub delta: f64,
+    /// Energy dissipated by friction in the increment \[J\].
+    pub dissipated: f64,
+    /// State of the interface.
+    pub status: Status,
 }
 
-/// The more a status slips, the higher.
-fn rank(status: Status) -> u8 {
-    match status {
-        Status::NoContact => 0,
-        Status::FullStick => 1,
-        Status::PartialSlip => 2,
-        Status::GrossSlip => 3,
+impl LoopPoint {
+    /// The force and shift of an increment along a direction.
+    pub fn new(increment: &Increment, direction: Direction) -> Self {
+        let (loads, motion) = (&increment.point.loads, &increment.motion);
+        let (T, delta) = match direction {
+            Direction::X => (loads.T_x, motion.delta_x),
+            Direction::Y => (loads.T_y, motion.delta_y),
+        };
+        Self {
+            branch: increment.point.branch,
+            T,
+            delta,
+            dissipated: increment.energy.dissipated,
+            status: increment.status,
+        }
     }
 }
 
-/// Mean over the branches of the steepest increment.
-fn reversal_stiffness(curve: &[(usize, f64, f64)]) -> f64 {
+/// The loops of the cycles of a path; those that the history has not run through to the end are
+/// left out.
+pub fn loops(path: &LoadPath, history: &[LoopPoint]) -> Vec<Cycle> {
+    let upto = |branch: usize| -> usize {
+        let before = path.branches.iter().take(branch);
+        before.map(|b| b.increments).sum()
+    };
+    let done = cycles(path).into_iter().filter_map(|(first, last)| {
+        let (start, end) = (upto(first), upto(last + 1));
+        // With the turning point that the cycle starts from, unless that is the unloaded state.
+        let curve = history.get(start.saturating_sub(1)..end)?;
+        Some(cycle((first, last), history.get(start..end)?, curve))
+    });
+    done.collect()
+}
+
+fn cycle(branches: (usize, usize), part: &[LoopPoint], curve: &[LoopPoint]) -> Cycle {
+    let range = |f: fn(&LoopPoint) -> f64| {
+        let values = curve.iter().map(f);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        })
+    };
+    let (force, shift) = (range(|p| p.T), range(|p| p.delta));
+    let worst = |a: Status, b: Status| if b.code() > a.code() { b } else { a };
+    Cycle {
+        branches,
+        dissipated: part.iter().map(|p| p.dissipated).sum(),
+        T: (force.1 - force.0) / 2.0,
+        delta: (shift.1 - shift.0) / 2.0,
+        stiffness: reversal_stiffness(curve),
+        opening: opening(curve, f64::midpoint(force.0, force.1)),
+        status: part.iter().map(|p| p.status).fold(Status::NoContact, worst),
+    }
+}
+
+/// Mean over the branches of the steepest increment \[N/m\].
+fn reversal_stiffness(curve: &[LoopPoint]) -> f64 {
     let mut steepest: Vec<(usize, f64)> = Vec::new();
     for pair in curve.windows(2) {
-        let (rise, run) = (pair[1].1 - pair[0].1, pair[1].2 - pair[0].2);
+        let (rise, run) = (pair[1].T - pair[0].T, pair[1].delta - pair[0].delta);
         if rise == 0.0 || run == 0.0 {
             continue;
         }
         let slope = (rise / run).abs();
         match steepest.last_mut() {
-            Some((branch, s)) if *branch == pair[1].0 => *s = s.max(slope),
-            _ => steepest.push((pair[1].0, slope)),
+            Some((branch, s)) if *branch == pair[1].branch => *s = s.max(slope),
+            _ => steepest.push((pair[1].branch, slope)),
         }
     }
     let sum: f64 = steepest.iter().map(|s| s.1).sum();
     ratio(sum, steepest.len() as f64)
 }
 
-/// Half the distance between the outermost shifts at which the force passes `middle`.
-fn opening(curve: &[(usize, f64, f64)], middle: f64) -> f64 {
+/// Half the distance between the outermost shifts at which the force passes `middle` \[m\].
+fn opening(curve: &[LoopPoint], middle: f64) -> f64 {
     let mut range = (f64::INFINITY, f64::NEG_INFINITY);
     for pair in curve.windows(2) {
-        let ((_, T0, d0), (_, T1, d1)) = (pair[0], pair[1]);
-        if (T0 - middle) * (T1 - middle) <= 0.0 && T0.to_bits() != T1.to_bits() {
-            let at = d0 + (d1 - d0) * (middle - T0) / (T1 - T0);
+        let (from, to) = (pair[0], pair[1]);
+        if (from.T - middle) * (to.T - middle) <= 0.0 && from.T.to_bits() != to.T.to_bits() {
+            let share = (middle - from.T) / (to.T - from.T);
+            let at = from.delta + (to.delta - from.delta) * share;
             range = (range.0.min(at), range.1.max(at));
         }
     }

@@ -61,6 +61,17 @@ impl Source {
     }
 }
 
+/// A distance in cells, rid of rounding where it is a whole number of half cells, so that a point
+/// on the border of a cell is recognised.
+pub(super) fn snapped(cells: f64) -> f64 {
+    let halves = (2.0 * cells).round() / 2.0;
+    if (cells - halves).abs() < 1e-9 {
+        halves
+    } else {
+        cells
+    }
+}
+
 /// The weights of the point loads at -REACH to REACH cells.
 ///
 /// A wave exp(i k x) averaged over a cell is sinc(k dx/2) times its middle value; with

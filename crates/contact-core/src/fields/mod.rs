@@ -31,7 +31,7 @@ pub use derived::{
     MEASURES, Measure, Principal, StressTensor, hydrostatic, measure_named, principal,
     principal_values, tresca, von_mises,
 };
-pub use energy::{Cycle, Direction, cycles, loops};
+pub use energy::{Cycle, Direction, LoopPoint, cycles, loops};
 pub use envelope::{DepthEnvelope, Envelope, Extremes};
 pub use maximum::{Maximum, maximum};
 pub use points::{Point, Points};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::loads::{Loads, Plane, Source};
+use super::loads::{Loads, Plane, Source, snapped};
 use super::{Depth, Side};
 use crate::convolution::Tractions;
 use crate::error::Error;
@@ -53,7 +53,8 @@ impl Points {
 
     /// Stress of each state at each point \[Pa\]: xx, yy, zz, xy, xz, yz.
     ///
-    /// On the surface the stress jumps at the border of a cell and has no value there.
+    /// On the surface the stress jumps at the border of a cell; there it is the mean of both sides,
+    /// as far as these are finite.
     pub fn stress(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 6]>>, Error> {
         self.gather::<Stress, 10, 6>(points)
     }
@@ -132,19 +133,20 @@ impl Points {
     ) -> [f64; R] {
         let Plane { n, d, .. } = self.plane;
         let patch = loads.patch;
-        let middle = |i: usize, start: isize, n: usize, d: f64| {
-            ((i as isize + start) as f64 - (n - 1) as f64 / 2.0) * d
+        let from = |v: f64, i: usize, start: isize, n: usize, d: f64| {
+            let middle = (i as isize + start) as f64 - (n - 1) as f64 / 2.0;
+            snapped(v / d - middle) * d
         };
         let mut sum = [0.0; R];
         for j in 0..patch.rows {
             let rows = [0, 1, 2].map(|component| loads.row(component, j));
-            let from_y = y - middle(j, patch.start.1, n.1, d.1);
+            let from_y = from(y, j, patch.start.1, n.1, d.1);
             for i in 0..patch.columns {
                 let q = rows.map(|row| row[i]);
                 if q.iter().all(|q| *q == 0.0) {
                     continue;
                 }
-                let from_x = x - middle(i, patch.start.0, n.0, d.0);
+                let from_x = from(x, i, patch.start.0, n.0, d.0);
                 let (response, area) = match source {
                     Source::Cells => {
                         let cell = Cell {

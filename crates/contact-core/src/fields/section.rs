@@ -13,7 +13,7 @@ use rustfft::num_complex::Complex64;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::loads::{Loads, Plane, Source};
+use super::loads::{Loads, Plane, Source, snapped};
 use super::parity::Buffers;
 use super::{Depth, Side};
 use crate::convolution::{Tractions, good_size};
@@ -189,11 +189,11 @@ impl Rows {
             planner.plan_fft_forward(period),
             planner.plan_fft_inverse(period),
         );
-        // Rows by their distance in thousandths of a cell: on equal ones the kernel is shared.
+        // Rows by their distance in millionths of a cell: on equal ones the kernel is shared.
         let mut by_distance: BTreeMap<u64, (f64, Vec<(usize, bool)>)> = BTreeMap::new();
         for j in 0..patch.rows {
             let row = (j as isize + patch.start.1) as f64;
-            let offset = at / plane.d.1 - (row - (plane.n.1 - 1) as f64 / 2.0);
+            let offset = snapped(at / plane.d.1 - (row - (plane.n.1 - 1) as f64 / 2.0));
             let key = (offset.abs() * 1e6).round() as u64;
             let (_, rows) = by_distance.entry(key).or_insert((offset.abs(), Vec::new()));
             rows.push((j, offset < 0.0));

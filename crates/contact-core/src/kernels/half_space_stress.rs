@@ -30,8 +30,8 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, nu: f64) -> StressResponse {
     let along = rho + z;
     // L_xx, L_yy, L_zz, L_xy, L_xz, L_yz.
     let depth_angle = angle(x * y, z * rho);
-    let l_xx = angle(y, x) - angle(y * z, x * rho);
-    let l_yy = angle(x, y) - angle(x * z, y * rho);
+    let l_xx = polar(y, x) - polar(y * z, x * rho);
+    let l_yy = polar(x, y) - polar(x * z, y * rho);
     let l_zz = -depth_angle;
     let (l_xy, l_xz, l_yz) = (along.ln(), log_sum(y, xz2), log_sum(x, yz2));
     // z times the third derivatives.
@@ -115,6 +115,12 @@ pub(crate) fn radial(s: f64, z: f64, nu: f64) -> [f64; 10] {
 /// atan(n/d), zero where both vanish.
 pub(super) fn angle(n: f64, d: f64) -> f64 {
     if n == 0.0 { 0.0 } else { (n / d).atan() }
+}
+
+/// atan(n/d); zero for d = 0, the mean of its limits from both sides, so that on the border of a
+/// loaded cell the surface stress is the mean of both sides.
+pub(super) fn polar(n: f64, d: f64) -> f64 {
+    if d == 0.0 { 0.0 } else { (n / d).atan() }
 }
 
 /// ln(rho + y) up to a function of `rest` = rho^2 - y^2; where that vanishes, only differences
