@@ -243,6 +243,16 @@ fn surface_stress_on_a_border_is_the_mean_of_both_sides() {
             }
         }
     }
+    // Where four cells meet as well.
+    let vertex = points.stress(&[(0.5, 0.0, top[0])]).unwrap()[0][0];
+    for c in 0..6 {
+        let mean = f64::midpoint(border[(c, 0, 10)], border[(c, 0, 11)]);
+        assert!(
+            (vertex[c] - mean).abs() < 0.02,
+            "component {c}: {} {mean}",
+            vertex[c]
+        );
+    }
     for i in 4..17 {
         for c in 0..6 {
             // The fields change by a few per mille over half a cell.

@@ -68,22 +68,40 @@ pub(crate) fn depths(body: Body, z: Vec<f64>) -> PyResult<(Vec<f64>, Vec<usize>)
     Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
 }
 
-/// Principal values and directions of stresses of shape (n, 6).
+/// The stresses of n points, from an array of shape (6, n).
+fn tensors(stress: &Field<'_>) -> PyResult<Vec<core::StressTensor>> {
+    let stress = stress.as_array();
+    if stress.nrows() != 6 {
+        return Err(PyValueError::new_err(
+            "stress: must have six rows, xx, yy, zz, xy, xz, yz",
+        ));
+    }
+    let columns = stress.columns().into_iter();
+    Ok(columns.map(|s| std::array::from_fn(|c| s[c])).collect())
+}
+
+/// A measure of stresses of shape (6, n).
+#[pyfunction]
+pub(crate) fn measure<'py>(
+    py: Python<'py>,
+    name: String,
+    stress: Field<'py>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let (of, stress) = (measures(&[name])?[0].value, tensors(&stress)?);
+    Ok(stress.iter().map(of).collect::<Vec<_>>().into_pyarray(py))
+}
+
+/// Principal values and directions of stresses of shape (6, n).
 #[pyfunction]
 pub(crate) fn principal<'py>(
     py: Python<'py>,
     stress: Field<'py>,
 ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>)> {
-    let stress = stress.as_array();
-    if stress.ncols() != 6 {
-        return Err(PyValueError::new_err(
-            "stress: must have six columns, xx, yy, zz, xy, xz, yz",
-        ));
-    }
-    let mut values = Array2::zeros((stress.nrows(), 3));
-    let mut directions = Array3::zeros((stress.nrows(), 3, 3));
-    for (n, row) in stress.rows().into_iter().enumerate() {
-        let of = core::principal(&std::array::from_fn(|c| row[c]));
+    let stress = tensors(&stress)?;
+    let mut values = Array2::zeros((stress.len(), 3));
+    let mut directions = Array3::zeros((stress.len(), 3, 3));
+    for (n, s) in stress.iter().enumerate() {
+        let of = core::principal(s);
         for i in 0..3 {
             values[(n, i)] = of.values[i];
             for j in 0..3 {
@@ -200,6 +218,21 @@ impl Subsurface {
         });
         let stress = stress.map_err(to_python)?.swap_remove(0);
         Ok(stress.into_iter().map(|s| s.into_pyarray(py)).collect())
+    }
+
+    fn slice_displacement<'py>(
+        &self,
+        py: Python<'py>,
+        z: f64,
+        layer: usize,
+    ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
+        let u = py.detach(|| {
+            let states = [self.tractions()];
+            core::Slices::new(&self.body.0, self.side, &self.grid.0, &states)?
+                .displacement(Depth { z, layer })
+        });
+        let u = u.map_err(to_python)?.swap_remove(0);
+        Ok(u.into_iter().map(|u| u.into_pyarray(py)).collect())
     }
 
     fn points<'py>(

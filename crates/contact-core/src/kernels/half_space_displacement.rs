@@ -15,7 +15,7 @@
 
 use std::f64::consts::PI;
 
-use super::half_space_stress::{angle, log_sum, polar};
+use super::half_space_stress::{angle, log, log_sum, polar};
 use super::layered_frf::HalfSpace;
 
 /// Displacement per unit traction \[m/Pa\]: rows u_x, u_y, u_z, columns q_x, q_y, p.
@@ -28,7 +28,6 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, material: &HalfSpace) -> Displaceme
     let l_xx = polar(y, x) - polar(y * z, x * rho);
     let l_yy = polar(x, y) - polar(x * z, y * rho);
     let l_zz = -angle(x * y, z * rho);
-    let log = |v: f64| if v > 0.0 { v.ln() } else { 0.0 };
     let (l_xy, l_xz, l_yz) = (
         log(rho + z),
         log_sum(y, x * x + z * z),

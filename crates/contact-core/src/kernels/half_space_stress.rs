@@ -33,7 +33,7 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, nu: f64) -> StressResponse {
     let l_xx = polar(y, x) - polar(y * z, x * rho);
     let l_yy = polar(x, y) - polar(x * z, y * rho);
     let l_zz = -depth_angle;
-    let (l_xy, l_xz, l_yz) = (along.ln(), log_sum(y, xz2), log_sum(x, yz2));
+    let (l_xy, l_xz, l_yz) = (log(along), log_sum(y, xz2), log_sum(x, yz2));
     // z times the third derivatives.
     let over = |numerator: f64, denominator: f64| {
         if numerator == 0.0 {
@@ -53,7 +53,7 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, nu: f64) -> StressResponse {
     let z_xxx = -z_xyy - z_xzz;
     let z_yyy = -z_xxy - z_yzz;
     // Third derivatives of W.
-    let (w_xxy, w_xyy) = (-x / along, -y / along);
+    let (w_xxy, w_xyy) = (-over(x, along), -over(y, along));
     let (w_xxx, w_yyy) = (-w_xyy - l_xz, -w_xxy - l_yz);
     let (n, m) = (2.0 * nu, 1.0 - 2.0 * nu);
     let s = [
@@ -110,6 +110,11 @@ pub(crate) fn radial(s: f64, z: f64, nu: f64) -> [f64; 10] {
         -1.5 * z * r5,
     ]
     .map(|g| g / (2.0 * PI))
+}
+
+/// ln(v), zero at v = 0: there only differences between corners are finite.
+pub(super) fn log(v: f64) -> f64 {
+    if v > 0.0 { v.ln() } else { 0.0 }
 }
 
 /// atan(n/d), zero where both vanish.
