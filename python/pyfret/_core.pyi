@@ -1042,9 +1042,7 @@ class Subsurface:
         """Stress on a plane, six arrays of shape (nx, ny) [Pa]."""
     def slice_displacement(self, z: float, layer: int) -> list[_Array]:
         """Displacement on a plane, three arrays of shape (nx, ny) [m]."""
-    def points(
-        self, places: Sequence[tuple[float, float, float, int]]
-    ) -> tuple[_Array, _Array]:
+    def points(self, places: Sequence[tuple[float, float, float, int]]) -> tuple[_Array, _Array]:
         """Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer."""
     def volume(
         self,
@@ -1081,7 +1079,7 @@ class Envelope:
         self, increment: int, branch: int, *, p: ArrayLike, q_x: ArrayLike, q_y: ArrayLike
     ) -> None:
         """Take the tractions of an increment."""
-    def finish(self) -> dict[str, dict[str, Any]]:
+    def finish(self) -> dict[str, dict[str, _Array]]:
         """Give the extremes of every measure."""
 
 class InvalidSceneError(ValueError):

@@ -150,7 +150,7 @@ class Snapshot:
         y: float | None = None,
         body_number: int = 2,
     ) -> xr.Dataset:
-        """Displacements u_x, u_y, u_z of a body below the contact [m]; where as in :meth:`stress`."""
+        """Displacements u_x, u_y, u_z of a body below the contact [m], as in :meth:`stress`."""
         body, grid = self._body(body_number), self.scene.grid
         loads = self._tractions()
         return subsurface.displacement(body, grid, z, x=x, y=y, body_number=body_number, **loads)
@@ -163,10 +163,17 @@ class Snapshot:
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
     ) -> None:
-        """Write stress in the volume below the contact; see :func:`pyfret.subsurface.write_volume`."""
+        """Write stress in the volume; see :func:`pyfret.subsurface.write_volume`."""
         body, grid = self._body(body_number), self.scene.grid
         subsurface.write_volume(
-            body, grid, out, z, of=of, body_number=body_number, title=repr(self), **self._tractions()
+            body,
+            grid,
+            out,
+            z,
+            of=of,
+            body_number=body_number,
+            title=repr(self),
+            **self._tractions(),
         )
 
     def along_x(self, *, y: float = 0.0) -> xr.Dataset:
@@ -349,9 +356,7 @@ class Result:
         path without keeping their fields; parameters and result are those of that function.
         """
         kept = (self.at(int(n)) for n in self.dataset.saved_increment.values)
-        return subsurface.envelope(
-            self.scene, kept, z, x=x, y=y, of=of, body_number=body_number
-        )
+        return subsurface.envelope(self.scene, kept, z, x=x, y=y, of=of, body_number=body_number)
 
     def summary(self) -> str:
         """Tabulate what the run ended with, one line per branch."""

@@ -15,6 +15,7 @@ import xarray as xr
 from pyfret import _core
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Iterable, Sequence
 
     from numpy.typing import ArrayLike, NDArray
@@ -207,7 +208,7 @@ def displacement(
     y: float | None = None,
     body_number: int = 2,
 ) -> xr.Dataset:
-    """Displacements u_x, u_y, u_z in a body relative to infinity; parameters as in :func:`stress`."""
+    """Displacements u_x, u_y, u_z in a body relative to infinity [m], as in :func:`stress`."""
     depths, layers = _depths(body, z)
     below = _subsurface(body, grid, (p, q_x, q_y), body_number)
     if x is not None and y is not None:
@@ -238,7 +239,7 @@ def _dataset(
 def write_volume(
     body: Body,
     grid: Grid,
-    out: str,
+    out: str | os.PathLike[str],
     z: ArrayLike,
     *,
     p: ArrayLike | None = None,
@@ -266,7 +267,7 @@ def write_volume(
     once = [n for n, depth in enumerate(depths) if n == 0 or depth != depths[n - 1]]
     below = _subsurface(body, grid, (p, q_x, q_y), body_number)
     z_once, layer_once = [depths[n] for n in once], [layers[n] for n in once]
-    below.volume(str(out), z_once, layer_once, of=list(of), title=title)
+    below.volume(out, z_once, layer_once, of=list(of), title=title)
 
 
 def envelope(

@@ -63,11 +63,11 @@ def running_map(
     shape = (normal.size, tangential.size)
     table = {name: np.full(shape, np.nan) for name in SHOWN}
     attrs: dict[str, dict[str, object]] = {}
-    for done, (i, j) in enumerate(np.ndindex(shape)):
+    for done, (i, j) in enumerate(np.ndindex(*shape)):
         if tangential[j] > scene.mu * normal[i] * (1 - 1e-9):
             table["status"][i, j] = 3
         else:
-            path = _path(normal[i], tangential[j], cycles, increments)
+            path = _path(float(normal[i]), float(tangential[j]), cycles, increments)
             try:
                 last = solve(scene, path, save=[len(path)], progress=False).loops().isel(cycle=-1)
             except OffGridError as error:

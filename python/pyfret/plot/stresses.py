@@ -149,7 +149,7 @@ def stress_map(
     ax = section_map(values, a_H=a_H, p_H=p_H, levels=levels, maximum=largest, ax=ax)
     if float(values.z[0]) == 0.0 < z:
         surface = values.isel(depth=0)
-        place = int(surface.argmax())
+        place = int(np.argmax(surface.values))
         at = (float(surface[place]), float(surface[surface.dims[0]][place]), 0.0)
         _mark(ax, at, a_H=a_H, p_H=p_H, marker="o")
     return ax
@@ -246,7 +246,7 @@ def loop_evolution(result: Result, *, ax: Axes | None = None, **line: Any) -> Ax
     ax = axes(ax)
     loops = result.loops()
     number = np.arange(1, loops.sizes["cycle"] + 1)
-    line = {"marker": "o", "markersize": 4} | line
+    line = {"marker": "o", "markersize": 4, **line}
     dissipated = loops.dissipated / loops.dissipated.mean()
     for values, label in (
         (loops.energy_ratio, "energy ratio"),
