@@ -17,6 +17,7 @@ mod operator;
 mod reference;
 mod result;
 mod scene;
+mod subsurface;
 
 use pyo3::prelude::*;
 
@@ -50,6 +51,11 @@ mod _core {
     use crate::scene::{
         Body, Branch, Coating, Elastic, Flat, FrequencyDomain, Grid, Hankel, InverseFft, LoadPath,
         Preset, Profile, Scene, Settings, Skip, Spacing, Sphere, graded,
+    };
+
+    #[pymodule_export]
+    use crate::subsurface::{
+        Envelope, Subsurface, depths, loops, maximum, measure, principal, stress_labels,
     };
 
     #[pymodule_init]

@@ -19,6 +19,7 @@ mod y_transform;
 pub use dc_fft::DcFft;
 pub use direct::Direct;
 pub use frequency_domain::FrequencyDomain;
+pub(crate) use good_size::good_size;
 pub use mirror::{Half, Mirror};
 pub use preconditioner::CirculantInverse;
 pub(crate) use spectra::Spectra;

@@ -50,6 +50,21 @@ pub enum Status {
     GrossSlip,
 }
 
+impl Status {
+    /// All, the more they slip the later.
+    pub const ALL: [Self; 4] = [
+        Self::NoContact,
+        Self::FullStick,
+        Self::PartialSlip,
+        Self::GrossSlip,
+    ];
+
+    /// Its number in result stores, 0 to 3; the higher, the more it slips.
+    pub fn code(self) -> u8 {
+        self as u8
+    }
+}
+
 /// Energy of one increment, with mid-increment (trapezoidal) tractions \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
