@@ -17,5 +17,6 @@ mod hertz;
 mod invariants;
 mod mindlin_shear;
 mod paper_scene;
+mod shapes;
 mod tilt;
 mod torsion;

@@ -62,13 +62,6 @@ fn the_rows_of_lubkin() {
     for (increment, c) in increments[1..].iter().zip(ROWS) {
         let c = c * a;
         let phi_z = increment.motion.phi_z;
-        println!(
-            "c/a {} phi {:.6} of {:.6}, stick {:.4}",
-            c / a,
-            phi_z,
-            lubkin.phi(c),
-            radius(increment.stick_area) / a
-        );
         close("phi_z", phi_z / lubkin.phi(c), 1.0, GLOBAL);
         close(
             "stick radius",
@@ -90,7 +83,6 @@ fn the_torque_of_full_slip() {
     let (scene, _) = scene(path);
     let increments = run(&scene, |_, _| ());
     let end = increments.last().expect("an increment");
-    println!("full torque {:.6}", end.point.loads.M_z / lubkin.M_limit());
     assert_eq!(end.status, Status::GrossSlip);
     close("M_z", end.point.loads.M_z / lubkin.M_limit(), 1.0, 2e-3);
 }
