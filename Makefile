@@ -13,7 +13,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test check format bench bench-kernels clean
+.PHONY: help setup demo test kill check format bench bench-kernels clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -26,6 +26,9 @@ demo: setup ## the paper's four runs: results and figures in out/
 test: setup ## all tests: cargo, then pytest
 	cargo test --workspace --locked --release
 	$(PY) -m pytest
+
+kill: ## a hundred kills of a running solve, each resumed to the same bits
+	FRET_KILLS=100 cargo test --release --locked --package fret-cli --test kill -- --nocapture
 
 check: setup ## formats, lints, types, spelling
 	cargo fmt --all --check

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -165,6 +166,42 @@ def test_ctrl_c_keeps_everything_so_far(tmp_path: Path) -> None:
     assert 0 < reached < len(long_path)
     assert left.status == f"stopped after increment {reached}"
     assert int(left.at(-1).increment) == reached
+
+
+def test_ctrl_c_does_not_wait_for_the_end_of_an_increment(tmp_path: Path) -> None:
+    """A path of one jump on a fine grid: one increment takes seconds."""
+    pressed: list[float] = []
+
+    def interrupt() -> None:
+        pressed.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    jump = fret.LoadPath.start().force(W=W, T_x=T_MAX, increments=1)
+    timer = threading.Timer(1.5, interrupt)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        fret.solve(
+            sphere_on_flat(ratio=4.0, n=768), jump, out=tmp_path / "run.zarr", progress=False
+        )
+    assert time.monotonic() - pressed[0] < 1.0
+
+
+def test_an_interrupted_run_is_resumed_to_the_same_bits(
+    coated: fret.Result, tmp_path: Path
+) -> None:
+    def stop(increment: int) -> None:
+        if increment == 17:
+            raise KeyboardInterrupt
+
+    store = tmp_path / "run.zarr"
+    with pytest.raises(KeyboardInterrupt):
+        fret._core.solve(coated.scene, store=store, on_increment=stop)
+    assert fret.open(store).status == "stopped after increment 17"
+    resumed = fret.resume(store, progress=False)
+    assert resumed.dataset.identical(coated.dataset)
+    assert fret.resume(store, progress=False).dataset.identical(coated.dataset)
+    with pytest.raises(fret.StoreError, match="is not a result store"):
+        fret.resume(tmp_path, progress=False)
 
 
 def test_an_exception_of_an_observer_stops_the_run(tmp_path: Path) -> None:

@@ -58,8 +58,8 @@ from pyfret._core import (
     graded,
 )
 from pyfret.results import Result, Snapshot, open
+from pyfret.solving import Increment, march, resume, solve
 from pyfret.surfaces import read_surface
-from pyfret.solving import Increment, march, solve
 
 if TYPE_CHECKING:
     from pyfret import plot
@@ -111,6 +111,7 @@ __all__ = [
     "plot",
     "read_surface",
     "reference",
+    "resume",
     "solve",
 ]
 

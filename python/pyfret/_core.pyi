@@ -64,6 +64,7 @@ __all__ = [
     "hertz_ellipse",
     "influence_coefficients",
     "labels",
+    "resume",
     "solve",
     "stress_at",
     "stress_coefficients",
@@ -1342,12 +1343,21 @@ def solve(
     scene: Scene,
     *,
     store: str | PathLike[str],
+    checkpoint: float = 5.0,
     on_increment: Callable[[int], object] | None = None,
 ) -> None:
     """Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
 
     `on_increment` is called with the number of each increment solved.
     """
+
+def resume(
+    store: str | PathLike[str],
+    *,
+    checkpoint: float = 5.0,
+    on_increment: Callable[[int], object] | None = None,
+) -> None:
+    """Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it."""
 
 class InvalidSceneError(ValueError):
     """A scene, or a scene file, has no meaning."""

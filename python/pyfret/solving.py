@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from pyfret._core import LoadPath, Scene
 
-__all__ = ["march", "solve"]
+__all__ = ["march", "resume", "solve"]
 
 
 def solve(
@@ -28,6 +28,7 @@ def solve(
     *,
     save: Literal["branches", "all"] | Sequence[int] | None = None,
     out: str | os.PathLike[str] | None = None,
+    checkpoint: float = 5.0,
     progress: bool = True,
 ) -> Result:
     """Run through the load path and give the scalars of all increments and the fields of some.
@@ -43,7 +44,12 @@ def solve(
         last of each branch unless it was set).
     out : path, optional
         Result store to write while the run goes on; it must not exist. An interrupted run leaves
-        everything so far in it. Without it the result is in memory only.
+        everything so far in it, and :func:`resume` goes on from there. Without it the result is
+        in memory only.
+    checkpoint : float
+        Seconds of the run between two checkpoints, what a crash may lose; 0 for one after every
+        increment. The ends of branches have theirs too, unless that costs more than 3 % of the
+        run.
     progress : bool
         Whether to draw a progress bar on a terminal or in a notebook.
 
@@ -59,12 +65,44 @@ def solve(
     scene = scene.replace(path=path, save=save)
     with Progress(len(scene.path), title=scene.title or "fretting", shown=progress) as bar:
         if out is not None:
-            _core.solve(scene, store=out, on_increment=bar.update)
+            _core.solve(scene, store=out, checkpoint=checkpoint, on_increment=bar.update)
             return open(out)
         with tempfile.TemporaryDirectory(prefix="pyfret-", dir=memory(scene)) as folder:
             store = Path(folder) / "run.zarr"
             _core.solve(scene, store=store, on_increment=bar.update)
             return Result(open(store).dataset.load())
+
+
+def resume(
+    store: str | os.PathLike[str],
+    *,
+    checkpoint: float = 5.0,
+    progress: bool = True,
+) -> Result:
+    """Go on with a run that was interrupted, crashed or killed, to the end of its load path.
+
+    The result is that of the run without the interruption, bit by bit. A run that is done is
+    opened as it is.
+
+    Parameters
+    ----------
+    store : path
+        Result store of the run, as given to :func:`solve` or to ``fret run``.
+    checkpoint, progress
+        As in :func:`solve`.
+
+    Raises
+    ------
+    StoreError
+        There is no store, another process writes it, or its checkpoint is damaged or of another
+        version of pyfret.
+    """
+    # Where there is no store, the core says so.
+    there = (Path(store) / ".zmetadata").is_file()
+    total = len(open(store).scene.path) if there else 0
+    with Progress(total, title="resumed", shown=progress) as bar:
+        _core.resume(store, checkpoint=checkpoint, on_increment=bar.update)
+    return open(store)
 
 
 #: A file system in memory, where there is one.

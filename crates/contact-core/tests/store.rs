@@ -166,7 +166,7 @@ fn the_store_can_be_read_while_it_grows() {
     let mut reader = Reader {
         writer: StoreWriter::create(&path, false)
             .unwrap()
-            .with_flush_interval(Duration::ZERO),
+            .with_interval(Duration::ZERO),
         path,
         seen: Vec::new(),
     };

@@ -7,6 +7,7 @@
 
 mod check;
 mod progress;
+mod resume;
 mod run;
 mod summary;
 
@@ -32,6 +33,8 @@ const EXIT_CODES: &str = "Exit codes: 0 done; 1 the run ended early, everything 
 enum Command {
     /// Run through the load path of a scene and write a result store
     Run(run::Options),
+    /// Go on with a run that ended early; the result is that of the uninterrupted run, bit by bit
+    Resume(resume::Options),
     /// Say what a scene means and what its solution needs; solve nothing
     Check(SceneOptions),
 }
@@ -75,6 +78,7 @@ impl Failure {
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Run(options) => run::run(&options),
+        Command::Resume(options) => resume::resume(&options),
         Command::Check(options) => check::check(&options),
     };
     match outcome {

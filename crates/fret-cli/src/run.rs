@@ -1,14 +1,14 @@
 //! `fret run`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use clap::Args;
-use contact_core::Error;
 use contact_core::march::{Increment, March, Observer, solve};
 use contact_core::output::StoreWriter;
+use contact_core::{Error, Scene};
 
 use crate::progress::Progress;
 use crate::{Failure, SceneOptions, print, say, summary};
@@ -24,9 +24,17 @@ pub(crate) struct Options {
     /// Replace a result store that exists
     #[arg(long)]
     overwrite: bool,
-    /// Bring the store up to date every so many seconds of the run: what a crash may lose
+    #[command(flatten)]
+    manner: Manner,
+}
+
+/// How a run is done, whatever its scene.
+#[derive(Args)]
+pub(crate) struct Manner {
+    /// Bring the store and its checkpoint up to date every so many seconds of the run, and at the
+    /// ends of branches: what a crash may lose
     #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
-    flush: Duration,
+    checkpoint: Duration,
     /// Number of threads (default: one per core); the result does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -43,45 +51,66 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// Runs through the load path.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let scene = options.scene.read().map_err(Failure::BadInput)?;
-    let writer = StoreWriter::create(&options.out, options.overwrite)
-        .map_err(Failure::BadInput)?
-        .with_flush_interval(options.flush);
-    if let Some(threads) = options.threads {
-        // The pool has no other user in this process, so it cannot have been built before.
-        let _ = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.into())
-            .build_global();
-    }
-    let mut watcher = Watcher {
-        writer,
-        progress: Progress::new(&scene, options.quiet),
-        stop: stop_on_interrupt(),
-        increments: Vec::with_capacity(scene.path.increments()),
-    };
-    let outcome = solve(&scene, &mut watcher);
-    let Watcher {
-        progress,
-        increments,
-        ..
-    } = watcher;
-    progress.end();
-    if !options.quiet && !increments.is_empty() {
-        print(&summary::table(&scene, &increments));
-    }
-    outcome.map(drop).map_err(|error| {
-        if !increments.is_empty() {
-            say(&format!(
-                "fret: {} of {} increments are kept in {}",
-                increments.len(),
-                scene.path.increments(),
-                options.out.display()
-            ));
-        }
-        match error {
-            Error::InvalidScene { .. } | Error::OffGrid { .. } => Failure::BadInput(error),
-            error => Failure::EndedEarly(error),
-        }
+    let writer = StoreWriter::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
+    let manner = &options.manner;
+    manner.use_threads();
+    manner.watch(&scene, &options.out, writer, Vec::new(), |watcher| {
+        solve(&scene, watcher)
     })
+}
+
+impl Manner {
+    /// Settles the number of threads, before the first use of the pool.
+    pub(crate) fn use_threads(&self) {
+        if let Some(threads) = self.threads {
+            // The pool has no other user in this process, so it cannot have been built before.
+            let _ = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads.into())
+                .build_global();
+        }
+    }
+
+    /// Watches a run of the scene into the store `out` that has done `increments` already, and
+    /// says how it ended.
+    pub(crate) fn watch(
+        &self,
+        scene: &Scene,
+        out: &Path,
+        writer: StoreWriter,
+        increments: Vec<Increment>,
+        run: impl FnOnce(&mut dyn Observer) -> Result<Vec<Increment>, Error>,
+    ) -> Result<(), Failure> {
+        let mut watcher = Watcher {
+            writer: writer.with_interval(self.checkpoint),
+            progress: Progress::new(scene, self.quiet),
+            stop: stop_on_interrupt(),
+            increments,
+        };
+        let outcome = run(&mut watcher);
+        let Watcher {
+            progress,
+            increments,
+            ..
+        } = watcher;
+        progress.end();
+        if !self.quiet && !increments.is_empty() {
+            print(&summary::table(scene, &increments));
+        }
+        outcome.map(drop).map_err(|error| {
+            if !increments.is_empty() {
+                say(&format!(
+                    "fret: {} of {} increments are kept in {}; `fret resume` goes on from there",
+                    increments.len(),
+                    scene.path.increments(),
+                    out.display()
+                ));
+            }
+            match error {
+                Error::InvalidScene { .. } | Error::OffGrid { .. } => Failure::BadInput(error),
+                error => Failure::EndedEarly(error),
+            }
+        })
+    }
 }
 
 /// Hands every increment to the store and to the progress, and ends the run when asked to.
@@ -108,6 +137,10 @@ impl Observer for Watcher {
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         self.writer.on_end(march, failure)
     }
+
+    fn stop(&self) -> Option<Arc<AtomicBool>> {
+        Some(self.stop.clone())
+    }
 }
 
 /// A flag that the first Ctrl-C raises; the second ends the process.
@@ -118,7 +151,7 @@ fn stop_on_interrupt() -> Arc<AtomicBool> {
         if flag.swap(true, Ordering::Relaxed) {
             std::process::exit(1);
         }
-        say("fret: stopping after this increment (Ctrl-C again: at once)");
+        say("fret: stopping (Ctrl-C again: at once)");
     };
     if let Err(error) = ctrlc::set_handler(handler) {
         say(&format!("fret: Ctrl-C will end the run at once: {error}"));

@@ -221,10 +221,7 @@ fn an_interrupted_run_ends_cleanly() {
     let rest: Vec<_> = lines.map(Result::unwrap).collect();
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(1), "{rest:?}");
-    assert!(
-        rest.iter()
-            .any(|line| line.contains("stopping after this increment"))
-    );
+    assert!(rest.iter().any(|line| line.contains("fret: stopping")));
     assert!(
         rest.iter()
             .any(|line| line.contains("increments are kept in"))
@@ -237,7 +234,7 @@ fn an_interrupted_run_ends_cleanly() {
     assert_eq!(saved.last().map(|&n| n as usize), Some(store.increments()));
 }
 
-/// kill -9 at any moment: the store opens, and is as it was at its last flush.
+/// kill -9 at any moment: the store opens, and is as it was at its last checkpoint.
 #[test]
 fn a_killed_run_leaves_a_whole_store() {
     let out = free("killed.zarr");
@@ -253,7 +250,7 @@ fn a_killed_run_leaves_a_whole_store() {
                 "--quiet",
             ])
             .args(["--set", "path.2.increments=1000000", "--set", "grid.n=32"])
-            .args(["--set", "output.save=all", "--flush", "0"])
+            .args(["--set", "output.save=all", "--checkpoint", "0"])
             .spawn()
             .unwrap();
         std::thread::sleep(Duration::from_millis(milliseconds));

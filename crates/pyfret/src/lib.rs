@@ -10,6 +10,7 @@
 )]
 
 mod error;
+mod interruptible;
 mod kernels;
 mod march;
 mod operator;
@@ -44,7 +45,7 @@ mod _core {
         hertz_ellipse,
     };
     #[pymodule_export]
-    use crate::result::solve;
+    use crate::result::{resume, solve};
     #[pymodule_export]
     use crate::scene::{
         Body, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat, FlatPunch,

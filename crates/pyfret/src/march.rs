@@ -1,7 +1,8 @@
 //! The load path, one increment at a time.
 
 use std::collections::HashMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use contact_core::march as core;
 use contact_core::output::{FIELDS, FieldView, Kind, SCALARS};
@@ -10,6 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error::to_python;
+use crate::interruptible::interruptible;
 use crate::scene::Scene;
 
 /// A load path being run through; iterating solves one increment after the other.
@@ -54,7 +56,9 @@ impl March {
     fn __next__<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         py.check_signals()?;
         let march = self.inner();
-        match py.detach(|| march.advance()) {
+        let stop = Arc::<AtomicBool>::default();
+        march.stop_on(stop.clone());
+        match interruptible(py, &stop, || march.advance())? {
             None => Ok(None),
             Some(Err(error)) => Err(to_python(error)),
             Some(Ok(increment)) => {

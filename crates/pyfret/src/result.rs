@@ -1,34 +1,36 @@
-//! A run from its scene to its store, watched from Python.
+//! A run from its scene, or from what an earlier one left, to its store, watched from Python.
 
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 use contact_core::Error;
 use contact_core::march::{Increment, March, Observer};
-use contact_core::output::StoreWriter;
+use contact_core::output::{self, Resumed, StoreWriter};
 use pyo3::prelude::*;
 
 use crate::error::to_python;
+use crate::interruptible::interruptible;
 use crate::scene::Scene;
 
-/// Lets Python see the progress and stop the run, by Ctrl-C or an exception.
+/// Writes the store, tells Python how far the run is, and lets it stop the run.
 struct Watch {
-    on_increment: Option<Py<PyAny>>,
     writer: StoreWriter,
-    /// What Python raised.
+    on_increment: Option<Py<PyAny>>,
+    stop: Arc<AtomicBool>,
+    /// What `on_increment` raised.
     raised: Option<PyErr>,
 }
 
 impl Observer for Watch {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         self.writer.on_increment(march, increment)?;
-        let seen = Python::attach(|py| {
-            py.check_signals()?;
-            match &self.on_increment {
-                Some(call) => call.call1(py, (increment.index,)).map(drop),
-                None => Ok(()),
-            }
-        });
-        seen.map_err(|raised| {
+        let Some(call) = &self.on_increment else {
+            return Ok(());
+        };
+        let told = Python::attach(|py| call.call1(py, (increment.index,)).map(drop));
+        told.map_err(|raised| {
             self.raised = Some(raised);
             Error::Interrupted {
                 increment: increment.index,
@@ -39,26 +41,78 @@ impl Observer for Watch {
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         self.writer.on_end(march, failure)
     }
+
+    fn stop(&self) -> Option<Arc<AtomicBool>> {
+        Some(self.stop.clone())
+    }
+}
+
+/// Seconds between two checkpoints.
+fn interval(checkpoint: f64) -> PyResult<Duration> {
+    Duration::try_from_secs_f64(checkpoint).map_err(|_| {
+        let allowed = "a number of seconds >= 0";
+        to_python(Error::invalid("checkpoint", checkpoint, allowed))
+    })
+}
+
+fn watched(
+    py: Python<'_>,
+    writer: StoreWriter,
+    on_increment: Option<Py<PyAny>>,
+    run: impl FnOnce(&mut dyn Observer) -> Result<Vec<Increment>, Error> + Send,
+) -> PyResult<()> {
+    let stop = Arc::<AtomicBool>::default();
+    let mut watch = Watch {
+        writer,
+        on_increment,
+        stop: stop.clone(),
+        raised: None,
+    };
+    let outcome = interruptible(py, &stop, || run(&mut watch))?;
+    match watch.raised {
+        Some(raised) => Err(raised),
+        None => outcome.map(drop).map_err(to_python),
+    }
 }
 
 /// Runs a scene into a new result store; other Python threads go on meanwhile.
 #[pyfunction]
-#[pyo3(signature = (scene, *, store, on_increment = None))]
+#[pyo3(signature = (scene, *, store, checkpoint = 5.0, on_increment = None))]
 pub(crate) fn solve(
     py: Python<'_>,
     scene: Scene,
     store: PathBuf,
+    checkpoint: f64,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {
-    let mut watch = Watch {
-        on_increment,
-        writer: StoreWriter::create(store, false).map_err(to_python)?,
-        raised: None,
+    let writer = StoreWriter::create(store, false)
+        .map_err(to_python)?
+        .with_interval(interval(checkpoint)?);
+    watched(py, writer, on_increment, |watch| {
+        contact_core::march::solve(&scene.0, watch)
+    })
+}
+
+/// Goes on with the run of a store that ended early; nothing is done if it is done.
+#[pyfunction]
+#[pyo3(signature = (store, *, checkpoint = 5.0, on_increment = None))]
+pub(crate) fn resume(
+    py: Python<'_>,
+    store: PathBuf,
+    checkpoint: f64,
+    on_increment: Option<Py<PyAny>>,
+) -> PyResult<()> {
+    let interval = interval(checkpoint)?;
+    let Some(Resumed {
+        march,
+        writer,
+        increments,
+    }) = py.detach(|| output::resume(store)).map_err(to_python)?
+    else {
+        return Ok(());
     };
-    let outcome = py.detach(|| contact_core::march::solve(&scene.0, &mut watch));
-    match (watch.raised, outcome) {
-        (Some(raised), _) => Err(raised),
-        (None, Err(error)) => Err(to_python(error)),
-        (None, Ok(_)) => Ok(()),
-    }
+    let writer = writer.with_interval(interval);
+    watched(py, writer, on_increment, |watch| {
+        march.run(increments, watch)
+    })
 }

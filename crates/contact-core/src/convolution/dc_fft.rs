@@ -10,7 +10,6 @@ use crate::kernels::InfluenceCoefficients;
 pub struct DcFft {
     shape: (usize, usize),
     product: SpectralProduct,
-    spectra: Spectra,
     coupled: bool,
     self_coefficients: (f64, f64),
 }
@@ -21,10 +20,10 @@ impl DcFft {
     pub fn new(coefficients: &InfluenceCoefficients, mirror: Mirror, coupling: bool) -> Self {
         let (nx, ny) = coefficients.zz.dim();
         let period = (good_size(2 * nx - 1), good_size(2 * ny - 1));
+        let spectra = Spectra::of(coefficients, period, coupling);
         Self {
             shape: (nx, mirror.rows(ny)),
-            product: SpectralProduct::new(nx, ny, mirror, period),
-            spectra: Spectra::of(coefficients, period, coupling),
+            product: SpectralProduct::new((nx, ny), mirror, &spectra, period),
             coupled: coupling,
             self_coefficients: (coefficients.xx[(0, 0)], coefficients.zz[(0, 0)]),
         }
@@ -37,7 +36,7 @@ impl SurfaceOperator for DcFft {
     }
 
     fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
-        self.product.apply(&self.spectra, tractions, displacements);
+        self.product.apply(tractions, displacements);
     }
 
     fn transforms(&self) -> usize {

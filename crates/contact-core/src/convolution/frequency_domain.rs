@@ -15,7 +15,6 @@ use crate::scene::{Body, Grid};
 pub struct FrequencyDomain {
     shape: (usize, usize),
     product: SpectralProduct,
-    spectra: Spectra,
     coupled: bool,
     self_coefficients: (f64, f64),
 }
@@ -51,7 +50,24 @@ impl FrequencyDomain {
         };
         let size = (px / 2 + 1) * (py / 2 + 1);
         let samples: Vec<[f64; 6]> = (0..size).into_par_iter().map(at).collect();
-        let spectrum = |c: usize| samples.iter().map(|s| s[c]).collect();
+        // A real field has no part of the highest frequency that is odd along its axis.
+        let parity = [
+            (false, false),
+            (false, false),
+            (false, false),
+            (true, true),
+            (true, false),
+            (false, true),
+        ];
+        let spectrum = |c: usize| {
+            let vanishes = |index: usize| {
+                let (n, m) = (index / (px / 2 + 1), index % (px / 2 + 1));
+                (parity[c].0 && 2 * m == px) || (parity[c].1 && 2 * n == py)
+            };
+            (samples.iter().enumerate())
+                .map(|(i, s)| if vanishes(i) { 0.0 } else { s[c] })
+                .collect()
+        };
         let if_coupled = |c: usize| if coupling { spectrum(c) } else { Vec::new() };
         let spectra = Spectra {
             xx: spectrum(0),
@@ -63,8 +79,7 @@ impl FrequencyDomain {
         };
         Self {
             shape: (grid.nx, grid.ny),
-            product: SpectralProduct::new(grid.nx, grid.ny, Mirror::None, (px, py)),
-            spectra,
+            product: SpectralProduct::new((grid.nx, grid.ny), Mirror::None, &spectra, (px, py)),
             coupled: coupling,
             self_coefficients: (coefficients.xx[(0, 0)], coefficients.zz[(0, 0)]),
         }
@@ -77,7 +92,7 @@ impl SurfaceOperator for FrequencyDomain {
     }
 
     fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
-        self.product.apply(&self.spectra, tractions, displacements);
+        self.product.apply(tractions, displacements);
     }
 
     fn transforms(&self) -> usize {

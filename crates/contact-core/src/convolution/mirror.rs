@@ -11,6 +11,16 @@ pub enum Half {
     Odd,
 }
 
+impl Half {
+    /// The sign that goes with y -> -y.
+    pub(crate) fn sign(self) -> f64 {
+        match self {
+            Self::Even => 1.0,
+            Self::Odd => -1.0,
+        }
+    }
+}
+
 /// Whether the fields cover the grid or its half y > 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mirror {
@@ -49,7 +59,7 @@ impl Mirror {
     /// The field of shape (nx, ny) whose kept part is `kept`.
     pub fn unfold(self, kept: &[f64], nx: usize, ny: usize, half: Half) -> Array2<f64> {
         let rows = self.rows(ny);
-        let sign = if half == Half::Even { 1.0 } else { -1.0 };
+        let sign = half.sign();
         Array2::from_shape_fn((nx, ny), |(i, j)| match (ny - rows).checked_sub(j) {
             Some(below) if below > 0 => sign * kept[i * rows + below - 1],
             _ => kept[i * rows + j + rows - ny],

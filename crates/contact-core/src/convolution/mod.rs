@@ -8,6 +8,8 @@ mod dc_fft;
 mod direct;
 mod frequency_domain;
 mod good_size;
+mod line_product;
+mod line_spectra;
 mod mirror;
 mod preconditioner;
 mod spectra;

@@ -12,7 +12,6 @@ use crate::kernels::{InfluenceCoefficients, Quadrant};
 /// Circulant inverse of the normal and of the tangential part of an operator.
 pub struct CirculantInverse {
     product: SpectralProduct,
-    inverse: Spectra,
 }
 
 impl CirculantInverse {
@@ -30,9 +29,9 @@ impl CirculantInverse {
             yz: Quadrant::zeros((1, 1)),
         };
         let forward = Spectra::of(&half, period, false);
+        let inverse = invert(&forward, (period.0 * period.1) as f64);
         Self {
-            product: SpectralProduct::new(nx, ny, mirror, period),
-            inverse: invert(&forward, (period.0 * period.1) as f64),
+            product: SpectralProduct::new((nx, ny), mirror, &inverse, period),
         }
     }
 
@@ -46,7 +45,7 @@ impl CirculantInverse {
             u_z: Some(z),
             ..Displacements::default()
         };
-        self.product.apply(&self.inverse, tractions, displacements);
+        self.product.apply(tractions, displacements);
     }
 
     /// z ~ C_tt^-1 r.
@@ -62,7 +61,7 @@ impl CirculantInverse {
             u_y: Some(z_y),
             u_z: None,
         };
-        self.product.apply(&self.inverse, tractions, displacements);
+        self.product.apply(tractions, displacements);
     }
 }
 

@@ -1,215 +1,237 @@
-//! Transforms of the rows along y.
+//! Transforms of the rows along y, two rows in one complex transform.
 //!
-//! A real kernel of definite parity in y never mixes the part of the tractions that is even under
-//! y -> -y with the odd part. So the complex spectrum F(k_y) = a + i b of a row falls into two
-//! families of real numbers that the convolution treats alike:
+//! The spectrum of a row is kept as complex lines: F(k_y) itself on the whole grid, and on the
+//! half of a mirror-symmetric scene, where F is real or imaginary, the real numbers of k_y = 2 m
+//! and 2 m + 1 as one complex number. A field that is odd in a mirror-symmetric scene, q_y or u_y,
+//! carries a factor -i, so that its lines are real there too and are convolved as the others are.
 //!
-//! | family | q_x, p | q_y |
-//! |---|---|---|
-//! | even | a | b |
-//! | odd | b | -a |
-//!
-//! A mirror-symmetric scene has the even family only, and its half rows are transformed by cosine
-//! transforms of half the length.
+//! The half rows are transformed by cosine transforms of half the length (J. Makhoul, IEEE Trans.
+//! ASSP 28 (1980) 27-34), written so that they hold for complex data.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex64;
+use rustfft::{Fft, FftPlanner};
 
 use super::{Half, Mirror};
+
+/// Rows that travel together: four complex numbers fill a cache line.
+pub(crate) const ROWS: usize = 4;
+
+const I: Complex64 = Complex64::new(0.0, 1.0);
 
 /// Transform of rows of `rows` cells, zero-padded to the period.
 pub(crate) struct YTransform {
     mirror: Mirror,
-    rows: usize,
-    /// Length of the real transform: the period, or half of it with the mirror.
+    /// Length of the transform: the period, or half of it with the mirror.
     length: usize,
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
+    forward: Arc<dyn Fft<f64>>,
+    inverse: Arc<dyn Fft<f64>>,
     /// exp(-i pi k / (2 length)) for k <= length/2, for the cosine transform.
     twiddle: Vec<Complex64>,
 }
 
 /// Buffers of one thread.
-#[derive(Clone)]
 pub(crate) struct YScratch {
-    real: Vec<f64>,
-    spectrum: Vec<Complex64>,
+    /// Two rows, then their spectrum; the last number repeats the first.
+    pair: Vec<Complex64>,
+    /// Cosine spectrum of two rows, k_y = 0 to half the period, and a zero.
+    cosines: Vec<Complex64>,
     fft: Vec<Complex64>,
 }
 
 impl YTransform {
-    /// For rows of a grid of `ny` rows, periodic after `period` (even, >= ny) cells.
-    pub(crate) fn new(
-        mirror: Mirror,
-        ny: usize,
-        period: usize,
-        fft: &mut RealFftPlanner<f64>,
-    ) -> Self {
-        let length = match mirror {
-            Mirror::None => period,
-            Mirror::Y => period / 2,
+    /// For rows periodic after `period` (even) cells.
+    pub(crate) fn new(mirror: Mirror, period: usize, planner: &mut FftPlanner<f64>) -> Self {
+        let (length, twiddles) = match mirror {
+            Mirror::None => (period, 0),
+            Mirror::Y => (period / 2, period / 4 + 1),
         };
-        let twiddle = match mirror {
-            Mirror::None => Vec::new(),
-            Mirror::Y => (0..=length / 2)
-                .map(|k| Complex64::from_polar(1.0, -PI * k as f64 / (2 * length) as f64))
-                .collect(),
-        };
+        let angle = |k: usize| -PI * k as f64 / (2 * length) as f64;
         Self {
             mirror,
-            rows: mirror.rows(ny),
             length,
-            forward: fft.plan_fft_forward(length),
-            inverse: fft.plan_fft_inverse(length),
-            twiddle,
+            forward: planner.plan_fft_forward(length),
+            inverse: planner.plan_fft_inverse(length),
+            twiddle: (0..twiddles)
+                .map(|k| Complex64::from_polar(1.0, angle(k)))
+                .collect(),
         }
     }
 
-    /// Number of families of real numbers.
-    pub(crate) fn families(&self) -> usize {
-        match self.mirror {
-            Mirror::None => 2,
-            Mirror::Y => 1,
-        }
-    }
-
-    /// Number of frequencies k_y, 0 to half the period.
-    pub(crate) fn frequencies(&self) -> usize {
-        match self.mirror {
-            Mirror::None => self.length / 2 + 1,
-            Mirror::Y => self.length + 1,
-        }
+    /// Number of complex lines.
+    pub(crate) fn lines(&self) -> usize {
+        self.length / 2 + 1
     }
 
     pub(crate) fn scratch(&self) -> YScratch {
-        let fft = self
-            .forward
-            .get_scratch_len()
-            .max(self.inverse.get_scratch_len());
+        let zeros = |n| vec![Complex64::default(); n];
+        let fft = [&self.forward, &self.inverse].map(|f| f.get_inplace_scratch_len());
         YScratch {
-            real: vec![0.0; self.length],
-            spectrum: vec![Complex64::default(); self.length / 2 + 1],
-            fft: vec![Complex64::default(); fft],
+            pair: zeros(self.length + 1),
+            cosines: zeros(self.length + 2),
+            fft: zeros(fft[0].max(fft[1])),
         }
     }
 
-    /// Transforms one row; `put(family, k, value)` receives every number.
+    /// Transforms a pair of rows; the second may be missing. Line l of the pair goes to
+    /// `lines[ROWS * l]` and `lines[ROWS * l + 1]`.
     pub(crate) fn forward(
         &self,
-        row: &[f64],
+        rows: [&[f64]; 2],
         half: Half,
         s: &mut YScratch,
-        mut put: impl FnMut(usize, usize, f64),
+        lines: &mut [Complex64],
     ) {
-        let (n, m) = (self.length, self.rows);
+        let n = self.length;
+        s.pair[..n].fill(Complex64::default());
+        let both = |j: usize| {
+            let second = rows[1].get(j).copied().unwrap_or(0.0);
+            Complex64::new(rows[0][j], second)
+        };
         match self.mirror {
+            Mirror::None if rows[1].is_empty() => {
+                (s.pair.iter_mut().zip(rows[0])).for_each(|(v, a)| v.re = *a);
+            }
             Mirror::None => {
-                s.real[..m].copy_from_slice(row);
-                s.real[m..].fill(0.0);
-                self.run_forward(s);
+                let both = rows[0].iter().zip(rows[1]);
+                (s.pair.iter_mut().zip(both)).for_each(|(v, (a, b))| *v = Complex64::new(*a, *b));
+            }
+            Mirror::Y => {
+                let m = rows[0].len();
+                for j in 0..m / 2 {
+                    s.pair[j] = both(2 * j);
+                    s.pair[n - 1 - j] = half.sign() * both(2 * j + 1);
+                }
+                if m % 2 == 1 {
+                    s.pair[m / 2] = both(m - 1);
+                }
+            }
+        }
+        self.forward
+            .process_with_scratch(&mut s.pair[..n], &mut s.fft);
+        s.pair[n] = s.pair[0];
+        let lines = lines.chunks_mut(ROWS);
+        match self.mirror {
+            // F of the rows f + i g is (X + Y)/2 and (X - Y)/(2 i); the halves are left out.
+            Mirror::None => {
+                let values = s.pair.iter().zip(s.pair.iter().rev()).zip(lines);
                 match half {
-                    Half::Even => {
-                        for (k, v) in s.spectrum.iter().enumerate() {
-                            put(0, k, v.re);
-                            put(1, k, v.im);
-                        }
-                    }
-                    Half::Odd => {
-                        for (k, v) in s.spectrum.iter().enumerate() {
-                            put(0, k, v.im);
-                            put(1, k, -v.re);
-                        }
-                    }
+                    Half::Even => values.for_each(|((v, w), line)| {
+                        line[0] = v + w.conj();
+                        line[1] = over_i(v - w.conj());
+                    }),
+                    Half::Odd => values.for_each(|((v, w), line)| {
+                        line[0] = over_i(v + w.conj());
+                        line[1] = w.conj() - v;
+                    }),
                 }
             }
             Mirror::Y => {
-                // F_k = 2 sum f_j cos(pi k (j + 1/2)/n); for an odd field the sine sum follows
-                // from that of (-1)^j f_j read backwards.
-                s.real.fill(0.0);
-                let odd_sign = if half == Half::Even { 1.0 } else { -1.0 };
-                for (j, pair) in row.chunks(2).enumerate() {
-                    s.real[j] = pair[0];
-                    if let Some(&f) = pair.get(1) {
-                        s.real[n - 1 - j] = odd_sign * f;
-                    }
+                self.to_cosines(s, half);
+                for (c, line) in s.cosines.chunks_exact(2).zip(lines) {
+                    line[0] = Complex64::new(c[0].re, c[1].re);
+                    line[1] = Complex64::new(c[0].im, c[1].im);
                 }
-                self.run_forward(s);
-                for (k, (v, w)) in s.spectrum.iter().zip(&self.twiddle).enumerate() {
-                    let c = v * w;
-                    match half {
-                        Half::Even => {
-                            put(0, k, 2.0 * c.re);
-                            put(0, n - k, -2.0 * c.im);
-                        }
-                        Half::Odd => {
-                            put(0, n - k, -2.0 * c.re);
-                            put(0, k, 2.0 * c.im);
-                        }
-                    }
-                }
-                // The zero frequency of the sine and the last one of the cosine carry nothing.
-                put(0, if half == Half::Even { n } else { 0 }, 0.0);
             }
         }
     }
 
-    /// Inverse of [`Self::forward`] up to the factor `period`, cut to the kept rows.
+    /// Inverse of [`Self::forward`] times the period; the second row may be empty.
     pub(crate) fn inverse(
         &self,
         half: Half,
         s: &mut YScratch,
-        get: impl Fn(usize, usize) -> f64,
-        row: &mut [f64],
+        lines: &[Complex64],
+        rows: [&mut [f64]; 2],
     ) {
-        let (n, m) = (self.length, self.rows);
+        let n = self.length;
+        let lines = lines.chunks(ROWS);
         match self.mirror {
             Mirror::None => {
-                for (k, v) in s.spectrum.iter_mut().enumerate() {
-                    *v = match half {
-                        Half::Even => Complex64::new(get(0, k), get(1, k)),
-                        Half::Odd => Complex64::new(-get(1, k), get(0, k)),
+                for (k, line) in lines.take(n / 2 + 1).enumerate() {
+                    let (f, ig) = match half {
+                        Half::Even => (line[0], I * line[1]),
+                        Half::Odd => (I * line[0], -line[1]),
                     };
+                    s.pair[k] = f + ig;
+                    s.pair[n - k] = (f - ig).conj();
                 }
-                self.run_inverse(s);
-                row.copy_from_slice(&s.real[..m]);
             }
             Mirror::Y => {
-                for (k, (v, w)) in s.spectrum.iter_mut().zip(&self.twiddle).enumerate() {
-                    let (c, d) = match half {
-                        Half::Even => (get(0, k), if k == 0 { 0.0 } else { get(0, n - k) }),
-                        Half::Odd => (-get(0, n - k), if k == 0 { 0.0 } else { -get(0, k) }),
-                    };
-                    *v = Complex64::new(c, -d) * w.conj();
+                for (c, line) in s.cosines.chunks_exact_mut(2).zip(lines) {
+                    c[0] = Complex64::new(line[0].re, line[1].re);
+                    c[1] = Complex64::new(line[0].im, line[1].im);
                 }
-                self.run_inverse(s);
-                let odd_sign = if half == Half::Even { 1.0 } else { -1.0 };
-                for (j, pair) in row.chunks_mut(2).enumerate() {
-                    pair[0] = s.real[j];
-                    if let Some(f) = pair.get_mut(1) {
-                        *f = odd_sign * s.real[n - 1 - j];
+                self.take_cosines(s, half);
+            }
+        }
+        self.inverse
+            .process_with_scratch(&mut s.pair[..n], &mut s.fft);
+        // The half left out in the forward transform, and in a mirrored line's product.
+        let [first, second] = rows;
+        match self.mirror {
+            Mirror::None => {
+                (first.iter_mut().zip(&s.pair)).for_each(|(f, v)| *f = 0.5 * v.re);
+                (second.iter_mut().zip(&s.pair)).for_each(|(f, v)| *f = 0.5 * v.im);
+            }
+            Mirror::Y => {
+                let odd_cells = 0.5 * half.sign();
+                let spread = |row: &mut [f64], part: &dyn Fn(Complex64) -> f64| {
+                    for (j, cells) in row.chunks_mut(2).enumerate() {
+                        cells[0] = 0.5 * part(s.pair[j]);
+                        if let Some(f) = cells.get_mut(1) {
+                            *f = odd_cells * part(s.pair[n - 1 - j]);
+                        }
                     }
-                }
+                };
+                spread(first, &|v| v.re);
+                spread(second, &|v| v.im);
             }
         }
     }
 
-    fn run_forward(&self, s: &mut YScratch) {
-        self.forward
-            .process_with_scratch(&mut s.real, &mut s.spectrum, &mut s.fft)
-            .expect("buffers have the planned lengths");
+    /// C(k) = 2 sum f_j cos(pi k (j + 1/2)/n); an odd field has its sine sums, those of
+    /// (-1)^j f_j read backwards, with the factor -i of the spectrum of q_y.
+    fn to_cosines(&self, s: &mut YScratch, half: Half) {
+        let n = self.length;
+        for (k, w) in self.twiddle.iter().enumerate() {
+            let a = w * s.pair[k];
+            let b = w.conj() * s.pair[n - k];
+            let (low, high) = (a + b, I * (a - b));
+            match half {
+                Half::Even => {
+                    s.cosines[k] = low;
+                    s.cosines[n - k] = high;
+                }
+                Half::Odd => {
+                    s.cosines[n - k] = -low;
+                    s.cosines[k] = -high;
+                }
+            }
+        }
+        // The zero frequency of the sines and the last one of the cosines carry nothing.
+        s.cosines[if half == Half::Even { n } else { 0 }] = Complex64::default();
+        s.cosines[n + 1] = Complex64::default();
     }
 
-    fn run_inverse(&self, s: &mut YScratch) {
-        // A real row has real first and last frequencies; rounding must not say otherwise.
-        s.spectrum[0].im = 0.0;
-        if self.length.is_multiple_of(2) {
-            s.spectrum[self.length / 2].im = 0.0;
+    /// The other way.
+    fn take_cosines(&self, s: &mut YScratch, half: Half) {
+        let n = self.length;
+        s.cosines[if half == Half::Even { n } else { 0 }] = Complex64::default();
+        for (k, w) in self.twiddle.iter().enumerate() {
+            let (low, high) = match half {
+                Half::Even => (s.cosines[k], s.cosines[n - k]),
+                Half::Odd => (-s.cosines[n - k], -s.cosines[k]),
+            };
+            s.pair[k] = (low - I * high) * w.conj();
+            s.pair[n - k] = (low + I * high) * w;
         }
-        self.inverse
-            .process_with_scratch(&mut s.spectrum, &mut s.real, &mut s.fft)
-            .expect("buffers have the planned lengths");
     }
+}
+
+/// z / i
+fn over_i(z: Complex64) -> Complex64 {
+    Complex64::new(z.im, -z.re)
 }

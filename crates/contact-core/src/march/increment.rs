@@ -1,9 +1,11 @@
 //! What one increment ends with: the numbers a user reads, the residuals and the work done.
 
+use serde::{Deserialize, Serialize};
+
 use crate::scene::LoadPoint;
 
 /// Rigid-body motion of body 1 relative to body 2, from the unloaded state.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
     /// Approach \[m\], positive when the bodies come together.
     pub delta_z: f64,
@@ -34,7 +36,7 @@ impl Motion {
 }
 
 /// State of the interface.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Status {
     /// No cell transmits pressure.
     #[default]
@@ -49,7 +51,7 @@ pub enum Status {
 }
 
 /// Energy of one increment, with mid-increment (trapezoidal) tractions \[J\].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
     /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi).
     pub work: f64,
@@ -70,7 +72,7 @@ impl Energy {
 }
 
 /// How well the equations hold at the end of an increment, in physical terms.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Residuals {
     /// Root-mean-square gap in the contact over the Hertz approach.
     pub gap: f64,
@@ -89,7 +91,7 @@ pub struct Residuals {
 }
 
 /// Work counters; they do not jitter as times do.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Work {
     /// Convolutions in units of three components (six two-dimensional transforms).
     pub convolutions: f64,
@@ -102,7 +104,7 @@ pub struct Work {
 }
 
 /// One increment of the load path: scalars, residuals, work.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Increment {
     /// Increment, from 1.
     pub index: usize,

@@ -12,6 +12,9 @@ pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
 pub use solve::{BranchSummary, Observer, solve, summarise};
 pub use state::State;
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crate::convolution::{CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, SurfaceOperator};
 use crate::error::Error;
 use crate::kernels::influence_coefficients;
@@ -36,6 +39,8 @@ pub struct March {
     approach: f64,
     state: State,
     workspace: CoupledWorkspace,
+    /// Raised from outside to end the run.
+    stop: Arc<AtomicBool>,
 }
 
 impl March {
@@ -92,7 +97,29 @@ impl March {
             approach,
             state: State::unloaded(cells),
             workspace: CoupledWorkspace::new(cells),
+            stop: Arc::default(),
         })
+    }
+
+    /// Goes on from a state of the same scene; what follows is what would have followed without
+    /// the interruption, bit by bit.
+    pub fn resume(scene: &Scene, state: State) -> Result<Self, Error> {
+        let mut march = Self::new(scene)?;
+        if !state.fits(march.h_init.len()) || state.increments > march.points.len() {
+            return Err(Error::invalid(
+                "state",
+                format!("after increment {}", state.increments),
+                "one of this scene: on its grid and within its load path",
+            ));
+        }
+        march.state = state;
+        Ok(march)
+    }
+
+    /// Ends the run when `flag` is raised, within the increment: [`Error::Interrupted`], and the
+    /// state is that of the last increment that was finished.
+    pub fn stop_on(&mut self, flag: Arc<AtomicBool>) {
+        self.stop = flag;
     }
 
     /// The scene.
@@ -138,6 +165,7 @@ impl March {
             self.state.predict(
                 point,
                 &self.h_init,
+                self.scene.friction.mu,
                 &normal,
                 self.approach_at(point),
                 self.scene.settings.solver.preset,
@@ -156,6 +184,7 @@ impl March {
         let mut response = Response {
             op: &mut *self.op,
             inverse: self.inverse.as_mut(),
+            stop: Some(&self.stop),
         };
         let info = if pressed {
             let params = params(&self.scene, self.approach);
@@ -166,12 +195,19 @@ impl March {
                 &mut self.workspace,
                 &params,
             )
-            .map_err(|e| Error::NotConverged {
-                increment: index,
-                solver: e.solver,
-                residual: e.residual,
-                tolerance: e.tolerance,
-                iterations: e.iterations,
+            .map_err(|e| {
+                if self.stop.load(Ordering::Relaxed) {
+                    return Error::Interrupted {
+                        increment: index - 1,
+                    };
+                }
+                Error::NotConverged {
+                    increment: index,
+                    solver: e.solver,
+                    residual: e.residual,
+                    tolerance: e.tolerance,
+                    iterations: e.iterations,
+                }
             })?
         } else {
             CoupledInfo {
@@ -306,7 +342,7 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
             },
             tolerance: INNER_SHARE * scene.friction.mu * gap,
             max_iterations: solver.max_iterations,
-            forcing: 0.15,
+            forcing: 0.2,
             max_passes: 12,
         },
         max_alternations: solver.max_alternations,

@@ -2,7 +2,7 @@
 
 use super::State;
 use crate::scene::{Given, LoadPoint, Loads, Preset};
-use crate::solvers::{Drive, Interface};
+use crate::solvers::{Drive, Interface, size};
 
 impl Loads {
     /// The change from `forces` and `motions` to here, of what is given.
@@ -43,12 +43,13 @@ impl Loads {
 
 impl State {
     /// Tractions and slip set to start from: the last increment's, extrapolated while the loads
-    /// keep their direction (the paper takes them as they are). At a reversal every cell is taken to stick: slip needs the load to
-    /// move on before it sets in again.
+    /// keep their direction (the paper takes them as they are). At a reversal every cell is taken
+    /// to stick: slip needs the load to move on before it sets in again.
     pub(crate) fn predict(
         &self,
         point: &LoadPoint,
         h_init: &[f64],
+        mu: f64,
         normal: &Drive,
         approach: f64,
         preset: Preset,
@@ -64,9 +65,7 @@ impl State {
         if let (Some(factor), Preset::Fast) = (same_way, preset) {
             extrapolate(&mut guess.p, &self.p_before, factor);
             guess.p.iter_mut().for_each(|p| *p = p.max(0.0));
-            for c in 0..2 {
-                extrapolate(&mut guess.q[c], &self.q_before[c], factor);
-            }
+            approach_slip(&mut guess, &self.q_before, mu, factor);
         } else if same_way.is_none() {
             guess.slip.fill(false);
         }
@@ -83,6 +82,35 @@ fn extrapolate(now: &mut [f64], before: &[f64], factor: f64) {
     now.iter_mut()
         .zip(before)
         .for_each(|(now, before)| *now += factor * (*now - before));
+}
+
+/// Extrapolates the shear. The shear of a stick cell nears its bound as the root of the distance
+/// to the moving slip front (Cattaneo: g - q ~ (c^2 - r^2)^(1/2)), smoothed over a cell: a power
+/// in between of what is left of the way to the bound is extrapolated; a cell for which nothing is
+/// left starts to slip.
+fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: f64, factor: f64) {
+    for n in 0..guess.p.len() {
+        let bound = mu * guess.p[n];
+        if bound <= 0.0 {
+            continue;
+        }
+        let q = [guess.q[0][n], guess.q[1][n]];
+        let change = [q[0] - q_before[0][n], q[1] - q_before[1][n]];
+        let moved = size(change);
+        let inside = bound * bound - q[0] * q[0] - q[1] * q[1];
+        let mut part = factor;
+        if !guess.slip[n] && inside > 0.0 && moved > 0.0 {
+            let along = (q[0] * change[0] + q[1] * change[1]) / moved;
+            let left = (along * along + inside).sqrt() - along;
+            let power = |left: f64| left * left.sqrt();
+            let next = power(left) + factor * (power(left) - power(left + moved));
+            guess.slip[n] = next <= 0.0;
+            part = (left - next.max(0.0).cbrt().powi(2)) / moved;
+        }
+        for c in 0..2 {
+            guess.q[c][n] += part * change[c];
+        }
+    }
 }
 
 /// A pressure for bodies that have not touched: that of a Hertz contact of the given approach.

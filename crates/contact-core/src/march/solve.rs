@@ -1,5 +1,8 @@
 //! The whole load path at once, and what each branch comes to.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use super::{Increment, March, Motion, Work};
 use crate::error::Error;
 use crate::scene::{LoadPoint, Loads, SaveFields, Scene};
@@ -13,6 +16,11 @@ pub trait Observer {
     fn on_end(&mut self, _march: &March, _failure: Option<&Error>) -> Result<(), Error> {
         Ok(())
     }
+
+    /// A flag that ends the run as soon as it is raised, in the middle of an increment too.
+    fn stop(&self) -> Option<Arc<AtomicBool>> {
+        None
+    }
 }
 
 /// Nobody watches.
@@ -24,24 +32,37 @@ impl Observer for () {
 
 /// Runs through the whole path and returns every increment.
 pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Vec<Increment>, Error> {
-    let mut march = March::new(scene)?;
-    let mut increments = Vec::with_capacity(march.points().len());
-    let outcome = run(&mut march, observer, &mut increments);
-    let ended = observer.on_end(&march, outcome.as_ref().err());
-    outcome.and(ended).map(|()| increments)
+    March::new(scene)?.run(Vec::new(), observer)
 }
 
-fn run(
-    march: &mut March,
-    observer: &mut dyn Observer,
-    increments: &mut Vec<Increment>,
-) -> Result<(), Error> {
-    while let Some(increment) = march.advance() {
-        let increment = increment?;
-        increments.push(increment);
-        observer.on_increment(march, &increment)?;
+impl March {
+    /// Runs through what is left of the path; returns the increments `before` and those.
+    pub fn run(
+        mut self,
+        mut before: Vec<Increment>,
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<Increment>, Error> {
+        if let Some(flag) = observer.stop() {
+            self.stop_on(flag);
+        }
+        before.reserve(self.points().len().saturating_sub(before.len()));
+        let outcome = self.go_on(&mut before, observer);
+        let ended = observer.on_end(&self, outcome.as_ref().err());
+        outcome.and(ended).map(|()| before)
     }
-    Ok(())
+
+    fn go_on(
+        &mut self,
+        increments: &mut Vec<Increment>,
+        observer: &mut dyn Observer,
+    ) -> Result<(), Error> {
+        while let Some(increment) = self.advance() {
+            let increment = increment?;
+            increments.push(increment);
+            observer.on_increment(self, &increment)?;
+        }
+        Ok(())
+    }
 }
 
 impl SaveFields {

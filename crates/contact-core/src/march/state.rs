@@ -1,11 +1,13 @@
 //! All that the next increment depends on.
 
+use serde::{Deserialize, Serialize};
+
 use super::Motion;
 use crate::scene::Loads;
 use crate::solvers::Interface;
 
 /// State after an increment, on the kept cells (half of the grid where the scene is symmetric).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Increments done.
     pub increments: usize,
@@ -46,5 +48,14 @@ impl State {
             q_before: pair(),
             step: Loads::default(),
         }
+    }
+
+    /// Whether every field has that many cells.
+    pub(crate) fn fits(&self, cells: usize) -> bool {
+        let Interface { p, q, u, u_z, slip } = &self.interface;
+        let fields = [p, u_z, &self.dissipated, &self.p_before];
+        let pairs = [q, u, &self.slip, &self.q_before];
+        let fields = fields.into_iter().chain(pairs.into_iter().flatten());
+        fields.into_iter().all(|f| f.len() == cells) && slip.len() == cells
     }
 }

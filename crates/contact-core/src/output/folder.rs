@@ -1,6 +1,6 @@
 //! A folder of files that are replaced as a whole.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -38,12 +38,32 @@ impl Folder {
     pub(super) fn write(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
         let path = self.root.join(key);
         let unfinished = path.with_file_name(UNFINISHED);
-        if fs::write(&unfinished, bytes).is_err() {
+        let written = fs::write(&unfinished, bytes).or_else(|_| {
             // The folder may be missing; anything else fails again, and says why.
             fs::create_dir_all(path.parent().unwrap_or(&self.root))?;
-            fs::write(&unfinished, bytes)?;
+            fs::write(&unfinished, bytes)
+        });
+        finish(&unfinished, &path, written)
+    }
+
+    /// The same for a file of a folder that exists, written by `content`; it is on the disk before
+    /// this returns, so that a power failure leaves the old file or the new one too.
+    pub(super) fn write_durably(
+        &self,
+        key: &str,
+        content: impl FnOnce(&File) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let path = self.root.join(key);
+        let unfinished = path.with_file_name(UNFINISHED);
+        let written = File::create(&unfinished).and_then(|file| {
+            content(&file)?;
+            file.sync_all()
+        });
+        finish(&unfinished, &path, written)?;
+        if cfg!(unix) {
+            File::open(path.parent().unwrap_or(&self.root))?.sync_all()?;
         }
-        fs::rename(&unfinished, &path)
+        Ok(())
     }
 
     /// The content of a file; `None` if there is none.
@@ -62,6 +82,16 @@ impl Folder {
             message: message.to_string(),
         }
     }
+}
+
+/// Puts a file in its place; one that could not be written whole is removed.
+fn finish(unfinished: &Path, path: &Path, written: io::Result<()>) -> io::Result<()> {
+    let renamed = written.and_then(|()| fs::rename(unfinished, path));
+    if renamed.is_err() {
+        // There may be nothing to remove, and nothing more to be done if that fails.
+        let _ = fs::remove_file(unfinished);
+    }
+    renamed
 }
 
 fn storage_error(error: io::Error) -> StorageError {

@@ -6,16 +6,20 @@
 //!
 //! [`StoreWriter`] appends while the run goes on. Every file is replaced as a whole, the
 //! consolidated metadata last: whoever reads it, or is left with it after a crash, sees the store
-//! as it was at one moment.
+//! as it was at one moment. Beside the arrays it keeps a checkpoint of the state, from which
+//! [`resume`] goes on to the same result, bit by bit.
 
 mod catalogue;
+mod checkpoint;
 mod folder;
 mod reader;
+mod resume;
 mod variable;
 mod writer;
 
 pub use catalogue::{FIELDS, Field, FieldView, Kind, SCALARS, Scalar};
 pub use reader::Store;
+pub use resume::{Resumed, resume};
 pub use writer::StoreWriter;
 
 /// The version of the store's layout.

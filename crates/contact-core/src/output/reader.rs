@@ -68,6 +68,15 @@ impl Store {
         })
     }
 
+    pub(super) fn folder(&self) -> &Arc<Folder> {
+        &self.folder
+    }
+
+    /// The metadata documents of the group and the arrays.
+    pub(super) fn metadata(&self) -> &Value {
+        &self.metadata
+    }
+
     /// The scene that was solved.
     pub fn scene(&self) -> &Scene {
         &self.scene

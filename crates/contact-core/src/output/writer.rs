@@ -9,26 +9,31 @@ use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 use super::catalogue::{FIELDS, FieldView, Kind, SCALARS, STATUS_MEANINGS};
+use super::checkpoint::Checkpoints;
 use super::folder::Folder;
 use super::reader::Store;
 use super::variable::{Column, Variable};
 use crate::error::Error;
-use crate::march::{Fields, Increment, March, Observer};
+use crate::march::{Fields, Increment, March, Observer, State};
 use crate::scene::{LoadPoint, Plan, Scene};
 
-/// Time between two flushes: what a crash may lose. A flush replaces some eighty small files.
-const FLUSH_INTERVAL: Duration = Duration::from_secs(5);
+/// Time between two checkpoints: what a crash may lose.
+const INTERVAL: Duration = Duration::from_secs(5);
+/// Largest part of the time that goes to checkpoints.
+const SHARE: f64 = 0.03;
+/// What a checkpoint is taken to cost before one has been timed.
+const FIRST_COST: Duration = Duration::from_millis(30);
 
 /// Appends a run to a store while it goes on. Give it to [`crate::march::solve`].
 pub struct StoreWriter {
     path: PathBuf,
     overwrite: bool,
-    flush_interval: Duration,
+    interval: Duration,
     open: Option<Open>,
 }
 
 /// A store that has been begun.
-struct Open {
+pub(super) struct Open {
     folder: Arc<Folder>,
     attributes: Map<String, Value>,
     /// Over `increment`, as in [`SCALARS`].
@@ -41,7 +46,12 @@ struct Open {
     saved_increment: usize,
     /// Metadata documents as they were last written.
     documents: Map<String, Value>,
-    flushed: Instant,
+    checkpoints: Option<Checkpoints>,
+    /// Increments that the store on the disk holds.
+    on_disk: usize,
+    /// When the last checkpoint was written, and how long that took.
+    written: Instant,
+    cost: Duration,
 }
 
 impl StoreWriter {
@@ -70,16 +80,28 @@ impl StoreWriter {
         Ok(Self {
             path: path.to_owned(),
             overwrite,
-            flush_interval: FLUSH_INTERVAL,
+            interval: INTERVAL,
             open: None,
         })
     }
 
-    /// Brings the store up to date whenever `interval` of run time has passed (default 5 s), and
-    /// at the end of the run.
+    /// A writer that goes on with the store of `open`.
+    pub(super) fn go_on(open: Open) -> Self {
+        Self {
+            path: open.folder.root().to_owned(),
+            overwrite: false,
+            interval: INTERVAL,
+            open: Some(open),
+        }
+    }
+
+    /// Brings the store and the checkpoint up to date whenever `interval` of run time has passed
+    /// (default 5 s; zero: after every increment), at the ends of branches, and at the end of the
+    /// run. Branch ends are passed over while that would take more than 3 % of the time, and so
+    /// are intervals other than zero.
     #[must_use]
-    pub fn with_flush_interval(mut self, interval: Duration) -> Self {
-        self.flush_interval = interval;
+    pub fn with_interval(mut self, interval: Duration) -> Self {
+        self.interval = interval;
         self
     }
 }
@@ -88,48 +110,50 @@ impl Observer for StoreWriter {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         if self.open.is_none() {
             if self.overwrite && self.path.exists() {
-                remove(&self.path).map_err(|e| Error::File {
-                    path: self.path.display().to_string(),
-                    message: format!("cannot be replaced: {e}"),
-                })?;
+                remove(&self.path)?;
             }
-            self.open = Some(Open::new(&self.path, march.scene(), march.plan())?);
+            let mut open = Open::new(Folder::new(&self.path), march.scene(), march.plan());
+            open.begin()?;
+            self.open = Some(open);
         }
         let Some(open) = &mut self.open else {
             return Ok(());
         };
         let last = increment.index == march.points().len();
         let save = &march.scene().settings.save;
-        open.append(increment);
+        open.append(increment)?;
         if save.keeps(&increment.point, increment.index, last) {
             open.save(&march.fields())?;
         }
-        if open.flushed.elapsed() >= self.flush_interval {
-            open.flush()?;
+        if open.is_due(self.interval, increment.point.ends_branch) {
+            open.checkpoint(march.state())?;
         }
         Ok(())
     }
 
-    /// Keeps the fields of the last increment and says how the run ended.
+    /// Keeps the fields of the last increment and says how the run ended; a run that ended early
+    /// leaves a checkpoint to go on from.
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         let Some(open) = &mut self.open else {
             return Ok(());
         };
-        if open
-            .last
-            .is_some_and(|(index, _)| index != open.saved_increment)
-        {
+        let beyond_disk = march.state().increments >= open.on_disk;
+        if beyond_disk && march.state().increments != open.saved_increment {
             open.save(&march.fields())?;
         }
         let status = failure.map_or("done".to_owned(), ToString::to_string);
         open.attributes.insert("status".into(), json!(status));
-        open.flush()
+        open.checkpoint(march.state())?;
+        match open.checkpoints.take() {
+            Some(checkpoints) if failure.is_none() => checkpoints.remove(),
+            _ => Ok(()),
+        }
     }
 }
 
 impl Open {
-    /// Begins the store: the group, without a variable.
-    fn new(path: &Path, scene: &Scene, plan: &Plan) -> Result<Self, Error> {
+    /// A store without an increment; nothing is written yet.
+    pub(super) fn new(folder: Arc<Folder>, scene: &Scene, plan: &Plan) -> Self {
         let grid = &scene.grid;
         let scalars = SCALARS.iter().map(|s| {
             let codes = [
@@ -168,8 +192,8 @@ impl Open {
         let fields = FIELDS
             .iter()
             .map(|f| Variable::field(f.name, f.kind, (f.units, f.long_name), (grid.nx, grid.ny)));
-        let mut open = Self {
-            folder: Folder::new(path),
+        Self {
+            folder,
             attributes: group_attributes(scene, plan),
             scalars: scalars.collect(),
             others,
@@ -178,17 +202,72 @@ impl Open {
             saved: 0,
             saved_increment: 0,
             documents: Map::new(),
-            flushed: Instant::now(),
-        };
-        open.write_documents(open.group_documents())?;
-        Ok(open)
+            checkpoints: None,
+            on_disk: 0,
+            written: Instant::now(),
+            cost: FIRST_COST,
+        }
     }
 
-    fn append(&mut self, increment: &Increment) {
+    /// Begins the store: the group, without a variable, and the place of the checkpoints.
+    fn begin(&mut self) -> Result<(), Error> {
+        self.write_documents(self.group_documents())?;
+        let scene = self.attributes["scene"].as_str().unwrap_or_default();
+        self.checkpoints = Some(Checkpoints::begin(&self.folder, scene)?);
+        Ok(())
+    }
+
+    /// Takes up what a run has left: its increments, of which those that `keeps` says keep their
+    /// fields, and a store on the disk that holds `on_disk` of them or more.
+    pub(super) fn take_up(
+        &mut self,
+        checkpoints: Checkpoints,
+        increments: &[Increment],
+        on_disk: usize,
+        keeps: impl Fn(&Increment) -> bool,
+    ) {
+        self.checkpoints = Some(checkpoints);
+        self.on_disk = on_disk;
+        for increment in increments {
+            self.append_scalars(increment);
+            if keeps(increment) {
+                self.count_saved(increment.index, &increment.point);
+            }
+        }
+    }
+
+    fn append(&mut self, increment: &Increment) -> Result<(), Error> {
+        self.append_scalars(increment);
+        match &mut self.checkpoints {
+            Some(checkpoints) => checkpoints.push(increment),
+            None => Ok(()),
+        }
+    }
+
+    fn append_scalars(&mut self, increment: &Increment) {
         for (column, scalar) in self.scalars.iter_mut().zip(SCALARS) {
             column.push((scalar.value)(increment));
         }
         self.last = Some((increment.index, increment.point));
+    }
+
+    /// Whether a checkpoint is to be written now.
+    fn is_due(&self, interval: Duration, ends_branch: bool) -> bool {
+        let elapsed = self.written.elapsed();
+        interval.is_zero()
+            || ((ends_branch || elapsed >= interval) && elapsed.mul_f64(SHARE) >= self.cost)
+    }
+
+    /// Brings the store up to date, then the checkpoint, which so never is ahead of it.
+    fn checkpoint(&mut self, state: &State) -> Result<(), Error> {
+        let begun = Instant::now();
+        self.flush()?;
+        if let Some(checkpoints) = &mut self.checkpoints {
+            checkpoints.write(state)?;
+        }
+        self.written = Instant::now();
+        self.cost = self.written - begun;
+        Ok(())
     }
 
     /// Stores the fields of the last increment; they belong to the store from the next flush on.
@@ -197,13 +276,10 @@ impl Open {
             return Ok(());
         };
         let chunk = [self.saved as u64, 0, 0];
-        self.saved += 1;
-        self.saved_increment = index;
         self.fields
-            .par_iter_mut()
+            .par_iter()
             .zip(FIELDS)
             .try_for_each(|(variable, field)| {
-                variable.set_length(self.saved);
                 let folder = &self.folder;
                 match (field.values)(fields) {
                     FieldView::Real(f) => variable.store(folder, &chunk, f.iter().copied()),
@@ -213,6 +289,17 @@ impl Open {
                     }
                 }
             })?;
+        self.count_saved(index, &point);
+        Ok(())
+    }
+
+    /// Counts the fields of an increment among those that are kept.
+    fn count_saved(&mut self, index: usize, point: &LoadPoint) {
+        self.saved += 1;
+        self.saved_increment = index;
+        for variable in &mut self.fields {
+            variable.set_length(self.saved);
+        }
         for column in &mut self.others {
             match column.variable().name() {
                 "saved_increment" => column.push(index as f64),
@@ -220,12 +307,18 @@ impl Open {
                 _ => {}
             }
         }
-        Ok(())
     }
 
     /// Brings the store up to date: values, then the metadata of each array, then the
-    /// consolidated metadata that makes all of it count at once.
+    /// consolidated metadata that makes all of it count at once. A store that holds more, since
+    /// the run went on from an older checkpoint, keeps it; only its status changes.
     fn flush(&mut self) -> Result<(), Error> {
+        let solved = self.last.map_or(0, |(index, _)| index);
+        if solved < self.on_disk {
+            let mut documents = self.documents.clone();
+            documents.insert(".zattrs".into(), Value::Object(self.attributes.clone()));
+            return self.write_documents(documents);
+        }
         for column in self.scalars.iter_mut().chain(&mut self.others) {
             column.flush(&self.folder)?;
         }
@@ -237,7 +330,7 @@ impl Open {
             documents.insert(format!("{name}/.zattrs"), variable.attributes());
         }
         self.write_documents(documents)?;
-        self.flushed = Instant::now();
+        self.on_disk = solved;
         Ok(())
     }
 
@@ -249,7 +342,7 @@ impl Open {
     }
 
     /// Writes the metadata documents that have changed, and all of them as consolidated metadata.
-    fn write_documents(&mut self, documents: Map<String, Value>) -> Result<(), Error> {
+    pub(super) fn write_documents(&mut self, documents: Map<String, Value>) -> Result<(), Error> {
         for (key, document) in &documents {
             if self.documents.get(key) != Some(document) {
                 self.write(key, document)?;
@@ -269,7 +362,15 @@ impl Open {
 }
 
 /// Removes a store: first from its place, at once, then from the disk.
-fn remove(path: &Path) -> std::io::Result<()> {
+fn remove(path: &Path) -> Result<(), Error> {
+    let folder = Folder::new(path);
+    if Checkpoints::in_use(&folder) {
+        return Err(folder.error(&"is being written by another process"));
+    }
+    remove_folder(path).map_err(|e| folder.error(&format!("cannot be replaced: {e}")))
+}
+
+fn remove_folder(path: &Path) -> std::io::Result<()> {
     let mut name = path.as_os_str().to_owned();
     name.push(".replaced-by-fret");
     let aside = PathBuf::from(name);

@@ -1,10 +1,12 @@
 //! The load history: branches, each cut into increments.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::Error;
 
 /// The loads that the contact transmits at one moment, on body 2, and the rigid motions that are
 /// given instead of them.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Loads {
     /// Normal force W \[N\], compression positive.
     pub W: f64,
@@ -25,7 +27,7 @@ pub struct Loads {
 
 /// Rigid motions of body 1 against body 2 that are given; `None` where the load is. Without a word
 /// the forces are given and the bodies do not rotate.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Given {
     /// Approach \[m\], instead of W.
     pub delta_z: Option<f64>,
@@ -153,7 +155,7 @@ pub struct LoadPath {
 }
 
 /// One point of the load history: the loads at the end of an increment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoadPoint {
     /// Branch the increment belongs to, from 0.
     pub branch: usize,

@@ -5,6 +5,8 @@
 //! the other and one pass is exact. The displacements are carried along: each solver adds the
 //! response to what it changed, and one full convolution at the start ties them to the tractions.
 
+use serde::{Deserialize, Serialize};
+
 use super::admissible::admissible;
 use super::limit::{Sliding, exceeds, sliding};
 use super::rigid_motion::{Arms, Drive, add};
@@ -17,7 +19,7 @@ use super::{
 use crate::convolution::{Displacements, Tractions};
 
 /// Tractions of an increment and the displacements that belong to them, on the kept cells.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Interface {
     /// Pressure \[Pa\].
     pub p: Vec<f64>,

@@ -31,6 +31,7 @@ pub(crate) use rigid_motion::add;
 pub use rigid_motion::{Arms, Drive};
 pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
 pub use tangential::{TangentialWorkspace, tangential};
+pub(crate) use vector::size;
 
 /// A solver that stopped before its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

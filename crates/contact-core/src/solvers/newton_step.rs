@@ -168,7 +168,7 @@ impl NewtonStep {
         }
         let mut last_product = 0.0;
         for pass in 0..max_passes {
-            if self.residual_norm() <= target {
+            if self.residual_norm() <= target || response.stopped() {
                 return pass;
             }
             self.precondition(response);

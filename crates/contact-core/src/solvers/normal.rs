@@ -106,7 +106,7 @@ pub fn normal(
         if solved && is_balanced(problem, p) {
             return Ok(info);
         }
-        if iterations == params.max_iterations {
+        if iterations == params.max_iterations || response.stopped() {
             return Err(SolverError {
                 solver: "normal",
                 residual: info.gap.max(info.penetration),

@@ -82,7 +82,7 @@ impl ProjectedGradient {
                     shear.u[c][n] = self.u_last[c][n] + response;
                 }
             }
-            if change_size == 0.0 {
+            if change_size == 0.0 || response.stopped() {
                 break;
             }
             // The step must not exceed the inverse of the compliance met.

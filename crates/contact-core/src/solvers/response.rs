@@ -1,5 +1,7 @@
 //! What the solvers ask of the bodies: displacements under tractions, and a guess of the inverse.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crate::convolution::{CirculantInverse, Displacements, SurfaceOperator, Tractions};
 
 /// The surface operator and, where there is one, its approximate inverse.
@@ -8,9 +10,16 @@ pub struct Response<'a> {
     pub op: &'a mut dyn SurfaceOperator,
     /// Preconditioner; without it the conjugate gradients are plain.
     pub inverse: Option<&'a mut CirculantInverse>,
+    /// Raised from outside to end the iterations.
+    pub stop: Option<&'a AtomicBool>,
 }
 
 impl Response<'_> {
+    /// Whether the iterations are to end, converged or not.
+    pub(crate) fn stopped(&self) -> bool {
+        self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+
     /// u_z under p alone.
     pub(crate) fn normal(&mut self, p: &[f64], u_z: &mut [f64]) {
         let tractions = Tractions {

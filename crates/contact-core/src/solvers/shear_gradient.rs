@@ -32,7 +32,7 @@ pub(crate) fn shear_gradient(
         if misfit <= params.tolerance {
             return Ok(info);
         }
-        if info.iterations == params.max_iterations {
+        if info.iterations == params.max_iterations || response.stopped() {
             return Err(SolverError {
                 solver: "tangential",
                 residual: misfit,

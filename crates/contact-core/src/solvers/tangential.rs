@@ -84,7 +84,7 @@ pub fn tangential(
         if released == 0 && info.misfit <= params.tolerance {
             return Ok(info);
         }
-        if info.iterations == params.max_iterations {
+        if info.iterations == params.max_iterations || response.stopped() {
             return Err(SolverError {
                 solver: "tangential",
                 residual: info.misfit,

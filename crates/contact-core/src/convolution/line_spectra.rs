@@ -1,0 +1,96 @@
+//! The spectra in the order in which the lines use them.
+
+use super::Spectra;
+use super::spectra::Spectrum;
+
+/// Frequencies k_x that are worked on together.
+pub(crate) const LANES: usize = 4;
+
+/// Spectra of a group of kernels that are used together: (line, block of k_x, kernel, frequency
+/// k_y of the line), [`LANES`] frequencies k_x each, so that a product reads memory in one go.
+#[derive(Clone, Debug, Default)]
+struct Group {
+    values: Vec<[f64; LANES]>,
+    per_line: usize,
+}
+
+/// The spectra of the six coefficients by line.
+///
+/// A line has one frequency k_y, or the two 2 l and 2 l + 1 in a mirror-symmetric scene.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LineSpectra {
+    tangential: Group,
+    normal: Group,
+    coupling: Group,
+}
+
+/// What acts on one line; a group is empty where its kernels vanish.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LineKernels<'a> {
+    /// xx, yy, xy
+    pub(crate) tangential: &'a [[f64; LANES]],
+    /// zz
+    pub(crate) normal: &'a [[f64; LANES]],
+    /// xz, yz
+    pub(crate) coupling: &'a [[f64; LANES]],
+}
+
+impl LineSpectra {
+    /// `row` numbers per frequency k_y; lines of two frequencies if `mirrored`.
+    pub(crate) fn new(s: &Spectra, row: usize, mirrored: bool) -> Self {
+        Self {
+            tangential: Group::new(&[&s.xx, &s.yy, &s.xy], row, mirrored),
+            normal: Group::new(&[&s.zz], row, mirrored),
+            coupling: Group::new(&[&s.xz, &s.yz], row, mirrored),
+        }
+    }
+
+    pub(crate) fn of(&self, line: usize) -> LineKernels<'_> {
+        LineKernels {
+            tangential: self.tangential.of(line),
+            normal: self.normal.of(line),
+            coupling: self.coupling.of(line),
+        }
+    }
+}
+
+impl Group {
+    fn new(spectra: &[&Spectrum], row: usize, mirrored: bool) -> Self {
+        if spectra.iter().any(|s| s.is_empty()) {
+            return Self::default();
+        }
+        let blocks = row.div_ceil(LANES);
+        let frequencies = spectra[0].len() / row;
+        let each = if mirrored { 2 } else { 1 };
+        let lines = frequencies.div_ceil(each);
+        let mut values = Vec::with_capacity(lines * blocks * spectra.len() * each);
+        for line in 0..lines {
+            for block in 0..blocks {
+                for spectrum in spectra {
+                    for l in 0..each {
+                        // The last line may have one frequency only, the last block fewer.
+                        let k_y = line * each + l;
+                        let at = |i: usize| {
+                            let k_x = block * LANES + i;
+                            let inside = k_x < row && k_y < frequencies;
+                            if inside {
+                                spectrum[k_y * row + k_x]
+                            } else {
+                                0.0
+                            }
+                        };
+                        values.push(std::array::from_fn(at));
+                    }
+                }
+            }
+        }
+        Self {
+            per_line: blocks * spectra.len() * each,
+            values,
+        }
+    }
+
+    fn of(&self, line: usize) -> &[[f64; LANES]] {
+        &self.values[line * self.per_line..(line + 1) * self.per_line]
+    }
+}

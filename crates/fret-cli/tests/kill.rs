@@ -1,0 +1,155 @@
+//! kill -9 at random moments: nothing that was saved is lost, and the result is that of a run that
+//! nobody disturbed, bit by bit.
+
+#![allow(clippy::unwrap_used, clippy::float_cmp)]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::Instant;
+
+use contact_core::output::Store;
+
+const SCENE: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../../scenes/coated_small.toml"
+);
+/// Kills, unless the environment says how many: `make kill` asks for a hundred.
+const KILLS: usize = 12;
+/// Kills in one run at most; then it is let go to its end.
+const KILLS_PER_RUN: usize = 4;
+
+fn free(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    if path.exists() {
+        fs::remove_dir_all(&path).unwrap();
+    }
+    path
+}
+
+fn fret(arguments: &[&str], checkpoint: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_fret"));
+    command
+        .args(arguments)
+        .args(["--quiet", "--checkpoint", checkpoint])
+        .stderr(Stdio::piped());
+    command
+}
+
+fn new_run(out: &Path, checkpoint: &str) -> Command {
+    let out = out.to_str().unwrap();
+    fret(&["run", SCENE, "--set", "grid.n=32", "-o", out], checkpoint)
+}
+
+/// Every file of the store and its bytes.
+fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(files(&path).into_iter().map(|(name, bytes)| {
+                let below = Path::new(path.file_name().unwrap()).join(name);
+                (below, bytes)
+            }));
+        } else {
+            let name = path.file_name().unwrap().into();
+            found.insert(name, fs::read(&path).unwrap());
+        }
+    }
+    found
+}
+
+/// What the killed run says it has saved is there, and is right.
+fn check(killed: &Store, whole: &Store) {
+    let n = killed.increments();
+    for name in ["t", "delta_x", "p_max", "convolutions"] {
+        if n > 0 {
+            assert_eq!(
+                killed.column(name).unwrap(),
+                whole.column(name).unwrap()[..n]
+            );
+        }
+    }
+    for saved in 0..killed.saved() {
+        for name in ["p", "q_x", "slip_x"] {
+            let field = whole.field(name, saved).unwrap();
+            assert_eq!(killed.field(name, saved).unwrap(), field);
+        }
+    }
+}
+
+/// The same numbers in every run: a congruential sequence, 0 to 1.
+struct Chance(u64);
+
+impl Chance {
+    fn draw(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+#[test]
+fn killed_runs_are_resumed_to_the_same_bits() {
+    let asked_for = std::env::var("FRET_KILLS").ok();
+    let kills = asked_for.map_or(KILLS, |n| n.parse().unwrap());
+    let whole = free("undisturbed.zarr");
+    let begun = Instant::now();
+    assert!(new_run(&whole, "5").status().unwrap().success());
+    let duration = begun.elapsed();
+    let expected = files(&whole);
+    let whole = Store::open(&whole).unwrap();
+
+    let mut chance = Chance(7);
+    let (mut done, mut taken_up) = (0, 0);
+    while done < kills {
+        // Half of the runs write a checkpoint after every increment: most kills hit one.
+        let checkpoint = if chance.draw() < 0.5 { "0" } else { "0.02" };
+        let out = free("killed.zarr");
+        let (mut increments, mut saved) = (0, 0);
+        for _ in 0..KILLS_PER_RUN.min(kills - done) {
+            let mut run = if out.exists() {
+                fret(&["resume", out.to_str().unwrap()], checkpoint)
+            } else {
+                new_run(&out, checkpoint)
+            };
+            let mut run = run.spawn().unwrap();
+            sleep(duration.mul_f64(chance.draw()));
+            if let Some(status) = run.try_wait().unwrap() {
+                assert!(status.success());
+                break;
+            }
+            run.kill().unwrap();
+            run.wait().unwrap();
+            done += 1;
+            if !out.exists() {
+                continue;
+            }
+            let store = Store::open(&out).unwrap();
+            assert!(store.increments() >= increments && store.saved() >= saved);
+            (increments, saved) = (store.increments(), store.saved());
+            check(&store, &whole);
+        }
+        if out.exists() {
+            taken_up += usize::from(increments > 0);
+            let end = fret(&["resume", out.to_str().unwrap()], "5")
+                .output()
+                .unwrap();
+            assert!(
+                end.status.success(),
+                "{}",
+                String::from_utf8_lossy(&end.stderr)
+            );
+            assert!(files(&out) == expected, "{done} kills");
+        }
+    }
+    // The kills are no formality: most runs had something to go on from.
+    assert!(
+        4 * taken_up * KILLS_PER_RUN > kills,
+        "{taken_up} of {kills}"
+    );
+}

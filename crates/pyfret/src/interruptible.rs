@@ -1,0 +1,45 @@
+//! Long work beside the interpreter, which goes on to hear signals.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+
+/// Time between two looks at the signals.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Does `work` in a thread of its own while the interpreter's lock is free and the caller's thread
+/// hears signals. What a signal handler raises is returned; it raises `stop` too, on which the
+/// work is to end early.
+pub(crate) fn interruptible<T: Send>(
+    py: Python<'_>,
+    stop: &Arc<AtomicBool>,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    let (at_work, ended) = channel::<()>();
+    py.detach(move || {
+        thread::scope(|scope| {
+            let worker = scope.spawn(move || {
+                let _at_work = at_work;
+                work()
+            });
+            let mut raised = None;
+            while let Err(RecvTimeoutError::Timeout) = ended.recv_timeout(LOOK) {
+                if raised.is_some() {
+                    continue;
+                }
+                if let Err(error) = Python::attach(|py| py.check_signals()) {
+                    stop.store(true, Ordering::Relaxed);
+                    raised = Some(error);
+                }
+            }
+            let result = worker
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            raised.map_or(Ok(result), Err)
+        })
+    })
+}
