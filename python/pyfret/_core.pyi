@@ -11,19 +11,24 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
-    "RIGID",
     "Body",
     "Branch",
     "CattaneoMindlin",
     "CoatedIndentation",
     "Coating",
+    "Cone",
     "Conversion",
     "CoupledIndentation",
+    "CrownedRoller",
+    "Cylinder",
     "Elastic",
+    "Ellipsoid",
     "Flat",
+    "FlatPunch",
     "FrequencyDomain",
     "Grid",
     "Hankel",
+    "HeightMap",
     "Hertz",
     "HertzEllipse",
     "InvalidSceneError",
@@ -36,6 +41,8 @@ __all__ = [
     "OffGridError",
     "Preset",
     "Profile",
+    "RIGID",
+    "Rough",
     "Scene",
     "Settings",
     "Skip",
@@ -43,7 +50,10 @@ __all__ = [
     "Spacing",
     "Sphere",
     "StoreError",
+    "Sum",
     "SurfaceOperator",
+    "Waviness",
+    "Wedge",
     "__version__",
     "coated_indentation",
     "coupled_indentation",
@@ -171,6 +181,7 @@ class Flat:
     """The contact plane itself."""
 
     def __new__(cls) -> Flat: ...
+    def __add__(self, other: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -189,11 +200,303 @@ class Sphere:
     @property
     def R(self) -> float:
         """Radius [m]."""
+    def __add__(self, other: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
-_Shape: TypeAlias = Flat | Sphere
+@final
+class Ellipsoid:
+    """Two principal radii, each a parabola as in Hertz's theory.
+
+    Parameters
+    ----------
+    R_x : float
+        Principal radius in the direction `angle` [m]; negative for a hollow.
+    R_y : float
+        Principal radius across it [m].
+    angle : float
+        Direction of the first one, from x towards y [rad].
+    """
+
+    def __new__(cls, *, R_x: float, R_y: float, angle: float = ...) -> Ellipsoid: ...
+    @property
+    def R_x(self) -> float:
+        """Principal radius in the direction `angle` [m]; negative for a hollow."""
+    @property
+    def R_y(self) -> float:
+        """Principal radius across it [m]."""
+    @property
+    def angle(self) -> float:
+        """Direction of the first one, from x towards y [rad]."""
+    def __add__(self, other: _Shape, /) -> Sum: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Cylinder:
+    """A cylinder with sharp ends; its axis is y turned by `angle`.
+
+    Parameters
+    ----------
+    R : float
+        Radius [m]; negative for a hollow.
+    length : float
+        Length along the axis [m]; infinite for one that leaves the grid.
+    angle : float
+        Turn of the axis from y [rad].
+    """
+
+    def __new__(cls, *, R: float, length: float = ..., angle: float = ...) -> Cylinder: ...
+    @property
+    def R(self) -> float:
+        """Radius [m]; negative for a hollow."""
+    @property
+    def length(self) -> float:
+        """Length along the axis [m]; infinite for one that leaves the grid."""
+    @property
+    def angle(self) -> float:
+        """Turn of the axis from y [rad]."""
+    def __add__(self, other: _Shape, /) -> Sum: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class CrownedRoller:
+    """A cylinder with rounded ends; its axis is y turned by `angle`.
+
+    Parameters
+    ----------
+    R : float
+        Radius [m].
+    length : float
+        Length of the straight part [m], 0 for a crown all along.
+    crown : float
+        Radius along the axis beyond the straight part [m].
+    angle : float
+        Turn of the axis from y [rad].
+    """
+
+    def __new__(
+        cls, *, R: float, length: float, crown: float, angle: float = ...
+    ) -> CrownedRoller: ...
+    @property
+    def R(self) -> float:
+        """Radius [m]."""
+    @property
+    def length(self) -> float:
+        """Length of the straight part [m], 0 for a crown all along."""
+    @property
+    def crown(self) -> float:
+        """Radius along the axis beyond the straight part [m]."""
+    @property
+    def angle(self) -> float:
+        """Turn of the axis from y [rad]."""
+    def __add__(self, other: _Shape, /) -> Sum: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Cone:
+    """A cone with its tip at the origin.
+
+    Parameters
+    ----------
+    slope : float
+        Tangent of the angle between flank and contact plane.
+    """
+
+    def __new__(cls, *, slope: float) -> Cone: ...
+    @property
+    def slope(self) -> float:
+        """Tangent of the angle between flank and contact plane."""
+    def __add__(self, other: _Shape, /) -> Sum: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Wedge:
+    """Two flanks that meet in an edge; it is y turned by `angle`.
+
+    Parameters
+    ----------
+    slope : float
+        Tangent of the angle between flank and contact plane.
+    angle : float
+        Turn of the edge from y [rad].
+    """
+
+    def __new__(cls, *, slope: float, angle: float = ...) -> Wedge: ...
+    @property
+    def slope(self) -> float:
+        """Tangent of the angle between flank and contact plane."""
+    @property
+    def angle(self) -> float:
+        """Turn of the edge from y [rad]."""
+    def __add__(self, other: _Shape, /) -> Sum: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class FlatPunch:
+    """A round flat punch with a rounded edge.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of the flat [m].
+    edge : float
+        Radius of the rounding beyond it [m].
+    """
+
+    def __new__(cls, *, radius: float, edge: float) -> FlatPunch: ...
+    @property
+    def radius(self) -> float:
+        """Radius of the flat [m]."""
+    @property
+    def edge(self) -> float:
+        """Radius of the rounding beyond it [m]."""
+    def __add__(self, other: _Shape, /) -> Sum: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Waviness:
+    """A wave along the direction `angle`, a crest at the origin for phase 0; add it to a shape.
+
+    Parameters
+    ----------
+    amplitude : float
+        Height of a crest above the mean [m].
+    wavelength : float
+        Distance of the crests [m].
+    angle : float
+        Direction, from x towards y [rad].
+    phase : float
+        Phase at the origin [rad].
+    """
+
+    def __new__(
+        cls, *, amplitude: float, wavelength: float, angle: float = ..., phase: float = ...
+    ) -> Waviness: ...
+    @property
+    def amplitude(self) -> float:
+        """Height of a crest above the mean [m]."""
+    @property
+    def wavelength(self) -> float:
+        """Distance of the crests [m]."""
+    @property
+    def angle(self) -> float:
+        """Direction, from x towards y [rad]."""
+    @property
+    def phase(self) -> float:
+        """Phase at the origin [rad]."""
+    def __add__(self, other: _Shape, /) -> Sum: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Rough:
+    """A random self-affine surface; add it to a shape.
+
+    Its power falls like k^-(2 + 2 `hurst`) between two wavelengths and is level above the longer
+    one. The same seed gives the same surface on every grid of the same size, however fine.
+
+    Parameters
+    ----------
+    rms : float
+        Root-mean-square height [m].
+    hurst : float
+        Hurst exponent, above 0 and up to 1.
+    longest, shortest : float
+        Wavelengths between which it is self-affine [m]; the shortest is at least two cells.
+    seed : int
+        Seed of the phases (default 0).
+    """
+
+    def __new__(
+        cls, *, rms: float, hurst: float, longest: float, shortest: float, seed: int = 0
+    ) -> Rough: ...
+    @property
+    def rms(self) -> float:
+        """Root-mean-square height [m]."""
+    @property
+    def hurst(self) -> float:
+        """Hurst exponent."""
+    @property
+    def longest(self) -> float:
+        """Longest wavelength of the self-affine range [m]."""
+    @property
+    def shortest(self) -> float:
+        """Shortest wavelength [m]."""
+    @property
+    def seed(self) -> int:
+        """Seed of the phases."""
+    def __add__(self, other: _Shape, /) -> Sum: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class HeightMap:
+    """Measured or calculated heights, the middle of the map over the origin.
+
+    Parameters
+    ----------
+    z : array of shape (points along x, points along y)
+        Heights out of the body, towards the other one [m].
+    spacing : (float, float)
+        Distance of the points along x and y [m]. Between the points heights are linear.
+    """
+
+    def __new__(cls, z: ArrayLike, *, spacing: tuple[float, float]) -> HeightMap: ...
+    @staticmethod
+    def from_file(path: str | PathLike[str], *, spacing: tuple[float, float]) -> HeightMap:
+        """Read heights [m] from a ``.npy`` array or a ``.csv`` table, one line per x."""
+    @property
+    def z(self) -> _Array:
+        """Heights [m]."""
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """Distance of the points along x and y [m]."""
+    def __add__(self, other: _Shape, /) -> Sum: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class Sum:
+    """Several shapes on top of one another, made by adding them."""
+
+    @property
+    def parts(self) -> list[_Shape]:
+        """The shapes."""
+    def __add__(self, other: _Shape, /) -> Sum: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+_Shape: TypeAlias = (
+    Flat
+    | Sphere
+    | Ellipsoid
+    | Cylinder
+    | CrownedRoller
+    | Cone
+    | Wedge
+    | FlatPunch
+    | Waviness
+    | Rough
+    | HeightMap
+    | Sum
+)
 
 @final
 class Body:
@@ -205,7 +508,7 @@ class Body:
         Material below the coatings.
     coatings : sequence of Coating
         Layers from the surface down: ``coatings[0]`` is the outermost (default: none).
-    shape : Flat or Sphere
+    shape : Flat, Sphere, Ellipsoid, Cylinder, ... or a sum of them
         Undeformed surface (default: flat).
     """
 

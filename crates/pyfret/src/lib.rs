@@ -49,8 +49,9 @@ mod _core {
     use crate::result::{resume, solve};
     #[pymodule_export]
     use crate::scene::{
-        Body, Branch, Coating, Elastic, Flat, FrequencyDomain, Grid, Hankel, InverseFft, LoadPath,
-        Preset, Profile, Scene, Settings, Skip, Spacing, Sphere, graded,
+        Body, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat, FlatPunch,
+        FrequencyDomain, Grid, Hankel, HeightMap, InverseFft, LoadPath, Preset, Profile, Rough,
+        Scene, Settings, Skip, Spacing, Sphere, Sum, Waviness, Wedge, graded,
     };
 
     #[pymodule_export]

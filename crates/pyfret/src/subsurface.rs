@@ -21,6 +21,8 @@ use crate::scene::{Body, Grid, LoadPath};
 type Field<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 /// x, y, z and the layer of a point.
 type Place = (f64, f64, f64, usize);
+/// Numbers for Python, one row per point.
+type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
 fn side(body_number: u8) -> PyResult<Side> {
     match body_number {
@@ -96,7 +98,7 @@ pub(crate) fn measure<'py>(
 pub(crate) fn principal<'py>(
     py: Python<'py>,
     stress: Field<'py>,
-) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray3<f64>>)> {
+) -> PyResult<(Matrix<'py>, Bound<'py, PyArray3<f64>>)> {
     let stress = tensors(&stress)?;
     let mut values = Array2::zeros((stress.len(), 3));
     let mut directions = Array3::zeros((stress.len(), 3, 3));
@@ -239,7 +241,7 @@ impl Subsurface {
         &self,
         py: Python<'py>,
         places: Vec<Place>,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+    ) -> PyResult<(Matrix<'py>, Matrix<'py>)> {
         let places: Vec<_> = places
             .into_iter()
             .map(|(x, y, z, layer)| (x, y, Depth { z, layer }))
@@ -409,15 +411,15 @@ pub(crate) fn maximum(
 /// The loops of a history, one dictionary per cycle.
 #[pyfunction]
 #[pyo3(signature = (path, *, branch, T, delta, dissipated, status))]
-pub(crate) fn loops<'py>(
-    py: Python<'py>,
+pub(crate) fn loops(
+    py: Python<'_>,
     path: LoadPath,
     branch: Vec<usize>,
     T: Vec<f64>,
     delta: Vec<f64>,
     dissipated: Vec<f64>,
     status: Vec<u8>,
-) -> PyResult<Vec<Bound<'py, PyDict>>> {
+) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let history: Vec<core::LoopPoint> = branch
         .iter()
         .zip(&T)

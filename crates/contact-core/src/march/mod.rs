@@ -86,10 +86,7 @@ impl March {
             x: arm(&|x, _| x),
             y: arm(&|_, y| y),
         };
-        let approach = scene.hertz().map_or_else(
-            || scene.h_init().iter().fold(0.0, |m: f64, h| m.max(*h)),
-            |hertz| hertz.delta_z,
-        );
+        let approach = scene.approach();
         Ok(Self {
             points: scene.path.points(),
             scene: scene.clone(),

@@ -35,6 +35,7 @@ pub use coupled_indentation::{CoupledIndentation, coupled_indentation};
 pub use elliptic::{EllipticIntegrals, elliptic_integrals};
 pub use goodman::{dundurs_beta, goodman_rate, goodman_stick_ratio};
 pub use hamilton::{HertzStress, Stress};
+pub(crate) use hertz::contact_modulus;
 pub use hertz::{Hertz, hertz};
 pub use hertz_ellipse::{HertzEllipse, hertz_ellipse};
 pub use layered_response::layered_normal_response;

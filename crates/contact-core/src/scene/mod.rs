@@ -22,10 +22,10 @@ pub use plan::{Plan, PlanLine};
 pub use settings::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
 };
-pub use shape::Shape;
+pub use shape::{HeightMap, Rough, Shape};
 
 use crate::error::Error;
-use crate::reference::{Hertz, hertz};
+use crate::reference::{Hertz, contact_modulus, hertz, hertz_ellipse};
 
 /// A fretting contact problem.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,36 +59,45 @@ impl Scene {
                 "finite, since body 1 is rigid",
             ));
         }
-        let curvature = self.body1.shape.curvature() + self.body2.shape.curvature();
-        if curvature <= 0.0 {
-            return Err(Error::invalid(
-                "body1.shape",
-                format!("{:?} on {:?}", self.body1.shape, self.body2.shape),
-                "two surfaces that part away from the initial point of contact",
-            ));
-        }
         self.friction.check()?;
         self.grid.check()?;
+        self.body1.shape.check_on(&self.grid, "body1.shape")?;
+        self.body2.shape.check_on(&self.grid, "body2.shape")?;
+        if !self.parts_at_the_border() {
+            let (one, other) = (self.body1.shape.word(), self.body2.shape.word());
+            return Err(Error::invalid(
+                "body1.shape",
+                format!("{one} on {other}"),
+                "a surface that parts from the other one towards the border of the grid",
+            ));
+        }
         self.path.check(self.friction.mu)?;
         self.settings.check()
     }
 
     /// The Hertz contact of the uncoated pair at the largest normal load of the path, or at the
     /// largest approach that it gives: the yardstick `a_H`, `p_H` of every dimensionless result.
-    /// `None` where a substrate pair is rigid or nothing presses the bodies together.
+    /// `None` where a substrate pair is rigid, nothing presses the bodies together or their shapes
+    /// meet in no point. A contact of unequal radii has the mean of its semi-axes for `a_H`, the
+    /// geometric one.
     pub fn hertz(&self) -> Option<Hertz> {
-        let curvature = self.body1.shape.curvature() + self.body2.shape.curvature();
         let both_rigid = self.body1.substrate.is_rigid() && self.body2.substrate.is_rigid();
-        if curvature <= 0.0 || both_rigid {
+        let (k_1, k_2) = self.principal_curvatures();
+        if k_2 <= 1e-9 * k_1 || both_rigid {
             return None;
         }
         let at = |W| {
-            hertz(
-                1.0 / curvature,
-                self.body1.substrate,
-                self.body2.substrate,
-                W,
-            )
+            let round = hertz(1.0 / k_1, self.body1.substrate, self.body2.substrate, W);
+            if k_1 - k_2 <= 1e-12 * k_1 {
+                return round;
+            }
+            let ellipse = hertz_ellipse(1.0 / k_2, 1.0 / k_1, round.E_star, W);
+            Hertz {
+                a: (ellipse.a_x * ellipse.a_y).sqrt(),
+                p0: ellipse.p0,
+                delta_z: ellipse.delta_z,
+                ..round
+            }
         };
         // delta_z grows with W^(2/3).
         let delta_z = self.path.delta_z_max();
@@ -96,9 +105,49 @@ impl Scene {
         (W > 0.0).then(|| at(W))
     }
 
+    /// The length that approaches are compared with \[m\]: Hertz's approach, or where there is none
+    /// the largest approach that is given or that the largest force would cause under a punch as
+    /// wide as the grid.
+    pub fn approach(&self) -> f64 {
+        self.hertz().map_or_else(
+            || {
+                let softest = |body: &Body| {
+                    let coatings = body.coatings.iter().map(|c| c.material);
+                    let layers = coatings.chain([body.substrate]);
+                    layers.fold(Elastic::RIGID, |s, m| if m.E < s.E { m } else { s })
+                };
+                let E_star = contact_modulus(softest(&self.body1), softest(&self.body2));
+                let (length, width) = self.grid.extent();
+                let under_punch = self.path.W_max() / (E_star * length.max(width));
+                self.path.delta_z_max().max(under_punch)
+            },
+            |hertz| hertz.delta_z,
+        )
+    }
+
     /// Gap between the undeformed surfaces, h_init \[m\], shape (nx, ny).
     pub fn h_init(&self) -> ndarray::Array2<f64> {
-        self.grid
-            .map(|x, y| self.body1.shape.fall(x, y) + self.body2.shape.fall(x, y))
+        self.body1.shape.fall(&self.grid) + self.body2.shape.fall(&self.grid)
+    }
+
+    /// The larger and the smaller principal curvature of the gap between the nominal shapes \[1/m\].
+    fn principal_curvatures(&self) -> (f64, f64) {
+        let (one, other) = (self.body1.shape.curvature(), self.body2.shape.curvature());
+        let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| one[i] + other[i]);
+        let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+        (mean + half, mean - half)
+    }
+
+    /// Whether the gap is narrower somewhere inside than all along the border of the grid.
+    fn parts_at_the_border(&self) -> bool {
+        let h = self.h_init();
+        let (nx, ny) = h.dim();
+        let (mut inside, mut border) = (f64::INFINITY, f64::INFINITY);
+        for ((i, j), &h) in h.indexed_iter() {
+            let at_border = i == 0 || j == 0 || i + 1 == nx || j + 1 == ny;
+            let lowest = if at_border { &mut border } else { &mut inside };
+            *lowest = lowest.min(h);
+        }
+        inside < border
     }
 }

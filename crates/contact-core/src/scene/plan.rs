@@ -1,5 +1,7 @@
 //! What a scene needs, decided before anything is computed.
 
+use ndarray::Array2;
+
 use super::{Body, Grid, KernelMethod, Loads, Scene};
 use crate::convolution::Mirror;
 
@@ -126,6 +128,14 @@ fn layers(body: &Body, scene: &Scene) -> Vec<(f64, f64, f64)> {
         .collect()
 }
 
+/// Whether the gap is its own mirror image under y -> -y, up to rounding.
+fn is_mirror_symmetric(h: &Array2<f64>) -> bool {
+    let ny = h.ncols();
+    let largest = h.iter().fold(0.0, |m: f64, h| m.max(h.abs()));
+    h.indexed_iter()
+        .all(|((i, j), h_ij)| (h_ij - h[(i, ny - 1 - j)]).abs() <= 1e-12 * largest)
+}
+
 /// Whether, and why, the solution is its own mirror image under y -> -y.
 fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.settings.skip.mirror {
@@ -140,8 +150,7 @@ fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.grid.ny.is_multiple_of(2) {
         return Err("the grid has an odd number of rows along y");
     }
-    let shapes = [&scene.body1.shape, &scene.body2.shape];
-    if !shapes.iter().all(|s| s.is_mirror_symmetric_in_y()) {
+    if !is_mirror_symmetric(&scene.h_init()) {
         return Err("the surfaces are not mirror-symmetric in y");
     }
     let uneven = |to: &Loads| {

@@ -194,7 +194,14 @@ mod tests {
         assert!((b[0][2] + 0.5 / det).abs() < 1e-15);
         // Twice the same motion: one of them is left out.
         let b = inverse([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0; 3]], [true; 3]);
-        assert_eq!(b, [[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]);
+        let sizes: Vec<f64> = b
+            .iter()
+            .map(|row| row.iter().map(|b| b.abs()).sum())
+            .collect();
+        assert!(
+            (sizes[0] - 1.0).abs() < 1e-15 && sizes[1] + sizes[2] <= 0.0,
+            "{b:?}"
+        );
     }
 
     #[test]

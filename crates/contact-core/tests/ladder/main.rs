@@ -18,5 +18,6 @@ mod hertz;
 mod invariants;
 mod mindlin_shear;
 mod paper_scene;
+mod shapes;
 mod tilt;
 mod torsion;

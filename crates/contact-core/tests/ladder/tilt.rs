@@ -1,6 +1,9 @@
 //! Tilting moments: flat and conformal contacts.
 
-use crate::bench::{R, STEEL, W, close, hertz_of, indentation, run, sphere_on_flat};
+use contact_core::march::Status;
+use contact_core::scene::{Grid, LoadPath, Shape};
+
+use crate::bench::{CORK, R, STEEL, W, close, hertz_of, indentation, run, sphere_on_flat};
 
 #[test]
 fn a_moment_moves_the_contact_of_a_sphere() {
@@ -36,4 +39,43 @@ fn a_moment_moves_the_contact_of_a_sphere() {
         assert!(i.residuals.balance < 1e-9, "{:e}", i.residuals.balance);
         assert!(i.residuals.energy.abs() < 1e-6, "{:e}", i.residuals.energy);
     }
+}
+
+#[test]
+fn a_flat_punch_balances_its_moments() {
+    let a = 1e-3;
+    let mut scene = sphere_on_flat(STEEL, CORK, 0.3, (2.6, 48), LoadPath::start());
+    scene.grid = Grid::centred(2.6 * a, 48).expect("a grid");
+    scene.body1.shape = Shape::FlatPunch {
+        radius: 0.8 * a,
+        edge: 0.02,
+    };
+    scene.path = LoadPath::start().normal(W, 2).to(
+        |to| {
+            (to.given.phi_x, to.given.phi_y) = (None, None);
+            (to.M_x, to.M_y) = (0.1 * W * a, 0.15 * W * a);
+            to.T_x = 0.5 * 0.3 * W;
+        },
+        3,
+    );
+    let mut eccentric = [0.0; 2];
+    let increments = run(&scene, |march, increment| {
+        let (fields, grid) = (march.fields(), &march.scene().grid);
+        eccentric = [0.0; 2];
+        for ((i, j), p) in fields.p.indexed_iter() {
+            eccentric[0] += p * grid.y(j) * grid.cell_area();
+            eccentric[1] -= p * grid.x(i) * grid.cell_area();
+        }
+        assert!(
+            increment.residuals.balance < 1e-9,
+            "{:?}",
+            increment.residuals
+        );
+    });
+    let end = increments.last().expect("an increment");
+    assert_ne!(end.status, Status::NoContact);
+    close("M_x", eccentric[0] / (W * a), 0.1, 1e-9);
+    close("M_y", eccentric[1] / (W * a), 0.15, 1e-9);
+    // The side that carries more is pressed in deeper.
+    assert!(end.motion.phi_x > 0.0 && end.motion.phi_y > 0.0);
 }

@@ -15,5 +15,8 @@ pub(crate) use load_path::{Branch, LoadPath, Spacing};
 pub(crate) use material::Elastic;
 pub(crate) use profile::{Profile, graded};
 pub(crate) use settings::{FrequencyDomain, Hankel, InverseFft, Preset, Save, Settings, Skip};
-pub(crate) use shape::{Flat, Sphere};
+pub(crate) use shape::{
+    Cone, CrownedRoller, Cylinder, Ellipsoid, Flat, FlatPunch, HeightMap, Rough, Sphere, Sum,
+    Waviness, Wedge,
+};
 pub(crate) use whole::Scene;

@@ -8,6 +8,7 @@ mod document;
 mod measure;
 mod read;
 mod section;
+mod shape;
 #[cfg(test)]
 mod tests;
 mod write;
@@ -39,7 +40,8 @@ impl Scene {
     /// Reads and checks a scene in the format of the scene file; `file` is its name in errors.
     pub fn from_toml_str(text: &str, file: &str, settings: &[String]) -> Result<Self, Error> {
         let document = Document::parse(text, file, settings)?;
-        read::scene(document.root())
+        let folder = Path::new(file).parent().unwrap_or_else(|| Path::new(""));
+        read::scene(document.root(), folder)
             .and_then(|scene| {
                 scene.check()?;
                 Ok(scene)

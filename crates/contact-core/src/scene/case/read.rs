@@ -1,15 +1,18 @@
 //! The values of a scene, in the order that their measures need: a_H needs the substrates, the
 //! shapes and the loads; the coatings and the grid may be given in a_H.
 
+use std::path::Path;
+
 use toml::{Table, Value};
 
 use super::SCHEMA;
 use super::measure::{self, Measure};
 use super::section::{Fault, Section, count, pair};
+use super::shape::shape;
 use crate::scene::{
     Body, Branch, Coating, Elastic, Friction, Given, Grid, KernelMethod, KernelSettings, LOADS,
-    LoadPath, Loads, MOTIONS, Preset, SaveFields, Scene, Settings, Shape, SkipSettings,
-    SolverSettings, Spacing,
+    LoadPath, Loads, MOTIONS, Preset, SaveFields, Scene, Settings, SkipSettings, SolverSettings,
+    Spacing,
 };
 
 const ROOT: [&str; 11] = [
@@ -19,7 +22,7 @@ const ROOT: [&str; 11] = [
 const BODY: [&str; 4] = ["shape", "E", "nu", "coatings"];
 
 /// The whole scene, not yet checked for meaning.
-pub(super) fn scene(table: &Table) -> Result<Scene, Fault> {
+pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
     let root = Section::root(table, &ROOT)?;
     let what = "1, the version of the scene file";
     match root.need("schema", what)? {
@@ -40,8 +43,8 @@ pub(super) fn scene(table: &Table) -> Result<Scene, Fault> {
         .number("mu", "a number >= 0", &[])?;
     let mut scene = Scene {
         title: title.to_owned(),
-        body1: uncoated(&bodies[0])?,
-        body2: uncoated(&bodies[1])?,
+        body1: uncoated(&bodies[0], folder)?,
+        body2: uncoated(&bodies[1], folder)?,
         friction: Friction { mu },
         grid: Grid {
             nx: 0,
@@ -66,7 +69,7 @@ pub(super) fn scene(table: &Table) -> Result<Scene, Fault> {
     Ok(scene)
 }
 
-fn uncoated(section: &Section<'_>) -> Result<Body, Fault> {
+fn uncoated(section: &Section<'_>, folder: &Path) -> Result<Body, Fault> {
     let rigid = section.get("E").and_then(Value::as_str) == Some("rigid");
     let substrate = if rigid {
         Elastic {
@@ -79,21 +82,7 @@ fn uncoated(section: &Section<'_>) -> Result<Body, Fault> {
             nu: section.number("nu", "Poisson's ratio", &[])?,
         }
     };
-    Ok(Body::homogeneous(substrate, shape(section)?))
-}
-
-fn shape(section: &Section<'_>) -> Result<Shape, Fault> {
-    let what = "\"flat\" or { sphere = { R = radius in m } }";
-    match section.need("shape", what)? {
-        Value::String(word) if word == "flat" => Ok(Shape::Flat),
-        table @ Value::Table(_) => {
-            let shape = Section::from_value(section.path("shape"), table, &["sphere"])?;
-            let sphere = shape.need_section("sphere", &["R"])?;
-            let R = sphere.number("R", "the radius in m", &[])?;
-            Ok(Shape::Sphere { R })
-        }
-        other => Err(Fault::value(&section.path("shape"), other, what)),
-    }
+    Ok(Body::homogeneous(substrate, shape(section, folder)?))
 }
 
 fn coatings(

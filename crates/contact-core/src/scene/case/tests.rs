@@ -209,7 +209,7 @@ t = 0.1;  t = 0.0;  29;  path[0].t = 0;  a time after 0
 mu_W = 0.9;  mu_W = 1.1;  32;  path[1].T_x = 330;  |T| <= mu W = 300 N
 mu_W = 0.9;  a_H = 0.9;  32;  path[1].T_x = { a_H = 0.9 };  { mu_W = number }
 schema = 1;  schema = 2;  1;  schema = 2;  must be 1
-"flat";  "flot";  10;  body2.shape = "flot";  "flat" or { sphere
+"flat";  "flot";  10;  body2.shape = "flot";  "flat" or a table such as { sphere
 "#;
 
 #[test]

@@ -6,7 +6,7 @@ use toml::Value;
 
 use super::SCHEMA;
 use crate::scene::{
-    Body, Elastic, KernelMethod, LOADS, MOTIONS, Preset, SaveFields, Scene, Shape, Spacing,
+    Body, Elastic, KernelMethod, LOADS, MOTIONS, Preset, SaveFields, Scene, Spacing,
 };
 
 impl Scene {
@@ -86,11 +86,8 @@ fn quoted(text: &str) -> String {
 }
 
 fn substrate(body: &Body) -> String {
-    let shape = match body.shape {
-        Shape::Flat => "shape = \"flat\"".to_owned(),
-        Shape::Sphere { R } => format!("shape.sphere.R = {R:?}"),
-    };
-    format!("{shape}\n{}", material(body.substrate))
+    let shape = super::shape::text(&body.shape);
+    format!("shape = {shape}\n{}", material(body.substrate))
 }
 
 fn material(material: Elastic) -> String {

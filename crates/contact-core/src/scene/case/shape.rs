@@ -1,0 +1,208 @@
+//! Shapes in a scene file: a table of one key, or of several that are added.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use ndarray::Array2;
+use toml::Value;
+
+use super::section::{Fault, Section, pair};
+use crate::error::Error;
+use crate::scene::{HeightMap, Rough, Shape};
+
+const SHAPES: [&str; 11] = [
+    "sphere",
+    "ellipsoid",
+    "cylinder",
+    "crowned_roller",
+    "cone",
+    "wedge",
+    "flat_punch",
+    "waviness",
+    "height_map",
+    "rough",
+    "sum",
+];
+
+/// The shape of a body; `folder` is where relative paths of files start.
+pub(super) fn shape(body: &Section<'_>, folder: &Path) -> Result<Shape, Fault> {
+    let what = "\"flat\" or a table such as { sphere = { R = radius in m } }";
+    let value = body.need("shape", what)?;
+    any(&body.path("shape"), value, folder, what)
+}
+
+fn any(key: &str, value: &Value, folder: &Path, what: &str) -> Result<Shape, Fault> {
+    match value {
+        Value::String(word) if word == "flat" => Ok(Shape::Flat),
+        Value::Table(table) if !table.is_empty() => {
+            let shapes = Section::from_value(key.to_owned(), value, &SHAPES)?;
+            let mut parts = Vec::with_capacity(table.len());
+            for name in table.keys() {
+                parts.push(one(&shapes, name, folder)?);
+            }
+            // One part stands for itself.
+            Ok(if parts.len() == 1 {
+                parts.remove(0)
+            } else {
+                Shape::Sum(parts)
+            })
+        }
+        other => Err(Fault::value(key, other, what)),
+    }
+}
+
+/// The shape under one key of the table.
+fn one(shapes: &Section<'_>, name: &str, folder: &Path) -> Result<Shape, Fault> {
+    let numbers = |keys: &[&str]| shapes.need_section(name, keys);
+    let length = "a length in m";
+    let slope = "the slope of the flank";
+    Ok(match name {
+        "sphere" => Shape::Sphere {
+            R: numbers(&["R"])?.number("R", "the radius in m", &[])?,
+        },
+        "ellipsoid" => {
+            let s = numbers(&["R_x", "R_y", "angle"])?;
+            Shape::Ellipsoid {
+                R_x: s.number("R_x", "a radius in m", &[])?,
+                R_y: s.number("R_y", "a radius in m", &[])?,
+                angle: s.number_or("angle", 0.0, &[])?,
+            }
+        }
+        "cylinder" => {
+            let s = numbers(&["R", "length", "angle"])?;
+            Shape::Cylinder {
+                R: s.number("R", "the radius in m", &[])?,
+                length: s.number_or("length", f64::INFINITY, &[])?,
+                angle: s.number_or("angle", 0.0, &[])?,
+            }
+        }
+        "crowned_roller" => {
+            let s = numbers(&["R", "length", "crown", "angle"])?;
+            Shape::CrownedRoller {
+                R: s.number("R", "the radius in m", &[])?,
+                length: s.number("length", length, &[])?,
+                crown: s.number("crown", "the radius of the crown in m", &[])?,
+                angle: s.number_or("angle", 0.0, &[])?,
+            }
+        }
+        "cone" => Shape::Cone {
+            slope: numbers(&["slope"])?.number("slope", slope, &[])?,
+        },
+        "wedge" => {
+            let s = numbers(&["slope", "angle"])?;
+            Shape::Wedge {
+                slope: s.number("slope", slope, &[])?,
+                angle: s.number_or("angle", 0.0, &[])?,
+            }
+        }
+        "flat_punch" => {
+            let s = numbers(&["radius", "edge"])?;
+            Shape::FlatPunch {
+                radius: s.number("radius", length, &[])?,
+                edge: s.number("edge", "the radius of the rounding in m", &[])?,
+            }
+        }
+        "waviness" => {
+            let s = numbers(&["amplitude", "wavelength", "angle", "phase"])?;
+            Shape::Waviness {
+                amplitude: s.number("amplitude", length, &[])?,
+                wavelength: s.number("wavelength", length, &[])?,
+                angle: s.number_or("angle", 0.0, &[])?,
+                phase: s.number_or("phase", 0.0, &[])?,
+            }
+        }
+        "rough" => {
+            let s = numbers(&["rms", "hurst", "longest", "shortest", "seed"])?;
+            let seed = s.count_or("seed", 0, 0)?;
+            Shape::Rough(Rough {
+                rms: s.number("rms", length, &[])?,
+                hurst: s.number("hurst", "a number above 0 and up to 1", &[])?,
+                longest: s.number("longest", "a wavelength in m", &[])?,
+                shortest: s.number("shortest", "a wavelength in m", &[])?,
+                seed: u32::try_from(seed).map_err(|_| {
+                    let key = s.path("seed");
+                    Fault::new(&key, format!("{key} = {seed}: must be below 2^32"))
+                })?,
+            })
+        }
+        "height_map" => Shape::HeightMap(height_map(&numbers(&["file", "z", "spacing"])?, folder)?),
+        _ => sum(shapes, folder)?,
+    })
+}
+
+fn sum(shapes: &Section<'_>, folder: &Path) -> Result<Shape, Fault> {
+    let what = "a list of shapes";
+    let (key, value) = (shapes.path("sum"), shapes.need("sum", what)?);
+    let parts = value
+        .as_array()
+        .ok_or_else(|| Fault::value(&key, value, what))?;
+    let parts = parts.iter().enumerate();
+    parts
+        .map(|(i, part)| any(&format!("{key}[{i}]"), part, folder, "a shape"))
+        .collect::<Result<_, _>>()
+        .map(Shape::Sum)
+}
+
+/// Heights from a file, or in the scene itself: a list along x of lists along y.
+fn height_map(section: &Section<'_>, folder: &Path) -> Result<HeightMap, Fault> {
+    let spacing = section.need("spacing", "the distance of the points in m, or two")?;
+    let spacing = pair(&section.path("spacing"), spacing, |key, value| {
+        super::measure::number(key, value, &[])
+    })?;
+    if section.get("z").is_none() {
+        let what = "the name of a .npy or .csv file with heights in m";
+        let file = section.need("file", what)?;
+        let key = section.path("file");
+        let name = file
+            .as_str()
+            .ok_or_else(|| Fault::value(&key, file, what))?;
+        return HeightMap::from_file(&folder.join(name), spacing)
+            .map_err(|e: Error| Fault::new(&key, format!("{key}: {e}")));
+    }
+    let what = "a list along x of lists along y of heights in m, all of one length";
+    let (key, value) = (section.path("z"), section.need("z", what)?);
+    let wrong = || Fault::new(&key, format!("{key}: must be {what}"));
+    let rows = value.as_array().ok_or_else(wrong)?;
+    let mut heights = Vec::new();
+    for row in rows {
+        for z in row.as_array().ok_or_else(wrong)? {
+            heights.push(super::measure::number(&key, z, &[])?);
+        }
+    }
+    let shape = (rows.len(), heights.len() / rows.len().max(1));
+    let z = Array2::from_shape_vec(shape, heights).map_err(|_| wrong())?;
+    Ok(HeightMap {
+        z: Arc::new(z),
+        spacing,
+    })
+}
+
+/// The shape as a value of a scene file, every number in full.
+pub(super) fn text(shape: &Shape) -> String {
+    let fields = match shape {
+        Shape::Flat => return "\"flat\"".to_owned(),
+        Shape::Sum(parts) => {
+            let parts: Vec<_> = parts.iter().map(text).collect();
+            return format!("{{ sum = [{}] }}", parts.join(", "));
+        }
+        Shape::HeightMap(map) => {
+            let rows = map.z.rows().into_iter();
+            let rows: Vec<_> = rows.map(|row| format!("{:?}", row.to_vec())).collect();
+            let (x, y) = map.spacing;
+            format!("spacing = [{x:?}, {y:?}], z = [{}]", rows.join(", "))
+        }
+        Shape::Rough(rough) => format!(
+            "rms = {:?}, hurst = {:?}, longest = {:?}, shortest = {:?}, seed = {}",
+            rough.rms, rough.hurst, rough.longest, rough.shortest, rough.seed
+        ),
+        elementary => {
+            let numbers = elementary.parameters();
+            let numbers = numbers.iter().map(|(name, value, _)| {
+                let name = name.rsplit('.').next().unwrap_or(name);
+                format!("{name} = {value:?}")
+            });
+            numbers.collect::<Vec<_>>().join(", ")
+        }
+    };
+    format!("{{ {} = {{ {fields} }} }}", shape.word())
+}

@@ -1,0 +1,137 @@
+//! Heights from a measurement or a calculation.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use ndarray::Array2;
+
+use crate::error::Error;
+use crate::scene::Grid;
+
+/// Heights of a surface on points of its own, the middle of the map over the origin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightMap {
+    /// Heights \[m\] out of the body, towards the other one, shape (points along x, along y).
+    pub z: Arc<Array2<f64>>,
+    /// Distance of the points along x and y \[m\].
+    pub spacing: (f64, f64),
+}
+
+impl HeightMap {
+    /// Reads heights \[m\] from a `.npy` array of 64-bit numbers or from a table of numbers parted by
+    /// commas (`.csv`), one line per x.
+    pub fn from_file(path: &Path, spacing: (f64, f64)) -> Result<Self, Error> {
+        let failed = |message: String| Error::File {
+            path: path.display().to_string(),
+            message,
+        };
+        let is_npy = path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("npy"));
+        let z = if is_npy {
+            ndarray_npy::read_npy(path).map_err(|e| failed(e.to_string()))?
+        } else {
+            read_csv(path).map_err(failed)?
+        };
+        Ok(Self {
+            z: Arc::new(z),
+            spacing,
+        })
+    }
+
+    /// Height at (x, y) \[m\], linear between the points, level beyond the border.
+    pub(crate) fn height(&self, x: f64, y: f64) -> f64 {
+        let (nx, ny) = self.z.dim();
+        let (i, s) = place(x / self.spacing.0, nx);
+        let (j, t) = place(y / self.spacing.1, ny);
+        let (k, l) = ((i + 1).min(nx - 1), (j + 1).min(ny - 1));
+        let z = &self.z;
+        (1.0 - s) * ((1.0 - t) * z[(i, j)] + t * z[(i, l)])
+            + s * ((1.0 - t) * z[(k, j)] + t * z[(k, l)])
+    }
+
+    pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
+        if self.z.is_empty() {
+            return Err(Error::invalid(
+                format!("{key}.z"),
+                "empty",
+                "at least one height",
+            ));
+        }
+        if let Some(z) = self.z.iter().find(|z| !z.is_finite()) {
+            return Err(Error::invalid(format!("{key}.z"), z, "finite heights in m"));
+        }
+        for d in [self.spacing.0, self.spacing.1] {
+            if !(d > 0.0 && d.is_finite()) {
+                return Err(Error::invalid(
+                    format!("{key}.spacing"),
+                    d,
+                    "a positive length in m",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn check_on(&self, grid: &Grid, key: &str) -> Result<(), Error> {
+        let (nx, ny) = self.z.dim();
+        let covers = |n: usize, d: f64, cells: usize, cell: f64| {
+            n as f64 * d >= cells as f64 * cell * (1.0 - 1e-9)
+        };
+        let (x, y) = self.spacing;
+        if covers(nx, x, grid.nx, grid.dx) && covers(ny, y, grid.ny, grid.dy) {
+            return Ok(());
+        }
+        Err(Error::invalid(
+            key,
+            format!("{:e} m by {:e} m", nx as f64 * x, ny as f64 * y),
+            "at least as large as the grid",
+        ))
+    }
+}
+
+/// The point before a place given in spacings from the middle, and the part of the way to the next.
+fn place(at: f64, n: usize) -> (usize, f64) {
+    let at = (at + (n - 1) as f64 / 2.0).clamp(0.0, (n - 1) as f64);
+    (at.floor() as usize, at.fract())
+}
+
+fn read_csv(path: &Path) -> Result<Array2<f64>, String> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .trim(csv::Trim::All)
+        .from_path(path)
+        .map_err(|e| e.to_string())?;
+    let (mut values, mut rows) = (Vec::new(), 0);
+    for record in reader.deserialize::<Vec<f64>>() {
+        values.extend(record.map_err(|e| e.to_string())?);
+        rows += 1;
+    }
+    let columns = values.len() / rows.max(1);
+    Array2::from_shape_vec((rows, columns), values).map_err(|e| e.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use ndarray::Array2;
+
+    use super::HeightMap;
+
+    #[test]
+    fn a_plane_is_met_between_its_points() {
+        let z = Array2::from_shape_fn((5, 4), |(i, j)| 2.0 * i as f64 - 3.0 * j as f64);
+        let map = HeightMap {
+            z: Arc::new(z),
+            spacing: (0.5, 0.25),
+        };
+        let (middle_i, middle_j) = (2.0, 1.5);
+        for (x, y) in [(0.0, 0.0), (0.3, -0.1), (-0.99, 0.37)] {
+            let expected = 2.0 * (x / 0.5 + middle_i) - 3.0 * (y / 0.25 + middle_j);
+            assert!((map.height(x, y) - expected).abs() < 1e-13);
+        }
+        let beyond = map.height(-9.0, -9.0);
+        assert!(beyond.abs() < 1e-15, "{beyond}");
+    }
+}

@@ -1,0 +1,312 @@
+//! Shapes of the undeformed surfaces.
+
+mod height_map;
+mod rough;
+
+pub use height_map::HeightMap;
+pub use rough::Rough;
+
+use std::f64::consts::TAU;
+
+use ndarray::Array2;
+
+use super::Grid;
+use crate::error::Error;
+
+/// The undeformed surface of a body, as the height it falls back from the contact plane.
+///
+/// Near the contact every curved surface is taken as its parabola, as in Hertz's theory. An `angle`
+/// turns the shape about z, from x towards y \[rad\].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// The contact plane itself.
+    Flat,
+    /// A sphere.
+    Sphere {
+        /// Radius R \[m\]; negative for a hollow one.
+        R: f64,
+    },
+    /// An ellipsoid, or any surface with two principal radii.
+    Ellipsoid {
+        /// Principal radius in the direction `angle` \[m\]; negative for a hollow one.
+        R_x: f64,
+        /// Principal radius across it \[m\].
+        R_y: f64,
+        /// Direction of the first one \[rad\].
+        angle: f64,
+    },
+    /// A cylinder with sharp ends; its axis is y turned by the angle.
+    Cylinder {
+        /// Radius R \[m\]; negative for a hollow one.
+        R: f64,
+        /// Length along the axis \[m\]; infinite for a cylinder that leaves the grid.
+        length: f64,
+        /// Turn of the axis from y \[rad\].
+        angle: f64,
+    },
+    /// A cylinder whose ends are rounded off; its axis is y turned by the angle.
+    CrownedRoller {
+        /// Radius R \[m\].
+        R: f64,
+        /// Length of the straight part \[m\], 0 for a crown all along.
+        length: f64,
+        /// Radius of the crown along the axis beyond the straight part \[m\].
+        crown: f64,
+        /// Turn of the axis from y \[rad\].
+        angle: f64,
+    },
+    /// A cone with its tip at the origin.
+    Cone {
+        /// Slope of the flank, the tangent of its angle to the contact plane.
+        slope: f64,
+    },
+    /// Two flanks that meet in an edge; the edge is y turned by the angle.
+    Wedge {
+        /// Slope of the flanks, the tangent of their angle to the contact plane.
+        slope: f64,
+        /// Turn of the edge from y \[rad\].
+        angle: f64,
+    },
+    /// A round flat punch with a rounded edge.
+    FlatPunch {
+        /// Radius of the flat \[m\].
+        radius: f64,
+        /// Radius of the rounding beyond it \[m\].
+        edge: f64,
+    },
+    /// A wave along the direction `angle`, with a crest at the origin for phase 0.
+    Waviness {
+        /// Height of a crest above the mean \[m\].
+        amplitude: f64,
+        /// Distance of the crests \[m\].
+        wavelength: f64,
+        /// Direction \[rad\].
+        angle: f64,
+        /// Phase at the origin \[rad\].
+        phase: f64,
+    },
+    /// Measured heights.
+    HeightMap(HeightMap),
+    /// A random self-affine surface.
+    Rough(Rough),
+    /// Several on top of one another: a wavy sphere, a rough punch.
+    Sum(Vec<Self>),
+}
+
+impl Shape {
+    /// Distance of the surface from the contact plane at the cell centres \[m\], shape (nx, ny).
+    pub fn fall(&self, grid: &Grid) -> Array2<f64> {
+        match self {
+            Self::Sum(parts) => parts
+                .iter()
+                .fold(Array2::zeros((grid.nx, grid.ny)), |sum, s| {
+                    sum + s.fall(grid)
+                }),
+            Self::Rough(rough) => rough.fall(grid),
+            shape => grid.map(|x, y| shape.fall_at(x, y)),
+        }
+    }
+
+    /// Distance from the contact plane at (x, y) \[m\]; zero for shapes that need the whole grid.
+    fn fall_at(&self, x: f64, y: f64) -> f64 {
+        let across = |angle: f64| x * angle.cos() + y * angle.sin();
+        let along = |angle: f64| y * angle.cos() - x * angle.sin();
+        let beyond = |r: f64, radius: f64| {
+            let out = (r.abs() - radius).max(0.0);
+            out * out
+        };
+        match *self {
+            Self::Flat | Self::Rough(_) | Self::Sum(_) => 0.0,
+            Self::Sphere { R } => (x * x + y * y) / (2.0 * R),
+            Self::Ellipsoid { R_x, R_y, angle } => {
+                across(angle).powi(2) / (2.0 * R_x) + along(angle).powi(2) / (2.0 * R_y)
+            }
+            Self::Cylinder { R, length, angle } => {
+                // Beyond its ends there is nothing that could touch.
+                let end = if 2.0 * along(angle).abs() > length {
+                    R.abs()
+                } else {
+                    0.0
+                };
+                across(angle).powi(2) / (2.0 * R) + end
+            }
+            Self::CrownedRoller {
+                R,
+                length,
+                crown,
+                angle,
+            } => {
+                across(angle).powi(2) / (2.0 * R)
+                    + beyond(along(angle), 0.5 * length) / (2.0 * crown)
+            }
+            Self::Cone { slope } => slope * x.hypot(y),
+            Self::Wedge { slope, angle } => slope * across(angle).abs(),
+            Self::FlatPunch { radius, edge } => beyond(x.hypot(y), radius) / (2.0 * edge),
+            Self::Waviness {
+                amplitude,
+                wavelength,
+                angle,
+                phase,
+            } => amplitude * (1.0 - (TAU * across(angle) / wavelength + phase).cos()),
+            Self::HeightMap(ref map) => -map.height(x, y),
+        }
+    }
+
+    /// Second derivatives (xx, xy, yy) of the fall at the origin \[1/m\] of the nominal shape: waves,
+    /// roughness and measured heights are left out, edges and flats have none.
+    pub fn curvature(&self) -> [f64; 3] {
+        let principal = |k_x: f64, k_y: f64, angle: f64| {
+            let (s, c) = angle.sin_cos();
+            [
+                k_x * c * c + k_y * s * s,
+                (k_x - k_y) * s * c,
+                k_x * s * s + k_y * c * c,
+            ]
+        };
+        match self {
+            Self::Sphere { R } => [1.0 / R, 0.0, 1.0 / R],
+            Self::Ellipsoid { R_x, R_y, angle } => principal(1.0 / R_x, 1.0 / R_y, *angle),
+            Self::Cylinder { R, angle, .. } => principal(1.0 / R, 0.0, *angle),
+            Self::CrownedRoller {
+                R,
+                length,
+                crown,
+                angle,
+            } => {
+                let along = if *length > 0.0 { 0.0 } else { 1.0 / crown };
+                principal(1.0 / R, along, *angle)
+            }
+            Self::Sum(parts) => parts.iter().fold([0.0; 3], |sum, part| {
+                let k = part.curvature();
+                std::array::from_fn(|i| sum[i] + k[i])
+            }),
+            _ => [0.0; 3],
+        }
+    }
+
+    /// Fails with the key of a parameter that is out of its range.
+    pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
+        let refuse = |name: &str, value: f64, allowed: &str| {
+            Err(Error::invalid(format!("{key}.{name}"), value, allowed))
+        };
+        let radius = "a finite radius in m, not zero";
+        let positive = "a finite positive number";
+        for (name, value, kind) in self.parameters() {
+            let (good, allowed) = match kind {
+                Range::Radius => (value.is_finite() && value != 0.0, radius),
+                Range::Positive => (value.is_finite() && value > 0.0, positive),
+                Range::NotNegative => (value.is_finite() && value >= 0.0, "a number >= 0"),
+                Range::Length => (value > 0.0, "a positive length in m"),
+                Range::Any => (value.is_finite(), "a finite number"),
+            };
+            if !good {
+                return refuse(name, value, allowed);
+            }
+        }
+        match self {
+            Self::HeightMap(map) => map.check(&format!("{key}.height_map")),
+            Self::Rough(rough) => rough.check(&format!("{key}.rough")),
+            Self::Sum(parts) => parts
+                .iter()
+                .enumerate()
+                .try_for_each(|(i, part)| part.check(&format!("{key}.sum[{i}]"))),
+            _ => Ok(()),
+        }
+    }
+
+    /// Fails if the shape says nothing, or too little, about some cells of the grid.
+    pub(crate) fn check_on(&self, grid: &Grid, key: &str) -> Result<(), Error> {
+        match self {
+            Self::HeightMap(map) => map.check_on(grid, &format!("{key}.height_map")),
+            Self::Rough(rough) => rough.check_on(grid, &format!("{key}.rough")),
+            Self::Sum(parts) => parts
+                .iter()
+                .enumerate()
+                .try_for_each(|(i, part)| part.check_on(grid, &format!("{key}.sum[{i}]"))),
+            _ => Ok(()),
+        }
+    }
+
+    /// The name of the shape in a scene file; empty for one that has none of its own.
+    pub(crate) fn word(&self) -> &'static str {
+        match self {
+            Self::Flat => "flat",
+            Self::Sphere { .. } => "sphere",
+            Self::Ellipsoid { .. } => "ellipsoid",
+            Self::Cylinder { .. } => "cylinder",
+            Self::CrownedRoller { .. } => "crowned_roller",
+            Self::Cone { .. } => "cone",
+            Self::Wedge { .. } => "wedge",
+            Self::FlatPunch { .. } => "flat_punch",
+            Self::Waviness { .. } => "waviness",
+            Self::HeightMap(_) => "height_map",
+            Self::Rough(_) => "rough",
+            Self::Sum(_) => "sum",
+        }
+    }
+
+    /// Name, value and range of every number of an elementary shape, in the order of its fields.
+    pub(crate) fn parameters(&self) -> Vec<(&'static str, f64, Range)> {
+        use Range::{Any, Length, NotNegative, Positive, Radius};
+        match *self {
+            Self::Flat | Self::HeightMap(_) | Self::Rough(_) | Self::Sum(_) => Vec::new(),
+            Self::Sphere { R } => vec![("sphere.R", R, Radius)],
+            Self::Ellipsoid { R_x, R_y, angle } => vec![
+                ("ellipsoid.R_x", R_x, Radius),
+                ("ellipsoid.R_y", R_y, Radius),
+                ("ellipsoid.angle", angle, Any),
+            ],
+            Self::Cylinder { R, length, angle } => vec![
+                ("cylinder.R", R, Radius),
+                ("cylinder.length", length, Length),
+                ("cylinder.angle", angle, Any),
+            ],
+            Self::CrownedRoller {
+                R,
+                length,
+                crown,
+                angle,
+            } => vec![
+                ("crowned_roller.R", R, Positive),
+                ("crowned_roller.length", length, NotNegative),
+                ("crowned_roller.crown", crown, Positive),
+                ("crowned_roller.angle", angle, Any),
+            ],
+            Self::Cone { slope } => vec![("cone.slope", slope, Positive)],
+            Self::Wedge { slope, angle } => vec![
+                ("wedge.slope", slope, Positive),
+                ("wedge.angle", angle, Any),
+            ],
+            Self::FlatPunch { radius, edge } => vec![
+                ("flat_punch.radius", radius, Positive),
+                ("flat_punch.edge", edge, Positive),
+            ],
+            Self::Waviness {
+                amplitude,
+                wavelength,
+                angle,
+                phase,
+            } => vec![
+                ("waviness.amplitude", amplitude, Any),
+                ("waviness.wavelength", wavelength, Positive),
+                ("waviness.angle", angle, Any),
+                ("waviness.phase", phase, Any),
+            ],
+        }
+    }
+}
+
+/// What a number of a shape may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Range {
+    /// Finite, not zero.
+    Radius,
+    /// Finite, above zero.
+    Positive,
+    /// Finite, not below zero.
+    NotNegative,
+    /// Above zero, infinity included.
+    Length,
+    /// Finite.
+    Any,
+}
