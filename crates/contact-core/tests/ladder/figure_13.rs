@@ -3,6 +3,8 @@
 //! With E1/E2 = 2 two places compete, the middle of the coating and the trailing rim on the free
 //! surface, where sampled values are low by the square root of the cell.
 
+#![allow(clippy::unwrap_used)]
+
 use contact_core::convolution::Tractions;
 use contact_core::fields::{Line, Section, Side, depths, maximum, von_mises};
 use contact_core::march::March;

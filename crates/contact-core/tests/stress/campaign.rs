@@ -16,7 +16,7 @@ use crate::audit::{Audit, Violations};
 use crate::draw::{Drawn, Intent};
 
 /// A scene that takes longer is stopped.
-const LIMIT: Duration = Duration::from_secs(60);
+const LIMIT: Duration = Duration::from_mins(1);
 /// How far twins may differ that were solved to 1e-6: waves of a few cells make of a misfit a
 /// hundred times as much traction.
 const ALIKE: f64 = 100.0;
@@ -27,7 +27,7 @@ pub(crate) enum Fate {
     /// Solved, with the worst of each violation and the distance of its twins over what is allowed.
     Solved(Violations, Vec<(&'static str, f64)>),
     /// Refused before anything was solved, or off the grid, as it was drawn to be.
-    Refused(String),
+    Refused,
     /// An error that it was not drawn for.
     Failed(String),
     /// A panic.
@@ -41,7 +41,6 @@ pub(crate) struct Outcome {
     pub(crate) increments: usize,
     pub(crate) in_pieces: usize,
     pub(crate) convolutions: f64,
-    pub(crate) cells: usize,
     pub(crate) seconds: f64,
 }
 
@@ -93,7 +92,6 @@ pub(crate) fn outcome(seed: u64, drawn: &Drawn) -> Outcome {
         increments: increments.len(),
         in_pieces: increments.iter().filter(|i| i.work.parts > 1).count(),
         convolutions: increments.iter().map(|i| i.work.convolutions).sum(),
-        cells: drawn.scene.grid.cells(),
         seconds: begun.elapsed().as_secs_f64(),
     }
 }
@@ -103,13 +101,8 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
     let (end, violations) = match (audited(scene, stop), drawn.intent) {
         (Ok(solved), Intent::Solve) => solved,
         (Ok(_), intent) => return (Fate::Failed(format!("solved in spite of {intent:?}")), None),
-        (
-            Err(error @ (Error::InvalidScene { .. } | Error::BeyondFriction { .. })),
-            Intent::PastFriction,
-        )
-        | (Err(error @ Error::OffGrid { .. }), Intent::OffGrid) => {
-            return (Fate::Refused(error.to_string()), None);
-        }
+        (Err(Error::InvalidScene { .. } | Error::BeyondFriction { .. }), Intent::PastFriction)
+        | (Err(Error::OffGrid { .. }), Intent::OffGrid) => return (Fate::Refused, None),
         (Err(error), _) => return (Fate::Failed(error.to_string()), None),
     };
     let mut twins = Vec::new();
@@ -126,8 +119,10 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
     (Fate::Solved(violations, twins), Some(end))
 }
 
-/// What a twin's p, q_x, q_y, delta_z should be, mapped back: p, q_x, q_y and the factor of lengths.
-type Back = Box<dyn Fn(&Fields) -> ([Array2<f64>; 3], f64)>;
+/// p, q_x, q_y of a twin as those of the scene, and the factor of the twin's lengths.
+type Mapped = ([Array2<f64>; 3], f64);
+/// How the fields of a twin are mapped back.
+type Back = Box<dyn Fn(&Fields) -> Mapped>;
 
 fn twins_of(scene: &Scene) -> Vec<(&'static str, Scene, Back)> {
     let mut twins: Vec<(&'static str, Scene, Back)> = Vec::new();
@@ -200,7 +195,7 @@ fn twins_of(scene: &Scene) -> Vec<(&'static str, Scene, Back)> {
 }
 
 /// L2 distance of the tractions over the norm of p (of mu p for shear below one), and of the approach.
-fn distance(ours: &End, theirs: &End, back: &dyn Fn(&Fields) -> ([Array2<f64>; 3], f64)) -> f64 {
+fn distance(ours: &End, theirs: &End, back: &dyn Fn(&Fields) -> Mapped) -> f64 {
     let norm = |f: &Array2<f64>| f.iter().map(|v| v * v).sum::<f64>().sqrt();
     let ([p, q_x, q_y], length) = back(&theirs.fields);
     let f = &ours.fields;

@@ -3,7 +3,7 @@
 //! `make stress` runs 2000 of them and writes what came out into `docs/reliability.md`; the test
 //! runs a slice. `FRET_STRESS` is the number of scenes, `FRET_STRESS_SEED` one scene to look at.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod audit;
 mod campaign;

@@ -19,7 +19,7 @@ impl Outcome {
                     .all(|v| v <= 1.0)
             }
             Fate::Panicked(_) => true,
-            Fate::Refused(_) | Fate::Failed(_) => false,
+            Fate::Refused | Fate::Failed(_) => false,
         }
     }
 }
@@ -29,7 +29,7 @@ pub(crate) fn report(outcomes: &[Outcome]) -> String {
     let total = outcomes.len();
     let count = |kind: &dyn Fn(&Fate) -> bool| outcomes.iter().filter(|o| kind(&o.fate)).count();
     let solved = count(&|f| matches!(f, Fate::Solved(..)));
-    let refused = count(&|f| matches!(f, Fate::Refused(_)));
+    let refused = count(&|f| matches!(f, Fate::Refused));
     let failed = count(&|f| matches!(f, Fate::Failed(_)));
     let panicked = count(&|f| matches!(f, Fate::Panicked(_)));
     let wrong = outcomes.iter().filter(|o| o.is_silently_wrong()).count() - panicked;
