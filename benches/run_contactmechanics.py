@@ -1,0 +1,40 @@
+"""The Hertz contact by ContactMechanics: Polonsky-Keer on its half-space without images."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+
+import hertz
+from ContactMechanics import FreeFFTElasticHalfSpace
+from ContactMechanics.Factory import make_system
+from ContactMechanics.Systems import NonSmoothContactSystem
+from measuring import Solution, Task, measure
+from SurfaceTopography import Topography
+
+
+def prepare(task: Task) -> tuple[NonSmoothContactSystem, Task]:
+    """The half-space with its coefficients, and the contact with the sphere."""
+    n, sizes = task.cells, (hertz.width(), hertz.width())
+    substrate = FreeFFTElasticHalfSpace((n, n), young=hertz.E_STAR, physical_sizes=sizes)
+    sphere = Topography(-hertz.gap(n), physical_sizes=sizes)
+    return make_system(substrate=substrate, surface=sphere), task
+
+
+def solve(prepared: tuple[NonSmoothContactSystem, Task]) -> Solution:
+    """The pressure under the force; its tolerances are lengths and forces."""
+    system, task = prepared
+    n = task.cells
+    found = system.minimize_proxy(
+        external_force=hertz.W,
+        pentol=task.tolerance * hertz.APPROACH,
+        forcetol=task.tolerance * hertz.W / n**2,
+        thermotol=task.tolerance,
+    )
+    if not found.success:
+        raise RuntimeError(found.message)
+    p = system.force[:n, :n] * (n / hertz.width()) ** 2
+    return Solution(p, found.nit, found.nfev)
+
+
+if __name__ == "__main__":
+    measure(version("ContactMechanics"), prepare, solve)
