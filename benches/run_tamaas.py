@@ -1,4 +1,4 @@
-"""The Hertz contact by Tamaas: Polonsky-Keer-Rey with its operator without images."""
+"""A frictionless contact by Tamaas: Polonsky-Keer-Rey with its operator without images."""
 
 from __future__ import annotations
 
@@ -8,38 +8,50 @@ import tempfile
 
 import hertz
 import tamaas
-from measuring import Solution, Task, measure
+from measuring import Task, Work, measure, threads_allowed
+
+STDERR = 2
 
 
-def prepare(task: Task) -> tamaas.PolonskyKeerRey:
+def prepare(task: Task) -> tuple[tamaas.PolonskyKeerRey, Task]:
     """A half-space, its coefficients, and the solver."""
-    tamaas.initialize(task.threads)
-    width = hertz.width()
+    width = task.shape.width
     model = tamaas.ModelFactory.createModel(
         tamaas.model_type.basic_2d, [width, width], [task.cells, task.cells]
     )
     model.E, model.nu = hertz.E_STAR, 0.0
     tamaas.ModelFactory.registerNonPeriodic(model, "dcfft")
-    solver = tamaas.PolonskyKeerRey(model, -hertz.gap(task.cells), task.tolerance)
+    solver = tamaas.PolonskyKeerRey(model, -hertz.gap(task.shape, task.cells), task.tolerance)
     solver.setIntegralOperator("dcfft")
     solver.max_iter = 100_000
     # The first and the last iteration are told, for their number.
     solver.dump_freq = solver.max_iter
-    return solver
+    return solver, task
 
 
-def solve(solver: tamaas.PolonskyKeerRey) -> Solution:
-    """The pressure under the mean pressure asked for; the iterations from what it writes."""
+def solve(prepared: tuple[tamaas.PolonskyKeerRey, Task]) -> Work:
+    """The contact under a mean pressure; the iterations from what it writes."""
+    solver, task = prepared
     with tempfile.TemporaryFile() as said:
-        kept = os.dup(1)
-        os.dup2(said.fileno(), 1)
-        solver.solve(hertz.W / hertz.width() ** 2)
-        os.dup2(kept, 1)
+        kept = os.dup(STDERR)
+        os.dup2(said.fileno(), STDERR)
+        solver.solve(hertz.W / task.shape.width**2)
+        os.dup2(kept, STDERR)
         os.close(kept)
         said.seek(0)
         numbers = re.findall(r"^\s*(\d+)\s+\S+e\S+\s+\S+e\S+", said.read().decode(), re.MULTILINE)
-    return Solution(solver.model.traction.copy(), int(numbers[-1]) if numbers else -1)
+    return Work(int(numbers[-1]))
+
+
+def pressure(prepared: tuple[tamaas.PolonskyKeerRey, Task]) -> hertz.Field:
+    """Of the model."""
+    p: hertz.Field = prepared[0].model.traction
+    return p
 
 
 if __name__ == "__main__":
-    measure(tamaas.__version__, prepare, solve)
+    # The wheel may be built without threads.
+    parallel = tamaas.TamaasInfo.backend != "cpp"
+    threads = threads_allowed() if parallel else 1
+    tamaas.initialize(threads)
+    measure(tamaas.__version__, threads, prepare, solve, pressure)
