@@ -1,5 +1,6 @@
 //! Stage 5: THE LOAD PATH, one increment at a time (the outer loop of figure 2 of the paper).
 
+mod awake;
 mod balance;
 mod fields;
 mod halving;
@@ -16,6 +17,7 @@ pub use state::State;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use self::awake::with_all_awake;
 use crate::convolution::{CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, SurfaceOperator};
 use crate::error::Error;
 use crate::kernels::influence_coefficients;
@@ -152,8 +154,7 @@ impl March {
         let end = &self.scene.path.branches[point.branch].to;
         let state = &self.state;
         let point = point.resolved(end, state.loads.forces(), state.motion.motions());
-        // On a thread of the pool, so that the others are a steal away and not a wake-up.
-        Some(rayon::scope(|_| self.reach(&point)))
+        Some(with_all_awake(|| self.reach(&point)))
     }
 
     /// One increment: predict, solve, account, keep.
