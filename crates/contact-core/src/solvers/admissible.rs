@@ -21,7 +21,8 @@ pub(crate) fn admissible(
     change: &mut [Vec<f64>; 2],
 ) -> f64 {
     for c in 0..2 {
-        change[c].copy_from_slice(q[c]);
+        change[c].clear();
+        change[c].extend_from_slice(q[c]);
     }
     if !share_force(problem, q, slip) {
         project(problem, q, &mut [0.0; 3]);

@@ -10,6 +10,7 @@
 
 mod admissible;
 mod contact_cells;
+mod contact_shear;
 mod coupled;
 mod limit;
 mod mixing;

@@ -14,12 +14,11 @@ type Pair = [Vec<f64>; 2];
 /// find x in the tangent space, B^T x = 0:   Pi (C x + D x + ds) = Pi B d(delta)'
 /// ```
 ///
-/// with B the rigid motions that are free, Pi the projection on the tangent space (stick cells: both components; slip cells: across
-/// q) and D the curvature |ds|/g of the circle. The unknowns are packed contact cells; what goes
+/// with B the rigid motions that are free, Pi the projection on the tangent space (stick cells:
+/// both components; slip cells: across q) and D the curvature |ds|/g of the circle. The unknowns are packed contact cells; what goes
 /// through the operator covers the grid.
 #[derive(Debug)]
 pub(crate) struct NewtonStep {
-    contact: ContactCells,
     tangent: Tangent,
     /// D \[m/Pa\].
     diagonal: Vec<f64>,
@@ -31,8 +30,8 @@ pub(crate) struct NewtonStep {
     z: Pair,
     direction: Pair,
     response_direction: Pair,
-    /// C x \[m\] on the grid.
-    response_x: Pair,
+    /// C x, and C times what was added to x, \[m\] on the grid.
+    pub(crate) response_x: Pair,
     /// Traction and displacement on the grid.
     traction: Pair,
     displacement: Pair,
@@ -57,7 +56,6 @@ impl NewtonStep {
         let pair = || [field(), field()];
         let on_grid = || [vec![0.0; cells], vec![0.0; cells]];
         Self {
-            contact: ContactCells::default(),
             tangent: Tangent {
                 xx: field(),
                 xy: field(),
@@ -79,11 +77,9 @@ impl NewtonStep {
         }
     }
 
-    /// Packs the contact cells, those with a friction bound.
+    /// Makes room for the contact cells.
     pub(crate) fn set_contact(&mut self, problem: &TangentialProblem<'_>) {
-        let bound = problem.bound;
-        self.contact.find(bound.len(), |n| bound[n] > 0.0);
-        let count = self.contact.count();
+        let count = problem.bound.len();
         let t = &mut self.tangent;
         for field in [
             &mut t.xx,
@@ -94,12 +90,11 @@ impl NewtonStep {
         ] {
             field.resize(count, 0.0);
         }
-        let arms = if problem.drive.free[2] { count } else { 0 };
-        t.arm_x.resize(arms, 0.0);
-        t.arm_y.resize(arms, 0.0);
-        if arms > 0 {
-            self.contact.pack(&problem.arms.x, &mut t.arm_x);
-            self.contact.pack(&problem.arms.y, &mut t.arm_y);
+        t.arm_x.clear();
+        t.arm_y.clear();
+        if problem.drive.free[2] {
+            t.arm_x.extend_from_slice(&problem.arms.x);
+            t.arm_y.extend_from_slice(&problem.arms.y);
         }
         for pair in [
             &mut self.x,
@@ -126,11 +121,11 @@ impl NewtonStep {
         c_xx: f64,
     ) {
         let t = &mut self.tangent;
-        for (i, n) in self.contact.iter().enumerate() {
-            let slip = shear.slip_of(problem, shift, n);
-            let (tangent, diagonal) = if shear.slip[n] {
-                let g = problem.bound[n];
-                let e = [shear.q[0][n] / g, shear.q[1][n] / g];
+        for i in 0..problem.bound.len() {
+            let slip = shear.slip_of(problem, shift, i);
+            let (tangent, diagonal) = if shear.slip[i] {
+                let g = problem.bound[i];
+                let e = [shear.q[0][i] / g, shear.q[1][i] / g];
                 let against = -(slip[0] * e[0] + slip[1] * e[1]);
                 (
                     [e[1] * e[1], -e[0] * e[1], e[0] * e[0]],
@@ -159,6 +154,7 @@ impl NewtonStep {
     pub(crate) fn solve(
         &mut self,
         response: &mut Response<'_>,
+        contact: &ContactCells,
         target: f64,
         max_passes: usize,
     ) -> usize {
@@ -171,7 +167,7 @@ impl NewtonStep {
             if self.residual_norm() <= target || response.stopped() {
                 return pass;
             }
-            self.precondition(response);
+            self.precondition(response, contact);
             let product = dot_pair(&self.residual, &self.z);
             let beta = if pass == 0 {
                 0.0
@@ -183,16 +179,14 @@ impl NewtonStep {
                 for (d, z) in self.direction[c].iter_mut().zip(&self.z[c]) {
                     *d = z + beta * *d;
                 }
-                self.contact
-                    .unpack(&self.direction[c], &mut self.traction[c]);
+                contact.unpack(&self.direction[c], &mut self.traction[c]);
             }
             let [d_x, d_y] = &self.traction;
             let [u_x, u_y] = &mut self.displacement;
             response.tangential([d_x, d_y], [u_x, u_y]);
             // z = Pi (C + D) d; d lies in the tangent space.
             for c in 0..2 {
-                self.contact
-                    .pack(&self.displacement[c], &mut self.response_direction[c]);
+                contact.pack(&self.displacement[c], &mut self.response_direction[c]);
                 let terms = self.z[c].iter_mut().zip(&self.response_direction[c]);
                 for ((z, r), (d, k)) in terms.zip(self.direction[c].iter().zip(&self.diagonal)) {
                     *z = r + k * d;
@@ -213,20 +207,39 @@ impl NewtonStep {
         max_passes
     }
 
+    /// C times a change of the contact cells, in place; it is added to what x causes.
+    pub(crate) fn respond(
+        &mut self,
+        response: &mut Response<'_>,
+        contact: &ContactCells,
+        change: &mut Pair,
+    ) {
+        for c in 0..2 {
+            contact.unpack(&change[c], &mut self.traction[c]);
+        }
+        let [q_x, q_y] = &self.traction;
+        let [u_x, u_y] = &mut self.displacement;
+        response.tangential([q_x, q_y], [u_x, u_y]);
+        for c in 0..2 {
+            contact.pack(&self.displacement[c], &mut change[c]);
+            add_scaled(&mut self.response_x[c], 1.0, &self.displacement[c]);
+        }
+    }
+
     /// z = Pi S P S r
-    fn precondition(&mut self, response: &mut Response<'_>) {
+    fn precondition(&mut self, response: &mut Response<'_>, contact: &ContactCells) {
         for c in 0..2 {
             let scaled = self.z[c].iter_mut().zip(&self.scale);
             for ((z, scale), r) in scaled.zip(&self.residual[c]) {
                 *z = scale * r;
             }
-            self.contact.unpack(&self.z[c], &mut self.traction[c]);
+            contact.unpack(&self.z[c], &mut self.traction[c]);
         }
         let [s_x, s_y] = &self.traction;
         let [z_x, z_y] = &mut self.displacement;
         response.invert_tangential([s_x, s_y], [z_x, z_y]);
         for c in 0..2 {
-            self.contact.pack(&self.displacement[c], &mut self.z[c]);
+            contact.pack(&self.displacement[c], &mut self.z[c]);
             for (z, scale) in self.z[c].iter_mut().zip(&self.scale) {
                 *z *= scale;
             }
@@ -238,16 +251,18 @@ impl NewtonStep {
     /// for there.
     pub(crate) fn take(
         &mut self,
+        contact: &ContactCells,
         problem: &TangentialProblem<'_>,
         shear: &mut Shear<'_>,
     ) -> [f64; 3] {
         let given = problem.drive.given;
         for c in 0..2 {
-            add_scaled(shear.u[c], 1.0, &self.response_x[c]);
-            for (i, n) in self.contact.iter().enumerate() {
+            contact.pack(&self.response_x[c], &mut self.z[c]);
+            for i in 0..problem.bound.len() {
                 let x = self.x[c][i];
-                shear.q[c][n] += x;
-                let slip = shear.u[c][n] - problem.u_ref[c][n] - problem.arms.in_plane(given, n)[c];
+                shear.q[c][i] += x;
+                shear.u[c][i] += self.z[c][i];
+                let slip = shear.u[c][i] - problem.u_ref[c][i] - problem.arms.in_plane(given, i)[c];
                 self.z[c][i] = slip + self.diagonal[i] * x;
             }
         }

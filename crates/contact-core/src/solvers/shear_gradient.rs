@@ -12,6 +12,32 @@ use super::tangential::TangentialWorkspace;
 use super::vector::{add_scaled, dot, size};
 use super::{Response, SolverError};
 
+/// Buffers of the gradients, of no size until they are needed.
+#[derive(Debug, Default)]
+pub(crate) struct GradientBuffers {
+    residual: [Vec<f64>; 2],
+    direction: [Vec<f64>; 2],
+    q_before: [Vec<f64>; 2],
+    change: [Vec<f64>; 2],
+    response: [Vec<f64>; 2],
+}
+
+impl GradientBuffers {
+    fn make_room(&mut self, cells: usize) {
+        for pair in [
+            &mut self.residual,
+            &mut self.direction,
+            &mut self.q_before,
+            &mut self.change,
+            &mut self.response,
+        ] {
+            for field in pair {
+                field.resize(cells, 0.0);
+            }
+        }
+    }
+}
+
 /// Solves for the shear. On entry it must be admissible.
 pub(crate) fn shear_gradient(
     response: &mut Response<'_>,
@@ -23,6 +49,8 @@ pub(crate) fn shear_gradient(
     let cells = problem.bound.len();
     // Slip cells take the longest step that cannot overshoot.
     let slip_step = 1.0 / ws.descent.largest_compliance(response, problem);
+    let ws = &mut ws.gradient;
+    ws.make_room(cells);
     let mut info = TangentialInfo::default();
     let mut last_product = 0.0;
     loop {
