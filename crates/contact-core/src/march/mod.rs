@@ -2,6 +2,7 @@
 
 mod awake;
 mod balance;
+mod border;
 mod fields;
 mod halving;
 mod increment;
@@ -51,6 +52,7 @@ impl March {
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         scene.check()?;
         let plan = Plan::new(scene);
+        plan.check_memory(scene)?;
         let settings = &scene.settings;
         let coefficients = |body| {
             influence_coefficients(
@@ -260,29 +262,6 @@ impl March {
     fn approach_at(&self, point: &LoadPoint) -> f64 {
         point.loads.given.delta_z.unwrap_or_else(|| {
             self.approach * (point.loads.W / self.scene.path.W_max()).powf(2.0 / 3.0)
-        })
-    }
-
-    /// Fails if a cell at the border of the grid is in contact.
-    fn check_border(&self, now: &Interface, index: usize, point: &LoadPoint) -> Result<(), Error> {
-        let grid = &self.scene.grid;
-        let rows = self.plan.mirror.rows(grid.ny);
-        let touches = |n: usize| {
-            let (i, j) = (n / rows, n % rows);
-            let outer_row = j + 1 == rows || (j == 0 && rows == grid.ny);
-            (i == 0 || i + 1 == grid.nx || outer_row) && now.p[n] > 0.0
-        };
-        if !(0..now.p.len()).any(touches) {
-            return Ok(());
-        }
-        let extent = (grid.nx as f64 * grid.dx, grid.ny as f64 * grid.dy);
-        let hertz = self.scene.hertz().map_or(0.0, |h| 2.6 * h.a);
-        Err(Error::OffGrid {
-            increment: index,
-            W: point.loads.W,
-            extent_x: extent.0,
-            extent_y: extent.1,
-            needed: hertz.max(1.3 * extent.0.max(extent.1)),
         })
     }
 
