@@ -39,6 +39,4 @@ def read_surface(path: str | PathLike[str], *, detrend: str = "center") -> Heigh
         message = f"{path}: {holes} points were not measured; fill them first"
         raise ValueError(message)
     x, y = surface.pixel_size
-    return HeightMap(
-        np.ascontiguousarray(heights, dtype=float), spacing=(float(x), float(y))
-    )
+    return HeightMap(np.ascontiguousarray(heights, dtype=float), spacing=(float(x), float(y)))
