@@ -823,10 +823,18 @@ class Skip:
         Leave out the normal-tangential kernels where they vanish (default True).
     mirror : bool
         Solve on half of a mirror-symmetric scene (default True).
+    path : bool
+        Leave out the increments of branches whose end does not depend on the way there
+        (default True); they are solved if their fields are to be kept.
     """
 
     def __new__(
-        cls, *, equal_layers: bool = True, coupling: bool = True, mirror: bool = True
+        cls,
+        *,
+        equal_layers: bool = True,
+        coupling: bool = True,
+        mirror: bool = True,
+        path: bool = True,
     ) -> Skip: ...
     @property
     def equal_layers(self) -> bool:
@@ -837,6 +845,9 @@ class Skip:
     @property
     def mirror(self) -> bool:
         """Whether a mirror-symmetric scene is solved on its half."""
+    @property
+    def path(self) -> bool:
+        """Whether increments are left out where the way does not count."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]

@@ -92,7 +92,7 @@ impl March {
         };
         let approach = scene.approach();
         Ok(Self {
-            points: scene.path.points(),
+            points: plan.points(scene),
             scene: scene.clone(),
             plan,
             h_init,
@@ -137,7 +137,7 @@ impl March {
         &self.plan
     }
 
-    /// The loads at the end of every increment of the path.
+    /// The loads at the end of every increment that is solved.
     pub fn points(&self) -> &[LoadPoint] {
         &self.points
     }

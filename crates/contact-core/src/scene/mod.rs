@@ -5,6 +5,7 @@
 
 mod body;
 mod case;
+mod direct;
 mod friction;
 mod grid;
 mod load_path;
