@@ -825,7 +825,8 @@ class Skip:
         Solve on half of a mirror-symmetric scene (default True).
     path : bool
         Leave out the increments of branches whose end does not depend on the way there
-        (default True); they are solved if their fields are to be kept.
+        (default False: results have a row for every increment asked for); they are solved if
+        their fields are to be kept.
     """
 
     def __new__(
@@ -834,7 +835,7 @@ class Skip:
         equal_layers: bool = True,
         coupling: bool = True,
         mirror: bool = True,
-        path: bool = True,
+        path: bool = False,
     ) -> Skip: ...
     @property
     def equal_layers(self) -> bool:

@@ -12,7 +12,7 @@ impl March {
         point: &LoadPoint,
         now: Interface,
         info: &CoupledInfo,
-        transforms: usize,
+        convolutions: f64,
     ) -> Increment {
         let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
         let last = &self.state;
@@ -43,7 +43,7 @@ impl March {
             energy,
             residuals,
             work: Work {
-                convolutions: transforms as f64 / 6.0,
+                convolutions,
                 alternations: info.alternations,
                 normal_iterations: info.normal_iterations,
                 tangential_iterations: info.tangential_iterations,
@@ -118,31 +118,40 @@ impl March {
         let mean = |a: f64, b: f64| 0.5 * (a + b);
         let (from, to) = (loads.forces(), point.loads.forces());
         let (started, ended) = (before.motions(), motion.motions());
-        let work = (0..6)
+        let work: f64 = (0..6)
             .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
             .sum();
         let (approach, shift) = self.change(motion);
-        let [elastic, dissipated, opening] = sum_cells(now.p.len(), |n| {
+        let at_bound = self.slips_at_bound(point);
+        let [elastic, dissipated, late, opening] = sum_cells(now.p.len(), |n| {
             let p = mean(now.p[n], last.p[n]);
             let du_z = now.u_z[n] - last.u_z[n];
             let shift = self.arms.in_plane(shift, n);
             let mut elastic = p * du_z;
-            let mut dissipated = 0.0;
+            let (mut dissipated, mut late) = (0.0, 0.0);
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
                 let du = now.u[c][n] - last.u[c][n];
                 elastic += q * du;
                 dissipated -= q * (du - shift[c]);
+                late -= (now.q[c][n] - q) * (du - shift[c]);
             }
             let opening = -p * (du_z - self.arms.across(approach, n));
-            [elastic, dissipated, opening]
+            [elastic, dissipated, late, opening]
         });
+        let late = if at_bound { late * cell_area } else { 0.0 };
         Energy {
-            work,
+            work: work + late,
             elastic: elastic * cell_area,
-            dissipated: dissipated * cell_area,
+            dissipated: dissipated * cell_area + late,
             opening: opening * cell_area,
         }
+    }
+
+    /// Whether all slip of an increment, being a whole branch, happens at the final shear: that of
+    /// a cell grows until it slips, and stays. The force does its work as late.
+    fn slips_at_bound(&self, point: &LoadPoint) -> bool {
+        self.plan.direct[point.branch]
     }
 
     /// Motions across and in the plane from the present state, rotations times the length \[m\].
@@ -240,6 +249,7 @@ impl March {
     /// Makes the increment the present state.
     fn keep(&mut self, point: &LoadPoint, now: Interface, motion: Motion, work: f64) {
         let (_, shift) = self.change(&motion);
+        let at_bound = self.slips_at_bound(point);
         let state = &mut self.state;
         let last = std::mem::replace(&mut state.interface, now);
         let now = &state.interface;
@@ -249,7 +259,8 @@ impl March {
         };
         set_cells(&mut state.dissipated, |n, dissipated| {
             let slip = slip(n);
-            let power = |c: usize| 0.5 * (now.q[c][n] + last.q[c][n]) * slip[c];
+            let mean = |c: usize| 0.5 * (now.q[c][n] + last.q[c][n]);
+            let power = |c: usize| (if at_bound { now.q[c][n] } else { mean(c) }) * slip[c];
             dissipated - power(0) - power(1)
         });
         let [slip_x, slip_y] = &mut state.slip;

@@ -3,6 +3,7 @@
 mod awake;
 mod balance;
 mod border;
+mod coarse;
 mod fields;
 mod halving;
 mod increment;
@@ -19,6 +20,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use self::awake::with_all_awake;
+use self::coarse::coarse_start;
+use self::predict::first_touch;
 use crate::convolution::{CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, SurfaceOperator};
 use crate::error::Error;
 use crate::kernels::influence_coefficients;
@@ -166,13 +169,20 @@ impl March {
         let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
         let (normal, tangential) = self.drives(point, cell_area);
         let pressed = !normal.free[0] || normal.sums[0] > 0.0;
+        let mut coarse_convolutions = 0.0;
         let mut now = if pressed {
+            let touch = (self.state.loads.W <= 0.0).then(|| {
+                let Some(start) = coarse_start(&self.scene, point) else {
+                    return first_touch(&self.h_init, self.approach_at(point));
+                };
+                coarse_convolutions = start.convolutions;
+                self.plan.mirror.fold(&start.p)
+            });
             self.state.predict(
                 point,
-                &self.h_init,
+                touch,
                 self.scene.friction.mu,
                 &normal,
-                self.approach_at(point),
                 self.scene.settings.solver.preset,
             )
         } else {
@@ -229,7 +239,8 @@ impl March {
         }
         self.check_border(&now, index, point)?;
         let transforms = self.op.transforms() - transforms;
-        Ok(self.account(point, now, &info, transforms))
+        let convolutions = transforms as f64 / 6.0 + coarse_convolutions;
+        Ok(self.account(point, now, &info, convolutions))
     }
 
     /// What drives the motions across the plane, from the unloaded state, and those in it, in this

@@ -6,6 +6,8 @@
 //! Struct. 35 (1998) 2349-2362). Slips keep to a line only where the shear kernel is isotropic, which
 //! of half-spaces are those with nu = 0: otherwise what one increment leaves out is of the size of
 //! nu (for nu = 0.3 a hundredth of q).
+//!
+//! What is left out is the curve in between: the rows of the increments, the shape of a loop.
 
 use super::{Branch, Loads, SaveFields, Scene};
 
@@ -17,7 +19,7 @@ pub(super) fn direct_branches(
     let branches = &scene.path.branches;
     let none = |reason| (vec![false; branches.len()], Err(reason));
     if !scene.settings.skip.path {
-        return none("skip.path is off");
+        return none("skip.path is off: each has its row in the results");
     }
     if scene.settings.save != SaveFields::Branches {
         return none("fields within the branches are to be kept");

@@ -105,8 +105,9 @@ pub struct SkipSettings {
     pub coupling: bool,
     /// Solve on half of a mirror-symmetric scene (default true).
     pub mirror: bool,
-    /// Leave out the increments of branches whose end does not depend on the way (default true);
-    /// kept if fields within the branches are to be kept.
+    /// Leave out the increments of branches whose end does not depend on the way (default false:
+    /// the results have a row for every increment asked for, and loops their points); they are
+    /// solved all the same if their fields are to be kept.
     pub path: bool,
 }
 
@@ -116,7 +117,7 @@ impl Default for SkipSettings {
             equal_layers: true,
             coupling: true,
             mirror: true,
-            path: true,
+            path: false,
         }
     }
 }

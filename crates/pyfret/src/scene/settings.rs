@@ -113,7 +113,7 @@ pub(crate) struct Skip(core::SkipSettings);
 #[pymethods]
 impl Skip {
     #[new]
-    #[pyo3(signature = (*, equal_layers = true, coupling = true, mirror = true, path = true))]
+    #[pyo3(signature = (*, equal_layers = true, coupling = true, mirror = true, path = false))]
     fn new(equal_layers: bool, coupling: bool, mirror: bool, path: bool) -> Self {
         Self(core::SkipSettings {
             equal_layers,
