@@ -13,7 +13,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo stress test kill check format bench bench-kernels bench-stress clean
+.PHONY: help setup demo stress test kill check format bench bench-kernels bench-stress bench-peers clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -64,6 +64,9 @@ bench-stress: ## time and memory of the stress on a plane and in a volume
 	rm -f out/bench.vti
 	cargo run --release --locked --package contact-core --example subsurface -- plane
 	cargo run --release --locked --package contact-core --example subsurface -- volume out/bench.vti
+
+bench-peers: setup ## side by side with public programs and FFTW: out/peers*
+	$(PY) benches/peers.py --out out
 
 clean: ## remove what was built, results excepted
 	rm -rf $(VENV) target python/pyfret/_core*.so

@@ -939,7 +939,9 @@ class Scene:
         title: str = ...,
     ) -> Scene: ...
     @staticmethod
-    def from_file(path: str | PathLike[str], *, set: Sequence[str] = ...) -> Scene:
+    def from_file(
+        path: str | PathLike[str], *, set: Sequence[str] = ..., allow_outside: bool = False
+    ) -> Scene:
         """Read a scene file.
 
         Parameters
@@ -949,6 +951,8 @@ class Scene:
         set : sequence of str, optional
             Values to exchange, each ``"key=value"`` as after ``fret run --set``, e.g.
             ``"friction.mu=0.5"`` or ``"body2.coatings.0.E.E_substrate=4"``.
+        allow_outside : bool, optional
+            Let the scene name files outside its own folder.
 
         Raises
         ------

@@ -3,7 +3,7 @@
 use super::{Energy, Increment, March, Motion, Residuals, State, Status, Work};
 use crate::convolution::Mirror;
 use crate::scene::{Given, LoadPoint, Loads};
-use crate::solvers::{CoupledInfo, Interface, largest, size, sum_cells};
+use crate::solvers::{CoupledInfo, Interface, largest, set_cells, set_pairs, size, sum_cells};
 
 impl March {
     /// Draws up the accounts of a solved increment and makes it the present state.
@@ -243,16 +243,24 @@ impl March {
         let state = &mut self.state;
         let last = std::mem::replace(&mut state.interface, now);
         let now = &state.interface;
-        for n in 0..now.p.len() {
+        let slip = |n: usize| -> [f64; 2] {
             let shift = self.arms.in_plane(shift, n);
-            for c in 0..2 {
-                let slip = now.u[c][n] - last.u[c][n] - shift[c];
-                state.dissipated[n] -= 0.5 * (now.q[c][n] + last.q[c][n]) * slip;
-                if now.p[n] > 0.0 && now.slip[n] {
-                    state.slip[c][n] += slip;
-                }
+            std::array::from_fn(|c| now.u[c][n] - last.u[c][n] - shift[c])
+        };
+        set_cells(&mut state.dissipated, |n, dissipated| {
+            let slip = slip(n);
+            let power = |c: usize| 0.5 * (now.q[c][n] + last.q[c][n]) * slip[c];
+            dissipated - power(0) - power(1)
+        });
+        let [slip_x, slip_y] = &mut state.slip;
+        set_pairs([slip_x, slip_y], |n, total| {
+            if now.p[n] > 0.0 && now.slip[n] {
+                let slip = slip(n);
+                [total[0] + slip[0], total[1] + slip[1]]
+            } else {
+                total
             }
-        }
+        });
         state.step = point
             .loads
             .since(state.loads.forces(), state.motion.motions());

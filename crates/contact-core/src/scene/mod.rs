@@ -9,15 +9,18 @@ mod friction;
 mod grid;
 mod load_path;
 mod material;
+mod memory;
 mod plan;
 mod settings;
 mod shape;
 
 pub use body::{Body, Coating};
+pub use case::Reach;
 pub use friction::Friction;
 pub use grid::Grid;
 pub use load_path::{Branch, Given, LOADS, LoadPath, LoadPoint, Loads, MOTIONS, Spacing};
 pub use material::Elastic;
+pub use memory::available_memory;
 pub use plan::{Plan, PlanLine};
 pub use settings::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
@@ -61,6 +64,7 @@ impl Scene {
         }
         self.friction.check()?;
         self.grid.check()?;
+        self.check_surfaces_fit()?;
         self.body1.shape.check_on(&self.grid, "body1.shape")?;
         self.body2.shape.check_on(&self.grid, "body2.shape")?;
         if !self.parts_at_the_border() {
@@ -131,7 +135,7 @@ impl Scene {
     }
 
     /// The larger and the smaller principal curvature of the gap between the nominal shapes \[1/m\].
-    fn principal_curvatures(&self) -> (f64, f64) {
+    pub(crate) fn principal_curvatures(&self) -> (f64, f64) {
         let (one, other) = (self.body1.shape.curvature(), self.body2.shape.curvature());
         let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| one[i] + other[i]);
         let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::{Body, Grid, KernelMethod, Loads, Scene};
+use super::{Body, KernelMethod, Loads, Scene};
 use crate::convolution::Mirror;
 
 /// What is computed and what is left out.
@@ -70,20 +70,7 @@ impl Plan {
             lines,
         }
     }
-
-    /// Peak memory of a solution on the grid \[bytes\], an estimate within a fifth from 256 cells
-    /// per side on: what runs were measured to take.
-    pub fn memory(&self, grid: &Grid) -> f64 {
-        let kept = (grid.nx * self.mirror.rows(grid.ny)) as f64;
-        let fields = if self.friction { 84.0 } else { 64.0 };
-        PROGRAM + 8.0 * (fields * kept + SPECTRA * grid.cells() as f64)
-    }
 }
-
-/// Memory of the program itself \[bytes\].
-const PROGRAM: f64 = 10e6;
-/// Numbers per cell of the grid: spectra of the kernels, buffers of the transforms.
-const SPECTRA: f64 = 22.0;
 
 /// Whether, and why, pressure causes no tangential mismatch.
 fn uncoupled(scene: &Scene) -> Result<&'static str, &'static str> {

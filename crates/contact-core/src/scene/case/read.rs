@@ -1,11 +1,10 @@
 //! The values of a scene, in the order that their measures need: a_H needs the substrates, the
 //! shapes and the loads; the coatings and the grid may be given in a_H.
 
-use std::path::Path;
-
 use toml::{Table, Value};
 
 use super::SCHEMA;
+use super::files::Files;
 use super::measure::{self, Measure};
 use super::section::{Fault, Section, count, pair};
 use super::shape::shape;
@@ -22,7 +21,7 @@ const ROOT: [&str; 11] = [
 const BODY: [&str; 4] = ["shape", "E", "nu", "coatings"];
 
 /// The whole scene, not yet checked for meaning.
-pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
+pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     let root = Section::root(table, &ROOT)?;
     let what = "1, the version of the scene file";
     match root.need("schema", what)? {
@@ -43,8 +42,8 @@ pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
         .number("mu", "a number >= 0", &[])?;
     let mut scene = Scene {
         title: title.to_owned(),
-        body1: uncoated(&bodies[0], folder)?,
-        body2: uncoated(&bodies[1], folder)?,
+        body1: uncoated(&bodies[0], files)?,
+        body2: uncoated(&bodies[1], files)?,
         friction: Friction { mu },
         grid: Grid {
             nx: 0,
@@ -69,7 +68,7 @@ pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
     Ok(scene)
 }
 
-fn uncoated(section: &Section<'_>, folder: &Path) -> Result<Body, Fault> {
+fn uncoated(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
     let rigid = section.get("E").and_then(Value::as_str) == Some("rigid");
     let substrate = if rigid {
         Elastic {
@@ -82,7 +81,7 @@ fn uncoated(section: &Section<'_>, folder: &Path) -> Result<Body, Fault> {
             nu: section.number("nu", "Poisson's ratio", &[])?,
         }
     };
-    Ok(Body::homogeneous(substrate, shape(section, folder)?))
+    Ok(Body::homogeneous(substrate, shape(section, files)?))
 }
 
 fn coatings(
