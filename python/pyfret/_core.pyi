@@ -1388,9 +1388,16 @@ def principal(stress: ArrayLike) -> tuple[_Array, _Array]:
     """Principal values (n, 3), the largest first, and directions (n, 3, 3) of stresses (6, n)."""
 
 def maximum(
-    field: ArrayLike, z: Sequence[float], layer: Sequence[int], along: Sequence[float]
+    name: str,
+    stress: ArrayLike,
+    z: Sequence[float],
+    layer: Sequence[int],
+    along: Sequence[float],
 ) -> tuple[float, float, float, int] | None:
-    """Largest value of a field of shape (depths, places): value, place, depth, layer."""
+    """Largest value on a section of stresses (6, depths, places): value, place, depth, layer."""
+
+def rims(stress: ArrayLike, along: Sequence[float]) -> tuple[list[float], _Array]:
+    """Places of the rims on a line on the surface, and stresses (6, rims), from stresses (6, n)."""
 
 def loops(
     path: LoadPath,
