@@ -28,7 +28,7 @@ __all__ = [
     "FrequencyDomain",
     "Grid",
     "Hankel",
-    "HeightMap",
+    "SurfaceMap",
     "Hertz",
     "HertzEllipse",
     "InvalidSceneError",
@@ -445,24 +445,27 @@ class Rough:
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
-class HeightMap:
-    """Measured or calculated heights, the middle of the map over the origin.
+class SurfaceMap:
+    """Numbers over the contact plane, the middle of the map over the origin.
+
+    As the shape of a body they are heights out of it, towards the other one [m]; in a friction law
+    they are factors of mu.
 
     Parameters
     ----------
-    z : array of shape (points along x, points along y)
-        Heights out of the body, towards the other one [m].
+    values : array of shape (points along x, points along y)
+        The numbers.
     spacing : (float, float)
-        Distance of the points along x and y [m]. Between the points heights are linear.
+        Distance of the points along x and y [m]. In between they are interpolated linearly.
     """
 
-    def __new__(cls, z: ArrayLike, *, spacing: tuple[float, float]) -> HeightMap: ...
+    def __new__(cls, values: ArrayLike, *, spacing: tuple[float, float]) -> SurfaceMap: ...
     @staticmethod
-    def from_file(path: str | PathLike[str], *, spacing: tuple[float, float]) -> HeightMap:
-        """Read heights [m] from a ``.npy`` array or a ``.csv`` table, one line per x."""
+    def from_file(path: str | PathLike[str], *, spacing: tuple[float, float]) -> SurfaceMap:
+        """Read numbers from a ``.npy`` array or a ``.csv`` table, one line per x."""
     @property
-    def z(self) -> _Array:
-        """Heights [m]."""
+    def values(self) -> _Array:
+        """The numbers."""
     @property
     def spacing(self) -> tuple[float, float]:
         """Distance of the points along x and y [m]."""
@@ -494,7 +497,7 @@ _Shape: TypeAlias = (
     | FlatPunch
     | Waviness
     | Rough
-    | HeightMap
+    | SurfaceMap
     | Sum
 )
 

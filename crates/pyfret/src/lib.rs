@@ -49,8 +49,8 @@ mod _core {
     #[pymodule_export]
     use crate::scene::{
         Body, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat, FlatPunch,
-        FrequencyDomain, Grid, Hankel, HeightMap, InverseFft, LoadPath, Preset, Profile, Rough,
-        Scene, Settings, Skip, Spacing, Sphere, Sum, Waviness, Wedge, graded,
+        FrequencyDomain, Grid, Hankel, InverseFft, LoadPath, Preset, Profile, Rough, Scene,
+        Settings, Skip, Spacing, Sphere, Sum, SurfaceMap, Waviness, Wedge, graded,
     };
 
     #[pymodule_init]

@@ -3,7 +3,7 @@
 use super::{Energy, Increment, March, Motion, Residuals, State, Status, Work};
 use crate::convolution::Mirror;
 use crate::scene::{Given, LoadPoint, Loads};
-use crate::solvers::{CoupledInfo, Interface, add};
+use crate::solvers::{CoupledInfo, Interface, add, friction_bound};
 
 impl March {
     /// Draws up the accounts of a solved increment and makes it the present state.
@@ -39,7 +39,9 @@ impl March {
             contact_area: contact as f64 * cell_area,
             stick_area: (contact - slipping) as f64 * cell_area,
             p_max: largest(&mut now.p.iter().copied()),
-            q_max: largest(&mut (0..now.p.len()).map(|n| now.q[0][n].hypot(now.q[1][n]))),
+            q_max: largest(
+                &mut (0..now.p.len()).map(|n| now.q[0][n].hypot(self.arms.stretch * now.q[1][n])),
+            ),
             energy,
             residuals,
             work: Work {
@@ -58,16 +60,19 @@ impl March {
 
     /// The rigid motion at the end of the increment; what is given is kept as it was said.
     fn motion(&self, point: &LoadPoint, info: &CoupledInfo) -> Motion {
-        let length = self.arms.length;
         let last = &self.state.motion;
         let given = &point.loads.given;
         Motion {
             delta_z: given.delta_z.unwrap_or(info.approach[0]),
-            phi_x: given.phi_x.unwrap_or(info.approach[1] / length),
-            phi_y: given.phi_y.unwrap_or(info.approach[2] / length),
+            phi_x: given.phi_x.unwrap_or(info.approach[1] / self.unit(1)),
+            phi_y: given.phi_y.unwrap_or(info.approach[2] / self.unit(2)),
             delta_x: given.delta_x.unwrap_or(last.delta_x + info.shift[0]),
-            delta_y: given.delta_y.unwrap_or(last.delta_y + info.shift[1]),
-            phi_z: given.phi_z.unwrap_or(last.phi_z + info.shift[2] / length),
+            delta_y: given
+                .delta_y
+                .unwrap_or(last.delta_y + info.shift[1] / self.unit(4)),
+            phi_z: given
+                .phi_z
+                .unwrap_or(last.phi_z + info.shift[2] / self.unit(5)),
         }
     }
 
@@ -83,16 +88,11 @@ impl March {
         let (forces, given) = (point.loads.forces(), point.loads.given);
         let motions = given.motions();
         let transmitted = std::array::from_fn(|k| {
-            let arm = if matches!(k, 1 | 2 | 5) {
-                self.arms.length
-            } else {
-                1.0
-            };
             match motions[k] {
                 None => forces[k],
                 // The other half has the opposite.
                 Some(_) if mirrored && matches!(k, 1 | 4 | 5) => 0.0,
-                Some(_) => sums[k / 3][k % 3] * cell_area * arm,
+                Some(_) => sums[k / 3][k % 3] * cell_area * self.unit(k),
             }
         });
         Loads::from_forces(transmitted, given)
@@ -145,12 +145,8 @@ impl March {
     /// Motions across and in the plane from the present state, rotations times the length \[m\].
     fn change(&self, motion: &Motion) -> ([f64; 3], [f64; 3]) {
         let (from, to) = (self.state.motion.motions(), motion.motions());
-        let length = self.arms.length;
-        let d: [f64; 6] = std::array::from_fn(|k| to[k] - from[k]);
-        (
-            [d[0], d[1] * length, d[2] * length],
-            [d[3], d[4], d[5] * length],
-        )
+        let d: [f64; 6] = std::array::from_fn(|k| (to[k] - from[k]) * self.unit(k));
+        ([d[0], d[1], d[2]], [d[3], d[4], d[5]])
     }
 
     /// How well the equations hold.
@@ -161,7 +157,7 @@ impl March {
         info: &CoupledInfo,
         cell_area: f64,
     ) -> Residuals {
-        let mu = self.scene.friction.mu;
+        let mu = self.scene.friction.scale();
         let mut r = Residuals {
             coulomb: f64::NEG_INFINITY,
             ..Residuals::default()
@@ -172,7 +168,8 @@ impl March {
             let gap = now.u_z[n] + self.h_init[n] - self.arms.across(info.approach, n);
             let q = [now.q[0][n], now.q[1][n]];
             p_max = p_max.max(now.p[n]);
-            r.coulomb = r.coulomb.max(q[0].hypot(q[1]) - mu * now.p[n]);
+            let bound = friction_bound(self.mu[n], now.p[n]);
+            r.coulomb = r.coulomb.max(q[0].hypot(q[1]) - bound);
             if now.p[n] <= 0.0 {
                 r.penetration = r.penetration.max(-gap);
                 continue;
@@ -184,7 +181,7 @@ impl March {
                 std::array::from_fn(|c| now.u[c][n] - self.state.interface.u[c][n] - shift[c]);
             if now.slip[n] {
                 slipping += 1;
-                let e = q.map(|q| q / (mu * now.p[n]));
+                let e = q.map(|q| q / bound.max(f64::MIN_POSITIVE));
                 let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
                 let off = [slip[0] - along * e[0], slip[1] - along * e[1]];
                 r.direction += off[0] * off[0] + off[1] * off[1];
@@ -220,12 +217,11 @@ impl March {
         let (asked, motions) = (point.loads.forces(), point.loads.given.motions());
         let W = carried[0];
         let scale = |k: usize| {
-            let arm = if matches!(k, 1 | 2 | 5) {
-                self.arms.length
+            if k < 3 {
+                W * self.unit(k)
             } else {
-                1.0
-            };
-            if k < 3 { W * arm } else { mu * W * arm }
+                mu * W * self.unit(k)
+            }
         };
         (0..6)
             .filter(|&k| motions[k].is_none() && scale(k) > 0.0)
@@ -242,12 +238,16 @@ impl March {
         let now = &state.interface;
         for n in 0..now.p.len() {
             let shift = self.arms.in_plane(shift, n);
+            let mut moved = [0.0; 2];
             for c in 0..2 {
                 let slip = now.u[c][n] - last.u[c][n] - shift[c];
                 state.dissipated[n] -= 0.5 * (now.q[c][n] + last.q[c][n]) * slip;
-                if now.p[n] > 0.0 && now.slip[n] {
-                    state.slip[c][n] += slip;
-                }
+                moved[c] = slip;
+            }
+            if now.p[n] > 0.0 && now.slip[n] {
+                state.slip[0][n] += moved[0];
+                state.slip[1][n] += moved[1];
+                state.slip_length[n] += moved[0].hypot(moved[1] / self.arms.stretch);
             }
         }
         state.step = point

@@ -2,7 +2,7 @@
 
 use super::State;
 use crate::scene::{Given, LoadPoint, Loads, Preset};
-use crate::solvers::{Drive, Interface, size};
+use crate::solvers::{Drive, Interface, friction_bound, size};
 
 impl Loads {
     /// The change from `forces` and `motions` to here, of what is given.
@@ -49,7 +49,7 @@ impl State {
         &self,
         point: &LoadPoint,
         h_init: &[f64],
-        mu: f64,
+        mu: &[f64],
         normal: &Drive,
         approach: f64,
         preset: Preset,
@@ -88,9 +88,9 @@ fn extrapolate(now: &mut [f64], before: &[f64], factor: f64) {
 /// to the moving slip front (Cattaneo: g - q ~ (c^2 - r^2)^(1/2)), smoothed over a cell: a power
 /// in between of what is left of the way to the bound is extrapolated; a cell for which nothing is
 /// left starts to slip.
-fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: f64, factor: f64) {
+fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64], factor: f64) {
     for n in 0..guess.p.len() {
-        let bound = mu * guess.p[n];
+        let bound = friction_bound(mu[n], guess.p[n]);
         if bound <= 0.0 {
             continue;
         }
@@ -99,7 +99,7 @@ fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: f64, facto
         let moved = size(change);
         let inside = bound * bound - q[0] * q[0] - q[1] * q[1];
         let mut part = factor;
-        if !guess.slip[n] && inside > 0.0 && moved > 0.0 {
+        if !guess.slip[n] && inside > 0.0 && inside.is_finite() && moved > 0.0 {
             let along = (q[0] * change[0] + q[1] * change[1]) / moved;
             let left = (along * along + inside).sqrt() - along;
             let power = |left: f64| left * left.sqrt();

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Friction;
 use crate::error::Error;
 
 /// The loads that the contact transmits at one moment, on body 2, and the rigid motions that are
@@ -383,7 +384,7 @@ impl LoadPath {
         points
     }
 
-    pub(crate) fn check(&self, mu: f64) -> Result<(), Error> {
+    pub(crate) fn check(&self, friction: &Friction) -> Result<(), Error> {
         if self.branches.is_empty() {
             return Err(Error::invalid("path", "empty", "at least one branch"));
         }
@@ -413,14 +414,14 @@ impl LoadPath {
                     "at least one increment",
                 ));
             }
-            b.to.check(&key, mu)?;
+            b.to.check(&key, friction)?;
         }
         Ok(())
     }
 }
 
 impl Loads {
-    fn check(&self, key: &dyn Fn(&str) -> String, mu: f64) -> Result<(), Error> {
+    fn check(&self, key: &dyn Fn(&str) -> String, friction: &Friction) -> Result<(), Error> {
         let (forces, given) = (self.forces(), self.given.motions());
         for k in 0..6 {
             match given[k] {
@@ -472,7 +473,10 @@ impl Loads {
         }
         let part = |k: usize| if given[k].is_none() { forces[k] } else { 0.0 };
         let (T_x, T_y) = (part(3), part(4));
-        let (T, limit) = (T_x.hypot(T_y), mu * self.W);
+        let Some(limit) = friction.limit(self.W) else {
+            return Ok(());
+        };
+        let T = T_x.hypot(T_y);
         if T > limit * (1.0 + 1e-12) {
             return Err(Error::invalid(
                 key(if T_x.abs() >= T_y.abs() { "T_x" } else { "T_y" }),

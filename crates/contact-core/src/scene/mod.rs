@@ -12,9 +12,10 @@ mod material;
 mod plan;
 mod settings;
 mod shape;
+mod surface_map;
 
 pub use body::{Body, Coating};
-pub use friction::Friction;
+pub use friction::{Friction, FrictionHistory, History};
 pub use grid::Grid;
 pub use load_path::{Branch, Given, LOADS, LoadPath, LoadPoint, Loads, MOTIONS, Spacing};
 pub use material::Elastic;
@@ -22,7 +23,8 @@ pub use plan::{Plan, PlanLine};
 pub use settings::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
 };
-pub use shape::{HeightMap, Rough, Shape};
+pub use shape::{Rough, Shape};
+pub use surface_map::SurfaceMap;
 
 use crate::error::Error;
 use crate::reference::{Hertz, contact_modulus, hertz, hertz_ellipse};
@@ -59,8 +61,19 @@ impl Scene {
                 "finite, since body 1 is rigid",
             ));
         }
-        self.friction.check()?;
         self.grid.check()?;
+        self.friction.check(Some(&self.grid))?;
+        let by_frequency = matches!(
+            self.settings.kernel.method,
+            KernelMethod::FrequencyDomain { .. }
+        );
+        if let Some(mu_y) = self.friction.mu_y.filter(|_| by_frequency) {
+            return Err(Error::invalid(
+                "friction.mu_y",
+                mu_y,
+                "left out with the frequency-domain operator",
+            ));
+        }
         self.body1.shape.check_on(&self.grid, "body1.shape")?;
         self.body2.shape.check_on(&self.grid, "body2.shape")?;
         if !self.parts_at_the_border() {
@@ -71,7 +84,7 @@ impl Scene {
                 "a surface that parts from the other one towards the border of the grid",
             ));
         }
-        self.path.check(self.friction.mu)?;
+        self.path.check(&self.friction)?;
         self.settings.check()
     }
 

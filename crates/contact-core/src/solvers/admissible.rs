@@ -98,7 +98,7 @@ fn spread(
     for n in cells {
         add_gram(
             &mut gram,
-            problem.arms.x[n],
+            problem.arms.turn_x(n),
             problem.arms.y[n],
             [1.0, 0.0, 1.0],
         );
@@ -227,7 +227,7 @@ fn excess(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], shift: [f64; 3])
         let length = size(v);
         let cut = cut(length, g);
         sums = add(sums, problem.arms.sums_in_plane(v.map(|v| cut * v), n));
-        let (x, y) = (problem.arms.x[n], problem.arms.y[n]);
+        let (x, y) = (problem.arms.turn_x(n), problem.arms.y[n]);
         add_gram(&mut weights, x, y, [cut, 0.0, cut]);
         // Cells beyond the circle give way only across their direction.
         let e = if length > g {

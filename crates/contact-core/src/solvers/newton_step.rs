@@ -98,8 +98,9 @@ impl NewtonStep {
         t.arm_x.resize(arms, 0.0);
         t.arm_y.resize(arms, 0.0);
         if arms > 0 {
-            self.contact.pack(&problem.arms.x, &mut t.arm_x);
-            self.contact.pack(&problem.arms.y, &mut t.arm_y);
+            for (i, n) in self.contact.iter().enumerate() {
+                (t.arm_x[i], t.arm_y[i]) = (problem.arms.turn_x(n), problem.arms.y[n]);
+            }
         }
         for pair in [
             &mut self.x,

@@ -19,12 +19,21 @@ pub struct Arms {
     pub x: Vec<f64>,
     /// y of each cell over `length`.
     pub y: Vec<f64>,
+    /// What motions and displacements along y are multiplied by, and forces and tractions divided
+    /// by: elliptic friction is round in these. The modes in the plane are (1, 0), (0, 1) and
+    /// (-y, stretch x).
+    pub stretch: f64,
 }
 
 impl Arms {
+    /// How far cell n moves along y in a unit rotation.
+    pub(crate) fn turn_x(&self, n: usize) -> f64 {
+        self.stretch * self.x[n]
+    }
+
     /// B m in the plane at cell n \[m\].
     pub(crate) fn in_plane(&self, m: [f64; 3], n: usize) -> [f64; 2] {
-        [m[0] - self.y[n] * m[2], m[1] + self.x[n] * m[2]]
+        [m[0] - self.y[n] * m[2], m[1] + self.turn_x(n) * m[2]]
     }
 
     /// B m across the plane at cell n \[m\].
@@ -34,7 +43,7 @@ impl Arms {
 
     /// B^T q in the plane, of cell n.
     pub(crate) fn sums_in_plane(&self, q: [f64; 2], n: usize) -> [f64; 3] {
-        [q[0], q[1], self.x[n] * q[1] - self.y[n] * q[0]]
+        [q[0], q[1], self.turn_x(n) * q[1] - self.y[n] * q[0]]
     }
 
     /// B^T p across the plane, of cell n.
@@ -51,7 +60,7 @@ impl Arms {
     ) -> [f64; 3] {
         let mut fit = Fit::default();
         for (n, weight, value) in cells {
-            let (x, y) = (self.x[n], self.y[n]);
+            let (x, y) = (self.turn_x(n), self.y[n]);
             fit.add([1.0, 0.0, -y], weight, value[0]);
             fit.add([0.0, 1.0, x], weight, value[1]);
         }
@@ -207,6 +216,7 @@ mod tests {
             length: 1.0,
             x: vec![0.0, 1.0, -1.0, 2.0],
             y: vec![0.5, 0.0, 1.0, -3.0],
+            stretch: 0.8,
         };
         let m = [0.3, -0.2, 0.7];
         let plane = arms.fit_in_plane([true; 3], (0..4).map(|n| (n, 1.5, arms.in_plane(m, n))));

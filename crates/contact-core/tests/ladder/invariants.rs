@@ -69,7 +69,7 @@ prop_compose! {
             title: "any".into(),
             body1,
             body2,
-            friction: Friction { mu },
+            friction: Friction::coulomb(mu),
             grid: Grid::from_spacing((nx, ny), (1.0, 1.0)).expect("a grid"),
             path,
             settings: Settings::default(),

@@ -16,7 +16,7 @@ pub(crate) use material::Elastic;
 pub(crate) use profile::{Profile, graded};
 pub(crate) use settings::{FrequencyDomain, Hankel, InverseFft, Preset, Save, Settings, Skip};
 pub(crate) use shape::{
-    Cone, CrownedRoller, Cylinder, Ellipsoid, Flat, FlatPunch, HeightMap, Rough, Sphere, Sum,
+    Cone, CrownedRoller, Cylinder, Ellipsoid, Flat, FlatPunch, Rough, Sphere, Sum, SurfaceMap,
     Waviness, Wedge,
 };
 pub(crate) use whole::Scene;

@@ -31,7 +31,7 @@ impl Scene {
             title,
             body1: body1.0,
             body2: body2.0,
-            friction: core::Friction { mu },
+            friction: core::Friction::coulomb(mu),
             grid: grid.0,
             path: path.map_or_else(core::LoadPath::start, |p| p.0),
             settings: settings.unwrap_or_default().0,

@@ -8,11 +8,11 @@ use toml::{Table, Value};
 use super::SCHEMA;
 use super::measure::{self, Measure};
 use super::section::{Fault, Section, count, pair};
-use super::shape::shape;
+use super::shape::{shape, surface_map};
 use crate::scene::{
-    Body, Branch, Coating, Elastic, Friction, Given, Grid, KernelMethod, KernelSettings, LOADS,
-    LoadPath, Loads, MOTIONS, Preset, SaveFields, Scene, Settings, SkipSettings, SolverSettings,
-    Spacing,
+    Body, Branch, Coating, Elastic, Friction, FrictionHistory, Given, Grid, History, KernelMethod,
+    KernelSettings, LOADS, LoadPath, Loads, MOTIONS, Preset, SaveFields, Scene, Settings,
+    SkipSettings, SolverSettings, Spacing,
 };
 
 const ROOT: [&str; 11] = [
@@ -38,14 +38,13 @@ pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
         root.need_section("body1", &BODY)?,
         root.need_section("body2", &BODY)?,
     ];
-    let mu = root
-        .need_section("friction", &["mu"])?
-        .number("mu", "a number >= 0", &[])?;
+    let friction = friction(&root, folder)?;
+    let mu = friction.mu;
     let mut scene = Scene {
         title: title.to_owned(),
         body1: uncoated(&bodies[0], folder)?,
         body2: uncoated(&bodies[1], folder)?,
-        friction: Friction { mu },
+        friction,
         grid: Grid {
             nx: 0,
             ny: 0,
@@ -57,8 +56,8 @@ pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
     };
     scene.body1.check("body1")?;
     scene.body2.check("body2")?;
-    scene.friction.check()?;
-    scene.path.check(mu)?;
+    scene.friction.check(None)?;
+    scene.path.check(&scene.friction)?;
 
     let hertz = scene.hertz();
     let a_H = Measure::a_H(hertz.map(|h| h.a));
@@ -67,6 +66,65 @@ pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
     scene.body2.coatings = coatings(&bodies[1], &scene.body2, &[a_H, p_H])?;
     scene.grid = grid(&root, a_H)?;
     Ok(scene)
+}
+
+/// The friction law; `folder` is where relative paths of files start.
+fn friction(root: &Section<'_>, folder: &Path) -> Result<Friction, Fault> {
+    let keys = ["mu", "mu_y", "kinetic", "map", "history"];
+    let section = root.need_section("friction", &keys)?;
+    let what = "a finite number >= 0, or \"stick\" for no slip";
+    let mu = match section.need("mu", what)? {
+        Value::String(word) if word == "stick" => f64::INFINITY,
+        Value::String(_) => {
+            return Err(Fault::value("friction.mu", section.need("mu", what)?, what));
+        }
+        _ => section.number("mu", what, &[])?,
+    };
+    if mu.is_infinite() && section.get("mu").is_some_and(|mu| !mu.is_str()) {
+        return Err(Fault::value("friction.mu", section.need("mu", what)?, what));
+    }
+    let number = |key: &str| {
+        let given = section
+            .get(key)
+            .map(|_| section.number(key, "a positive number", &[]));
+        given.transpose()
+    };
+    let map = section.section("map", &["file", "z", "spacing"])?;
+    Ok(Friction {
+        mu,
+        mu_y: number("mu_y")?,
+        kinetic: number("kinetic")?,
+        map: map.map(|map| surface_map(&map, folder)).transpose()?,
+        history: friction_history(&section)?,
+    })
+}
+
+fn friction_history(friction: &Section<'_>) -> Result<Option<FrictionHistory>, Fault> {
+    let Some(section) = friction.section("history", &["of", "table"])? else {
+        return Ok(None);
+    };
+    let of = section.choice(
+        "of",
+        &[
+            ("slip", History::Slip),
+            ("dissipated", History::Dissipated),
+            ("increment", History::Increment),
+        ],
+    )?;
+    let what = "a list of pairs [history, factor]";
+    let (key, value) = (section.path("table"), section.need("table", what)?);
+    let wrong = || Fault::value(&key, value, what);
+    let table = value.as_array().ok_or_else(wrong)?;
+    let pairs = table.iter().map(|row| {
+        let row = row
+            .as_array()
+            .filter(|row| row.len() == 2)
+            .ok_or_else(wrong)?;
+        let number = |i: usize| measure::number(&key, &row[i], &[]);
+        Ok((number(0)?, number(1)?))
+    });
+    let table = pairs.collect::<Result<_, Fault>>()?;
+    Ok(Some(FrictionHistory { of, table }))
 }
 
 fn uncoated(section: &Section<'_>, folder: &Path) -> Result<Body, Fault> {

@@ -6,7 +6,8 @@ use toml::Value;
 
 use super::SCHEMA;
 use crate::scene::{
-    Body, Elastic, KernelMethod, LOADS, MOTIONS, Preset, SaveFields, Scene, Spacing,
+    Body, Elastic, Friction, FrictionHistory, History, KernelMethod, LOADS, MOTIONS, Preset,
+    SaveFields, Scene, Spacing,
 };
 
 impl Scene {
@@ -25,7 +26,7 @@ impl Scene {
                 line(format_args!("thickness = {:?}", coating.thickness));
             }
         }
-        line(format_args!("\n[friction]\nmu = {:?}", self.friction.mu));
+        line(format_args!("\n[friction]\n{}", friction(&self.friction)));
         let grid = &self.grid;
         line(format_args!("\n[grid]\nn = [{}, {}]", grid.nx, grid.ny));
         line(format_args!("spacing = [{:?}, {:?}]", grid.dx, grid.dy));
@@ -79,6 +80,33 @@ impl Scene {
         line(format_args!("\n[output]\nsave = {save}"));
         text
     }
+}
+
+fn friction(friction: &Friction) -> String {
+    let mut lines = vec![if friction.mu.is_finite() {
+        format!("mu = {:?}", friction.mu)
+    } else {
+        "mu = \"stick\"".to_owned()
+    }];
+    for (key, mu) in [("mu_y", friction.mu_y), ("kinetic", friction.kinetic)] {
+        lines.extend(mu.map(|mu| format!("{key} = {mu:?}")));
+    }
+    let map = friction.map.as_ref();
+    lines.extend(map.map(|map| format!("map = {{ {} }}", super::shape::map_text(map))));
+    if let Some(FrictionHistory { of, table }) = &friction.history {
+        let of = match of {
+            History::Slip => "slip",
+            History::Dissipated => "dissipated",
+            History::Increment => "increment",
+        };
+        let pairs: Vec<_> = table
+            .iter()
+            .map(|(at, f)| format!("[{at:?}, {f:?}]"))
+            .collect();
+        let table = pairs.join(", ");
+        lines.push(format!("history = {{ of = \"{of}\", table = [{table}] }}"));
+    }
+    lines.join("\n")
 }
 
 fn quoted(text: &str) -> String {
