@@ -38,12 +38,14 @@ SCALARS = [
     "residual_coulomb",
     "residual_stick",
     "residual_direction",
+    "residual_angle",
     "residual_balance",
     "residual_energy",
     "convolutions",
     "alternations",
     "normal_iterations",
     "tangential_iterations",
+    "parts",
 ]
 FIELDS = [
     "p",

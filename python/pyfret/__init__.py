@@ -17,7 +17,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from pyfret import kernels, reference
+from pyfret import kernels, reference, subsurface, sweep
 from pyfret._core import (
     RIGID,
     Body,
@@ -113,6 +113,8 @@ __all__ = [
     "reference",
     "resume",
     "solve",
+    "subsurface",
+    "sweep",
 ]
 
 

@@ -1362,6 +1362,113 @@ def resume(
 ) -> None:
     """Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it."""
 
+def stress_labels() -> dict[str, tuple[str, str]]:
+    """Units and meaning of everything that follows from the stress."""
+
+def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
+    """Depths [m] with their layers; on an interface both, the upper one first."""
+
+def measure(name: str, stress: ArrayLike) -> _Array:
+    """Give what follows from stresses of shape (6, n), by its name."""
+
+def principal(stress: ArrayLike) -> tuple[_Array, _Array]:
+    """Principal values (n, 3), the largest first, and directions (n, 3, 3) of stresses (6, n)."""
+
+def maximum(
+    field: ArrayLike, z: Sequence[float], layer: Sequence[int], along: Sequence[float]
+) -> tuple[float, float, float, int] | None:
+    """Largest value of a field of shape (depths, places): value, place, depth, layer."""
+
+def loops(
+    path: LoadPath,
+    *,
+    branch: Sequence[int],
+    T: Sequence[float],
+    delta: Sequence[float],
+    dissipated: Sequence[float],
+    status: Sequence[int],
+) -> list[dict[str, float]]:
+    """Energy and stiffness of every cycle of a history; use :meth:`pyfret.Result.loops`."""
+
+@final
+class Subsurface:
+    """Tractions on a body, and what they cause below its surface.
+
+    Use :func:`pyfret.subsurface.stress`, which labels what this one gives.
+    """
+
+    def __new__(
+        cls,
+        body: Body,
+        grid: Grid,
+        *,
+        p: ArrayLike | None = None,
+        q_x: ArrayLike | None = None,
+        q_y: ArrayLike | None = None,
+        body_number: int = 2,
+    ) -> Subsurface: ...
+    def section(
+        self,
+        z: Sequence[float],
+        layer: Sequence[int],
+        *,
+        x: float | None = None,
+        y: float | None = None,
+    ) -> _Array:
+        """Stress on a section, shape (6, depths, places) [Pa]."""
+    def section_displacement(
+        self,
+        z: Sequence[float],
+        layer: Sequence[int],
+        *,
+        x: float | None = None,
+        y: float | None = None,
+    ) -> _Array:
+        """Displacement on a section, shape (3, depths, places) [m]."""
+    def slice(self, z: float, layer: int) -> list[_Array]:
+        """Stress on a plane, six arrays of shape (nx, ny) [Pa]."""
+    def slice_displacement(self, z: float, layer: int) -> list[_Array]:
+        """Displacement on a plane, three arrays of shape (nx, ny) [m]."""
+    def points(self, places: Sequence[tuple[float, float, float, int]]) -> tuple[_Array, _Array]:
+        """Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer."""
+    def volume(
+        self,
+        out: str | PathLike[str],
+        z: Sequence[float],
+        layer: Sequence[int],
+        *,
+        of: Sequence[str],
+        title: str = "",
+    ) -> None:
+        """Write measures of the stress in a volume to a .vti file or a Zarr folder."""
+
+@final
+class Envelope:
+    """Extremes of stress below a line; use :func:`pyfret.subsurface.envelope`."""
+
+    def __new__(
+        cls,
+        body: Body,
+        grid: Grid,
+        path: LoadPath,
+        z: Sequence[float],
+        layer: Sequence[int],
+        *,
+        of: Sequence[str],
+        x: float | None = None,
+        y: float | None = None,
+        body_number: int = 2,
+    ) -> Envelope: ...
+    @property
+    def cycles(self) -> list[tuple[int, int]]:
+        """First and last branch of every cycle."""
+    def push(
+        self, increment: int, branch: int, *, p: ArrayLike, q_x: ArrayLike, q_y: ArrayLike
+    ) -> None:
+        """Take the tractions of an increment."""
+    def finish(self) -> dict[str, dict[str, _Array]]:
+        """Give the extremes of every measure."""
+
 class InvalidSceneError(ValueError):
     """A scene, or a scene file, has no meaning."""
 

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import numbers
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import xarray as xr
 
+from pyfret import _core, subsurface
 from pyfret._core import Scene
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import ArrayLike
+
+    from pyfret._core import Body
+    from pyfret.subsurface import Stress
 
 __all__ = ["Result", "Snapshot", "open"]
 
@@ -27,6 +33,7 @@ SUMMED = frozenset(
         "alternations",
         "normal_iterations",
         "tangential_iterations",
+        "parts",
     )
 )
 
@@ -43,6 +50,22 @@ COLUMNS: list[tuple[str, str, int, Callable[[Result], float]]] = [
     ("dissipated [uJ]", "dissipated", 3, lambda _: 1e6),
     ("convolutions", "convolutions", 0, lambda _: 1.0),
 ]
+
+
+#: What :meth:`Result.loops` gives: unit and meaning.
+LOOP = {
+    "first_branch": ("1", "first branch of the cycle, from 0"),
+    "last_branch": ("1", "last branch of the cycle"),
+    "dissipated": ("J", "energy dissipated in the cycle"),
+    "T": ("N", "half the range of the force"),
+    "delta": ("m", "half the range of the shift"),
+    "stiffness": ("N/m", "stiffness right after the reversals"),
+    "secant_stiffness": ("N/m", "stiffness of the whole loop"),
+    "opening": ("m", "half the opening of the loop at the middle force"),
+    "energy_ratio": ("1", "dissipated energy over that of the surrounding rectangle"),
+    "sliding_ratio": ("1", "opening over the range of the shift"),
+    "status": ("1", "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"),
+}
 
 
 class Snapshot:
@@ -83,6 +106,76 @@ class Snapshot:
     def mu(self) -> float:
         """Friction coefficient."""
         return float(self.dataset.attrs["mu"])
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that was solved."""
+        return Scene.from_toml(self.dataset.attrs["scene"])
+
+    def _body(self, body_number: int) -> Body:
+        scene = self.scene
+        return scene.body1 if body_number == 1 else scene.body2
+
+    def _tractions(self) -> dict[str, np.ndarray]:
+        return {k: self.dataset[k].values for k in ("p", "q_x", "q_y")}
+
+    def stress(
+        self,
+        z: ArrayLike,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        body_number: int = 2,
+    ) -> Stress:
+        """Stress below the contact, in the lower body unless `body_number` is 1.
+
+        Parameters
+        ----------
+        z : float or array
+            Depths [m]; those on an interface appear twice, once in each layer.
+        x, y : float, optional
+            With `y`, the section along x at that y; with `x`, that along y; with both, the line
+            below a point; with neither, the whole plane at every depth.
+        body_number : 1 or 2
+            The body.
+        """
+        body, grid = self._body(body_number), self.scene.grid
+        loads = self._tractions()
+        return subsurface.stress(body, grid, z, x=x, y=y, body_number=body_number, **loads)
+
+    def displacement(
+        self,
+        z: ArrayLike,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        body_number: int = 2,
+    ) -> xr.Dataset:
+        """Displacements u_x, u_y, u_z of a body below the contact [m], as in :meth:`stress`."""
+        body, grid = self._body(body_number), self.scene.grid
+        loads = self._tractions()
+        return subsurface.displacement(body, grid, z, x=x, y=y, body_number=body_number, **loads)
+
+    def write_volume(
+        self,
+        out: str | os.PathLike[str],
+        z: ArrayLike,
+        *,
+        of: Sequence[str] = ("von_mises",),
+        body_number: int = 2,
+    ) -> None:
+        """Write stress in the volume; see :func:`pyfret.subsurface.write_volume`."""
+        body, grid = self._body(body_number), self.scene.grid
+        subsurface.write_volume(
+            body,
+            grid,
+            out,
+            z,
+            of=of,
+            body_number=body_number,
+            title=repr(self),
+            **self._tractions(),
+        )
 
     def along_x(self, *, y: float = 0.0) -> xr.Dataset:
         """Fields along the line of constant `y` [m], linear between the rows of cells."""
@@ -215,6 +308,56 @@ class Result:
                 kept = np.add.reduceat(values, starts) if name in SUMMED else values[ends]
                 table[name] = ("branch", kept, variable.attrs)
         return table
+
+    def loops(self, *, direction: Literal["x", "y"] = "x") -> xr.Dataset:
+        """Energy and stiffness of every closed cycle of the load path.
+
+        Parameters
+        ----------
+        direction : "x" or "y"
+            Direction of the fretting motion.
+
+        Returns
+        -------
+        xarray.Dataset
+            Over ``cycle``: ``dissipated`` [J], half ranges ``T`` [N] and ``delta`` [m],
+            ``stiffness`` right after the reversals and ``secant_stiffness`` [N/m], half the
+            ``opening`` of the loop [m], ``energy_ratio``, ``sliding_ratio``, ``status``, and the
+            branches it spans.
+        """
+        d = self.dataset
+        found = _core.loops(
+            self.scene.path,
+            branch=d.branch_of_increment.values.tolist(),
+            T=d[f"T_{direction}"].values.tolist(),
+            delta=d[f"delta_{direction}"].values.tolist(),
+            dissipated=d.dissipated.values.tolist(),
+            status=d.status.values.tolist(),
+        )
+        return xr.Dataset(
+            {
+                name: ("cycle", [cycle[name] for cycle in found], {"units": units, "long_name": of})
+                for name, (units, of) in LOOP.items()
+            },
+            attrs=d.attrs,
+        )
+
+    def envelope(
+        self,
+        z: ArrayLike,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        of: Sequence[str] = ("von_mises",),
+        body_number: int = 2,
+    ) -> xr.Dataset:
+        """Extremes of stress over the increments whose fields were kept.
+
+        Use :func:`pyfret.subsurface.envelope` with :func:`pyfret.march` for all increments of a
+        path without keeping their fields; parameters and result are those of that function.
+        """
+        kept = (self.at(int(n)) for n in self.dataset.saved_increment.values)
+        return subsurface.envelope(self.scene, kept, z, x=x, y=y, of=of, body_number=body_number)
 
     def summary(self) -> str:
         """Tabulate what the run ended with, one line per branch."""

@@ -150,7 +150,7 @@ def labelled(running: _core.March, scalars: dict[str, float]) -> xr.Dataset:
     }
     scene = running.scene
     hertz = scene.hertz
-    attrs = {"title": scene.title, "mu": scene.mu}
+    attrs = {"title": scene.title, "mu": scene.mu, "scene": scene.to_toml()}
     if hertz is not None:
         attrs |= {"a_H": hertz.a, "p_H": hertz.p0, "R": hertz.a**2 / hertz.delta_z}
     coordinates = ("increment", "t", "branch_of_increment")

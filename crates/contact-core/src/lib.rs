@@ -13,7 +13,7 @@
 //! and the sums of the tractions balance the applied forces. Axes, signs and words are fixed in
 //! `docs/conventions.md`. The modules stand in the order of the computation:
 //!
-//! [`scene`] -> [`kernels`] -> [`convolution`] -> [`solvers`] -> [`march`] -> `fields` ->
+//! [`scene`] -> [`kernels`] -> [`convolution`] -> [`solvers`] -> [`march`] -> [`fields`] ->
 //! [`output`], with [`mod@reference`] (closed forms) beside them. The method is that of S. Spinu,
 //! Tribology in Industry 42 (2020) 131-145, doi:10.24874/ti.2020.42.01.13 ("the paper"); where we
 //! left it, the module says why.
@@ -22,6 +22,7 @@
 
 pub mod convolution;
 pub mod error;
+pub mod fields;
 pub mod kernels;
 pub mod march;
 pub mod output;

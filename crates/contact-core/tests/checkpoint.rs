@@ -126,10 +126,10 @@ fn a_resumed_run_ends_with_the_same_bits_wherever_it_ended() {
             let path = free("resumed.zarr");
             ended(&path, after, dies);
             // Once more on the way, if there is room.
-            let again = go_on(taken_up(&path), (after + END) / 2);
+            let again = go_on(taken_up(&path), usize::midpoint(after, END));
             assert_eq!(
                 again.is_ok(),
-                after == END - 1 && (after + END) / 2 == after
+                after == END - 1 && usize::midpoint(after, END) == after
             );
             let all = match resume(&path).unwrap() {
                 Some(run) => go_on(run, 0).unwrap(),

@@ -9,6 +9,7 @@ mod check;
 mod progress;
 mod resume;
 mod run;
+mod stress;
 mod summary;
 
 use std::io::Write;
@@ -37,6 +38,8 @@ enum Command {
     Resume(resume::Options),
     /// Say what a scene means and what its solution needs; solve nothing
     Check(SceneOptions),
+    /// Stress below the contact of a result: its largest values, and files of it
+    Stress(stress::Options),
 }
 
 /// A scene file and what is changed in it.
@@ -80,6 +83,7 @@ fn main() -> ExitCode {
         Command::Run(options) => run::run(&options),
         Command::Resume(options) => resume::resume(&options),
         Command::Check(options) => check::check(&options),
+        Command::Stress(options) => stress::stress(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -72,7 +72,7 @@ fn column(
     (title.into(), Box::new(cell))
 }
 
-fn columns(scene: &Scene) -> Vec<Column> {
+fn columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
     let Measures { radius, pressure } = Measures::of(scene);
     let micro = |x: f64| format!("{:.4}", x * MICRO);
     let mut columns = vec![
@@ -117,12 +117,15 @@ fn columns(scene: &Scene) -> Vec<Column> {
         column("CG\np", |b, _| b.work.normal_iterations.to_string()),
         column("CG\nq", |b, _| b.work.tangential_iterations.to_string()),
     ]);
+    if increments.iter().any(|i| i.work.parts > 1) {
+        columns.push(column("pieces", |b, _| b.work.parts.to_string()));
+    }
     columns
 }
 
 /// One row per branch that has begun.
 pub(crate) fn table(scene: &Scene, increments: &[Increment]) -> String {
-    let columns = columns(scene);
+    let columns = columns(scene, increments);
     let mut table = Table::new();
     table
         .load_style(presets::ASCII_BORDERS_ONLY_CONDENSED)

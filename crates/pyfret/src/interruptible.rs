@@ -11,6 +11,10 @@ use pyo3::prelude::*;
 /// Time between two looks at the signals.
 const LOOK: Duration = Duration::from_millis(50);
 
+#[allow(
+    clippy::redundant_closure_for_method_calls,
+    reason = "the method is not general enough in its lifetime"
+)]
 /// Does `work` in a thread of its own while the interpreter's lock is free and the caller's thread
 /// hears signals. What a signal handler raises is returned; it raises `stop` too, on which the
 /// work is to end early.

@@ -17,6 +17,7 @@ mod operator;
 mod reference;
 mod result;
 mod scene;
+mod subsurface;
 
 use pyo3::prelude::*;
 
@@ -51,6 +52,11 @@ mod _core {
         Body, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat, FlatPunch,
         FrequencyDomain, Grid, Hankel, InverseFft, LoadPath, Preset, Profile, Rough, Scene,
         Settings, Skip, Spacing, Sphere, Sum, SurfaceMap, Waviness, Wedge, graded,
+    };
+
+    #[pymodule_export]
+    use crate::subsurface::{
+        Envelope, Subsurface, depths, loops, maximum, measure, principal, stress_labels,
     };
 
     #[pymodule_init]

@@ -9,17 +9,33 @@ from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import shear_streamlines, stick_slip
 from pyfret.plot.paper import paper_figures
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
+from pyfret.plot.stresses import (
+    envelope_maps,
+    loop_evolution,
+    running_map,
+    section_map,
+    stress_along_depth,
+    stress_map,
+    stress_maps,
+)
 from pyfret.plot.style import style
 
 __all__ = [
+    "envelope_maps",
     "fretting_loop",
     "load_path",
+    "loop_evolution",
     "paper_figures",
     "pressure_profile",
+    "running_map",
+    "section_map",
     "shear_profile",
     "shear_profiles",
     "shear_streamlines",
     "stick_ratio",
     "stick_slip",
+    "stress_along_depth",
+    "stress_map",
+    "stress_maps",
     "style",
 ]

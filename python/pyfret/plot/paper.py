@@ -16,6 +16,7 @@ from pyfret._core import CattaneoMindlin
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import label_scale, shear_streamlines
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
+from pyfret.plot.stresses import stress_maps
 from pyfret.plot.style import REFERENCE, style
 
 if TYPE_CHECKING:
@@ -124,7 +125,7 @@ def paper_figures(
     *,
     jump: Result | None = None,
 ) -> list[Path]:
-    """Draw figures 4 to 12 of the paper into the folder `out`; give the files written.
+    """Draw figures 4 to 13 of the paper into the folder `out`; give the files written.
 
     Parameters
     ----------
@@ -159,6 +160,9 @@ def paper_figures(
             stick_ratio, results, loc="lower center", ncols=4, columnspacing=1.2
         )
         figures["12"] = compare(fretting_loop, results, loc="upper left")
+        coated = {r: results[r] for r in (0.5, 2.0, 4.0) if r in results}
+        if coated:
+            figures["13"] = stress_maps(coated)
         paths = []
         for number, figure in figures.items():
             paths.append(folder / f"figure_{number}.png")

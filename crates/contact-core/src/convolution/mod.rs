@@ -19,6 +19,7 @@ mod y_transform;
 pub use dc_fft::DcFft;
 pub use direct::Direct;
 pub use frequency_domain::FrequencyDomain;
+pub(crate) use good_size::good_size;
 pub use mirror::{Half, Mirror};
 pub use preconditioner::CirculantInverse;
 pub(crate) use spectra::Spectra;
@@ -47,7 +48,7 @@ pub struct Displacements<'a> {
 }
 
 /// The linear response of the pair of bodies, eq. (2)-(4) of the paper: u = C * (q_x, q_y, p).
-pub trait SurfaceOperator: Send {
+pub trait SurfaceOperator: Send + Sync {
     /// Shape (nx, ny) of the fields.
     fn shape(&self) -> (usize, usize);
 

@@ -20,8 +20,6 @@
 
 use std::f64::consts::PI;
 
-use super::cell::Cell;
-
 /// Stress per unit traction: rows xx, yy, zz, xy, xz, yz, columns q_x, q_y, p.
 pub type StressResponse = [[f64; 3]; 6];
 
@@ -32,10 +30,10 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, nu: f64) -> StressResponse {
     let along = rho + z;
     // L_xx, L_yy, L_zz, L_xy, L_xz, L_yz.
     let depth_angle = angle(x * y, z * rho);
-    let l_xx = angle(y, x) - angle(y * z, x * rho);
-    let l_yy = angle(x, y) - angle(x * z, y * rho);
+    let l_xx = polar(y, x) - polar(y * z, x * rho);
+    let l_yy = polar(x, y) - polar(x * z, y * rho);
     let l_zz = -depth_angle;
-    let (l_xy, l_xz, l_yz) = (along.ln(), log_sum(y, xz2), log_sum(x, yz2));
+    let (l_xy, l_xz, l_yz) = (log(along), log_sum(y, xz2), log_sum(x, yz2));
     // z times the third derivatives.
     let over = |numerator: f64, denominator: f64| {
         if numerator == 0.0 {
@@ -55,7 +53,7 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, nu: f64) -> StressResponse {
     let z_xxx = -z_xyy - z_xzz;
     let z_yyy = -z_xxy - z_yzz;
     // Third derivatives of W.
-    let (w_xxy, w_xyy) = (-x / along, -y / along);
+    let (w_xxy, w_xyy) = (-over(x, along), -over(y, along));
     let (w_xxx, w_yyy) = (-w_xyy - l_xz, -w_xxy - l_yz);
     let (n, m) = (2.0 * nu, 1.0 - 2.0 * nu);
     let s = [
@@ -81,34 +79,58 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, nu: f64) -> StressResponse {
     s.map(|row| row.map(|v| v / (2.0 * PI)))
 }
 
-/// The stress at depth z in the middle of the coordinates under unit traction on a cell.
-pub(crate) fn under_cell(cell: &Cell, z: f64, nu: f64) -> StressResponse {
-    let (x0, x1) = (cell.x - cell.half_x, cell.x + cell.half_x);
-    let (y0, y1) = (cell.y - cell.half_y, cell.y + cell.half_y);
-    let at = |x, y| corner(x, y, z, nu);
-    difference(&at(x1, y1), &at(x0, y1), &at(x1, y0), &at(x0, y0))
+/// The ten radial functions of the stress under unit forces at the depth z > 0, s = r^2, in the
+/// order and over the powers of r that [`super::stress`] adds up.
+///
+/// With D = rho + z and U = 2 nu W - z L as a function of s, under q_x (xx - yy)/2 and xy hold
+/// 4 U_ss + 2 s U_sss in cos(theta) and 2 U_sss in cos(3 theta).
+pub(crate) fn radial(s: f64, z: f64, nu: f64) -> [f64; 10] {
+    let rho2 = s + z * z;
+    let rho = rho2.sqrt();
+    let d = rho + z;
+    let (r1, d1) = (1.0 / rho, 1.0 / d);
+    let (r3, d2) = (r1 * r1 * r1, d1 * d1);
+    let r5 = r3 * r1 * r1;
+    let l_ss = -(2.0 * rho + z) * r3 * d2 / 4.0;
+    let l_sss = (8.0 * rho2 + 9.0 * rho * z + 3.0 * z * z) * r5 * d2 * d1 / 8.0;
+    let w_ss = r1 * d2 / 4.0;
+    let w_sss = -(3.0 * rho + z) * r3 * d2 * d1 / 8.0;
+    let (u_ss, u_sss) = (2.0 * nu * w_ss - z * l_ss, 2.0 * nu * w_sss - z * l_sss);
+    let z3r5 = z * z * z * r5;
+    [
+        -3.0 * z3r5,
+        1.5 * z3r5 - (1.0 + nu) * z * r3,
+        2.0 * (1.0 - 2.0 * nu) * l_ss + 1.5 * z * r5,
+        -3.0 * z * z * r5,
+        -3.0 * z * z * r5,
+        1.5 * z * z * r5 - (1.0 + nu) * r3,
+        4.0 * u_ss + 2.0 * s * u_sss - r3,
+        -2.0 * u_sss,
+        1.5 * z * s * r5,
+        -1.5 * z * r5,
+    ]
+    .map(|g| g / (2.0 * PI))
 }
 
-/// (far - left) - (near - opposite) of the four corners.
-pub(crate) fn difference(
-    both: &StressResponse,
-    low_x: &StressResponse,
-    low_y: &StressResponse,
-    low: &StressResponse,
-) -> StressResponse {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| (both[i][j] - low_x[i][j]) - (low_y[i][j] - low[i][j]))
-    })
+/// ln(v), zero at v = 0: there only differences between corners are finite.
+pub(super) fn log(v: f64) -> f64 {
+    if v > 0.0 { v.ln() } else { 0.0 }
 }
 
 /// atan(n/d), zero where both vanish.
-fn angle(n: f64, d: f64) -> f64 {
+pub(super) fn angle(n: f64, d: f64) -> f64 {
     if n == 0.0 { 0.0 } else { (n / d).atan() }
+}
+
+/// atan(n/d); zero for d = 0, the mean of its limits from both sides, so that on the border of a
+/// loaded cell the surface stress is the mean of both sides.
+pub(super) fn polar(n: f64, d: f64) -> f64 {
+    if d == 0.0 { 0.0 } else { (n / d).atan() }
 }
 
 /// ln(rho + y) up to a function of `rest` = rho^2 - y^2; where that vanishes, only differences
 /// between y of one sign are finite.
-fn log_sum(y: f64, rest: f64) -> f64 {
+pub(super) fn log_sum(y: f64, rest: f64) -> f64 {
     if rest > 0.0 {
         (y / rest.sqrt()).asinh()
     } else if y == 0.0 {

@@ -308,6 +308,12 @@ impl Stack {
         waves
     }
 
+    /// The largest 1/G of the layers and the substrate \[1/Pa\].
+    pub(crate) fn softest(&self) -> f64 {
+        let materials = self.layers.iter().map(|l| l.0).chain([self.substrate]);
+        materials.map(|m| m.c).fold(0.0, f64::max)
+    }
+
     /// A wave number below which the response is well within its power series at k = 0: the
     /// nearest singularity lies at 1/(H contrast) or beyond, H the height of the stack.
     pub(crate) fn lowest_scale(&self) -> f64 {

@@ -11,7 +11,9 @@
 //! share their nodes, and octaves are similar: in units of r_a nodes, radii and Bessel functions
 //! are the same, so these are computed once.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 
@@ -84,6 +86,42 @@ impl Rule {
         }
         Self(points)
     }
+}
+
+/// Radii of the nodes of an octave in r_a, and for each of them J_0 to J_3 at the nodes of a rule.
+type Octave = (Vec<f64>, Vec<Vec<[f64; 4]>>);
+
+/// Most rules whose Bessel functions are kept, some megabyte each.
+const KEPT: usize = 16;
+
+/// Those computed before, by the number of nodes, which tells rules from 0 to the window's end
+/// apart: kernels at many depths share them.
+static OCTAVES: Mutex<BTreeMap<usize, Arc<Octave>>> = Mutex::new(BTreeMap::new());
+
+fn octave(rule: &Rule) -> Arc<Octave> {
+    let kept = || OCTAVES.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(octave) = kept().get(&rule.0.len()) {
+        return octave.clone();
+    }
+    let radii: Vec<f64> = (0..PANELS)
+        .flat_map(|panel| {
+            let octave = f64::from(1 << (panel / SPLITS));
+            let sub = (panel % SPLITS) as f64;
+            cosines().map(|x| {
+                let from = 1.0 + sub / SPLITS as f64;
+                (octave * (from + f64::midpoint(1.0, x) / SPLITS as f64)).sqrt()
+            })
+        })
+        .collect();
+    let of_radius = |rho: &f64| rule.0.iter().map(|(t, _)| bessel(t * rho)).collect();
+    let bessels = radii.par_iter().map(of_radius).collect();
+    let octave = Arc::new((radii, bessels));
+    let mut kept = kept();
+    if kept.len() >= KEPT {
+        kept.clear();
+    }
+    kept.insert(rule.0.len(), octave.clone());
+    octave
 }
 
 impl<const N: usize> Hankel<'_, N> {
@@ -167,20 +205,7 @@ impl<const N: usize> Hankel<'_, N> {
 
     fn octaves(&self, r_first: f64, octaves: usize) -> Vec<[f64; N]> {
         let rule = Rule::new(self.low(r_first), 2.0 * WINDOW_MIDDLE, NODES);
-        let radii: Vec<f64> = (0..PANELS)
-            .flat_map(|panel| {
-                let octave = f64::from(1 << (panel / SPLITS));
-                let sub = (panel % SPLITS) as f64;
-                cosines().map(|x| {
-                    let from = 1.0 + sub / SPLITS as f64;
-                    (octave * (from + f64::midpoint(1.0, x) / SPLITS as f64)).sqrt()
-                })
-            })
-            .collect();
-        let bessels: Vec<Vec<[f64; 4]>> = radii
-            .par_iter()
-            .map(|rho| rule.0.iter().map(|(t, _)| bessel(t * rho)).collect())
-            .collect();
+        let (radii, bessels) = &*octave(&rule);
         (0..octaves)
             .into_par_iter()
             .flat_map_iter(|octave| {
@@ -188,7 +213,7 @@ impl<const N: usize> Hankel<'_, N> {
                 let weighted = self.weighted(&rule, r_a, Some(WINDOW_MIDDLE));
                 let values: Vec<[f64; N]> = bessels
                     .iter()
-                    .zip(&radii)
+                    .zip(radii)
                     .map(|(bessels, rho)| {
                         let mut g = [0.0; N];
                         for (j, a) in bessels.iter().zip(&weighted) {

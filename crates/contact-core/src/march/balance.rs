@@ -3,7 +3,7 @@
 use super::{Energy, Increment, March, Motion, Residuals, State, Status, Work};
 use crate::convolution::Mirror;
 use crate::scene::{Given, LoadPoint, Loads};
-use crate::solvers::{CoupledInfo, Interface, add, friction_bound};
+use crate::solvers::{CoupledInfo, Interface, friction_bound, largest, size, sum_cells};
 
 impl March {
     /// Draws up the accounts of a solved increment and makes it the present state.
@@ -25,7 +25,7 @@ impl March {
         let slipping = now.slip.iter().filter(|&&s| s).count();
         let energy = self.energies(point, &now, &motion, cell_area);
         let residuals = self.residuals(point, &now, info, cell_area);
-        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        let cells = now.p.len();
         let mut increment = Increment {
             index: last.increments + 1,
             point: *point,
@@ -38,10 +38,10 @@ impl March {
             },
             contact_area: contact as f64 * cell_area,
             stick_area: (contact - slipping) as f64 * cell_area,
-            p_max: largest(&mut now.p.iter().copied()),
-            q_max: largest(
-                &mut (0..now.p.len()).map(|n| now.q[0][n].hypot(self.arms.stretch * now.q[1][n])),
-            ),
+            p_max: largest(cells, |n| now.p[n]),
+            q_max: largest(cells, |n| {
+                size([now.q[0][n], self.arms.stretch * now.q[1][n]])
+            }),
             energy,
             residuals,
             work: Work {
@@ -49,6 +49,7 @@ impl March {
                 alternations: info.alternations,
                 normal_iterations: info.normal_iterations,
                 tangential_iterations: info.tangential_iterations,
+                parts: 1,
             },
         };
         self.keep(point, now, motion, increment.energy.work);
@@ -78,12 +79,13 @@ impl March {
 
     /// The loads of the increment: those given, and for given motions what the tractions come to.
     fn transmitted(&self, point: &LoadPoint, now: &Interface, cell_area: f64) -> Loads {
-        let mut sums = [[0.0; 3]; 2];
-        for n in 0..now.p.len() {
-            sums[0] = add(sums[0], self.arms.sums_across(now.p[n], n));
-            let q = [now.q[0][n], now.q[1][n]];
-            sums[1] = add(sums[1], self.arms.sums_in_plane(q, n));
-        }
+        let cells = now.p.len();
+        let sums = [
+            sum_cells(cells, |n| self.arms.sums_across(now.p[n], n)),
+            sum_cells(cells, |n| {
+                self.arms.sums_in_plane([now.q[0][n], now.q[1][n]], n)
+            }),
+        ];
         let mirrored = self.plan.mirror != Mirror::None;
         let (forces, given) = (point.loads.forces(), point.loads.given);
         let motions = given.motions();
@@ -119,21 +121,22 @@ impl March {
         let work = (0..6)
             .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
             .sum();
-        let (mut elastic, mut dissipated, mut opening) = (0.0, 0.0, 0.0);
         let (approach, shift) = self.change(motion);
-        for n in 0..now.p.len() {
+        let [elastic, dissipated, opening] = sum_cells(now.p.len(), |n| {
             let p = mean(now.p[n], last.p[n]);
             let du_z = now.u_z[n] - last.u_z[n];
-            elastic += p * du_z;
             let shift = self.arms.in_plane(shift, n);
-            opening -= p * (du_z - self.arms.across(approach, n));
+            let mut elastic = p * du_z;
+            let mut dissipated = 0.0;
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
                 let du = now.u[c][n] - last.u[c][n];
                 elastic += q * du;
                 dissipated -= q * (du - shift[c]);
             }
-        }
+            let opening = -p * (du_z - self.arms.across(approach, n));
+            [elastic, dissipated, opening]
+        });
         Energy {
             work,
             elastic: elastic * cell_area,
@@ -158,43 +161,44 @@ impl March {
         cell_area: f64,
     ) -> Residuals {
         let mu = self.scene.friction.scale();
-        let mut r = Residuals {
-            coulomb: f64::NEG_INFINITY,
-            ..Residuals::default()
-        };
-        let (mut contact, mut slipping) = (0, 0);
-        let mut p_max = 0.0_f64;
-        for n in 0..now.p.len() {
-            let gap = now.u_z[n] + self.h_init[n] - self.arms.across(info.approach, n);
-            let q = [now.q[0][n], now.q[1][n]];
-            p_max = p_max.max(now.p[n]);
-            let bound = friction_bound(self.mu[n], now.p[n]);
-            r.coulomb = r.coulomb.max(q[0].hypot(q[1]) - bound);
+        let cells = now.p.len();
+        let before = &self.state.interface.u;
+        let gap = |n: usize| now.u_z[n] + self.h_init[n] - self.arms.across(info.approach, n);
+        let bound = |n: usize| friction_bound(self.mu[n], now.p[n]);
+        let [contact, slipping, gap_squares, stick, direction, slipped] = sum_cells(cells, |n| {
             if now.p[n] <= 0.0 {
-                r.penetration = r.penetration.max(-gap);
-                continue;
+                return [0.0; 6];
             }
-            contact += 1;
-            r.gap += gap * gap;
             let shift = self.arms.in_plane(info.shift, n);
-            let slip: [f64; 2] =
-                std::array::from_fn(|c| now.u[c][n] - self.state.interface.u[c][n] - shift[c]);
+            let slip: [f64; 2] = std::array::from_fn(|c| now.u[c][n] - before[c][n] - shift[c]);
+            let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
             if now.slip[n] {
-                slipping += 1;
-                let e = q.map(|q| q / bound.max(f64::MIN_POSITIVE));
+                let bound = bound(n).max(f64::MIN_POSITIVE);
+                let e = [now.q[0][n], now.q[1][n]].map(|q| q / bound);
                 let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
                 let off = [slip[0] - along * e[0], slip[1] - along * e[1]];
-                r.direction += off[0] * off[0] + off[1] * off[1];
+                [1.0, 1.0, gap(n).powi(2), 0.0, square(off), square(slip)]
             } else {
-                r.stick += slip[0] * slip[0] + slip[1] * slip[1];
+                [1.0, 0.0, gap(n).powi(2), square(slip), 0.0, 0.0]
             }
-        }
-        let rms = |squares: f64, count: usize| (squares / count.max(1) as f64).sqrt();
-        r.gap = rms(r.gap, contact) / self.approach;
+        });
+        let p_max = largest(cells, |n| now.p[n]);
+        let penetration = largest(cells, |n| if now.p[n] > 0.0 { 0.0 } else { -gap(n) });
+        let excess = |n: usize| size([now.q[0][n], now.q[1][n]]) - bound(n);
+        let mut r = Residuals {
+            coulomb: largest(cells, excess),
+            penetration,
+            ..Residuals::default()
+        };
+        let rms = |squares: f64, count: f64| (squares / count.max(1.0)).sqrt();
+        r.gap = rms(gap_squares, contact) / self.approach;
         r.penetration /= self.approach;
+        if slipped > 0.0 {
+            r.angle = (direction / slipped).sqrt().min(1.0).asin();
+        }
         if mu > 0.0 {
-            r.stick = rms(r.stick, contact - slipping) / (mu * self.approach);
-            r.direction = rms(r.direction, slipping) / (mu * self.approach);
+            r.stick = rms(stick, contact - slipping) / (mu * self.approach);
+            r.direction = rms(direction, slipping) / (mu * self.approach);
         }
         if mu * p_max > 0.0 {
             r.coulomb /= mu * p_max;

@@ -50,6 +50,21 @@ pub enum Status {
     GrossSlip,
 }
 
+impl Status {
+    /// All, the more they slip the later.
+    pub const ALL: [Self; 4] = [
+        Self::NoContact,
+        Self::FullStick,
+        Self::PartialSlip,
+        Self::GrossSlip,
+    ];
+
+    /// Its number in result stores, 0 to 3; the higher, the more it slips.
+    pub fn code(self) -> u8 {
+        self as u8
+    }
+}
+
 /// Energy of one increment, with mid-increment (trapezoidal) tractions \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
@@ -84,6 +99,9 @@ pub struct Residuals {
     pub stick: f64,
     /// Root-mean-square part of the slip that is not opposite to q, over mu times the approach.
     pub direction: f64,
+    /// Angle between the slip and the shear that it opposes, root mean square over the slip
+    /// cells, each with the square of its slip \[rad\].
+    pub angle: f64,
     /// Largest relative error of the force balances.
     pub balance: f64,
     /// Energy imbalance over the work done so far.
@@ -101,6 +119,8 @@ pub struct Work {
     pub normal_iterations: usize,
     /// Conjugate-gradient iterations of the tangential solver.
     pub tangential_iterations: usize,
+    /// Pieces that the increment was solved in: more than one if it did not converge whole.
+    pub parts: usize,
 }
 
 /// One increment of the load path: scalars, residuals, work.

@@ -2,6 +2,7 @@
 
 mod balance;
 mod fields;
+mod halving;
 mod increment;
 mod predict;
 mod solve;
@@ -93,6 +94,9 @@ impl March {
             y: arm(&|_, y| y),
             stretch,
         };
+        let friction_map = scene.friction.map.as_ref().map_or_else(Vec::new, |map| {
+            plan.mirror.fold(&scene.grid.map(|x, y| map.at(x, y)))
+        });
         let approach = scene.approach();
         Ok(Self {
             points: scene.path.points(),
@@ -100,9 +104,7 @@ impl March {
             plan,
             h_init,
             arms,
-            friction_map: scene.friction.map.as_ref().map_or_else(Vec::new, |map| {
-                plan.mirror.fold(&scene.grid.map(|x, y| map.at(x, y)))
-            }),
+            friction_map,
             mu: vec![scene.friction.mu; cells],
             op,
             inverse,
@@ -154,7 +156,8 @@ impl March {
         &self.state
     }
 
-    /// Computes the next increment; `None` at the end of the path.
+    /// Computes the next increment, in pieces if it does not converge; `None` at the end of the
+    /// path.
     ///
     /// After an error the state is that of the last increment that was solved.
     pub fn advance(&mut self) -> Option<Result<Increment, Error>> {
@@ -163,7 +166,7 @@ impl March {
         let state = &self.state;
         let point = point.resolved(end, state.loads.forces(), state.motion.motions());
         // On a thread of the pool, so that the others are a steal away and not a wake-up.
-        Some(rayon::scope(|_| self.increment(&point)))
+        Some(rayon::scope(|_| self.reach(&point)))
     }
 
     /// One increment: predict, solve, account, keep.
@@ -366,8 +369,13 @@ impl March {
     }
 }
 
-/// Share of the tolerance that the inner solvers get, so that their errors add up to it.
-const INNER_SHARE: f64 = 0.5;
+/// Share of the tolerance with which a predicted pressure is taken as it is: the shear moves it
+/// further.
+const PREDICTED_SHARE: f64 = 0.8;
+/// Share of the tolerance that the normal solver iterates to.
+const NORMAL_SHARE: f64 = 0.4;
+/// Share of the tolerance that the tangential solver iterates to; nothing moves after it.
+const TANGENTIAL_SHARE: f64 = 0.9;
 
 /// The settings of the loops, with lengths in metres.
 fn params(scene: &Scene, approach: f64) -> CoupledParams {
@@ -375,8 +383,10 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
     let gap = solver.tolerance * approach;
     let plain = solver.preset == Preset::Spinu2020;
     CoupledParams {
+        tolerance: gap,
         normal: NormalParams {
-            tolerance: INNER_SHARE * gap,
+            enough: PREDICTED_SHARE * gap,
+            tolerance: NORMAL_SHARE * gap,
             max_iterations: solver.max_iterations,
         },
         tangential: TangentialParams {
@@ -385,7 +395,8 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
             } else {
                 TangentialMethod::Newton
             },
-            tolerance: INNER_SHARE * scene.friction.scale() * gap,
+            // What the shear misses acts on the gap, however large mu is.
+            tolerance: TANGENTIAL_SHARE * scene.friction.scale().min(1.0) * gap,
             max_iterations: solver.max_iterations,
             forcing: 0.2,
             max_passes: 12,

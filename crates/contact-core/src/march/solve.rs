@@ -111,6 +111,7 @@ pub fn summarise(increments: &[Increment]) -> Vec<BranchSummary> {
                 work.alternations += w.alternations;
                 work.normal_iterations += w.normal_iterations;
                 work.tangential_iterations += w.tangential_iterations;
+                work.parts += w.parts;
             }
             Some(BranchSummary {
                 branch: end.point.branch,

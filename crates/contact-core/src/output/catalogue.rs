@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use crate::march::{Fields, Increment, Status};
+use crate::march::{Fields, Increment};
 
 /// How the numbers of a variable are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,15 +58,6 @@ pub enum FieldView<'a> {
 
 /// Words for the codes of `status`, in their order.
 pub(super) const STATUS_MEANINGS: &str = "no_contact full_stick partial_slip gross_slip";
-
-fn status_code(status: Status) -> f64 {
-    match status {
-        Status::NoContact => 0.0,
-        Status::FullStick => 1.0,
-        Status::PartialSlip => 2.0,
-        Status::GrossSlip => 3.0,
-    }
-}
 
 const fn real(
     name: &'static str,
@@ -149,7 +140,7 @@ pub const SCALARS: &[Scalar] = &[
         units: "1",
         long_name: "state of the interface",
         kind: Kind::Code,
-        value: |i| status_code(i.status),
+        value: |i| f64::from(i.status.code()),
     },
     real("contact_area", "m^2", "area of the cells in contact", |i| {
         i.contact_area
@@ -226,6 +217,12 @@ pub const SCALARS: &[Scalar] = &[
         |i| i.residuals.direction,
     ),
     real(
+        "residual_angle",
+        "rad",
+        "root-mean-square angle between slip and the shear it opposes",
+        |i| i.residuals.angle,
+    ),
+    real(
         "residual_balance",
         "1",
         "largest relative error of the force balances",
@@ -256,6 +253,9 @@ pub const SCALARS: &[Scalar] = &[
         "iterations of the tangential solver",
         |i| i.work.tangential_iterations as f64,
     ),
+    count("parts", "pieces that the increment was solved in", |i| {
+        i.work.parts as f64
+    }),
 ];
 
 const fn real_field(

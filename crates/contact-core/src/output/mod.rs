@@ -8,18 +8,27 @@
 //! consolidated metadata last: whoever reads it, or is left with it after a crash, sees the store
 //! as it was at one moment. Beside the arrays it keeps a checkpoint of the state, from which
 //! [`resume`] goes on to the same result, bit by bit.
+//!
+//! Stress below the surface goes to a group of its own ([`StressStore`]) or to VTK image data
+//! ([`ImageData`]), volumes plane by plane while they are computed ([`write_volume`]).
 
 mod catalogue;
 mod checkpoint;
 mod folder;
+mod image_data;
 mod reader;
 mod resume;
+mod stress_store;
 mod variable;
+mod volume;
 mod writer;
 
 pub use catalogue::{FIELDS, Field, FieldView, Kind, SCALARS, Scalar};
+pub use image_data::ImageData;
 pub use reader::Store;
 pub use resume::{Resumed, resume};
+pub use stress_store::StressStore;
+pub use volume::{VolumeMaximum, VolumeSink, write_volume};
 pub use writer::StoreWriter;
 
 /// The version of the store's layout.

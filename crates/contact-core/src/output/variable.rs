@@ -41,7 +41,7 @@ impl Kind {
 }
 
 impl Variable {
-    fn new(
+    pub(super) fn new(
         name: &'static str,
         kind: Kind,
         (units, long_name): (&str, &str),

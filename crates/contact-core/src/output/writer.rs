@@ -138,12 +138,15 @@ impl Observer for StoreWriter {
             return Ok(());
         };
         let beyond_disk = march.state().increments >= open.on_disk;
-        if beyond_disk && march.state().increments != open.saved_increment {
-            open.save(&march.fields())?;
-        }
+        let last_fields = if beyond_disk && march.state().increments != open.saved_increment {
+            open.save(&march.fields())
+        } else {
+            Ok(())
+        };
         let status = failure.map_or("done".to_owned(), ToString::to_string);
         open.attributes.insert("status".into(), json!(status));
-        open.checkpoint(march.state())?;
+        // Where there is no room for the fields there may be for the rest.
+        open.checkpoint(march.state()).and(last_fields)?;
         match open.checkpoints.take() {
             Some(checkpoints) if failure.is_none() => checkpoints.remove(),
             _ => Ok(()),

@@ -1,5 +1,7 @@
 //! Friction laws.
 
+use std::cmp::Ordering;
+
 use super::{Grid, SurfaceMap};
 use crate::error::Error;
 
@@ -100,7 +102,10 @@ impl Friction {
             if table.is_empty() {
                 return Err(Error::invalid(key, "empty", "at least one pair"));
             }
-            if let Some(pair) = table.windows(2).find(|w| !(w[1].0 > w[0].0)) {
+            if let Some(pair) = table
+                .windows(2)
+                .find(|w| w[1].0.partial_cmp(&w[0].0) != Some(Ordering::Greater))
+            {
                 return Err(Error::invalid(key, pair[1].0, "a history that grows"));
             }
             if let Some((_, f)) = table.iter().find(|(_, f)| !(*f >= 0.0 && f.is_finite())) {

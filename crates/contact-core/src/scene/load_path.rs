@@ -171,6 +171,20 @@ pub struct LoadPoint {
 }
 
 impl LoadPoint {
+    /// Half of the way to this point from where `forces` and `motions` stand; not the end of a
+    /// branch.
+    pub(crate) fn middle(&self, forces: [f64; 6], motions: [f64; 6]) -> Self {
+        let mean = |a: f64, b: f64| 0.5 * (a + b);
+        let (ends, given) = (self.loads.forces(), self.loads.given.motions());
+        let halfway = std::array::from_fn(|k| mean(forces[k], ends[k]));
+        let moved = std::array::from_fn(|k| given[k].map(|end| mean(motions[k], end)));
+        Self {
+            ends_branch: false,
+            loads: Loads::from_forces(halfway, Given::from_motions(moved)),
+            ..*self
+        }
+    }
+
     /// The point with what is given in full: a load or a motion that was not given in the branch
     /// before goes straight from where it stands, `forces` and `motions`, to the `end` of the
     /// branch.

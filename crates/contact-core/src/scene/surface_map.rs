@@ -117,7 +117,7 @@ mod tests {
 
     use ndarray::Array2;
 
-    use super::HeightMap;
+    use super::SurfaceMap;
 
     #[test]
     fn a_plane_is_met_between_its_points() {

@@ -1,8 +1,10 @@
 //! The shear that friction admits: |q| <= g in each cell, and the sums that the loads ask for.
 
+use rayon::prelude::*;
+
 use super::rigid_motion::{add, inverse, product};
 use super::shear::TangentialProblem;
-use super::vector::size;
+use super::vector::{CHUNK, dot, size, sum_cells};
 
 /// Rounds of clipping and balancing before the stick cells are taken to be too few.
 const ROUNDS: usize = 8;
@@ -25,14 +27,10 @@ pub(crate) fn admissible(
         project(problem, q, &mut [0.0; 3]);
         mark_circle(problem, q, slip);
     }
-    let mut squares = 0.0;
-    for c in 0..2 {
-        for (change, q) in change[c].iter_mut().zip(q[c].iter()) {
-            *change = q - *change;
-            squares += *change * *change;
-        }
+    for (change, q) in change.iter_mut().zip(q.iter()) {
+        (change.iter_mut().zip(q.iter())).for_each(|(change, q)| *change = q - *change);
     }
-    squares.sqrt()
+    change.iter().map(|c| dot(c, c)).sum::<f64>().sqrt()
 }
 
 /// Cuts the shear to the bound and lets the stick cells share the missing loads, by the smallest
@@ -45,28 +43,14 @@ fn share_force(
     let cells = problem.bound.len();
     let enough = rounding(problem);
     for _ in 0..ROUNDS {
-        for n in 0..cells {
-            let g = problem.bound[n];
-            let size = size([q[0][n], q[1][n]]);
-            let factor = if g <= 0.0 {
-                0.0
-            } else if size > g || (slip[n] && size > 0.0) {
-                g / size
-            } else {
-                1.0
-            };
-            slip[n] &= g > 0.0 && size > 0.0;
-            for q in q.iter_mut() {
-                q[n] *= factor;
-            }
-        }
+        cut_all(problem.bound, q, slip);
         let missing = missing(problem, problem.sums(q));
         if missing.iter().all(|m| m.abs() <= enough) {
             return true;
         }
-        let sticks = |n: &usize| problem.bound[*n] > 0.0 && !slip[*n];
-        let share = spread(problem, missing, (0..cells).filter(sticks));
-        for n in (0..cells).filter(sticks) {
+        let sticks = |n: usize| problem.bound[n] > 0.0 && !slip[n];
+        let share = spread(problem, missing, sticks);
+        for n in (0..cells).filter(|&n| sticks(n)) {
             let share = problem.arms.in_plane(share, n);
             for c in 0..2 {
                 q[c][n] += share[c];
@@ -74,6 +58,34 @@ fn share_force(
         }
     }
     false
+}
+
+/// Slip cells and cells beyond the bound go to the circle, cells outside the contact to zero.
+fn cut_all(bound: &[f64], q: &mut [&mut [f64]; 2], slip: &mut [bool]) {
+    let [q_x, q_y] = q;
+    let cells = (bound.par_chunks(CHUNK))
+        .zip(q_x.par_chunks_mut(CHUNK))
+        .zip(q_y.par_chunks_mut(CHUNK))
+        .zip(slip.par_chunks_mut(CHUNK));
+    cells.for_each(|(((bound, q_x), q_y), slip)| {
+        for n in 0..bound.len() {
+            let g = bound[n];
+            if g <= 0.0 {
+                (q_x[n], q_y[n], slip[n]) = (0.0, 0.0, false);
+                continue;
+            }
+            let square = q_x[n] * q_x[n] + q_y[n] * q_y[n];
+            if slip[n] || square > g * g {
+                if square > 0.0 {
+                    let factor = g / square.sqrt();
+                    q_x[n] *= factor;
+                    q_y[n] *= factor;
+                } else {
+                    slip[n] = false;
+                }
+            }
+        }
+    });
 }
 
 /// The loads that the sums lack; zero for motions that are given.
@@ -88,22 +100,23 @@ fn missing(problem: &TangentialProblem<'_>, sums: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// The m with which tractions B m on the cells have the sums asked for.
+/// The m with which tractions B m on the cells inside have the sums asked for.
 fn spread(
     problem: &TangentialProblem<'_>,
-    sums: [f64; 3],
-    cells: impl Iterator<Item = usize>,
+    asked: [f64; 3],
+    inside: impl Fn(usize) -> bool + Sync,
 ) -> [f64; 3] {
-    let mut gram = [[0.0; 3]; 3];
-    for n in cells {
-        add_gram(
-            &mut gram,
-            problem.arms.turn_x(n),
-            problem.arms.y[n],
-            [1.0, 0.0, 1.0],
-        );
-    }
-    product(&inverse(gram, problem.drive.free), sums)
+    let arms = problem.arms;
+    let [count, x, y, r2] = sum_cells(problem.bound.len(), |n| {
+        let (x, y) = (arms.turn_x(n), arms.y[n]);
+        if inside(n) {
+            [1.0, x, y, x * x + y * y]
+        } else {
+            [0.0; 4]
+        }
+    });
+    let gram = [[count, 0.0, -y], [0.0, count, x], [-y, x, r2]];
+    product(&inverse(gram, problem.drive.free), asked)
 }
 
 /// gram += b^T S b for the modes b of a cell at (x, y), S the symmetric matrix (xx, xy, yy).

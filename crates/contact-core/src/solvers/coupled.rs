@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::admissible::admissible;
 use super::limit::{Sliding, exceeds, sliding};
+use super::mixing::Mixing;
 use super::rigid_motion::{Arms, Drive, add};
 use super::shear_gradient::shear_gradient;
 use super::vector::{add_scaled, size};
@@ -85,7 +86,9 @@ pub struct IncrementProblem<'a> {
 /// Settings of the intermediate loop.
 #[derive(Clone, Copy, Debug)]
 pub struct CoupledParams {
-    /// Settings of the normal solver; its tolerance is that of the gap.
+    /// Largest root-mean-square gap in the contact and deepest penetration outside at the end \[m\].
+    pub tolerance: f64,
+    /// Settings of the normal solver.
     pub normal: NormalParams,
     /// Settings of the tangential solver.
     pub tangential: TangentialParams,
@@ -128,6 +131,7 @@ pub struct CoupledWorkspace {
     q_before: [Vec<f64>; 2],
     change: [Vec<f64>; 2],
     response: [Vec<f64>; 2],
+    mixing: Mixing,
 }
 
 impl CoupledWorkspace {
@@ -143,6 +147,7 @@ impl CoupledWorkspace {
             q_before: pair(),
             change: pair(),
             response: pair(),
+            mixing: Mixing::new(cells),
         }
     }
 }
@@ -160,6 +165,7 @@ pub fn coupled(
     let mut info = CoupledInfo::default();
     let mut slides = make_admissible(problem, now, ws, friction);
     now.evaluate(response, friction);
+    ws.mixing.restart();
     loop {
         info.alternations += 1;
 
@@ -234,26 +240,30 @@ pub fn coupled(
                 changed |= *change != 0.0;
             }
         }
-        if !changed {
+        if changed {
+            let [change_x, change_y] = &ws.change;
+            response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
+        } else if ws.mixing.mixes() {
+            ws.response[0].fill(0.0);
+        } else {
             return Ok(info);
         }
-        let [change_x, change_y] = &ws.change;
-        response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
-        add_scaled(&mut now.u_z, 1.0, &ws.response[0]);
+        ws.mixing.settle(&ws.response[0], &mut now.u_z);
         let check = super::normal::assess(&gap, &now.p, &now.u_z);
         info.approach = check.motion;
         let residual = check.gap.max(check.penetration);
-        if residual <= params.normal.tolerance {
+        if residual <= params.tolerance {
             return Ok(info);
         }
         if info.alternations == params.max_alternations {
             return Err(SolverError {
                 solver: "coupled",
                 residual,
-                tolerance: params.normal.tolerance,
+                tolerance: params.tolerance,
                 iterations: info.alternations,
             });
         }
+        ws.mixing.mix(&now.p, &mut now.u_z);
     }
 }
 

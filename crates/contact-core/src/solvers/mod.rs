@@ -12,6 +12,7 @@ mod admissible;
 mod contact_cells;
 mod coupled;
 mod limit;
+mod mixing;
 mod newton_step;
 mod normal;
 mod projected_gradient;
@@ -28,11 +29,10 @@ pub use coupled::{
 };
 pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub use response::Response;
-pub(crate) use rigid_motion::add;
 pub use rigid_motion::{Arms, Drive};
 pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
 pub use tangential::{TangentialWorkspace, tangential};
-pub(crate) use vector::size;
+pub(crate) use vector::{largest, size, sum_cells};
 
 /// A solver that stopped before its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

@@ -14,7 +14,7 @@
 //! iteration costs one convolution, and a second one only when cells leave.
 
 use super::rigid_motion::{Arms, Drive, add};
-use super::vector::{add_scaled, dot};
+use super::vector::{add_scaled, dot, largest, sum_cells};
 use super::{Response, SolverError};
 
 /// What is given: the gap and what drives the approach and the tilts.
@@ -31,7 +31,10 @@ pub struct NormalProblem<'a> {
 /// Settings of the normal solver.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalParams {
-    /// Largest root-mean-square gap in the contact and deepest penetration outside \[m\].
+    /// Largest root-mean-square gap in the contact and deepest penetration outside with which a
+    /// guess is taken as it is \[m\].
+    pub enough: f64,
+    /// The same for the end of the iterations, once there are any \[m\].
     pub tolerance: f64,
     /// Most iterations.
     pub max_iterations: usize,
@@ -102,7 +105,12 @@ pub fn normal(
     loop {
         let mut info = assess(problem, p, u_z);
         info.iterations = iterations;
-        let solved = info.gap <= params.tolerance && info.penetration <= params.tolerance;
+        let tolerance = if iterations == 0 {
+            params.enough
+        } else {
+            params.tolerance
+        };
+        let solved = info.gap.max(info.penetration) <= tolerance;
         if solved && is_balanced(problem, p) {
             return Ok(info);
         }
@@ -110,7 +118,7 @@ pub fn normal(
             return Err(SolverError {
                 solver: "normal",
                 residual: info.gap.max(info.penetration),
-                tolerance: params.tolerance,
+                tolerance,
                 iterations,
             });
         }
@@ -174,8 +182,7 @@ fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
         if missing.iter().all(|m| m.abs() <= enough) {
             return;
         }
-        let loaded = (0..p.len()).filter(|&n| p[n] > 0.0).map(|n| (n, p[n]));
-        let m = problem.arms.spread_across(free, loaded, missing);
+        let m = problem.arms.spread_across(free, |n| p[n], missing);
         for n in 0..p.len() {
             p[n] *= (1.0 + problem.arms.across(m, n)).max(0.0);
         }
@@ -184,7 +191,7 @@ fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
 
 /// The loads that the pressure lacks; zero for motions that are given.
 fn missing(problem: &NormalProblem<'_>, p: &[f64]) -> [f64; 3] {
-    let now = (0..p.len()).fold([0.0; 3], |s, n| add(s, problem.arms.sums_across(p[n], n)));
+    let now = sum_cells(p.len(), |n| problem.arms.sums_across(p[n], n));
     let Drive { free, sums, .. } = problem.drive;
     std::array::from_fn(|k| if free[k] { sums[k] - now[k] } else { 0.0 })
 }
@@ -219,20 +226,23 @@ fn add_response_of_change(
 pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> NormalInfo {
     let Drive { free, given, .. } = problem.drive;
     let gap_at = |n: usize, motion| u_z[n] + problem.h_init[n] - problem.arms.across(motion, n);
-    let contact = (0..p.len()).filter(|&n| p[n] > 0.0);
-    let fitted = contact.map(|n| (n, 1.0, gap_at(n, given)));
+    let fitted = |n: usize| (p[n] > 0.0).then(|| gap_at(n, given));
     let motion = add(given, problem.arms.fit_across(free, fitted));
-    let (mut squares, mut penetration, mut contact) = (0.0, 0.0_f64, 0_usize);
-    for n in 0..p.len() {
+    let [squares, contact] = sum_cells(p.len(), |n| {
         let gap = gap_at(n, motion);
         if p[n] > 0.0 {
-            contact += 1;
-            squares += gap * gap;
+            [gap * gap, 1.0]
         } else {
-            penetration = penetration.max(-gap);
+            [0.0; 2]
         }
-    }
-    let gap = (squares / contact.max(1) as f64).sqrt();
+    });
+    let penetration = largest(
+        p.len(),
+        |n| {
+            if p[n] > 0.0 { 0.0 } else { -gap_at(n, motion) }
+        },
+    );
+    let gap = (squares / contact.max(1.0)).sqrt();
     NormalInfo {
         motion,
         gap,
@@ -266,14 +276,17 @@ fn descend(
         ws.free[n] = p[n] > 0.0 || (enters(n) && ws.z[n] > arms.across(of_all, n));
     }
     let of_free = fit(problem, &ws.z, |n| ws.free[n]);
-    let (mut product, mut fresh) = (0.0, 0.0);
-    for n in 0..cells {
-        if ws.free[n] {
-            ws.z[n] -= arms.across(of_free, n);
-            product += ws.residual[n] * ws.z[n];
-            fresh += (ws.residual[n] - ws.last_residual[n]) * ws.z[n];
-        }
+    for n in (0..cells).filter(|&n| ws.free[n]) {
+        ws.z[n] -= arms.across(of_free, n);
     }
+    let [product, fresh] = sum_cells(cells, |n| {
+        if ws.free[n] {
+            let change = ws.residual[n] - ws.last_residual[n];
+            [ws.residual[n] * ws.z[n], change * ws.z[n]]
+        } else {
+            [0.0; 2]
+        }
+    });
     let beta = if last_product > 0.0 {
         (fresh / last_product).max(0.0)
     } else {
@@ -288,10 +301,13 @@ fn descend(
 }
 
 /// The free motion that fits a field best over the cells inside.
-fn fit(problem: &NormalProblem<'_>, field: &[f64], inside: impl Fn(usize) -> bool) -> [f64; 3] {
-    let cells = (0..field.len()).filter(|&n| inside(n));
-    let fitted = cells.map(|n| (n, 1.0, field[n]));
-    problem.arms.fit_across(problem.drive.free, fitted)
+fn fit(
+    problem: &NormalProblem<'_>,
+    field: &[f64],
+    inside: impl Fn(usize) -> bool + Sync,
+) -> [f64; 3] {
+    let value = |n: usize| inside(n).then(|| field[n]);
+    problem.arms.fit_across(problem.drive.free, value)
 }
 
 /// Slope and curvature of the energy along the direction; its response goes to the workspace.

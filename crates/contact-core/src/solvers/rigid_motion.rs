@@ -10,6 +10,8 @@
 //! and the sums of B^T times the traction are its forces and moments. Rotations are multiplied by
 //! the length that x and y are divided by, so that every m is a length and every sum a traction.
 
+use super::vector::sum_cells;
+
 /// Lever arms: where the cells are.
 #[derive(Clone, Debug, Default)]
 pub struct Arms {
@@ -51,55 +53,79 @@ impl Arms {
         [p, self.y[n] * p, -self.x[n] * p]
     }
 
-    /// The motion within `free` that fits `value` best in the sum of `weight` times squares over
-    /// the cells of the plane; weights of zero leave cells out.
+    /// The motion within `free` that fits a field best over the cells of the plane for which
+    /// `value` says it.
     pub(crate) fn fit_in_plane(
         &self,
         free: [bool; 3],
-        cells: impl Iterator<Item = (usize, f64, [f64; 2])>,
+        value: impl Fn(usize) -> Option<[f64; 2]> + Sync,
     ) -> [f64; 3] {
-        let mut fit = Fit::default();
-        for (n, weight, value) in cells {
-            let (x, y) = (self.turn_x(n), self.y[n]);
-            fit.add([1.0, 0.0, -y], weight, value[0]);
-            fit.add([0.0, 1.0, x], weight, value[1]);
+        let cells = self.x.len();
+        if !free[2] {
+            let [count, a, b] =
+                sum_cells(cells, |n| value(n).map_or([0.0; 3], |v| [1.0, v[0], v[1]]));
+            let plane = [[count, 0.0, 0.0], [0.0, count, 0.0], [0.0; 3]];
+            return product(&inverse(plane, free), [a, b, 0.0]);
         }
-        fit.solve(free)
+        let [count, x, y, r2, a, b, moment] = sum_cells(cells, |n| {
+            value(n).map_or([0.0; 7], |v| {
+                let (x, y) = (self.turn_x(n), self.y[n]);
+                [1.0, x, y, x * x + y * y, v[0], v[1], x * v[1] - y * v[0]]
+            })
+        });
+        let plane = [[count, 0.0, -y], [0.0, count, x], [-y, x, r2]];
+        product(&inverse(plane, free), [a, b, moment])
     }
 
     /// The same across the plane.
     pub(crate) fn fit_across(
         &self,
         free: [bool; 3],
-        cells: impl Iterator<Item = (usize, f64, f64)>,
+        value: impl Fn(usize) -> Option<f64> + Sync,
     ) -> [f64; 3] {
-        let mut fit = Fit::default();
         if free == [true, false, false] {
-            for (_, weight, value) in cells {
-                fit.matrix[0][0] += weight;
-                fit.sums[0] += weight * value;
-            }
-        } else {
-            for (n, weight, value) in cells {
-                fit.add([1.0, self.y[n], -self.x[n]], weight, value);
-            }
+            let [count, v] = sum_cells(self.x.len(), |n| value(n).map_or([0.0; 2], |v| [1.0, v]));
+            let matrix = [[count, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+            return product(&inverse(matrix, free), [v, 0.0, 0.0]);
         }
-        fit.solve(free)
+        let weighted = |n: usize| value(n).map_or((0.0, 0.0), |v| (1.0, v));
+        self.solve_across(free, weighted, None)
     }
 
     /// The motion m within `free` with which the weights times B m have the sums asked for.
     pub(crate) fn spread_across(
         &self,
         free: [bool; 3],
-        weights: impl Iterator<Item = (usize, f64)>,
-        sums: [f64; 3],
+        weight: impl Fn(usize) -> f64 + Sync,
+        asked: [f64; 3],
     ) -> [f64; 3] {
-        let mut fit = Fit::default();
-        for (n, weight) in weights {
-            fit.add([1.0, self.y[n], -self.x[n]], weight, 0.0);
-        }
-        fit.sums = sums;
-        fit.solve(free)
+        self.solve_across(free, |n| (weight(n), 0.0), Some(asked))
+    }
+
+    /// Normal equations of weights and values; `asked` stands for the sums of the values.
+    fn solve_across(
+        &self,
+        free: [bool; 3],
+        weighted: impl Fn(usize) -> (f64, f64) + Sync,
+        asked: Option<[f64; 3]>,
+    ) -> [f64; 3] {
+        let [w, x, y, xx, xy, yy, v, vx, vy] = sum_cells(self.x.len(), |n| {
+            let (w, v) = weighted(n);
+            let (x, y, v) = (self.x[n], self.y[n], w * v);
+            [
+                w,
+                w * x,
+                w * y,
+                w * x * x,
+                w * x * y,
+                w * y * y,
+                v,
+                v * x,
+                v * y,
+            ]
+        });
+        let matrix = [[w, y, -x], [y, yy, -xy], [-x, -xy, xx]];
+        product(&inverse(matrix, free), asked.unwrap_or([v, vy, -vx]))
     }
 }
 
@@ -112,29 +138,6 @@ pub struct Drive {
     pub sums: [f64; 3],
     /// Motions that are given \[m\]; zero where they are free.
     pub given: [f64; 3],
-}
-
-/// Normal equations of a motion.
-#[derive(Default)]
-struct Fit {
-    matrix: [[f64; 3]; 3],
-    sums: [f64; 3],
-}
-
-impl Fit {
-    fn add(&mut self, row: [f64; 3], weight: f64, value: f64) {
-        for k in 0..3 {
-            let part = weight * row[k];
-            self.sums[k] += part * value;
-            for l in 0..3 {
-                self.matrix[k][l] += part * row[l];
-            }
-        }
-    }
-
-    fn solve(&self, free: [bool; 3]) -> [f64; 3] {
-        product(&inverse(self.matrix, free), self.sums)
-    }
 }
 
 /// Part of a diagonal entry below which what elimination leaves of it is rounding.
@@ -219,8 +222,8 @@ mod tests {
             stretch: 0.8,
         };
         let m = [0.3, -0.2, 0.7];
-        let plane = arms.fit_in_plane([true; 3], (0..4).map(|n| (n, 1.5, arms.in_plane(m, n))));
-        let across = arms.fit_across([true; 3], (0..4).map(|n| (n, 0.5, arms.across(m, n))));
+        let plane = arms.fit_in_plane([true; 3], |n| Some(arms.in_plane(m, n)));
+        let across = arms.fit_across([true; 3], |n| Some(arms.across(m, n)));
         for k in 0..3 {
             assert!((plane[k] - m[k]).abs() < 1e-14 && (across[k] - m[k]).abs() < 1e-14);
         }

@@ -1,6 +1,7 @@
 //! What the tangential solvers are given, work on and end with.
 
 use super::rigid_motion::{Arms, Drive, add};
+use super::vector::sum_cells;
 
 /// What is given: the friction bound, the reference of the slip, what drives the shift.
 #[derive(Clone, Copy, Debug)]
@@ -18,11 +19,9 @@ pub struct TangentialProblem<'a> {
 impl TangentialProblem<'_> {
     /// Sums of the shear over the cells \[Pa\]: forces, and the moment about z over the length.
     pub(crate) fn sums(&self, q: &[&mut [f64]; 2]) -> [f64; 3] {
-        (0..self.bound.len())
-            .filter(|&n| self.bound[n] > 0.0)
-            .fold([0.0; 3], |sums, n| {
-                add(sums, self.arms.sums_in_plane([q[0][n], q[1][n]], n))
-            })
+        sum_cells(self.bound.len(), |n| {
+            self.arms.sums_in_plane([q[0][n], q[1][n]], n)
+        })
     }
 }
 
@@ -95,10 +94,11 @@ pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) ->
     let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slip[n];
     let any_sticks = (0..cells).any(sticks);
     let given = problem.drive.given;
-    let fitted = (0..cells)
-        .filter(|&n| problem.bound[n] > 0.0 && (sticks(n) || !any_sticks))
-        .map(|n| (n, 1.0, shear.slip_of(problem, given, n)));
-    add(given, problem.arms.fit_in_plane(problem.drive.free, fitted))
+    let slip = |n: usize| {
+        let counts = problem.bound[n] > 0.0 && (sticks(n) || !any_sticks);
+        counts.then(|| shear.slip_of(problem, given, n))
+    };
+    add(given, problem.arms.fit_in_plane(problem.drive.free, slip))
 }
 
 /// q . ds in cell n, negative where friction dissipates \[Pa m\].

@@ -21,7 +21,7 @@ use super::projected_gradient::ProjectedGradient;
 use super::shear::{
     Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift, power,
 };
-use super::vector::{add_scaled, size};
+use super::vector::{add_scaled, size, sum_cells};
 use super::{Response, SolverError};
 
 /// Buffers of the tangential solver.
@@ -131,15 +131,18 @@ fn rises(
     ws: &TangentialWorkspace,
     tolerance: f64,
 ) -> bool {
-    let (mut rise, mut moved) = (0.0, 0.0);
-    for c in 0..2 {
-        for n in 0..problem.bound.len() {
+    let given = problem.drive.given;
+    let [rise, moved] = sum_cells(problem.bound.len(), |n| {
+        let given = problem.arms.in_plane(given, n);
+        let (mut rise, mut moved) = (0.0, 0.0);
+        for c in 0..2 {
             let change = shear.q[c][n] - ws.q_before[c][n];
             let mean = 0.5 * (shear.u[c][n] + ws.u_before[c][n]) - problem.u_ref[c][n];
-            rise += change * (mean - problem.arms.in_plane(problem.drive.given, n)[c]);
+            rise += change * (mean - given[c]);
             moved += change.abs();
         }
-    }
+        [rise, moved]
+    });
     rise > SETTLED * tolerance * moved
 }
 

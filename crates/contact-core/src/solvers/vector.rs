@@ -1,5 +1,7 @@
 //! Sums over cells.
 
+use std::ops::Range;
+
 /// Numbers summed side by side, so that the sum runs at the speed of memory. Their order depends
 /// on nothing but the length.
 const LANES: usize = 8;
@@ -38,4 +40,63 @@ pub(crate) fn size(v: [f64; 2]) -> f64 {
 /// y += factor * x
 pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     y.iter_mut().zip(x).for_each(|(y, x)| *y += factor * x);
+}
+
+/// Cells that one thread sums or changes in one go.
+pub(crate) const CHUNK: usize = 4096;
+
+/// Sums of K terms per cell, in chunks shared by the threads and in lanes within them. Their order
+/// depends on nothing but the number of cells.
+pub(crate) fn sum_cells<const K: usize>(
+    cells: usize,
+    term: impl Fn(usize) -> [f64; K] + Sync,
+) -> [f64; K] {
+    sums_of(0..cells, &term)
+}
+
+fn sums_of<const K: usize>(
+    cells: Range<usize>,
+    term: &(impl Fn(usize) -> [f64; K] + Sync),
+) -> [f64; K] {
+    let add = |a: &mut [f64; K], b: [f64; K]| (0..K).for_each(|k| a[k] += b[k]);
+    if cells.len() > CHUNK {
+        let middle = cells.start + cells.len() / 2;
+        let (mut a, b) = rayon::join(
+            || sums_of(cells.start..middle, term),
+            || sums_of(middle..cells.end, term),
+        );
+        add(&mut a, b);
+        return a;
+    }
+    let mut lanes = [[0.0; K]; 4];
+    let mut n = cells.start;
+    while n + 4 <= cells.end {
+        for (l, lane) in lanes.iter_mut().enumerate() {
+            add(lane, term(n + l));
+        }
+        n += 4;
+    }
+    (n..cells.end).for_each(|n| add(&mut lanes[0], term(n)));
+    let [mut total, rest @ ..] = lanes;
+    for lane in rest {
+        add(&mut total, lane);
+    }
+    total
+}
+
+/// Largest of `value(n)` and zero.
+pub(crate) fn largest(cells: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
+    largest_of(0..cells, &value)
+}
+
+fn largest_of(cells: Range<usize>, value: &(impl Fn(usize) -> f64 + Sync)) -> f64 {
+    if cells.len() > CHUNK {
+        let middle = cells.start + cells.len() / 2;
+        let (a, b) = rayon::join(
+            || largest_of(cells.start..middle, value),
+            || largest_of(middle..cells.end, value),
+        );
+        return f64::max(a, b);
+    }
+    cells.map(value).fold(0.0, f64::max)
 }

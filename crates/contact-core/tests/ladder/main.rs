@@ -12,6 +12,7 @@ mod bench;
 mod cattaneo_mindlin;
 mod coated_hertz;
 mod coupled_indentation;
+mod figure_13;
 mod gross_slip;
 mod hertz;
 mod invariants;

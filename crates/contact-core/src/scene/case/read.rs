@@ -72,7 +72,7 @@ pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
 fn friction(root: &Section<'_>, folder: &Path) -> Result<Friction, Fault> {
     let keys = ["mu", "mu_y", "kinetic", "map", "history"];
     let section = root.need_section("friction", &keys)?;
-    let what = "a finite number >= 0, or \"stick\" for no slip";
+    let what = "a number >= 0, or \"stick\" for no slip";
     let mu = match section.need("mu", what)? {
         Value::String(word) if word == "stick" => f64::INFINITY,
         Value::String(_) => {

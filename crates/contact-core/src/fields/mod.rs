@@ -1,0 +1,40 @@
+//! Stage 6: WHAT FOLLOWS from the tractions below the surface: stress and displacement; energy of
+//! the loops.
+//!
+//! Three ways to ask, each computing that and nothing else: [`Section`], lines along x or y at any
+//! depths, by one-dimensional transforms; [`Slices`], whole planes parallel to the surface, by
+//! two-dimensional ones; [`Points`], single points anywhere, by summation. One transform of each
+//! traction serves all depths and components, and several states of a load path share the kernels.
+//!
+//! Depth z is counted into the body; components are those of the axes of `docs/conventions.md`,
+//! in body 1 as well. At an interface s_xx, s_yy and s_xy have two values: a [`Depth`] names the
+//! layer.
+//!
+//! From a depth of eight cells on, the uniform load of a cell is replaced by point loads
+//! on it and its neighbours that act alike to 1e-9 of the traction there; nearer to the surface it
+//! is integrated over the cell.
+
+mod depth;
+mod derived;
+mod energy;
+mod envelope;
+mod loads;
+mod maximum;
+mod parity;
+mod points;
+mod section;
+mod slices;
+mod stream;
+
+pub use depth::{Depth, Side, depths};
+pub use derived::{
+    MEASURES, Measure, Principal, StressTensor, hydrostatic, measure_named, principal,
+    principal_values, tresca, von_mises,
+};
+pub use energy::{Cycle, Direction, LoopPoint, cycles, loops};
+pub use envelope::{DepthEnvelope, Envelope, Extremes};
+pub use maximum::{Maximum, maximum};
+pub use points::{Point, Points};
+pub use section::{Line, Section};
+pub use slices::Slices;
+pub use stream::{Accumulate, Moment, Stream};

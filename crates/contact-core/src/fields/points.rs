@@ -1,0 +1,174 @@
+//! Single points, by summation over the loaded cells.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::loads::{Loads, Plane, Source, snapped};
+use super::{Depth, Side};
+use crate::convolution::Tractions;
+use crate::error::Error;
+use crate::kernels::{Cell, DepthKernel, Displacement, Quantity, Stack, Stress, refuse_rigid};
+use crate::scene::{Body, Grid};
+
+/// Stress and displacement at single points; each costs one kernel value per loaded cell.
+pub struct Points {
+    body: Body,
+    stack: Stack,
+    side: Side,
+    plane: Plane,
+    /// By state, for loads on cells and for point loads.
+    loads: Vec<[Loads; 2]>,
+}
+
+/// A point: x, y \[m\] and the depth.
+pub type Point = (f64, f64, Depth);
+
+impl Points {
+    /// In the body `side` under each of the `states` of tractions, each field of shape (nx, ny) of
+    /// the grid.
+    pub fn new(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        states: &[Tractions<'_>],
+    ) -> Result<Self, Error> {
+        body.check("body")?;
+        grid.check()?;
+        let plane = Plane::new(grid, false);
+        let loads = states.iter().map(|state| {
+            Source::ALL.map(|source| {
+                let patch = plane.patch(std::slice::from_ref(state), source);
+                plane.loads(state, side, source, patch)
+            })
+        });
+        Ok(Self {
+            stack: Stack::new(body),
+            body: body.clone(),
+            side,
+            plane,
+            loads: loads.collect(),
+        })
+    }
+
+    /// Stress of each state at each point \[Pa\]: xx, yy, zz, xy, xz, yz.
+    ///
+    /// On the surface the stress jumps at the border of a cell; there it is the mean of both sides,
+    /// as far as these are finite.
+    pub fn stress(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 6]>>, Error> {
+        self.gather::<Stress, 10, 6>(points)
+    }
+
+    /// Displacement of each state at each point relative to infinity \[m\].
+    pub fn displacement(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 3]>>, Error> {
+        self.gather::<Displacement, 5, 3>(points)
+    }
+
+    fn gather<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
+        &self,
+        points: &[Point],
+    ) -> Result<Vec<Vec<[f64; R]>>, Error> {
+        // Points at one depth share its kernel.
+        let mut by_depth: BTreeMap<(u64, usize), Vec<usize>> = BTreeMap::new();
+        for (n, (x, y, depth)) in points.iter().enumerate() {
+            for (key, v) in [("x", x), ("y", y)] {
+                if !v.is_finite() {
+                    return Err(Error::invalid(key, v, "a finite place in m"));
+                }
+            }
+            let key = (depth.z.to_bits(), depth.layer);
+            by_depth.entry(key).or_default().push(n);
+        }
+        let groups: Vec<_> = by_depth
+            .into_values()
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(|group| {
+                let values = self.at_depth::<Q, N, R>(points, &group)?;
+                Ok((group, values))
+            })
+            .collect::<Result<_, Error>>()?;
+        let mut all = vec![vec![[0.0; R]; points.len()]; self.loads.len()];
+        for (group, values) in groups {
+            for (n, of_states) in group.into_iter().zip(values) {
+                for (state, value) in all.iter_mut().zip(of_states) {
+                    state[n] = value;
+                }
+            }
+        }
+        Ok(all)
+    }
+
+    /// The values of every state at the points of a group, which share their depth.
+    fn at_depth<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
+        &self,
+        points: &[Point],
+        group: &[usize],
+    ) -> Result<Vec<Vec<[f64; R]>>, Error> {
+        let depth = points[group[0]].2;
+        refuse_rigid(&self.body, depth.layer)?;
+        let place = self.stack.place(depth.z, Some(depth.layer))?;
+        let farthest = group
+            .iter()
+            .map(|n| points[*n].0.hypot(points[*n].1))
+            .fold(0.0, f64::max);
+        let kernel =
+            DepthKernel::<Q, N, R>::new(&self.stack, place, self.plane.reach() + farthest)?;
+        let source = Source::at(depth.z, self.plane.d);
+        let variant = source.index();
+        let at = |n: &usize| {
+            let (x, y, _) = points[*n];
+            let of_state = |loads: &[Loads; 2]| self.sum(&kernel, source, &loads[variant], (x, y));
+            self.loads.iter().map(of_state).collect()
+        };
+        Ok(group.par_iter().map(at).collect())
+    }
+
+    fn sum<Q: Quantity<N, R>, const N: usize, const R: usize>(
+        &self,
+        kernel: &DepthKernel<Q, N, R>,
+        source: Source,
+        loads: &Loads,
+        (x, y): (f64, f64),
+    ) -> [f64; R] {
+        let Plane { n, d, .. } = self.plane;
+        let patch = loads.patch;
+        let from = |v: f64, i: usize, start: isize, n: usize, d: f64| {
+            let middle = (i as isize + start) as f64 - (n - 1) as f64 / 2.0;
+            snapped(v / d - middle) * d
+        };
+        let mut sum = [0.0; R];
+        for j in 0..patch.rows {
+            let rows = [0, 1, 2].map(|component| loads.row(component, j));
+            let from_y = from(y, j, patch.start.1, n.1, d.1);
+            for i in 0..patch.columns {
+                let q = rows.map(|row| row[i]);
+                if q.iter().all(|q| *q == 0.0) {
+                    continue;
+                }
+                let from_x = from(x, i, patch.start.0, n.0, d.0);
+                let (response, area) = match source {
+                    Source::Cells => {
+                        let cell = Cell {
+                            x: from_x,
+                            y: from_y,
+                            half_x: d.0 / 2.0,
+                            half_y: d.1 / 2.0,
+                        };
+                        (kernel.under(&cell), 1.0)
+                    }
+                    Source::Points => (kernel.at_point(from_x, from_y), d.0 * d.1),
+                };
+                for (sum, row) in sum.iter_mut().zip(&response) {
+                    *sum += area * (row[0] * q[0] + row[1] * q[1] + row[2] * q[2]);
+                }
+            }
+        }
+        for (row, sum) in sum.iter_mut().enumerate() {
+            if Q::has_one_z(row) {
+                *sum *= self.side.sign();
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,222 @@
+//! The response at one depth as a function of the offset from a loaded cell.
+//!
+//! In the outermost layer it is that of a half-space of its material, in closed form, plus a
+//! remainder that decays like exp(-k (2h - z)); further down all of it decays like exp(-k z). What
+//! decays is tabulated over the radius and integrated over the cell.
+
+use std::marker::PhantomData;
+use std::ops::Range;
+
+use ndarray::Array2;
+use rayon::prelude::*;
+
+use super::Quadrant;
+use super::cell::Cell;
+use super::depth_frf::{Place, WaveFields};
+use super::layered_frf::{HalfSpace, Stack};
+use super::radial_table::{Hankel, RadialTable};
+use crate::error::Error;
+
+/// Relative error that a cell's Gauss rule may leave, against the response under the load.
+const CUBATURE: f64 = 1e-13;
+/// Largest error of the tabulated part over that of the half-space.
+const TOLERANCE: f64 = 1e-9;
+
+/// A quantity of R components under each of q_x, q_y, p, made of N radial functions.
+pub(crate) trait Quantity<const N: usize, const R: usize> {
+    /// Orders of the Bessel functions in the Hankel integrals.
+    const ORDERS: [usize; N];
+
+    /// The integrands at the wave number k, without the Bessel function.
+    fn amplitudes(k: f64, fields: &WaveFields) -> [f64; N];
+
+    /// Adds the response at (x, y) from unit forces; `g` are the radial functions over r^m.
+    fn add(sum: &mut [[f64; 3]; R], x: f64, y: f64, g: [f64; N]);
+
+    /// The radial functions over r^m of a half-space at the depth z > 0, s = r^2.
+    fn radial(material: &HalfSpace, s: f64, z: f64) -> [f64; N];
+
+    /// The response of a half-space to one corner of a uniformly loaded rectangle.
+    fn corner(material: &HalfSpace, x: f64, y: f64, z: f64) -> [[f64; 3]; R];
+
+    /// Whether an entry changes its sign with x and with y.
+    fn is_odd(row: usize, column: usize) -> (bool, bool);
+
+    /// Row and column that an entry becomes when x and y are exchanged.
+    fn exchanged(row: usize, column: usize) -> (usize, usize);
+
+    /// Whether a component has one index z, so that it changes its sign with that axis.
+    fn has_one_z(row: usize) -> bool;
+
+    /// What errors of the table, r times the deviation, are compared with.
+    fn scale(stack: &Stack, zeta: f64) -> f64;
+}
+
+/// A quantity at a depth.
+pub(crate) struct DepthKernel<Q, const N: usize, const R: usize> {
+    pub(crate) place: Place,
+    /// The outermost material where its closed form takes part.
+    closed: Option<HalfSpace>,
+    /// The tabulated part and its smallest scale \[m\].
+    smooth: Option<(RadialTable<N>, f64)>,
+    quantity: PhantomData<Q>,
+}
+
+impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
+    /// For offsets up to `r_max` \[m\].
+    pub(crate) fn new(stack: &Stack, place: Place, r_max: f64) -> Result<Self, Error> {
+        let outermost = place.layer == 0;
+        let mut kernel = Self {
+            place,
+            closed: outermost.then(|| stack.outermost()),
+            smooth: None,
+            quantity: PhantomData,
+        };
+        let zeta = match stack.layers.first() {
+            None => return Ok(kernel),
+            Some((_, h)) if outermost => 2.0 * h - place.z,
+            Some(_) => place.z,
+        };
+        let hankel = Hankel {
+            amplitude: &|k| Q::amplitudes(k, &stack.fields(k, &place, outermost)),
+            orders: Q::ORDERS,
+            zeta,
+            k_low: stack.lowest_scale(),
+        };
+        let table = hankel.tabulate(r_max);
+        let estimate = hankel.error(&table, r_max) / Q::scale(stack, zeta);
+        if estimate.is_nan() || estimate > TOLERANCE {
+            return Err(Error::StressInaccurate {
+                z: place.z,
+                estimate,
+                tolerance: TOLERANCE,
+            });
+        }
+        kernel.smooth = Some((table, zeta));
+        Ok(kernel)
+    }
+
+    /// Adds the tabulated part at (0, 0) under unit traction on the cell.
+    fn add_smooth(&self, sum: &mut [[f64; 3]; R], cell: &Cell) {
+        let Some((table, zeta)) = &self.smooth else {
+            return;
+        };
+        cell.nodes_of_parts(*zeta, CUBATURE, &mut |x, y, w| {
+            Q::add(sum, x, y, table.at(x * x + y * y).map(|g| w * g));
+        });
+    }
+
+    /// The response at the offset of the cell's middle to unit traction on the cell.
+    pub(crate) fn under(&self, cell: &Cell) -> [[f64; 3]; R] {
+        let mut sum = [[0.0; 3]; R];
+        if let Some(material) = &self.closed {
+            let (x0, x1) = (cell.x - cell.half_x, cell.x + cell.half_x);
+            let (y0, y1) = (cell.y - cell.half_y, cell.y + cell.half_y);
+            let at = |x, y| Q::corner(material, x, y, self.place.z);
+            sum = difference(&at(x1, y1), &at(x0, y1), &at(x1, y0), &at(x0, y0));
+        }
+        self.add_smooth(&mut sum, cell);
+        sum
+    }
+
+    /// The responses to unit traction on the cells at (i dx, y), i in `range`, of the sides `d`.
+    pub(crate) fn under_row(
+        &self,
+        range: Range<usize>,
+        y: f64,
+        d: (f64, f64),
+        mut put: impl FnMut(usize, [[f64; 3]; R]),
+    ) {
+        let column = |i: usize| {
+            self.closed.map(|material| {
+                let x = (i as f64 - 0.5) * d.0;
+                let at = |y| Q::corner(&material, x, y, self.place.z);
+                (at(y - d.1 / 2.0), at(y + d.1 / 2.0))
+            })
+        };
+        let mut left = column(range.start);
+        for i in range {
+            let right = column(i + 1);
+            let mut sum = match (&left, &right) {
+                (Some(l), Some(r)) => difference(&r.1, &l.1, &r.0, &l.0),
+                _ => [[0.0; 3]; R],
+            };
+            let cell = Cell {
+                x: i as f64 * d.0,
+                y,
+                half_x: d.0 / 2.0,
+                half_y: d.1 / 2.0,
+            };
+            self.add_smooth(&mut sum, &cell);
+            put(i, sum);
+            left = right;
+        }
+    }
+
+    /// The response at the offset (x, y) from unit forces; not on the surface.
+    pub(crate) fn at_point(&self, x: f64, y: f64) -> [[f64; 3]; R] {
+        let s = x * x + y * y;
+        let mut g = match &self.closed {
+            Some(material) => Q::radial(material, s, self.place.z),
+            None => [0.0; N],
+        };
+        if let Some((table, _)) = &self.smooth {
+            for (g, t) in g.iter_mut().zip(table.at(s)) {
+                *g += t;
+            }
+        }
+        let mut sum = [[0.0; 3]; R];
+        Q::add(&mut sum, x, y, g);
+        sum
+    }
+}
+
+/// (far - left) - (near - opposite) of the four corners.
+fn difference<const R: usize>(
+    both: &[[f64; 3]; R],
+    low_x: &[[f64; 3]; R],
+    low_y: &[[f64; 3]; R],
+    low: &[[f64; 3]; R],
+) -> [[f64; 3]; R] {
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| (both[i][j] - low_x[i][j]) - (low_y[i][j] - low[i][j]))
+    })
+}
+
+/// The responses to unit traction on cells of the sides `d` at the offsets (i dx, j dy), i and j
+/// below `n`. Where cells are square, exchange of the axes gives one octant from the other.
+pub(crate) fn quadrants<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
+    kernel: &DepthKernel<Q, N, R>,
+    n: (usize, usize),
+    d: (f64, f64),
+) -> [[Quadrant; 3]; R] {
+    let is_square = d.0.to_bits() == d.1.to_bits();
+    let square = if is_square { n.0.min(n.1) } else { 0 };
+    // Row j holds i >= j of the square and all beyond it.
+    let mirrored = |i: usize, j: usize| i < j && j < square;
+    let rows: Vec<Vec<[[f64; 3]; R]>> = (0..n.1)
+        .into_par_iter()
+        .map(|j| {
+            let first = if j < square { j } else { 0 };
+            let mut row = Vec::with_capacity(n.0 - first.min(n.0));
+            kernel.under_row(first..n.0, j as f64 * d.1, d, |_, s| row.push(s));
+            row
+        })
+        .collect();
+    let entry = |row: usize, column: usize| {
+        let odd = Q::is_odd(row, column);
+        let (row_there, column_there) = Q::exchanged(row, column);
+        Array2::from_shape_fn(n, |(i, j)| {
+            let vanishes = odd.0 && i == 0 || odd.1 && j == 0;
+            if vanishes {
+                0.0
+            } else if mirrored(i, j) {
+                rows[i][j - i][row_there][column_there]
+            } else {
+                let first = if j < square { j } else { 0 };
+                rows[j][i - first][row][column]
+            }
+        })
+    };
+    std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column)))
+}

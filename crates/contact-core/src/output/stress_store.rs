@@ -1,0 +1,156 @@
+//! Stress below the surface as a Zarr group, over (`depth`, `x`, `y`) or along a line.
+
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use ndarray::Array2;
+use serde_json::{Map, Value, json};
+
+use super::SCHEMA;
+use super::catalogue::Kind;
+use super::folder::Folder;
+use super::variable::{Column, Variable};
+use super::volume::VolumeSink;
+use crate::error::Error;
+use crate::fields::{Depth, Line, Measure, Side};
+use crate::scene::Grid;
+
+/// A group being written: complete once [`Self::finish`] has been called.
+pub struct StressStore {
+    folder: Arc<Folder>,
+    attributes: Map<String, Value>,
+    coordinates: Vec<Column>,
+    variables: Vec<Variable>,
+    /// Files of one array are replaced one at a time.
+    writing: Mutex<()>,
+}
+
+impl StressStore {
+    /// Begins the group at `path`, which must not exist, for `measures` at `depths` of a volume,
+    /// or below `line`. `title` says which contact it is.
+    pub fn create(
+        path: impl AsRef<Path>,
+        title: &str,
+        grid: &Grid,
+        side: Side,
+        depths: &[Depth],
+        line: Option<Line>,
+        measures: &[Measure],
+    ) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let folder = Folder::new(path);
+        if path.exists() {
+            return Err(folder.error(&"exists: choose another path"));
+        }
+        let (along_x, along_y) = match line {
+            None => (true, true),
+            Some(Line::AlongX(_)) => (true, false),
+            Some(Line::AlongY(_)) => (false, true),
+        };
+        let mut shape = vec![depths.len() as u64];
+        let mut dims = vec!["depth"];
+        let mut coordinates = vec![
+            Column::new(
+                "z",
+                Kind::Real,
+                ("m", "depth below the surface"),
+                "depth",
+                &[],
+            )
+            .extend(depths.iter().map(|d| d.z)),
+            Column::new(
+                "layer",
+                Kind::Count,
+                ("1", "layer from the surface down, the substrate last"),
+                "depth",
+                &[],
+            )
+            .extend(depths.iter().map(|d| d.layer as f64)),
+        ];
+        if along_x {
+            shape.push(grid.nx as u64);
+            dims.push("x");
+            let column = Column::new("x", Kind::Real, ("m", "position along x"), "x", &[]);
+            coordinates.push(column.extend((0..grid.nx).map(|i| grid.x(i))));
+        }
+        if along_y {
+            shape.push(grid.ny as u64);
+            dims.push("y");
+            let column = Column::new("y", Kind::Real, ("m", "position along y"), "y", &[]);
+            coordinates.push(column.extend((0..grid.ny).map(|j| grid.y(j))));
+        }
+        let chunks = match line {
+            // A plane is one chunk, a section too.
+            None => [vec![1], shape[1..].to_vec()].concat(),
+            Some(_) => shape.clone(),
+        };
+        let variable = |m: &Measure| {
+            Variable::new(
+                m.name,
+                Kind::Real,
+                ("Pa", m.long_name),
+                &dims,
+                shape.clone(),
+                chunks.clone(),
+            )
+        };
+        let mut attributes = Map::new();
+        attributes.insert("title".into(), json!(title));
+        attributes.insert("schema".into(), json!(SCHEMA));
+        attributes.insert("version".into(), json!(env!("CARGO_PKG_VERSION")));
+        let body = if side == Side::Body1 { 1 } else { 2 };
+        attributes.insert("body".into(), json!(body));
+        match line {
+            None => {}
+            Some(Line::AlongX(y)) => drop(attributes.insert("y".into(), json!(y))),
+            Some(Line::AlongY(x)) => drop(attributes.insert("x".into(), json!(x))),
+        }
+        attributes.insert("coordinates".into(), json!("z layer"));
+        Ok(Self {
+            folder,
+            attributes,
+            coordinates,
+            variables: measures.iter().map(variable).collect(),
+            writing: Mutex::new(()),
+        })
+    }
+
+    /// Stores a measure on a section, shape (depths, places).
+    pub fn put_section(&self, measure: usize, values: &Array2<f64>) -> Result<(), Error> {
+        self.variables[measure].store(&self.folder, &[0, 0], values.iter().copied())
+    }
+
+    /// Writes coordinates and metadata: only now is the group there for its readers.
+    pub fn finish(mut self) -> Result<(), Error> {
+        let mut documents = Map::new();
+        documents.insert(".zgroup".into(), json!({ "zarr_format": 2 }));
+        documents.insert(".zattrs".into(), Value::Object(self.attributes.clone()));
+        for column in &mut self.coordinates {
+            column.flush(&self.folder)?;
+        }
+        let columns = self.coordinates.iter().map(Column::variable);
+        for variable in columns.chain(&self.variables) {
+            let name = variable.name();
+            documents.insert(format!("{name}/.zarray"), variable.zarray());
+            documents.insert(format!("{name}/.zattrs"), variable.attributes());
+        }
+        for (key, document) in &documents {
+            self.write(key, document)?;
+        }
+        let all = json!({ "zarr_consolidated_format": 1, "metadata": documents });
+        self.write(".zmetadata", &all)
+    }
+
+    fn write(&self, key: &str, document: &Value) -> Result<(), Error> {
+        self.folder
+            .write(key, format!("{document:#}").as_bytes())
+            .map_err(|e| self.folder.error(&format!("{key}: {e}")))
+    }
+}
+
+impl VolumeSink for StressStore {
+    fn put(&self, measure: usize, depth: usize, values: &Array2<f64>) -> Result<(), Error> {
+        let _one = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
+        self.variables[measure].store(&self.folder, &[depth as u64, 0, 0], values.iter().copied())
+    }
+}

@@ -1,0 +1,245 @@
+//! Random scenes over the whole space that a scene can describe.
+
+use contact_core::kernels::Stack;
+use contact_core::reference::hertz;
+use contact_core::scene::{
+    Body, Branch, Coating, Elastic, Friction, Grid, LoadPath, Loads, Scene, Settings, Shape,
+    Spacing,
+};
+use fastrand::Rng;
+
+/// What a scene is drawn for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Intent {
+    /// To be solved.
+    Solve,
+    /// To be refused: a tangential force past mu W.
+    PastFriction,
+    /// To be refused: a grid smaller than the contact.
+    OffGrid,
+}
+
+pub(crate) struct Drawn {
+    pub(crate) scene: Scene,
+    pub(crate) intent: Intent,
+}
+
+/// The scene of a seed.
+pub(crate) fn draw(seed: u64) -> Drawn {
+    let rng = &mut Rng::with_seed(seed);
+    let intent = match rng.u32(0..100) {
+        0 => Intent::PastFriction,
+        1 | 2 => Intent::OffGrid,
+        _ => Intent::Solve,
+    };
+    let R = 0.018;
+    // Loads from 1e-9 to 1e9 of the nominal 1 kN.
+    let W = 1e3 * power(rng, -9.0, 9.0);
+    let mut body1 = Body::homogeneous(substrate(rng), Shape::Sphere { R });
+    let mut body2 = Body::homogeneous(substrate(rng), Shape::Flat);
+    if body1.substrate.is_rigid() && body2.substrate.is_rigid() {
+        body2.substrate = Elastic { E: 2e11, nu: 0.3 };
+    }
+    let a_H = hertz(R, body1.substrate, body2.substrate, W).a;
+    if rng.f64() < 0.2 {
+        coat(rng, &mut body1, a_H);
+    }
+    if rng.f64() < 0.75 {
+        coat(rng, &mut body2, a_H);
+    }
+    let mu = match rng.u32(0..10) {
+        0 => 0.0,
+        1..=6 => rng.f64(),
+        _ => 1.0 + 2.0 * rng.f64(),
+    };
+    let grid = grid(rng, contact_radius(&body1, &body2, R, W), intent);
+    let mut scene = Scene {
+        title: format!("stress {seed}"),
+        body1,
+        body2,
+        friction: Friction::coulomb(mu),
+        grid,
+        path: path(rng, mu, W),
+        settings: Settings::default(),
+    };
+    if intent == Intent::PastFriction {
+        let last = scene.path.branches.len() - 1;
+        scene.path.branches[last].to.W = W;
+        scene.path.branches[last].to.T_x = mu.max(0.01) * W * (1.0 + power(rng, -9.0, 0.0));
+    }
+    if rng.f64() < 0.2 {
+        scene.settings.skip.mirror = false;
+    }
+    if rng.f64() < 0.1 {
+        scene.settings.solver.tolerance = 1e-4;
+    }
+    Drawn { scene, intent }
+}
+
+/// 10^x, x between `low` and `high`.
+fn power(rng: &mut Rng, low: f64, high: f64) -> f64 {
+    10f64.powf(low + (high - low) * rng.f64())
+}
+
+fn nu(rng: &mut Rng) -> f64 {
+    match rng.u32(0..10) {
+        0 => 0.0,
+        1 => 0.4999,
+        2 => -0.5 * rng.f64(),
+        _ => 0.4999 * rng.f64(),
+    }
+}
+
+fn substrate(rng: &mut Rng) -> Elastic {
+    match rng.u32(0..20) {
+        0 => Elastic::RIGID,
+        // Like bodies are common, and a case of their own.
+        1..=6 => Elastic { E: 2e11, nu: 0.3 },
+        _ => Elastic {
+            E: 2e11 * power(rng, -1.0, 1.0),
+            nu: nu(rng),
+        },
+    }
+}
+
+/// One to ten layers, each a thousandth to a thousand times as stiff as the substrate.
+fn coat(rng: &mut Rng, body: &mut Body, a_H: f64) {
+    if body.substrate.is_rigid() {
+        return;
+    }
+    let layers = if rng.f64() < 0.7 { 1 } else { rng.usize(2..11) };
+    let contrast = if layers == 1 { 3.0 } else { 3.0 * rng.f64() };
+    body.coatings = (0..layers)
+        .map(|_| Coating {
+            material: Elastic {
+                E: body.substrate.E * power(rng, -contrast, contrast),
+                nu: nu(rng),
+            },
+            thickness: a_H * power(rng, -3.0, 2.0) / layers as f64,
+        })
+        .collect();
+}
+
+/// About the contact radius: Hertz's with the stiffness that a wave of its size meets.
+fn contact_radius(body1: &Body, body2: &Body, R: f64, W: f64) -> f64 {
+    let stacks: Vec<_> = [body1, body2]
+        .into_iter()
+        .filter(|b| !b.substrate.is_rigid())
+        .map(Stack::new)
+        .collect();
+    let mut a = hertz(R, body1.substrate, body2.substrate, W).a;
+    for _ in 0..60 {
+        // 2/E* = sum of k C_33(k).
+        let compliance: f64 = stacks.iter().map(|s| s.response(1.5 / a).zz).sum();
+        a = (a * (0.375 * W * R * compliance).cbrt()).sqrt();
+    }
+    a
+}
+
+/// 8 to 256 cells along x, a contact from three cells to most of the grid, square cells or up to
+/// ten times as long as wide.
+fn grid(rng: &mut Rng, a: f64, intent: Intent) -> Grid {
+    let cells = |rng: &mut Rng, most: f64| power(rng, 8f64.log10(), most.log10()) as usize;
+    let most = if rng.f64() < 0.03 { 257.0 } else { 97.0 };
+    let nx = cells(rng, most);
+    let across = |rng: &mut Rng, n: usize| {
+        let widest = n as f64 / 1.6;
+        let narrowest = 3.0_f64.min(widest);
+        narrowest * (widest / narrowest).powf(rng.f64().sqrt())
+    };
+    let dx = 2.0 * a / across(rng, nx);
+    let (ny, dy) = if rng.f64() < 0.25 {
+        let ny = cells(rng, most);
+        let dy = (2.0 * a / across(rng, ny)).clamp(0.1 * dx, 10.0 * dx);
+        // The contact has to fit, whatever the shape of the cells.
+        let needed = (1.6 * 2.0 * a / dy).ceil() as usize;
+        (ny.max(needed), dy)
+    } else {
+        (nx, dx)
+    };
+    let shrink = if intent == Intent::OffGrid {
+        // The corners of the grid lie within half of the contact.
+        0.35 * a / (0.5 * (nx as f64 * dx).hypot(ny as f64 * dy))
+    } else {
+        1.0
+    };
+    Grid::from_spacing((nx, ny), (dx * shrink, dy * shrink)).expect("a grid")
+}
+
+/// Indentation, then one to four branches: shear, reversal, rotation, crawl, jump, unloading.
+fn path(rng: &mut Rng, mu: f64, W: f64) -> LoadPath {
+    let mut path = LoadPath::start();
+    let mut t = 0.0;
+    let mut to = |path: LoadPath, to: Loads, increments: usize, spacing| {
+        t += 1.0;
+        path.branch(Branch {
+            to,
+            increments,
+            spacing,
+            t_end: t,
+        })
+    };
+    let spacing = if rng.bool() {
+        Spacing::Uniform
+    } else {
+        Spacing::EqualRadius
+    };
+    let start = Loads {
+        W,
+        ..Loads::default()
+    };
+    path = to(path, start, rng.usize(1..9), spacing);
+    let mut at = start;
+    let mut angle = if rng.bool() {
+        0.0
+    } else {
+        std::f64::consts::TAU * rng.f64()
+    };
+    for _ in 0..rng.usize(1..5) {
+        let sheared = |W: f64, part: f64, angle: f64| Loads {
+            W,
+            T_x: part * mu * W * angle.cos(),
+            T_y: if angle == 0.0 {
+                0.0
+            } else {
+                part * mu * W * angle.sin()
+            },
+            ..Loads::default()
+        };
+        let part = 0.95 * rng.f64();
+        let increments = rng.usize(1..7);
+        match rng.u32(0..10) {
+            // Up to the verge of sliding, and sliding.
+            0 => at = sheared(at.W, 0.9999, angle),
+            1 => at = sheared(at.W, 1.0, angle),
+            2 => {
+                // Reversal.
+                at.T_x = -at.T_x;
+                at.T_y = -at.T_y;
+            }
+            3 => {
+                angle += rng.f64();
+                at = sheared(at.W, part, angle);
+            }
+            4 => {
+                // A crawl: a millionth of the load.
+                let W = at.W * (1.0 - 1e-6 * rng.f64());
+                at = Loads {
+                    W,
+                    T_x: at.T_x * (1.0 - 1e-6),
+                    T_y: at.T_y * (1.0 - 1e-6),
+                    ..at
+                };
+            }
+            5 => {
+                // Unloaded and loaded again.
+                path = to(path, Loads::default(), increments, Spacing::Uniform);
+                at = start;
+            }
+            6 => at = sheared(W * (0.05 + 0.95 * rng.f64()), part, angle),
+            _ => at = sheared(at.W, part, angle),
+        }
+        path = to(path, at, increments, Spacing::Uniform);
+    }
+    path
+}

@@ -1,0 +1,75 @@
+//! The stress campaign: random scenes over the whole space, each audited against the physics.
+//!
+//! `make stress` runs 2000 of them and writes what came out into `docs/reliability.md`; the test
+//! runs a slice. `FRET_STRESS` is the number of scenes, `FRET_STRESS_SEED` one scene to look at.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod audit;
+mod campaign;
+mod draw;
+mod report;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+
+use campaign::{Fate, Outcome, outcome};
+
+/// Scenes of the slice.
+const SLICE: u64 = 60;
+
+fn number(variable: &str) -> Option<u64> {
+    std::env::var(variable).ok().map(|n| n.parse().unwrap())
+}
+
+/// Runs the scenes of the seeds 0 to n, each in one thread.
+fn campaign(n: u64) -> Vec<Outcome> {
+    let next = AtomicU64::new(0);
+    let outcomes = Mutex::new(Vec::new());
+    let workers = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(|| {
+                let pool = rayon::ThreadPoolBuilder::new()
+                    .num_threads(1)
+                    .build()
+                    .unwrap();
+                loop {
+                    let seed = next.fetch_add(1, Ordering::Relaxed);
+                    if seed >= n {
+                        return;
+                    }
+                    let drawn = draw::draw(seed);
+                    let outcome = pool.install(|| outcome(seed, &drawn));
+                    outcomes.lock().unwrap().push(outcome);
+                }
+            });
+        }
+    });
+    let mut outcomes = outcomes.into_inner().unwrap();
+    outcomes.sort_by_key(|o| o.seed);
+    outcomes
+}
+
+#[test]
+fn random_scenes_are_solved_or_refused() {
+    if let Some(seed) = number("FRET_STRESS_SEED") {
+        let drawn = draw::draw(seed);
+        println!("{}\n{:?}", drawn.scene.to_toml(), outcome(seed, &drawn));
+        return;
+    }
+    let outcomes = campaign(number("FRET_STRESS").unwrap_or(SLICE));
+    let report = report::report(&outcomes);
+    println!("{report}");
+    if let Ok(document) = std::env::var("FRET_STRESS_REPORT") {
+        report::insert(&document, "stress", &report);
+    }
+    let bad = outcomes.iter().filter(|o| o.is_silently_wrong()).count();
+    assert_eq!(bad, 0, "panics, NaN or violated equations");
+    let failed = outcomes
+        .iter()
+        .filter(|o| matches!(o.fate, Fate::Failed(_)))
+        .count();
+    assert!(100 * failed <= outcomes.len(), "{failed} failed");
+}

@@ -1,0 +1,127 @@
+//! The campaign in numbers, as Markdown.
+
+use std::fmt::Write;
+use std::fs;
+
+use crate::audit::Violations;
+use crate::campaign::{Fate, Outcome};
+
+impl Outcome {
+    /// Whether a result was given that is not one.
+    pub(crate) fn is_silently_wrong(&self) -> bool {
+        match &self.fate {
+            Fate::Solved(violations, twins) => {
+                let twins = twins.iter().map(|(_, distance)| *distance);
+                !violations
+                    .values()
+                    .into_iter()
+                    .chain(twins)
+                    .all(|v| v <= 1.0)
+            }
+            Fate::Panicked(_) => true,
+            Fate::Refused | Fate::Failed(_) => false,
+        }
+    }
+}
+
+pub(crate) fn report(outcomes: &[Outcome]) -> String {
+    let mut text = String::new();
+    let total = outcomes.len();
+    let count = |kind: &dyn Fn(&Fate) -> bool| outcomes.iter().filter(|o| kind(&o.fate)).count();
+    let solved = count(&|f| matches!(f, Fate::Solved(..)));
+    let refused = count(&|f| matches!(f, Fate::Refused));
+    let failed = count(&|f| matches!(f, Fate::Failed(_)));
+    let panicked = count(&|f| matches!(f, Fate::Panicked(_)));
+    let wrong = outcomes.iter().filter(|o| o.is_silently_wrong()).count() - panicked;
+    let share = 100.0 * solved as f64 / (total - refused).max(1) as f64;
+    let sum = |f: &dyn Fn(&Outcome) -> f64| outcomes.iter().map(f).sum::<f64>();
+    let _ = writeln!(text, "| scenes | {total} |\n|---|---|");
+    let _ = writeln!(
+        text,
+        "| solved to their tolerance | {solved} ({share:.2} % of those that have a solution) |"
+    );
+    let _ = writeln!(
+        text,
+        "| without a solution (force past mu W, contact beyond the grid): refused with the reason | {refused} |"
+    );
+    let _ = writeln!(text, "| ended with an error | {failed} |");
+    let _ = writeln!(text, "| panics | {panicked} |");
+    let _ = writeln!(
+        text,
+        "| solved but violating an equation, NaN or unlike a twin | {wrong} |"
+    );
+    let _ = writeln!(
+        text,
+        "| increments, of these solved in pieces | {}, {} |",
+        sum(&|o| o.increments as f64),
+        sum(&|o| o.in_pieces as f64)
+    );
+    let _ = writeln!(
+        text,
+        "| convolutions per increment | {:.1} |",
+        sum(&|o| o.convolutions) / sum(&|o| o.increments as f64)
+    );
+    let slowest = outcomes.iter().map(|o| o.seconds).fold(0.0, f64::max);
+    let _ = writeln!(
+        text,
+        "| time of a scene, mean and longest | {:.2} s, {slowest:.1} s |",
+        sum(&|o| o.seconds) / total as f64
+    );
+
+    let _ = writeln!(
+        text,
+        "\n| equation | worst misfit over what the tolerance allows |\n|---|---|"
+    );
+    let mut worst = Violations::default();
+    let mut twins = std::collections::BTreeMap::new();
+    for outcome in outcomes {
+        if let Fate::Solved(violations, of_twins) = &outcome.fate {
+            worst.worse(violations);
+            for (name, distance) in of_twins {
+                let worst = twins.entry(*name).or_insert(0.0_f64);
+                *worst = worst.max(*distance);
+            }
+        }
+    }
+    for (name, value) in Violations::NAMES.into_iter().zip(worst.values()) {
+        let _ = writeln!(text, "| {name} | {value:.1e} |");
+    }
+    for (name, distance) in twins {
+        let _ = writeln!(text, "| {name} twin | {distance:.1e} |");
+    }
+    for outcome in outcomes {
+        match &outcome.fate {
+            Fate::Failed(reason) => {
+                let _ = writeln!(text, "\nSeed {}: {reason}.", outcome.seed);
+            }
+            Fate::Panicked(reason) => {
+                let _ = writeln!(text, "\nSeed {} panicked: {reason}.", outcome.seed);
+            }
+            Fate::Solved(violations, twins) if outcome.is_silently_wrong() => {
+                let _ = writeln!(
+                    text,
+                    "\nSeed {}: {violations:.2?}, {twins:.2?}.",
+                    outcome.seed
+                );
+            }
+            _ => {}
+        }
+    }
+    text
+}
+
+/// Puts a text between the marks of a name in a document.
+pub(crate) fn insert(document: &str, name: &str, text: &str) {
+    let old = fs::read_to_string(document).unwrap();
+    let (begin, end) = (
+        format!("<!-- {name} -->\n"),
+        format!("<!-- end of {name} -->"),
+    );
+    let from = old.find(&begin).expect("the mark") + begin.len();
+    let to = old.find(&end).expect("the mark of the end");
+    fs::write(
+        document,
+        format!("{}\n{text}\n{}", &old[..from], &old[to..]),
+    )
+    .unwrap();
+}

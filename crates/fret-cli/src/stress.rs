@@ -1,0 +1,284 @@
+//! `fret stress`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use contact_core::Error;
+use contact_core::convolution::Tractions;
+use contact_core::fields::{
+    Depth, Line, MEASURES, Measure, Section, Side, Slices, depths, maximum, measure_named,
+};
+use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volume};
+use contact_core::scene::Scene;
+use ndarray::{Array2, Axis};
+
+use crate::{Failure, print};
+
+/// Options of `fret stress`.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Result store of `fret run`
+    store: PathBuf,
+    /// File to write: image data (.vti) of a volume, or a Zarr folder
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Increment whose fields were kept; by default the last
+    #[arg(long, value_name = "N")]
+    increment: Option<usize>,
+    /// Body below (2) or above (1) the contact plane
+    #[arg(long, default_value = "2", value_parser = clap::value_parser!(u8).range(1..=2))]
+    body: u8,
+    /// Section along x at this y, in metres
+    #[arg(long, value_name = "Y", allow_hyphen_values = true, conflicts_with_all = ["along_y", "volume"])]
+    along_x: Option<f64>,
+    /// Section along y at this x, in metres
+    #[arg(
+        long,
+        value_name = "X",
+        allow_hyphen_values = true,
+        conflicts_with = "volume"
+    )]
+    along_y: Option<f64>,
+    /// The whole volume under the grid, plane by plane (default: the section along x at y = 0)
+    #[arg(long)]
+    volume: bool,
+    /// Largest depth in metres; by default 2 a_H
+    #[arg(long, value_name = "Z")]
+    depth: Option<f64>,
+    /// Number of depths, evenly from the surface
+    #[arg(long, value_name = "N", default_value = "256", value_parser = clap::value_parser!(u16).range(1..))]
+    depths: u16,
+    /// What to give, such as von_mises,s_xx,tresca,s_1,hydrostatic
+    #[arg(
+        long,
+        value_name = "NAMES",
+        value_delimiter = ',',
+        default_value = "von_mises"
+    )]
+    of: Vec<String>,
+}
+
+/// The tractions of one increment.
+struct Loads {
+    increment: usize,
+    q_x: Array2<f64>,
+    q_y: Array2<f64>,
+    p: Array2<f64>,
+}
+
+/// What is to be computed.
+struct Task {
+    scene: Scene,
+    side: Side,
+    depths: Vec<Depth>,
+    measures: Vec<Measure>,
+    loads: Loads,
+}
+
+/// Computes the stress below the contact of a result.
+pub(crate) fn stress(options: &Options) -> Result<(), Failure> {
+    let task = Task::new(options).map_err(Failure::BadInput)?;
+    let line = match (options.along_x, options.along_y, options.volume) {
+        (_, _, true) => None,
+        (_, Some(x), _) => Some(Line::AlongY(x)),
+        (y, None, _) => Some(Line::AlongX(y.unwrap_or(0.0))),
+    };
+    let lines = match line {
+        Some(line) => task.section(options, line),
+        None => task.volume(options),
+    };
+    print(&lines.map_err(Failure::BadInput)?.join("\n"));
+    Ok(())
+}
+
+impl Task {
+    fn new(options: &Options) -> Result<Self, Error> {
+        let store = Store::open(&options.store)?;
+        let scene = store.scene().clone();
+        let side = if options.body == 1 {
+            Side::Body1
+        } else {
+            Side::Body2
+        };
+        let body = if options.body == 1 {
+            &scene.body1
+        } else {
+            &scene.body2
+        };
+        let measures = options.of.iter().map(|name| {
+            measure_named(name).copied().ok_or_else(|| {
+                let known: Vec<_> = MEASURES.iter().map(|m| m.name).collect();
+                Error::invalid("--of", name, format!("one of {}", known.join(", ")))
+            })
+        });
+        let deepest = match (options.depth, scene.hertz()) {
+            (Some(z), _) => z,
+            (None, Some(hertz)) => 2.0 * hertz.a,
+            (None, None) => {
+                let allowed = "given for a scene without a Hertz contact";
+                return Err(Error::invalid("--depth", "nothing", allowed));
+            }
+        };
+        let steps = f64::from(options.depths.max(2) - 1);
+        let z: Vec<f64> = (0..options.depths)
+            .map(|i| deepest * f64::from(i) / steps)
+            .collect();
+        let mut depths = depths(body, &z)?;
+        if options.volume {
+            // A volume has one value per place: that of the upper layer.
+            depths.dedup_by_key(|d| d.z.to_bits());
+        }
+        Ok(Self {
+            measures: measures.collect::<Result<_, _>>()?,
+            loads: Loads::of(&store, options.increment)?,
+            scene,
+            side,
+            depths,
+        })
+    }
+
+    fn body(&self) -> &contact_core::scene::Body {
+        match self.side {
+            Side::Body1 => &self.scene.body1,
+            Side::Body2 => &self.scene.body2,
+        }
+    }
+
+    fn store(&self, options: &Options, line: Option<Line>) -> Result<Option<StressStore>, Error> {
+        let Some(out) = &options.out else {
+            return Ok(None);
+        };
+        let title = format!("{}, increment {}", self.scene.title, self.loads.increment);
+        StressStore::create(
+            out,
+            &title,
+            &self.scene.grid,
+            self.side,
+            &self.depths,
+            line,
+            &self.measures,
+        )
+        .map(Some)
+    }
+
+    fn section(&self, options: &Options, line: Line) -> Result<Vec<String>, Error> {
+        let grid = &self.scene.grid;
+        if is_image(options) {
+            let allowed = "a Zarr folder: image data (.vti) is of a --volume";
+            return Err(Error::invalid("--out", "a section", allowed));
+        }
+        let store = self.store(options, Some(line))?;
+        let states = [self.loads.tractions()];
+        let section = Section::new(self.body(), self.side, grid, line, &states)?;
+        let stress = section.stress(&self.depths)?.swap_remove(0);
+        let (axis, along): (_, Vec<f64>) = match line {
+            Line::AlongX(_) => ("x", (0..grid.nx).map(|i| grid.x(i)).collect()),
+            Line::AlongY(_) => ("y", (0..grid.ny).map(|j| grid.y(j)).collect()),
+        };
+        let mut lines = Vec::new();
+        for (m, measure) in self.measures.iter().enumerate() {
+            let values =
+                stress.map_axis(Axis(0), |s| (measure.value)(&std::array::from_fn(|c| s[c])));
+            if let Some(store) = &store {
+                store.put_section(m, &values)?;
+            }
+            if let Some(m) = maximum(&values, &self.depths, &along) {
+                let place = format!("{axis} = {}", self.length(m.along));
+                lines.push(self.line(measure, m.value, &place, m.depth));
+            }
+        }
+        store.map_or(Ok(()), StressStore::finish)?;
+        Ok(lines)
+    }
+
+    fn volume(&self, options: &Options) -> Result<Vec<String>, Error> {
+        let grid = &self.scene.grid;
+        let (mut image, mut store) = (None, None);
+        match &options.out {
+            Some(out) if is_image(options) => {
+                let (depths, measures) = (&self.depths, &self.measures);
+                image = Some(ImageData::create(out, grid, self.side, depths, measures)?);
+            }
+            _ => store = self.store(options, None)?,
+        }
+        let mut sinks: Vec<&dyn VolumeSink> = Vec::new();
+        sinks.extend(image.as_ref().map(|i| i as &dyn VolumeSink));
+        sinks.extend(store.as_ref().map(|s| s as &dyn VolumeSink));
+        let slices = Slices::new(self.body(), self.side, grid, &[self.loads.tractions()])?;
+        let largest = write_volume(&slices, &self.depths, &self.measures, &sinks)?;
+        image.map_or(Ok(()), ImageData::finish)?;
+        store.map_or(Ok(()), StressStore::finish)?;
+        let line = |(measure, m): (&Measure, &contact_core::output::VolumeMaximum)| {
+            let (x, y) = (grid.x(m.cell.0), grid.y(m.cell.1));
+            let place = format!("x = {}, y = {}", self.length(x), self.length(y));
+            self.line(measure, m.value, &place, self.depths[m.depth])
+        };
+        Ok(self.measures.iter().zip(&largest).map(line).collect())
+    }
+
+    /// The largest value of a measure and where it is.
+    fn line(&self, measure: &Measure, value: f64, place: &str, depth: Depth) -> String {
+        let value = match self.scene.hertz() {
+            Some(hertz) => format!("{:.5} p_H", value / hertz.p0),
+            None => format!("{value:.5e} Pa"),
+        };
+        let z = self.length(depth.z);
+        let layer = match (self.body().coatings.len(), depth.layer) {
+            (0, _) => String::new(),
+            (layers, n) if n == layers => ", in the substrate".into(),
+            (_, n) => format!(", in coating {n}"),
+        };
+        let name = measure.name;
+        let increment = self.loads.increment;
+        format!("increment {increment}: largest {name} {value} at {place}, z = {z}{layer}")
+    }
+
+    fn length(&self, v: f64) -> String {
+        match self.scene.hertz() {
+            Some(hertz) => format!("{:.4} a_H", v / hertz.a),
+            None => format!("{v:.4e} m"),
+        }
+    }
+}
+
+impl Loads {
+    /// Of the increment asked for, or of the last one kept.
+    fn of(store: &Store, increment: Option<usize>) -> Result<Self, Error> {
+        let kept: Vec<usize> = store
+            .column("saved_increment")?
+            .into_iter()
+            .map(|v| v as usize)
+            .collect();
+        let place = match increment {
+            None => kept.len().checked_sub(1),
+            Some(n) => kept.iter().position(|k| *k == n),
+        };
+        let Some(place) = place else {
+            let found = increment.map_or("nothing".into(), |n| n.to_string());
+            return Err(Error::invalid(
+                "--increment",
+                found,
+                format!("one whose fields were kept: {kept:?}"),
+            ));
+        };
+        Ok(Self {
+            increment: kept[place],
+            q_x: store.field("q_x", place)?,
+            q_y: store.field("q_y", place)?,
+            p: store.field("p", place)?,
+        })
+    }
+
+    fn tractions(&self) -> Tractions<'_> {
+        Tractions {
+            q_x: self.q_x.as_slice(),
+            q_y: self.q_y.as_slice(),
+            p: self.p.as_slice(),
+        }
+    }
+}
+
+fn is_image(options: &Options) -> bool {
+    let extension = options.out.as_ref().and_then(|out| out.extension());
+    extension.is_some_and(|e| e.eq_ignore_ascii_case("vti"))
+}

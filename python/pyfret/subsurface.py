@@ -1,0 +1,338 @@
+"""Stress and displacement below the surface of a body.
+
+Depth z is counted into the body, components are those of the axes of ``docs/conventions.md``, and
+tension is positive. Every depth on an interface appears twice, with the layer above it first.
+Most people start from :meth:`pyfret.Snapshot.stress`; the functions here take any tractions.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from pyfret import _core
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Iterable, Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from pyfret._core import Body, Grid, Scene
+    from pyfret.results import Snapshot
+
+__all__ = ["Maximum", "Stress", "displacement", "envelope", "stress", "write_volume"]
+
+#: The six components, in their order.
+COMPONENTS = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
+
+
+class Maximum(NamedTuple):
+    """The largest value of a measure on a section, between the samples."""
+
+    #: Value [Pa].
+    value: float
+    #: Place along the section [m].
+    along: float
+    #: Depth [m].
+    z: float
+    #: Layer from the surface down; their number for the substrate.
+    layer: int
+
+
+class Stress:
+    """The six stresses somewhere below the surface, and what follows from them.
+
+    ``stress.s_xx``, ``stress.von_mises``, ``stress.tresca``, ``stress.s_1`` (principal values, the
+    largest first), ``stress.hydrostatic``, ``stress.interface_shear`` and
+    ``stress.interface_peel`` are DataArrays; :attr:`dataset` holds the six components.
+    """
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self.dataset = dataset
+
+    def _tensor(self) -> NDArray[np.float64]:
+        """The components as an array of shape (6, number of points)."""
+        return np.stack([self.dataset[c].values.ravel() for c in COMPONENTS])
+
+    def measure(self, name: str) -> xr.DataArray:
+        """Give what follows from the stress by its name."""
+        if name in COMPONENTS:
+            return self.dataset[name]
+        units, meaning = LABELS[name]
+        pattern = self.dataset[COMPONENTS[0]]
+        values = _core.measure(name, self._tensor()).reshape(pattern.shape)
+        attrs = {"units": units, "long_name": meaning}
+        return pattern.copy(data=values).rename(name).assign_attrs(attrs)
+
+    def __getattr__(self, name: str) -> xr.DataArray:
+        """Give the measure `name`."""
+        if not name.startswith("_") and name in LABELS:
+            return self.measure(name)
+        raise AttributeError(f"stress has no {name!r}; it has {sorted(LABELS)}")
+
+    def principal(self) -> xr.Dataset:
+        """Principal values, the largest first, and unit vectors of their directions."""
+        pattern = self.dataset[COMPONENTS[0]]
+        values, directions = _core.principal(self._tensor())
+        shape = pattern.shape
+        return xr.Dataset(
+            {
+                "value": (
+                    (*pattern.dims, "principal"),
+                    values.reshape(*shape, 3),
+                    {"units": "Pa", "long_name": "principal stress, the largest first"},
+                ),
+                "direction": (
+                    (*pattern.dims, "principal", "axis"),
+                    directions.reshape(*shape, 3, 3),
+                    {"units": "1", "long_name": "direction of the principal stress"},
+                ),
+            },
+            coords={**pattern.coords, "axis": ["x", "y", "z"]},
+        )
+
+    def maximum(self, of: str = "von_mises") -> Maximum:
+        """Give the largest value on a section and its place, refined below the cell.
+
+        A maximum at the surface or at an interface stays there.
+        """
+        values = self.measure(of)
+        if values.ndim != 2:
+            raise ValueError("the maximum is refined on a section: give stress(z, x=...) or y=...")
+        along = values.dims[1]
+        found = _core.maximum(
+            values.values,
+            values.z.values.tolist(),
+            values.layer.values.tolist(),
+            values[along].values.tolist(),
+        )
+        if found is None:
+            raise ValueError("the section holds no number")
+        return Maximum(*found)
+
+    def __repr__(self) -> str:
+        """Show the dataset."""
+        return f"Stress({self.dataset!r})"
+
+
+#: Name, unit and meaning of every measure of stress.
+LABELS = _core.stress_labels()
+
+
+def _depths(body: Body, z: ArrayLike) -> tuple[list[float], list[int]]:
+    return _core.depths(body, np.atleast_1d(np.asarray(z, dtype=float)).tolist())
+
+
+def _coords(
+    grid: Grid, z: list[float], layer: list[int], x: float | None, y: float | None
+) -> dict[str, object]:
+    metres = {"units": "m"}
+    coords: dict[str, object] = {
+        "z": ("depth", z, {"units": "m", "long_name": "depth below the surface"}),
+        "layer": ("depth", layer, {"long_name": "layer from the surface down"}),
+    }
+    for name, at, cells in (("x", x, grid.x), ("y", y, grid.y)):
+        coords[name] = (name, cells, metres) if at is None else ((), at, metres)
+    return coords
+
+
+def _subsurface(
+    body: Body,
+    grid: Grid,
+    loads: tuple[ArrayLike | None, ArrayLike | None, ArrayLike | None],
+    body_number: int,
+) -> _core.Subsurface:
+    p, q_x, q_y = loads
+    return _core.Subsurface(body, grid, p=p, q_x=q_x, q_y=q_y, body_number=body_number)
+
+
+def stress(
+    body: Body,
+    grid: Grid,
+    z: ArrayLike,
+    *,
+    p: ArrayLike | None = None,
+    q_x: ArrayLike | None = None,
+    q_y: ArrayLike | None = None,
+    x: float | None = None,
+    y: float | None = None,
+    body_number: int = 2,
+) -> Stress:
+    """Stress in a body under tractions on its surface.
+
+    Parameters
+    ----------
+    body : Body
+        The body; its shape does not matter.
+    grid : Grid
+        Cells on which the tractions are constant.
+    z : float or array
+        Depths [m].
+    p, q_x, q_y : array of shape (nx, ny), optional
+        Pressure, and shear tractions on body 2 [Pa] (default: none).
+    x, y : float, optional
+        With `y`, the section along x at that y; with `x`, that along y; with both, the line
+        below a point; with neither, the whole plane at every depth.
+    body_number : 1 or 2
+        Whether `body` is the upper one, on which the shear acts reversed, or the lower one.
+
+    Returns
+    -------
+    Stress
+        Of dims (depth, x), (depth, y), (depth) or (depth, x, y).
+    """
+    depths, layers = _depths(body, z)
+    below = _subsurface(body, grid, (p, q_x, q_y), body_number)
+    if x is not None and y is not None:
+        values = below.points([(x, y, *d) for d in zip(depths, layers, strict=True)])[0].T
+    elif x is None and y is None:
+        planes = [below.slice(*d) for d in zip(depths, layers, strict=True)]
+        values = np.stack([np.stack(plane) for plane in planes], axis=1)
+    else:
+        values = below.section(depths, layers, x=x, y=y)
+    return Stress(_dataset(COMPONENTS, values, LABELS, _coords(grid, depths, layers, x, y)))
+
+
+def displacement(
+    body: Body,
+    grid: Grid,
+    z: ArrayLike,
+    *,
+    p: ArrayLike | None = None,
+    q_x: ArrayLike | None = None,
+    q_y: ArrayLike | None = None,
+    x: float | None = None,
+    y: float | None = None,
+    body_number: int = 2,
+) -> xr.Dataset:
+    """Displacements u_x, u_y, u_z in a body relative to infinity [m], as in :func:`stress`."""
+    depths, layers = _depths(body, z)
+    below = _subsurface(body, grid, (p, q_x, q_y), body_number)
+    if x is not None and y is not None:
+        values = below.points([(x, y, *d) for d in zip(depths, layers, strict=True)])[1].T
+    elif x is None and y is None:
+        planes = [below.slice_displacement(*d) for d in zip(depths, layers, strict=True)]
+        values = np.stack([np.stack(plane) for plane in planes], axis=1)
+    else:
+        values = below.section_displacement(depths, layers, x=x, y=y)
+    labels = {f"u_{axis}": ("m", f"displacement along {axis}") for axis in "xyz"}
+    return _dataset(tuple(labels), values, labels, _coords(grid, depths, layers, x, y))
+
+
+def _dataset(
+    names: tuple[str, ...],
+    values: NDArray[np.float64],
+    labels: dict[str, tuple[str, str]],
+    coords: dict[str, object],
+) -> xr.Dataset:
+    dims = ["depth", *(k for k in ("x", "y") if coords[k][0] == k)]  # type: ignore[index]
+    variables = {
+        name: (dims, of, dict(zip(("units", "long_name"), labels[name], strict=True)))
+        for name, of in zip(names, values, strict=True)
+    }
+    return xr.Dataset(variables, coords=coords)
+
+
+def write_volume(
+    body: Body,
+    grid: Grid,
+    out: str | os.PathLike[str],
+    z: ArrayLike,
+    *,
+    p: ArrayLike | None = None,
+    q_x: ArrayLike | None = None,
+    q_y: ArrayLike | None = None,
+    of: Sequence[str] = ("von_mises",),
+    body_number: int = 2,
+    title: str = "",
+) -> None:
+    """Write stress in the volume under the grid, plane by plane while it is computed.
+
+    Parameters
+    ----------
+    body, grid, z, p, q_x, q_y, body_number
+        As in :func:`stress`; on an interface the value is that of the upper layer.
+    out : path
+        A ``.vti`` file (VTK image data for ParaView and PyVista; depths evenly spaced) or a Zarr
+        folder. It must not exist.
+    of : sequence of str
+        Measures, as in :class:`Stress`.
+    title : str
+        What the Zarr group calls itself.
+    """
+    depths, layers = _depths(body, z)
+    once = [n for n, depth in enumerate(depths) if n == 0 or depth != depths[n - 1]]
+    below = _subsurface(body, grid, (p, q_x, q_y), body_number)
+    z_once, layer_once = [depths[n] for n in once], [layers[n] for n in once]
+    below.volume(out, z_once, layer_once, of=list(of), title=title)
+
+
+def envelope(
+    scene: Scene,
+    increments: Iterable[Snapshot],
+    z: ArrayLike,
+    *,
+    x: float | None = None,
+    y: float | None = None,
+    of: Sequence[str] = ("von_mises",),
+    body_number: int = 2,
+) -> xr.Dataset:
+    """Extremes of stress below a line over a load path, none of whose increments is kept.
+
+    Parameters
+    ----------
+    scene : Scene
+        With the load path that the increments are of.
+    increments : iterable of Snapshot
+        What :func:`pyfret.march` yields, or some snapshots of a result.
+    z, x, y, body_number
+        The section, as in :func:`stress`: either `x` or `y`.
+    of : sequence of str
+        Measures, as in :class:`Stress`.
+
+    Returns
+    -------
+    xarray.Dataset
+        For each measure ``<name>_max``, ``<name>_min`` and ``<name>_increment`` (of the largest
+        value) over (depth, x or y), ``<name>_amplitude`` and ``<name>_mean`` over
+        (cycle, depth, x or y); a cycle is the closed piece of the path between ``first_branch``
+        and ``last_branch``.
+    """
+    body = scene.body1 if body_number == 1 else scene.body2
+    depths, layers = _depths(body, z)
+    stream = _core.Envelope(
+        body,
+        scene.grid,
+        scene.path,
+        depths,
+        layers,
+        of=list(of),
+        x=x,
+        y=y,
+        body_number=body_number,
+    )
+    for snapshot in increments:
+        fields = {k: snapshot.dataset[k].values for k in ("p", "q_x", "q_y")}
+        number = int(snapshot.dataset.increment)
+        stream.push(number, int(snapshot.dataset.branch_of_increment), **fields)
+    coords = _coords(scene.grid, depths, layers, x, y)
+    dims = ("depth", "x" if x is None else "y")
+    result = xr.Dataset(coords=coords)
+    for name, kept in stream.finish().items():
+        meaning = LABELS[name][1]
+        for key in ("max", "min"):
+            attrs = {"units": "Pa", "long_name": f"{key} over the path: {meaning}"}
+            result[f"{name}_{key}"] = (dims, kept[key], attrs)
+        attrs = {"long_name": f"increment of the largest {name}, from 1"}
+        result[f"{name}_increment"] = (dims, kept["increment"].astype(int), attrs)
+        for key in ("amplitude", "mean"):
+            values = np.array(kept[key]).reshape(-1, *kept["max"].shape)
+            attrs = {"units": "Pa", "long_name": f"{key} over a cycle: {meaning}"}
+            result[f"{name}_{key}"] = (("cycle", *dims), values, attrs)
+    if stream.cycles:
+        first, last = np.array(stream.cycles).T
+        result = result.assign_coords(first_branch=("cycle", first), last_branch=("cycle", last))
+    return result

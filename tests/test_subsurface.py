@@ -1,0 +1,171 @@
+"""Stress below the surface, from Python: what a tribologist would doubt."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import pyfret as fret
+from conftest import MU, W, pair, paper_path, sphere_on_flat
+
+STEEL, _ = pair(0.3)
+
+
+def hertz_load(n: int) -> tuple[fret.Grid, np.ndarray]:
+    """Unit Hertz pressure on r < 1."""
+    grid = fret.Grid.centred(extent=2.4, n=n)
+    x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
+    return grid, np.sqrt(np.maximum(1 - x**2 - y**2, 0))
+
+
+def test_yield_starts_half_a_radius_below_a_pressed_sphere() -> None:
+    # K. L. Johnson, Contact Mechanics, sec. 4.5(a): tau_max = 0.31 p0 at 0.48 a for nu = 0.3.
+    grid, p = hertz_load(128)
+    z = np.linspace(0, 1.5, 61)
+    below = fret.subsurface.stress(fret.Body(STEEL), grid, z, p=p, y=0.0)
+    assert below.s_xx.dims == ("depth", "x")
+    value, x, depth, layer = below.maximum("tresca")
+    assert value / 2 == pytest.approx(0.310, abs=1e-3)
+    assert depth == pytest.approx(0.481, abs=3e-3)
+    assert x == pytest.approx(0.0, abs=1e-3)
+    assert layer == 0
+
+
+def test_sections_lines_and_planes_agree(coated: fret.Result) -> None:
+    snapshot = coated.at(-1)
+    z = [0.0, 0.3 * coated.a_H, coated.a_H]
+    planes = snapshot.stress(z).dataset
+    assert dict(planes.sizes) == {"depth": 4, "x": 32, "y": 32}
+    assert planes.layer.values.tolist() == [0, 0, 0, 1]
+    x, y = float(planes.x[20]), float(planes.y[5])
+    along_x, along_y = snapshot.stress(z, y=y).dataset, snapshot.stress(z, x=x).dataset
+    line = snapshot.stress(z, x=x, y=y).dataset
+    scale = 1e-9 * coated.p_H
+    for name in planes:
+        plane = planes[name]
+        np.testing.assert_allclose(along_x[name], plane[:, :, 5], atol=scale)
+        np.testing.assert_allclose(along_y[name], plane[:, 20, :], atol=scale)
+        np.testing.assert_allclose(line[name], plane[:, 20, 5], atol=scale)
+    np.testing.assert_allclose(planes.s_zz[0], -snapshot.p, atol=scale)
+    np.testing.assert_allclose(planes.s_xz[0], -snapshot.q_x, atol=scale)
+    np.testing.assert_allclose(planes.s_zz[2], planes.s_zz[3], atol=scale)
+    assert abs(planes.s_xx[2] - planes.s_xx[3]).max() > 0.1 * coated.p_H
+
+
+def test_relative_displacement_is_that_of_the_two_surfaces(coated: fret.Result) -> None:
+    snapshot = coated.at(-1)
+    below, above = (snapshot.displacement(0.0, body_number=b) for b in (2, 1))
+    # To the tolerance of the kernels.
+    for axis in "xyz":
+        difference = (below - above)[f"u_{axis}"].isel(depth=0)
+        expected = snapshot.dataset[f"u_{axis}"]
+        np.testing.assert_allclose(difference, expected, atol=1e-7 * abs(expected).max())
+
+
+def test_principal_stresses_and_the_rest_follow_from_the_components(coated: fret.Result) -> None:
+    below = coated.at(-1).stress(np.linspace(0, 2 * coated.a_H, 7), y=0.0)
+    principal = below.principal()
+    first, second, third = (principal.value.isel(principal=i) for i in range(3))
+    np.testing.assert_allclose(below.s_1, first)
+    np.testing.assert_allclose(below.tresca, first - third)
+    np.testing.assert_allclose(below.hydrostatic, (first + second + third) / 3, atol=1.0)
+    direction = principal.direction.isel(principal=0)
+    np.testing.assert_allclose((direction**2).sum("axis"), 1.0)
+    with pytest.raises(AttributeError, match="von_mises"):
+        _ = below.mises
+
+
+def test_volumes_open_in_vtk_and_xarray(coated: fret.Result, tmp_path: Path) -> None:
+    reader_module = pytest.importorskip("vtkmodules.vtkIOXML")
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    snapshot = coated.at(-1)
+    z = np.linspace(0, 2 * coated.a_H, 9)
+    snapshot.write_volume(tmp_path / "stress.vti", z, of=("von_mises", "s_xz"))
+    snapshot.write_volume(tmp_path / "stress.zarr", z, of=("von_mises", "s_xz"))
+    reader = reader_module.vtkXMLImageDataReader()
+    reader.SetFileName(str(tmp_path / "stress.vti"))
+    reader.Update()
+    image = reader.GetOutput()
+    assert image.GetDimensions() == (32, 32, 9)
+    np.testing.assert_allclose(image.GetSpacing()[2], z[1])
+    np.testing.assert_allclose(image.GetOrigin()[:2], (snapshot.x[0], snapshot.y[0]))
+    stored = xr.open_zarr(tmp_path / "stress.zarr", chunks=None)
+    assert stored.von_mises.dims == ("depth", "x", "y")
+    planes = snapshot.stress(z)
+    # The depth in the middle is the interface: the volume shows the layer above.
+    keep = np.flatnonzero(np.diff(planes.dataset.z.values, prepend=-1.0))
+    for name in ("von_mises", "s_xz"):
+        values = planes.measure(name).values[keep]
+        np.testing.assert_allclose(stored[name], values, atol=1e-9 * coated.p_H)
+        drawn = vtk_to_numpy(image.GetPointData().GetArray(name)).reshape(9, 32, 32)
+        np.testing.assert_allclose(drawn, values.transpose(0, 2, 1), rtol=1e-6, atol=1.0)
+    with pytest.raises(fret.StoreError, match="exists"):
+        snapshot.write_volume(tmp_path / "stress.vti", z)
+
+
+def test_the_envelope_streams(tmp_path: Path) -> None:
+    path = paper_path(indentation=4, cycles=9)
+    scene = sphere_on_flat(ratio=2.0, n=16).replace(path=path)
+    z = np.array([0.1, 0.5, 1.2]) * scene.hertz.a
+    streamed = fret.subsurface.envelope(scene, fret.march(scene), z, y=0.0, of=("s_xx",))
+    result = fret.solve(scene, save="all", progress=False)
+    xr.testing.assert_allclose(streamed, result.envelope(z, y=0.0, of=("s_xx",)))
+    every = np.stack([result.at(n).stress(z, y=0.0).s_xx.values for n in range(1, len(path) + 1)])
+    np.testing.assert_allclose(streamed.s_xx_max, every.max(axis=0))
+    np.testing.assert_array_equal(streamed.s_xx_increment, every.argmax(axis=0) + 1)
+    assert list(zip(streamed.first_branch.values, streamed.last_branch.values, strict=True)) == [
+        (2, 3),
+        (4, 5),
+    ]
+    branch = result.dataset.branch_of_increment.values
+    last = every[(branch >= 4)]
+    amplitude = (last.max(axis=0) - last.min(axis=0)) / 2
+    np.testing.assert_allclose(streamed.s_xx_amplitude.isel(cycle=1), amplitude)
+
+
+def test_loops_of_similar_bodies_are_mindlins() -> None:
+    bodies = pair(0.0)
+    scene = sphere_on_flat(nu=0.0, n=64)
+    T = 0.5 * MU * W
+    path = fret.LoadPath.start().normal(W, increments=1).tangential([T, -T, T], increments=125)
+    cycle = fret.solve(scene, path, progress=False).loops().isel(cycle=0)
+    closed = fret.reference.CattaneoMindlin(scene_hertz(bodies), bodies=bodies, mu=MU)
+    assert float(cycle.energy_ratio) == pytest.approx(closed.energy_ratio(T), rel=0.05)
+    assert float(cycle.dissipated) == pytest.approx(closed.loop_energy(T), rel=0.05)
+
+
+def scene_hertz(bodies: tuple[fret.Elastic, fret.Elastic]) -> fret.Hertz:
+    """Hertz contact of the scenes here."""
+    return fret.reference.hertz(R=0.018, bodies=bodies, W=W)
+
+
+def test_the_running_map_slides_above_the_friction_limit() -> None:
+    table = fret.sweep.running_map(
+        sphere_on_flat(n=24), W=[500.0, W], T=[30.0, 120.0, 240.0], increments=(4, 8)
+    )
+    assert table.status.values.tolist() == [[2, 2, 3], [2, 2, 2]]
+    ratio = table.energy_ratio.values
+    assert np.isnan(ratio[0, 2])
+    assert ratio[1, 0] < ratio[1, 1] < ratio[1, 2] < 0.2
+    assert ratio[0, 1] > ratio[1, 1]
+    assert fret.plot.running_map(table).get_ylabel() == "T [N]"
+
+
+def test_figures_of_stress(coated: fret.Result) -> None:
+    z = np.union1d(np.linspace(0, 2 * coated.a_H, 33), [coated.a_H])
+    snapshot = coated.at(-1)
+    yard = {"a_H": coated.a_H, "p_H": coated.p_H}
+    ax = fret.plot.stress_map(snapshot.stress(z, y=0.0), **yard)
+    assert ax.get_ylim() == (2.0, 0.0)
+    (cross,) = (line for line in ax.lines if line.get_marker() == "x")
+    assert 0 <= cross.get_ydata()[0] <= 1.0
+    line = fret.plot.stress_along_depth(snapshot.stress(z, x=0.0, y=0.0), **yard)
+    assert all(np.isfinite(curve.get_ydata()).all() for curve in line.lines[:4])
+    assert len(fret.plot.stress_maps({2.0: coated}, layers=17).axes) == 1
+    maps = fret.plot.envelope_maps(coated.envelope(z, y=0.0), **yard)
+    assert len(maps.axes) == 3
+    assert len(fret.plot.loop_evolution(coated).lines) == 3
