@@ -1,5 +1,6 @@
 //! The accounts of an increment: energies, residuals, areas.
 
+use super::carried::Carried;
 use super::{Energy, Increment, March, Motion, Residuals, State, Status, Work};
 use crate::convolution::Mirror;
 use crate::scene::{Given, LoadPoint, Loads};
@@ -97,7 +98,7 @@ impl March {
                 Some(_) => sums[k / 3][k % 3] * cell_area * self.unit(k),
             }
         });
-        Loads::from_forces(transmitted, given)
+        point.loads.with_forces(transmitted, given)
     }
 
     /// Energies with mid-increment tractions, an identity for any symmetric C: the sum of mean
@@ -109,8 +110,8 @@ impl March {
         motion: &Motion,
         cell_area: f64,
     ) -> Energy {
+        let last = self.before();
         let State {
-            interface: last,
             loads,
             motion: before,
             ..
@@ -118,27 +119,30 @@ impl March {
         let mean = |a: f64, b: f64| 0.5 * (a + b);
         let (from, to) = (loads.forces(), point.loads.forces());
         let (started, ended) = (before.motions(), motion.motions());
-        let work = (0..6)
+        let of_loads: f64 = (0..6)
             .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
             .sum();
         let (approach, shift) = self.change(motion);
-        let [elastic, dissipated, opening] = sum_cells(now.p.len(), |n| {
+        let [elastic, dissipated, opening, of_bulk, of_rolling] = sum_cells(now.p.len(), |n| {
             let p = mean(now.p[n], last.p[n]);
             let du_z = now.u_z[n] - last.u_z[n];
             let shift = self.arms.in_plane(shift, n);
+            let stretch = self.stretch_at(n);
+            let wider = self.gap_rolled(n);
             let mut elastic = p * du_z;
-            let mut dissipated = 0.0;
+            let (mut dissipated, mut of_bulk) = (0.0, 0.0);
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
                 let du = now.u[c][n] - last.u[c][n];
-                elastic += q * du;
+                elastic += q * (du - stretch[c]);
                 dissipated -= q * (du - shift[c]);
+                of_bulk -= q * stretch[c];
             }
-            let opening = -p * (du_z - self.arms.across(approach, n));
-            [elastic, dissipated, opening]
+            let opening = -p * (du_z + wider - self.arms.across(approach, n));
+            [elastic, dissipated, opening, of_bulk, -p * wider]
         });
         Energy {
-            work,
+            work: of_loads + (of_bulk + of_rolling) * cell_area,
             elastic: elastic * cell_area,
             dissipated: dissipated * cell_area,
             opening: opening * cell_area,
@@ -162,7 +166,7 @@ impl March {
     ) -> Residuals {
         let mu = self.scene.friction.scale();
         let cells = now.p.len();
-        let before = &self.state.interface.u;
+        let before = &self.before().u;
         let gap = |n: usize| now.u_z[n] + self.h_init[n] - self.arms.across(info.approach, n);
         let bound = |n: usize| friction_bound(self.mu[n], now.p[n]);
         let [contact, slipping, gap_squares, stick, direction, slipped] = sum_cells(cells, |n| {
@@ -237,15 +241,17 @@ impl March {
     /// Makes the increment the present state.
     fn keep(&mut self, point: &LoadPoint, now: Interface, motion: Motion, work: f64) {
         let (_, shift) = self.change(&motion);
+        self.roll_history();
         let state = &mut self.state;
         let last = std::mem::replace(&mut state.interface, now);
         let now = &state.interface;
+        let before = self.carried.as_ref().map_or(&last, Carried::interface);
         for n in 0..now.p.len() {
             let shift = self.arms.in_plane(shift, n);
             let mut moved = [0.0; 2];
             for c in 0..2 {
-                let slip = now.u[c][n] - last.u[c][n] - shift[c];
-                state.dissipated[n] -= 0.5 * (now.q[c][n] + last.q[c][n]) * slip;
+                let slip = now.u[c][n] - before.u[c][n] - shift[c];
+                state.dissipated[n] -= 0.5 * (now.q[c][n] + before.q[c][n]) * slip;
                 moved[c] = slip;
             }
             if now.p[n] > 0.0 && now.slip[n] {
@@ -254,9 +260,7 @@ impl March {
                 state.slip_length[n] += moved[0].hypot(moved[1] / self.arms.stretch);
             }
         }
-        state.step = point
-            .loads
-            .since(state.loads.forces(), state.motion.motions());
+        state.step = point.loads.since(&state.loads, state.motion.motions());
         state.p_before = last.p;
         state.q_before = last.q;
         state.loads = point.loads;

@@ -1,6 +1,7 @@
 //! Stage 5: THE LOAD PATH, one increment at a time (the outer loop of figure 2 of the paper).
 
 mod balance;
+mod carried;
 mod fields;
 mod halving;
 mod increment;
@@ -15,6 +16,8 @@ pub use state::State;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+use carried::Carried;
 
 use crate::convolution::{CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, SurfaceOperator};
 use crate::error::Error;
@@ -43,6 +46,8 @@ pub struct March {
     /// Approach that lengths are measured against \[m\].
     approach: f64,
     state: State,
+    /// The last interface, where the increment does not find it as it was left.
+    carried: Option<Carried>,
     workspace: CoupledWorkspace,
     /// Raised from outside to end the run.
     stop: Arc<AtomicBool>,
@@ -83,7 +88,11 @@ impl March {
         let h_init = plan.mirror.fold(&scene.h_init());
         let cells = h_init.len();
         let extent = scene.grid.extent();
-        let length = 0.5 * extent.0.max(extent.1);
+        let length = if scene.grid.plane_strain {
+            0.5 * extent.0
+        } else {
+            0.5 * extent.0.max(extent.1)
+        };
         let arm = |along: &dyn Fn(f64, f64) -> f64| {
             plan.mirror
                 .fold(&scene.grid.map(|x, y| along(x, y) / length))
@@ -110,6 +119,7 @@ impl March {
             inverse,
             approach,
             state: State::unloaded(cells),
+            carried: None,
             workspace: CoupledWorkspace::new(cells),
             stop: Arc::default(),
         })
@@ -175,6 +185,7 @@ impl March {
         let transforms = self.op.transforms();
         let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
         let (normal, tangential) = self.drives(point, cell_area);
+        self.carry(point);
         self.update_friction();
         let pressed = !normal.free[0] || normal.sums[0] > 0.0;
         let mut now = if pressed {
@@ -189,9 +200,12 @@ impl March {
         } else {
             Interface::unloaded(self.h_init.len())
         };
+        // As March::before, for the sake of the workspace borrowed beside it.
+        let carried = self.carried.as_ref();
+        let before = carried.map_or(&self.state.interface, Carried::interface);
         let problem = IncrementProblem {
             h_init: &self.h_init,
-            u_ref: [&self.state.interface.u[0], &self.state.interface.u[1]],
+            u_ref: [&before.u[0], &before.u[1]],
             mu: &self.mu,
             arms: &self.arms,
             normal,
@@ -280,16 +294,16 @@ impl March {
 
     /// The friction coefficient of each cell after what it has been through.
     fn update_friction(&mut self) {
-        let (friction, state) = (&self.scene.friction, &self.state);
         for n in 0..self.mu.len() {
-            let slipped = state.interface.slip[n];
+            let (friction, state) = (&self.scene.friction, &self.state);
+            let slipped = self.before().slip[n];
             let mu = friction.kinetic.filter(|_| slipped).unwrap_or(friction.mu);
             let map = self.friction_map.get(n).copied().unwrap_or(1.0);
             let history = friction.history.as_ref().map_or(1.0, |history| {
                 history.factor(match history.of {
                     History::Increment => state.increments as f64,
-                    History::Slip => state.slip_length[n],
-                    History::Dissipated => state.dissipated[n],
+                    History::Slip => self.origin(n).map_or(0.0, |n| state.slip_length[n]),
+                    History::Dissipated => self.origin(n).map_or(0.0, |n| state.dissipated[n]),
                 })
             });
             self.mu[n] = if map * history > 0.0 {
@@ -313,7 +327,7 @@ impl March {
         let rows = self.plan.mirror.rows(grid.ny);
         let touches = |n: usize| {
             let (i, j) = (n / rows, n % rows);
-            let outer_row = j + 1 == rows || (j == 0 && rows == grid.ny);
+            let outer_row = !grid.plane_strain && (j + 1 == rows || (j == 0 && rows == grid.ny));
             (i == 0 || i + 1 == grid.nx || outer_row) && now.p[n] > 0.0
         };
         if !(0..now.p.len()).any(touches) {

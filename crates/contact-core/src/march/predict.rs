@@ -5,12 +5,18 @@ use crate::scene::{Given, LoadPoint, Loads, Preset};
 use crate::solvers::{Drive, Interface, friction_bound, size};
 
 impl Loads {
-    /// The change from `forces` and `motions` to here, of what is given.
-    pub(crate) fn since(&self, forces: [f64; 6], motions: [f64; 6]) -> Self {
+    /// The change from `before` and `motions` to here, of what is given.
+    pub(crate) fn since(&self, before: &Self, motions: [f64; 6]) -> Self {
+        let forces = before.forces();
         let (to, given) = (self.forces(), self.given.motions());
         let force = |k: usize| given[k].map_or(to[k] - forces[k], |_| 0.0);
         let motion = |k: usize| given[k].map(|to| to - motions[k]);
-        Self::from_forces(
+        Self {
+            sigma_B: self.sigma_B - before.sigma_B,
+            rolled: self.rolled - before.rolled,
+            ..Self::default()
+        }
+        .with_forces(
             std::array::from_fn(force),
             Given::from_motions(std::array::from_fn(motion)),
         )
@@ -24,7 +30,9 @@ impl Loads {
             return None;
         }
         let (f, g) = (self.forces(), other.forces());
-        let pairs = (0..6).map(|k| a[k].zip(b[k]).unwrap_or((f[k], g[k])));
+        let pairs = (0..6)
+            .map(|k| a[k].zip(b[k]).unwrap_or((f[k], g[k])))
+            .chain([(self.sigma_B, other.sigma_B), (self.rolled, other.rolled)]);
         let (mut both, mut own, mut its) = (0.0, 0.0, 0.0);
         for (a, b) in pairs {
             // Forces, moments, lengths and angles compare as parts of the larger of the two.
@@ -58,9 +66,7 @@ impl State {
         if self.loads.W <= 0.0 {
             first_touch(&mut guess, h_init, approach);
         }
-        let step = point
-            .loads
-            .since(self.loads.forces(), self.motion.motions());
+        let step = point.loads.since(&self.loads, self.motion.motions());
         let same_way = step.along(&self.step).filter(|_| self.increments > 1);
         if let (Some(factor), Preset::Fast) = (same_way, preset) {
             extrapolate(&mut guess.p, &self.p_before, factor);

@@ -3,7 +3,9 @@
 mod cattaneo_mindlin;
 mod hertz_contact;
 mod indentation;
+mod line_contact;
 mod lubkin;
+mod springs;
 
 use numpy::{AllowTypeChange, PyArrayDyn, PyArrayLikeDyn, ToPyArray};
 use pyo3::prelude::*;
@@ -14,7 +16,9 @@ pub(crate) use indentation::{
     CoatedIndentation, CoupledIndentation, coated_indentation, coupled_indentation, dundurs_beta,
     goodman_stick_ratio,
 };
+pub(crate) use line_contact::{LineContact, line_contact};
 pub(crate) use lubkin::Lubkin;
+pub(crate) use springs::Springs;
 
 /// A number, a sequence or an array of any shape.
 type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;

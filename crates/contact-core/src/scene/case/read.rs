@@ -10,9 +10,9 @@ use super::measure::{self, Measure};
 use super::section::{Fault, Section, count, pair};
 use super::shape::{shape, surface_map};
 use crate::scene::{
-    Body, Branch, Coating, Elastic, Friction, FrictionHistory, Given, Grid, History, KernelMethod,
-    KernelSettings, LOADS, LoadPath, Loads, MOTIONS, Preset, SaveFields, Scene, Settings,
-    SkipSettings, SolverSettings, Spacing,
+    Body, Branch, Coating, Elastic, Friction, FrictionHistory, Given, Grid, History, Increments,
+    KernelMethod, KernelSettings, LOADS, LoadPath, Loads, MOTIONS, Preset, SaveFields, Scene,
+    Settings, SkipSettings, SolverSettings, Spacing,
 };
 
 const ROOT: [&str; 11] = [
@@ -50,8 +50,9 @@ pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
             ny: 0,
             dx: 0.0,
             dy: 0.0,
+            plane_strain: plane_strain(&root)?,
         },
-        path: path(&root, mu)?,
+        path: path(&root, folder, mu)?,
         settings: settings(&root)?,
     };
     scene.body1.check("body1")?;
@@ -81,7 +82,12 @@ fn friction(root: &Section<'_>, folder: &Path) -> Result<Friction, Fault> {
         _ => section.number("mu", what, &[])?,
     };
     if mu.is_infinite() && section.get("mu").is_some_and(|mu| !mu.is_str()) {
-        return Err(Fault::value("friction.mu", section.need("mu", what)?, what));
+        let finite = "a finite number >= 0, or \"stick\" for no slip";
+        return Err(Fault::value(
+            "friction.mu",
+            section.need("mu", what)?,
+            finite,
+        ));
     }
     let number = |key: &str| {
         let given = section
@@ -165,11 +171,22 @@ fn coatings(
         .collect()
 }
 
+const GRID: [&str; 4] = ["n", "extent", "spacing", "plane_strain"];
+
+fn plane_strain(root: &Section<'_>) -> Result<bool, Fault> {
+    let section = root.need_section("grid", &GRID)?;
+    section.flag_or("plane_strain", false)
+}
+
 /// Cells by number, and either the extent of the grid or the size of a cell.
 fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
-    let section = root.need_section("grid", &["n", "extent", "spacing"])?;
+    let section = root.need_section("grid", &GRID)?;
+    let plane_strain = plane_strain(root)?;
     let n = section.need("n", "the number of cells, or two along x and y")?;
-    let n = pair(&section.path("n"), n, |key, value| count(key, value, 1))?;
+    let n = match n {
+        Value::Integer(_) if plane_strain => (count("grid.n", n, 1)?, 1),
+        n => pair(&section.path("n"), n, |key, value| count(key, value, 1))?,
+    };
     let length = |key: &str, value: &Value| {
         let length = measure::number(key, value, &[a_H])?;
         if length > 0.0 && length.is_finite() {
@@ -180,6 +197,10 @@ fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
     };
     let lengths = |name: &str| {
         let value = section.need(name, "a length in m, or two along x and y")?;
+        // One length in plane strain: forces are reckoned per metre.
+        if plane_strain && !value.is_array() {
+            return Ok((length(&section.path(name), value)?, 1.0));
+        }
         pair(&section.path(name), value, length)
     };
     let d = match (section.get("extent"), section.get("spacing")) {
@@ -200,12 +221,17 @@ fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
         ny: n.1,
         dx: d.0,
         dy: d.1,
+        plane_strain,
     })
 }
 
 /// The branches; loads that one does not name keep their value.
-fn path(root: &Section<'_>, mu: f64) -> Result<LoadPath, Fault> {
-    let keys = [&LOADS[..], &MOTIONS[..], &["increments", "t", "spacing"]].concat();
+fn path(root: &Section<'_>, folder: &Path, mu: f64) -> Result<LoadPath, Fault> {
+    let own = ["sigma_B", "rolled", "increments", "t", "spacing"];
+    let keys = [&LOADS[..], &MOTIONS[..], &own].concat();
+    if let Some(Value::Table(_)) = root.get("path") {
+        return measured(root, folder);
+    }
     let mut path = LoadPath::start();
     let (mut at, mut t) = (Loads::default(), 0.0);
     for section in root.sections("path", &keys)? {
@@ -258,7 +284,34 @@ fn loads(section: &Section<'_>, at: Loads, mu: f64) -> Result<Loads, Fault> {
             (None, None) => {}
         }
     }
-    Ok(Loads::from_forces(forces, Given::from_motions(motions)))
+    let number = |key: &str, before: f64| section.number_or(key, before, &[]);
+    let bodies = Loads {
+        sigma_B: number("sigma_B", at.sigma_B)?,
+        rolled: number("rolled", at.rolled)?,
+        ..at
+    };
+    Ok(bodies.with_forces(forces, Given::from_motions(motions)))
+}
+
+/// A measured history: a table of waypoints in a file.
+fn measured(root: &Section<'_>, folder: &Path) -> Result<LoadPath, Fault> {
+    let section = root.need_section("path", &["file", "increments"])?;
+    let what = "the name of a .csv file";
+    let (key, value) = (section.path("file"), section.need("file", what)?);
+    let name = value
+        .as_str()
+        .ok_or_else(|| Fault::value(&key, value, what))?;
+    let what = "a whole number >= 1, or { per_range = number }";
+    let increments = match section.get("increments") {
+        None => Increments::Each(1),
+        Some(Value::Table(_)) => {
+            let auto = section.need_section("increments", &["per_range"])?;
+            Increments::PerRange(auto.count("per_range", 1)?)
+        }
+        Some(n @ Value::Integer(_)) => Increments::Each(count("path.increments", n, 1)?),
+        Some(other) => return Err(Fault::value("path.increments", other, what)),
+    };
+    LoadPath::from_csv(&folder.join(name), increments).map_err(|e| Fault::new(&key, e.to_string()))
 }
 
 fn settings(root: &Section<'_>) -> Result<Settings, Fault> {

@@ -6,7 +6,7 @@ use toml::Value;
 
 use super::SCHEMA;
 use crate::scene::{
-    Body, Elastic, Friction, FrictionHistory, History, KernelMethod, LOADS, MOTIONS, Preset,
+    Body, Elastic, Friction, FrictionHistory, History, KernelMethod, LOADS, Loads, MOTIONS, Preset,
     SaveFields, Scene, Spacing,
 };
 
@@ -30,6 +30,7 @@ impl Scene {
         let grid = &self.grid;
         line(format_args!("\n[grid]\nn = [{}, {}]", grid.nx, grid.ny));
         line(format_args!("spacing = [{:?}, {:?}]", grid.dx, grid.dy));
+        line(format_args!("plane_strain = {}", grid.plane_strain));
         for branch in &self.path.branches {
             let (forces, motions) = (branch.to.forces(), branch.to.given.motions());
             line(format_args!("\n[[path]]"));
@@ -39,6 +40,10 @@ impl Scene {
                     Some(motion) => line(format_args!("{} = {motion:?}", MOTIONS[k])),
                 }
             }
+            let Loads {
+                sigma_B, rolled, ..
+            } = branch.to;
+            line(format_args!("sigma_B = {sigma_B:?}\nrolled = {rolled:?}"));
             line(format_args!("increments = {}", branch.increments));
             line(format_args!("t = {:?}", branch.t_end));
             let spacing = match branch.spacing {
