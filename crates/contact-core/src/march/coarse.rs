@@ -26,7 +26,7 @@ pub(super) struct CoarseStart {
 ///
 /// Where the bodies are paraboloids of one material each, Hertz's pressure is a better start.
 pub(super) fn coarse_start(scene: &Scene, point: &LoadPoint) -> Option<CoarseStart> {
-    let Grid { nx, ny, dx, dy } = scene.grid;
+    let Grid { nx, ny, dx, dy, .. } = scene.grid;
     let homogeneous = scene.body1.is_homogeneous() && scene.body2.is_homogeneous();
     let of_use = scene.settings.solver.preset == Preset::Fast
         && nx.is_multiple_of(2)

@@ -4,15 +4,21 @@ use rayon::prelude::*;
 
 use super::State;
 use crate::scene::{Given, LoadPoint, Loads, Preset};
-use crate::solvers::{CHUNK, Drive, Interface, set_cells, size, sum_cells};
+use crate::solvers::{CHUNK, Drive, Interface, friction_bound, set_cells, size, sum_cells};
 
 impl Loads {
-    /// The change from `forces` and `motions` to here, of what is given.
-    pub(crate) fn since(&self, forces: [f64; 6], motions: [f64; 6]) -> Self {
+    /// The change from `before` and `motions` to here, of what is given.
+    pub(crate) fn since(&self, before: &Self, motions: [f64; 6]) -> Self {
+        let forces = before.forces();
         let (to, given) = (self.forces(), self.given.motions());
         let force = |k: usize| given[k].map_or(to[k] - forces[k], |_| 0.0);
         let motion = |k: usize| given[k].map(|to| to - motions[k]);
-        Self::from_forces(
+        Self {
+            sigma_B: self.sigma_B - before.sigma_B,
+            rolled: self.rolled - before.rolled,
+            ..Self::default()
+        }
+        .with_forces(
             std::array::from_fn(force),
             Given::from_motions(std::array::from_fn(motion)),
         )
@@ -26,7 +32,9 @@ impl Loads {
             return None;
         }
         let (f, g) = (self.forces(), other.forces());
-        let pairs = (0..6).map(|k| a[k].zip(b[k]).unwrap_or((f[k], g[k])));
+        let pairs = (0..6)
+            .map(|k| a[k].zip(b[k]).unwrap_or((f[k], g[k])))
+            .chain([(self.sigma_B, other.sigma_B), (self.rolled, other.rolled)]);
         let (mut both, mut own, mut its) = (0.0, 0.0, 0.0);
         for (a, b) in pairs {
             // Forces, moments, lengths and angles compare as parts of the larger of the two.
@@ -52,7 +60,7 @@ impl State {
         &self,
         point: &LoadPoint,
         touch: Option<Vec<f64>>,
-        mu: f64,
+        mu: &[f64],
         normal: &Drive,
         preset: Preset,
     ) -> Interface {
@@ -60,9 +68,7 @@ impl State {
         if let Some(p) = touch {
             guess.p = p;
         }
-        let step = point
-            .loads
-            .since(self.loads.forces(), self.motion.motions());
+        let step = point.loads.since(&self.loads, self.motion.motions());
         let same_way = step.along(&self.step).filter(|_| self.increments > 1);
         if let (Some(factor), Preset::Fast) = (same_way, preset) {
             let before = &self.p_before;
@@ -84,7 +90,7 @@ impl State {
 /// to the moving slip front (Cattaneo: g - q ~ (c^2 - r^2)^(1/2)), smoothed over a cell: a power
 /// in between of what is left of the way to the bound is extrapolated; a cell for which nothing is
 /// left starts to slip.
-fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: f64, factor: f64) {
+fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64], factor: f64) {
     let Interface { p, q, slip, .. } = guess;
     let [q_x, q_y] = q;
     let chunks = (
@@ -95,7 +101,7 @@ fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: f64, facto
     let chunks = chunks.into_par_iter().enumerate();
     chunks.for_each(|(chunk, (q_x, q_y, slip))| {
         for (i, n) in (chunk * CHUNK..).take(q_x.len()).enumerate() {
-            let bound = mu * p[n];
+            let bound = friction_bound(mu[n], p[n]);
             if bound <= 0.0 {
                 continue;
             }
@@ -104,7 +110,7 @@ fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: f64, facto
             let moved = size(change);
             let inside = bound * bound - q[0] * q[0] - q[1] * q[1];
             let mut part = factor;
-            if !slip[i] && inside > 0.0 && moved > 0.0 {
+            if !slip[i] && inside > 0.0 && inside.is_finite() && moved > 0.0 {
                 let along = (q[0] * change[0] + q[1] * change[1]) / moved;
                 let left = (along * along + inside).sqrt() - along;
                 let power = |left: f64| left * left.sqrt();

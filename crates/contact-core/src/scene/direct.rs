@@ -34,6 +34,15 @@ pub(super) fn direct_branches(
             Ok("without friction pressure depends on the loads alone"),
         );
     }
+    if scene.friction.kinetic.is_some() || scene.friction.history.is_some() {
+        return none("friction depends on what cells have been through");
+    }
+    if branches
+        .iter()
+        .any(|b| b.to.sigma_B != 0.0 || b.to.rolled != 0.0)
+    {
+        return none("the bodies roll or are stretched meanwhile");
+    }
     if coupling {
         return none("pressure and shear act on each other, the way counts");
     }
@@ -62,8 +71,14 @@ fn is_normal(to: &Loads) -> bool {
     (3..6).all(|k| given[k].unwrap_or(forces[k]) == 0.0)
 }
 
-/// Whether shear along x causes displacements along x alone.
+/// Whether shear along a line causes displacements along that line alone, and slip follows.
 fn isotropic(scene: &Scene) -> bool {
+    if scene.friction.mu_y.is_some() {
+        return false;
+    }
+    if scene.grid.plane_strain && scene.path.branches.iter().all(|b| b.to.T_y == 0.0) {
+        return true;
+    }
     [&scene.body1, &scene.body2].iter().all(|body| {
         body.is_homogeneous() && (body.substrate.is_rigid() || body.substrate.nu == 0.0)
     })

@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use super::direct::direct_branches;
-use super::{Body, KernelMethod, LoadPoint, Loads, Scene};
+use super::{Body, KernelMethod, LoadPoint, Loads, Scene, SurfaceMap};
 use crate::convolution::Mirror;
 
 /// What is computed and what is left out.
@@ -133,7 +133,7 @@ fn layers(body: &Body, scene: &Scene) -> Vec<(f64, f64, f64)> {
         .collect()
 }
 
-/// Whether the gap is its own mirror image under y -> -y, up to rounding.
+/// Whether a field is its own mirror image under y -> -y, up to rounding.
 fn is_mirror_symmetric(h: &Array2<f64>) -> bool {
     let ny = h.ncols();
     let largest = h.iter().fold(0.0, |m: f64, h| m.max(h.abs()));
@@ -157,6 +157,10 @@ fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     }
     if !is_mirror_symmetric(&scene.h_init()) {
         return Err("the surfaces are not mirror-symmetric in y");
+    }
+    let map = |map: &SurfaceMap| is_mirror_symmetric(&scene.grid.map(|x, y| map.at(x, y)));
+    if !scene.friction.map.as_ref().is_none_or(map) {
+        return Err("the friction is not mirror-symmetric in y");
     }
     let uneven = |to: &Loads| {
         let (forces, given) = (to.forces(), to.given.motions());
