@@ -228,7 +228,7 @@ impl March {
         }
         self.check_border(&now, index, point)?;
         let transforms = self.op.transforms() - transforms;
-        Ok(self.account(point, now, &info, transforms))
+        self.account(point, now, &info, transforms)
     }
 
     /// What drives the motions across the plane, from the unloaded state, and those in it, in this

@@ -8,6 +8,7 @@ mod case;
 mod friction;
 mod grid;
 mod load_path;
+mod magnitude;
 mod material;
 mod memory;
 mod plan;
@@ -64,6 +65,7 @@ impl Scene {
         }
         self.friction.check()?;
         self.grid.check()?;
+        self.check_magnitudes()?;
         self.check_surfaces_fit()?;
         self.body1.shape.check_on(&self.grid, "body1.shape")?;
         self.body2.shape.check_on(&self.grid, "body2.shape")?;
@@ -76,6 +78,7 @@ impl Scene {
             ));
         }
         self.path.check(self.friction.mu)?;
+        self.check_yardsticks()?;
         self.settings.check()
     }
 

@@ -58,6 +58,7 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     scene.body2.check("body2")?;
     scene.friction.check()?;
     scene.path.check(mu)?;
+    scene.check_magnitudes()?;
 
     let hertz = scene.hertz();
     let a_H = Measure::a_H(hertz.map(|h| h.a));
