@@ -231,7 +231,7 @@ impl March {
         self.check_border(&now, index, point)?;
         let transforms = self.op.transforms() - transforms;
         let convolutions = transforms as f64 / 6.0 + coarse_convolutions;
-        Ok(self.account(point, now, &info, convolutions))
+        self.account(point, now, &info, convolutions)
     }
 
     /// Solves the increment from a start, on the cells of the last contact alone if it is `kept`.
