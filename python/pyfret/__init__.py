@@ -65,6 +65,7 @@ if TYPE_CHECKING:
     from pyfret import plot
 
 __all__ = [
+    "RIGID",
     "Body",
     "Branch",
     "Coating",
@@ -88,7 +89,6 @@ __all__ = [
     "OffGridError",
     "Preset",
     "Profile",
-    "RIGID",
     "Result",
     "Rough",
     "Scene",

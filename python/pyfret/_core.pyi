@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "RIGID",
     "Body",
     "Branch",
     "CattaneoMindlin",
@@ -41,7 +42,6 @@ __all__ = [
     "OffGridError",
     "Preset",
     "Profile",
-    "RIGID",
     "Rough",
     "Scene",
     "Settings",
