@@ -24,7 +24,7 @@ fn scene(n: usize, path: LoadPath) -> Scene {
         title: "sphere".into(),
         body1: Body::homogeneous(STEEL, Shape::Sphere { R: 0.018 }),
         body2: Body::homogeneous(STEEL, Shape::Flat),
-        friction: Friction { mu: MU },
+        friction: Friction::coulomb(MU),
         grid: Grid::centred(2.4 * contact.a, n).unwrap(),
         path,
         settings: Settings::default(),

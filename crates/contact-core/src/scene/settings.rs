@@ -96,6 +96,7 @@ pub enum Preset {
 
 /// What may be skipped. Every rule leaves the answer as it is; each can be switched off to prove it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(clippy::struct_excessive_bools)] // one for each rule
 pub struct SkipSettings {
     /// Treat a body whose layers all equal its substrate as homogeneous (default true).
     pub equal_layers: bool,
@@ -104,6 +105,10 @@ pub struct SkipSettings {
     pub coupling: bool,
     /// Solve on half of a mirror-symmetric scene (default true).
     pub mirror: bool,
+    /// Leave out the increments of branches whose end does not depend on the way (default false:
+    /// the results have a row for every increment asked for, and loops their points); they are
+    /// solved all the same if their fields are to be kept.
+    pub path: bool,
 }
 
 impl Default for SkipSettings {
@@ -112,6 +117,7 @@ impl Default for SkipSettings {
             equal_layers: true,
             coupling: true,
             mirror: true,
+            path: false,
         }
     }
 }

@@ -1,5 +1,7 @@
 //! A coated body under a contact's tractions, for benches and examples of the stress below it.
 
+#![allow(unreachable_pub)]
+
 use contact_core::convolution::Tractions;
 use contact_core::fields::{self, Depth};
 use contact_core::scene::{Body, Coating, Elastic, Grid, Shape};
