@@ -6,10 +6,10 @@ from os import PathLike, fspath
 
 import numpy as np
 
-from pyfret._core import HeightMap
+from pyfret._core import SurfaceMap
 
 
-def read_surface(path: str | PathLike[str], *, detrend: str = "center") -> HeightMap:
+def read_surface(path: str | PathLike[str], *, detrend: str = "center") -> SurfaceMap:
     """Read a measured surface: X3P, SDF, OPD and all other formats of SurfaceTopography.
 
     Parameters
@@ -39,6 +39,4 @@ def read_surface(path: str | PathLike[str], *, detrend: str = "center") -> Heigh
         message = f"{path}: {holes} points were not measured; fill them first"
         raise ValueError(message)
     x, y = surface.pixel_size
-    return HeightMap(
-        np.ascontiguousarray(heights, dtype=float), spacing=(float(x), float(y))
-    )
+    return SurfaceMap(np.ascontiguousarray(heights, dtype=float), spacing=(float(x), float(y)))

@@ -1,49 +1,47 @@
-//! Time of the stress below the surface, from tractions to components.
-#![allow(missing_docs)]
+//! Stress below the paper's contact: 256 x 256 tractions, kernels included.
 
-mod rig;
+#![allow(missing_docs, clippy::unwrap_used)]
 
-use contact_core::convolution::Tractions;
-use contact_core::fields::{Line, Section, Side, Slices, depths};
-use criterion::{Criterion, SamplingMode, criterion_group, criterion_main};
-use rig::{paper_scene, stage};
+#[path = "../tests/stressed/mod.rs"]
+mod stressed;
 
-fn stress(c: &mut Criterion) {
-    let mut group = stage(c, "fields");
-    group.sampling_mode(SamplingMode::Flat);
-    for n in [64, 256] {
-        let scene = paper_scene(&[format!("grid.n={n}")]);
-        let (body, grid) = (&scene.body2, &scene.grid);
-        let hertz = scene.hertz().expect("a Hertz contact");
-        let p = grid.map(|x, y| hertz.p(x.hypot(y)));
-        let q_x = scene.friction.mu * &p;
-        let tractions = Tractions {
-            q_x: q_x.as_slice(),
-            q_y: None,
-            p: p.as_slice(),
-        };
-        let to = |count: usize| -> Vec<f64> {
-            let step = 2.0 * hertz.a / (count as f64 - 1.0);
-            (0..count).map(|i| i as f64 * step).collect()
-        };
-        let of_section = depths(body, &to(64)).expect("depths");
-        group.bench_function(format!("section/64_depths/{n}"), |b| {
+use std::hint::black_box;
+
+use contact_core::fields::{Line, Points, Section, Side, Slices};
+use criterion::{Criterion, criterion_group, criterion_main};
+use stressed::{Contact, coated};
+
+fn section(c: &mut Criterion) {
+    let mut group = c.benchmark_group("fields");
+    group.sample_size(10);
+    let Contact { body, grid, .. } = coated(256);
+    let contact = coated(256);
+    for (name, n) in [("section/256/1", 1), ("section/256/256", 256)] {
+        let depths = contact.depths(n);
+        group.bench_function(name, |b| {
             b.iter(|| {
-                Section::new(body, Side::Body2, grid, Line::AlongX(0.0), &[tractions])
-                    .and_then(|section| section.stress(&of_section))
-                    .expect("a stress")
-            });
-        });
-        let of_volume = depths(body, &to(8)).expect("depths");
-        group.bench_function(format!("volume/8_depths/{n}"), |b| {
-            b.iter(|| {
-                Slices::new(body, Side::Body2, grid, &[tractions])
-                    .and_then(|s| s.map_stress(&of_volume, |_, s| Ok(s[0][2].sum())))
-                    .expect("a stress")
+                let line = Line::AlongX(0.0);
+                let states = [contact.tractions()];
+                let section = Section::new(black_box(&body), Side::Body2, &grid, line, &states);
+                section.unwrap().stress(&depths)
             });
         });
     }
+    let depths = contact.depths(3);
+    group.bench_function("slices/256/3", |b| {
+        b.iter(|| {
+            let slices =
+                Slices::new(black_box(&body), Side::Body2, &grid, &[contact.tractions()]).unwrap();
+            slices.map_stress(&depths, |_, s| Ok(s[0][2][(128, 128)]))
+        });
+    });
+    group.bench_function("points/256/1", |b| {
+        let points =
+            Points::new(black_box(&body), Side::Body2, &grid, &[contact.tractions()]).unwrap();
+        b.iter(|| points.stress(&[(0.0, 0.0, depths[1])]));
+    });
+    group.finish();
 }
 
-criterion_group!(benches, stress);
-criterion_main!(benches);
+criterion_group!(fields, section);
+criterion_main!(fields);

@@ -22,7 +22,7 @@ fn march(c: &mut Criterion) {
         ];
         let scene = paper_scene(&[&settings, &path[..]].concat());
         group.bench_function(name, |b| {
-            b.iter(|| solve(&scene, &mut ()).expect("a solution"))
+            b.iter(|| solve(&scene, &mut ()).expect("a solution"));
         });
     }
 }

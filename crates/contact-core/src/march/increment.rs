@@ -68,7 +68,8 @@ impl Status {
 /// Energy of one increment, with mid-increment (trapezoidal) tractions \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
-    /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi).
+    /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi), of the bulk stress on what the
+    /// contact moves, and of what makes the bodies roll.
     pub work: f64,
     /// Change of the elastic energy, 1/2 sum of traction times displacement.
     pub elastic: f64,

@@ -2,6 +2,9 @@
 
 mod awake;
 mod balance;
+mod border;
+mod carried;
+mod coarse;
 mod fields;
 mod halving;
 mod increment;
@@ -18,10 +21,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use self::awake::with_all_awake;
+use self::carried::Carried;
+use self::coarse::coarse_start;
+use self::predict::first_touch;
 use crate::convolution::{CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, SurfaceOperator};
 use crate::error::Error;
 use crate::kernels::influence_coefficients;
-use crate::scene::{KernelMethod, LoadPoint, Plan, Preset, Scene};
+use crate::scene::{History, KernelMethod, LoadPoint, Plan, Preset, Scene};
 use crate::solvers::{
     Arms, CoupledInfo, CoupledParams, CoupledWorkspace, Drive, IncrementProblem, Interface,
     NormalParams, Response, TangentialMethod, TangentialParams, coupled,
@@ -36,11 +42,17 @@ pub struct March {
     h_init: Vec<f64>,
     /// Where the kept cells are.
     arms: Arms,
+    /// Factor of the friction coefficient over the kept cells; empty where it is 1.
+    friction_map: Vec<f64>,
+    /// Friction coefficient of the kept cells in this increment.
+    mu: Vec<f64>,
     op: Box<dyn SurfaceOperator + Send>,
     inverse: Option<CirculantInverse>,
     /// Approach that lengths are measured against \[m\].
     approach: f64,
     state: State,
+    /// The last interface, where the increment does not find it as it was left.
+    carried: Option<Carried>,
     workspace: CoupledWorkspace,
     /// Raised from outside to end the run.
     stop: Arc<AtomicBool>,
@@ -51,6 +63,7 @@ impl March {
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         scene.check()?;
         let plan = Plan::new(scene);
+        plan.check_memory(scene)?;
         let settings = &scene.settings;
         let coefficients = |body| {
             influence_coefficients(
@@ -60,7 +73,10 @@ impl March {
                 settings.skip.equal_layers,
             )
         };
-        let pair = coefficients(&scene.body2)?.pair(&coefficients(&scene.body1)?);
+        let stretch = scene.friction.stretch();
+        let pair = coefficients(&scene.body2)?
+            .pair(&coefficients(&scene.body1)?)
+            .stretched(stretch);
         let inverse = match settings.solver.preset {
             Preset::Fast => Some(CirculantInverse::new(&pair, plan.mirror)),
             Preset::Spinu2020 => None,
@@ -78,7 +94,11 @@ impl March {
         let h_init = plan.mirror.fold(&scene.h_init());
         let cells = h_init.len();
         let extent = scene.grid.extent();
-        let length = 0.5 * extent.0.max(extent.1);
+        let length = if scene.grid.plane_strain {
+            0.5 * extent.0
+        } else {
+            0.5 * extent.0.max(extent.1)
+        };
         let arm = |along: &dyn Fn(f64, f64) -> f64| {
             plan.mirror
                 .fold(&scene.grid.map(|x, y| along(x, y) / length))
@@ -87,18 +107,25 @@ impl March {
             length,
             x: arm(&|x, _| x),
             y: arm(&|_, y| y),
+            stretch,
         };
+        let friction_map = scene.friction.map.as_ref().map_or_else(Vec::new, |map| {
+            plan.mirror.fold(&scene.grid.map(|x, y| map.at(x, y)))
+        });
         let approach = scene.approach();
         Ok(Self {
-            points: scene.path.points(),
+            points: plan.points(scene),
             scene: scene.clone(),
             plan,
             h_init,
             arms,
+            friction_map,
+            mu: vec![scene.friction.mu; cells],
             op,
             inverse,
             approach,
             state: State::unloaded(cells),
+            carried: None,
             workspace: CoupledWorkspace::new(cells),
             stop: Arc::default(),
         })
@@ -135,7 +162,7 @@ impl March {
         &self.plan
     }
 
-    /// The loads at the end of every increment of the path.
+    /// The loads at the end of every increment that is solved.
     pub fn points(&self) -> &[LoadPoint] {
         &self.points
     }
@@ -163,23 +190,35 @@ impl March {
         let transforms = self.op.transforms();
         let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
         let (normal, tangential) = self.drives(point, cell_area);
+        self.carry(point);
+        self.update_friction();
         let pressed = !normal.free[0] || normal.sums[0] > 0.0;
+        let mut coarse_convolutions = 0.0;
         let mut now = if pressed {
+            let touch = (self.state.loads.W <= 0.0).then(|| {
+                let Some(start) = coarse_start(&self.scene, point) else {
+                    return first_touch(&self.h_init, self.approach_at(point));
+                };
+                coarse_convolutions = start.convolutions;
+                self.plan.mirror.fold(&start.p)
+            });
             self.state.predict(
                 point,
-                &self.h_init,
-                self.scene.friction.mu,
+                touch,
+                &self.mu,
                 &normal,
-                self.approach_at(point),
                 self.scene.settings.solver.preset,
             )
         } else {
             Interface::unloaded(self.h_init.len())
         };
+        // As March::before, for the sake of the workspace borrowed beside it.
+        let carried = self.carried.as_ref();
+        let before = carried.map_or(&self.state.interface, Carried::interface);
         let problem = IncrementProblem {
             h_init: &self.h_init,
-            u_ref: [&self.state.interface.u[0], &self.state.interface.u[1]],
-            mu: self.scene.friction.mu,
+            u_ref: [&before.u[0], &before.u[1]],
+            mu: &self.mu,
             arms: &self.arms,
             normal,
             tangential,
@@ -227,7 +266,8 @@ impl March {
         }
         self.check_border(&now, index, point)?;
         let transforms = self.op.transforms() - transforms;
-        Ok(self.account(point, now, &info, transforms))
+        let convolutions = transforms as f64 / 6.0 + coarse_convolutions;
+        Ok(self.account(point, now, &info, convolutions))
     }
 
     /// What drives the motions across the plane, from the unloaded state, and those in it, in this
@@ -239,15 +279,14 @@ impl March {
         let drive = |of: [usize; 3], from: [f64; 6]| {
             let mut drive = Drive::default();
             for (k, &load) in of.iter().enumerate() {
-                let turns = matches!(load, 1 | 2 | 5);
-                let arm = if turns { self.arms.length } else { 1.0 };
+                let unit = self.unit(load);
                 let odd = mirrored && matches!(load, 1 | 4 | 5);
                 match given[load] {
                     _ if odd => {}
-                    Some(motion) => drive.given[k] = (motion - from[load]) * arm,
+                    Some(motion) => drive.given[k] = (motion - from[load]) * unit,
                     None => {
                         drive.free[k] = true;
-                        drive.sums[k] = forces[load] / (cell_area * arm);
+                        drive.sums[k] = forces[load] / (cell_area * unit);
                     }
                 }
             }
@@ -256,33 +295,42 @@ impl March {
         (drive([0, 1, 2], [0.0; 6]), drive([3, 4, 5], before))
     }
 
+    /// What a motion of [`MOTIONS`](crate::scene::MOTIONS) is multiplied by, and its load divided by,
+    /// for the solvers.
+    pub(super) fn unit(&self, k: usize) -> f64 {
+        match k {
+            1 | 2 | 5 => self.arms.length,
+            4 => self.arms.stretch,
+            _ => 1.0,
+        }
+    }
+
+    /// The friction coefficient of each cell after what it has been through.
+    fn update_friction(&mut self) {
+        for n in 0..self.mu.len() {
+            let (friction, state) = (&self.scene.friction, &self.state);
+            let slipped = self.before().slip[n];
+            let mu = friction.kinetic.filter(|_| slipped).unwrap_or(friction.mu);
+            let map = self.friction_map.get(n).copied().unwrap_or(1.0);
+            let history = friction.history.as_ref().map_or(1.0, |history| {
+                history.factor(match history.of {
+                    History::Increment => state.increments as f64,
+                    History::Slip => self.origin(n).map_or(0.0, |n| state.slip_length[n]),
+                    History::Dissipated => self.origin(n).map_or(0.0, |n| state.dissipated[n]),
+                })
+            });
+            self.mu[n] = if map * history > 0.0 {
+                mu * map * history
+            } else {
+                0.0
+            };
+        }
+    }
+
     /// Hertz's approach at the loads of a point \[m\], for the first guess.
     fn approach_at(&self, point: &LoadPoint) -> f64 {
         point.loads.given.delta_z.unwrap_or_else(|| {
             self.approach * (point.loads.W / self.scene.path.W_max()).powf(2.0 / 3.0)
-        })
-    }
-
-    /// Fails if a cell at the border of the grid is in contact.
-    fn check_border(&self, now: &Interface, index: usize, point: &LoadPoint) -> Result<(), Error> {
-        let grid = &self.scene.grid;
-        let rows = self.plan.mirror.rows(grid.ny);
-        let touches = |n: usize| {
-            let (i, j) = (n / rows, n % rows);
-            let outer_row = j + 1 == rows || (j == 0 && rows == grid.ny);
-            (i == 0 || i + 1 == grid.nx || outer_row) && now.p[n] > 0.0
-        };
-        if !(0..now.p.len()).any(touches) {
-            return Ok(());
-        }
-        let extent = (grid.nx as f64 * grid.dx, grid.ny as f64 * grid.dy);
-        let hertz = self.scene.hertz().map_or(0.0, |h| 2.6 * h.a);
-        Err(Error::OffGrid {
-            increment: index,
-            W: point.loads.W,
-            extent_x: extent.0,
-            extent_y: extent.1,
-            needed: hertz.max(1.3 * extent.0.max(extent.1)),
         })
     }
 
@@ -298,6 +346,7 @@ impl March {
             phi_y,
             ..
         } = s.motion;
+        let stretch = self.arms.stretch;
         let rigid = self.scene.grid.map(|x, y| delta_z + y * phi_x - x * phi_y);
         let p = unfold(&now.p, Half::Even);
         let u_z = unfold(&now.u_z, Half::Even);
@@ -310,11 +359,11 @@ impl March {
         Fields {
             gap: u_z.clone() + self.scene.h_init() - rigid,
             q_x: unfold(&now.q[0], Half::Even),
-            q_y: unfold(&now.q[1], Half::Odd),
+            q_y: unfold(&now.q[1], Half::Odd) * stretch,
             u_x: unfold(&now.u[0], Half::Even),
-            u_y: unfold(&now.u[1], Half::Odd),
+            u_y: unfold(&now.u[1], Half::Odd) / stretch,
             slip_x: unfold(&s.slip[0], Half::Even),
-            slip_y: unfold(&s.slip[1], Half::Odd),
+            slip_y: unfold(&s.slip[1], Half::Odd) / stretch,
             dissipated: unfold(&s.dissipated, Half::Even),
             p,
             u_z,
@@ -351,7 +400,7 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
                 TangentialMethod::Newton
             },
             // What the shear misses acts on the gap, however large mu is.
-            tolerance: TANGENTIAL_SHARE * scene.friction.mu.min(1.0) * gap,
+            tolerance: TANGENTIAL_SHARE * scene.friction.scale().min(1.0) * gap,
             max_iterations: solver.max_iterations,
             forcing: 0.2,
             max_passes: 12,

@@ -112,7 +112,7 @@ fn spread(
 ) -> [f64; 3] {
     let arms = problem.arms;
     let [count, x, y, r2] = sum_cells(problem.bound.len(), |n| {
-        let (x, y) = (arms.x[n], arms.y[n]);
+        let (x, y) = (arms.turn_x(n), arms.y[n]);
         if inside(n) {
             [1.0, x, y, x * x + y * y]
         } else {
@@ -237,7 +237,7 @@ fn excess(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], shift: [f64; 3])
             [0.0, 0.0]
         };
         let across = [1.0 - e[0] * e[0], -e[0] * e[1], 1.0 - e[1] * e[1]];
-        let (x, y) = (problem.arms.x[n], problem.arms.y[n]);
+        let (x, y) = (problem.arms.turn_x(n), problem.arms.y[n]);
         let [a, b, c] = problem.arms.sums_in_plane(v.map(|v| cut * v), n);
         let [d, e, f, g, h, i] = modes(x, y, across.map(|a| cut * a));
         let [j, k, l, m, n, o] = modes(x, y, [cut, 0.0, cut]);

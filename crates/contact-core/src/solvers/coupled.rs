@@ -73,8 +73,8 @@ pub struct IncrementProblem<'a> {
     pub h_init: &'a [f64],
     /// Tangential displacements of the last increment, the reference of the slip \[m\].
     pub u_ref: [&'a [f64]; 2],
-    /// Friction coefficient.
-    pub mu: f64,
+    /// Friction coefficient of each cell.
+    pub mu: &'a [f64],
     /// Where the cells are.
     pub arms: &'a Arms,
     /// What drives approach and tilts, from the unloaded state.
@@ -168,7 +168,7 @@ pub fn coupled(
     ws: &mut CoupledWorkspace,
     params: &CoupledParams,
 ) -> Result<CoupledInfo, SolverError> {
-    let friction = problem.mu > 0.0;
+    let friction = problem.mu.iter().any(|&mu| mu > 0.0);
     let coupled = response.op.is_coupled() && friction;
     let mut info = CoupledInfo::default();
     let mut slides = make_admissible(problem, now, ws, friction);
@@ -278,8 +278,8 @@ fn make_admissible(
     if !friction {
         return Sliding::default();
     }
-    for (bound, p) in ws.bound.iter_mut().zip(&now.p) {
-        *bound = problem.mu * p;
+    for ((bound, &mu), &p) in ws.bound.iter_mut().zip(problem.mu).zip(&now.p) {
+        *bound = friction_bound(mu, p);
     }
     let slip = problem.slip(&ws.bound);
     let slides = sliding(&slip);
@@ -297,6 +297,11 @@ fn make_admissible(
         admissible(&slip, &mut [q_x, q_y], &mut now.slip, &mut ws.change);
     }
     slides
+}
+
+/// Largest shear under the pressure p \[Pa\].
+pub(crate) fn friction_bound(mu: f64, p: f64) -> f64 {
+    if p > 0.0 { mu * p } else { 0.0 }
 }
 
 /// u_t after the pressure changed from `p_before` and the shear from `q_before`.

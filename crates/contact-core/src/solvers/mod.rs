@@ -24,6 +24,7 @@ mod shear_gradient;
 mod tangential;
 mod vector;
 
+pub(crate) use coupled::friction_bound;
 pub use coupled::{
     CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, Interface, coupled,
 };

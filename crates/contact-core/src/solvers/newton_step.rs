@@ -95,7 +95,7 @@ impl NewtonStep {
         t.arm_x.clear();
         t.arm_y.clear();
         if problem.drive.free[2] {
-            t.arm_x.extend_from_slice(&problem.arms.x);
+            t.arm_x.extend((0..count).map(|i| problem.arms.turn_x(i)));
             t.arm_y.extend_from_slice(&problem.arms.y);
         }
         for pair in [

@@ -1,14 +1,13 @@
 //! Shapes in a scene file: a table of one key, or of several that are added.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use ndarray::Array2;
 use toml::Value;
 
+use super::files::Files;
 use super::section::{Fault, Section, pair};
-use crate::error::Error;
-use crate::scene::{HeightMap, Rough, Shape};
+use crate::scene::{Rough, Shape, SurfaceMap};
 
 const SHAPES: [&str; 11] = [
     "sphere",
@@ -24,21 +23,21 @@ const SHAPES: [&str; 11] = [
     "sum",
 ];
 
-/// The shape of a body; `folder` is where relative paths of files start.
-pub(super) fn shape(body: &Section<'_>, folder: &Path) -> Result<Shape, Fault> {
+/// The shape of a body; `files` are those that it may name.
+pub(super) fn shape(body: &Section<'_>, files: &Files<'_>) -> Result<Shape, Fault> {
     let what = "\"flat\" or a table such as { sphere = { R = radius in m } }";
     let value = body.need("shape", what)?;
-    any(&body.path("shape"), value, folder, what)
+    any(&body.path("shape"), value, files, what)
 }
 
-fn any(key: &str, value: &Value, folder: &Path, what: &str) -> Result<Shape, Fault> {
+fn any(key: &str, value: &Value, files: &Files<'_>, what: &str) -> Result<Shape, Fault> {
     match value {
         Value::String(word) if word == "flat" => Ok(Shape::Flat),
         Value::Table(table) if !table.is_empty() => {
             let shapes = Section::from_value(key.to_owned(), value, &SHAPES)?;
             let mut parts = Vec::with_capacity(table.len());
             for name in table.keys() {
-                parts.push(one(&shapes, name, folder)?);
+                parts.push(one(&shapes, name, files)?);
             }
             // One part stands for itself.
             Ok(if parts.len() == 1 {
@@ -52,7 +51,7 @@ fn any(key: &str, value: &Value, folder: &Path, what: &str) -> Result<Shape, Fau
 }
 
 /// The shape under one key of the table.
-fn one(shapes: &Section<'_>, name: &str, folder: &Path) -> Result<Shape, Fault> {
+fn one(shapes: &Section<'_>, name: &str, files: &Files<'_>) -> Result<Shape, Fault> {
     let numbers = |keys: &[&str]| shapes.need_section(name, keys);
     let length = "a length in m";
     let slope = "the slope of the flank";
@@ -125,12 +124,12 @@ fn one(shapes: &Section<'_>, name: &str, folder: &Path) -> Result<Shape, Fault> 
                 })?,
             })
         }
-        "height_map" => Shape::HeightMap(height_map(&numbers(&["file", "z", "spacing"])?, folder)?),
-        _ => sum(shapes, folder)?,
+        "height_map" => Shape::HeightMap(surface_map(&numbers(&["file", "z", "spacing"])?, files)?),
+        _ => sum(shapes, files)?,
     })
 }
 
-fn sum(shapes: &Section<'_>, folder: &Path) -> Result<Shape, Fault> {
+fn sum(shapes: &Section<'_>, files: &Files<'_>) -> Result<Shape, Fault> {
     let what = "a list of shapes";
     let (key, value) = (shapes.path("sum"), shapes.need("sum", what)?);
     let parts = value
@@ -138,28 +137,29 @@ fn sum(shapes: &Section<'_>, folder: &Path) -> Result<Shape, Fault> {
         .ok_or_else(|| Fault::value(&key, value, what))?;
     let parts = parts.iter().enumerate();
     parts
-        .map(|(i, part)| any(&format!("{key}[{i}]"), part, folder, "a shape"))
+        .map(|(i, part)| any(&format!("{key}[{i}]"), part, files, "a shape"))
         .collect::<Result<_, _>>()
         .map(Shape::Sum)
 }
 
-/// Heights from a file, or in the scene itself: a list along x of lists along y.
-fn height_map(section: &Section<'_>, folder: &Path) -> Result<HeightMap, Fault> {
+/// Numbers from a file, or in the scene itself: a list along x of lists along y.
+pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<SurfaceMap, Fault> {
     let spacing = section.need("spacing", "the distance of the points in m, or two")?;
     let spacing = pair(&section.path("spacing"), spacing, |key, value| {
         super::measure::number(key, value, &[])
     })?;
     if section.get("z").is_none() {
-        let what = "the name of a .npy or .csv file with heights in m";
+        let what = "the name of a .npy or .csv file";
         let file = section.need("file", what)?;
         let key = section.path("file");
         let name = file
             .as_str()
             .ok_or_else(|| Fault::value(&key, file, what))?;
-        return HeightMap::from_file(&folder.join(name), spacing)
-            .map_err(|e: Error| Fault::new(&key, format!("{key}: {e}")));
+        let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
+        let path = files.find(name).map_err(|e| wrong(&e))?;
+        return SurfaceMap::from_file(&path, spacing).map_err(|e| wrong(&e));
     }
-    let what = "a list along x of lists along y of heights in m, all of one length";
+    let what = "a list along x of lists along y of numbers, all of one length";
     let (key, value) = (section.path("z"), section.need("z", what)?);
     let wrong = || Fault::new(&key, format!("{key}: must be {what}"));
     let rows = value.as_array().ok_or_else(wrong)?;
@@ -170,9 +170,9 @@ fn height_map(section: &Section<'_>, folder: &Path) -> Result<HeightMap, Fault> 
         }
     }
     let shape = (rows.len(), heights.len() / rows.len().max(1));
-    let z = Array2::from_shape_vec(shape, heights).map_err(|_| wrong())?;
-    Ok(HeightMap {
-        z: Arc::new(z),
+    let values = Array2::from_shape_vec(shape, heights).map_err(|_| wrong())?;
+    Ok(SurfaceMap {
+        values: Arc::new(values),
         spacing,
     })
 }
@@ -185,12 +185,7 @@ pub(super) fn text(shape: &Shape) -> String {
             let parts: Vec<_> = parts.iter().map(text).collect();
             return format!("{{ sum = [{}] }}", parts.join(", "));
         }
-        Shape::HeightMap(map) => {
-            let rows = map.z.rows().into_iter();
-            let rows: Vec<_> = rows.map(|row| format!("{:?}", row.to_vec())).collect();
-            let (x, y) = map.spacing;
-            format!("spacing = [{x:?}, {y:?}], z = [{}]", rows.join(", "))
-        }
+        Shape::HeightMap(map) => map_text(map),
         Shape::Rough(rough) => format!(
             "rms = {:?}, hurst = {:?}, longest = {:?}, shortest = {:?}, seed = {}",
             rough.rms, rough.hurst, rough.longest, rough.shortest, rough.seed
@@ -205,4 +200,12 @@ pub(super) fn text(shape: &Shape) -> String {
         }
     };
     format!("{{ {} = {{ {fields} }} }}", shape.word())
+}
+
+/// The entries of a surface map.
+pub(super) fn map_text(map: &SurfaceMap) -> String {
+    let rows = map.values.rows().into_iter();
+    let rows: Vec<_> = rows.map(|row| format!("{:?}", row.to_vec())).collect();
+    let (x, y) = map.spacing;
+    format!("spacing = [{x:?}, {y:?}], z = [{}]", rows.join(", "))
 }
