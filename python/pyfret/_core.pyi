@@ -995,6 +995,9 @@ class Settings:
     tolerance : float, optional
         Relative tolerance of the solution (default 1e-6): gap error in the contact over the Hertz
         approach, tangential misfit over mu times it, change of the tractions in the last pass.
+    entering : bool, optional
+        Reckon the slip of cells that come into contact from their entry (default True): one more
+        solution in increments in which the contact grows, and far fewer increments.
     max_alternations : int, optional
         Most passes of the intermediate loop per increment (default 60).
     max_iterations : int, optional
@@ -1015,6 +1018,7 @@ class Settings:
         *,
         preset: Preset | None = None,
         tolerance: float | None = None,
+        entering: bool | None = None,
         max_alternations: int | None = None,
         max_iterations: int | None = None,
         kernel: _KernelMethod | None = None,
@@ -1028,6 +1032,9 @@ class Settings:
     @property
     def tolerance(self) -> float:
         """Relative tolerance of the solution."""
+    @property
+    def entering(self) -> bool:
+        """Whether slip is reckoned from the entry of a cell into the contact."""
     @property
     def max_alternations(self) -> int:
         """Most passes of the intermediate loop per increment."""

@@ -132,17 +132,19 @@ impl March {
             let shift = self.arms.in_plane(shift, n);
             let stretch = self.stretch_at(n);
             let wider = self.gap_rolled(n);
+            let entered = self.entered_at(n);
             let mut elastic = p * du_z;
             let (mut dissipated, mut late, mut of_bulk) = (0.0, 0.0, 0.0);
+            let mut opening = -p * (du_z + wider - self.arms.across(approach, n));
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
                 let du = now.u[c][n] - last.u[c][n];
-                elastic += q * (du - stretch[c]);
+                elastic += q * (du - stretch[c] + entered[c]);
+                opening -= q * entered[c];
                 dissipated -= q * (du - shift[c]);
                 late -= (now.q[c][n] - q) * (du - shift[c]);
                 of_bulk -= q * stretch[c];
             }
-            let opening = -p * (du_z + wider - self.arms.across(approach, n));
             [elastic, dissipated, late, opening, of_bulk, -p * wider]
         });
         let [elastic, dissipated, late, opening, of_bulk, of_rolling] = sums;

@@ -5,6 +5,7 @@ mod balance;
 mod border;
 mod carried;
 mod coarse;
+mod entering;
 mod fields;
 mod halving;
 mod increment;
@@ -188,13 +189,12 @@ impl March {
     fn increment(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let index = self.state.increments + 1;
         let transforms = self.op.transforms();
-        let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
-        let (normal, tangential) = self.drives(point, cell_area);
+        let (normal, tangential) = self.drives(point);
         self.carry(point);
         self.update_friction();
         let pressed = !normal.free[0] || normal.sums[0] > 0.0;
         let mut coarse_convolutions = 0.0;
-        let mut now = if pressed {
+        let start = if pressed {
             let touch = (self.state.loads.W <= 0.0).then(|| {
                 let Some(start) = coarse_start(&self.scene, point) else {
                     return first_touch(&self.h_init, self.approach_at(point));
@@ -212,51 +212,15 @@ impl March {
         } else {
             Interface::unloaded(self.h_init.len())
         };
-        // As March::before, for the sake of the workspace borrowed beside it.
-        let carried = self.carried.as_ref();
-        let before = carried.map_or(&self.state.interface, Carried::interface);
-        let problem = IncrementProblem {
-            h_init: &self.h_init,
-            u_ref: [&before.u[0], &before.u[1]],
-            mu: &self.mu,
-            arms: &self.arms,
-            normal,
-            tangential,
-        };
-        let mut response = Response {
-            op: &mut *self.op,
-            inverse: self.inverse.as_mut(),
-            stop: Some(&self.stop),
-        };
-        let info = if pressed {
-            let params = params(&self.scene, self.approach);
-            coupled(
-                &mut response,
-                &problem,
-                &mut now,
-                &mut self.workspace,
-                &params,
-            )
-            .map_err(|e| {
-                if self.stop.load(Ordering::Relaxed) {
-                    return Error::Interrupted {
-                        increment: index - 1,
-                    };
-                }
-                Error::NotConverged {
-                    increment: index,
-                    solver: e.solver,
-                    residual: e.residual,
-                    tolerance: e.tolerance,
-                    iterations: e.iterations,
-                }
-            })?
+        let (now, info) = if pressed {
+            self.solve_entering(point, start)?
         } else {
-            CoupledInfo {
+            let info = CoupledInfo {
                 approach: normal.given,
                 shift: tangential.given,
                 ..CoupledInfo::default()
-            }
+            };
+            (start, info)
         };
         if info.exceeds_friction() {
             return Err(Error::BeyondFriction {
@@ -270,9 +234,62 @@ impl March {
         Ok(self.account(point, now, &info, convolutions))
     }
 
+    /// Solves the increment from a start, on the cells of the last contact alone if it is `kept`.
+    fn solve_pressed(
+        &mut self,
+        mut now: Interface,
+        (normal, tangential): (Drive, Drive),
+        kept: bool,
+    ) -> Result<(Interface, CoupledInfo), Error> {
+        let apart;
+        let h_init = if kept {
+            let far = 1e3 * (self.approach + self.h_init.iter().fold(0.0, |m, h| h.abs().max(m)));
+            let p = &self.state.interface.p;
+            let cells = self.h_init.iter().zip(p);
+            apart = cells
+                .map(|(h, &p)| if p > 0.0 { *h } else { h + far })
+                .collect();
+            &apart
+        } else {
+            &self.h_init
+        };
+        // As March::before, for the sake of the workspace borrowed beside it.
+        let carried = self.carried.as_ref();
+        let before = carried.map_or(&self.state.interface, Carried::interface);
+        let problem = IncrementProblem {
+            h_init,
+            u_ref: [&before.u[0], &before.u[1]],
+            mu: &self.mu,
+            arms: &self.arms,
+            normal,
+            tangential,
+        };
+        let mut response = Response {
+            op: &mut *self.op,
+            inverse: self.inverse.as_mut(),
+            stop: Some(&self.stop),
+        };
+        let params = params(&self.scene, self.approach);
+        let ws = &mut self.workspace;
+        match coupled(&mut response, &problem, &mut now, ws, &params) {
+            Ok(info) => Ok((now, info)),
+            Err(_) if self.stop.load(Ordering::Relaxed) => Err(Error::Interrupted {
+                increment: self.state.increments,
+            }),
+            Err(e) => Err(Error::NotConverged {
+                increment: self.state.increments + 1,
+                solver: e.solver,
+                residual: e.residual,
+                tolerance: e.tolerance,
+                iterations: e.iterations,
+            }),
+        }
+    }
+
     /// What drives the motions across the plane, from the unloaded state, and those in it, in this
     /// increment. By symmetry the half of a mirrored scene has no motion that turns it.
-    fn drives(&self, point: &LoadPoint, cell_area: f64) -> (Drive, Drive) {
+    fn drives(&self, point: &LoadPoint) -> (Drive, Drive) {
+        let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
         let (forces, given) = (point.loads.forces(), point.loads.given.motions());
         let before = self.state.motion.motions();
         let mirrored = self.plan.mirror != Mirror::None;

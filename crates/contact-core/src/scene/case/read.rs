@@ -324,7 +324,13 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
             tolerance: section.number_or("tolerance", default.tolerance, &[])?,
         };
     }
-    let keys = ["preset", "tolerance", "max_alternations", "max_iterations"];
+    let keys = [
+        "preset",
+        "tolerance",
+        "entering",
+        "max_alternations",
+        "max_iterations",
+    ];
     if let Some(section) = root.section("solver", &keys)? {
         let default = settings.solver;
         settings.solver = SolverSettings {
@@ -333,6 +339,7 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
                 &[("fast", Preset::Fast), ("spinu2020", Preset::Spinu2020)],
             )?,
             tolerance: section.number_or("tolerance", default.tolerance, &[])?,
+            entering: section.flag_or("entering", default.entering)?,
             max_alternations: section.count_or("max_alternations", 1, default.max_alternations)?,
             max_iterations: section.count_or("max_iterations", 1, default.max_iterations)?,
         };
