@@ -49,7 +49,7 @@ format: $(VENV)/.tools ## format all sources
 	$(BIN)/ruff format
 
 bench: ## criterion benches of every stage
-	cargo bench --workspace --locked
+	cargo bench --locked --package contact-core --bench '*'
 
 bench-kernels: setup ## error against time of every kernel conversion: out/kernel_methods*
 	mkdir -p out
