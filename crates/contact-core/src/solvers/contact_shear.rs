@@ -26,7 +26,7 @@ impl ContactShear {
         problem: &TangentialProblem<'_>,
         shear: &Shear<'_>,
     ) {
-        self.arms.length = problem.arms.length;
+        (self.arms.length, self.arms.stretch) = (problem.arms.length, problem.arms.stretch);
         let grid = [problem.bound, &problem.arms.x, &problem.arms.y];
         let packed = [&mut self.bound, &mut self.arms.x, &mut self.arms.y];
         for (packed, grid) in packed.into_iter().zip(grid) {
