@@ -85,8 +85,10 @@ def test_a_line_contact_is_that_of_hertz() -> None:
         mu=MU,
         grid=fret.Grid.strip(extent=2.4 * line.a, n=200),
     )
-    path = fret.LoadPath.start().normal(1e5, increments=1).force(
-        T_x=0.5 * MU * 1e5, sigma_B=2e7, increments=4
+    path = (
+        fret.LoadPath.start()
+        .normal(1e5, increments=1)
+        .force(T_x=0.5 * MU * 1e5, sigma_B=2e7, increments=4)
     )
     end = fret.solve(scene, path, progress=False).at(-1)
     assert scene.grid.plane_strain
