@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "RIGID",
     "Body",
     "Branch",
     "CattaneoMindlin",
@@ -28,7 +29,6 @@ __all__ = [
     "FrequencyDomain",
     "Grid",
     "Hankel",
-    "SurfaceMap",
     "Hertz",
     "HertzEllipse",
     "InvalidSceneError",
@@ -41,7 +41,6 @@ __all__ = [
     "OffGridError",
     "Preset",
     "Profile",
-    "RIGID",
     "Rough",
     "Scene",
     "Settings",
@@ -51,6 +50,7 @@ __all__ = [
     "Sphere",
     "StoreError",
     "Sum",
+    "SurfaceMap",
     "SurfaceOperator",
     "Waviness",
     "Wedge",

@@ -131,7 +131,9 @@ class Stress:
     def _along(self) -> str:
         dims = self.dataset[COMPONENTS[0]].dims
         if len(dims) != 2:
-            raise ValueError("this is known on a section: give stress(z, x=...) or stress(z, y=...)")
+            raise ValueError(
+                "this is known on a section: give stress(z, x=...) or stress(z, y=...)"
+            )
         return str(dims[1])
 
     def __repr__(self) -> str:

@@ -3,20 +3,25 @@
 use super::carried::Carried;
 use super::{Energy, Increment, March, Motion, Residuals, State, Status, Work};
 use crate::convolution::Mirror;
+use crate::error::Error;
 use crate::scene::{Given, LoadPoint, Loads};
 use crate::solvers::{
     CoupledInfo, Interface, friction_bound, largest, set_cells, set_pairs, size, sum_cells,
 };
 
+/// What sums in another order may differ by.
+const ROUNDING: f64 = 1e-9;
+
 impl March {
-    /// Draws up the accounts of a solved increment and makes it the present state.
+    /// Draws up the accounts of a solved increment and makes it the present state; fails if the
+    /// equations do not hold as the tolerance says.
     pub(super) fn account(
         &mut self,
         point: &LoadPoint,
         now: Interface,
         info: &CoupledInfo,
         convolutions: f64,
-    ) -> Increment {
+    ) -> Result<Increment, Error> {
         let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
         let last = &self.state;
         let motion = self.motion(point, info);
@@ -55,11 +60,43 @@ impl March {
                 parts: 1,
             },
         };
+        self.check_residuals(&increment, (contact, slipping))?;
         self.keep(point, now, motion, increment.energy.work);
         if self.state.work != 0.0 {
             increment.residuals.energy = energy.imbalance() / self.state.work;
         }
-        increment
+        Ok(increment)
+    }
+
+    /// Whatever a solver took for solved: gap and overlap, and the slip that should not be over the
+    /// `contact` cells, of which some slip, are within the tolerance, or the increment is not.
+    fn check_residuals(
+        &self,
+        increment: &Increment,
+        (contact, slipping): (usize, usize),
+    ) -> Result<(), Error> {
+        let r = &increment.residuals;
+        let mu = self.scene.friction.scale();
+        let slips = if increment.status == Status::GrossSlip {
+            // A body that slides may have any shift beyond the incipient one.
+            0.0
+        } else {
+            let stick = r.stick.powi(2) * (contact - slipping) as f64;
+            let direction = r.direction.powi(2) * slipping as f64;
+            mu.max(1.0) * ((stick + direction) / contact.max(1) as f64).sqrt()
+        };
+        let worst = r.gap.max(r.penetration).max(slips);
+        let tolerance = self.scene.settings.solver.tolerance;
+        if worst <= tolerance * (1.0 + ROUNDING) {
+            return Ok(());
+        }
+        Err(Error::NotConverged {
+            increment: increment.index,
+            solver: "coupled",
+            residual: worst * self.approach,
+            tolerance: tolerance * self.approach,
+            iterations: increment.work.alternations,
+        })
     }
 
     /// The rigid motion at the end of the increment; what is given is kept as it was said.
@@ -201,20 +238,21 @@ impl March {
             }
         });
         let p_max = largest(cells, |n| now.p[n]);
-        let penetration = largest(cells, |n| if now.p[n] > 0.0 { 0.0 } else { -gap(n) });
         let excess = |n: usize| size([now.q[0][n], now.q[1][n]]) - bound(n);
         let mut r = Residuals {
             coulomb: largest(cells, excess),
-            penetration,
             ..Residuals::default()
         };
         let rms = |squares: f64, count: f64| (squares / count.max(1.0)).sqrt();
-        r.gap = rms(gap_squares, contact) / self.approach;
-        r.penetration /= self.approach;
+        if contact > 0.0 {
+            r.gap = rms(gap_squares, contact) / self.approach;
+            let overlap = |n: usize| if now.p[n] > 0.0 { 0.0 } else { -gap(n) };
+            r.penetration = largest(cells, overlap) / self.approach;
+        }
         if slipped > 0.0 {
             r.angle = (direction / slipped).sqrt().min(1.0).asin();
         }
-        if mu > 0.0 {
+        if mu > 0.0 && contact > 0.0 {
             r.stick = rms(stick, contact - slipping) / (mu * self.approach);
             r.direction = rms(direction, slipping) / (mu * self.approach);
         }

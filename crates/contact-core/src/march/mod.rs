@@ -25,7 +25,9 @@ use self::awake::with_all_awake;
 use self::carried::Carried;
 use self::coarse::coarse_start;
 use self::predict::first_touch;
-use crate::convolution::{CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, SurfaceOperator};
+use crate::convolution::{
+    CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, PARALLEL_FROM, SurfaceOperator,
+};
 use crate::error::Error;
 use crate::kernels::influence_coefficients;
 use crate::scene::{History, KernelMethod, LoadPoint, Plan, Preset, Scene};
@@ -182,7 +184,11 @@ impl March {
         let end = &self.scene.path.branches[point.branch].to;
         let state = &self.state;
         let point = point.resolved(end, state.loads.forces(), state.motion.motions());
-        Some(with_all_awake(|| self.reach(&point)))
+        Some(if self.h_init.len() < PARALLEL_FROM {
+            self.reach(&point)
+        } else {
+            with_all_awake(|| self.reach(&point))
+        })
     }
 
     /// One increment: predict, solve, account, keep.
@@ -231,7 +237,7 @@ impl March {
         self.check_border(&now, index, point)?;
         let transforms = self.op.transforms() - transforms;
         let convolutions = transforms as f64 / 6.0 + coarse_convolutions;
-        Ok(self.account(point, now, &info, convolutions))
+        self.account(point, now, &info, convolutions)
     }
 
     /// Solves the increment from a start, on the cells of the last contact alone if it is `kept`.

@@ -58,6 +58,7 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     scene.body2.check("body2")?;
     scene.friction.check(None)?;
     scene.path.check(&scene.friction)?;
+    scene.check_magnitudes()?;
 
     let hertz = scene.hertz();
     let a_H = Measure::a_H(hertz.map(|h| h.a));
