@@ -75,7 +75,7 @@ def loosest(rows: Sequence[Row], program: str) -> float:
     for row in mine:
         if "missing" in row:
             raise Refused(row["missing"])
-    met = [row["tolerance"] for row in mine if row["residual"] <= RESIDUAL]
+    met: list[float] = [row["tolerance"] for row in mine if row["residual"] <= RESIDUAL]
     if not met:
         raise Refused(f"no tolerance leads to the residual {RESIDUAL:.0e}")
     return max(met)

@@ -61,6 +61,7 @@ def side_by_side(rows: Sequence[Row]) -> str:
                 *([f"{100 * row['error_a']:+.3f} %"] if hertz else []),
                 seconds(row["set_up_s"]),
                 seconds(row["solve_s"]),
+                seconds(row["processor_s"]),
                 ratio,
                 of_whole,
                 f"{(row['memory'] - row['memory_empty']) / row['cells'] ** 2:.0f} B",
@@ -70,7 +71,15 @@ def side_by_side(rows: Sequence[Row]) -> str:
     errors = ["p (L2)", "p0", "a"] if hertz else []
     heads = [
         *("cells", "program", "threads", "iterations", "residual", *errors),
-        *("set-up", "solve", "solve, ratio", "both, ratio", "memory per cell", "start-up"),
+        *(
+            "set-up",
+            "solve",
+            "its CPU time",
+            "solve, ratio",
+            "both, ratio",
+            "memory per cell",
+            "start-up",
+        ),
     ]
     return table(heads, lines)
 
