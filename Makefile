@@ -13,7 +13,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test kill check format bench bench-kernels clean
+.PHONY: help setup demo test kill check format bench bench-kernels bench-peers clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -55,6 +55,9 @@ bench-kernels: setup ## error against time of every kernel conversion: out/kerne
 		scenes/coated_fretting.toml grid.n=128 > out/kernel_methods_run.csv
 	cat out/kernel_methods.csv out/kernel_methods_run.csv
 	$(PY) examples/kernel_methods.py --out out
+
+bench-peers: setup ## side by side with public programs and FFTW: out/peers*
+	$(PY) benches/peers.py --out out
 
 clean: ## remove what was built, results excepted
 	rm -rf $(VENV) target python/pyfret/_core*.so

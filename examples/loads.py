@@ -142,14 +142,15 @@ def ellipse(file: Path, n: int) -> str:
     with fret.plot.style():
         figure, axes = plt.subplots(1, 4, figsize=(11, 3.1))
         for ax, ratio in zip(axes, (1.0, 2.8, 11.8, 116.0), strict=True):
-            hertz = fret.reference.hertz_ellipse(R_x=ratio * R, R_y=R, bodies=(CORK, CORK), W=W)
+            hertz = fret.reference.hertz_ellipse(R_x=ratio * R, R_y=R, E_star=CORK.E / 2, W=W)
             d = (2.3 * hertz.a_x / n, 2.3 * hertz.a_y / n)
             scene = fret.Scene(
                 body1=fret.Body(CORK, shape=fret.Ellipsoid(R_x=ratio * R, R_y=R)),
                 body2=fret.Body(CORK),
                 mu=MU,
                 grid=fret.Grid.from_spacing((n, n), d),
-                path=fret.LoadPath.start().normal(W, increments=1)
+                path=fret.LoadPath.start()
+                .normal(W, increments=1)
                 .tangential(0.6 * MU * W, increments=1),
             )
             end = solved(scene).at(2)
@@ -159,7 +160,9 @@ def ellipse(file: Path, n: int) -> str:
             angle = np.linspace(0, 2 * math.pi, 200)
             ax.plot(np.cos(angle), np.sin(angle))
             ax.plot(part * np.cos(angle), part * np.sin(angle))
-            ax.set(aspect="equal", xlabel="$x/a_x$", title=f"$a_x/a_y$ = {hertz.a_x / hertz.a_y:.1f}")
+            ax.set(
+                aspect="equal", xlabel="$x/a_x$", title=f"$a_x/a_y$ = {hertz.a_x / hertz.a_y:.1f}"
+            )
         axes[0].set_ylabel("$y/a_y$")
         figure.tight_layout()
         figure.savefig(file)
@@ -185,7 +188,8 @@ def bulk(file: Path, n: int) -> str:
             q = end.q_x.to_numpy()[:, 0]
             worst = max(worst, float(np.linalg.norm(q - truth) / np.linalg.norm(MU * line.p(x))))
             (drawn,) = shear.plot(
-                x / line.a, truth / (MU * line.p0),
+                x / line.a,
+                truth / (MU * line.p0),
                 label=rf"$\sigma_B = {sigma_B / (MU * line.p0):.1f}\,\mu p_0$",
             )
             shear.plot(x / line.a, q / (MU * line.p0), ".", ms=3, color=drawn.get_color())
@@ -231,7 +235,8 @@ def rolling(file: Path, n: int) -> str:
             at = result.at(moment)
             x = at.p.x.to_numpy()
             shear.plot(
-                x / line.a, at.q_x.to_numpy()[:, 0] / (MU * line.p0),
+                x / line.a,
+                at.q_x.to_numpy()[:, 0] / (MU * line.p0),
                 label=f"rolled {rolled[moment - 1] / line.a:.1f} a",
             )
         for middle, name in ((0.0, "Cattaneo"), (line.a - c, "Carter")):

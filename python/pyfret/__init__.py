@@ -68,6 +68,7 @@ if TYPE_CHECKING:
     from pyfret import plot
 
 __all__ = [
+    "RIGID",
     "Body",
     "Branch",
     "Coating",
@@ -93,7 +94,6 @@ __all__ = [
     "PerRange",
     "Preset",
     "Profile",
-    "RIGID",
     "Result",
     "Rough",
     "Scene",

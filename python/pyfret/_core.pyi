@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "RIGID",
     "Body",
     "Branch",
     "CattaneoMindlin",
@@ -28,7 +29,6 @@ __all__ = [
     "FrequencyDomain",
     "Grid",
     "Hankel",
-    "SurfaceMap",
     "Hertz",
     "HertzEllipse",
     "InvalidSceneError",
@@ -41,7 +41,6 @@ __all__ = [
     "OffGridError",
     "Preset",
     "Profile",
-    "RIGID",
     "Rough",
     "Scene",
     "Settings",
@@ -51,6 +50,7 @@ __all__ = [
     "Sphere",
     "StoreError",
     "Sum",
+    "SurfaceMap",
     "SurfaceOperator",
     "Waviness",
     "Wedge",
@@ -954,10 +954,18 @@ class Skip:
         Leave out the normal-tangential kernels where they vanish (default True).
     mirror : bool
         Solve on half of a mirror-symmetric scene (default True).
+    path : bool
+        Leave out the increments of branches whose end does not depend on the way there
+        (default True); they are solved if their fields are to be kept.
     """
 
     def __new__(
-        cls, *, equal_layers: bool = True, coupling: bool = True, mirror: bool = True
+        cls,
+        *,
+        equal_layers: bool = True,
+        coupling: bool = True,
+        mirror: bool = True,
+        path: bool = True,
     ) -> Skip: ...
     @property
     def equal_layers(self) -> bool:
@@ -968,6 +976,9 @@ class Skip:
     @property
     def mirror(self) -> bool:
         """Whether a mirror-symmetric scene is solved on its half."""
+    @property
+    def path(self) -> bool:
+        """Whether increments are left out where the way does not count."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -1070,7 +1081,9 @@ class Scene:
         title: str = ...,
     ) -> Scene: ...
     @staticmethod
-    def from_file(path: str | PathLike[str], *, set: Sequence[str] = ...) -> Scene:
+    def from_file(
+        path: str | PathLike[str], *, set: Sequence[str] = ..., allow_outside: bool = False
+    ) -> Scene:
         """Read a scene file.
 
         Parameters
@@ -1080,6 +1093,8 @@ class Scene:
         set : sequence of str, optional
             Values to exchange, each ``"key=value"`` as after ``fret run --set``, e.g.
             ``"friction.mu=0.5"`` or ``"body2.coatings.0.E.E_substrate=4"``.
+        allow_outside : bool, optional
+            Let the scene name files outside its own folder.
 
         Raises
         ------

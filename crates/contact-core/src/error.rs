@@ -111,6 +111,20 @@ pub enum Error {
         /// What the system says.
         message: String,
     },
+    /// There is less memory than a scene needs.
+    #[error(
+        "{what} needs about {:.0} MB of memory, and {:.0} MB are available: a coarser grid, or \
+         another machine",
+        needed / 1e6, available / 1e6
+    )]
+    TooLarge {
+        /// What it is needed for.
+        what: &'static str,
+        /// Bytes needed.
+        needed: f64,
+        /// Bytes that there are.
+        available: f64,
+    },
     /// The run was stopped from outside (Ctrl-C, an observer).
     #[error("stopped after increment {increment}")]
     Interrupted {

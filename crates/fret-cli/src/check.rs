@@ -1,15 +1,16 @@
 //! `fret check`.
 
 use contact_core::Scene;
-use contact_core::scene::Plan;
+use contact_core::scene::{Plan, available_memory};
 
 use crate::{Failure, SceneOptions, print};
 
 /// Says what the scene means and what its solution needs.
 pub(crate) fn check(options: &SceneOptions) -> Result<(), Failure> {
     let scene = options.read().map_err(Failure::BadInput)?;
-    print(&description(&scene, &Plan::new(&scene)));
-    Ok(())
+    let plan = Plan::new(&scene);
+    print(&description(&scene, &plan));
+    plan.check_memory(&scene).map_err(Failure::BadInput)
 }
 
 fn description(scene: &Scene, plan: &Plan) -> String {
@@ -48,7 +49,11 @@ fn description(scene: &Scene, plan: &Plan) -> String {
             scene.path.W_max()
         ),
     );
-    line("memory", format!("about {:.0} MB", plan.memory(grid) / 1e6));
+    let (needed, available) = (plan.memory(scene), available_memory());
+    line(
+        "memory",
+        format!("about {:.0} MB of {:.0} MB", needed / 1e6, available / 1e6),
+    );
     for rule in &plan.lines {
         line("plan", rule.to_string());
     }

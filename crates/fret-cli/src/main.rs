@@ -17,6 +17,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
+use contact_core::scene::Reach;
 use contact_core::{Error, Scene};
 
 /// Fretting contact of elastic bodies, homogeneous or coated.
@@ -51,11 +52,19 @@ struct SceneOptions {
     /// body2.coatings.0.E.E_substrate=4
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<String>,
+    /// Let the scene name files outside its own folder
+    #[arg(long)]
+    allow_outside: bool,
 }
 
 impl SceneOptions {
     fn read(&self) -> Result<Scene, Error> {
-        Scene::from_file(&self.scene, &self.settings)
+        let reach = if self.allow_outside {
+            Reach::Anywhere
+        } else {
+            Reach::Folder
+        };
+        Scene::from_file_reaching(&self.scene, &self.settings, reach)
     }
 }
 

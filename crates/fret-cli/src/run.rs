@@ -106,7 +106,9 @@ impl Manner {
                 ));
             }
             match error {
-                Error::InvalidScene { .. } | Error::OffGrid { .. } => Failure::BadInput(error),
+                Error::InvalidScene { .. } | Error::OffGrid { .. } | Error::TooLarge { .. } => {
+                    Failure::BadInput(error)
+                }
                 error => Failure::EndedEarly(error),
             }
         })

@@ -3,7 +3,9 @@
 use contact_core::Error;
 use pyo3::PyErr;
 use pyo3::create_exception;
-use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{
+    PyKeyboardInterrupt, PyMemoryError, PyOSError, PyRuntimeError, PyValueError,
+};
 
 create_exception!(
     pyfret,
@@ -57,6 +59,7 @@ pub(crate) fn to_python(error: Error) -> PyErr {
         }
         Error::File { .. } => StoreError::new_err(text),
         Error::Interrupted { .. } => PyKeyboardInterrupt::new_err(text),
+        Error::TooLarge { .. } => PyMemoryError::new_err(text),
         _ => PyRuntimeError::new_err(text),
     }
 }

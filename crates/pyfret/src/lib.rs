@@ -4,6 +4,7 @@
 //! `python/pyfret/_core.pyi`.
 
 #![allow(
+    clippy::fn_params_excessive_bools,
     clippy::needless_pass_by_value,
     clippy::too_many_arguments,
     reason = "PyO3 hands keyword arguments over one by one and by value"

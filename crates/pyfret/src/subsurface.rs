@@ -292,12 +292,15 @@ impl Subsurface {
     }
 }
 
-/// Stress below a line over a load path; give it every increment, then take what it kept.
+/// Stress below a line or on planes over a load path; give it every increment, then take what it
+/// kept.
 #[pyclass(module = "pyfret")]
 pub(crate) struct Envelope {
-    stream: Option<Stream<core::Envelope>>,
+    stream: Option<Stream<(core::Envelope, core::Largest)>>,
     names: Vec<String>,
     cycles: Vec<(usize, usize)>,
+    /// Whether it is that below a line.
+    of_line: bool,
 }
 
 #[pymethods]
@@ -316,17 +319,38 @@ impl Envelope {
         body_number: u8,
     ) -> PyResult<Self> {
         let cycles = core::cycles(&path.0);
-        let envelope = core::Envelope {
-            measures: measures(&of)?,
-            cycles: cycles.clone(),
+        let line = match (x, y) {
+            (None, None) => None,
+            _ => Some(line(x, y)?),
         };
+        let along = match line {
+            Some(Line::AlongX(_)) => (0..grid.0.nx).map(|i| grid.0.x(i)).collect(),
+            Some(Line::AlongY(_)) => (0..grid.0.ny).map(|j| grid.0.y(j)).collect(),
+            None => Vec::new(),
+        };
+        let accumulate = (
+            core::Envelope {
+                measures: measures(&of)?,
+                cycles: cycles.clone(),
+            },
+            core::Largest {
+                // Only a line has tops that are known between its samples.
+                measures: if line.is_some() {
+                    measures(&of)?
+                } else {
+                    Vec::new()
+                },
+                along,
+            },
+        );
         let depths = Subsurface::depths(&z, &layer)?;
-        let (side, line) = (side(body_number)?, line(x, y)?);
-        let stream = Stream::new(&body.0, side, &grid.0, line, depths, envelope);
+        let side = side(body_number)?;
+        let stream = Stream::new(&body.0, side, &grid.0, line, depths, accumulate);
         Ok(Self {
             stream: Some(stream.map_err(to_python)?),
             names: of,
             cycles,
+            of_line: line.is_some(),
         })
     }
 
@@ -352,11 +376,14 @@ impl Envelope {
             .map_err(to_python)
     }
 
-    /// For each name, arrays over (depth, place): max, min, increment of the largest value; then
-    /// max and min over (cycle, depth, place).
+    /// For each name, arrays over (depth, place): max, min, increment of the largest value; lists
+    /// over cycles of amplitude and mean; below a line, rows of the largest values at each
+    /// increment: increment, value, place along the line, depth, layer.
     fn finish<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let stream = self.stream.take().ok_or_else(finished)?;
-        let (_, kept) = py.detach(|| stream.finish()).map_err(to_python)?;
+        let (depths, kept) = py.detach(|| stream.finish()).map_err(to_python)?;
+        let (kept, tops): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
+        let largest = core::Largest::over_depths(&depths, &tops);
         let result = PyDict::new(py);
         for (m, name) in self.names.iter().enumerate() {
             let rows = |of: &dyn Fn(&core::DepthEnvelope) -> Array1<f64>| {
@@ -377,6 +404,21 @@ impl Envelope {
             };
             of.set_item("amplitude", cycles(&core::Extremes::amplitude))?;
             of.set_item("mean", cycles(&core::Extremes::mean))?;
+            if self.of_line {
+                let rows = largest.iter().filter_map(|(moment, of)| {
+                    let m = of[m]?;
+                    let layer = m.depth.layer as f64;
+                    Some([
+                        moment.increment as f64,
+                        m.value,
+                        m.place[0],
+                        m.depth.z,
+                        layer,
+                    ])
+                });
+                let rows = Array2::from(rows.collect::<Vec<_>>());
+                of.set_item("largest", rows.into_pyarray(py))?;
+            }
             result.set_item(name, of)?;
         }
         Ok(result)
@@ -405,7 +447,7 @@ pub(crate) fn maximum(
         )));
     }
     let found = core::maximum(&field, &depths, &along);
-    Ok(found.map(|m| (m.value, m.along, m.depth.z, m.depth.layer)))
+    Ok(found.map(|m| (m.value, m.place[0], m.depth.z, m.depth.layer)))
 }
 
 /// The loops of a history, one dictionary per cycle.

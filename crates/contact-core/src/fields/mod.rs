@@ -18,6 +18,7 @@ mod depth;
 mod derived;
 mod energy;
 mod envelope;
+mod largest;
 mod loads;
 mod maximum;
 mod parity;
@@ -33,7 +34,8 @@ pub use derived::{
 };
 pub use energy::{Cycle, Direction, LoopPoint, cycles, loops};
 pub use envelope::{DepthEnvelope, Envelope, Extremes};
-pub use maximum::{Maximum, maximum};
+pub use largest::{DepthTops, Largest};
+pub use maximum::{Maximum, Top, maximum, maximum_of_tops, top_of_line, top_of_plane};
 pub use points::{Point, Points};
 pub use section::{Line, Section};
 pub use slices::Slices;

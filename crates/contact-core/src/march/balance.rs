@@ -4,7 +4,9 @@ use super::carried::Carried;
 use super::{Energy, Increment, March, Motion, Residuals, State, Status, Work};
 use crate::convolution::Mirror;
 use crate::scene::{Given, LoadPoint, Loads};
-use crate::solvers::{CoupledInfo, Interface, friction_bound, largest, size, sum_cells};
+use crate::solvers::{
+    CoupledInfo, Interface, friction_bound, largest, set_cells, set_pairs, size, sum_cells,
+};
 
 impl March {
     /// Draws up the accounts of a solved increment and makes it the present state.
@@ -246,20 +248,33 @@ impl March {
         let last = std::mem::replace(&mut state.interface, now);
         let now = &state.interface;
         let before = self.carried.as_ref().map_or(&last, Carried::interface);
-        for n in 0..now.p.len() {
+        let slip = |n: usize| -> [f64; 2] {
             let shift = self.arms.in_plane(shift, n);
-            let mut moved = [0.0; 2];
-            for c in 0..2 {
-                let slip = now.u[c][n] - before.u[c][n] - shift[c];
-                state.dissipated[n] -= 0.5 * (now.q[c][n] + before.q[c][n]) * slip;
-                moved[c] = slip;
-            }
+            std::array::from_fn(|c| now.u[c][n] - before.u[c][n] - shift[c])
+        };
+        set_cells(&mut state.dissipated, |n, dissipated| {
+            let slip = slip(n);
+            let power = |c: usize| 0.5 * (now.q[c][n] + before.q[c][n]) * slip[c];
+            dissipated - power(0) - power(1)
+        });
+        let [slip_x, slip_y] = &mut state.slip;
+        set_pairs([slip_x, slip_y], |n, total| {
             if now.p[n] > 0.0 && now.slip[n] {
-                state.slip[0][n] += moved[0];
-                state.slip[1][n] += moved[1];
-                state.slip_length[n] += moved[0].hypot(moved[1] / self.arms.stretch);
+                let slip = slip(n);
+                [total[0] + slip[0], total[1] + slip[1]]
+            } else {
+                total
             }
-        }
+        });
+        let stretch = self.arms.stretch;
+        set_cells(&mut state.slip_length, |n, length| {
+            if now.p[n] > 0.0 && now.slip[n] {
+                let [x, y] = slip(n);
+                length + x.hypot(y / stretch)
+            } else {
+                length
+            }
+        });
         state.step = point.loads.since(&state.loads, state.motion.motions());
         state.p_before = last.p;
         state.q_before = last.q;

@@ -1,6 +1,8 @@
 //! Stage 5: THE LOAD PATH, one increment at a time (the outer loop of figure 2 of the paper).
 
+mod awake;
 mod balance;
+mod border;
 mod carried;
 mod fields;
 mod halving;
@@ -17,8 +19,8 @@ pub use state::State;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use carried::Carried;
-
+use self::awake::with_all_awake;
+use self::carried::Carried;
 use crate::convolution::{CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, SurfaceOperator};
 use crate::error::Error;
 use crate::kernels::influence_coefficients;
@@ -58,6 +60,7 @@ impl March {
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         scene.check()?;
         let plan = Plan::new(scene);
+        plan.check_memory(scene)?;
         let settings = &scene.settings;
         let coefficients = |body| {
             influence_coefficients(
@@ -108,7 +111,7 @@ impl March {
         });
         let approach = scene.approach();
         Ok(Self {
-            points: scene.path.points(),
+            points: plan.points(scene),
             scene: scene.clone(),
             plan,
             h_init,
@@ -156,7 +159,7 @@ impl March {
         &self.plan
     }
 
-    /// The loads at the end of every increment of the path.
+    /// The loads at the end of every increment that is solved.
     pub fn points(&self) -> &[LoadPoint] {
         &self.points
     }
@@ -175,8 +178,7 @@ impl March {
         let end = &self.scene.path.branches[point.branch].to;
         let state = &self.state;
         let point = point.resolved(end, state.loads.forces(), state.motion.motions());
-        // On a thread of the pool, so that the others are a steal away and not a wake-up.
-        Some(rayon::scope(|_| self.reach(&point)))
+        Some(with_all_awake(|| self.reach(&point)))
     }
 
     /// One increment: predict, solve, account, keep.
@@ -318,29 +320,6 @@ impl March {
     fn approach_at(&self, point: &LoadPoint) -> f64 {
         point.loads.given.delta_z.unwrap_or_else(|| {
             self.approach * (point.loads.W / self.scene.path.W_max()).powf(2.0 / 3.0)
-        })
-    }
-
-    /// Fails if a cell at the border of the grid is in contact.
-    fn check_border(&self, now: &Interface, index: usize, point: &LoadPoint) -> Result<(), Error> {
-        let grid = &self.scene.grid;
-        let rows = self.plan.mirror.rows(grid.ny);
-        let touches = |n: usize| {
-            let (i, j) = (n / rows, n % rows);
-            let outer_row = !grid.plane_strain && (j + 1 == rows || (j == 0 && rows == grid.ny));
-            (i == 0 || i + 1 == grid.nx || outer_row) && now.p[n] > 0.0
-        };
-        if !(0..now.p.len()).any(touches) {
-            return Ok(());
-        }
-        let extent = (grid.nx as f64 * grid.dx, grid.ny as f64 * grid.dy);
-        let hertz = self.scene.hertz().map_or(0.0, |h| 2.6 * h.a);
-        Err(Error::OffGrid {
-            increment: index,
-            W: point.loads.W,
-            extent_x: extent.0,
-            extent_y: extent.1,
-            needed: hertz.max(1.3 * extent.0.max(extent.1)),
         })
     }
 

@@ -1,12 +1,14 @@
 //! One variable of the store: an array of Zarr version 2 that grows along its first dimension.
 
+use std::fs::File;
+use std::io::{self, BufReader, Read};
 use std::sync::Arc;
 
+use flate2::read::MultiGzDecoder;
 use serde_json::{Map, Value, json};
 use zarrs::array::{
     Array, ArrayError, ArrayMetadata, ArrayMetadataV2, ArraySubset, CodecOptions, ElementOwned,
 };
-use zarrs::storage::ReadableStorageTraits;
 
 use super::catalogue::Kind;
 use super::folder::Folder;
@@ -36,6 +38,15 @@ impl Kind {
             Self::Count => "<i4",
             Self::Code => "|i1",
             Self::Flag => "|b1",
+        }
+    }
+
+    /// Bytes of a value.
+    fn bytes(self) -> u64 {
+        match self {
+            Self::Real => 8,
+            Self::Count => 4,
+            Self::Code | Self::Flag => 1,
         }
     }
 }
@@ -160,6 +171,37 @@ pub(super) fn open_array(
     .map_err(|e| failed(&e))
 }
 
+/// Largest number of values in a chunk: that of a field of the largest grid.
+const MOST_VALUES: u64 = 1 << 28;
+
+/// Fails if a chunk is not there, or if it would unfold to more than its values take: what is
+/// written in a file need not be what the store says.
+fn check_chunk(array: &Array<Folder>, chunk: &[u64], kind: Kind) -> Result<(), String> {
+    let values: Option<u64> = array
+        .chunk_shape(chunk)
+        .map_err(|e| e.to_string())?
+        .iter()
+        .try_fold(1_u64, |product, n| product.checked_mul(n.get()));
+    let values = values.filter(|n| *n <= MOST_VALUES);
+    let size = kind.bytes() * values.ok_or("has chunks larger than any grid")?;
+    let key = array.chunk_key(chunk);
+    let failed = |e: &dyn std::fmt::Display| format!("the file {key} {e}");
+    let path = array.storage().root().join(key.as_str());
+    let file = match File::open(path) {
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Err(failed(&"is missing")),
+        file => file.map_err(|e| failed(&e))?,
+    };
+    let unfolded = io::copy(
+        &mut MultiGzDecoder::new(BufReader::new(file)).take(size + 1),
+        &mut io::sink(),
+    );
+    match unfolded {
+        Ok(n) if n == size => Ok(()),
+        Ok(_) => Err(failed(&"is damaged: it is of another length")),
+        Err(e) => Err(failed(&format!("is damaged: {e}"))),
+    }
+}
+
 /// The numbers of a part of an array, of whatever kind.
 pub(super) fn numbers(
     array: &Array<Folder>,
@@ -176,15 +218,7 @@ pub(super) fn numbers(
         .into_iter()
         .flat_map(|c| c.indices())
     {
-        let key = array.chunk_key(&chunk);
-        if array
-            .storage()
-            .size_key(&key)
-            .map_err(|e| e.to_string())?
-            .is_none()
-        {
-            return Err(format!("the file {key} is missing"));
-        }
+        check_chunk(array, &chunk, kind)?;
     }
     let f64s = match kind {
         Kind::Real => array.retrieve_array_subset(part),

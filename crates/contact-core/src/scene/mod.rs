@@ -5,24 +5,28 @@
 
 mod body;
 mod case;
+mod direct;
 mod friction;
 mod grid;
 mod load_path;
 mod load_table;
 mod loads;
 mod material;
+mod memory;
 mod plan;
 mod settings;
 mod shape;
 mod surface_map;
 
 pub use body::{Body, Coating};
+pub use case::Reach;
 pub use friction::{Friction, FrictionHistory, History};
 pub use grid::Grid;
 pub use load_path::{Branch, LoadPath, LoadPoint, Spacing};
 pub use load_table::Increments;
 pub use loads::{Given, LOADS, Loads, MOTIONS};
 pub use material::Elastic;
+pub use memory::available_memory;
 pub use plan::{Plan, PlanLine};
 pub use settings::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
@@ -66,6 +70,7 @@ impl Scene {
             ));
         }
         self.grid.check()?;
+        self.check_surfaces_fit()?;
         self.friction.check(Some(&self.grid))?;
         let by_frequency = matches!(
             self.settings.kernel.method,
@@ -188,7 +193,7 @@ impl Scene {
     }
 
     /// The larger and the smaller principal curvature of the gap between the nominal shapes \[1/m\].
-    fn principal_curvatures(&self) -> (f64, f64) {
+    pub(crate) fn principal_curvatures(&self) -> (f64, f64) {
         let (one, other) = (self.body1.shape.curvature(), self.body2.shape.curvature());
         let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| one[i] + other[i]);
         let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));

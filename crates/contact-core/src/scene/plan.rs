@@ -2,7 +2,8 @@
 
 use ndarray::Array2;
 
-use super::{Body, Grid, KernelMethod, Loads, Scene, SurfaceMap};
+use super::direct::direct_branches;
+use super::{Body, KernelMethod, LoadPoint, Loads, Scene, SurfaceMap};
 use crate::convolution::Mirror;
 
 /// What is computed and what is left out.
@@ -15,6 +16,8 @@ pub struct Plan {
     pub friction: bool,
     /// Part of the grid that is solved for.
     pub mirror: Mirror,
+    /// Branches of the load path whose end does not depend on the way there.
+    pub direct: Vec<bool>,
     /// One line per rule, for people.
     pub lines: Vec<PlanLine>,
 }
@@ -38,6 +41,13 @@ impl std::fmt::Display for PlanLine {
 }
 
 impl Plan {
+    /// The increments that are solved: of a branch whose end does not depend on the way, the last.
+    pub fn points(&self, scene: &Scene) -> Vec<LoadPoint> {
+        let mut points = scene.path.points();
+        points.retain(|point| point.ends_branch || !self.direct[point.branch]);
+        points
+    }
+
     /// The plan of a scene.
     pub fn new(scene: &Scene) -> Self {
         let mut lines = Vec::new();
@@ -63,27 +73,22 @@ impl Plan {
         );
         let coupling = !rule("normal-tangential coupling", uncoupled(scene));
         let half = rule("the half y < 0 of the grid", mirror(scene));
+        let (direct, verdict) = direct_branches(scene, coupling);
+        let subject = match direct.iter().filter(|&&d| d).count() {
+            0 => "increments within the branches".to_owned(),
+            n if n == direct.len() => "increments within all branches".to_owned(),
+            n => format!("increments within {n} of {} branches", direct.len()),
+        };
+        rule(&subject, verdict);
         Self {
             coupling,
             friction,
             mirror: if half { Mirror::Y } else { Mirror::None },
+            direct,
             lines,
         }
     }
-
-    /// Peak memory of a solution on the grid \[bytes\], an estimate within a fifth from 256 cells
-    /// per side on: what runs were measured to take.
-    pub fn memory(&self, grid: &Grid) -> f64 {
-        let kept = (grid.nx * self.mirror.rows(grid.ny)) as f64;
-        let fields = if self.friction { 84.0 } else { 64.0 };
-        PROGRAM + 8.0 * (fields * kept + SPECTRA * grid.cells() as f64)
-    }
 }
-
-/// Memory of the program itself \[bytes\].
-const PROGRAM: f64 = 10e6;
-/// Numbers per cell of the grid: spectra of the kernels, buffers of the transforms.
-const SPECTRA: f64 = 22.0;
 
 /// Whether, and why, pressure causes no tangential mismatch.
 fn uncoupled(scene: &Scene) -> Result<&'static str, &'static str> {

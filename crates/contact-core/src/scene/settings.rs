@@ -15,6 +15,9 @@ pub struct Settings {
     pub save: SaveFields,
 }
 
+/// Highest order of an alias sum; its work grows with the square.
+const MOST_ALIASES: usize = 32;
+
 /// How influence coefficients are made from the frequency response of a coated body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KernelSettings {
@@ -44,7 +47,7 @@ pub enum KernelMethod {
     InverseFft {
         /// Enlargement of the domain, 1 to 12.
         lambda: usize,
-        /// Order of the alias sum.
+        /// Order of the alias sum, 0 to 32.
         aliases: usize,
     },
     /// The paper's reference \[15\]: no coefficients at all; every convolution is done directly
@@ -93,6 +96,7 @@ pub enum Preset {
 
 /// What may be skipped. Every rule leaves the answer as it is; each can be switched off to prove it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(clippy::struct_excessive_bools)] // one for each rule
 pub struct SkipSettings {
     /// Treat a body whose layers all equal its substrate as homogeneous (default true).
     pub equal_layers: bool,
@@ -101,6 +105,9 @@ pub struct SkipSettings {
     pub coupling: bool,
     /// Solve on half of a mirror-symmetric scene (default true).
     pub mirror: bool,
+    /// Leave out the increments of branches whose end does not depend on the way (default true);
+    /// kept if fields within the branches are to be kept.
+    pub path: bool,
 }
 
 impl Default for SkipSettings {
@@ -109,6 +116,7 @@ impl Default for SkipSettings {
             equal_layers: true,
             coupling: true,
             mirror: true,
+            path: true,
         }
     }
 }
@@ -135,6 +143,12 @@ impl Settings {
         };
         if !(1..=12).contains(&lambda) {
             return Err(Error::invalid("kernel.lambda", lambda, "1 to 12"));
+        }
+        if let KernelMethod::InverseFft { aliases, .. } = self.kernel.method
+            && aliases > MOST_ALIASES
+        {
+            let allowed = format!("0 to {MOST_ALIASES}");
+            return Err(Error::invalid("kernel.aliases", aliases, allowed));
         }
         for (key, value) in [
             ("kernel.tolerance", self.kernel.tolerance),

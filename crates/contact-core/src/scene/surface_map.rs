@@ -1,12 +1,20 @@
 //! Numbers given on points of the contact plane: heights, friction.
 
+use std::fs::{self, File};
+use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView2};
+use ndarray_npy::ViewNpyExt;
 
 use super::Grid;
 use crate::error::Error;
+use crate::scene::memory;
+
+/// Memory that reading numbers takes, over the length of the file: a number may be two bytes of
+/// text, and a list that grows is copied.
+const COPIES: f64 = 12.0;
 
 /// Numbers over the contact plane on points of their own, the middle of the map over the origin.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,14 +33,16 @@ impl SurfaceMap {
             path: path.display().to_string(),
             message,
         };
+        let about = fs::metadata(path).map_err(|e| failed(e.to_string()))?;
+        if !about.is_file() {
+            return Err(failed("is not a file".into()));
+        }
+        memory::fits("the numbers of a file", COPIES * about.len() as f64)?;
         let is_npy = path
             .extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("npy"));
-        let values = if is_npy {
-            ndarray_npy::read_npy(path).map_err(|e| failed(e.to_string()))?
-        } else {
-            read_csv(path).map_err(failed)?
-        };
+        let read = if is_npy { read_npy } else { read_csv };
+        let values = read(path).map_err(failed)?;
         Ok(Self {
             values: Arc::new(values),
             spacing,
@@ -94,6 +104,32 @@ impl SurfaceMap {
 fn place(at: f64, n: usize) -> (usize, f64) {
     let at = (at + (n - 1) as f64 / 2.0).clamp(0.0, (n - 1) as f64);
     (at.floor() as usize, at.fract())
+}
+
+/// A whole file is looked at before anything is made of it: what its header says of its length
+/// need not be true.
+fn read_npy(path: &Path) -> Result<Array2<f64>, String> {
+    let mut file = File::open(path).map_err(|e| e.to_string())?;
+    let length = file.metadata().map_err(|e| e.to_string())?.len() as usize;
+    // The numbers, which begin at a multiple of 16 bytes of the file, have to be in line.
+    let mut bytes = vec![0; length + align_of::<f64>()];
+    let start = bytes.as_ptr().align_offset(align_of::<f64>());
+    let bytes = bytes
+        .get_mut(start..start + length)
+        .ok_or("cannot be read on this machine")?;
+    file.read_exact(bytes).map_err(|e| e.to_string())?;
+    // Version 1 has two bytes for the length of its header, the later ones four.
+    let header = match *bytes {
+        [_, _, _, _, _, _, version, _, a, b, c, d, ..] if version > 1 => {
+            u32::from_le_bytes([a, b, c, d]) as usize
+        }
+        _ => 0,
+    };
+    if header > length {
+        return Err("is not whole: its header is longer than the file".into());
+    }
+    let view = ArrayView2::<f64>::view_npy(bytes);
+    view.map(|view| view.to_owned()).map_err(|e| e.to_string())
 }
 
 fn read_csv(path: &Path) -> Result<Array2<f64>, String> {

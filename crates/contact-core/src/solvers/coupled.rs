@@ -12,7 +12,7 @@ use super::limit::{Sliding, exceeds, sliding};
 use super::mixing::Mixing;
 use super::rigid_motion::{Arms, Drive, add};
 use super::shear_gradient::shear_gradient;
-use super::vector::{add_scaled, size};
+use super::vector::{add_scaled, set_cells, set_pairs, size};
 use super::{
     NormalParams, NormalProblem, NormalWorkspace, Response, Shear, SolverError, TangentialMethod,
     TangentialParams, TangentialProblem, TangentialWorkspace, normal, tangential,
@@ -150,6 +150,14 @@ impl CoupledWorkspace {
             mixing: Mixing::new(cells),
         }
     }
+
+    fn change_of_shear(&mut self, now: &Interface) {
+        let [change_x, change_y] = &mut self.change;
+        let before = &self.q_before;
+        set_pairs([change_x, change_y], |n, _| {
+            [now.q[0][n] - before[0][n], now.q[1][n] - before[1][n]]
+        });
+    }
 }
 
 /// Solves one increment, from a guess in `now` to the solution.
@@ -232,15 +240,8 @@ pub fn coupled(
         }
 
         // What the change of shear does to the gap.
-        let mut changed = false;
-        for c in 0..2 {
-            for ((change, q), before) in ws.change[c].iter_mut().zip(&now.q[c]).zip(&ws.q_before[c])
-            {
-                *change = q - before;
-                changed |= *change != 0.0;
-            }
-        }
-        if changed {
+        ws.change_of_shear(now);
+        if ws.change.iter().flatten().any(|&change| change != 0.0) {
             let [change_x, change_y] = &ws.change;
             response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
         } else if ws.mixing.mixes() {
@@ -310,14 +311,8 @@ fn follow_pressure(
     ws: &mut CoupledWorkspace,
     coupled: bool,
 ) {
-    for c in 0..2 {
-        for ((change, q), before) in ws.change[c].iter_mut().zip(&now.q[c]).zip(&ws.q_before[c]) {
-            *change = q - before;
-        }
-    }
-    for (before, p) in ws.p_before.iter_mut().zip(&now.p) {
-        *before = p - *before;
-    }
+    ws.change_of_shear(now);
+    set_cells(&mut ws.p_before, |n, before| now.p[n] - before);
     let [u_x, u_y] = &mut ws.response;
     let tractions = Tractions {
         q_x: Some(&ws.change[0]),

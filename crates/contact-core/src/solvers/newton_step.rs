@@ -1,10 +1,12 @@
 //! One Newton step of the tangential problem: the linear system on the tangent space.
 
+use rayon::prelude::*;
+
 use super::Response;
 use super::contact_cells::ContactCells;
 use super::rigid_motion::{add, inverse, product};
 use super::shear::{Shear, TangentialProblem};
-use super::vector::{add_scaled, dot, sum};
+use super::vector::{CHUNK, add_scaled, dot, set_pairs, sum};
 
 type Pair = [Vec<f64>; 2];
 
@@ -14,12 +16,11 @@ type Pair = [Vec<f64>; 2];
 /// find x in the tangent space, B^T x = 0:   Pi (C x + D x + ds) = Pi B d(delta)'
 /// ```
 ///
-/// with B the rigid motions that are free, Pi the projection on the tangent space (stick cells: both components; slip cells: across
-/// q) and D the curvature |ds|/g of the circle. The unknowns are packed contact cells; what goes
+/// with B the rigid motions that are free, Pi the projection on the tangent space (stick cells:
+/// both components; slip cells: across q) and D the curvature |ds|/g of the circle. The unknowns are packed contact cells; what goes
 /// through the operator covers the grid.
 #[derive(Debug)]
 pub(crate) struct NewtonStep {
-    contact: ContactCells,
     tangent: Tangent,
     /// D \[m/Pa\].
     diagonal: Vec<f64>,
@@ -31,8 +32,8 @@ pub(crate) struct NewtonStep {
     z: Pair,
     direction: Pair,
     response_direction: Pair,
-    /// C x \[m\] on the grid.
-    response_x: Pair,
+    /// C x, and C times what was added to x, \[m\] on the grid.
+    pub(crate) response_x: Pair,
     /// Traction and displacement on the grid.
     traction: Pair,
     displacement: Pair,
@@ -57,7 +58,6 @@ impl NewtonStep {
         let pair = || [field(), field()];
         let on_grid = || [vec![0.0; cells], vec![0.0; cells]];
         Self {
-            contact: ContactCells::default(),
             tangent: Tangent {
                 xx: field(),
                 xy: field(),
@@ -79,11 +79,9 @@ impl NewtonStep {
         }
     }
 
-    /// Packs the contact cells, those with a friction bound.
+    /// Makes room for the contact cells.
     pub(crate) fn set_contact(&mut self, problem: &TangentialProblem<'_>) {
-        let bound = problem.bound;
-        self.contact.find(bound.len(), |n| bound[n] > 0.0);
-        let count = self.contact.count();
+        let count = problem.bound.len();
         let t = &mut self.tangent;
         for field in [
             &mut t.xx,
@@ -94,13 +92,11 @@ impl NewtonStep {
         ] {
             field.resize(count, 0.0);
         }
-        let arms = if problem.drive.free[2] { count } else { 0 };
-        t.arm_x.resize(arms, 0.0);
-        t.arm_y.resize(arms, 0.0);
-        if arms > 0 {
-            for (i, n) in self.contact.iter().enumerate() {
-                (t.arm_x[i], t.arm_y[i]) = (problem.arms.turn_x(n), problem.arms.y[n]);
-            }
+        t.arm_x.clear();
+        t.arm_y.clear();
+        if problem.drive.free[2] {
+            t.arm_x.extend((0..count).map(|n| problem.arms.turn_x(n)));
+            t.arm_y.extend_from_slice(&problem.arms.y);
         }
         for pair in [
             &mut self.x,
@@ -127,25 +123,33 @@ impl NewtonStep {
         c_xx: f64,
     ) {
         let t = &mut self.tangent;
-        for (i, n) in self.contact.iter().enumerate() {
-            let slip = shear.slip_of(problem, shift, n);
-            let (tangent, diagonal) = if shear.slip[n] {
-                let g = problem.bound[n];
-                let e = [shear.q[0][n] / g, shear.q[1][n] / g];
-                let against = -(slip[0] * e[0] + slip[1] * e[1]);
-                (
-                    [e[1] * e[1], -e[0] * e[1], e[0] * e[0]],
-                    against.max(0.0) / g,
-                )
-            } else {
-                ([1.0, 0.0, 1.0], 0.0)
-            };
-            [t.xx[i], t.xy[i], t.yy[i]] = tangent;
-            self.diagonal[i] = diagonal;
-            self.scale[i] = 1.0 / (1.0 + diagonal / c_xx).sqrt();
-            self.residual[0][i] = -slip[0];
-            self.residual[1][i] = -slip[1];
-        }
+        let [residual_x, residual_y] = &mut self.residual;
+        let chunks = (
+            t.xx.par_chunks_mut(CHUNK),
+            t.xy.par_chunks_mut(CHUNK),
+            t.yy.par_chunks_mut(CHUNK),
+            self.diagonal.par_chunks_mut(CHUNK),
+            self.scale.par_chunks_mut(CHUNK),
+            residual_x.par_chunks_mut(CHUNK),
+            residual_y.par_chunks_mut(CHUNK),
+        );
+        let chunks = chunks.into_par_iter().enumerate();
+        chunks.for_each(|(chunk, (xx, xy, yy, diagonal, scale, r_x, r_y))| {
+            for i in 0..xx.len() {
+                let n = chunk * CHUNK + i;
+                let slip = problem.slip(&shear.u, shift, n);
+                (xx[i], xy[i], yy[i], diagonal[i]) = (1.0, 0.0, 1.0, 0.0);
+                if shear.slip[n] {
+                    let g = problem.bound[n];
+                    let e = [shear.q[0][n] / g, shear.q[1][n] / g];
+                    let against = -(slip[0] * e[0] + slip[1] * e[1]);
+                    (xx[i], xy[i], yy[i]) = (e[1] * e[1], -e[0] * e[1], e[0] * e[0]);
+                    diagonal[i] = against.max(0.0) / g;
+                }
+                scale[i] = 1.0 / (1.0 + diagonal[i] / c_xx).sqrt();
+                (r_x[i], r_y[i]) = (-slip[0], -slip[1]);
+            }
+        });
         t.inverse_sum = inverse(t.gram(), problem.drive.free);
         t.project(&mut self.residual);
     }
@@ -160,6 +164,7 @@ impl NewtonStep {
     pub(crate) fn solve(
         &mut self,
         response: &mut Response<'_>,
+        contact: &ContactCells,
         target: f64,
         max_passes: usize,
     ) -> usize {
@@ -172,7 +177,7 @@ impl NewtonStep {
             if self.residual_norm() <= target || response.stopped() {
                 return pass;
             }
-            self.precondition(response);
+            self.precondition(response, contact);
             let product = dot_pair(&self.residual, &self.z);
             let beta = if pass == 0 {
                 0.0
@@ -184,16 +189,14 @@ impl NewtonStep {
                 for (d, z) in self.direction[c].iter_mut().zip(&self.z[c]) {
                     *d = z + beta * *d;
                 }
-                self.contact
-                    .unpack(&self.direction[c], &mut self.traction[c]);
+                contact.unpack(&self.direction[c], &mut self.traction[c]);
             }
             let [d_x, d_y] = &self.traction;
             let [u_x, u_y] = &mut self.displacement;
             response.tangential([d_x, d_y], [u_x, u_y]);
             // z = Pi (C + D) d; d lies in the tangent space.
             for c in 0..2 {
-                self.contact
-                    .pack(&self.displacement[c], &mut self.response_direction[c]);
+                contact.pack(&self.displacement[c], &mut self.response_direction[c]);
                 let terms = self.z[c].iter_mut().zip(&self.response_direction[c]);
                 for ((z, r), (d, k)) in terms.zip(self.direction[c].iter().zip(&self.diagonal)) {
                     *z = r + k * d;
@@ -214,20 +217,39 @@ impl NewtonStep {
         max_passes
     }
 
+    /// C times a change of the contact cells, in place; it is added to what x causes.
+    pub(crate) fn respond(
+        &mut self,
+        response: &mut Response<'_>,
+        contact: &ContactCells,
+        change: &mut Pair,
+    ) {
+        for c in 0..2 {
+            contact.unpack(&change[c], &mut self.traction[c]);
+        }
+        let [q_x, q_y] = &self.traction;
+        let [u_x, u_y] = &mut self.displacement;
+        response.tangential([q_x, q_y], [u_x, u_y]);
+        for c in 0..2 {
+            contact.pack(&self.displacement[c], &mut change[c]);
+            add_scaled(&mut self.response_x[c], 1.0, &self.displacement[c]);
+        }
+    }
+
     /// z = Pi S P S r
-    fn precondition(&mut self, response: &mut Response<'_>) {
+    fn precondition(&mut self, response: &mut Response<'_>, contact: &ContactCells) {
         for c in 0..2 {
             let scaled = self.z[c].iter_mut().zip(&self.scale);
             for ((z, scale), r) in scaled.zip(&self.residual[c]) {
                 *z = scale * r;
             }
-            self.contact.unpack(&self.z[c], &mut self.traction[c]);
+            contact.unpack(&self.z[c], &mut self.traction[c]);
         }
         let [s_x, s_y] = &self.traction;
         let [z_x, z_y] = &mut self.displacement;
         response.invert_tangential([s_x, s_y], [z_x, z_y]);
         for c in 0..2 {
-            self.contact.pack(&self.displacement[c], &mut self.z[c]);
+            contact.pack(&self.displacement[c], &mut self.z[c]);
             for (z, scale) in self.z[c].iter_mut().zip(&self.scale) {
                 *z *= scale;
             }
@@ -239,19 +261,25 @@ impl NewtonStep {
     /// for there.
     pub(crate) fn take(
         &mut self,
+        contact: &ContactCells,
         problem: &TangentialProblem<'_>,
         shear: &mut Shear<'_>,
     ) -> [f64; 3] {
         let given = problem.drive.given;
         for c in 0..2 {
-            add_scaled(shear.u[c], 1.0, &self.response_x[c]);
-            for (i, n) in self.contact.iter().enumerate() {
-                let x = self.x[c][i];
-                shear.q[c][n] += x;
-                let slip = shear.u[c][n] - problem.u_ref[c][n] - problem.arms.in_plane(given, n)[c];
-                self.z[c][i] = slip + self.diagonal[i] * x;
-            }
+            contact.pack(&self.response_x[c], &mut self.z[c]);
+            add_scaled(shear.u[c], 1.0, &self.z[c]);
+            add_scaled(shear.q[c], 1.0, &self.x[c]);
         }
+        let (x, diagonal) = (&self.x, &self.diagonal);
+        let [z_x, z_y] = &mut self.z;
+        set_pairs([z_x, z_y], |i, _| {
+            let slip = problem.slip(&shear.u, given, i);
+            [
+                slip[0] + diagonal[i] * x[0][i],
+                slip[1] + diagonal[i] * x[1][i],
+            ]
+        });
         let sums = self.tangent.project_cells(&mut self.z);
         add(given, product(&self.tangent.inverse_sum, sums))
     }

@@ -12,8 +12,8 @@ use super::shear::{Shear, TangentialProblem};
 
 type Pair = [Vec<f64>; 2];
 
-/// Buffers of the projected gradients.
-#[derive(Debug)]
+/// Buffers of the projected gradients, of no size until they are needed.
+#[derive(Debug, Default)]
 pub(crate) struct ProjectedGradient {
     /// Point that the gradient is taken at, ahead of q, and its displacement.
     ahead: Pair,
@@ -23,13 +23,16 @@ pub(crate) struct ProjectedGradient {
 }
 
 impl ProjectedGradient {
-    pub(crate) fn new(cells: usize) -> Self {
-        let pair = || [vec![0.0; cells], vec![0.0; cells]];
-        Self {
-            ahead: pair(),
-            u_ahead: pair(),
-            q_last: pair(),
-            u_last: pair(),
+    fn make_room(&mut self, cells: usize) {
+        for pair in [
+            &mut self.ahead,
+            &mut self.u_ahead,
+            &mut self.q_last,
+            &mut self.u_last,
+        ] {
+            for field in pair {
+                field.resize(cells, 0.0);
+            }
         }
     }
 
@@ -117,6 +120,7 @@ impl ProjectedGradient {
         response: &mut Response<'_>,
         problem: &TangentialProblem<'_>,
     ) -> f64 {
+        self.make_room(problem.bound.len());
         for (a, g) in self.ahead[0].iter_mut().zip(problem.bound) {
             *a = f64::from(u8::from(*g > 0.0));
         }

@@ -12,6 +12,32 @@ use super::tangential::TangentialWorkspace;
 use super::vector::{add_scaled, dot, size};
 use super::{Response, SolverError};
 
+/// Buffers of the gradients, of no size until they are needed.
+#[derive(Debug, Default)]
+pub(crate) struct GradientBuffers {
+    residual: [Vec<f64>; 2],
+    direction: [Vec<f64>; 2],
+    q_before: [Vec<f64>; 2],
+    change: [Vec<f64>; 2],
+    response: [Vec<f64>; 2],
+}
+
+impl GradientBuffers {
+    fn make_room(&mut self, cells: usize) {
+        for pair in [
+            &mut self.residual,
+            &mut self.direction,
+            &mut self.q_before,
+            &mut self.change,
+            &mut self.response,
+        ] {
+            for field in pair {
+                field.resize(cells, 0.0);
+            }
+        }
+    }
+}
+
 /// Solves for the shear. On entry it must be admissible.
 pub(crate) fn shear_gradient(
     response: &mut Response<'_>,
@@ -23,6 +49,8 @@ pub(crate) fn shear_gradient(
     let cells = problem.bound.len();
     // Slip cells take the longest step that cannot overshoot.
     let slip_step = 1.0 / ws.descent.largest_compliance(response, problem);
+    let ws = &mut ws.gradient;
+    ws.make_room(cells);
     let mut info = TangentialInfo::default();
     let mut last_product = 0.0;
     loop {
@@ -46,7 +74,7 @@ pub(crate) fn shear_gradient(
         // Polak-Ribiere: the old direction is forgotten as far as the sets have changed.
         let mut fresh = 0.0;
         for n in 0..cells {
-            let slip = shear.slip_of(problem, info.shift, n);
+            let slip = problem.slip(&shear.u, info.shift, n);
             let sticks = problem.bound[n] > 0.0 && !shear.slip[n];
             for c in 0..2 {
                 let residual = if sticks { -slip[c] } else { 0.0 };
@@ -81,7 +109,7 @@ pub(crate) fn shear_gradient(
 
         for n in 0..cells {
             let g = problem.bound[n];
-            let slip = shear.slip_of(problem, info.shift, n);
+            let slip = problem.slip(&shear.u, info.shift, n);
             for c in 0..2 {
                 ws.q_before[c][n] = shear.q[c][n];
                 shear.q[c][n] += if shear.slip[n] {
@@ -118,7 +146,7 @@ fn misfit(problem: &TangentialProblem<'_>, shear: &Shear<'_>, shift: [f64; 3]) -
             continue;
         }
         count += 1;
-        let slip = shear.slip_of(problem, shift, n);
+        let slip = problem.slip(&shear.u, shift, n);
         let squares = slip[0] * slip[0] + slip[1] * slip[1];
         if shear.slip[n] {
             let along = (slip[0] * shear.q[0][n] + slip[1] * shear.q[1][n]) / g;

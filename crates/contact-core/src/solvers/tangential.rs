@@ -5,7 +5,8 @@
 //! ```
 //!
 //! with w = C_tz p - u_ref: convex, its multiplier is the rigid motion d(delta), its gradient the
-//! slip ds = u - u_ref - d(delta). A motion that is given enters w, and its force has no constraint. Eq. (7)-(8) and (20) of the paper are its optimality conditions.
+//! slip ds = u - u_ref - d(delta). A motion that is given enters w, and its force has
+//! no constraint. Eq. (7)-(8) and (20) of the paper are its optimality conditions.
 //!
 //! A semi-smooth Newton method: on stick cells both components are free; on slip cells q = g e and
 //! only the motion along the circle is, where the constraint adds the diagonal |ds|/g. Each step is
@@ -15,41 +16,41 @@
 //! slip, and slip cells whose slip would go along q stick again. A step that raises the energy is
 //! taken back and projected gradients, which cannot, go on from there.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::admissible::admissible;
+use super::contact_cells::ContactCells;
+use super::contact_shear::{Before, ContactShear};
 use super::newton_step::NewtonStep;
 use super::projected_gradient::ProjectedGradient;
-use super::shear::{
-    Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift, power,
-};
-use super::vector::{add_scaled, size, sum_cells};
+use super::shear::{Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift};
+use super::shear_gradient::GradientBuffers;
+use super::vector::{add_scaled, set_cells, size};
 use super::{Response, SolverError};
 
 /// Buffers of the tangential solver.
 #[derive(Debug)]
 pub struct TangentialWorkspace {
+    cells: ContactCells,
+    contact: ContactShear,
+    before: Before,
     step: NewtonStep,
+    change: [Vec<f64>; 2],
     pub(crate) descent: ProjectedGradient,
-    u_before: [Vec<f64>; 2],
-    pub(crate) q_before: [Vec<f64>; 2],
-    pub(crate) residual: [Vec<f64>; 2],
-    pub(crate) direction: [Vec<f64>; 2],
-    pub(crate) change: [Vec<f64>; 2],
-    pub(crate) response: [Vec<f64>; 2],
+    pub(crate) gradient: GradientBuffers,
 }
 
 impl TangentialWorkspace {
     /// For fields of `cells` cells.
     pub fn new(cells: usize) -> Self {
-        let pair = || [vec![0.0; cells], vec![0.0; cells]];
         Self {
+            cells: ContactCells::default(),
+            contact: ContactShear::default(),
+            before: Before::default(),
             step: NewtonStep::new(cells),
-            descent: ProjectedGradient::new(cells),
-            u_before: pair(),
-            q_before: pair(),
-            residual: pair(),
-            direction: pair(),
-            change: pair(),
-            response: pair(),
+            change: [Vec::new(), Vec::new()],
+            descent: ProjectedGradient::default(),
+            gradient: GradientBuffers::default(),
         }
     }
 }
@@ -69,19 +70,31 @@ pub fn tangential(
     ws: &mut TangentialWorkspace,
     params: &TangentialParams,
 ) -> Result<TangentialInfo, SolverError> {
-    let root_of_contact = (problem.bound.iter().filter(|&&g| g > 0.0).count() as f64).sqrt();
-    ws.step.set_contact(problem);
     let (c_xx, _) = response.op.self_coefficients();
-    let negligible = SETTLED * params.tolerance / c_xx;
+    let settled = SETTLED * params.tolerance;
+    let TangentialWorkspace {
+        cells,
+        contact,
+        before,
+        step,
+        change,
+        ..
+    } = ws;
+    cells.find(problem.bound.len(), |n| problem.bound[n] > 0.0);
+    contact.pack(cells, problem, shear);
+    let (inside, mut now) = contact.parts(problem.drive);
+    step.set_contact(&inside);
+    let root_of_contact = (cells.count() as f64).sqrt();
     let mut info = TangentialInfo {
-        shift: first_shift(problem, shear),
+        shift: first_shift(&inside, &now),
         ..Default::default()
     };
     loop {
-        let released = release(problem, shear, info.shift, SETTLED * params.tolerance);
-        ws.step.linearise(problem, shear, info.shift, c_xx);
-        info.misfit = ws.step.residual_norm() / root_of_contact;
-        if released == 0 && info.misfit <= params.tolerance {
+        let released = release(&inside, &mut now, info.shift, settled);
+        step.linearise(&inside, &now, info.shift, c_xx);
+        info.misfit = step.residual_norm() / root_of_contact;
+        if !released && info.misfit <= params.tolerance {
+            now.unpack(cells, shear);
             return Ok(info);
         }
         if info.iterations == params.max_iterations || response.stopped() {
@@ -93,84 +106,65 @@ pub fn tangential(
             });
         }
         info.iterations += 1;
+        before.keep(&now);
         let target = (params.forcing * info.misfit).max(0.3 * params.tolerance);
-        info.passes += ws
-            .step
-            .solve(response, target * root_of_contact, params.max_passes);
-        for c in 0..2 {
-            ws.q_before[c].copy_from_slice(shear.q[c]);
-            ws.u_before[c].copy_from_slice(shear.u[c]);
-        }
-        info.shift = ws.step.take(problem, shear);
-        mark_slip(problem, shear, info.shift);
-        if admissible(problem, &mut shear.q, shear.slip, &mut ws.change) > negligible {
-            let [change_x, change_y] = &ws.change;
-            let [response_x, response_y] = &mut ws.response;
-            response.tangential([change_x, change_y], [response_x, response_y]);
+        info.passes += step.solve(response, cells, target * root_of_contact, params.max_passes);
+        info.shift = step.take(cells, &inside, &mut now);
+        mark_slip(&inside, &mut now, info.shift);
+        if admissible(&inside, &mut now.q, now.slip, change) > settled / c_xx {
+            step.respond(response, cells, change);
             for c in 0..2 {
-                add_scaled(shear.u[c], 1.0, &ws.response[c]);
+                add_scaled(now.u[c], 1.0, &change[c]);
             }
         }
-        if rises(problem, shear, ws, params.tolerance) {
-            for c in 0..2 {
-                shear.q[c].copy_from_slice(&ws.q_before[c]);
-                shear.u[c].copy_from_slice(&ws.u_before[c]);
-            }
+        if before.is_lower(&inside, &now, settled) {
+            before.restore(&mut now);
+            now.unpack(cells, shear);
             info.shift = ws.descent.run(response, problem, shear, DESCENT);
             info.passes += DESCENT;
+            now.pack(cells, shear);
+        } else {
+            for c in 0..2 {
+                add_scaled(shear.u[c], 1.0, &step.response_x[c]);
+            }
         }
     }
-}
-
-/// Whether the energy is higher than before the step, by more than the tolerance makes of the
-/// change of shear. With C symmetric and the sum of the change zero, the difference of the energy
-/// is the change times the mean slip.
-fn rises(
-    problem: &TangentialProblem<'_>,
-    shear: &Shear<'_>,
-    ws: &TangentialWorkspace,
-    tolerance: f64,
-) -> bool {
-    let given = problem.drive.given;
-    let [rise, moved] = sum_cells(problem.bound.len(), |n| {
-        let given = problem.arms.in_plane(given, n);
-        let (mut rise, mut moved) = (0.0, 0.0);
-        for c in 0..2 {
-            let change = shear.q[c][n] - ws.q_before[c][n];
-            let mean = 0.5 * (shear.u[c][n] + ws.u_before[c][n]) - problem.u_ref[c][n];
-            rise += change * (mean - given[c]);
-            moved += change.abs();
-        }
-        [rise, moved]
-    });
-    rise > SETTLED * tolerance * moved
 }
 
 /// Stick cells beyond the bound start to slip; slip cells whose slip goes along q stick.
 fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
-    for n in 0..problem.bound.len() {
-        shear.slip[n] = if shear.slip[n] {
-            power(problem, shear, shift, n) <= 0.0
+    let Shear { q, u, slip } = shear;
+    set_cells(slip, |n, slips| {
+        let q = [q[0][n], q[1][n]];
+        if slips {
+            power(q, problem.slip(u, shift, n)) <= 0.0
         } else {
-            let g = problem.bound[n];
-            g > 0.0 && size([shear.q[0][n], shear.q[1][n]]) > g
-        };
-    }
+            size(q) > problem.bound[n]
+        }
+    });
 }
 
-/// Releases slip cells that move along their shear by more than `tolerance` \[m\]; how many.
+/// Releases slip cells that move along their shear by more than `tolerance` \[m\]; whether any did.
 fn release(
     problem: &TangentialProblem<'_>,
     shear: &mut Shear<'_>,
     shift: [f64; 3],
     tolerance: f64,
-) -> usize {
-    let mut released = 0;
-    for n in 0..problem.bound.len() {
-        if shear.slip[n] && power(problem, shear, shift, n) > tolerance * problem.bound[n] {
-            shear.slip[n] = false;
-            released += 1;
+) -> bool {
+    let Shear { q, u, slip } = shear;
+    let released = AtomicBool::new(false);
+    set_cells(slip, |n, slips| {
+        let along = |slip| power([q[0][n], q[1][n]], slip) > tolerance * problem.bound[n];
+        if slips && along(problem.slip(u, shift, n)) {
+            released.store(true, Ordering::Relaxed);
+            return false;
         }
-    }
-    released
+        slips
+    });
+    released.into_inner()
+}
+
+/// q . ds, negative where friction dissipates \[Pa m\].
+fn power(q: [f64; 2], slip: [f64; 2]) -> f64 {
+    q[0] * slip[0] + q[1] * slip[1]
 }

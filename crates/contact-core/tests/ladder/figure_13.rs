@@ -58,7 +58,11 @@ fn largest(ratio: f64, n: usize) -> (f64, [f64; 3], usize) {
     let m = maximum(&below, &depths[shallow..], &x).unwrap();
     (
         surface / hertz.p0,
-        [m.value / hertz.p0, m.along / hertz.a, m.depth.z / hertz.a],
+        [
+            m.value / hertz.p0,
+            m.place[0] / hertz.a,
+            m.depth.z / hertz.a,
+        ],
         m.depth.layer,
     )
 }

@@ -4,6 +4,8 @@ use contact_core::march::{Fields, Increment, March, Motion, Status};
 use contact_core::scene::Loads;
 use ndarray::Array2;
 
+use crate::misfit::Misfit;
+
 /// How far the equations are off, each over what the tolerance allows: above 1 is a violation.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Violations {
@@ -14,10 +16,11 @@ pub(crate) struct Violations {
     pub(crate) slip: f64,
     pub(crate) energy: f64,
     pub(crate) monotone: f64,
+    pub(crate) report: f64,
 }
 
 impl Violations {
-    pub(crate) const NAMES: [&str; 7] = [
+    pub(crate) const NAMES: [&str; 8] = [
         "finite numbers",
         "force balance",
         "complementarity",
@@ -25,9 +28,10 @@ impl Violations {
         "stick and slip",
         "energy identity",
         "monotone contact",
+        "residuals as reported",
     ];
 
-    pub(crate) fn values(&self) -> [f64; 7] {
+    pub(crate) fn values(&self) -> [f64; 8] {
         [
             self.nan,
             self.balance,
@@ -36,6 +40,7 @@ impl Violations {
             self.slip,
             self.energy,
             self.monotone,
+            self.report,
         ]
     }
 
@@ -47,17 +52,18 @@ impl Violations {
         self.slip = self.slip.max(other.slip);
         self.energy = self.energy.max(other.energy);
         self.monotone = self.monotone.max(other.monotone);
+        self.report = self.report.max(other.report);
     }
 }
 
-/// Force balance and Coulomb's law hold to rounding.
+/// What sums of up to 2^16 cells lose to rounding, 2^16 eps = 1.5e-11, and a margin: force balance
+/// and Coulomb's law hold by construction.
 const ROUNDING: f64 = 1e-9;
 
 /// Follows a run.
 pub(crate) struct Audit {
     h_init: Array2<f64>,
-    /// Solver's tolerance as a length \[m\].
-    tolerance: f64,
+    misfit: Misfit,
     last: Option<(Fields, Motion, Loads)>,
     work: f64,
 }
@@ -65,10 +71,9 @@ pub(crate) struct Audit {
 impl Audit {
     pub(crate) fn new(march: &March) -> Self {
         let scene = march.scene();
-        let yardstick = scene.hertz().map_or(0.0, |h| h.delta_z);
         Self {
             h_init: scene.h_init(),
-            tolerance: scene.settings.solver.tolerance * yardstick,
+            misfit: Misfit::of(scene),
             last: None,
             work: 0.0,
         }
@@ -100,22 +105,11 @@ impl Audit {
             return found;
         }
         found.balance = balance(march, &now, increment) / ROUNDING;
-        // The solver bounds root-mean-square misfits over the contact: one cell may hold all of it.
-        let cells = now.contact.iter().filter(|c| **c).count() as f64;
-        let allowed = cells.sqrt() * self.tolerance * increment.work.parts as f64;
-        let gap = &now.u_z + &self.h_init - increment.motion.delta_z;
-        for (&p, &gap) in now.p.iter().zip(&gap) {
-            if p < 0.0 {
-                found.contact = f64::INFINITY;
-            }
-            let off = if p > 0.0 { gap.abs() } else { -gap };
-            if increment.point.loads.W > 0.0 {
-                found.contact = found.contact.max(off / allowed);
-            }
-        }
-        self.friction(march, &now, increment, allowed, &mut found);
+        self.contact(&now, increment, &mut found);
+        self.friction(march, &now, increment, &mut found);
         self.work += increment.energy.work.abs();
         if self.work > 0.0 {
+            // A gap or a slip within the tolerance, times the traction there.
             let limit = march.scene().settings.solver.tolerance * self.work;
             found.energy = increment.energy.imbalance().abs() / limit;
         }
@@ -124,17 +118,43 @@ impl Audit {
         found
     }
 
-    /// |q| <= mu p; no slip in stick cells; slip against q at the bound in slip cells.
-    fn friction(
-        &self,
-        march: &March,
-        now: &Fields,
-        increment: &Increment,
-        allowed: f64,
-        found: &mut Violations,
-    ) {
+    /// p >= 0, no gap under pressure, no overlap without, as the tolerance says: the first in the
+    /// root mean square, the second everywhere. The increment has to report the same.
+    fn contact(&self, now: &Fields, increment: &Increment, found: &mut Violations) {
+        if now.p.iter().any(|&p| p < 0.0) {
+            found.contact = f64::INFINITY;
+        }
+        if increment.status == Status::NoContact {
+            return;
+        }
+        let gap = &now.u_z + &self.h_init - increment.motion.delta_z;
+        let (mut squares, mut cells, mut overlap) = (0.0, 0.0_f64, 0.0_f64);
+        for (&p, &gap) in now.p.iter().zip(&gap) {
+            if p > 0.0 {
+                squares += gap * gap;
+                cells += 1.0;
+            } else {
+                overlap = overlap.max(-gap);
+            }
+        }
+        let gap = (squares / cells.max(1.0)).sqrt();
+        found.contact = found.contact.max(gap.max(overlap) / self.misfit.gap);
+        let said = &increment.residuals;
+        // Of an increment in pieces the worst of them is reported.
+        if increment.work.parts == 1 {
+            let off = |said: f64, found: f64| (said * self.misfit.yardstick - found).abs();
+            let off = off(said.gap, gap).max(off(said.penetration, overlap));
+            // The sums run in another order here; u_z may cancel against h_init to a millionth.
+            found.report = off / (1e-3 * self.misfit.gap);
+        }
+    }
+
+    /// |q| <= mu p everywhere; no slip in stick cells, and slip against q in the others, in the
+    /// root mean square over the contact.
+    fn friction(&self, march: &March, now: &Fields, increment: &Increment, found: &mut Violations) {
         let mu = march.scene().friction.mu;
         let p_max = increment.p_max;
+        let (mut squares, mut cells) = (0.0, 0.0_f64);
         for n in 0..now.p.len() {
             let at = |f: &Array2<f64>| f.as_slice().map_or(f64::NAN, |f| f[n]);
             let bound = mu * at(&now.p);
@@ -147,29 +167,36 @@ impl Audit {
             let Some((last, motion, _)) = &self.last else {
                 continue;
             };
-            // In pieces, each has slips of its own; a body that slides has any shift beyond the
-            // incipient one, and its slip the direction of the force only in the end.
-            let sliding = increment.status == Status::GrossSlip;
-            if bound <= 0.0 || sliding || increment.work.parts > 1 {
+            if bound <= 0.0 {
                 continue;
             }
             let ds = [
                 at(&now.u_x) - at(&last.u_x) - (increment.motion.delta_x - motion.delta_x),
                 at(&now.u_y) - at(&last.u_y) - (increment.motion.delta_y - motion.delta_y),
             ];
-            let slip = ds[0].hypot(ds[1]);
             let off = if now.stick.as_slice().is_some_and(|stick| stick[n]) {
-                slip
+                ds[0].hypot(ds[1])
             } else {
                 let along = (ds[0] * q[0] + ds[1] * q[1]) / size;
-                let across = (ds[0] * q[1] - ds[1] * q[0]).abs() / size;
-                along.max(across - 1e-3 * slip)
+                let across = (ds[0] * q[1] - ds[1] * q[0]) / size;
+                along.max(0.0).hypot(across)
             };
-            found.slip = found.slip.max(off / (mu * allowed));
+            squares += off * off;
+            cells += 1.0;
+        }
+        // In pieces, each has slips of its own; a body that slides has any shift beyond the
+        // incipient one, and its slip the direction of the force only in the end.
+        if increment.status == Status::GrossSlip || increment.work.parts > 1 {
+            return;
+        }
+        found.slip = (squares / cells.max(1.0)).sqrt() / self.misfit.slip;
+        if mu == 0.0 {
+            found.slip = 0.0;
         }
     }
 
-    /// More force, more contact: where shear does not act on the pressure, and up to a rim cell.
+    /// More force, more contact: where shear does not act on the pressure. A cell may leave whose
+    /// pressure is within what the tolerance allows.
     fn monotone(&self, march: &March, now: &Fields, increment: &Increment, found: &mut Violations) {
         let Some((last, _, loads)) = &self.last else {
             return;
@@ -177,9 +204,9 @@ impl Audit {
         if march.plan().coupling || increment.point.loads.W < loads.W {
             return;
         }
-        let count = |f: &Fields| f.contact.iter().filter(|c| **c).count() as f64;
-        let lost = count(last) - count(now);
-        found.monotone = lost / (1.0 + 0.02 * count(last));
+        let lost = last.p.iter().zip(&now.p).filter(|(_, now)| **now == 0.0);
+        let lost = lost.fold(0.0_f64, |most, (before, _)| most.max(*before));
+        found.monotone = lost / self.misfit.pressure(now);
     }
 }
 

@@ -17,6 +17,8 @@ pub(crate) enum Intent {
     PastFriction,
     /// To be refused: a grid smaller than the contact.
     OffGrid,
+    /// Either: a contact about as large as the grid.
+    Edge,
 }
 
 pub(crate) struct Drawn {
@@ -30,6 +32,7 @@ pub(crate) fn draw(seed: u64) -> Drawn {
     let intent = match rng.u32(0..100) {
         0 => Intent::PastFriction,
         1 | 2 => Intent::OffGrid,
+        3 | 4 => Intent::Edge,
         _ => Intent::Solve,
     };
     let R = 0.018;
@@ -96,7 +99,7 @@ fn substrate(rng: &mut Rng) -> Elastic {
         // Like bodies are common, and a case of their own.
         1..=6 => Elastic { E: 2e11, nu: 0.3 },
         _ => Elastic {
-            E: 2e11 * power(rng, -1.0, 1.0),
+            E: 2e11 * power(rng, -1.5, 1.5),
             nu: nu(rng),
         },
     }
@@ -108,11 +111,10 @@ fn coat(rng: &mut Rng, body: &mut Body, a_H: f64) {
         return;
     }
     let layers = if rng.f64() < 0.7 { 1 } else { rng.usize(2..11) };
-    let contrast = if layers == 1 { 3.0 } else { 3.0 * rng.f64() };
     body.coatings = (0..layers)
         .map(|_| Coating {
             material: Elastic {
-                E: body.substrate.E * power(rng, -contrast, contrast),
+                E: body.substrate.E * power(rng, -3.0, 3.0),
                 nu: nu(rng),
             },
             thickness: a_H * power(rng, -3.0, 2.0) / layers as f64,
@@ -140,7 +142,7 @@ fn contact_radius(body1: &Body, body2: &Body, R: f64, W: f64) -> f64 {
 /// ten times as long as wide.
 fn grid(rng: &mut Rng, a: f64, intent: Intent) -> Grid {
     let cells = |rng: &mut Rng, most: f64| power(rng, 8f64.log10(), most.log10()) as usize;
-    let most = if rng.f64() < 0.03 { 257.0 } else { 97.0 };
+    let most = if rng.f64() < 0.2 { 257.0 } else { 97.0 };
     let nx = cells(rng, most);
     let across = |rng: &mut Rng, n: usize| {
         let widest = n as f64 / 1.6;
@@ -157,11 +159,12 @@ fn grid(rng: &mut Rng, a: f64, intent: Intent) -> Grid {
     } else {
         (nx, dx)
     };
-    let shrink = if intent == Intent::OffGrid {
+    let (length, width) = (nx as f64 * dx, ny as f64 * dy);
+    let shrink = match intent {
         // The corners of the grid lie within half of the contact.
-        0.35 * a / (0.5 * (nx as f64 * dx).hypot(ny as f64 * dy))
-    } else {
-        1.0
+        Intent::OffGrid => 0.35 * a / (0.5 * length.hypot(width)),
+        Intent::Edge => 2.0 * a * (0.8 + 0.4 * rng.f64()) / length.min(width),
+        Intent::Solve | Intent::PastFriction => 1.0,
     };
     Grid::from_spacing((nx, ny), (dx * shrink, dy * shrink)).expect("a grid")
 }

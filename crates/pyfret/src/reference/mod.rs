@@ -3,7 +3,7 @@
 mod cattaneo_mindlin;
 mod hertz_contact;
 mod indentation;
-mod line_contact;
+mod line;
 mod lubkin;
 mod springs;
 
@@ -16,7 +16,7 @@ pub(crate) use indentation::{
     CoatedIndentation, CoupledIndentation, coated_indentation, coupled_indentation, dundurs_beta,
     goodman_stick_ratio,
 };
-pub(crate) use line_contact::{LineContact, line_contact};
+pub(crate) use line::{LineContact, line_contact};
 pub(crate) use lubkin::Lubkin;
 pub(crate) use springs::Springs;
 

@@ -113,12 +113,13 @@ pub(crate) struct Skip(core::SkipSettings);
 #[pymethods]
 impl Skip {
     #[new]
-    #[pyo3(signature = (*, equal_layers = true, coupling = true, mirror = true))]
-    fn new(equal_layers: bool, coupling: bool, mirror: bool) -> Self {
+    #[pyo3(signature = (*, equal_layers = true, coupling = true, mirror = true, path = true))]
+    fn new(equal_layers: bool, coupling: bool, mirror: bool, path: bool) -> Self {
         Self(core::SkipSettings {
             equal_layers,
             coupling,
             mirror,
+            path,
         })
     }
 
@@ -135,6 +136,11 @@ impl Skip {
     #[getter]
     fn mirror(&self) -> bool {
         self.0.mirror
+    }
+
+    #[getter]
+    fn path(&self) -> bool {
+        self.0.path
     }
 }
 

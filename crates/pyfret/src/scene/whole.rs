@@ -39,9 +39,14 @@ impl Scene {
     }
 
     #[staticmethod]
-    #[pyo3(signature = (path, *, set = Vec::new()))]
-    fn from_file(path: PathBuf, set: Vec<String>) -> PyResult<Self> {
-        core::Scene::from_file(path, &set)
+    #[pyo3(signature = (path, *, set = Vec::new(), allow_outside = false))]
+    fn from_file(path: PathBuf, set: Vec<String>, allow_outside: bool) -> PyResult<Self> {
+        let reach = if allow_outside {
+            core::Reach::Anywhere
+        } else {
+            core::Reach::Folder
+        };
+        core::Scene::from_file_reaching(path, &set, reach)
             .map(Self)
             .map_err(to_python)
     }

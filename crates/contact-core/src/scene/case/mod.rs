@@ -5,6 +5,7 @@
 //! names the key and its line, and an unknown key the nearest valid one.
 
 mod document;
+mod files;
 mod measure;
 mod read;
 mod section;
@@ -15,7 +16,10 @@ mod write;
 
 use std::path::Path;
 
+pub use files::Reach;
+
 use document::Document;
+use files::Files;
 use section::Fault;
 
 use super::Scene;
@@ -27,21 +31,35 @@ const SCHEMA: i64 = 1;
 impl Scene {
     /// Reads and checks a scene file. Each of `settings` is a `key=value` that replaces a value of
     /// the file before it is read, such as `friction.mu=0.5` or
-    /// `body2.coatings.0.E.E_substrate=4`.
+    /// `body2.coatings.0.E.E_substrate=4`. The files that it names must lie in its folder.
     pub fn from_file(path: impl AsRef<Path>, settings: &[String]) -> Result<Self, Error> {
+        Self::from_file_reaching(path, settings, Reach::Folder)
+    }
+
+    /// [`Self::from_file`], with files of the given reach.
+    pub fn from_file_reaching(
+        path: impl AsRef<Path>,
+        settings: &[String],
+        reach: Reach,
+    ) -> Result<Self, Error> {
         let path = path.as_ref();
         let text = std::fs::read_to_string(path).map_err(|e| Error::File {
             path: path.display().to_string(),
             message: e.to_string(),
         })?;
-        Self::from_toml_str(&text, &path.display().to_string(), settings)
+        Self::read(&text, &path.display().to_string(), settings, reach)
     }
 
     /// Reads and checks a scene in the format of the scene file; `file` is its name in errors.
     pub fn from_toml_str(text: &str, file: &str, settings: &[String]) -> Result<Self, Error> {
+        Self::read(text, file, settings, Reach::Folder)
+    }
+
+    fn read(text: &str, file: &str, settings: &[String], reach: Reach) -> Result<Self, Error> {
         let document = Document::parse(text, file, settings)?;
         let folder = Path::new(file).parent().unwrap_or_else(|| Path::new(""));
-        read::scene(document.root(), folder)
+        let files = Files { folder, reach };
+        read::scene(document.root(), &files)
             .and_then(|scene| {
                 scene.check()?;
                 Ok(scene)

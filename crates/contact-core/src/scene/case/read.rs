@@ -1,11 +1,10 @@
 //! The values of a scene, in the order that their measures need: a_H needs the substrates, the
 //! shapes and the loads; the coatings and the grid may be given in a_H.
 
-use std::path::Path;
-
 use toml::{Table, Value};
 
 use super::SCHEMA;
+use super::files::Files;
 use super::measure::{self, Measure};
 use super::section::{Fault, Section, count, pair};
 use super::shape::{shape, surface_map};
@@ -22,7 +21,7 @@ const ROOT: [&str; 11] = [
 const BODY: [&str; 4] = ["shape", "E", "nu", "coatings"];
 
 /// The whole scene, not yet checked for meaning.
-pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
+pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     let root = Section::root(table, &ROOT)?;
     let what = "1, the version of the scene file";
     match root.need("schema", what)? {
@@ -38,12 +37,12 @@ pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
         root.need_section("body1", &BODY)?,
         root.need_section("body2", &BODY)?,
     ];
-    let friction = friction(&root, folder)?;
+    let friction = friction(&root, files)?;
     let mu = friction.mu;
     let mut scene = Scene {
         title: title.to_owned(),
-        body1: uncoated(&bodies[0], folder)?,
-        body2: uncoated(&bodies[1], folder)?,
+        body1: uncoated(&bodies[0], files)?,
+        body2: uncoated(&bodies[1], files)?,
         friction,
         grid: Grid {
             nx: 0,
@@ -52,7 +51,7 @@ pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
             dy: 0.0,
             plane_strain: plane_strain(&root)?,
         },
-        path: path(&root, folder, mu)?,
+        path: path(&root, files, mu)?,
         settings: settings(&root)?,
     };
     scene.body1.check("body1")?;
@@ -69,8 +68,8 @@ pub(super) fn scene(table: &Table, folder: &Path) -> Result<Scene, Fault> {
     Ok(scene)
 }
 
-/// The friction law; `folder` is where relative paths of files start.
-fn friction(root: &Section<'_>, folder: &Path) -> Result<Friction, Fault> {
+/// The friction law.
+fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction, Fault> {
     let keys = ["mu", "mu_y", "kinetic", "map", "history"];
     let section = root.need_section("friction", &keys)?;
     let what = "a number >= 0, or \"stick\" for no slip";
@@ -100,7 +99,7 @@ fn friction(root: &Section<'_>, folder: &Path) -> Result<Friction, Fault> {
         mu,
         mu_y: number("mu_y")?,
         kinetic: number("kinetic")?,
-        map: map.map(|map| surface_map(&map, folder)).transpose()?,
+        map: map.map(|map| surface_map(&map, files)).transpose()?,
         history: friction_history(&section)?,
     })
 }
@@ -133,7 +132,7 @@ fn friction_history(friction: &Section<'_>) -> Result<Option<FrictionHistory>, F
     Ok(Some(FrictionHistory { of, table }))
 }
 
-fn uncoated(section: &Section<'_>, folder: &Path) -> Result<Body, Fault> {
+fn uncoated(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
     let rigid = section.get("E").and_then(Value::as_str) == Some("rigid");
     let substrate = if rigid {
         Elastic {
@@ -146,7 +145,7 @@ fn uncoated(section: &Section<'_>, folder: &Path) -> Result<Body, Fault> {
             nu: section.number("nu", "Poisson's ratio", &[])?,
         }
     };
-    Ok(Body::homogeneous(substrate, shape(section, folder)?))
+    Ok(Body::homogeneous(substrate, shape(section, files)?))
 }
 
 fn coatings(
@@ -226,11 +225,11 @@ fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
 }
 
 /// The branches; loads that one does not name keep their value.
-fn path(root: &Section<'_>, folder: &Path, mu: f64) -> Result<LoadPath, Fault> {
+fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<LoadPath, Fault> {
     let own = ["sigma_B", "rolled", "increments", "t", "spacing"];
     let keys = [&LOADS[..], &MOTIONS[..], &own].concat();
     if let Some(Value::Table(_)) = root.get("path") {
-        return measured(root, folder);
+        return measured(root, files);
     }
     let mut path = LoadPath::start();
     let (mut at, mut t) = (Loads::default(), 0.0);
@@ -294,7 +293,7 @@ fn loads(section: &Section<'_>, at: Loads, mu: f64) -> Result<Loads, Fault> {
 }
 
 /// A measured history: a table of waypoints in a file.
-fn measured(root: &Section<'_>, folder: &Path) -> Result<LoadPath, Fault> {
+fn measured(root: &Section<'_>, files: &Files<'_>) -> Result<LoadPath, Fault> {
     let section = root.need_section("path", &["file", "increments"])?;
     let what = "the name of a .csv file";
     let (key, value) = (section.path("file"), section.need("file", what)?);
@@ -311,7 +310,9 @@ fn measured(root: &Section<'_>, folder: &Path) -> Result<LoadPath, Fault> {
         Some(n @ Value::Integer(_)) => Increments::Each(count("path.increments", n, 1)?),
         Some(other) => return Err(Fault::value("path.increments", other, what)),
     };
-    LoadPath::from_csv(&folder.join(name), increments).map_err(|e| Fault::new(&key, e.to_string()))
+    let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
+    let file = files.find(name).map_err(|e| wrong(&e))?;
+    LoadPath::from_csv(&file, increments).map_err(|e| wrong(&e))
 }
 
 fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
@@ -336,12 +337,13 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
             max_iterations: section.count_or("max_iterations", 1, default.max_iterations)?,
         };
     }
-    if let Some(section) = root.section("skip", &["equal_layers", "coupling", "mirror"])? {
+    if let Some(section) = root.section("skip", &["equal_layers", "coupling", "mirror", "path"])? {
         let default = settings.skip;
         settings.skip = SkipSettings {
             equal_layers: section.flag_or("equal_layers", default.equal_layers)?,
             coupling: section.flag_or("coupling", default.coupling)?,
             mirror: section.flag_or("mirror", default.mirror)?,
+            path: section.flag_or("path", default.path)?,
         };
     }
     if let Some(section) = root.section("output", &["save"])? {

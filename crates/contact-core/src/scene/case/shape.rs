@@ -1,13 +1,12 @@
 //! Shapes in a scene file: a table of one key, or of several that are added.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use ndarray::Array2;
 use toml::Value;
 
+use super::files::Files;
 use super::section::{Fault, Section, pair};
-use crate::error::Error;
 use crate::scene::{Rough, Shape, SurfaceMap};
 
 const SHAPES: [&str; 11] = [
@@ -24,21 +23,21 @@ const SHAPES: [&str; 11] = [
     "sum",
 ];
 
-/// The shape of a body; `folder` is where relative paths of files start.
-pub(super) fn shape(body: &Section<'_>, folder: &Path) -> Result<Shape, Fault> {
+/// The shape of a body; `files` are those that it may name.
+pub(super) fn shape(body: &Section<'_>, files: &Files<'_>) -> Result<Shape, Fault> {
     let what = "\"flat\" or a table such as { sphere = { R = radius in m } }";
     let value = body.need("shape", what)?;
-    any(&body.path("shape"), value, folder, what)
+    any(&body.path("shape"), value, files, what)
 }
 
-fn any(key: &str, value: &Value, folder: &Path, what: &str) -> Result<Shape, Fault> {
+fn any(key: &str, value: &Value, files: &Files<'_>, what: &str) -> Result<Shape, Fault> {
     match value {
         Value::String(word) if word == "flat" => Ok(Shape::Flat),
         Value::Table(table) if !table.is_empty() => {
             let shapes = Section::from_value(key.to_owned(), value, &SHAPES)?;
             let mut parts = Vec::with_capacity(table.len());
             for name in table.keys() {
-                parts.push(one(&shapes, name, folder)?);
+                parts.push(one(&shapes, name, files)?);
             }
             // One part stands for itself.
             Ok(if parts.len() == 1 {
@@ -52,7 +51,7 @@ fn any(key: &str, value: &Value, folder: &Path, what: &str) -> Result<Shape, Fau
 }
 
 /// The shape under one key of the table.
-fn one(shapes: &Section<'_>, name: &str, folder: &Path) -> Result<Shape, Fault> {
+fn one(shapes: &Section<'_>, name: &str, files: &Files<'_>) -> Result<Shape, Fault> {
     let numbers = |keys: &[&str]| shapes.need_section(name, keys);
     let length = "a length in m";
     let slope = "the slope of the flank";
@@ -125,14 +124,12 @@ fn one(shapes: &Section<'_>, name: &str, folder: &Path) -> Result<Shape, Fault> 
                 })?,
             })
         }
-        "height_map" => {
-            Shape::HeightMap(surface_map(&numbers(&["file", "z", "spacing"])?, folder)?)
-        }
-        _ => sum(shapes, folder)?,
+        "height_map" => Shape::HeightMap(surface_map(&numbers(&["file", "z", "spacing"])?, files)?),
+        _ => sum(shapes, files)?,
     })
 }
 
-fn sum(shapes: &Section<'_>, folder: &Path) -> Result<Shape, Fault> {
+fn sum(shapes: &Section<'_>, files: &Files<'_>) -> Result<Shape, Fault> {
     let what = "a list of shapes";
     let (key, value) = (shapes.path("sum"), shapes.need("sum", what)?);
     let parts = value
@@ -140,13 +137,13 @@ fn sum(shapes: &Section<'_>, folder: &Path) -> Result<Shape, Fault> {
         .ok_or_else(|| Fault::value(&key, value, what))?;
     let parts = parts.iter().enumerate();
     parts
-        .map(|(i, part)| any(&format!("{key}[{i}]"), part, folder, "a shape"))
+        .map(|(i, part)| any(&format!("{key}[{i}]"), part, files, "a shape"))
         .collect::<Result<_, _>>()
         .map(Shape::Sum)
 }
 
 /// Numbers from a file, or in the scene itself: a list along x of lists along y.
-pub(super) fn surface_map(section: &Section<'_>, folder: &Path) -> Result<SurfaceMap, Fault> {
+pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<SurfaceMap, Fault> {
     let spacing = section.need("spacing", "the distance of the points in m, or two")?;
     let spacing = pair(&section.path("spacing"), spacing, |key, value| {
         super::measure::number(key, value, &[])
@@ -158,8 +155,9 @@ pub(super) fn surface_map(section: &Section<'_>, folder: &Path) -> Result<Surfac
         let name = file
             .as_str()
             .ok_or_else(|| Fault::value(&key, file, what))?;
-        return SurfaceMap::from_file(&folder.join(name), spacing)
-            .map_err(|e: Error| Fault::new(&key, format!("{key}: {e}")));
+        let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
+        let path = files.find(name).map_err(|e| wrong(&e))?;
+        return SurfaceMap::from_file(&path, spacing).map_err(|e| wrong(&e));
     }
     let what = "a list along x of lists along y of numbers, all of one length";
     let (key, value) = (section.path("z"), section.need("z", what)?);

@@ -74,8 +74,8 @@ impl Scene {
             skip.equal_layers
         ));
         line(format_args!(
-            "coupling = {}\nmirror = {}",
-            skip.coupling, skip.mirror
+            "coupling = {}\nmirror = {}\npath = {}",
+            skip.coupling, skip.mirror, skip.path
         ));
         let save = match &settings.save {
             SaveFields::Branches => "\"branches\"".to_owned(),

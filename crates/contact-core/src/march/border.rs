@@ -1,0 +1,79 @@
+//! Contacts that reach the border of the grid.
+
+use super::March;
+use crate::error::Error;
+use crate::kernels::Stack;
+use crate::scene::{LoadPoint, Scene};
+use crate::solvers::Interface;
+
+/// What a grid should be longer than the contact that is expected on it.
+const ROOM: f64 = 1.4;
+/// What a grid should grow by where nothing is known but that it is too small.
+const GROWTH: f64 = 1.4;
+
+impl March {
+    /// Fails if a cell at the border of the grid is in contact.
+    pub(super) fn check_border(
+        &self,
+        now: &Interface,
+        index: usize,
+        point: &LoadPoint,
+    ) -> Result<(), Error> {
+        let grid = &self.scene.grid;
+        let rows = self.plan.mirror.rows(grid.ny);
+        let extent = grid.extent();
+        let touched = (0..now.p.len()).filter(|&n| now.p[n] > 0.0).map(|n| {
+            let (i, j) = (n / rows, n % rows);
+            let end_x = i == 0 || i + 1 == grid.nx;
+            let outer_row = j + 1 == rows || (j == 0 && rows == grid.ny);
+            let end_y = outer_row && !grid.plane_strain;
+            let length = |touches: bool, extent: f64| if touches { extent } else { 0.0 };
+            length(end_x, extent.0).max(length(end_y, extent.1))
+        });
+        let touched = touched.fold(0.0, f64::max);
+        if touched == 0.0 {
+            return Ok(());
+        }
+        let expected = ROOM * 2.0 * expected_radius(&self.scene);
+        let W = if point.loads.W.is_nan() {
+            now.p.iter().sum::<f64>() * grid.cell_area() * self.plan.mirror.multiplicity()
+        } else {
+            point.loads.W
+        };
+        Err(Error::OffGrid {
+            increment: index,
+            W,
+            extent_x: extent.0,
+            extent_y: extent.1,
+            needed: expected.max(GROWTH * touched),
+        })
+    }
+}
+
+/// About the longer semi-axis of the contact under the largest load of the path \[m\]: Hertz's,
+/// a^3 = 3 W R/(4 E*), with the modulus that a wave about as long as the contact meets,
+/// 2/E* = sum of k C_33(k) at k = 1.5/a. Zero where the nominal shapes form no Hertz contact.
+fn expected_radius(scene: &Scene) -> f64 {
+    let Some(hertz) = scene.hertz() else {
+        return 0.0;
+    };
+    let stacks: Vec<_> = [&scene.body1, &scene.body2]
+        .into_iter()
+        .filter(|b| !(b.substrate.is_rigid() && b.coatings.is_empty()))
+        .map(Stack::new)
+        .collect();
+    let compliance = |k: f64| -> f64 { stacks.iter().map(|s| s.response(k).zz).sum() };
+    let uncoated = 2.0 / hertz.E_star;
+    let mut a = hertz.a;
+    // The radius goes with the cube root of the compliance, which falls with k: halfway steps
+    // settle.
+    for _ in 0..60 {
+        a = (a * hertz.a * (compliance(1.5 / a) / uncoated).cbrt()).sqrt();
+    }
+    if scene.grid.plane_strain {
+        return a;
+    }
+    // Of an ellipse, a_x/a_y is about (R_x/R_y)^(2/3).
+    let (steep, shallow) = scene.principal_curvatures();
+    a * (steep / shallow).cbrt()
+}

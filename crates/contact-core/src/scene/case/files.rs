@@ -1,0 +1,59 @@
+//! Files that a scene names.
+
+use std::path::{Component, Path, PathBuf};
+
+/// Where the files that a scene names may lie.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reach {
+    /// In the folder of the scene file, or below it (default): a scene from somebody else reads
+    /// nothing but what came with it.
+    #[default]
+    Folder,
+    /// Anywhere.
+    Anywhere,
+}
+
+/// The files that a scene may read.
+#[derive(Clone, Copy)]
+pub(super) struct Files<'a> {
+    /// The folder of the scene file; relative names start there.
+    pub(super) folder: &'a Path,
+    pub(super) reach: Reach,
+}
+
+impl Files<'_> {
+    /// The path of the file of that name; the error is what is wrong with the name.
+    pub(super) fn find(&self, name: &str) -> Result<PathBuf, String> {
+        let path = self.folder.join(name);
+        if self.reach == Reach::Anywhere {
+            return Ok(path);
+        }
+        let outside = || {
+            format!(
+                "\"{name}\" lies outside the folder of the scene: put it there, or allow it \
+                 (--allow-outside, allow_outside=True)"
+            )
+        };
+        let within = |c: Component<'_>| matches!(c, Component::Normal(_) | Component::CurDir);
+        if !Path::new(name).components().all(within) {
+            return Err(outside());
+        }
+        // Links lead out too.
+        let real = |path: &Path| {
+            path.canonicalize()
+                .map_err(|e| format!("{}: {e}", path.display()))
+        };
+        let here = Path::new(".");
+        let folder = if self.folder.as_os_str().is_empty() {
+            here
+        } else {
+            self.folder
+        };
+        let (folder, path) = (real(folder)?, real(&path)?);
+        if path.starts_with(folder) {
+            Ok(path)
+        } else {
+            Err(outside())
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! The tangential problem on the contact cells alone, packed.
+
+use super::contact_cells::ContactCells;
+use super::rigid_motion::{Arms, Drive};
+use super::shear::{Shear, TangentialProblem};
+use super::vector::sum_cells;
+
+type Pair = [Vec<f64>; 2];
+
+/// What the tangential solver is given and works on, of the contact cells.
+#[derive(Debug, Default)]
+pub(crate) struct ContactShear {
+    bound: Vec<f64>,
+    u_ref: Pair,
+    arms: Arms,
+    q: Pair,
+    u: Pair,
+    slip: Vec<bool>,
+}
+
+impl ContactShear {
+    /// Takes everything from the grid.
+    pub(crate) fn pack(
+        &mut self,
+        cells: &ContactCells,
+        problem: &TangentialProblem<'_>,
+        shear: &Shear<'_>,
+    ) {
+        self.arms.length = problem.arms.length;
+        self.arms.stretch = problem.arms.stretch;
+        let grid = [problem.bound, &problem.arms.x, &problem.arms.y];
+        let packed = [&mut self.bound, &mut self.arms.x, &mut self.arms.y];
+        for (packed, grid) in packed.into_iter().zip(grid) {
+            packed.resize(cells.count(), 0.0);
+            cells.pack(grid, packed);
+        }
+        for c in 0..2 {
+            self.u_ref[c].resize(cells.count(), 0.0);
+            cells.pack(problem.u_ref[c], &mut self.u_ref[c]);
+            self.q[c].resize(cells.count(), 0.0);
+            self.u[c].resize(cells.count(), 0.0);
+        }
+        self.slip.resize(cells.count(), false);
+        self.parts(problem.drive).1.pack(cells, shear);
+    }
+
+    /// The problem and the shear as the solver sees them.
+    pub(crate) fn parts(&mut self, drive: Drive) -> (TangentialProblem<'_>, Shear<'_>) {
+        let problem = TangentialProblem {
+            bound: &self.bound,
+            u_ref: [&self.u_ref[0], &self.u_ref[1]],
+            arms: &self.arms,
+            drive,
+        };
+        let [q_x, q_y] = &mut self.q;
+        let [u_x, u_y] = &mut self.u;
+        let shear = Shear {
+            q: [q_x, q_y],
+            u: [u_x, u_y],
+            slip: &mut self.slip,
+        };
+        (problem, shear)
+    }
+}
+
+impl Shear<'_> {
+    /// Takes the contact cells from the grid.
+    pub(crate) fn pack(&mut self, cells: &ContactCells, grid: &Shear<'_>) {
+        for c in 0..2 {
+            cells.pack(grid.q[c], self.q[c]);
+            cells.pack(grid.u[c], self.u[c]);
+        }
+        cells.pack(grid.slip, self.slip);
+    }
+
+    /// Puts shear and slip set back; the displacements of the grid have followed all along.
+    pub(crate) fn unpack(&self, cells: &ContactCells, grid: &mut Shear<'_>) {
+        for c in 0..2 {
+            cells.unpack(self.q[c], grid.q[c]);
+        }
+        cells.unpack(self.slip, grid.slip);
+    }
+}
+
+/// The shear before a step.
+#[derive(Debug, Default)]
+pub(crate) struct Before {
+    q: Pair,
+    u: Pair,
+}
+
+impl Before {
+    /// Keeps the present shear.
+    pub(crate) fn keep(&mut self, shear: &Shear<'_>) {
+        let pairs = [(&mut self.q, &shear.q), (&mut self.u, &shear.u)];
+        for (kept, now) in pairs {
+            for c in 0..2 {
+                kept[c].clear();
+                kept[c].extend_from_slice(now[c]);
+            }
+        }
+    }
+
+    /// Goes back to it, displacements excepted.
+    pub(crate) fn restore(&self, shear: &mut Shear<'_>) {
+        for c in 0..2 {
+            shear.q[c].copy_from_slice(&self.q[c]);
+        }
+    }
+
+    /// Whether the energy was lower before, by more than `tolerance` \[m\] makes of the change of
+    /// shear. With C symmetric and the sum of the change zero, the difference of the energy is the
+    /// change times the mean slip.
+    pub(crate) fn is_lower(
+        &self,
+        problem: &TangentialProblem<'_>,
+        shear: &Shear<'_>,
+        tolerance: f64,
+    ) -> bool {
+        let given = problem.drive.given;
+        let [rise, moved] = sum_cells(problem.bound.len(), |n| {
+            let given = problem.arms.in_plane(given, n);
+            let (mut rise, mut moved) = (0.0, 0.0);
+            for c in 0..2 {
+                let change = shear.q[c][n] - self.q[c][n];
+                let mean = 0.5 * (shear.u[c][n] + self.u[c][n]) - problem.u_ref[c][n];
+                rise += change * (mean - given[c]);
+                moved += change.abs();
+            }
+            [rise, moved]
+        });
+        rise > tolerance * moved
+    }
+}
