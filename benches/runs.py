@@ -29,7 +29,11 @@ RUNS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("small, 64 x 64, 200 increments", ("scenes/coated_small.toml",)),
     *(
         (f"paper, 256 x 256, 1000 increments, E1/E2 = {value:g}", (PAPER, *ratio(value)))
-        for value in (1.0, 0.5, 2.0, 4.0)
+        for value in (0.5, 1.0, 2.0, 4.0)
+    ),
+    (
+        "paper, 256 x 256, E1/E2 = 1, only the increments that count (`skip.path`)",
+        (PAPER, *ratio(1.0), "--set", "skip.path=true"),
     ),
 )
 

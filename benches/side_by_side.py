@@ -69,14 +69,28 @@ def precision(peers: Peers, scene: str, cells: int, seconds: float) -> Iterator[
             yield {"program": program.name, "scene": scene, "missing": str(reason)}
 
 
-def loosest(rows: Sequence[Row], program: str) -> float | None:
+def loosest(rows: Sequence[Row], program: str) -> float:
     """The loosest tolerance under which a program meets the residual."""
-    met = [
-        row["tolerance"]
-        for row in rows
-        if row["program"] == program and row.get("residual", 1) <= RESIDUAL
-    ]
-    return max(met, default=None)
+    mine = [row for row in rows if row["program"] == program]
+    for row in mine:
+        if "missing" in row:
+            raise Refused(row["missing"])
+    met = [row["tolerance"] for row in mine if row["residual"] <= RESIDUAL]
+    if not met:
+        raise Refused(f"no tolerance leads to the residual {RESIDUAL:.0e}")
+    return max(met)
+
+
+def within_residual(
+    program: Program, peers: Peers, scene: str, cells: int, tolerance: float, seconds: float
+) -> Row:
+    """A run under the tolerance, or the next tighter one that meets the residual on this grid."""
+    while tolerance >= min(TOLERANCES):
+        (row,) = run(program, peers, scene, cells, [tolerance], seconds=seconds)
+        if row["residual"] <= RESIDUAL:
+            return row
+        tolerance /= 10**0.5
+    raise Refused(f"no tolerance leads to the residual {RESIDUAL:.0e}")
 
 
 def grids(
@@ -85,15 +99,9 @@ def grids(
     """Every program on every grid, under the loosest tolerance that meets the residual there."""
     for cells in sizes:
         for program in PROGRAMS:
-            tolerance = loosest(ladder, program.name)
-            while tolerance is not None:
-                try:
-                    (row,) = run(program, peers, scene, cells, [tolerance], seconds=seconds)
-                except Refused as reason:
-                    row = {"program": program.name, "scene": scene, "cells": cells}
-                    yield row | {"missing": str(reason)}
-                    break
-                if row["residual"] <= RESIDUAL or tolerance < min(TOLERANCES):
-                    yield row
-                    break
-                tolerance /= 10**0.5
+            try:
+                tolerance = loosest(ladder, program.name)
+                yield within_residual(program, peers, scene, cells, tolerance, seconds)
+            except Refused as reason:
+                missing = {"cells": cells, "missing": str(reason)}
+                yield {"program": program.name, "scene": scene, **missing}

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """A Markdown table; numbers stand at the right."""
     rules = ["---", *["---:"] * (len(heads) - 1)]
-    lines = [heads, rules, *rows]
+    filled = [[*row, *[""] * (len(heads) - len(row))] for row in rows]
+    lines = [heads, rules, *filled]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
@@ -159,4 +160,4 @@ def write_between_marks(document: Path, name: str, text: str) -> None:
     content = document.read_text()
     if not pattern.search(content):
         raise ValueError(f"{document} has no marks {begin} ... {end}")
-    document.write_text(pattern.sub(lambda _: f"{begin}\n{text}\n{end}", content))
+    document.write_text(pattern.sub(lambda _: f"{begin}\n\n{text}\n\n{end}", content))

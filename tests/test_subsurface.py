@@ -34,6 +34,21 @@ def test_yield_starts_half_a_radius_below_a_pressed_sphere() -> None:
     assert layer == 0
 
 
+def test_the_trailing_edge_pulls_as_hamilton_says() -> None:
+    # G. M. Hamilton (1983) at the trailing edge on the surface.
+    mu, nu = 0.3, STEEL.nu
+    grid, p = hertz_load(256)
+    below = fret.subsurface.stress(fret.Body(STEEL), grid, [0.0, 0.5], p=p, q_x=mu * p, y=0.0)
+    rims = below.rims()
+    np.testing.assert_allclose(rims.dataset.x, [-1.0, 1.0], atol=3e-3)
+    tension = (1 - 2 * nu) / 3 + np.pi * mu * (4 + nu) / 8
+    assert float(rims.s_xx[0]) == pytest.approx(tension, abs=0.01)
+    value, x, z, _ = below.maximum("s_xx")
+    assert (value, x, z) == (float(rims.s_xx[0]), float(rims.dataset.x[0]), 0.0)
+    with pytest.raises(ValueError, match="no surface"):
+        fret.subsurface.stress(fret.Body(STEEL), grid, [0.5], p=p, y=0.0).rims()
+
+
 def test_sections_lines_and_planes_agree(coated: fret.Result) -> None:
     snapshot = coated.at(-1)
     z = [0.0, 0.3 * coated.a_H, coated.a_H]

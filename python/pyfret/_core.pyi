@@ -956,7 +956,8 @@ class Skip:
         Solve on half of a mirror-symmetric scene (default True).
     path : bool
         Leave out the increments of branches whose end does not depend on the way there
-        (default True); they are solved if their fields are to be kept.
+        (default False: results have a row for every increment asked for); they are solved if
+        their fields are to be kept.
     """
 
     def __new__(
@@ -965,7 +966,7 @@ class Skip:
         equal_layers: bool = True,
         coupling: bool = True,
         mirror: bool = True,
-        path: bool = True,
+        path: bool = False,
     ) -> Skip: ...
     @property
     def equal_layers(self) -> bool:
@@ -994,6 +995,9 @@ class Settings:
     tolerance : float, optional
         Relative tolerance of the solution (default 1e-6): gap error in the contact over the Hertz
         approach, tangential misfit over mu times it, change of the tractions in the last pass.
+    entering : bool, optional
+        Reckon the slip of cells that come into contact from their entry (default True): one more
+        solution in increments in which the contact grows, and far fewer increments.
     max_alternations : int, optional
         Most passes of the intermediate loop per increment (default 60).
     max_iterations : int, optional
@@ -1014,6 +1018,7 @@ class Settings:
         *,
         preset: Preset | None = None,
         tolerance: float | None = None,
+        entering: bool | None = None,
         max_alternations: int | None = None,
         max_iterations: int | None = None,
         kernel: _KernelMethod | None = None,
@@ -1027,6 +1032,9 @@ class Settings:
     @property
     def tolerance(self) -> float:
         """Relative tolerance of the solution."""
+    @property
+    def entering(self) -> bool:
+        """Whether slip is reckoned from the entry of a cell into the contact."""
     @property
     def max_alternations(self) -> int:
         """Most passes of the intermediate loop per increment."""
@@ -1583,9 +1591,16 @@ def principal(stress: ArrayLike) -> tuple[_Array, _Array]:
     """Principal values (n, 3), the largest first, and directions (n, 3, 3) of stresses (6, n)."""
 
 def maximum(
-    field: ArrayLike, z: Sequence[float], layer: Sequence[int], along: Sequence[float]
+    name: str,
+    stress: ArrayLike,
+    z: Sequence[float],
+    layer: Sequence[int],
+    along: Sequence[float],
 ) -> tuple[float, float, float, int] | None:
-    """Largest value of a field of shape (depths, places): value, place, depth, layer."""
+    """Largest value on a section of stresses (6, depths, places): value, place, depth, layer."""
+
+def rims(stress: ArrayLike, along: Sequence[float]) -> tuple[list[float], _Array]:
+    """Places of the rims on a line on the surface, and stresses (6, rims), from stresses (6, n)."""
 
 def loops(
     path: LoadPath,

@@ -97,21 +97,44 @@ class Stress:
     def maximum(self, of: str = "von_mises") -> Maximum:
         """Give the largest value on a section and its place, refined below the cell.
 
-        A maximum at the surface or at an interface stays there.
+        A maximum at the surface or at an interface stays there. On the surface the rims of the
+        contact take part, as :meth:`rims` gives them.
         """
-        values = self.measure(of)
-        if values.ndim != 2:
-            raise ValueError("the maximum is refined on a section: give stress(z, x=...) or y=...")
-        along = values.dims[1]
-        found = _core.maximum(
-            values.values,
-            values.z.values.tolist(),
-            values.layer.values.tolist(),
-            values[along].values.tolist(),
-        )
+        along = self._along()
+        depths = self.dataset.z.values.tolist()
+        layers = self.dataset.layer.values.tolist()
+        stress = np.stack([self.dataset[c].values for c in COMPONENTS])
+        found = _core.maximum(of, stress, depths, layers, self.dataset[along].values.tolist())
         if found is None:
             raise ValueError("the section holds no number")
         return Maximum(*found)
+
+    def rims(self) -> Stress:
+        """Give the surface stress at the rims of the contact, from a section that has z = 0.
+
+        It has a cusp there, such as the tension at the trailing edge, whose top no sample reaches:
+        samples near by are extrapolated. Rims that they do not show well enough are left out.
+        """
+        along = self._along()
+        surface = self.dataset.isel(depth=0)
+        if float(surface.z) != 0.0:
+            raise ValueError("the section has no surface: give stress(z=[0, ...], ...)")
+        stress = np.stack([surface[c].values for c in COMPONENTS])
+        places, tensors = _core.rims(stress, surface[along].values.tolist())
+        variables = {
+            name: ("rim", values, surface[name].attrs)
+            for name, values in zip(COMPONENTS, tensors, strict=True)
+        }
+        coords = {k: v for k, v in surface.coords.items() if k != along}
+        return Stress(xr.Dataset(variables, {**coords, along: ("rim", places, {"units": "m"})}))
+
+    def _along(self) -> str:
+        dims = self.dataset[COMPONENTS[0]].dims
+        if len(dims) != 2:
+            raise ValueError(
+                "this is known on a section: give stress(z, x=...) or stress(z, y=...)"
+            )
+        return str(dims[1])
 
     def __repr__(self) -> str:
         """Show the dataset."""

@@ -6,13 +6,13 @@ use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::fields::{
     Direction, Envelope, Largest, Line, LoopPoint, Section, Side, Slices, Stream, cycles, depths,
-    loops, maximum, measure_named,
+    loops, measure_named,
 };
 use contact_core::march::{Increment, March, Observer, Status, solve};
 use contact_core::output::{ImageData, StressStore, write_volume};
 use contact_core::reference::{CattaneoMindlin, hertz};
 use contact_core::scene::{Body, Elastic, Friction, Grid, LoadPath, Scene, Settings, Shape};
-use ndarray::{Array2, Axis};
+use ndarray::Array2;
 
 const STEEL: Elastic = Elastic { E: 210e9, nu: 0.0 };
 const MU: f64 = 0.3;
@@ -210,15 +210,12 @@ fn planes_stream_as_lines_do_and_the_largest_values_are_known() {
         };
         let section = Section::new(body, Side::Body2, grid, line, &[state]).unwrap();
         let stress = section.stress(&depths).unwrap().remove(0);
-        let mises = stress.map_axis(Axis(0), |s| {
-            (measures[0].value)(&std::array::from_fn(|c| s[c]))
-        });
-        expected.push(maximum(&mises, &depths, &along).unwrap());
+        expected.push(measures[0].maximum(&stress, &depths, &along).unwrap());
     }
     let (_, kept) = on_line.finish().unwrap();
     let (lines, tops): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
     let scale = 1e-9 * scene.hertz().unwrap().p0;
-    let found = Largest::over_depths(&depths, &tops);
+    let found = Largest::over_depths(&tops);
     assert_eq!(found.len(), expected.len());
     for ((moment, of), expected) in found.iter().zip(&expected) {
         let found = of[0].unwrap();

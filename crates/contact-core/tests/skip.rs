@@ -105,20 +105,42 @@ fn a_coating_like_its_substrate() {
 
 #[test]
 fn increments_whose_way_does_not_count() {
-    let isotropic = ["body1.nu=0.0", "body2.nu=0.0"];
+    let isotropic = ["body1.nu=0.0", "body2.nu=0.0", "skip.path=true"];
     assert!(line(&scene(&isotropic), "increments").skipped);
     let [with, without] = same_without(&isotropic, "skip.path=false");
     assert_eq!((with.len(), without.len()), (4, 16));
+    // A cell slips at its bound: what one increment dissipates is known without the way, too.
+    let many = [
+        "skip.path=false",
+        "path.1.increments=64",
+        "path.2.increments=64",
+        "path.3.increments=64",
+    ];
+    let many = solve(&scene(&[&isotropic[..], &many].concat()), &mut ()).unwrap();
+    for branch in 1..4 {
+        let of = |run: &[Increment]| -> f64 {
+            let within = run.iter().filter(|i| i.point.branch == branch);
+            within.map(|i| i.energy.dissipated).sum()
+        };
+        assert!(
+            (of(&with) / of(&many) - 1.0).abs() < 1e-3,
+            "{} {}",
+            of(&with),
+            of(&many)
+        );
+    }
 
     // Where slip turns, the indentation alone is direct.
-    let mixed = line(&scene(&[]), "increments");
+    let path = "skip.path=true";
+    let mixed = line(&scene(&[path]), "increments");
     assert!(mixed.skipped && mixed.subject.contains("1 of 4"), "{mixed}");
-    let [with, without] = same_without(&[], "skip.path=false");
+    let [with, without] = same_without(&[path], "skip.path=false");
     assert_eq!((with.len(), without.len()), (14, 16));
 
     // Without friction any path of normal loads is.
     let [with, _] = same_without(
         &[
+            path,
             "friction.mu=0.0",
             "path=[{ W = 500.0, increments = 3 }, { W = 1500.0, increments = 3 }, { W = 1000.0, increments = 2 }]",
         ],
@@ -130,7 +152,7 @@ fn increments_whose_way_does_not_count() {
 /// Where the way counts, or is asked for, every increment is solved.
 #[test]
 fn increments_whose_way_counts() {
-    let isotropic = ["body1.nu=0.0", "body2.nu=0.0"];
+    let isotropic = ["body1.nu=0.0", "body2.nu=0.0", "skip.path=true"];
     for setting in [
         "body2.E=70e9",
         "path.2.T_y=100.0",

@@ -6,11 +6,11 @@ use clap::Args;
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::fields::{
-    Depth, Line, MEASURES, Maximum, Measure, Section, Side, Slices, depths, maximum, measure_named,
+    Depth, Line, MEASURES, Maximum, Measure, Section, Side, Slices, depths, measure_named,
 };
 use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volume};
 use contact_core::scene::Scene;
-use ndarray::{Array2, Axis};
+use ndarray::{Array2, ArrayView1, Axis};
 
 use crate::{Failure, print};
 
@@ -177,12 +177,12 @@ impl Task {
         };
         let mut lines = Vec::new();
         for (m, measure) in self.measures.iter().enumerate() {
-            let values =
-                stress.map_axis(Axis(0), |s| (measure.value)(&std::array::from_fn(|c| s[c])));
             if let Some(store) = &store {
-                store.put_section(m, &values)?;
+                let value =
+                    |s: ArrayView1<'_, f64>| (measure.value)(&std::array::from_fn(|c| s[c]));
+                store.put_section(m, &stress.map_axis(Axis(0), value))?;
             }
-            if let Some(m) = maximum(&values, &self.depths, &along) {
+            if let Some(m) = measure.maximum(&stress, &self.depths, &along) {
                 let place = format!("{axis} = {}", self.length(m.place[0]));
                 lines.push(self.line(measure, m.value, &place, m.depth));
             }

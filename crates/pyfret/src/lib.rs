@@ -58,7 +58,7 @@ mod _core {
 
     #[pymodule_export]
     use crate::subsurface::{
-        Envelope, Subsurface, depths, loops, maximum, measure, principal, stress_labels,
+        Envelope, Subsurface, depths, loops, maximum, measure, principal, rims, stress_labels,
     };
 
     #[pymodule_init]

@@ -139,19 +139,15 @@ def stress_map(
 ) -> Axes:
     """Contours of a measure of stress on a section over p_H.
 
-    A cross marks the largest value, a circle the largest one on the surface. That is a sample: at
-    the rim of the contact surface stress has a cusp, and samples fall short of its top with the
-    square root of the cell.
+    A cross marks the largest value, a circle the largest one on the surface if that is another.
     """
     value, along, z, _ = stress.maximum(of)
     values = stress.measure(of)
     largest = (value, along, z)
     ax = section_map(values, a_H=a_H, p_H=p_H, levels=levels, maximum=largest, ax=ax)
     if float(values.z[0]) == 0.0 < z:
-        surface = values.isel(depth=0)
-        place = int(np.argmax(surface.values))
-        at = (float(surface[place]), float(surface[surface.dims[0]][place]), 0.0)
-        _mark(ax, at, a_H=a_H, p_H=p_H, marker="o")
+        surface = type(stress)(stress.dataset.isel(depth=slice(1)))
+        _mark(ax, surface.maximum(of)[:3], a_H=a_H, p_H=p_H, marker="o")
     return ax
 
 

@@ -18,8 +18,7 @@ pub struct Measure {
 
 impl Measure {
     /// Its values at points, from their stresses of shape (6, points) \[Pa\].
-    #[allow(clippy::needless_pass_by_value)] // as views are
-    pub fn on(&self, stress: ArrayView2<'_, f64>) -> Array1<f64> {
+    pub fn on(&self, stress: &ArrayView2<'_, f64>) -> Array1<f64> {
         let columns = stress.axis_iter(Axis(1));
         columns
             .map(|s| (self.value)(&std::array::from_fn(|c| s[c])))

@@ -66,8 +66,8 @@ fn ratio(a: f64, b: f64) -> f64 {
 }
 
 /// First and last branch of every cycle of a load path: from a turning point, the first time that
-/// its loads, and the motions given in place of loads, return; cycles follow each other and do not
-/// overlap.
+/// its loads, the motions given in place of loads and the bulk stress return; cycles follow each
+/// other and do not overlap.
 pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
     let ends: Vec<Loads> = std::iter::once(Loads::default())
         .chain(path.branches.iter().map(|b| b.to))
@@ -84,15 +84,18 @@ pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
             }
         }
     }
+    let bulk = ends.iter().fold(0.0, |m: f64, l| m.max(l.sigma_B.abs()));
     let same = |a: &Loads, b: &Loads| {
-        driven(a).zip(driven(b)).enumerate().all(|(k, (a, b))| {
+        let pulled_alike = (a.sigma_B - b.sigma_B).abs() <= SAME * bulk;
+        let driven_alike = driven(a).zip(driven(b)).enumerate().all(|(k, (a, b))| {
             let [loads, motions] = largest[usize::from(is_turn(k))];
             match (a.1, b.1) {
                 (None, None) => (a.0 - b.0).abs() <= SAME * loads,
                 (Some(a), Some(b)) => (a - b).abs() <= SAME * motions,
                 _ => false,
             }
-        })
+        });
+        pulled_alike && driven_alike
     };
     let mut found = Vec::new();
     let mut start = 0;
@@ -246,6 +249,11 @@ mod tests {
             .into_iter()
             .fold(LoadPath::start().normal(10.0, 1), shifted);
         // The force that was given before the shifts is no end of a cycle of shifts.
+        assert_eq!(cycles(&path), [(2, 3)]);
+        let pulled = |path: LoadPath, by: f64| path.to(|l| l.sigma_B = by, 2);
+        let path = [1e8, -1e8, 1e8]
+            .into_iter()
+            .fold(LoadPath::start().normal(10.0, 1), pulled);
         assert_eq!(cycles(&path), [(2, 3)]);
         let rocking = |path: LoadPath, by: f64| path.to(|l| l.given.phi_y = Some(by), 2);
         let path = [1e-4, -1e-4, 0.0]

@@ -81,7 +81,7 @@ impl Accumulate for Envelope {
             .map(|(_, extremes)| extremes)
             .collect();
         for (m, measure) in self.measures.iter().enumerate() {
-            for (i, &value) in measure.on(stress.view()).iter().enumerate() {
+            for (i, &value) in measure.on(&stress.view()).iter().enumerate() {
                 kept.path.take((m, i), value, moment.increment);
                 for extremes in &mut of_cycles {
                     extremes.take((m, i), value, moment.increment);

@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::maximum::{Maximum, Top, maximum_of_tops, top_of_line};
+use super::maximum::{Maximum, Top, maximum_of_tops};
 use super::{Accumulate, Depth, Measure, Moment};
 
 /// Keeps the largest value of measures of stress below a line at every increment: a number and a
@@ -15,22 +15,26 @@ pub struct Largest {
     pub along: Vec<f64>,
 }
 
-/// The tops on the line at one depth, by moment and measure.
-pub type DepthTops = Vec<(Moment, Vec<Option<Top<1>>>)>;
+/// The tops on the line at one depth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DepthTops {
+    /// The depth.
+    pub depth: Depth,
+    /// By moment and measure.
+    pub tops: Vec<(Moment, Vec<Option<Top<1>>>)>,
+}
 
 impl Largest {
     /// The largest values over all depths, by moment and measure, from what was kept at each.
-    pub fn over_depths(
-        depths: &[Depth],
-        kept: &[DepthTops],
-    ) -> Vec<(Moment, Vec<Option<Maximum<1>>>)> {
+    pub fn over_depths(kept: &[DepthTops]) -> Vec<(Moment, Vec<Option<Maximum<1>>>)> {
+        let depths: Vec<Depth> = kept.iter().map(|k| k.depth).collect();
         let Some(first) = kept.first() else {
             return Vec::new();
         };
-        let moments = first.iter().enumerate().map(|(n, (moment, tops))| {
+        let moments = first.tops.iter().enumerate().map(|(n, (moment, tops))| {
             let of = |m: usize| {
-                let tops: Vec<_> = kept.iter().map(|depth| depth[n].1[m]).collect();
-                maximum_of_tops(&tops, depths)
+                let tops: Vec<_> = kept.iter().map(|k| k.tops[n].1[m]).collect();
+                maximum_of_tops(&tops, &depths)
             };
             (*moment, (0..tops.len()).map(of).collect())
         });
@@ -41,15 +45,14 @@ impl Largest {
 impl Accumulate for Largest {
     type Kept = DepthTops;
 
-    fn start(&self, _: Depth, _: usize) -> DepthTops {
-        Vec::new()
+    fn start(&self, depth: Depth, _: usize) -> DepthTops {
+        let tops = Vec::new();
+        DepthTops { depth, tops }
     }
 
     fn add(&self, kept: &mut DepthTops, moment: Moment, stress: &Array2<f64>) {
-        let tops = self.measures.iter().map(|measure| {
-            let values = measure.on(stress.view());
-            top_of_line(values.view(), &self.along)
-        });
-        kept.push((moment, tops.collect()));
+        let measures = self.measures.iter();
+        let tops = measures.map(|m| m.top(&stress.view(), &self.along, kept.depth));
+        kept.tops.push((moment, tops.collect()));
     }
 }

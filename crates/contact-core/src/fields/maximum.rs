@@ -38,8 +38,7 @@ pub struct Maximum<const D: usize> {
 }
 
 /// The largest value on a line of samples at the places `along` \[m\]; `None` without a number.
-#[allow(clippy::needless_pass_by_value)] // as views are
-pub fn top_of_line(values: ArrayView1<'_, f64>, along: &[f64]) -> Option<Top<1>> {
+pub fn top_of_line(values: &ArrayView1<'_, f64>, along: &[f64]) -> Option<Top<1>> {
     let samples = values.iter().zip(along).enumerate();
     let tops: Vec<_> = samples
         .filter(|(_, (value, _))| !value.is_nan())
@@ -58,7 +57,7 @@ pub fn top_of_line(values: ArrayView1<'_, f64>, along: &[f64]) -> Option<Top<1>>
 pub fn top_of_plane(values: &Array2<f64>, x: &[f64], y: &[f64]) -> Option<Top<2>> {
     let lines = values.rows().into_iter().enumerate();
     let (samples, tops): (Vec<usize>, Vec<Top<1>>) = lines
-        .filter_map(|(i, line)| Some((i, top_of_line(line, y)?)))
+        .filter_map(|(i, line)| Some((i, top_of_line(&line, y)?)))
         .unzip();
     let beside = |n: usize, m: usize| samples[n].abs_diff(samples[m]) == 1;
     let (at, top) = summit(&tops, |n| x[samples[n]], &beside)?;
@@ -103,7 +102,7 @@ pub fn maximum(field: &Array2<f64>, depths: &[Depth], along: &[f64]) -> Option<M
     let tops: Vec<_> = field
         .rows()
         .into_iter()
-        .map(|line| top_of_line(line, along))
+        .map(|line| top_of_line(&line, along))
         .collect();
     maximum_of_tops(&tops, depths)
 }

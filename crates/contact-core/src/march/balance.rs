@@ -3,20 +3,25 @@
 use super::carried::Carried;
 use super::{Energy, Increment, March, Motion, Residuals, State, Status, Work};
 use crate::convolution::Mirror;
+use crate::error::Error;
 use crate::scene::{Given, LoadPoint, Loads};
 use crate::solvers::{
     CoupledInfo, Interface, friction_bound, largest, set_cells, set_pairs, size, sum_cells,
 };
 
+/// What sums in another order may differ by.
+const ROUNDING: f64 = 1e-9;
+
 impl March {
-    /// Draws up the accounts of a solved increment and makes it the present state.
+    /// Draws up the accounts of a solved increment and makes it the present state; fails if the
+    /// equations do not hold as the tolerance says.
     pub(super) fn account(
         &mut self,
         point: &LoadPoint,
         now: Interface,
         info: &CoupledInfo,
-        transforms: usize,
-    ) -> Increment {
+        convolutions: f64,
+    ) -> Result<Increment, Error> {
         let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
         let last = &self.state;
         let motion = self.motion(point, info);
@@ -48,18 +53,50 @@ impl March {
             energy,
             residuals,
             work: Work {
-                convolutions: transforms as f64 / 6.0,
+                convolutions,
                 alternations: info.alternations,
                 normal_iterations: info.normal_iterations,
                 tangential_iterations: info.tangential_iterations,
                 parts: 1,
             },
         };
+        self.check_residuals(&increment, (contact, slipping))?;
         self.keep(point, now, motion, increment.energy.work);
         if self.state.work != 0.0 {
             increment.residuals.energy = energy.imbalance() / self.state.work;
         }
-        increment
+        Ok(increment)
+    }
+
+    /// Whatever a solver took for solved: gap and overlap, and the slip that should not be over the
+    /// `contact` cells, of which some slip, are within the tolerance, or the increment is not.
+    fn check_residuals(
+        &self,
+        increment: &Increment,
+        (contact, slipping): (usize, usize),
+    ) -> Result<(), Error> {
+        let r = &increment.residuals;
+        let mu = self.scene.friction.scale();
+        let slips = if increment.status == Status::GrossSlip {
+            // A body that slides may have any shift beyond the incipient one.
+            0.0
+        } else {
+            let stick = r.stick.powi(2) * (contact - slipping) as f64;
+            let direction = r.direction.powi(2) * slipping as f64;
+            mu.max(1.0) * ((stick + direction) / contact.max(1) as f64).sqrt()
+        };
+        let worst = r.gap.max(r.penetration).max(slips);
+        let tolerance = self.scene.settings.solver.tolerance;
+        if worst <= tolerance * (1.0 + ROUNDING) {
+            return Ok(());
+        }
+        Err(Error::NotConverged {
+            increment: increment.index,
+            solver: "coupled",
+            residual: worst * self.approach,
+            tolerance: tolerance * self.approach,
+            iterations: increment.work.alternations,
+        })
     }
 
     /// The rigid motion at the end of the increment; what is given is kept as it was said.
@@ -125,30 +162,42 @@ impl March {
             .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
             .sum();
         let (approach, shift) = self.change(motion);
-        let [elastic, dissipated, opening, of_bulk, of_rolling] = sum_cells(now.p.len(), |n| {
+        let at_bound = self.slips_at_bound(point);
+        let sums = sum_cells(now.p.len(), |n| {
             let p = mean(now.p[n], last.p[n]);
             let du_z = now.u_z[n] - last.u_z[n];
             let shift = self.arms.in_plane(shift, n);
             let stretch = self.stretch_at(n);
             let wider = self.gap_rolled(n);
+            let entered = self.entered_at(n);
             let mut elastic = p * du_z;
-            let (mut dissipated, mut of_bulk) = (0.0, 0.0);
+            let (mut dissipated, mut late, mut of_bulk) = (0.0, 0.0, 0.0);
+            let mut opening = -p * (du_z + wider - self.arms.across(approach, n));
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
                 let du = now.u[c][n] - last.u[c][n];
-                elastic += q * (du - stretch[c]);
+                elastic += q * (du - stretch[c] + entered[c]);
+                opening -= q * entered[c];
                 dissipated -= q * (du - shift[c]);
+                late -= (now.q[c][n] - q) * (du - shift[c]);
                 of_bulk -= q * stretch[c];
             }
-            let opening = -p * (du_z + wider - self.arms.across(approach, n));
-            [elastic, dissipated, opening, of_bulk, -p * wider]
+            [elastic, dissipated, late, opening, of_bulk, -p * wider]
         });
+        let [elastic, dissipated, late, opening, of_bulk, of_rolling] = sums;
+        let late = if at_bound { late * cell_area } else { 0.0 };
         Energy {
-            work: of_loads + (of_bulk + of_rolling) * cell_area,
+            work: of_loads + (of_bulk + of_rolling) * cell_area + late,
             elastic: elastic * cell_area,
-            dissipated: dissipated * cell_area,
+            dissipated: dissipated * cell_area + late,
             opening: opening * cell_area,
         }
+    }
+
+    /// Whether all slip of an increment, being a whole branch, happens at the final shear: that of
+    /// a cell grows until it slips, and stays. The force does its work as late.
+    fn slips_at_bound(&self, point: &LoadPoint) -> bool {
+        self.plan.direct[point.branch]
     }
 
     /// Motions across and in the plane from the present state, rotations times the length \[m\].
@@ -189,20 +238,21 @@ impl March {
             }
         });
         let p_max = largest(cells, |n| now.p[n]);
-        let penetration = largest(cells, |n| if now.p[n] > 0.0 { 0.0 } else { -gap(n) });
         let excess = |n: usize| size([now.q[0][n], now.q[1][n]]) - bound(n);
         let mut r = Residuals {
             coulomb: largest(cells, excess),
-            penetration,
             ..Residuals::default()
         };
         let rms = |squares: f64, count: f64| (squares / count.max(1.0)).sqrt();
-        r.gap = rms(gap_squares, contact) / self.approach;
-        r.penetration /= self.approach;
+        if contact > 0.0 {
+            r.gap = rms(gap_squares, contact) / self.approach;
+            let overlap = |n: usize| if now.p[n] > 0.0 { 0.0 } else { -gap(n) };
+            r.penetration = largest(cells, overlap) / self.approach;
+        }
         if slipped > 0.0 {
             r.angle = (direction / slipped).sqrt().min(1.0).asin();
         }
-        if mu > 0.0 {
+        if mu > 0.0 && contact > 0.0 {
             r.stick = rms(stick, contact - slipping) / (mu * self.approach);
             r.direction = rms(direction, slipping) / (mu * self.approach);
         }
@@ -243,6 +293,7 @@ impl March {
     /// Makes the increment the present state.
     fn keep(&mut self, point: &LoadPoint, now: Interface, motion: Motion, work: f64) {
         let (_, shift) = self.change(&motion);
+        let at_bound = self.slips_at_bound(point);
         self.roll_history();
         let state = &mut self.state;
         let last = std::mem::replace(&mut state.interface, now);
@@ -254,12 +305,14 @@ impl March {
         };
         set_cells(&mut state.dissipated, |n, dissipated| {
             let slip = slip(n);
-            let power = |c: usize| 0.5 * (now.q[c][n] + before.q[c][n]) * slip[c];
+            let mean = |c: usize| 0.5 * (now.q[c][n] + before.q[c][n]);
+            let power = |c: usize| (if at_bound { now.q[c][n] } else { mean(c) }) * slip[c];
             dissipated - power(0) - power(1)
         });
+        let slips = |n: usize| now.p[n] > 0.0 && now.slip[n];
         let [slip_x, slip_y] = &mut state.slip;
         set_pairs([slip_x, slip_y], |n, total| {
-            if now.p[n] > 0.0 && now.slip[n] {
+            if slips(n) {
                 let slip = slip(n);
                 [total[0] + slip[0], total[1] + slip[1]]
             } else {
@@ -268,9 +321,9 @@ impl March {
         });
         let stretch = self.arms.stretch;
         set_cells(&mut state.slip_length, |n, length| {
-            if now.p[n] > 0.0 && now.slip[n] {
-                let [x, y] = slip(n);
-                length + x.hypot(y / stretch)
+            if slips(n) {
+                let slip = slip(n);
+                length + size([slip[0], slip[1] / stretch])
             } else {
                 length
             }

@@ -25,8 +25,7 @@ impl March {
         let touched = (0..now.p.len()).filter(|&n| now.p[n] > 0.0).map(|n| {
             let (i, j) = (n / rows, n % rows);
             let end_x = i == 0 || i + 1 == grid.nx;
-            let outer_row = j + 1 == rows || (j == 0 && rows == grid.ny);
-            let end_y = outer_row && !grid.plane_strain;
+            let end_y = !grid.plane_strain && (j + 1 == rows || (j == 0 && rows == grid.ny));
             let length = |touches: bool, extent: f64| if touches { extent } else { 0.0 };
             length(end_x, extent.0).max(length(end_y, extent.1))
         });

@@ -75,8 +75,8 @@ pub struct Energy {
     pub elastic: f64,
     /// Energy dissipated by friction, -sum of q . ds dA, >= 0.
     pub dissipated: f64,
-    /// Work of the pressure on cells that close or open, -sum of p dh dA; it vanishes with the
-    /// increment.
+    /// Work of the tractions on cells that close or open, -sum of p dh dA, and of the shear on what
+    /// cells moved before they closed; it vanishes with the increment.
     pub opening: f64,
 }
 

@@ -4,6 +4,8 @@ mod awake;
 mod balance;
 mod border;
 mod carried;
+mod coarse;
+mod entering;
 mod fields;
 mod halving;
 mod increment;
@@ -21,7 +23,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use self::awake::with_all_awake;
 use self::carried::Carried;
-use crate::convolution::{CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, SurfaceOperator};
+use self::coarse::coarse_start;
+use self::predict::first_touch;
+use crate::convolution::{
+    CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, PARALLEL_FROM, SurfaceOperator,
+};
 use crate::error::Error;
 use crate::kernels::influence_coefficients;
 use crate::scene::{History, KernelMethod, LoadPoint, Plan, Preset, Scene};
@@ -178,35 +184,86 @@ impl March {
         let end = &self.scene.path.branches[point.branch].to;
         let state = &self.state;
         let point = point.resolved(end, state.loads.forces(), state.motion.motions());
-        Some(with_all_awake(|| self.reach(&point)))
+        Some(if self.h_init.len() < PARALLEL_FROM {
+            self.reach(&point)
+        } else {
+            with_all_awake(|| self.reach(&point))
+        })
     }
 
     /// One increment: predict, solve, account, keep.
     fn increment(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let index = self.state.increments + 1;
         let transforms = self.op.transforms();
-        let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
-        let (normal, tangential) = self.drives(point, cell_area);
+        let (normal, tangential) = self.drives(point);
         self.carry(point);
         self.update_friction();
         let pressed = !normal.free[0] || normal.sums[0] > 0.0;
-        let mut now = if pressed {
+        let mut coarse_convolutions = 0.0;
+        let start = if pressed {
+            let touch = (self.state.loads.W <= 0.0).then(|| {
+                let Some(start) = coarse_start(&self.scene, point) else {
+                    return first_touch(&self.h_init, self.approach_at(point));
+                };
+                coarse_convolutions = start.convolutions;
+                self.plan.mirror.fold(&start.p)
+            });
             self.state.predict(
                 point,
-                &self.h_init,
+                touch,
                 &self.mu,
                 &normal,
-                self.approach_at(point),
                 self.scene.settings.solver.preset,
             )
         } else {
             Interface::unloaded(self.h_init.len())
         };
+        let (now, info) = if pressed {
+            self.solve_entering(point, start)?
+        } else {
+            let info = CoupledInfo {
+                approach: normal.given,
+                shift: tangential.given,
+                ..CoupledInfo::default()
+            };
+            (start, info)
+        };
+        if info.exceeds_friction() {
+            return Err(Error::BeyondFriction {
+                increment: index,
+                used: info.friction_used,
+            });
+        }
+        self.check_border(&now, index, point)?;
+        let transforms = self.op.transforms() - transforms;
+        let convolutions = transforms as f64 / 6.0 + coarse_convolutions;
+        self.account(point, now, &info, convolutions)
+    }
+
+    /// Solves the increment from a start, on the cells of the last contact alone if it is `kept`.
+    fn solve_pressed(
+        &mut self,
+        mut now: Interface,
+        (normal, tangential): (Drive, Drive),
+        kept: bool,
+    ) -> Result<(Interface, CoupledInfo), Error> {
+        let apart;
+        let h_init = if kept {
+            let far = 1e3 * (self.approach + self.h_init.iter().fold(0.0, |m, h| h.abs().max(m)));
+            let p = &self.state.interface.p;
+            let cells = self.h_init.iter().zip(p);
+            apart = cells
+                .map(|(h, &p)| if p > 0.0 { *h } else { h + far })
+                .collect();
+            &apart
+        } else {
+            &self.h_init
+        };
         // As March::before, for the sake of the workspace borrowed beside it.
         let carried = self.carried.as_ref();
         let before = carried.map_or(&self.state.interface, Carried::interface);
         let problem = IncrementProblem {
-            h_init: &self.h_init,
+            h_init,
             u_ref: [&before.u[0], &before.u[1]],
             mu: &self.mu,
             arms: &self.arms,
@@ -218,50 +275,27 @@ impl March {
             inverse: self.inverse.as_mut(),
             stop: Some(&self.stop),
         };
-        let info = if pressed {
-            let params = params(&self.scene, self.approach);
-            coupled(
-                &mut response,
-                &problem,
-                &mut now,
-                &mut self.workspace,
-                &params,
-            )
-            .map_err(|e| {
-                if self.stop.load(Ordering::Relaxed) {
-                    return Error::Interrupted {
-                        increment: index - 1,
-                    };
-                }
-                Error::NotConverged {
-                    increment: index,
-                    solver: e.solver,
-                    residual: e.residual,
-                    tolerance: e.tolerance,
-                    iterations: e.iterations,
-                }
-            })?
-        } else {
-            CoupledInfo {
-                approach: normal.given,
-                shift: tangential.given,
-                ..CoupledInfo::default()
-            }
-        };
-        if info.exceeds_friction() {
-            return Err(Error::BeyondFriction {
-                increment: index,
-                used: info.friction_used,
-            });
+        let params = params(&self.scene, self.approach);
+        let ws = &mut self.workspace;
+        match coupled(&mut response, &problem, &mut now, ws, &params) {
+            Ok(info) => Ok((now, info)),
+            Err(_) if self.stop.load(Ordering::Relaxed) => Err(Error::Interrupted {
+                increment: self.state.increments,
+            }),
+            Err(e) => Err(Error::NotConverged {
+                increment: self.state.increments + 1,
+                solver: e.solver,
+                residual: e.residual,
+                tolerance: e.tolerance,
+                iterations: e.iterations,
+            }),
         }
-        self.check_border(&now, index, point)?;
-        let transforms = self.op.transforms() - transforms;
-        Ok(self.account(point, now, &info, transforms))
     }
 
     /// What drives the motions across the plane, from the unloaded state, and those in it, in this
     /// increment. By symmetry the half of a mirrored scene has no motion that turns it.
-    fn drives(&self, point: &LoadPoint, cell_area: f64) -> (Drive, Drive) {
+    fn drives(&self, point: &LoadPoint) -> (Drive, Drive) {
+        let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
         let (forces, given) = (point.loads.forces(), point.loads.given.motions());
         let before = self.state.motion.motions();
         let mirrored = self.plan.mirror != Mirror::None;

@@ -54,19 +54,19 @@ impl Loads {
 impl State {
     /// Tractions and slip set to start from: the last increment's, extrapolated while the loads
     /// keep their direction (the paper takes them as they are). At a reversal every cell is taken
-    /// to stick: slip needs the load to move on before it sets in again.
+    /// to stick: slip needs the load to move on before it sets in again. Bodies that have not touched
+    /// start from the pressure `touch`.
     pub(crate) fn predict(
         &self,
         point: &LoadPoint,
-        h_init: &[f64],
+        touch: Option<Vec<f64>>,
         mu: &[f64],
         normal: &Drive,
-        approach: f64,
         preset: Preset,
     ) -> Interface {
         let mut guess = self.interface.clone();
-        if self.loads.W <= 0.0 {
-            first_touch(&mut guess, h_init, approach);
+        if let Some(p) = touch {
+            guess.p = p;
         }
         let step = point.loads.since(&self.loads, self.motion.motions());
         let same_way = step.along(&self.step).filter(|_| self.increments > 1);
@@ -124,13 +124,16 @@ fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64], fa
     });
 }
 
-/// A pressure for bodies that have not touched: that of a Hertz contact of the given approach.
-fn first_touch(guess: &mut Interface, h_init: &[f64], approach: f64) {
-    if approach <= 0.0 {
-        return;
-    }
+/// A pressure for bodies that have not touched: that of a Hertz contact of the given approach \[m\],
+/// up to a factor.
+pub(super) fn first_touch(h_init: &[f64], approach: f64) -> Vec<f64> {
     let lowest = h_init.iter().fold(f64::INFINITY, |m, h| m.min(*h));
-    for (p, h) in guess.p.iter_mut().zip(h_init) {
-        *p = (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt();
-    }
+    let p = |h: &f64| {
+        if approach > 0.0 {
+            (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt()
+        } else {
+            0.0
+        }
+    };
+    h_init.iter().map(p).collect()
 }

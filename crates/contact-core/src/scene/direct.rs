@@ -6,8 +6,10 @@
 //! Struct. 35 (1998) 2349-2362). Slips keep to a line only where the shear kernel is isotropic, which
 //! of half-spaces are those with nu = 0: otherwise what one increment leaves out is of the size of
 //! nu (for nu = 0.3 a hundredth of q).
+//!
+//! What is left out is the curve in between: the rows of the increments, the shape of a loop.
 
-use super::{Branch, Friction, Loads, SaveFields, Scene};
+use super::{Branch, Loads, SaveFields, Scene};
 
 /// For every branch whether its increments may be left out, and why any or none are.
 pub(super) fn direct_branches(
@@ -17,7 +19,7 @@ pub(super) fn direct_branches(
     let branches = &scene.path.branches;
     let none = |reason| (vec![false; branches.len()], Err(reason));
     if !scene.settings.skip.path {
-        return none("skip.path is off");
+        return none("skip.path is off: each has its row in the results");
     }
     if scene.settings.save != SaveFields::Branches {
         return none("fields within the branches are to be kept");
@@ -32,20 +34,17 @@ pub(super) fn direct_branches(
             Ok("without friction pressure depends on the loads alone"),
         );
     }
-    if coupling {
-        return none("pressure and shear act on each other, the way counts");
-    }
-    let Friction {
-        kinetic, history, ..
-    } = &scene.friction;
-    if kinetic.is_some() || history.is_some() {
-        return none("friction depends on the history");
+    if scene.friction.kinetic.is_some() || scene.friction.history.is_some() {
+        return none("friction depends on what cells have been through");
     }
     if branches
         .iter()
         .any(|b| b.to.sigma_B != 0.0 || b.to.rolled != 0.0)
     {
-        return none("the bodies roll or are stretched, the way counts");
+        return none("the bodies roll or are stretched meanwhile");
+    }
+    if coupling {
+        return none("pressure and shear act on each other, the way counts");
     }
     let without_shear = branches.iter().take_while(|b| is_normal(&b.to)).count();
     let along_line = isotropic(scene) && on_a_line(branches);
@@ -72,8 +71,14 @@ fn is_normal(to: &Loads) -> bool {
     (3..6).all(|k| given[k].unwrap_or(forces[k]) == 0.0)
 }
 
-/// Whether shear along x causes displacements along x alone.
+/// Whether shear along a line causes displacements along that line alone, and slip follows.
 fn isotropic(scene: &Scene) -> bool {
+    if scene.friction.mu_y.is_some() {
+        return false;
+    }
+    if scene.grid.plane_strain && scene.path.branches.iter().all(|b| b.to.T_y == 0.0) {
+        return true;
+    }
     [&scene.body1, &scene.body2].iter().all(|body| {
         body.is_homogeneous() && (body.substrate.is_rigid() || body.substrate.nu == 0.0)
     })

@@ -258,7 +258,7 @@ mod tests {
         assert_eq!(points.len(), 1 + 12 + 24);
         for point in &points[12..] {
             let (x, y) = (point.loads.T_x / 2.0, point.loads.T_y);
-            assert!((x.hypot(y) - 1.0).abs() < 1e-14 && point.loads.W > 9.0);
+            assert!((x.hypot(y) - 1.0).abs() < 1e-14 && (point.loads.W - 10.0).abs() < 1e-14);
         }
         let (first, last) = (points[12].loads, points[36].loads);
         assert!((first.T_x - last.T_x).abs() + (first.T_y - last.T_y).abs() < 1e-13);

@@ -11,6 +11,7 @@ mod grid;
 mod load_path;
 mod load_table;
 mod loads;
+mod magnitude;
 mod material;
 mod memory;
 mod plan;
@@ -70,6 +71,7 @@ impl Scene {
             ));
         }
         self.grid.check()?;
+        self.check_magnitudes()?;
         self.check_surfaces_fit()?;
         self.friction.check(Some(&self.grid))?;
         let by_frequency = matches!(
@@ -110,6 +112,7 @@ impl Scene {
                 "0, since body 2 is rigid",
             ));
         }
+        self.check_yardsticks()?;
         self.settings.check()
     }
 

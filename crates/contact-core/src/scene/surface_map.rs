@@ -8,9 +8,8 @@ use std::sync::Arc;
 use ndarray::{Array2, ArrayView2};
 use ndarray_npy::ViewNpyExt;
 
-use super::Grid;
+use super::{Grid, memory};
 use crate::error::Error;
-use crate::scene::memory;
 
 /// Memory that reading numbers takes, over the length of the file: a number may be two bytes of
 /// text, and a list that grows is copied.

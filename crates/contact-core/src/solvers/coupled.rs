@@ -119,6 +119,13 @@ impl CoupledInfo {
     pub fn exceeds_friction(&self) -> bool {
         exceeds(self.friction_used)
     }
+
+    /// Adds the work of another solution that this one took.
+    pub(crate) fn add_work(&mut self, other: &Self) {
+        self.alternations += other.alternations;
+        self.normal_iterations += other.normal_iterations;
+        self.tangential_iterations += other.tangential_iterations;
+    }
 }
 
 /// Buffers of the intermediate loop.

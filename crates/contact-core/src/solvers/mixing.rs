@@ -4,7 +4,7 @@
 //! given s, the shear for that pressure, and this shear causes G(s). Plain alternation takes
 //! s = G(s); it contracts as long as friction times coupling is small. Where the misfit
 //! f = G(s) - s falls too slowly, the next s is the combination of the last ones whose misfit on
-//! the contact is least, plus that misfit (D. G. Anderson, J. ACM 12 (1965) 547-560; H. F. Walker,
+//! the contact is least, plus that misfit, or less of it where that leads astray (D. G. Anderson, J. ACM 12 (1965) 547-560; H. F. Walker,
 //! P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715-1735).
 
 use std::collections::VecDeque;
@@ -15,6 +15,10 @@ const DEPTH: usize = 8;
 const SLOW: f64 = 0.5;
 /// Slow passes before mixing begins.
 const PATIENCE: usize = 2;
+/// Mixing passes that leave more than [`SLOW`] of the least misfit before the steps are damped.
+const TRIALS: usize = 12;
+/// Least damping.
+const LEAST: f64 = 1.0 / 16.0;
 /// Regularisation of the least squares, relative to the mean square.
 const RIDGE: f64 = 1e-12;
 
@@ -32,6 +36,11 @@ pub(crate) struct Mixing {
     /// Root of the sum of squares of the last misfit on the contact.
     size: f64,
     slow_passes: usize,
+    /// Part of the misfit that is added to s: less than one where whole steps go astray.
+    damping: f64,
+    /// Least misfit that counted, and passes since.
+    least: f64,
+    since_least: usize,
 }
 
 impl Mixing {
@@ -44,6 +53,9 @@ impl Mixing {
             changes: VecDeque::new(),
             size: f64::INFINITY,
             slow_passes: 0,
+            damping: 1.0,
+            least: f64::INFINITY,
+            since_least: 0,
         }
     }
 
@@ -53,6 +65,9 @@ impl Mixing {
         self.changes.clear();
         self.size = f64::INFINITY;
         self.slow_passes = 0;
+        self.damping = 1.0;
+        self.least = f64::INFINITY;
+        self.since_least = 0;
     }
 
     /// Whether the loop has turned out to be slow.
@@ -100,7 +115,18 @@ impl Mixing {
             self.slow_passes += usize::from(size > SLOW * self.size);
         }
         self.size = size;
-        self.step.copy_from_slice(&self.misfit);
+        self.since_least += 1;
+        if size < SLOW * self.least {
+            (self.least, self.since_least) = (size, 0);
+        } else if self.since_least == TRIALS {
+            self.damping = (0.5 * self.damping).max(LEAST);
+            self.since_least = 0;
+            self.changes.clear();
+        }
+        let damping = self.damping;
+        for (step, misfit) in self.step.iter_mut().zip(&self.misfit) {
+            *step = damping * misfit;
+        }
         let count = self.changes.len();
         let mut gram = [[0.0; DEPTH]; DEPTH];
         let mut right = [0.0; DEPTH];
@@ -113,13 +139,12 @@ impl Mixing {
         let weights = least_squares(gram, right, count);
         for (weight, [of_misfit, of_s]) in weights.iter().zip(&self.changes) {
             for n in 0..p.len() {
-                let change = weight * (of_s[n] + of_misfit[n]);
-                self.step[n] -= change;
-                self.ahead[n] -= change;
+                self.step[n] -= weight * (of_s[n] + damping * of_misfit[n]);
             }
         }
-        for (u_z, ahead) in u_z.iter_mut().zip(&self.ahead) {
-            *u_z += ahead;
+        for n in 0..p.len() {
+            self.ahead[n] = self.step[n] - self.misfit[n];
+            u_z[n] += self.ahead[n];
         }
     }
 }

@@ -95,7 +95,7 @@ impl NewtonStep {
         t.arm_x.clear();
         t.arm_y.clear();
         if problem.drive.free[2] {
-            t.arm_x.extend((0..count).map(|n| problem.arms.turn_x(n)));
+            t.arm_x.extend((0..count).map(|i| problem.arms.turn_x(i)));
             t.arm_y.extend_from_slice(&problem.arms.y);
         }
         for pair in [
@@ -115,13 +115,14 @@ impl NewtonStep {
     }
 
     /// Tangent space, curvature and residual at the present shear and slip; x starts from zero.
+    /// Returns the shift that fits the tangent space best, which the residual is that of.
     pub(crate) fn linearise(
         &mut self,
         problem: &TangentialProblem<'_>,
         shear: &Shear<'_>,
         shift: [f64; 3],
         c_xx: f64,
-    ) {
+    ) -> [f64; 3] {
         let t = &mut self.tangent;
         let [residual_x, residual_y] = &mut self.residual;
         let chunks = (
@@ -151,7 +152,8 @@ impl NewtonStep {
             }
         });
         t.inverse_sum = inverse(t.gram(), problem.drive.free);
-        t.project(&mut self.residual);
+        let behind = t.project(&mut self.residual);
+        add(shift, behind.map(|s| -s))
     }
 
     /// Norm of the residual \[m\], root of the sum of squares.
@@ -303,8 +305,8 @@ impl Tangent {
         [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]]
     }
 
-    /// Projects on the tangent space and on B^T v = 0.
-    fn project(&self, v: &mut Pair) {
+    /// Projects on the tangent space and on B^T v = 0; returns the motion B that is taken out.
+    fn project(&self, v: &mut Pair) -> [f64; 3] {
         let sums = self.project_cells(v);
         let shift = product(&self.inverse_sum, sums);
         let (xx, xy, yy) = (&self.xx[..], &self.xy[..], &self.yy[..]);
@@ -324,6 +326,7 @@ impl Tangent {
                 v_y[i] -= xy[i] * a + yy[i] * b;
             }
         }
+        shift
     }
 
     /// Projects on the tangent space of each cell; returns B^T v.

@@ -80,6 +80,11 @@ impl NormalWorkspace {
     }
 }
 
+/// Iterations without a better gap after which the preconditioner is given up: it is made of a
+/// kernel cut at the border of the grid, and of one that reaches far beyond, that of a stiff plate
+/// on a soft ground, little is left.
+const PATIENCE: usize = 50;
+
 /// Solves for `p`, with `u_z` the total normal displacement, that under the shear included.
 ///
 /// On entry `p` is >= 0, not all zero where the approach is free, and `u_z` belongs to it; on exit
@@ -102,22 +107,33 @@ pub fn normal(
     }
     let mut last_product = 0.0;
     let mut iterations = 0;
+    let (mut best, mut since_best, mut preconditioned) = (f64::INFINITY, 0, true);
     loop {
         let mut info = assess(problem, p, u_z);
         info.iterations = iterations;
+        let misfit = info.gap.max(info.penetration);
+        if misfit < best {
+            (best, since_best) = (misfit, 0);
+        } else {
+            since_best += 1;
+        }
+        if since_best == PATIENCE && preconditioned {
+            preconditioned = false;
+            last_product = 0.0;
+        }
         let tolerance = if iterations == 0 {
             params.enough
         } else {
             params.tolerance
         };
-        let solved = info.gap.max(info.penetration) <= tolerance;
+        let solved = misfit <= tolerance;
         if solved && is_balanced(problem, p) {
             return Ok(info);
         }
         if iterations == params.max_iterations || response.stopped() {
             return Err(SolverError {
                 solver: "normal",
-                residual: info.gap.max(info.penetration),
+                residual: misfit,
                 tolerance,
                 iterations,
             });
@@ -131,7 +147,12 @@ pub fn normal(
             continue;
         }
 
-        let product = descend(response, problem, info.motion, p, u_z, ws, last_product);
+        let towards = Towards {
+            motion: info.motion,
+            preconditioned,
+            last_product,
+        };
+        let product = descend(response, problem, &towards, p, u_z, ws);
         let (slope, curvature) = line(response, ws);
         if !(slope > 0.0 && curvature > 0.0) {
             ws.direction.fill(0.0);
@@ -249,23 +270,35 @@ pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> Nor
     }
 }
 
+/// What a search direction is made with.
+struct Towards {
+    motion: [f64; 3],
+    preconditioned: bool,
+    /// r.z of the last direction; zero to begin anew.
+    last_product: f64,
+}
+
 /// Next search direction on the contact and on the cells about to enter it; returns r.z.
 fn descend(
     response: &mut Response<'_>,
     problem: &NormalProblem<'_>,
-    motion: [f64; 3],
+    towards: &Towards,
     p: &[f64],
     u_z: &[f64],
     ws: &mut NormalWorkspace,
-    last_product: f64,
 ) -> f64 {
+    let &Towards {
+        motion,
+        preconditioned,
+        last_product,
+    } = towards;
     let cells = p.len();
     std::mem::swap(&mut ws.residual, &mut ws.last_residual);
     set_cells(&mut ws.residual, |n, _| {
         let gap = u_z[n] + problem.h_init[n] - problem.arms.across(motion, n);
         if p[n] > 0.0 || gap < 0.0 { -gap } else { 0.0 }
     });
-    response.invert_normal(&ws.residual, &mut ws.z);
+    response.invert_normal(&ws.residual, &mut ws.z, preconditioned);
     let enters = |n: usize| ws.residual[n] > 0.0;
     let arms = problem.arms;
     let of_all = fit(problem, &ws.z, |n| p[n] > 0.0 || enters(n));

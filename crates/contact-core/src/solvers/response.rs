@@ -67,11 +67,11 @@ impl Response<'_> {
         );
     }
 
-    /// z ~ C_zz^-1 r, up to a factor.
-    pub(crate) fn invert_normal(&mut self, r: &[f64], z: &mut [f64]) {
+    /// z ~ C_zz^-1 r, up to a factor; r itself without a preconditioner, or if it is not wanted.
+    pub(crate) fn invert_normal(&mut self, r: &[f64], z: &mut [f64], wanted: bool) {
         match &mut self.inverse {
-            Some(inverse) => inverse.normal(r, z),
-            None => z.copy_from_slice(r),
+            Some(inverse) if wanted => inverse.normal(r, z),
+            _ => z.copy_from_slice(r),
         }
     }
 

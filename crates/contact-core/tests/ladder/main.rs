@@ -19,6 +19,7 @@ mod hertz;
 mod invariants;
 mod line;
 mod mindlin_shear;
+mod oblique;
 mod paper_scene;
 mod shapes;
 mod tilt;

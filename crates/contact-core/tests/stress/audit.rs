@@ -149,20 +149,22 @@ impl Audit {
         }
     }
 
-    /// |q| <= mu p everywhere; no slip in stick cells, and slip against q in the others, in the
-    /// root mean square over the contact.
+    /// |q| <= mu p everywhere, and equal where a cell slips; no slip in stick cells, and slip against
+    /// q in the others, in the root mean square over the contact.
     fn friction(&self, march: &March, now: &Fields, increment: &Increment, found: &mut Violations) {
         let mu = march.scene().friction.mu;
         let p_max = increment.p_max;
         let (mut squares, mut cells) = (0.0, 0.0_f64);
+        let at_rest = |n: usize| now.stick.as_slice().is_some_and(|stick| stick[n]);
         for n in 0..now.p.len() {
             let at = |f: &Array2<f64>| f.as_slice().map_or(f64::NAN, |f| f[n]);
             let bound = mu * at(&now.p);
             let q = [at(&now.q_x), at(&now.q_y)];
             let size = q[0].hypot(q[1]);
             let beyond = (size - bound) / (mu * p_max).max(f64::MIN_POSITIVE);
-            if size > bound {
-                found.coulomb = found.coulomb.max(beyond / ROUNDING);
+            let sticks = at_rest(n);
+            if size > bound || !sticks {
+                found.coulomb = found.coulomb.max(beyond.abs() / ROUNDING);
             }
             let Some((last, motion, _)) = &self.last else {
                 continue;
@@ -170,11 +172,19 @@ impl Audit {
             if bound <= 0.0 {
                 continue;
             }
-            let ds = [
-                at(&now.u_x) - at(&last.u_x) - (increment.motion.delta_x - motion.delta_x),
-                at(&now.u_y) - at(&last.u_y) - (increment.motion.delta_y - motion.delta_y),
-            ];
-            let off = if now.stick.as_slice().is_some_and(|stick| stick[n]) {
+            // What a cell moved before it entered the contact is no slip.
+            let ds = if at(&last.p) <= 0.0 {
+                [
+                    at(&now.slip_x) - at(&last.slip_x),
+                    at(&now.slip_y) - at(&last.slip_y),
+                ]
+            } else {
+                [
+                    at(&now.u_x) - at(&last.u_x) - (increment.motion.delta_x - motion.delta_x),
+                    at(&now.u_y) - at(&last.u_y) - (increment.motion.delta_y - motion.delta_y),
+                ]
+            };
+            let off = if sticks {
                 ds[0].hypot(ds[1])
             } else {
                 let along = (ds[0] * q[0] + ds[1] * q[1]) / size;

@@ -119,7 +119,8 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
         (Err(Error::InvalidScene { .. } | Error::BeyondFriction { .. }), PastFriction) => {
             return (Fate::Refused, None);
         }
-        (Err(Error::OffGrid { needed, .. }), OffGrid | Edge) => {
+        // How far the contact of ten layers reaches is not known when a scene is drawn.
+        (Err(Error::OffGrid { needed, .. }), OffGrid | Edge | Solve) => {
             return match audited(&widened(scene, needed), stop) {
                 Ok(_) => (Fate::Refused, None),
                 Err(error) => (

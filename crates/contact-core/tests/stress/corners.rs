@@ -64,7 +64,7 @@ fn strong_coupling() {
         // cell to the increment that it came in, one of 8.
         let known = 0.5 / 12.3 + 0.5 / 8.0;
         assert!((ratio - truth).abs() < known, "mu = {mu}: {ratio} {truth}");
-        assert!(ratio > stuck, "more friction, more stick");
+        assert!(ratio >= stuck, "mu = {mu}: {ratio} after {stuck}");
         stuck = ratio;
     }
 }
@@ -110,21 +110,30 @@ fn coating_much_thinner_than_a_cell() {
     }
 }
 
-/// The nearer to sliding, the less stick and the more shift, up to the incipient one.
+/// The nearer to sliding, the less stick and the more shift. The slip has a part across the force,
+/// since shear along x moves the surface along y too; while the bodies slide on, its share falls, and
+/// only in the limit do all cells pull alike: the shift that carries the last part of the force grows
+/// without bound, like the inverse root of that part. At the limit itself it is the incipient one.
 #[test]
 fn force_at_the_verge_of_sliding() {
     for body2 in ["body2.E=210e9", "body2.E=70e9"] {
-        let (mut stick, mut shift) = (f64::INFINITY, 0.0);
-        for below in [1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-15, 0.0] {
+        let at = |below: f64| {
             let force = format!("path.1.T_x.mu_W={:?}", 1.0 - below);
             let settings = [body2, &force, "path.2.T_x.mu_W=-0.5", "grid.extent.a_H=3.0"];
-            let end = sound(&plain(&settings));
-            let verge = &end.increments[13];
-            assert!(verge.stick_area <= stick && verge.motion.delta_x >= shift * (1.0 - 1e-5));
-            (stick, shift) = (verge.stick_area, verge.motion.delta_x);
-            if below == 0.0 {
-                assert_eq!(verge.status, Status::GrossSlip);
-            }
+            sound(&plain(&settings)).increments[13]
+        };
+        let verge = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10].map(at);
+        for (nearer, before) in verge[1..].iter().zip(&verge) {
+            assert!(nearer.stick_area <= before.stick_area);
+            assert!(nearer.motion.delta_x > before.motion.delta_x);
+        }
+        // A hundredth of the part that is left, ten times the shift.
+        let growth = verge[4].motion.delta_x / verge[3].motion.delta_x;
+        assert!((growth / 10.0 - 1.0).abs() < 0.05, "{growth}");
+        for full in [1e-12, 1e-15, 0.0].map(at) {
+            assert_eq!(full.status, Status::GrossSlip);
+            let (incipient, before) = (full.motion.delta_x, verge[0].motion.delta_x);
+            assert!(incipient > before && incipient < 1.1 * before);
         }
     }
 }
@@ -140,11 +149,17 @@ fn reversal_at_every_increment() {
     for body2 in ["body2.E=210e9", "body2.E=70e9"] {
         let path = format!("path=[{}]", branches.join(", "));
         let end = sound(&plain(&[&path, body2]));
-        assert!(
-            end.increments
-                .iter()
-                .all(|i| i.energy.dissipated > -1e-6 * i.energy.work.abs())
-        );
+        let mut work = 0.0;
+        for i in &end.increments {
+            work += i.energy.work.abs();
+            let dissipated = i.energy.dissipated;
+            // Nothing is dissipated but what slips, each against its shear.
+            assert!(
+                dissipated > -1e-6 * work,
+                "{}: {dissipated:e} of {work:e}",
+                i.index
+            );
+        }
     }
 }
 
@@ -222,13 +237,13 @@ fn spots(contact: &Array2<bool>) -> usize {
 
 #[test]
 fn rough_surface_with_hundreds_of_spots() {
-    let shape = "body1.shape={sphere = {R = 0.018}, rough = {rms = 8e-7, hurst = 0.8, longest = 1e-4, shortest = 4e-5, seed = 3}}";
+    let shape = "body1.shape={sphere = {R = 0.018}, rough = {rms = 1e-6, hurst = 0.8, longest = 6e-5, shortest = 2.8e-5, seed = 3}}";
     for body2 in ["body2.E=210e9", "body2.E=70e9"] {
         let scene = plain(&[
             shape,
             body2,
             "grid.n=128",
-            "grid.extent.a_H=3.5",
+            "grid.extent.a_H=2.8",
             "path.0.increments=3",
             "path.1.increments=3",
             "path.2.increments=2",
@@ -287,6 +302,7 @@ fn denormals_and_giants() {
     refused(&[path, "grid.extent=1e-3"], "path[0].W");
     refused(&["body2.E=1e-310"], "body2.E");
     refused(&["body1.E=1e300", "body2.E=1e300"], "E = 1e300");
+    refused(&["grid.extent.a_H=1e-310"], "grid.d");
     refused(&["grid.extent=1e-310"], "grid.d");
     refused(
         &["body1.shape.sphere.R=1e-310", "grid.extent=1e-3"],

@@ -62,12 +62,7 @@ fn campaign(n: u64) -> Vec<Outcome> {
 #[test]
 fn random_scenes_are_solved_or_refused() {
     if let Some(seed) = number("FRET_STRESS_SEED") {
-        let mut drawn = draw::draw(seed);
-        if let Ok(set) = std::env::var("FRET_STRESS_SET") {
-            let settings: Vec<_> = set.split_whitespace().map(str::to_owned).collect();
-            let text = drawn.scene.to_toml();
-            drawn.scene = contact_core::Scene::from_toml_str(&text, "s", &settings).unwrap();
-        }
+        let drawn = draw::draw(seed);
         println!("{}\n{:?}", drawn.scene.to_toml(), outcome(seed, &drawn));
         return;
     }

@@ -13,17 +13,17 @@ const A_H: f64 = 4.890_973e-4;
 const P_H: f64 = 2e9;
 
 /// Tractions on a body.
-pub struct Contact {
+pub(crate) struct Contact {
     /// The coated body, E1/E2 = 2.
-    pub body: Body,
+    pub(crate) body: Body,
     /// The paper's grid.
-    pub grid: Grid,
+    pub(crate) grid: Grid,
     q: [Array2<f64>; 3],
 }
 
 /// A coating as thick as the contact's radius under a sliding sphere, with a little shear across,
 /// as the coating causes it.
-pub fn coated(n: usize) -> Contact {
+pub(crate) fn coated(n: usize) -> Contact {
     let material = |E| Elastic::new(E, 0.3).expect("a material");
     let body = Body {
         substrate: material(210e9),
@@ -45,7 +45,7 @@ pub fn coated(n: usize) -> Contact {
 
 impl Contact {
     /// The tractions.
-    pub fn tractions(&self) -> Tractions<'_> {
+    pub(crate) fn tractions(&self) -> Tractions<'_> {
         Tractions {
             q_x: self.q[0].as_slice(),
             q_y: self.q[1].as_slice(),
@@ -54,7 +54,7 @@ impl Contact {
     }
 
     /// Depths to 2 a_H, the first on the surface if there are several.
-    pub fn depths(&self, n: usize) -> Vec<Depth> {
+    pub(crate) fn depths(&self, n: usize) -> Vec<Depth> {
         let last = (n.max(2) - 1) as f64;
         let z: Vec<f64> = (0..n).map(|i| 2.0 * A_H * (i as f64 / last)).collect();
         fields::depths(&self.body, &z).expect("depths")

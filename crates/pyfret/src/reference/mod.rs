@@ -3,8 +3,9 @@
 mod cattaneo_mindlin;
 mod hertz_contact;
 mod indentation;
-mod line;
+
 mod lubkin;
+mod plane_strain;
 mod springs;
 
 use numpy::{AllowTypeChange, PyArrayDyn, PyArrayLikeDyn, ToPyArray};
@@ -16,8 +17,8 @@ pub(crate) use indentation::{
     CoatedIndentation, CoupledIndentation, coated_indentation, coupled_indentation, dundurs_beta,
     goodman_stick_ratio,
 };
-pub(crate) use line::{LineContact, line_contact};
 pub(crate) use lubkin::Lubkin;
+pub(crate) use plane_strain::{LineContact, line_contact};
 pub(crate) use springs::Springs;
 
 /// A number, a sequence or an array of any shape.

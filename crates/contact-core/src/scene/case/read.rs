@@ -58,6 +58,7 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     scene.body2.check("body2")?;
     scene.friction.check(None)?;
     scene.path.check(&scene.friction)?;
+    scene.check_magnitudes()?;
 
     let hertz = scene.hertz();
     let a_H = Measure::a_H(hertz.map(|h| h.a));
@@ -311,8 +312,8 @@ fn measured(root: &Section<'_>, files: &Files<'_>) -> Result<LoadPath, Fault> {
         Some(other) => return Err(Fault::value("path.increments", other, what)),
     };
     let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
-    let file = files.find(name).map_err(|e| wrong(&e))?;
-    LoadPath::from_csv(&file, increments).map_err(|e| wrong(&e))
+    let path = files.find(name).map_err(|e| wrong(&e))?;
+    LoadPath::from_csv(&path, increments).map_err(|e| wrong(&e))
 }
 
 fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
@@ -324,7 +325,13 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
             tolerance: section.number_or("tolerance", default.tolerance, &[])?,
         };
     }
-    let keys = ["preset", "tolerance", "max_alternations", "max_iterations"];
+    let keys = [
+        "preset",
+        "tolerance",
+        "entering",
+        "max_alternations",
+        "max_iterations",
+    ];
     if let Some(section) = root.section("solver", &keys)? {
         let default = settings.solver;
         settings.solver = SolverSettings {
@@ -333,6 +340,7 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
                 &[("fast", Preset::Fast), ("spinu2020", Preset::Spinu2020)],
             )?,
             tolerance: section.number_or("tolerance", default.tolerance, &[])?,
+            entering: section.flag_or("entering", default.entering)?,
             max_alternations: section.count_or("max_alternations", 1, default.max_alternations)?,
             max_iterations: section.count_or("max_iterations", 1, default.max_iterations)?,
         };
