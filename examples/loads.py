@@ -142,7 +142,7 @@ def ellipse(file: Path, n: int) -> str:
     with fret.plot.style():
         figure, axes = plt.subplots(1, 4, figsize=(11, 3.1))
         for ax, ratio in zip(axes, (1.0, 2.8, 11.8, 116.0), strict=True):
-            hertz = fret.reference.hertz_ellipse(R_x=ratio * R, R_y=R, bodies=(CORK, CORK), W=W)
+            hertz = fret.reference.hertz_ellipse(R_x=ratio * R, R_y=R, E_star=CORK.E / 2, W=W)
             d = (2.3 * hertz.a_x / n, 2.3 * hertz.a_y / n)
             scene = fret.Scene(
                 body1=fret.Body(CORK, shape=fret.Ellipsoid(R_x=ratio * R, R_y=R)),

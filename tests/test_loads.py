@@ -61,7 +61,7 @@ def test_a_measured_history_is_a_path(tmp_path: Path) -> None:
     np.savetxt(file, table, delimiter=",", header="t, W, T_x", comments="", fmt="%.17g")
     assert fret.LoadPath.from_csv(file, increments=2) == path
     fine = fret.LoadPath.from_csv(file, increments=fret.PerRange(40))
-    assert [b.increments for b in fine.branches][0] == 40
+    assert fine.branches[0].increments == 40
     with pytest.raises(fret.InvalidSceneError, match="the nearest is T_x"):
         fret.LoadPath.start().waypoints(T_X=[1.0])
 

@@ -35,7 +35,7 @@ def read_surface(path: str | PathLike[str], *, detrend: str = "center") -> Surfa
     surface = read_topography(fspath(path)).to_unit("m").detrend(detrend)
     heights = surface.heights()
     if np.ma.is_masked(heights):
-        holes = int(np.ma.count_masked(heights))
+        holes = int(np.ma.getmaskarray(heights).sum())
         message = f"{path}: {holes} points were not measured; fill them first"
         raise ValueError(message)
     x, y = surface.pixel_size

@@ -69,6 +69,9 @@ fn expected_radius(scene: &Scene) -> f64 {
     for _ in 0..60 {
         a = (a * hertz.a * (compliance(1.5 / a) / uncoated).cbrt()).sqrt();
     }
+    if scene.grid.plane_strain {
+        return a;
+    }
     // Of an ellipse, a_x/a_y is about (R_x/R_y)^(2/3).
     let (steep, shallow) = scene.principal_curvatures();
     a * (steep / shallow).cbrt()
