@@ -61,6 +61,7 @@ __all__ = [
     "SurfaceOperator",
     "Waviness",
     "Wedge",
+    "__version__",
     "coated_indentation",
     "coupled_indentation",
     "depths",
