@@ -226,7 +226,7 @@ impl March {
                 used: info.friction_used,
             });
         }
-        self.check_border(&now, index, point)?;
+        self.check_border(&now, index)?;
         let transforms = self.op.transforms() - transforms;
         self.account(point, now, &info, transforms)
     }
