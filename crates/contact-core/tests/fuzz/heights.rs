@@ -49,7 +49,9 @@ fn lie() -> impl Strategy<Value = Vec<u8>> {
 fn changed(good: Vec<u8>) -> impl Strategy<Value = Vec<u8>> {
     prop::collection::vec(change(), 1..4).prop_map(move |changes| {
         let mut bytes = good.clone();
-        changes.iter().for_each(|change| apply(&mut bytes, change));
+        for change in &changes {
+            apply(&mut bytes, change);
+        }
         bytes
     })
 }
