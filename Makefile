@@ -13,22 +13,33 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo stress test kill check format bench bench-kernels bench-stress bench-peers clean
+.PHONY: help setup demo figure-13 test stress kill fuzz deny check format bench bench-kernels bench-stress bench-peers clean
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
 
 setup: $(VENV)/.installed target/release/fret ## .venv with pyfret and its tools, binary target/release/fret
 
 demo: setup ## the paper's four runs: results and figures in out/
 	$(PY) examples/paper.py --out out
 
-stress: setup ## stress below the paper's contact: figures in out/
+figure-13: setup ## stress below the paper's contact: figures in out/
 	$(PY) examples/stress.py --out out
 
 test: setup ## all tests: cargo, then pytest
 	cargo test --workspace --locked --release
 	$(PY) -m pytest
+
+stress: ## 2000 random scenes, 15 minutes at most; the numbers go to docs/reliability.md
+	FRET_STRESS=2000 FRET_STRESS_MINUTES=14 FRET_STRESS_REPORT=$(CURDIR)/docs/reliability.md \
+		cargo test --release --locked --package contact-core --test stress -- --nocapture
+
+fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/reliability.md
+	FRET_FUZZ=600 FRET_FUZZ_REPORT=$(CURDIR)/docs/reliability.md \
+		cargo test --release --locked --package contact-core --test fuzz -- --nocapture --test-threads=1
+
+deny: ## licences, bans and sources of the dependencies (needs cargo-deny)
+	cargo deny check licenses bans sources
 
 kill: ## a hundred kills of a running solve, each resumed to the same bits
 	FRET_KILLS=100 cargo test --release --locked --package fret-cli --test kill -- --nocapture

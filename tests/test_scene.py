@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -139,3 +140,22 @@ def test_a_graded_coating_is_a_stack_with_the_properties_of_each_middle() -> Non
     assert sum(c.thickness for c in stack) == pytest.approx(1e-3)
     with pytest.raises(fret.InvalidSceneError, match="layers"):
         fret.graded(E=profile, nu=fret.Profile.constant(0.3), thickness=1e-3, layers=0)
+
+
+def test_a_scene_reads_no_file_outside_its_folder(tmp_path: Path) -> None:
+    np.save(tmp_path / "outside.npy", -np.add.outer(np.arange(-2.0, 3) ** 2, np.arange(-2.0, 3) ** 2) * 1e-6)
+    scene = tmp_path / "scene" / "scene.toml"
+    scene.parent.mkdir()
+    scene.write_text(
+        """
+        schema = 1
+        body1 = { shape.height_map = { spacing = 1e-3, file = "../outside.npy" }, E = 2e11, nu = 0.3 }
+        body2 = { shape = "flat", E = 2e11, nu = 0.3 }
+        friction.mu = 0.3
+        grid = { n = 8, extent = 3e-3 }
+        path = [{ W = 1.0, increments = 1 }]
+        """
+    )
+    with pytest.raises(fret.InvalidSceneError, match="outside the folder"):
+        fret.Scene.from_file(scene)
+    assert fret.Scene.from_file(scene, allow_outside=True).grid.nx == 8

@@ -3,6 +3,7 @@
 // What is read back is what was written: equality is meant to the bit.
 #![allow(clippy::unwrap_used, clippy::float_cmp)]
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -86,19 +87,111 @@ fn quiet_is_quiet() {
     assert!(output.stdout.is_empty() && output.stderr.is_empty());
 }
 
+/// Every file of a store and its bytes.
+fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = PathBuf::from(path.file_name().unwrap());
+        if path.is_dir() {
+            found.extend(files(&path).into_iter().map(|(n, b)| (name.join(n), b)));
+        } else {
+            found.insert(name, fs::read(&path).unwrap());
+        }
+    }
+    found
+}
+
+/// The same bits with one, two and four threads, and from run to run: unlike bodies, a coating, a
+/// grid that is no power of two, large enough for sums to be shared out.
 #[test]
-fn the_number_of_threads_does_not_change_the_result() {
-    let column = |name: &str, threads: &str| {
-        let out = free(name);
-        let output = run(&out, &["--threads", threads, "--set", "grid.n=66"]);
+fn results_are_the_same_bits_for_any_number_of_threads() {
+    let scene = SCENE.replace("cattaneo_mindlin", "coated_small");
+    let store = |threads: &str| {
+        let out = free("threads.zarr");
+        let arguments = ["run", &scene, "-o", out.to_str().unwrap(), "--quiet"];
+        let small = ["--set", "grid.n=[66, 130]", "--set", "path.0.increments=4"];
+        let rest = [
+            "--set",
+            "path.1.increments=3",
+            "--set",
+            "path.2.increments=3",
+        ];
+        let output = fret(&[&arguments[..], &small, &rest, &["--threads", threads]].concat());
         assert!(output.status.success(), "{}", text(&output.stderr));
-        Store::open(&out).unwrap().column("delta_x").unwrap()
+        files(&out)
     };
-    let bits = |values: Vec<f64>| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
-    assert_eq!(
-        bits(column("one.zarr", "1")),
-        bits(column("three.zarr", "3"))
-    );
+    let one = store("1");
+    for threads in ["2", "4", "2"] {
+        assert!(store(threads) == one, "{threads} threads");
+    }
+    let about = String::from_utf8(one[Path::new(".zattrs")].clone()).unwrap();
+    for key in [
+        "\"version\"",
+        "\"scene\"",
+        "[solver]",
+        "\"plan\"",
+        "\"status\": \"done\"",
+    ] {
+        assert!(about.contains(key), "{about} lacks {key}");
+    }
+    for counter in ["convolutions", "alternations", "normal_iterations", "parts"] {
+        assert!(one.contains_key(&Path::new(counter).join("0")), "{counter}");
+    }
+}
+
+/// A scene reads what came with it; to read more it has to be allowed.
+#[test]
+fn a_scene_reads_no_file_outside_its_folder() {
+    let folder = free("folder");
+    fs::create_dir_all(folder.join("scene")).unwrap();
+    let heights = "0, 0, 0\n0, 1e-6, 0\n0, 0, 0\n";
+    fs::write(folder.join("outside.csv"), heights).unwrap();
+    fs::write(folder.join("scene/inside.csv"), heights).unwrap();
+    let path = folder.join("scene/scene.toml");
+    let check = |file: &str, more: &[&str]| {
+        let scene = format!(
+            "schema = 1\nfriction.mu = 0.3\ngrid = {{ n = 8, extent = 3e-3 }}\n\
+             path = [{{ W = 1.0, increments = 1 }}]\n\
+             body1 = {{ shape.height_map = {{ spacing = 1e-3, file = '{file}' }}, E = 2e11, nu = 0.3 }}\n\
+             body2 = {{ shape = \"flat\", E = 2e11, nu = 0.3 }}\n"
+        );
+        fs::write(&path, scene).unwrap();
+        fret(&[&["check", path.to_str().unwrap()], more].concat())
+    };
+    assert!(check("inside.csv", &[]).status.success());
+    let outside = folder.join("outside.csv");
+    for file in ["../outside.csv", outside.to_str().unwrap(), "/etc/passwd"] {
+        assert_bad_input(
+            &check(file, &[]),
+            &["outside the folder", "--allow-outside"],
+        );
+    }
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(&outside, folder.join("scene/link.csv")).unwrap();
+        assert_bad_input(&check("link.csv", &[]), &["outside the folder"]);
+    }
+    let allowed = check("../outside.csv", &["--allow-outside"]);
+    assert!(allowed.status.success(), "{}", text(&allowed.stderr));
+}
+
+/// The number stands in the refusal, and `fret check` announces it.
+#[test]
+fn a_scene_that_needs_more_memory_than_there_is_is_refused() {
+    let output = fret(&["check", SCENE]);
+    let told = text(&output.stdout);
+    let memory = told.lines().find(|l| l.starts_with("memory")).unwrap();
+    assert!(memory.contains(" MB of "), "{memory}");
+    // The load path alone would take 160 GB; should a machine have them, the grid takes more.
+    let many = ["--set", "path.0.increments=99000000"];
+    let huge = ["--set", "grid.n=16384"];
+    for more in [&many[..], &huge[..]] {
+        let out = free("huge.zarr");
+        let out = ["-o", out.to_str().unwrap(), "--quiet"];
+        let output = fret(&[&["run", SCENE][..], more, &out].concat());
+        assert_bad_input(&output, &["MB of memory", "are available"]);
+    }
 }
 
 #[test]

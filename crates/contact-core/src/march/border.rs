@@ -3,7 +3,7 @@
 use super::March;
 use crate::error::Error;
 use crate::kernels::Stack;
-use crate::scene::{LoadPoint, Scene};
+use crate::scene::Scene;
 use crate::solvers::Interface;
 
 /// What a grid should be longer than the contact that is expected on it.
@@ -13,12 +13,7 @@ const GROWTH: f64 = 1.4;
 
 impl March {
     /// Fails if a cell at the border of the grid is in contact.
-    pub(super) fn check_border(
-        &self,
-        now: &Interface,
-        index: usize,
-        point: &LoadPoint,
-    ) -> Result<(), Error> {
+    pub(super) fn check_border(&self, now: &Interface, index: usize) -> Result<(), Error> {
         let grid = &self.scene.grid;
         let rows = self.plan.mirror.rows(grid.ny);
         let extent = grid.extent();
@@ -34,11 +29,8 @@ impl March {
             return Ok(());
         }
         let expected = ROOM * 2.0 * expected_radius(&self.scene);
-        let W = if point.loads.W.is_nan() {
-            now.p.iter().sum::<f64>() * grid.cell_area() * self.plan.mirror.multiplicity()
-        } else {
-            point.loads.W
-        };
+        let cell_area = grid.cell_area() * self.plan.mirror.multiplicity();
+        let W = now.p.iter().sum::<f64>() * cell_area;
         Err(Error::OffGrid {
             increment: index,
             W,

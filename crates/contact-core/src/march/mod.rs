@@ -234,7 +234,7 @@ impl March {
                 used: info.friction_used,
             });
         }
-        self.check_border(&now, index, point)?;
+        self.check_border(&now, index)?;
         let transforms = self.op.transforms() - transforms;
         let convolutions = transforms as f64 / 6.0 + coarse_convolutions;
         self.account(point, now, &info, convolutions)

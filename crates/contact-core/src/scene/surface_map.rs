@@ -28,9 +28,10 @@ impl SurfaceMap {
     /// Reads numbers from a `.npy` array of 64-bit numbers or from a table of numbers parted by
     /// commas (`.csv`), one line per x.
     pub fn from_file(path: &Path, spacing: (f64, f64)) -> Result<Self, Error> {
+        // Readers may say it in several lines; an error is one sentence.
         let failed = |message: String| Error::File {
             path: path.display().to_string(),
-            message,
+            message: message.split_whitespace().collect::<Vec<_>>().join(" "),
         };
         let about = fs::metadata(path).map_err(|e| failed(e.to_string()))?;
         if !about.is_file() {

@@ -1,7 +1,6 @@
 //! The campaign in numbers, as Markdown.
 
 use std::fmt::Write;
-use std::fs;
 
 use crate::audit::Violations;
 use crate::campaign::{Fate, Outcome};
@@ -108,20 +107,4 @@ pub(crate) fn report(outcomes: &[Outcome]) -> String {
         }
     }
     text
-}
-
-/// Puts a text between the marks of a name in a document.
-pub(crate) fn insert(document: &str, name: &str, text: &str) {
-    let old = fs::read_to_string(document).unwrap();
-    let (begin, end) = (
-        format!("<!-- {name} -->\n"),
-        format!("<!-- end of {name} -->"),
-    );
-    let from = old.find(&begin).expect("the mark") + begin.len();
-    let to = old.find(&end).expect("the mark of the end");
-    fs::write(
-        document,
-        format!("{}\n{text}\n{}", &old[..from], &old[to..]),
-    )
-    .unwrap();
 }
