@@ -110,13 +110,13 @@ def test_stress_below_is_that_of_python(coated: fret.Result, tmp_path: Path) -> 
     [
         (("--of", "mises"), "one of s_xx"),
         (("--increment", "3"), "one whose fields were kept"),
-        (("--depth", "-1.0"), "a depth in m, 0 or more"),
+        (("--depth=-1.0",), "a depth in m, 0 or more"),
         (("--along-x", "1.0"), "a place above the grid"),
         (("-o", "section.vti"), "image data (.vti) is of a --volume"),
     ],
 )
 def test_stress_that_is_not_there_is_refused(
-    coated: fret.Result, tmp_path: Path, arguments: tuple[str, str], says: str
+    coated: fret.Result, tmp_path: Path, arguments: tuple[str, ...], says: str
 ) -> None:
     store = tmp_path / "out.zarr"
     path = fret.LoadPath.start().normal(W, increments=4)
