@@ -13,15 +13,18 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test stress kill fuzz deny check format bench bench-kernels clean
+.PHONY: help setup demo stress-figures test stress kill fuzz deny check format bench bench-kernels bench-stress bench-peers clean
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' Makefile
 
 setup: $(VENV)/.installed target/release/fret ## .venv with pyfret and its tools, binary target/release/fret
 
 demo: setup ## the paper's four runs: results and figures in out/
 	$(PY) examples/paper.py --out out
+
+stress-figures: setup ## stress below the paper's contact: figures in out/
+	$(PY) examples/stress.py --out out
 
 test: setup ## all tests: cargo, then pytest
 	cargo test --workspace --locked --release
@@ -57,7 +60,7 @@ format: $(VENV)/.tools ## format all sources
 	$(BIN)/ruff format
 
 bench: ## criterion benches of every stage
-	cargo bench --workspace --locked
+	cargo bench --locked --package contact-core --bench '*'
 
 bench-kernels: setup ## error against time of every kernel conversion: out/kernel_methods*
 	mkdir -p out
@@ -66,6 +69,15 @@ bench-kernels: setup ## error against time of every kernel conversion: out/kerne
 		scenes/coated_fretting.toml grid.n=128 > out/kernel_methods_run.csv
 	cat out/kernel_methods.csv out/kernel_methods_run.csv
 	$(PY) examples/kernel_methods.py --out out
+
+bench-stress: ## time and memory of the stress on a plane and in a volume
+	mkdir -p out
+	rm -f out/bench.vti
+	cargo run --release --locked --package contact-core --example subsurface -- plane
+	cargo run --release --locked --package contact-core --example subsurface -- volume out/bench.vti
+
+bench-peers: setup ## side by side with public programs and FFTW: out/peers*
+	$(PY) benches/peers.py --out out
 
 clean: ## remove what was built, results excepted
 	rm -rf $(VENV) target python/pyfret/_core*.so

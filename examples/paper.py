@@ -39,7 +39,7 @@ def paper_scene(ratio: float, *, cells: int | None = None) -> fret.Scene:
 
 def one_jump(scene: fret.Scene) -> fret.Scene:
     """The indentation alone in one increment: what leaving out the load history costs."""
-    path = fret.LoadPath.start().normal(scene.path.branches[0].W, increments=1)
+    path = fret.LoadPath.start().normal(float(scene.path.W.max()), increments=1)
     return scene.replace(path=path, save="all", title=f"{scene.title}, one increment")
 
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
+import xarray as xr
 
 import pyfret as fret
-from conftest import ROOT
+from conftest import ROOT, W
 
 FRET = ROOT / "target" / "release" / "fret"
 
@@ -72,3 +74,54 @@ def test_check_solves_nothing_and_says_what_is_skipped(scene_file: Path) -> None
     assert run.returncode == 0, run.stderr
     for words in ("a_H", "p_H", "cells", "y < 0"):
         assert words in run.stdout
+
+
+def test_stress_below_is_that_of_python(coated: fret.Result, tmp_path: Path) -> None:
+    store = tmp_path / "out.zarr"
+    result = fret.solve(coated.scene, out=store, progress=False)
+    z = np.linspace(0.0, 2 * result.a_H, 17)
+    of = ("von_mises", "s_xz")
+    section = result.at(-1).stress(z, y=0.0)
+    common = ("--depths", "17", "--of", ",".join(of))
+    run = fret_run("stress", store, *common, "-o", tmp_path / "section.zarr")
+    assert run.returncode == 0, run.stderr
+    written = xr.open_zarr(tmp_path / "section.zarr", chunks=None)
+    for name in of:
+        np.testing.assert_array_equal(written[name], section.measure(name))
+        assert f"largest {name} {section.maximum(name).value / result.p_H:.5f} p_H" in run.stdout
+    for out in ("volume.zarr", "volume.vti"):
+        run = fret_run("stress", store, "--volume", *common, "-o", tmp_path / out)
+        assert run.returncode == 0, run.stderr
+        snapshot = result.at(-1)
+        snapshot.write_volume(tmp_path / f"python_{out}", z, of=of)
+    assert (tmp_path / "volume.vti").read_bytes() == (tmp_path / "python_volume.vti").read_bytes()
+    volume, ours = (
+        xr.open_zarr(tmp_path / f"{n}volume.zarr", chunks=None) for n in ("", "python_")
+    )
+    for name in of:
+        np.testing.assert_array_equal(volume[name], ours[name])
+    first = fret_run("stress", store, "--increment", "10", "--along-y", "0", "--body", "1")
+    assert first.returncode == 0, first.stderr
+    assert first.stdout.startswith("increment 10: largest von_mises")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (("--of", "mises"), "one of s_xx"),
+        (("--increment", "3"), "one whose fields were kept"),
+        (("--depth", "-1.0"), "a depth in m, 0 or more"),
+        (("--along-x", "1.0"), "a place above the grid"),
+        (("-o", "section.vti"), "image data (.vti) is of a --volume"),
+    ],
+)
+def test_stress_that_is_not_there_is_refused(
+    coated: fret.Result, tmp_path: Path, arguments: tuple[str, str], says: str
+) -> None:
+    store = tmp_path / "out.zarr"
+    path = fret.LoadPath.start().normal(W, increments=4)
+    fret.solve(coated.scene, path, save="branches", out=store, progress=False)
+    run = fret_run("stress", store, "--depths", "3", *arguments)
+    assert run.returncode == 2, run.stderr
+    assert says in run.stderr
+    assert len(run.stderr.strip().splitlines()) == 1

@@ -34,6 +34,21 @@ def test_yield_starts_half_a_radius_below_a_pressed_sphere() -> None:
     assert layer == 0
 
 
+def test_the_trailing_edge_pulls_as_hamilton_says() -> None:
+    # G. M. Hamilton (1983) at the trailing edge on the surface.
+    mu, nu = 0.3, STEEL.nu
+    grid, p = hertz_load(256)
+    below = fret.subsurface.stress(fret.Body(STEEL), grid, [0.0, 0.5], p=p, q_x=mu * p, y=0.0)
+    rims = below.rims()
+    np.testing.assert_allclose(rims.dataset.x, [-1.0, 1.0], atol=3e-3)
+    tension = (1 - 2 * nu) / 3 + np.pi * mu * (4 + nu) / 8
+    assert float(rims.s_xx[0]) == pytest.approx(tension, abs=0.01)
+    value, x, z, _ = below.maximum("s_xx")
+    assert (value, x, z) == (float(rims.s_xx[0]), float(rims.dataset.x[0]), 0.0)
+    with pytest.raises(ValueError, match="no surface"):
+        fret.subsurface.stress(fret.Body(STEEL), grid, [0.5], p=p, y=0.0).rims()
+
+
 def test_sections_lines_and_planes_agree(coated: fret.Result) -> None:
     snapshot = coated.at(-1)
     z = [0.0, 0.3 * coated.a_H, coated.a_H]
@@ -96,6 +111,8 @@ def test_volumes_open_in_vtk_and_xarray(coated: fret.Result, tmp_path: Path) -> 
     stored = xr.open_zarr(tmp_path / "stress.zarr", chunks=None)
     assert stored.von_mises.dims == ("depth", "x", "y")
     planes = snapshot.stress(z)
+    # PyVista is how most people open it.
+    assert pytest.importorskip("pyvista").read(tmp_path / "stress.vti").dimensions == (32, 32, 9)
     # The depth in the middle is the interface: the volume shows the layer above.
     keep = np.flatnonzero(np.diff(planes.dataset.z.values, prepend=-1.0))
     for name in ("von_mises", "s_xz"):
@@ -125,6 +142,14 @@ def test_the_envelope_streams(tmp_path: Path) -> None:
     last = every[(branch >= 4)]
     amplitude = (last.max(axis=0) - last.min(axis=0)) / 2
     np.testing.assert_allclose(streamed.s_xx_amplitude.isel(cycle=1), amplitude)
+    largest = [result.at(n).stress(z, y=0.0).maximum("s_xx") for n in range(1, len(path) + 1)]
+    for n, name in enumerate(("", "_x", "_z", "_layer")):
+        found = streamed[f"s_xx_largest{name}"]
+        np.testing.assert_allclose(found, [m[n] for m in largest], rtol=1e-6, atol=1e-12)
+    planes = result.envelope(z[:1], of=("s_xx",))
+    assert planes.s_xx_max.dims == ("depth", "x", "y")
+    across = result.envelope(z[:1], y=float(planes.y[5]), of=("s_xx",))
+    np.testing.assert_allclose(planes.s_xx_max[..., 5], across.s_xx_max, rtol=1e-9)
 
 
 def test_loops_of_similar_bodies_are_mindlins() -> None:
@@ -143,6 +168,29 @@ def scene_hertz(bodies: tuple[fret.Elastic, fret.Elastic]) -> fret.Hertz:
     return fret.reference.hertz(R=0.018, bodies=bodies, W=W)
 
 
+def test_loops_of_torsion_and_of_given_shifts() -> None:
+    scene = sphere_on_flat(n=24)
+    start = fret.LoadPath.start().normal(W, increments=4)
+    M = 0.5 * 3 * np.pi / 16 * MU * W * scene_hertz(pair(0.3)).a
+    torsion = fret.solve(scene, start.torsion([M, -M, M], increments=20), progress=False)
+    loop = torsion.loops(direction="torsion").isel(cycle=0)
+    assert float(loop["T"]) == pytest.approx(M)
+    assert loop.stiffness.attrs["units"] == "N m/rad"
+    assert 0 < float(loop.energy_ratio) < 0.2
+    assert float(loop.dissipated) == pytest.approx(
+        np.abs(np.trapezoid(torsion.dataset.M_z[-17:], torsion.dataset.phi_z[-17:])), rel=0.05
+    )
+    # Between shifts ten times as large as what slides, the loop is nearly a rectangle.
+    for turn in (4e-5, -4e-5, 4e-5):
+        start = start.displace(delta_x=turn, increments=10)
+    slid = fret.solve(scene, start, progress=False).loops().isel(cycle=-1)
+    assert slid.first_branch == 2
+    assert float(slid["T"]) == pytest.approx(MU * W, rel=1e-6)
+    assert slid.status == 3
+    assert 0.8 < float(slid.energy_ratio) < 1.0
+    assert 0.8 < float(slid.sliding_ratio) < 1.0
+
+
 def test_the_running_map_slides_above_the_friction_limit() -> None:
     table = fret.sweep.running_map(
         sphere_on_flat(n=24), W=[500.0, W], T=[30.0, 120.0, 240.0], increments=(4, 8)
@@ -152,7 +200,22 @@ def test_the_running_map_slides_above_the_friction_limit() -> None:
     assert np.isnan(ratio[0, 2])
     assert ratio[1, 0] < ratio[1, 1] < ratio[1, 2] < 0.2
     assert ratio[0, 1] > ratio[1, 1]
-    assert fret.plot.running_map(table).get_ylabel() == "T [N]"
+    assert fret.plot.running_map(table).get_ylabel() == "$T$ [N]"
+    with pytest.raises(ValueError, match="one of them"):
+        fret.sweep.running_map(sphere_on_flat(n=24), W=W)
+
+
+def test_the_running_map_of_shifts_parts_partial_from_gross_slip() -> None:
+    uncoated = fret.reference.CattaneoMindlin(scene_hertz(pair(0.3)), bodies=pair(0.3), mu=MU)
+    shifts = np.array([0.5, 3.0]) * uncoated.shift_limit
+    table = fret.sweep.running_map(
+        sphere_on_flat(n=24), W=[500.0, W], delta=shifts, increments=(4, 12)
+    )
+    assert table.status.values.tolist() == [[2, 3], [2, 3]]
+    assert (table.energy_ratio[:, 0] < 0.2).all()
+    assert (table.energy_ratio[:, 1] > 0.2).all()
+    np.testing.assert_allclose(table["T"][:, 1], MU * table.W, rtol=1e-6)
+    assert fret.plot.running_map(table).get_ylabel().startswith(r"$\delta$")
 
 
 def test_figures_of_stress(coated: fret.Result) -> None:
@@ -168,4 +231,6 @@ def test_figures_of_stress(coated: fret.Result) -> None:
     assert len(fret.plot.stress_maps({2.0: coated}, layers=17).axes) == 1
     maps = fret.plot.envelope_maps(coated.envelope(z, y=0.0), **yard)
     assert len(maps.axes) == 3
+    history = fret.plot.stress_history(coated.envelope(z, y=0.0), **yard)
+    assert history.lines[0].get_xdata().size == coated.dataset.sizes["saved"]
     assert len(fret.plot.loop_evolution(coated).lines) == 3

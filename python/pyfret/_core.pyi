@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "RIGID",
     "Body",
     "Branch",
     "CattaneoMindlin",
@@ -28,7 +29,6 @@ __all__ = [
     "FrequencyDomain",
     "Grid",
     "Hankel",
-    "HeightMap",
     "Hertz",
     "HertzEllipse",
     "InvalidSceneError",
@@ -41,7 +41,6 @@ __all__ = [
     "OffGridError",
     "Preset",
     "Profile",
-    "RIGID",
     "Rough",
     "Scene",
     "Settings",
@@ -51,6 +50,7 @@ __all__ = [
     "Sphere",
     "StoreError",
     "Sum",
+    "SurfaceMap",
     "SurfaceOperator",
     "Waviness",
     "Wedge",
@@ -445,24 +445,27 @@ class Rough:
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
-class HeightMap:
-    """Measured or calculated heights, the middle of the map over the origin.
+class SurfaceMap:
+    """Numbers over the contact plane, the middle of the map over the origin.
+
+    As the shape of a body they are heights out of it, towards the other one [m]; in a friction law
+    they are factors of mu.
 
     Parameters
     ----------
-    z : array of shape (points along x, points along y)
-        Heights out of the body, towards the other one [m].
+    values : array of shape (points along x, points along y)
+        The numbers.
     spacing : (float, float)
-        Distance of the points along x and y [m]. Between the points heights are linear.
+        Distance of the points along x and y [m]. In between they are interpolated linearly.
     """
 
-    def __new__(cls, z: ArrayLike, *, spacing: tuple[float, float]) -> HeightMap: ...
+    def __new__(cls, values: ArrayLike, *, spacing: tuple[float, float]) -> SurfaceMap: ...
     @staticmethod
-    def from_file(path: str | PathLike[str], *, spacing: tuple[float, float]) -> HeightMap:
-        """Read heights [m] from a ``.npy`` array or a ``.csv`` table, one line per x."""
+    def from_file(path: str | PathLike[str], *, spacing: tuple[float, float]) -> SurfaceMap:
+        """Read numbers from a ``.npy`` array or a ``.csv`` table, one line per x."""
     @property
-    def z(self) -> _Array:
-        """Heights [m]."""
+    def values(self) -> _Array:
+        """The numbers."""
     @property
     def spacing(self) -> tuple[float, float]:
         """Distance of the points along x and y [m]."""
@@ -494,7 +497,7 @@ _Shape: TypeAlias = (
     | FlatPunch
     | Waviness
     | Rough
-    | HeightMap
+    | SurfaceMap
     | Sum
 )
 
@@ -529,6 +532,70 @@ class Body:
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
+class History:
+    """What a cell has been through."""
+
+    INCREMENT: ClassVar[History]
+    """Increments done, the same for all cells."""
+    SLIP: ClassVar[History]
+    """Length of the way that the cell has slipped [m]."""
+    DISSIPATED: ClassVar[History]
+    """Energy dissipated per area [J/m^2]."""
+
+    def __int__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+
+@final
+class Friction:
+    """Coulomb's law with a coefficient that depends on direction, place and history.
+
+    The coefficient of an increment is that of the state it starts from.
+
+    Parameters
+    ----------
+    mu : float
+        Coefficient, >= 0; ``float("inf")`` for a contact that never slips.
+    mu_y : float, optional
+        Coefficient along y, mu being that along x: the bound is an ellipse.
+    kinetic : float, optional
+        Coefficient, along x, of cells that slipped in the increment before.
+    map : SurfaceMap, optional
+        Factor of the coefficient over the surface.
+    history : (History, list of pairs), optional
+        Factor of the coefficient, linear between the pairs (history, factor).
+    """
+
+    def __new__(
+        cls,
+        mu: float,
+        *,
+        mu_y: float | None = None,
+        kinetic: float | None = None,
+        map: SurfaceMap | None = None,
+        history: tuple[History, Sequence[tuple[float, float]]] | None = None,
+    ) -> Friction: ...
+    @property
+    def mu(self) -> float:
+        """Coefficient."""
+    @property
+    def mu_y(self) -> float | None:
+        """Coefficient along y, if it is another."""
+    @property
+    def kinetic(self) -> float | None:
+        """Coefficient of cells that slipped in the increment before."""
+    @property
+    def map(self) -> SurfaceMap | None:
+        """Factor over the surface."""
+    @property
+    def history(self) -> tuple[History, list[tuple[float, float]]] | None:
+        """Factor as a function of the history."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
 class Grid:
     """Rectangular cells around the initial point of contact; tractions are constant on each.
 
@@ -541,6 +608,16 @@ class Grid:
     @staticmethod
     def from_spacing(n: tuple[int, int], spacing: tuple[float, float]) -> Grid:
         """`n` = (nx, ny) cells of size `spacing` = (dx, dy) [m]."""
+    @staticmethod
+    def strip(*, extent: float, n: int, width: float = 1.0) -> Grid:
+        """Plane strain: `n` cells over the length `extent` [m] along x, without end along y.
+
+        Forces, moments and energies are those on the width `width` [m]; displacements are
+        relative to the points at the distance `extent` from a load.
+        """
+    @property
+    def plane_strain(self) -> bool:
+        """Whether the cells are without end along y."""
     @property
     def nx(self) -> int:
         """Number of cells along x."""
@@ -621,6 +698,12 @@ class Branch:
     def phi_z(self) -> float | None:
         """Rotation about z at its end [rad]; None where M_z is given."""
     @property
+    def sigma_B(self) -> float:
+        """Bulk stress along x in body 2 at its end [Pa]."""
+    @property
+    def rolled(self) -> float:
+        """Way that the contact has rolled along x at its end [m]."""
+    @property
     def increments(self) -> int:
         """Number of increments."""
     @property
@@ -632,6 +715,18 @@ class Branch:
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class PerRange:
+    """As many increments as a change needs if the whole range takes this many."""
+
+    def __new__(cls, increments: int) -> PerRange: ...
+    @property
+    def increments(self) -> int:
+        """Increments over the whole range of the load or motion that needs most."""
+    def __hash__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
 
 @final
 class LoadPath:
@@ -659,6 +754,30 @@ class LoadPath:
         """
     def torsion(self, M_z: float | Sequence[float], *, increments: int) -> LoadPath:
         """Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces."""
+    def radial(self, W: float | Sequence[float], *, increments: int) -> LoadPath:
+        """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
+    def ellipse(self, *, T_x: float, T_y: float, turns: int = 1, increments: int) -> LoadPath:
+        """Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
+
+        Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
+        for each turn towards (0, T_y), each a branch of its own.
+        """
+    def waypoints(
+        self, *, increments: int | PerRange = 1, **columns: Sequence[float] | _Array
+    ) -> LoadPath:
+        """Go straight from waypoint to waypoint, a branch for each.
+
+        Parameters
+        ----------
+        increments : int or PerRange
+            Increments per branch; or as many as the change needs.
+        **columns : array
+            Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``rolled`` and the
+            path time ``t`` at the waypoints. What has no column stays as it is.
+        """
+    @staticmethod
+    def from_csv(path: str | PathLike[str], *, increments: int | PerRange = 1) -> LoadPath:
+        """Read a measured history; the first line names the columns of `waypoints`."""
     def force(
         self,
         *,
@@ -668,6 +787,8 @@ class LoadPath:
         M_x: float | None = None,
         M_y: float | None = None,
         M_z: float | None = None,
+        sigma_B: float | None = None,
+        rolled: float | None = None,
         increments: int,
         spacing: Spacing = ...,
         t: float | None = None,
@@ -682,6 +803,10 @@ class LoadPath:
             Normal force and tangential forces on body 2 [N].
         M_x, M_y, M_z : float, optional
             Tilting moments and torsional moment on body 2 [N m].
+        sigma_B : float, optional
+            Bulk stress along x in body 2, tension positive: a fatigue load [Pa].
+        rolled : float, optional
+            Way that the contact has rolled along x over both bodies [m], whole cells per increment.
         increments : int
             Number of increments.
         spacing : Spacing
@@ -735,6 +860,12 @@ class LoadPath:
     @property
     def T_y(self) -> _Array:
         """Tangential force along y at the end of every increment [N]."""
+    @property
+    def sigma_B(self) -> _Array:
+        """Bulk stress at the end of every increment [Pa]."""
+    @property
+    def rolled(self) -> _Array:
+        """Way rolled at the end of every increment [m]."""
     @property
     def M_z(self) -> _Array:
         """Torsional moment at the end of every increment [N m]."""
@@ -823,10 +954,19 @@ class Skip:
         Leave out the normal-tangential kernels where they vanish (default True).
     mirror : bool
         Solve on half of a mirror-symmetric scene (default True).
+    path : bool
+        Leave out the increments of branches whose end does not depend on the way there
+        (default False: results have a row for every increment asked for); they are solved if
+        their fields are to be kept.
     """
 
     def __new__(
-        cls, *, equal_layers: bool = True, coupling: bool = True, mirror: bool = True
+        cls,
+        *,
+        equal_layers: bool = True,
+        coupling: bool = True,
+        mirror: bool = True,
+        path: bool = False,
     ) -> Skip: ...
     @property
     def equal_layers(self) -> bool:
@@ -837,6 +977,9 @@ class Skip:
     @property
     def mirror(self) -> bool:
         """Whether a mirror-symmetric scene is solved on its half."""
+    @property
+    def path(self) -> bool:
+        """Whether increments are left out where the way does not count."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -852,6 +995,9 @@ class Settings:
     tolerance : float, optional
         Relative tolerance of the solution (default 1e-6): gap error in the contact over the Hertz
         approach, tangential misfit over mu times it, change of the tractions in the last pass.
+    entering : bool, optional
+        Reckon the slip of cells that come into contact from their entry (default True): one more
+        solution in increments in which the contact grows, and far fewer increments.
     max_alternations : int, optional
         Most passes of the intermediate loop per increment (default 60).
     max_iterations : int, optional
@@ -872,6 +1018,7 @@ class Settings:
         *,
         preset: Preset | None = None,
         tolerance: float | None = None,
+        entering: bool | None = None,
         max_alternations: int | None = None,
         max_iterations: int | None = None,
         kernel: _KernelMethod | None = None,
@@ -885,6 +1032,9 @@ class Settings:
     @property
     def tolerance(self) -> float:
         """Relative tolerance of the solution."""
+    @property
+    def entering(self) -> bool:
+        """Whether slip is reckoned from the entry of a cell into the contact."""
     @property
     def max_alternations(self) -> int:
         """Most passes of the intermediate loop per increment."""
@@ -915,8 +1065,8 @@ class Scene:
     ----------
     body1, body2 : Body
         The upper body (the indenter) and the lower one.
-    mu : float
-        Friction coefficient, >= 0.
+    mu : float or Friction
+        Friction coefficient, >= 0, or a friction law.
     grid : Grid
         Mesh of the contact plane; it has to hold the contact.
     path : LoadPath, optional
@@ -932,7 +1082,7 @@ class Scene:
         *,
         body1: Body,
         body2: Body,
-        mu: float,
+        mu: float | Friction,
         grid: Grid,
         path: LoadPath | None = None,
         settings: Settings | None = None,
@@ -970,7 +1120,7 @@ class Scene:
         path: LoadPath | None = None,
         settings: Settings | None = None,
         save: _Save | None = None,
-        mu: float | None = None,
+        mu: float | Friction | None = None,
         title: str | None = None,
     ) -> Scene:
         """The same scene with some of its parts exchanged."""
@@ -994,6 +1144,9 @@ class Scene:
     @property
     def mu(self) -> float:
         """Friction coefficient."""
+    @property
+    def friction(self) -> Friction:
+        """Friction law."""
     @property
     def grid(self) -> Grid:
         """Mesh of the contact plane."""
@@ -1159,6 +1312,68 @@ class Lubkin:
         """Stick radius under the moment `M_z` [N m] [m]."""
     def q(self, r: ArrayLike, *, c: float) -> _Array:
         """Circumferential traction at `r` for the stick radius `c` [m] [Pa]."""
+
+@final
+class LineContact:
+    """Cylinders in plane strain: Hertz, Cattaneo, Carter, McEwen; from `line_contact`."""
+
+    @property
+    def W(self) -> float:
+        """Normal force per length [N/m]."""
+    @property
+    def E_star(self) -> float:
+        """Contact modulus [Pa]."""
+    @property
+    def a(self) -> float:
+        """Half-width [m], a^2 = 4 W R/(pi E*)."""
+    @property
+    def p0(self) -> float:
+        """Peak pressure [Pa]."""
+    def p(self, x: ArrayLike) -> _Array:
+        """Pressure at `x` [m] [Pa]."""
+    def stick_half_width(self, *, T: float, mu: float) -> float:
+        """Half-width of the stick zone under `T` [N/m] [m]."""
+    def stick_middle(self, *, eps_x: float, mu: float) -> float:
+        """Middle of the stick zone [m] under the bulk strain `eps_x` of body 2.
+
+        The strain is brought up together with T > 0.
+        """
+    def q(self, x: ArrayLike, *, T: float, mu: float, middle: float = 0.0) -> _Array:
+        """Shear at `x` [m] under `T` [N/m] with the stick zone around `middle` [m] [Pa].
+
+        Cattaneo's with the middle at 0, Carter's with it at a - c towards the leading edge.
+        """
+    def stress(self, x: ArrayLike, z: float, *, T: float, mu: float) -> list[_Array]:
+        """Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]."""
+
+def line_contact(*, R: float, bodies: tuple[Elastic, Elastic], W: float) -> LineContact:
+    """Line contact of cylinders of relative radius `R` [m] under `W` [N/m]."""
+
+@final
+class Springs:
+    """One-dimensional springs with friction: the shift for every path of W and T.
+
+    Exact for a sphere on a flat of like bodies with nu = 0 (method of dimensionality reduction).
+
+    Parameters
+    ----------
+    largest : Hertz
+        The contact under the largest force of the path.
+    R : float
+        Radius [m].
+    bodies : tuple of Elastic
+        Materials of body 1 and body 2.
+    mu : float
+        Friction coefficient.
+    n : int
+        Springs on either side.
+    """
+
+    def __new__(
+        cls, largest: Hertz, *, R: float, bodies: tuple[Elastic, Elastic], mu: float, n: int = 1500
+    ) -> Springs: ...
+    def load(self, *, W: float, T: float, steps: int = 10) -> float:
+        """Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m]."""
 
 def dundurs_beta(body1: Elastic, body2: Elastic) -> float:
     """Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
@@ -1376,9 +1591,16 @@ def principal(stress: ArrayLike) -> tuple[_Array, _Array]:
     """Principal values (n, 3), the largest first, and directions (n, 3, 3) of stresses (6, n)."""
 
 def maximum(
-    field: ArrayLike, z: Sequence[float], layer: Sequence[int], along: Sequence[float]
+    name: str,
+    stress: ArrayLike,
+    z: Sequence[float],
+    layer: Sequence[int],
+    along: Sequence[float],
 ) -> tuple[float, float, float, int] | None:
-    """Largest value of a field of shape (depths, places): value, place, depth, layer."""
+    """Largest value on a section of stresses (6, depths, places): value, place, depth, layer."""
+
+def rims(stress: ArrayLike, along: Sequence[float]) -> tuple[list[float], _Array]:
+    """Places of the rims on a line on the surface, and stresses (6, rims), from stresses (6, n)."""
 
 def loops(
     path: LoadPath,

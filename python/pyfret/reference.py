@@ -6,13 +6,16 @@ from pyfret._core import (
     CoupledIndentation,
     Hertz,
     HertzEllipse,
+    LineContact,
     Lubkin,
+    Springs,
     coated_indentation,
     coupled_indentation,
     dundurs_beta,
     goodman_stick_ratio,
     hertz,
     hertz_ellipse,
+    line_contact,
 )
 
 __all__ = [
@@ -21,11 +24,14 @@ __all__ = [
     "CoupledIndentation",
     "Hertz",
     "HertzEllipse",
+    "LineContact",
     "Lubkin",
+    "Springs",
     "coated_indentation",
     "coupled_indentation",
     "dundurs_beta",
     "goodman_stick_ratio",
     "hertz",
     "hertz_ellipse",
+    "line_contact",
 ]

@@ -309,13 +309,14 @@ class Result:
                 table[name] = ("branch", kept, variable.attrs)
         return table
 
-    def loops(self, *, direction: Literal["x", "y"] = "x") -> xr.Dataset:
+    def loops(self, *, direction: Literal["x", "y", "torsion"] = "x") -> xr.Dataset:
         """Energy and stiffness of every closed cycle of the load path.
 
         Parameters
         ----------
-        direction : "x" or "y"
-            Direction of the fretting motion.
+        direction : "x", "y" or "torsion"
+            The fretting motion. In torsion ``T`` is the moment M_z [N m], ``delta`` the rotation
+            phi_z [rad], and the units of stiffness and opening are theirs.
 
         Returns
         -------
@@ -326,18 +327,25 @@ class Result:
             branches it spans.
         """
         d = self.dataset
+        torsion = direction == "torsion"
+        force, shift = ("M_z", "phi_z") if torsion else (f"T_{direction}", f"delta_{direction}")
         found = _core.loops(
             self.scene.path,
             branch=d.branch_of_increment.values.tolist(),
-            T=d[f"T_{direction}"].values.tolist(),
-            delta=d[f"delta_{direction}"].values.tolist(),
+            T=d[force].values.tolist(),
+            delta=d[shift].values.tolist(),
             dissipated=d.dissipated.values.tolist(),
             status=d.status.values.tolist(),
         )
+        units = {"N": "N m", "m": "rad", "N/m": "N m/rad"} if torsion else {}
         return xr.Dataset(
             {
-                name: ("cycle", [cycle[name] for cycle in found], {"units": units, "long_name": of})
-                for name, (units, of) in LOOP.items()
+                name: (
+                    "cycle",
+                    [cycle[name] for cycle in found],
+                    {"units": units.get(unit, unit), "long_name": of},
+                )
+                for name, (unit, of) in LOOP.items()
             },
             attrs=d.attrs,
         )
@@ -351,7 +359,7 @@ class Result:
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
     ) -> xr.Dataset:
-        """Extremes of stress over the increments whose fields were kept.
+        """Extremes of stress over the increments whose fields were kept, on a section or on planes.
 
         Use :func:`pyfret.subsurface.envelope` with :func:`pyfret.march` for all increments of a
         path without keeping their fields; parameters and result are those of that function.

@@ -97,21 +97,44 @@ class Stress:
     def maximum(self, of: str = "von_mises") -> Maximum:
         """Give the largest value on a section and its place, refined below the cell.
 
-        A maximum at the surface or at an interface stays there.
+        A maximum at the surface or at an interface stays there. On the surface the rims of the
+        contact take part, as :meth:`rims` gives them.
         """
-        values = self.measure(of)
-        if values.ndim != 2:
-            raise ValueError("the maximum is refined on a section: give stress(z, x=...) or y=...")
-        along = values.dims[1]
-        found = _core.maximum(
-            values.values,
-            values.z.values.tolist(),
-            values.layer.values.tolist(),
-            values[along].values.tolist(),
-        )
+        along = self._along()
+        depths = self.dataset.z.values.tolist()
+        layers = self.dataset.layer.values.tolist()
+        stress = np.stack([self.dataset[c].values for c in COMPONENTS])
+        found = _core.maximum(of, stress, depths, layers, self.dataset[along].values.tolist())
         if found is None:
             raise ValueError("the section holds no number")
         return Maximum(*found)
+
+    def rims(self) -> Stress:
+        """Give the surface stress at the rims of the contact, from a section that has z = 0.
+
+        It has a cusp there, such as the tension at the trailing edge, whose top no sample reaches:
+        samples near by are extrapolated. Rims that they do not show well enough are left out.
+        """
+        along = self._along()
+        surface = self.dataset.isel(depth=0)
+        if float(surface.z) != 0.0:
+            raise ValueError("the section has no surface: give stress(z=[0, ...], ...)")
+        stress = np.stack([surface[c].values for c in COMPONENTS])
+        places, tensors = _core.rims(stress, surface[along].values.tolist())
+        variables = {
+            name: ("rim", values, surface[name].attrs)
+            for name, values in zip(COMPONENTS, tensors, strict=True)
+        }
+        coords = {k: v for k, v in surface.coords.items() if k != along}
+        return Stress(xr.Dataset(variables, {**coords, along: ("rim", places, {"units": "m"})}))
+
+    def _along(self) -> str:
+        dims = self.dataset[COMPONENTS[0]].dims
+        if len(dims) != 2:
+            raise ValueError(
+                "this is known on a section: give stress(z, x=...) or stress(z, y=...)"
+            )
+        return str(dims[1])
 
     def __repr__(self) -> str:
         """Show the dataset."""
@@ -280,7 +303,7 @@ def envelope(
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
 ) -> xr.Dataset:
-    """Extremes of stress below a line over a load path, none of whose increments is kept.
+    """Extremes of stress over a load path, none of whose increments is kept.
 
     Parameters
     ----------
@@ -289,7 +312,7 @@ def envelope(
     increments : iterable of Snapshot
         What :func:`pyfret.march` yields, or some snapshots of a result.
     z, x, y, body_number
-        The section, as in :func:`stress`: either `x` or `y`.
+        The section, as in :func:`stress`: `x` or `y`, or neither for whole planes.
     of : sequence of str
         Measures, as in :class:`Stress`.
 
@@ -297,10 +320,14 @@ def envelope(
     -------
     xarray.Dataset
         For each measure ``<name>_max``, ``<name>_min`` and ``<name>_increment`` (of the largest
-        value) over (depth, x or y), ``<name>_amplitude`` and ``<name>_mean`` over
-        (cycle, depth, x or y); a cycle is the closed piece of the path between ``first_branch``
-        and ``last_branch``.
+        value) over depth and x or y, ``<name>_amplitude`` and ``<name>_mean`` over cycle, depth
+        and x or y; a cycle is the closed piece of the path between ``first_branch`` and
+        ``last_branch``. On a section also over ``increment``: the largest value on it,
+        ``<name>_largest``, and where it is between the samples, ``<name>_largest_x`` (or ``_y``),
+        ``<name>_largest_z`` and ``<name>_largest_layer``.
     """
+    if x is not None and y is not None:
+        raise ValueError("give x or y for a section, or neither for whole planes")
     body = scene.body1 if body_number == 1 else scene.body2
     depths, layers = _depths(body, z)
     stream = _core.Envelope(
@@ -319,20 +346,44 @@ def envelope(
         number = int(snapshot.dataset.increment)
         stream.push(number, int(snapshot.dataset.branch_of_increment), **fields)
     coords = _coords(scene.grid, depths, layers, x, y)
-    dims = ("depth", "x" if x is None else "y")
+    along = [name for name, at in (("x", x), ("y", y)) if at is None]
+    dims = ("depth", *along)
+    shape = (len(depths), *(getattr(scene.grid, name).size for name in along))
     result = xr.Dataset(coords=coords)
     for name, kept in stream.finish().items():
         meaning = LABELS[name][1]
         for key in ("max", "min"):
             attrs = {"units": "Pa", "long_name": f"{key} over the path: {meaning}"}
-            result[f"{name}_{key}"] = (dims, kept[key], attrs)
+            result[f"{name}_{key}"] = (dims, kept[key].reshape(shape), attrs)
         attrs = {"long_name": f"increment of the largest {name}, from 1"}
-        result[f"{name}_increment"] = (dims, kept["increment"].astype(int), attrs)
+        when = kept["increment"].astype(int).reshape(shape)
+        result[f"{name}_increment"] = (dims, when, attrs)
         for key in ("amplitude", "mean"):
-            values = np.array(kept[key]).reshape(-1, *kept["max"].shape)
+            values = np.array(kept[key]).reshape(-1, *shape)
             attrs = {"units": "Pa", "long_name": f"{key} over a cycle: {meaning}"}
             result[f"{name}_{key}"] = (("cycle", *dims), values, attrs)
+        if len(along) == 1:
+            result = result.merge(_largest(name, kept["largest"], along[0]))
     if stream.cycles:
         first, last = np.array(stream.cycles).T
         result = result.assign_coords(first_branch=("cycle", first), last_branch=("cycle", last))
     return result
+
+
+def _largest(name: str, rows: NDArray[np.float64], along: str) -> xr.Dataset:
+    """Give the largest value of a measure on a section at every increment, and its place."""
+    increment, value, place, z, layer = rows.T
+    meaning = f"largest {name} on the section"
+    columns = {
+        name + "_largest": (value, "Pa", meaning),
+        f"{name}_largest_{along}": (place, "m", f"{along} of the {meaning}"),
+        name + "_largest_z": (z, "m", f"depth of the {meaning}"),
+        name + "_largest_layer": (layer.astype(int), "1", f"layer of the {meaning}"),
+    }
+    return xr.Dataset(
+        {
+            key: ("increment", values, {"units": units, "long_name": of})
+            for key, (values, units, of) in columns.items()
+        },
+        coords={"increment": increment.astype(int)},
+    )

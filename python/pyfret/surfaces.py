@@ -6,10 +6,10 @@ from os import PathLike, fspath
 
 import numpy as np
 
-from pyfret._core import HeightMap
+from pyfret._core import SurfaceMap
 
 
-def read_surface(path: str | PathLike[str], *, detrend: str = "center") -> HeightMap:
+def read_surface(path: str | PathLike[str], *, detrend: str = "center") -> SurfaceMap:
     """Read a measured surface: X3P, SDF, OPD and all other formats of SurfaceTopography.
 
     Parameters
@@ -35,10 +35,8 @@ def read_surface(path: str | PathLike[str], *, detrend: str = "center") -> Heigh
     surface = read_topography(fspath(path)).to_unit("m").detrend(detrend)
     heights = surface.heights()
     if np.ma.is_masked(heights):
-        holes = int(np.ma.count_masked(heights))
+        holes = int(np.ma.getmaskarray(heights).sum())
         message = f"{path}: {holes} points were not measured; fill them first"
         raise ValueError(message)
     x, y = surface.pixel_size
-    return HeightMap(
-        np.ascontiguousarray(heights, dtype=float), spacing=(float(x), float(y))
-    )
+    return SurfaceMap(np.ascontiguousarray(heights, dtype=float), spacing=(float(x), float(y)))

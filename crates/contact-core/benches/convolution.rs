@@ -1,6 +1,8 @@
 //! Time of one convolution of three components: the unit of work of every solver.
 #![allow(missing_docs)]
 
+mod rig;
+
 use std::time::Instant;
 
 use contact_core::convolution::{
@@ -49,8 +51,7 @@ fn tractions(n: usize, rows: usize) -> Vec<f64> {
 }
 
 fn convolution(c: &mut Criterion) {
-    let mut group = c.benchmark_group("convolution");
-    group.sample_size(10);
+    let mut group = rig::stage(c, "convolution");
     for n in [64, 256, 512, 1024] {
         let coefficients = coefficients(n);
         for (name, mirror) in [("whole", Mirror::None), ("mirrored", Mirror::Y)] {

@@ -1,11 +1,13 @@
 //! Time to compute kernels: what a scene waits for before its first increment.
 #![allow(missing_docs)]
 
+mod rig;
+
 use std::hint::black_box;
 
 use contact_core::kernels::{clear_cache, influence_coefficients, stress_coefficients};
 use contact_core::scene::{Body, Coating, Elastic, Grid, KernelMethod, KernelSettings, Shape};
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, SamplingMode, criterion_group, criterion_main};
 
 const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
 /// The contact radius of the paper's scene \[m\].
@@ -32,8 +34,8 @@ fn grid(n: usize) -> Grid {
 }
 
 fn surface(c: &mut Criterion) {
-    let mut group = c.benchmark_group("kernels");
-    group.sample_size(10);
+    let mut group = rig::stage(c, "kernels");
+    group.sampling_mode(SamplingMode::Flat);
     for (name, layers, n) in [
         ("homogeneous/256", 0, 256),
         ("coated/256", 1, 256),
@@ -70,8 +72,8 @@ fn surface(c: &mut Criterion) {
 }
 
 fn stress(c: &mut Criterion) {
-    let mut group = c.benchmark_group("kernels");
-    group.sample_size(10);
+    let mut group = rig::stage(c, "kernels");
+    group.sampling_mode(SamplingMode::Flat);
     for (name, z) in [
         ("stress/coating/256", 0.5 * A_H),
         ("stress/substrate/256", 1.5 * A_H),

@@ -1,63 +1,53 @@
-//! Time and memory of the stress below the paper's contact.
+//! Time and memory of the stress below the paper's contact, kernels included: 256 x 256 cells,
+//! 256 depths.
 //!
-//! `cargo run --release --example subsurface -- plane|volume [cells] [depths]`
+//! `cargo run --release --example subsurface -- plane` computes the six components on y = 0,
+//! `-- volume FILE.vti` the von Mises stress in the volume, streamed to the disk.
+
 #![allow(clippy::print_stdout, clippy::unwrap_used)]
+
+#[path = "../tests/stressed/mod.rs"]
+mod stressed;
 
 use std::time::Instant;
 
-use contact_core::convolution::Tractions;
-use contact_core::fields::{Line, Section, Side, Slices, depths};
-use contact_core::scene::{Body, Coating, Elastic, Grid, Shape};
+use contact_core::fields::{Line, Section, Side, Slices, measure_named};
+use contact_core::output::{ImageData, write_volume};
 
-const A_H: f64 = 4.890_973e-4;
+const N: usize = 256;
 
 fn main() {
-    let n = 256;
-    let steel = Elastic::new(210e9, 0.3).unwrap();
-    let body = Body {
-        substrate: steel,
-        coatings: vec![Coating {
-            material: Elastic::new(420e9, 0.3).unwrap(),
-            thickness: A_H,
-        }],
-        shape: Shape::Flat,
-    };
-    let grid = Grid::centred(2.4 * A_H, n).unwrap();
-    let hertz = |x: f64, y: f64| (1.0 - (x * x + y * y) / (A_H * A_H)).max(0.0).sqrt();
-    let p = grid.map(|x, y| 1.5e9 * hertz(x, y));
-    let q_x = grid.map(|x, y| 0.3 * 1.5e9 * hertz(x, y));
-    let q_y = grid.map(|x, y| 0.01 * 1.5e9 * hertz(x, y) * x * y / A_H / A_H);
-    let tractions = Tractions {
-        q_x: q_x.as_slice(),
-        q_y: q_y.as_slice(),
-        p: p.as_slice(),
-    };
-    let z: Vec<f64> = (0..256).map(|i| 2.0 * A_H * f64::from(i) / 255.0).collect();
-    let depths = depths(&body, &z).unwrap();
-    if std::env::args().nth(1).as_deref() == Some("volume") {
-        let start = Instant::now();
-        let slices = Slices::new(&body, Side::Body2, &grid, &[tractions]).unwrap();
-        println!("loads {:.3} s", start.elapsed().as_secs_f64());
-        let sums = slices
-            .map_stress(&depths, |_, s| Ok(s[0][2].sum()))
-            .unwrap();
-        println!(
-            "volume {:.3} s {}",
-            start.elapsed().as_secs_f64(),
-            sums[100]
-        );
-        return;
+    let contact = stressed::coated(N);
+    let states = [contact.tractions()];
+    let (body, grid) = (&contact.body, &contact.grid);
+    let depths = contact.depths(N);
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let start = Instant::now();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["plane"] => {
+            let line = Line::AlongX(0.0);
+            let section = Section::new(body, Side::Body2, grid, line, &states).unwrap();
+            section.stress(&depths).unwrap();
+        }
+        ["volume", file] => {
+            let of = [*measure_named("von_mises").unwrap()];
+            let slices = Slices::new(body, Side::Body2, grid, &states).unwrap();
+            let image = ImageData::create(file, grid, Side::Body2, &depths, &of).unwrap();
+            write_volume(&slices, &depths, &of, &[&image]).unwrap();
+            image.finish().unwrap();
+        }
+        _ => panic!("arguments: plane, or volume FILE.vti"),
     }
-    for _ in 0..3 {
-        let start = Instant::now();
-        let section =
-            Section::new(&body, Side::Body2, &grid, Line::AlongX(0.0), &[tractions]).unwrap();
-        println!("loads {:.3} s", start.elapsed().as_secs_f64());
-        let stress = section.stress(&depths).unwrap();
-        println!(
-            "plane {:.3} s {}",
-            start.elapsed().as_secs_f64(),
-            stress[0][(2, 100, 128)]
-        );
-    }
+    let seconds = start.elapsed().as_secs_f64();
+    println!("{}: {seconds:.2} s, {}", arguments[0], peak_memory());
+}
+
+/// Largest memory that the process ever held, where the system tells.
+fn peak_memory() -> String {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kib: Option<f64> = peak.and_then(|v| v.split_whitespace().next()?.parse().ok());
+    kib.map_or("memory unknown".into(), |kib| {
+        format!("{:.0} MB", kib * 1024.0 / 1e6)
+    })
 }

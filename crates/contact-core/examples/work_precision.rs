@@ -82,7 +82,7 @@ impl Run {
         let [p, q, q_first] = self.errors(reference);
         println!(
             "\"{}\",{count},{:.3},{:.0},{:.2},{:.2},{:.2},{:.2},{p:.2e},{q:.2e},{q_first:.2e}",
-            self.settings,
+            self.settings.replace('"', "\"\""),
             self.seconds,
             sum(&|i| i.work.convolutions),
             sum(&|i| i.work.convolutions) / count as f64,

@@ -36,7 +36,13 @@ fn an_increment_that_does_not_converge_is_solved_in_pieces() {
     assert_eq!(pieces.len(), 3);
     let mut done = 0.0;
     for (i, (piece, whole)) in pieces.iter().zip(&whole).enumerate() {
-        assert_eq!((piece.index, piece.point), (i + 1, whole.point));
+        let place = |i: &Increment| (i.index, i.point.branch, i.point.ends_branch);
+        assert_eq!(place(piece), (i + 1, i, true));
+        let loads = |i: &Increment| [i.point.loads.W, i.point.loads.T_x];
+        assert_eq!(
+            loads(piece).map(f64::to_bits),
+            loads(whole).map(f64::to_bits)
+        );
         assert!(piece.work.parts > 1);
         assert!(piece.work.convolutions > whole.work.convolutions);
         done += piece.energy.work;

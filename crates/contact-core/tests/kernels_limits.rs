@@ -231,3 +231,45 @@ fn a_layer_may_be_cut_in_two() {
         assert!(error < 1e-12, "case {case}: {error:.1e} with {layers:?}");
     }
 }
+
+/// In plane strain the coefficients are those of cells that are long along y, but for the constant
+/// that an infinite length leaves open.
+#[test]
+fn a_strip_is_a_long_cell() {
+    let n = 40;
+    for body in stacks() {
+        let strip = Grid::strip(40e-6, n, 1.0).unwrap();
+        let long = grid((n, 1), (1e-6, 1.0));
+        let (strip, long) = (coefficients(&body, &strip), coefficients(&body, &long));
+        let fall = |q: &Quadrant, i: usize| q[(0, 0)] - q[(i, 0)];
+        for i in 1..n {
+            for (ours, theirs) in [
+                (&strip.xx, &long.xx),
+                (&strip.yy, &long.yy),
+                (&strip.zz, &long.zz),
+            ] {
+                let (ours, theirs) = (fall(ours, i), fall(theirs, i));
+                assert!((ours / theirs - 1.0).abs() < 1e-8, "{ours:e} {theirs:e}");
+            }
+            // A finite length L leaves out a part x/L of the pull along x.
+            let (ours, theirs) = (strip.xz[(i, 0)], long.xz[(i, 0)]);
+            let allowed = 2.0 * i as f64 * 1e-6 * strip.zz[(0, 0)];
+            assert!((ours - theirs).abs() < allowed, "{ours:e} {theirs:e}");
+        }
+    }
+}
+
+/// Layers of the substrate's own material change nothing in plane strain either: the k-integral of
+/// the remainder against the closed form.
+#[test]
+fn a_strip_on_layers_of_the_substrate() {
+    let bare = body(&[], STEEL);
+    let layered = body(&[(210e9, 0.3, 2e-6), (210e9, 0.3, 5e-6)], STEEL);
+    // A layer so thick that the strip sees nothing else has the half-space's fall.
+    let thick = body(&[(210e9, 0.3, 1.0)], Elastic { E: 70e9, nu: 0.3 });
+    let strip = Grid::strip(40e-6, 40, 1.0).unwrap();
+    let [bare, layered, thick] = [bare, layered, thick].map(|b| coefficients(&b, &strip));
+    assert!(difference(&bare, &layered) < 1e-12);
+    let fall = |c: &InfluenceCoefficients| c.zz[(0, 0)] - c.zz[(39, 0)];
+    assert!((fall(&thick) / fall(&bare) - 1.0).abs() < 1e-8);
+}

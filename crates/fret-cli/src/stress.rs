@@ -6,11 +6,11 @@ use clap::Args;
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::fields::{
-    Depth, Line, MEASURES, Measure, Section, Side, Slices, depths, maximum, measure_named,
+    Depth, Line, MEASURES, Maximum, Measure, Section, Side, Slices, depths, measure_named,
 };
 use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volume};
 use contact_core::scene::Scene;
-use ndarray::{Array2, Axis};
+use ndarray::{Array2, ArrayView1, Axis};
 
 use crate::{Failure, print};
 
@@ -177,13 +177,13 @@ impl Task {
         };
         let mut lines = Vec::new();
         for (m, measure) in self.measures.iter().enumerate() {
-            let values =
-                stress.map_axis(Axis(0), |s| (measure.value)(&std::array::from_fn(|c| s[c])));
             if let Some(store) = &store {
-                store.put_section(m, &values)?;
+                let value =
+                    |s: ArrayView1<'_, f64>| (measure.value)(&std::array::from_fn(|c| s[c]));
+                store.put_section(m, &stress.map_axis(Axis(0), value))?;
             }
-            if let Some(m) = maximum(&values, &self.depths, &along) {
-                let place = format!("{axis} = {}", self.length(m.along));
+            if let Some(m) = measure.maximum(&stress, &self.depths, &along) {
+                let place = format!("{axis} = {}", self.length(m.place[0]));
                 lines.push(self.line(measure, m.value, &place, m.depth));
             }
         }
@@ -208,12 +208,12 @@ impl Task {
         let largest = write_volume(&slices, &self.depths, &self.measures, &sinks)?;
         image.map_or(Ok(()), ImageData::finish)?;
         store.map_or(Ok(()), StressStore::finish)?;
-        let line = |(measure, m): (&Measure, &contact_core::output::VolumeMaximum)| {
-            let (x, y) = (grid.x(m.cell.0), grid.y(m.cell.1));
-            let place = format!("x = {}, y = {}", self.length(x), self.length(y));
-            self.line(measure, m.value, &place, self.depths[m.depth])
+        let line = |(measure, m): (&Measure, Option<Maximum<2>>)| {
+            let m = m?;
+            let [x, y] = m.place.map(|v| self.length(v));
+            Some(self.line(measure, m.value, &format!("x = {x}, y = {y}"), m.depth))
         };
-        Ok(self.measures.iter().zip(&largest).map(line).collect())
+        Ok(self.measures.iter().zip(largest).filter_map(line).collect())
     }
 
     /// The largest value of a measure and where it is.

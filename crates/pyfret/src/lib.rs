@@ -4,6 +4,7 @@
 //! `python/pyfret/_core.pyi`.
 
 #![allow(
+    clippy::fn_params_excessive_bools,
     clippy::needless_pass_by_value,
     clippy::too_many_arguments,
     reason = "PyO3 hands keyword arguments over one by one and by value"
@@ -41,22 +42,23 @@ mod _core {
     use crate::operator::SurfaceOperator;
     #[pymodule_export]
     use crate::reference::{
-        CattaneoMindlin, CoatedIndentation, CoupledIndentation, Hertz, HertzEllipse, Lubkin,
-        coated_indentation, coupled_indentation, dundurs_beta, goodman_stick_ratio, hertz,
-        hertz_ellipse,
+        CattaneoMindlin, CoatedIndentation, CoupledIndentation, Hertz, HertzEllipse, LineContact,
+        Lubkin, Springs, coated_indentation, coupled_indentation, dundurs_beta,
+        goodman_stick_ratio, hertz, hertz_ellipse, line_contact,
     };
     #[pymodule_export]
     use crate::result::{resume, solve};
     #[pymodule_export]
     use crate::scene::{
         Body, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat, FlatPunch,
-        FrequencyDomain, Grid, Hankel, HeightMap, InverseFft, LoadPath, Preset, Profile, Rough,
-        Scene, Settings, Skip, Spacing, Sphere, Sum, Waviness, Wedge, graded,
+        FrequencyDomain, Friction, Grid, Hankel, History, InverseFft, LoadPath, PerRange, Preset,
+        Profile, Rough, Scene, Settings, Skip, Spacing, Sphere, Sum, SurfaceMap, Waviness, Wedge,
+        graded,
     };
 
     #[pymodule_export]
     use crate::subsurface::{
-        Envelope, Subsurface, depths, loops, maximum, measure, principal, stress_labels,
+        Envelope, Subsurface, depths, loops, maximum, measure, principal, rims, stress_labels,
     };
 
     #[pymodule_init]

@@ -9,7 +9,9 @@ use contact_core::fields::{Depth, Line, Measure, Side, Stream};
 use contact_core::march;
 use contact_core::output::{ImageData, StressStore, VolumeSink, write_volume};
 use ndarray::{Array1, Array2, Array3, Axis};
-use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayLike2};
+use numpy::{
+    AllowTypeChange, IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayLike2, PyArrayLike3,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -292,12 +294,15 @@ impl Subsurface {
     }
 }
 
-/// Stress below a line over a load path; give it every increment, then take what it kept.
+/// Stress below a line or on planes over a load path; give it every increment, then take what it
+/// kept.
 #[pyclass(module = "pyfret")]
 pub(crate) struct Envelope {
-    stream: Option<Stream<core::Envelope>>,
+    stream: Option<Stream<(core::Envelope, core::Largest)>>,
     names: Vec<String>,
     cycles: Vec<(usize, usize)>,
+    /// Whether it is that below a line.
+    of_line: bool,
 }
 
 #[pymethods]
@@ -316,17 +321,38 @@ impl Envelope {
         body_number: u8,
     ) -> PyResult<Self> {
         let cycles = core::cycles(&path.0);
-        let envelope = core::Envelope {
-            measures: measures(&of)?,
-            cycles: cycles.clone(),
+        let line = match (x, y) {
+            (None, None) => None,
+            _ => Some(line(x, y)?),
         };
+        let along = match line {
+            Some(Line::AlongX(_)) => (0..grid.0.nx).map(|i| grid.0.x(i)).collect(),
+            Some(Line::AlongY(_)) => (0..grid.0.ny).map(|j| grid.0.y(j)).collect(),
+            None => Vec::new(),
+        };
+        let accumulate = (
+            core::Envelope {
+                measures: measures(&of)?,
+                cycles: cycles.clone(),
+            },
+            core::Largest {
+                // Only a line has tops that are known between its samples.
+                measures: if line.is_some() {
+                    measures(&of)?
+                } else {
+                    Vec::new()
+                },
+                along,
+            },
+        );
         let depths = Subsurface::depths(&z, &layer)?;
-        let (side, line) = (side(body_number)?, line(x, y)?);
-        let stream = Stream::new(&body.0, side, &grid.0, line, depths, envelope);
+        let side = side(body_number)?;
+        let stream = Stream::new(&body.0, side, &grid.0, line, depths, accumulate);
         Ok(Self {
             stream: Some(stream.map_err(to_python)?),
             names: of,
             cycles,
+            of_line: line.is_some(),
         })
     }
 
@@ -352,11 +378,14 @@ impl Envelope {
             .map_err(to_python)
     }
 
-    /// For each name, arrays over (depth, place): max, min, increment of the largest value; then
-    /// max and min over (cycle, depth, place).
+    /// For each name, arrays over (depth, place): max, min, increment of the largest value; lists
+    /// over cycles of amplitude and mean; below a line, rows of the largest values at each
+    /// increment: increment, value, place along the line, depth, layer.
     fn finish<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let stream = self.stream.take().ok_or_else(finished)?;
         let (_, kept) = py.detach(|| stream.finish()).map_err(to_python)?;
+        let (kept, tops): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
+        let largest = core::Largest::over_depths(&tops);
         let result = PyDict::new(py);
         for (m, name) in self.names.iter().enumerate() {
             let rows = |of: &dyn Fn(&core::DepthEnvelope) -> Array1<f64>| {
@@ -377,6 +406,21 @@ impl Envelope {
             };
             of.set_item("amplitude", cycles(&core::Extremes::amplitude))?;
             of.set_item("mean", cycles(&core::Extremes::mean))?;
+            if self.of_line {
+                let rows = largest.iter().filter_map(|(moment, of)| {
+                    let m = of[m]?;
+                    let layer = m.depth.layer as f64;
+                    Some([
+                        moment.increment as f64,
+                        m.value,
+                        m.place[0],
+                        m.depth.z,
+                        layer,
+                    ])
+                });
+                let rows = Array2::from(rows.collect::<Vec<_>>());
+                of.set_item("largest", rows.into_pyarray(py))?;
+            }
             result.set_item(name, of)?;
         }
         Ok(result)
@@ -387,25 +431,46 @@ fn finished() -> PyErr {
     PyValueError::new_err("the envelope has been finished")
 }
 
-/// A sampled field's largest value between the samples: value, place along the line, depth, layer.
+/// The largest value of a measure on a section, from its stress of shape (6, depths, places):
+/// value, place along the line, depth, layer.
 #[pyfunction]
 pub(crate) fn maximum(
-    field: Field<'_>,
+    name: String,
+    stress: PyArrayLike3<'_, f64, AllowTypeChange>,
     z: Vec<f64>,
     layer: Vec<usize>,
     along: Vec<f64>,
 ) -> PyResult<Option<(f64, f64, f64, usize)>> {
-    let field = field.as_array().to_owned();
+    let stress = stress.as_array().to_owned();
     let depths = Subsurface::depths(&z, &layer)?;
-    if field.dim() != (depths.len(), along.len()) {
+    if stress.dim() != (6, depths.len(), along.len()) {
         return Err(PyValueError::new_err(format!(
-            "the field has the shape {:?}: must be {:?}",
-            field.dim(),
-            (depths.len(), along.len())
+            "the stress has the shape {:?}: must be {:?}",
+            stress.dim(),
+            (6, depths.len(), along.len())
         )));
     }
-    let found = core::maximum(&field, &depths, &along);
-    Ok(found.map(|m| (m.value, m.along, m.depth.z, m.depth.layer)))
+    let found = measures(&[name])?[0].maximum(&stress, &depths, &along);
+    Ok(found.map(|m| (m.value, m.place[0], m.depth.z, m.depth.layer)))
+}
+
+/// The rims of the contact on a line on the surface, from the stress of shape (6, places): places,
+/// and stresses of shape (6, rims).
+#[pyfunction]
+pub(crate) fn rims<'py>(
+    py: Python<'py>,
+    stress: Field<'py>,
+    along: Vec<f64>,
+) -> PyResult<(Vec<f64>, Matrix<'py>)> {
+    if stress.as_array().dim() != (6, along.len()) {
+        return Err(PyValueError::new_err(
+            "stress: must be of the shape (6, places)",
+        ));
+    }
+    let found = core::rims(&stress.as_array(), &along);
+    let tensors = Array2::from_shape_fn((6, found.len()), |(c, n)| found[n].stress[c]);
+    let places = found.iter().map(|rim| rim.place).collect();
+    Ok((places, tensors.into_pyarray(py)))
 }
 
 /// The loops of a history, one dictionary per cycle.

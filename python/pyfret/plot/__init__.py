@@ -15,6 +15,7 @@ from pyfret.plot.stresses import (
     running_map,
     section_map,
     stress_along_depth,
+    stress_history,
     stress_map,
     stress_maps,
 )
@@ -35,6 +36,7 @@ __all__ = [
     "stick_ratio",
     "stick_slip",
     "stress_along_depth",
+    "stress_history",
     "stress_map",
     "stress_maps",
     "style",

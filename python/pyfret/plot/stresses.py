@@ -139,19 +139,15 @@ def stress_map(
 ) -> Axes:
     """Contours of a measure of stress on a section over p_H.
 
-    A cross marks the largest value, a circle the largest one on the surface. That is a sample: at
-    the rim of the contact surface stress has a cusp, and samples fall short of its top with the
-    square root of the cell.
+    A cross marks the largest value, a circle the largest one on the surface if that is another.
     """
     value, along, z, _ = stress.maximum(of)
     values = stress.measure(of)
     largest = (value, along, z)
     ax = section_map(values, a_H=a_H, p_H=p_H, levels=levels, maximum=largest, ax=ax)
     if float(values.z[0]) == 0.0 < z:
-        surface = values.isel(depth=0)
-        place = int(np.argmax(surface.values))
-        at = (float(surface[place]), float(surface[surface.dims[0]][place]), 0.0)
-        _mark(ax, at, a_H=a_H, p_H=p_H, marker="o")
+        surface = type(stress)(stress.dataset.isel(depth=slice(1)))
+        _mark(ax, surface.maximum(of)[:3], a_H=a_H, p_H=p_H, marker="o")
     return ax
 
 
@@ -197,12 +193,38 @@ def envelope_maps(
         shown.append((envelope[f"{of}_amplitude"].isel(cycle=cycle), rf"\Delta {name}/2"))
         shown.append((envelope[f"{of}_mean"].isel(cycle=cycle), rf"\overline{{{name}}}"))
     figure, row = plt.subplots(
-        1, len(shown), figsize=(4.0 * len(shown), 3.6), squeeze=False, layout="constrained"
+        1, len(shown), figsize=(0.4 + 3.7 * len(shown), 3.7), squeeze=False, layout="constrained"
     )
     for ax, (values, symbol) in zip(row[0], shown, strict=True):
         section_map(values, a_H=a_H, p_H=p_H, symbol=symbol, ax=ax)
         ax.label_outer()
     return figure
+
+
+@styled
+def stress_history(
+    envelope: xr.Dataset,
+    *,
+    a_H: float,
+    p_H: float,
+    of: str = "von_mises",
+    ax: Axes | None = None,
+    **line: Any,
+) -> Axes:
+    """Largest value of a measure of stress on a section, over p_H, at every increment.
+
+    The points are coloured by its depth over a_H.
+    """
+    ax = axes(ax)
+    value, z = envelope[f"{of}_largest"] / p_H, envelope[f"{of}_largest_z"] / a_H
+    ax.plot(value.increment, value, color="0.7", zorder=1, **line)
+    points = ax.scatter(value.increment, value, c=z, s=9, cmap="viridis", zorder=2)
+    bar = ax.get_figure().colorbar(points, ax=ax)  # type: ignore[union-attr]
+    bar.set_label(r"$x_3/a_H$")
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlabel("increment")
+    ax.set_ylabel(rf"$\max {SYMBOLS.get(of, of)}/p_H$")
+    return ax
 
 
 @styled
@@ -263,24 +285,34 @@ def loop_evolution(result: Result, *, ax: Axes | None = None, **line: Any) -> Ax
 
 @styled
 def running_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
-    r"""Running conditions over W and T: contours of the energy ratio, slip regimes coloured.
+    r"""Running conditions over W and the amplitude of T or of the shift, from the sweep.
 
-    Grey where the contact slides; the dashed line is :math:`T = \mu W`.
+    Coloured by the energy ratio, which tells gross slip (0.2 and more) from partial slip. Over
+    shifts a line parts them by the status; over forces it is grey where there is no static
+    solution, above the dashed line :math:`T = \mu W`.
     """
     ax = axes(ax)
-    W, T = table.W.values, table["T"].values
-    ratio = table.energy_ratio.values
-    image = ax.pcolormesh(W, T, np.ma.masked_invalid(ratio.T), cmap="YlGnBu", shading="nearest")
-    sliding = np.ma.masked_not_equal(table.status.values, 3)
-    ax.pcolormesh(W, T, sliding.T, cmap="Greys", vmin=0, vmax=8, shading="nearest")
+    driven = "T" if "T" in table.dims else "delta"
+    scale, label = {"T": (1.0, r"$T$ [N]"), "delta": (1e6, r"$\delta$ [µm]")}[driven]
+    W, amplitude = table.W.values, table[driven].values * scale
+    ratio = table.energy_ratio.transpose(driven, "W").values
+    slides = table.status.transpose(driven, "W").values == 3
+    image = ax.pcolormesh(
+        W, amplitude, np.ma.masked_invalid(ratio), cmap=COLOURS, shading="nearest"
+    )
+    unsolved = np.ma.masked_where(np.isfinite(ratio), np.ones_like(ratio))
+    ax.pcolormesh(W, amplitude, unsolved, cmap="Greys", vmin=0, vmax=3, shading="nearest")
     bar = ax.get_figure().colorbar(image, ax=ax)  # type: ignore[union-attr]
     bar.set_label("energy ratio")
     limits = ax.get_xlim(), ax.get_ylim()
-    ends = np.array([0.0, W.max() * 1.1])
-    ax.plot(ends, table.attrs["mu"] * ends, color="0.2", linestyle="--", linewidth=0.9)
+    if driven == "delta" and slides.any() and not slides.all():
+        ax.contour(W, amplitude, slides, levels=[0.5], colors="0.2", linewidths=1.0)
+    if driven == "T":
+        ends = np.array([0.0, W.max() * 1.1])
+        ax.plot(ends, table.attrs["mu"] * ends, color="0.2", linestyle="--", linewidth=0.9)
     ax.set_xlim(*limits[0])
     ax.set_ylim(*limits[1])
-    ax.set_xlabel("W [N]")
-    ax.set_ylabel("T [N]")
+    ax.set_xlabel(r"$W$ [N]")
+    ax.set_ylabel(label)
     ax.grid(visible=False)
     return ax

@@ -23,7 +23,7 @@ pub(crate) use good_size::good_size;
 pub use mirror::{Half, Mirror};
 pub use preconditioner::CirculantInverse;
 pub(crate) use spectra::Spectra;
-pub(crate) use spectral_product::SpectralProduct;
+pub(crate) use spectral_product::{PARALLEL_FROM, SpectralProduct};
 
 /// The tractions that act, each a field \[Pa\] in row-major (nx, ny) order; those left out are zero.
 #[derive(Clone, Copy, Debug, Default)]

@@ -19,7 +19,7 @@ use super::y_transform::{ROWS, YScratch, YTransform};
 use super::{Displacements, Half, Mirror, Spectra, Tractions};
 
 /// Cells below which a second thread costs more than it brings.
-const PARALLEL_FROM: usize = 48 * 48;
+pub(crate) const PARALLEL_FROM: usize = 48 * 48;
 /// Parts of the work per thread: a thread that is held up leaves the rest to the others.
 const PARTS_PER_THREAD: usize = 4;
 /// Behaviour of the components x, y, z of tractions and displacements under y -> -y.
@@ -39,8 +39,9 @@ pub(crate) struct SpectralProduct {
     x_inverse: Arc<dyn Fft<f64>>,
     /// Spectra along y: (block of rows, component, line, row in block)
     by_row: Vec<Complex64>,
-    /// Convolved lines: (line, component, x)
+    /// Convolved lines: (line, component, x), `stride` numbers per line.
     by_line: Vec<Complex64>,
+    stride: usize,
     parts: Vec<Scratch>,
     /// Two-dimensional transforms done.
     pub(crate) transforms: usize,
@@ -86,19 +87,22 @@ impl SpectralProduct {
             fft: zeros(fft),
             block: zeros(ROWS * y.lines()),
         };
-        let size = 3 * y.lines() * nx.next_multiple_of(ROWS);
+        let width = nx.next_multiple_of(ROWS);
+        // Lines a power of two apart would all meet in one set of the cache.
+        let stride = 3 * width + ROWS;
         Self {
             nx,
             rows,
             mirror,
             period: period.0,
             parts: (0..parts).map(|_| scratch()).collect(),
-            y,
             spectra: LineSpectra::new(spectra, period.0 / 2 + 1, mirror != Mirror::None),
             x_forward,
             x_inverse,
-            by_row: zeros(size),
-            by_line: zeros(size),
+            by_row: zeros(3 * y.lines() * width),
+            by_line: zeros(stride * y.lines()),
+            stride,
+            y,
             transforms: 0,
         }
     }
@@ -121,11 +125,7 @@ impl SpectralProduct {
         let loaded = self.loaded_blocks(input);
         self.rows_forward(input, &loaded);
         self.lines(input.map(|f| f.is_some()), wanted, &loaded);
-        for (component, field) in output.iter_mut().enumerate() {
-            if let Some(field) = field {
-                self.rows_inverse(component, field);
-            }
-        }
+        self.rows_inverse(&mut output);
     }
 
     /// The blocks of rows outside which nothing acts.
@@ -202,24 +202,39 @@ impl SpectralProduct {
                 convolved[component * width..][..width].copy_from_slice(&z[..width]);
             }
         };
-        share(&mut self.parts, &mut self.by_line, 3 * width, work);
+        share(&mut self.parts, &mut self.by_line, self.stride, work);
     }
 
-    /// Along y, back to the rows of a field.
-    fn rows_inverse(&mut self, component: usize, field: &mut [f64]) {
+    /// Along y, back to the rows of the fields, side by side.
+    fn rows_inverse(&mut self, output: &mut [Option<&mut [f64]>; 3]) {
         let (rows, y, by_line) = (self.rows, &self.y, &self.by_line);
-        let width = self.nx.next_multiple_of(ROWS);
-        let work = |(b, cells): (usize, &mut [f64]), s: &mut Scratch| {
-            for (l, to) in s.block.chunks_mut(ROWS).enumerate() {
-                let from = (l * 3 + component) * width + b * ROWS;
-                copy_block(to, &by_line[from..]);
-            }
-            for (r, pair) in cells.chunks_mut(2 * rows).enumerate() {
-                let (one, two) = pair.split_at_mut(rows);
-                y.inverse(HALF[component], &mut s.y, &s.block[2 * r..], [one, two]);
-            }
+        let (width, stride) = (self.nx.next_multiple_of(ROWS), self.stride);
+        let of_field = |component: usize, field: &mut [f64], parts: &mut [Scratch]| {
+            let work = |(b, cells): (usize, &mut [f64]), s: &mut Scratch| {
+                for (l, to) in s.block.chunks_mut(ROWS).enumerate() {
+                    let from = l * stride + component * width + b * ROWS;
+                    copy_block(to, &by_line[from..]);
+                }
+                for (r, pair) in cells.chunks_mut(2 * rows).enumerate() {
+                    let (one, two) = pair.split_at_mut(rows);
+                    y.inverse(HALF[component], &mut s.y, &s.block[2 * r..], [one, two]);
+                }
+            };
+            share(parts, field, ROWS * rows, work);
         };
-        share(&mut self.parts, field, ROWS * rows, work);
+        let count = output.iter().flatten().count().max(1);
+        let fields = (output.iter_mut().enumerate())
+            .filter_map(|(component, field)| field.as_deref_mut().map(|f| (component, f)));
+        if self.parts.len() < count || count == 1 {
+            fields.for_each(|(component, field)| of_field(component, field, &mut self.parts));
+            return;
+        }
+        let each = self.parts.len() / count;
+        rayon::scope(|scope| {
+            for ((component, field), parts) in fields.zip(self.parts.chunks_mut(each)) {
+                scope.spawn(move |_| of_field(component, field, parts));
+            }
+        });
     }
 }
 

@@ -1,5 +1,7 @@
 //! Numbers that follow from the six stresses at a point.
 
+use ndarray::{Array1, ArrayView2, Axis};
+
 /// Stress at a point \[Pa\], tension positive: xx, yy, zz, xy, xz, yz.
 pub type StressTensor = [f64; 6];
 
@@ -12,6 +14,16 @@ pub struct Measure {
     pub long_name: &'static str,
     /// Its value.
     pub value: fn(&StressTensor) -> f64,
+}
+
+impl Measure {
+    /// Its values at points, from their stresses of shape (6, points) \[Pa\].
+    pub fn on(&self, stress: &ArrayView2<'_, f64>) -> Array1<f64> {
+        let columns = stress.axis_iter(Axis(1));
+        columns
+            .map(|s| (self.value)(&std::array::from_fn(|c| s[c])))
+            .collect()
+    }
 }
 
 const fn measure(

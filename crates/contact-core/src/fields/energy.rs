@@ -12,7 +12,7 @@ use crate::scene::{LoadPath, Loads};
 /// Loads that agree to this share of the largest are the same.
 const SAME: f64 = 1e-9;
 
-/// Axis of a tangential motion.
+/// A tangential motion and the load that drives it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
     /// T_x and delta_x.
@@ -20,6 +20,8 @@ pub enum Direction {
     X,
     /// T_y and delta_y.
     Y,
+    /// M_z and phi_z: moments \[N m\] take the place of forces, rotations \[rad\] that of shifts.
+    Torsion,
 }
 
 /// A closed piece of the load path: the loads at its end are those at its start.
@@ -64,18 +66,36 @@ fn ratio(a: f64, b: f64) -> f64 {
 }
 
 /// First and last branch of every cycle of a load path: from a turning point, the first time that
-/// its loads return; cycles follow each other and do not overlap.
+/// its loads, the motions given in place of loads and the bulk stress return; cycles follow each
+/// other and do not overlap.
 pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
     let ends: Vec<Loads> = std::iter::once(Loads::default())
         .chain(path.branches.iter().map(|b| b.to))
         .collect();
-    let scale = ends
-        .iter()
-        .flat_map(|l| [l.W, l.T_x, l.T_y])
-        .fold(0.0, |m: f64, v| m.max(v.abs()));
+    // Largest load and largest motion that is given; moments and rotations have their own.
+    let is_turn = |k: usize| matches!(k, 1 | 2 | 5);
+    let mut largest = [[0.0_f64; 2]; 2];
+    for end in &ends {
+        for (k, (force, motion)) in driven(end).enumerate() {
+            let [loads, motions] = &mut largest[usize::from(is_turn(k))];
+            match motion {
+                None => *loads = loads.max(force.abs()),
+                Some(motion) => *motions = motions.max(motion.abs()),
+            }
+        }
+    }
+    let bulk = ends.iter().fold(0.0, |m: f64, l| m.max(l.sigma_B.abs()));
     let same = |a: &Loads, b: &Loads| {
-        let differences = [a.W - b.W, a.T_x - b.T_x, a.T_y - b.T_y];
-        differences.iter().all(|d| d.abs() <= SAME * scale)
+        let pulled_alike = (a.sigma_B - b.sigma_B).abs() <= SAME * bulk;
+        let driven_alike = driven(a).zip(driven(b)).enumerate().all(|(k, (a, b))| {
+            let [loads, motions] = largest[usize::from(is_turn(k))];
+            match (a.1, b.1) {
+                (None, None) => (a.0 - b.0).abs() <= SAME * loads,
+                (Some(a), Some(b)) => (a - b).abs() <= SAME * motions,
+                _ => false,
+            }
+        });
+        pulled_alike && driven_alike
     };
     let mut found = Vec::new();
     let mut start = 0;
@@ -91,6 +111,11 @@ pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
         }
     }
     found
+}
+
+/// The six loads, each with the motion that is given instead.
+fn driven(loads: &Loads) -> impl Iterator<Item = (f64, Option<f64>)> {
+    loads.forces().into_iter().zip(loads.given.motions())
 }
 
 /// What a loop is made of, at the end of an increment.
@@ -115,6 +140,7 @@ impl LoopPoint {
         let (T, delta) = match direction {
             Direction::X => (loads.T_x, motion.delta_x),
             Direction::Y => (loads.T_y, motion.delta_y),
+            Direction::Torsion => (loads.M_z, motion.phi_z),
         };
         Self {
             branch: increment.point.branch,
@@ -210,5 +236,29 @@ mod tests {
             .normal(2.0, 1);
         assert_eq!(cycles(&repeated), [(0, 1)]);
         assert!(cycles(&LoadPath::start().normal(1.0, 1)).is_empty());
+        let torsion = LoadPath::start()
+            .normal(10.0, 1)
+            .torsion(&[0.2, -0.2, 0.2], 10);
+        assert_eq!(cycles(&torsion), [(2, 3)]);
+    }
+
+    #[test]
+    fn cycles_of_given_motions() {
+        let shifted = |path: LoadPath, by: f64| path.to(|l| l.given.delta_x = Some(by), 2);
+        let path = [1e-6, -1e-6, 1e-6, 0.0]
+            .into_iter()
+            .fold(LoadPath::start().normal(10.0, 1), shifted);
+        // The force that was given before the shifts is no end of a cycle of shifts.
+        assert_eq!(cycles(&path), [(2, 3)]);
+        let pulled = |path: LoadPath, by: f64| path.to(|l| l.sigma_B = by, 2);
+        let path = [1e8, -1e8, 1e8]
+            .into_iter()
+            .fold(LoadPath::start().normal(10.0, 1), pulled);
+        assert_eq!(cycles(&path), [(2, 3)]);
+        let rocking = |path: LoadPath, by: f64| path.to(|l| l.given.phi_y = Some(by), 2);
+        let path = [1e-4, -1e-4, 0.0]
+            .into_iter()
+            .fold(LoadPath::start().normal(10.0, 1), rocking);
+        assert_eq!(cycles(&path), [(1, 3)]);
     }
 }

@@ -1,6 +1,6 @@
 //! Extremes of stress over a load path, and amplitude and mean over each cycle.
 
-use ndarray::{Array2, Axis};
+use ndarray::Array2;
 
 use super::{Accumulate, Depth, Measure, Moment};
 
@@ -13,7 +13,7 @@ pub struct Envelope {
     pub cycles: Vec<(usize, usize)>,
 }
 
-/// Extremes at one depth, shape (measures, places along the line) \[Pa\].
+/// Extremes at one depth, shape (measures, places) \[Pa\].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extremes {
     /// Largest values.
@@ -80,10 +80,8 @@ impl Accumulate for Envelope {
             .filter(|((first, last), _)| (*first..=*last).contains(&moment.branch))
             .map(|(_, extremes)| extremes)
             .collect();
-        for (i, s) in stress.axis_iter(Axis(1)).enumerate() {
-            let s = std::array::from_fn(|c| s[c]);
-            for (m, measure) in self.measures.iter().enumerate() {
-                let value = (measure.value)(&s);
+        for (m, measure) in self.measures.iter().enumerate() {
+            for (i, &value) in measure.on(&stress.view()).iter().enumerate() {
                 kept.path.take((m, i), value, moment.increment);
                 for extremes in &mut of_cycles {
                     extremes.take((m, i), value, moment.increment);

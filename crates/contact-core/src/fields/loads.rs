@@ -105,6 +105,10 @@ static WEIGHTS: LazyLock<[f64; 2 * REACH + 1]> = LazyLock::new(|| {
     weights
 });
 
+/// Length along y of a row of cells in plane strain, in lengths of the grid: what is missing at its
+/// ends is a part 1/STRIP of the stress.
+const STRIP: f64 = 1e7;
+
 /// Loaded columns and rows of a grid, the columns in the middle of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Patch {
@@ -133,7 +137,12 @@ pub(super) struct Plane {
 impl Plane {
     /// Lines along x, or along y if `exchanged`.
     pub(super) fn new(grid: &Grid, exchanged: bool) -> Self {
-        let Grid { nx, ny, dx, dy } = *grid;
+        let Grid { nx, ny, dx, .. } = *grid;
+        let dy = if grid.plane_strain {
+            STRIP * grid.extent().0
+        } else {
+            grid.dy
+        };
         if exchanged {
             Self {
                 n: (ny, nx),

@@ -1,122 +1,214 @@
 //! Largest value of a sampled field, between the samples.
+//!
+//! One direction after the other: the top of each line is that of the parabola through its largest
+//! sample and the two beside it; the tops of the lines of a plane, or of the depths, are samples
+//! again. For a quadratic field that is exact, mixed derivatives included. For smooth ones the
+//! place is right to the square of the sampling, the value to its fourth power.
 
-use ndarray::Array2;
+use ndarray::{Array2, ArrayView1};
 
 use super::Depth;
 
-/// The largest value of a field below a line.
+/// Largest shift of the sample, in cells, between the tops of neighbouring lines or depths for
+/// them to belong to one hill.
+const SAME_HILL: usize = 2;
+
+/// The largest value at one depth: on a line (D = 1) or on a plane (D = 2).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Maximum {
-    /// Value, of the parabola through the samples around.
+pub struct Top<const D: usize> {
+    /// Value, of the parabolas through the samples around.
     pub value: f64,
-    /// Place along the line \[m\].
-    pub along: f64,
-    /// Depth and layer; a maximum on an interface or on the surface is that of the side named.
-    pub depth: Depth,
-    /// The sample next to it: index of the depth and of the place along the line.
-    pub sample: (usize, usize),
+    /// Place along the line, or x and y \[m\].
+    pub place: [f64; D],
+    /// The sample next to it.
+    pub sample: [usize; D],
 }
 
-/// The largest value of a field of shape (depths, places), refined by the quadratic through its
-/// neighbours; depths of other layers are no neighbours, so that kinks stay kinks. `None` if
-/// there is no number in it.
-///
-/// For smooth fields the place is right to the square of the sampling, the value to its fourth
-/// power.
-pub fn maximum(field: &Array2<f64>, depths: &[Depth], along: &[f64]) -> Option<Maximum> {
-    let ((k, i), _) = field
-        .indexed_iter()
-        .filter(|(_, v)| !v.is_nan())
-        .max_by(|a, b| a.1.total_cmp(b.1))?;
-    let same_layer = |other: usize| {
-        depths
-            .get(other)
-            .is_some_and(|d| d.layer == depths[k].layer)
-    };
-    let has_depths = k > 0 && same_layer(k - 1) && same_layer(k + 1);
-    let has_places = i > 0 && i + 1 < along.len();
-    let centre = field[(k, i)];
-    // Slope and curvature along each axis from three samples.
-    let quadratic = |low: (f64, f64), high: (f64, f64)| {
-        let (a, b) = (low.0, high.0);
-        let (left, right) = ((centre - low.1) / a, (high.1 - centre) / b);
-        let curvature = 2.0 * (right - left) / (a + b);
-        ((left * b + right * a) / (a + b), curvature)
-    };
-    let mut step = (0.0, 0.0);
-    let mut gain = 0.0;
-    let in_depth = has_depths.then(|| {
-        quadratic(
-            (depths[k].z - depths[k - 1].z, field[(k - 1, i)]),
-            (depths[k + 1].z - depths[k].z, field[(k + 1, i)]),
-        )
-    });
-    let in_place = has_places.then(|| {
-        quadratic(
-            (along[i] - along[i - 1], field[(k, i - 1)]),
-            (along[i + 1] - along[i], field[(k, i + 1)]),
-        )
-    });
-    match (in_depth, in_place) {
-        (Some((g_z, h_zz)), Some((g_x, h_xx))) => {
-            let span = (depths[k + 1].z - depths[k - 1].z) * (along[i + 1] - along[i - 1]);
-            let h_xz = (field[(k + 1, i + 1)] - field[(k + 1, i - 1)] - field[(k - 1, i + 1)]
-                + field[(k - 1, i - 1)])
-                / span;
-            let determinant = h_zz * h_xx - h_xz * h_xz;
-            if h_zz < 0.0 && determinant > 0.0 {
-                step = (
-                    (h_xz * g_x - h_xx * g_z) / determinant,
-                    (h_xz * g_z - h_zz * g_x) / determinant,
-                );
-                gain = f64::midpoint(g_z * step.0, g_x * step.1);
-            }
-        }
-        (Some((g, h)), None) if h < 0.0 => {
-            step.0 = -g / h;
-            gain = g * step.0 / 2.0;
-        }
-        (None, Some((g, h))) if h < 0.0 => {
-            step.1 = -g / h;
-            gain = g * step.1 / 2.0;
-        }
-        _ => {}
-    }
-    // A step out of the neighbours' range means that they are no parabola: the sample stands.
-    let range = |v: &dyn Fn(usize) -> f64, n: usize| (v(n) - v(n - 1)).min(v(n + 1) - v(n));
-    let too_far = (has_depths && step.0.abs() > range(&|n| depths[n].z, k))
-        || (has_places && step.1.abs() > range(&|n| along[n], i));
-    if too_far {
-        (step, gain) = ((0.0, 0.0), 0.0);
-    }
-    Some(Maximum {
-        value: centre + gain,
-        along: along[i] + step.1,
-        depth: Depth {
-            z: depths[k].z + step.0,
-            layer: depths[k].layer,
-        },
-        sample: (k, i),
+/// The largest value at several depths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Maximum<const D: usize> {
+    /// Value, of the parabolas through the samples around.
+    pub value: f64,
+    /// Place along the line, or x and y \[m\].
+    pub place: [f64; D],
+    /// Depth and layer; a maximum on an interface or on the surface is that of the side named.
+    pub depth: Depth,
+    /// Index of the depth next to it.
+    pub sample: usize,
+}
+
+/// The largest value on a line of samples at the places `along` \[m\]; `None` without a number.
+pub fn top_of_line(values: &ArrayView1<'_, f64>, along: &[f64]) -> Option<Top<1>> {
+    let samples = values.iter().zip(along).enumerate();
+    let tops: Vec<_> = samples
+        .filter(|(_, (value, _))| !value.is_nan())
+        .map(|(i, (&value, &place))| Top {
+            value,
+            place: [place],
+            sample: [i],
+        })
+        .collect();
+    let beside = |n: usize, m: usize| tops[n].sample[0].abs_diff(tops[m].sample[0]) == 1;
+    let (at, top) = summit(&tops, |n| tops[n].place[0], &beside)?;
+    Some(Top { place: [at], ..top })
+}
+
+/// The largest value on a plane of samples at x and y \[m\]; `None` without a number.
+pub fn top_of_plane(values: &Array2<f64>, x: &[f64], y: &[f64]) -> Option<Top<2>> {
+    let lines = values.rows().into_iter().enumerate();
+    let (samples, tops): (Vec<usize>, Vec<Top<1>>) = lines
+        .filter_map(|(i, line)| Some((i, top_of_line(&line, y)?)))
+        .unzip();
+    let beside = |n: usize, m: usize| samples[n].abs_diff(samples[m]) == 1;
+    let (at, top) = summit(&tops, |n| x[samples[n]], &beside)?;
+    let largest = largest(&tops)?;
+    Some(Top {
+        value: top.value,
+        place: [at, top.place[0]],
+        sample: [samples[largest], top.sample[0]],
     })
+}
+
+/// The largest value over depths, from the tops at each; depths of other layers are no
+/// neighbours, so that kinks stay kinks. `None` without a number.
+pub fn maximum_of_tops<const D: usize>(
+    tops: &[Option<Top<D>>],
+    depths: &[Depth],
+) -> Option<Maximum<D>> {
+    let (found, tops): (Vec<usize>, Vec<Top<D>>) = tops
+        .iter()
+        .enumerate()
+        .filter_map(|(k, top)| Some((k, (*top)?)))
+        .unzip();
+    let beside = |n: usize, m: usize| {
+        let (a, b) = (found[n], found[m]);
+        a.abs_diff(b) == 1 && depths[a].layer == depths[b].layer
+    };
+    let (z, top) = summit(&tops, |n| depths[found[n]].z, &beside)?;
+    let sample = found[largest(&tops)?];
+    Some(Maximum {
+        value: top.value,
+        place: top.place,
+        depth: Depth {
+            z,
+            layer: depths[sample].layer,
+        },
+        sample,
+    })
+}
+
+/// The largest value of a field of shape (depths, places along a line).
+pub fn maximum(field: &Array2<f64>, depths: &[Depth], along: &[f64]) -> Option<Maximum<1>> {
+    let tops: Vec<_> = field
+        .rows()
+        .into_iter()
+        .map(|line| top_of_line(&line, along))
+        .collect();
+    maximum_of_tops(&tops, depths)
+}
+
+fn largest<const D: usize>(tops: &[Top<D>]) -> Option<usize> {
+    (0..tops.len()).max_by(|&a, &b| tops[a].value.total_cmp(&tops[b].value))
+}
+
+/// The top of the parabola through the largest of `tops` and the two beside it: where it lies
+/// along `at`, and what it is there. Without neighbours on the same hill the sample stands.
+fn summit<const D: usize>(
+    tops: &[Top<D>],
+    at: impl Fn(usize) -> f64,
+    beside: &dyn Fn(usize, usize) -> bool,
+) -> Option<(f64, Top<D>)> {
+    let n = largest(tops)?;
+    let top = tops[n];
+    let stays = Some((at(n), top));
+    let on_same_hill = |m: usize| {
+        let cells = tops[m].sample.iter().zip(top.sample);
+        beside(n, m) && cells.into_iter().all(|(a, b)| a.abs_diff(b) <= SAME_HILL)
+    };
+    if n == 0 || n + 1 == tops.len() || !on_same_hill(n - 1) || !on_same_hill(n + 1) {
+        return stays;
+    }
+    let (low, high) = (tops[n - 1], tops[n + 1]);
+    let (a, b) = (at(n) - at(n - 1), at(n + 1) - at(n));
+    // Newton's form of the parabola through three samples: value + slope s + half s^2, with the
+    // slope at the middle one.
+    let parabola = |low: f64, middle: f64, high: f64| {
+        let (left, right) = ((middle - low) / a, (high - middle) / b);
+        ((left * b + right * a) / (a + b), (right - left) / (a + b))
+    };
+    let (slope, half) = parabola(low.value, top.value, high.value);
+    let step = -slope / (2.0 * half);
+    // Beyond the neighbours the samples are no parabola.
+    if !(half < 0.0 && -a <= step && step <= b) {
+        return stays;
+    }
+    let place = std::array::from_fn(|d| {
+        let (slope, half) = parabola(low.place[d], top.place[d], high.place[d]);
+        top.place[d] + step * (slope + step * half)
+    });
+    Some((
+        at(n) + step,
+        Top {
+            value: top.value + slope * step / 2.0,
+            place,
+            sample: top.sample,
+        },
+    ))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const Z: [f64; 6] = [0.0, 0.7, 1.1, 1.9, 2.4, 3.0];
+    const X: [f64; 6] = [-2.0, -1.0, -0.4, 0.5, 1.0, 1.6];
+
     #[test]
     fn finds_the_top_of_a_quadratic_on_uneven_samples() {
-        let z = [0.0, 0.7, 1.1, 1.9, 2.4, 3.0];
-        let x = [-2.0, -1.0, -0.4, 0.5, 1.0, 1.6];
         let f = |x: f64, z: f64| {
             5.0 - (x - 0.2).powi(2) - 2.0 * (z - 1.6).powi(2) + 0.9 * (x - 0.2) * (z - 1.6)
         };
-        let field = Array2::from_shape_fn((6, 6), |(k, i)| f(x[i], z[k]));
-        let depths = z.map(|z| Depth { z, layer: 0 });
-        let m = maximum(&field, &depths, &x).expect("numbers");
-        // The mixed derivative on uneven samples is exact for quadratics.
+        let field = Array2::from_shape_fn((6, 6), |(k, i)| f(X[i], Z[k]));
+        let depths = Z.map(|z| Depth { z, layer: 0 });
+        let m = maximum(&field, &depths, &X).expect("numbers");
         assert!((m.value - 5.0).abs() < 1e-12, "{m:?}");
-        assert!((m.along - 0.2).abs() < 1e-12 && (m.depth.z - 1.6).abs() < 1e-12);
+        assert!((m.place[0] - 0.2).abs() < 1e-12 && (m.depth.z - 1.6).abs() < 1e-12);
+    }
+
+    #[test]
+    fn finds_the_top_in_a_volume() {
+        let y = [-1.0, -0.5, 0.0, 0.5, 1.0];
+        let f = |x: f64, y: f64, z: f64| {
+            let (x, y, z) = (x - 0.2, y - 0.13, z - 1.6);
+            7.0 - x * x - 1.5 * y * y - 2.0 * z * z + 0.4 * x * y - 0.3 * y * z + 0.5 * x * z
+        };
+        let tops = Z.map(|z| {
+            let plane = Array2::from_shape_fn((6, 5), |(i, j)| f(X[i], y[j], z));
+            top_of_plane(&plane, &X, &y)
+        });
+        let m = maximum_of_tops(&tops, &Z.map(|z| Depth { z, layer: 0 })).expect("numbers");
+        assert!((m.value - 7.0).abs() < 1e-12, "{m:?}");
+        for (ours, exact) in [(m.place[0], 0.2), (m.place[1], 0.13), (m.depth.z, 1.6)] {
+            assert!((ours - exact).abs() < 1e-12, "{m:?}");
+        }
+    }
+
+    #[test]
+    fn the_error_falls_with_the_fourth_power() {
+        let error = |n: i32| {
+            let x: Vec<f64> = (0..=n).map(|i| f64::from(i) / f64::from(n)).collect();
+            let field = Array2::from_shape_fn((x.len(), x.len()), |(k, i)| {
+                (3.0 * (x[i] - 0.41) + x[k]).cos() * (2.0 * (x[k] - 0.63)).cos()
+            });
+            let depths: Vec<_> = x.iter().map(|&z| Depth { z, layer: 0 }).collect();
+            // At z = 0.63 both factors are 1.
+            let m = maximum(&field, &depths, &x).expect("numbers");
+            let z = m.depth.z - 0.63;
+            assert!(z.abs() < 1.0 / f64::from(n * n), "{m:?}");
+            (m.value - 1.0).abs()
+        };
+        let (coarse, fine) = (error(20), error(80));
+        assert!(fine < coarse / 100.0, "{coarse} {fine}");
     }
 
     #[test]
@@ -126,6 +218,17 @@ mod tests {
             [1.0, 4.0, 3.0, 1.0][k] - (i as f64 - 1.0).powi(2)
         });
         let m = maximum(&field, &depths, &[-1.0, 0.0, 1.0]).expect("numbers");
-        assert_eq!((m.value, m.depth, m.sample), (4.0, depths[1], (1, 1)));
+        assert_eq!((m.value, m.depth, m.sample), (4.0, depths[1], 1));
+    }
+
+    #[test]
+    fn another_hill_is_no_neighbour() {
+        let depths = [0.0, 1.0, 2.0].map(|z| Depth { z, layer: 0 });
+        let mut field = Array2::zeros((3, 9));
+        (field[(0, 1)], field[(1, 7)], field[(2, 7)]) = (3.9, 4.0, 1.0);
+        let along: Vec<f64> = (0..9).map(f64::from).collect();
+        let m = maximum(&field, &depths, &along).expect("numbers");
+        assert_eq!((m.value, m.depth.z, m.place), (4.0, 1.0, [7.0]));
+        assert!(maximum(&(field * f64::NAN), &depths, &along).is_none());
     }
 }

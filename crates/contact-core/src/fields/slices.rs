@@ -22,6 +22,7 @@ use crate::scene::{Body, Grid};
 /// Stress and displacement on planes parallel to the surface.
 pub struct Slices {
     body: Body,
+    grid: Grid,
     stack: Stack,
     side: Side,
     plane: Plane,
@@ -61,6 +62,7 @@ impl Slices {
         Ok(Self {
             stack: Stack::new(body),
             body: body.clone(),
+            grid: *grid,
             side,
             plane,
             states: states.len(),
@@ -90,6 +92,31 @@ impl Slices {
             .enumerate()
             .map(|(n, depth)| f(n, self.stress(*depth)?))
             .collect()
+    }
+
+    /// Hands the stresses of all states at each depth, of shape (6, cells in row-major order), to
+    /// `f` as soon as they are known, with what it keeps of that depth; depths in parallel.
+    pub fn pass_stress<T: Send>(
+        &self,
+        depths: &[Depth],
+        kept: &mut [T],
+        f: impl Fn(&mut T, &[Array2<f64>]) + Sync,
+    ) -> Result<(), Error> {
+        depths.par_iter().zip(kept).try_for_each(|(depth, kept)| {
+            let flat = |planes: [Array2<f64>; 6]| {
+                let cells = planes[0].len();
+                let all = planes.into_iter().flatten().collect();
+                Array2::from_shape_vec((6, cells), all).expect("six planes of equal size")
+            };
+            let stresses: Vec<_> = self.stress(*depth)?.into_iter().map(flat).collect();
+            f(kept, &stresses);
+            Ok(())
+        })
+    }
+
+    /// The grid.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
     }
 
     fn at<Q: Quantity<N, R>, const N: usize, const R: usize>(

@@ -2,19 +2,22 @@
 //!
 //! [`Stream`] collects the tractions of a few increments, computes their stresses together, since
 //! they share the kernels, and hands them on depth by depth. What becomes of them is an
-//! [`Accumulate`]: [`super::Envelope`] is one; a fatigue criterion on critical planes is another.
+//! [`Accumulate`]: [`super::Envelope`] and [`super::Largest`] are two, a pair of them is one again;
+//! a fatigue criterion on critical planes is another.
 
 use ndarray::Array2;
 
-use super::{Depth, Line, Section, Side};
+use super::{Depth, Line, Section, Side, Slices};
 use crate::convolution::Tractions;
 use crate::error::Error;
 use crate::march::{Increment, March, Observer};
 use crate::scene::{Body, Grid};
 
-/// Increments whose stresses are computed together: the kernels of a depth cost about as much as
-/// the product with the tractions of ten increments.
+/// Increments whose stresses below a line are computed together: the kernels of a depth cost about
+/// as much as the product with the tractions of ten increments.
 const BATCH: usize = 32;
+/// The same for whole planes, whose transforms fill the memory.
+const BATCH_OF_PLANES: usize = 8;
 
 /// Which moment of the load path a stress belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,24 +30,39 @@ pub struct Moment {
 
 /// What is kept of the stresses that pass by.
 pub trait Accumulate: Sync {
-    /// What is kept of the line at one depth.
+    /// What is kept at one depth.
     type Kept: Send;
 
     /// Before the first increment.
     fn start(&self, depth: Depth, places: usize) -> Self::Kept;
 
-    /// Takes the stress of a moment, shape (6, places along the line) \[Pa\]. Depths are worked on
-    /// in parallel, the moments of each in order.
+    /// Takes the stress of a moment, shape (6, places) \[Pa\]; the places are those along the line,
+    /// or the cells of the plane in row-major order. Depths are worked on in parallel, the moments
+    /// of each in order.
     fn add(&self, kept: &mut Self::Kept, moment: Moment, stress: &Array2<f64>);
 }
 
-/// The stresses below a line over a load path. As an [`Observer`] it takes every increment of a
+impl<A: Accumulate, B: Accumulate> Accumulate for (A, B) {
+    type Kept = (A::Kept, B::Kept);
+
+    fn start(&self, depth: Depth, places: usize) -> Self::Kept {
+        (self.0.start(depth, places), self.1.start(depth, places))
+    }
+
+    fn add(&self, kept: &mut Self::Kept, moment: Moment, stress: &Array2<f64>) {
+        self.0.add(&mut kept.0, moment, stress);
+        self.1.add(&mut kept.1, moment, stress);
+    }
+}
+
+/// The stresses below a line, or on whole planes, over a load path. As an [`Observer`] it takes every increment of a
 /// run; [`Self::push`] takes those of a store.
 pub struct Stream<A: Accumulate> {
     body: Body,
     side: Side,
     grid: Grid,
-    line: Line,
+    /// `None` for whole planes.
+    line: Option<Line>,
     depths: Vec<Depth>,
     accumulate: A,
     kept: Vec<A::Kept>,
@@ -52,20 +70,26 @@ pub struct Stream<A: Accumulate> {
 }
 
 impl<A: Accumulate> Stream<A> {
-    /// Below `line` at the `depths` of the body `side` on a grid.
+    /// Below `line`, or on the whole planes without one, at the `depths` of the body `side` on a
+    /// grid.
     pub fn new(
         body: &Body,
         side: Side,
         grid: &Grid,
-        line: Line,
+        line: Option<Line>,
         depths: Vec<Depth>,
         accumulate: A,
     ) -> Result<Self, Error> {
         // Refuses now what would fail after a long run.
-        Section::new(body, side, grid, line, &[])?;
+        if let Some(line) = line {
+            Section::new(body, side, grid, line, &[])?;
+        } else {
+            Slices::new(body, side, grid, &[])?;
+        }
         let places = match line {
-            Line::AlongX(_) => grid.nx,
-            Line::AlongY(_) => grid.ny,
+            Some(Line::AlongX(_)) => grid.nx,
+            Some(Line::AlongY(_)) => grid.ny,
+            None => grid.cells(),
         };
         let kept = depths
             .iter()
@@ -86,7 +110,12 @@ impl<A: Accumulate> Stream<A> {
     /// Takes the tractions q_x, q_y, p of a moment, each of shape (nx, ny) \[Pa\].
     pub fn push(&mut self, moment: Moment, tractions: [Array2<f64>; 3]) -> Result<(), Error> {
         self.waiting.push((moment, tractions));
-        if self.waiting.len() >= BATCH {
+        let batch = if self.line.is_some() {
+            BATCH
+        } else {
+            BATCH_OF_PLANES
+        };
+        if self.waiting.len() >= batch {
             self.flush()?;
         }
         Ok(())
@@ -111,12 +140,19 @@ impl<A: Accumulate> Stream<A> {
                 p: p.as_slice(),
             })
             .collect();
-        let section = Section::new(&self.body, self.side, &self.grid, self.line, &states)?;
-        section.pass_stress(&self.depths, &mut self.kept, |kept, stresses| {
+        let add = |kept: &mut A::Kept, stresses: &[Array2<f64>]| {
             for ((moment, _), stress) in self.waiting.iter().zip(stresses) {
                 self.accumulate.add(kept, *moment, stress);
             }
-        })?;
+        };
+        let (body, side, grid) = (&self.body, self.side, &self.grid);
+        if let Some(line) = self.line {
+            let section = Section::new(body, side, grid, line, &states)?;
+            section.pass_stress(&self.depths, &mut self.kept, add)?;
+        } else {
+            let slices = Slices::new(body, side, grid, &states)?;
+            slices.pass_stress(&self.depths, &mut self.kept, add)?;
+        }
         self.waiting.clear();
         Ok(())
     }

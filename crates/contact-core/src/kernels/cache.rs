@@ -13,7 +13,7 @@ const CAPACITY: usize = 1 << 24;
 pub(crate) struct Key {
     /// E and nu of the substrate, then E, nu and h of each layer.
     body: Vec<u64>,
-    grid: [u64; 4],
+    grid: [u64; 5],
     method: KernelMethod,
     tolerance: u64,
 }
@@ -36,6 +36,7 @@ impl Key {
                 grid.ny as u64,
                 grid.dx.to_bits(),
                 grid.dy.to_bits(),
+                u64::from(grid.plane_strain),
             ],
             method: settings.method,
             tolerance: settings.tolerance.to_bits(),

@@ -55,6 +55,14 @@ impl InfluenceCoefficients {
         self.map2(body1, |c2, c1, sign| c2 + &(c1 * sign))
     }
 
+    /// The coefficients between u_y times and q_y over `stretch`.
+    pub(crate) fn stretched(mut self, stretch: f64) -> Self {
+        self.yy *= stretch * stretch;
+        self.xy *= stretch;
+        self.yz *= stretch;
+        self
+    }
+
     /// C_ij on all offsets, shape (3, 3, 2 nx - 1, 2 ny - 1) with the offset (0, 0) in the middle.
     pub fn matrix(&self) -> Array4<f64> {
         let (nx, ny) = self.zz.dim();

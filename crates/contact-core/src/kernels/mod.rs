@@ -19,6 +19,7 @@ mod half_space_displacement;
 mod half_space_stress;
 mod inverse_fft;
 mod layered_frf;
+mod line;
 mod matrix;
 mod radial_table;
 mod sampled_frf;
@@ -51,6 +52,9 @@ use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
 /// closed form is used; with `shortcut_equal_layers` also for a body whose layers all equal its
 /// substrate. Under [`KernelMethod::FrequencyDomain`], which convolves without coefficients, they
 /// are those of the default method.
+///
+/// On a grid in plane strain they are those of strips without end along y: displacements relative to
+/// the points at the grid's length from the load, since a line load has no absolute ones.
 pub fn influence_coefficients(
     body: &Body,
     grid: &Grid,
@@ -69,6 +73,7 @@ pub fn influence_coefficients(
         stack.layers.clear();
     }
     let coefficients = match settings.method {
+        _ if grid.plane_strain => line::line_coefficients(&stack, grid),
         KernelMethod::InverseFft { lambda, aliases } if !stack.layers.is_empty() => {
             inverse_fft::inverse_fft(&stack, grid, lambda, aliases)
         }

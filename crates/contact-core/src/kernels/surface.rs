@@ -115,7 +115,7 @@ impl SurfaceKernel<'_> {
 
     /// All offsets >= 0; where cells are square, one octant is computed and mirrored.
     fn fill(&self) -> InfluenceCoefficients {
-        let Grid { nx, ny, dx, dy } = *self.grid;
+        let Grid { nx, ny, dx, dy, .. } = *self.grid;
         let square = if dx.to_bits() == dy.to_bits() {
             nx.min(ny)
         } else {

@@ -1,10 +1,13 @@
 //! The accounts of an increment: energies, residuals, areas.
 
+use super::carried::Carried;
 use super::{Energy, Increment, March, Motion, Residuals, State, Status, Work};
 use crate::convolution::Mirror;
 use crate::error::Error;
 use crate::scene::{Given, LoadPoint, Loads};
-use crate::solvers::{CoupledInfo, Interface, largest, size, sum_cells};
+use crate::solvers::{
+    CoupledInfo, Interface, friction_bound, largest, set_cells, set_pairs, size, sum_cells,
+};
 
 /// What sums in another order may differ by.
 const ROUNDING: f64 = 1e-9;
@@ -17,7 +20,7 @@ impl March {
         point: &LoadPoint,
         now: Interface,
         info: &CoupledInfo,
-        transforms: usize,
+        convolutions: f64,
     ) -> Result<Increment, Error> {
         let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
         let last = &self.state;
@@ -44,11 +47,13 @@ impl March {
             contact_area: contact as f64 * cell_area,
             stick_area: (contact - slipping) as f64 * cell_area,
             p_max: largest(cells, |n| now.p[n]),
-            q_max: largest(cells, |n| size([now.q[0][n], now.q[1][n]])),
+            q_max: largest(cells, |n| {
+                size([now.q[0][n], self.arms.stretch * now.q[1][n]])
+            }),
             energy,
             residuals,
             work: Work {
-                convolutions: transforms as f64 / 6.0,
+                convolutions,
                 alternations: info.alternations,
                 normal_iterations: info.normal_iterations,
                 tangential_iterations: info.tangential_iterations,
@@ -71,7 +76,7 @@ impl March {
         (contact, slipping): (usize, usize),
     ) -> Result<(), Error> {
         let r = &increment.residuals;
-        let mu = self.scene.friction.mu;
+        let mu = self.scene.friction.scale();
         let slips = if increment.status == Status::GrossSlip {
             // A body that slides may have any shift beyond the incipient one.
             0.0
@@ -96,16 +101,19 @@ impl March {
 
     /// The rigid motion at the end of the increment; what is given is kept as it was said.
     fn motion(&self, point: &LoadPoint, info: &CoupledInfo) -> Motion {
-        let length = self.arms.length;
         let last = &self.state.motion;
         let given = &point.loads.given;
         Motion {
             delta_z: given.delta_z.unwrap_or(info.approach[0]),
-            phi_x: given.phi_x.unwrap_or(info.approach[1] / length),
-            phi_y: given.phi_y.unwrap_or(info.approach[2] / length),
+            phi_x: given.phi_x.unwrap_or(info.approach[1] / self.unit(1)),
+            phi_y: given.phi_y.unwrap_or(info.approach[2] / self.unit(2)),
             delta_x: given.delta_x.unwrap_or(last.delta_x + info.shift[0]),
-            delta_y: given.delta_y.unwrap_or(last.delta_y + info.shift[1]),
-            phi_z: given.phi_z.unwrap_or(last.phi_z + info.shift[2] / length),
+            delta_y: given
+                .delta_y
+                .unwrap_or(last.delta_y + info.shift[1] / self.unit(4)),
+            phi_z: given
+                .phi_z
+                .unwrap_or(last.phi_z + info.shift[2] / self.unit(5)),
         }
     }
 
@@ -122,19 +130,14 @@ impl March {
         let (forces, given) = (point.loads.forces(), point.loads.given);
         let motions = given.motions();
         let transmitted = std::array::from_fn(|k| {
-            let arm = if matches!(k, 1 | 2 | 5) {
-                self.arms.length
-            } else {
-                1.0
-            };
             match motions[k] {
                 None => forces[k],
                 // The other half has the opposite.
                 Some(_) if mirrored && matches!(k, 1 | 4 | 5) => 0.0,
-                Some(_) => sums[k / 3][k % 3] * cell_area * arm,
+                Some(_) => sums[k / 3][k % 3] * cell_area * self.unit(k),
             }
         });
-        Loads::from_forces(transmitted, given)
+        point.loads.with_forces(transmitted, given)
     }
 
     /// Energies with mid-increment tractions, an identity for any symmetric C: the sum of mean
@@ -146,8 +149,8 @@ impl March {
         motion: &Motion,
         cell_area: f64,
     ) -> Energy {
+        let last = self.before();
         let State {
-            interface: last,
             loads,
             motion: before,
             ..
@@ -155,42 +158,53 @@ impl March {
         let mean = |a: f64, b: f64| 0.5 * (a + b);
         let (from, to) = (loads.forces(), point.loads.forces());
         let (started, ended) = (before.motions(), motion.motions());
-        let work = (0..6)
+        let of_loads: f64 = (0..6)
             .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
             .sum();
         let (approach, shift) = self.change(motion);
-        let [elastic, dissipated, opening] = sum_cells(now.p.len(), |n| {
+        let at_bound = self.slips_at_bound(point);
+        let sums = sum_cells(now.p.len(), |n| {
             let p = mean(now.p[n], last.p[n]);
             let du_z = now.u_z[n] - last.u_z[n];
             let shift = self.arms.in_plane(shift, n);
+            let stretch = self.stretch_at(n);
+            let wider = self.gap_rolled(n);
+            let entered = self.entered_at(n);
             let mut elastic = p * du_z;
-            let mut dissipated = 0.0;
+            let (mut dissipated, mut late, mut of_bulk) = (0.0, 0.0, 0.0);
+            let mut opening = -p * (du_z + wider - self.arms.across(approach, n));
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
                 let du = now.u[c][n] - last.u[c][n];
-                elastic += q * du;
+                elastic += q * (du - stretch[c] + entered[c]);
+                opening -= q * entered[c];
                 dissipated -= q * (du - shift[c]);
+                late -= (now.q[c][n] - q) * (du - shift[c]);
+                of_bulk -= q * stretch[c];
             }
-            let opening = -p * (du_z - self.arms.across(approach, n));
-            [elastic, dissipated, opening]
+            [elastic, dissipated, late, opening, of_bulk, -p * wider]
         });
+        let [elastic, dissipated, late, opening, of_bulk, of_rolling] = sums;
+        let late = if at_bound { late * cell_area } else { 0.0 };
         Energy {
-            work,
+            work: of_loads + (of_bulk + of_rolling) * cell_area + late,
             elastic: elastic * cell_area,
-            dissipated: dissipated * cell_area,
+            dissipated: dissipated * cell_area + late,
             opening: opening * cell_area,
         }
+    }
+
+    /// Whether all slip of an increment, being a whole branch, happens at the final shear: that of
+    /// a cell grows until it slips, and stays. The force does its work as late.
+    fn slips_at_bound(&self, point: &LoadPoint) -> bool {
+        self.plan.direct[point.branch]
     }
 
     /// Motions across and in the plane from the present state, rotations times the length \[m\].
     fn change(&self, motion: &Motion) -> ([f64; 3], [f64; 3]) {
         let (from, to) = (self.state.motion.motions(), motion.motions());
-        let length = self.arms.length;
-        let d: [f64; 6] = std::array::from_fn(|k| to[k] - from[k]);
-        (
-            [d[0], d[1] * length, d[2] * length],
-            [d[3], d[4], d[5] * length],
-        )
+        let d: [f64; 6] = std::array::from_fn(|k| (to[k] - from[k]) * self.unit(k));
+        ([d[0], d[1], d[2]], [d[3], d[4], d[5]])
     }
 
     /// How well the equations hold.
@@ -201,10 +215,11 @@ impl March {
         info: &CoupledInfo,
         cell_area: f64,
     ) -> Residuals {
-        let mu = self.scene.friction.mu;
+        let mu = self.scene.friction.scale();
         let cells = now.p.len();
-        let before = &self.state.interface.u;
+        let before = &self.before().u;
         let gap = |n: usize| now.u_z[n] + self.h_init[n] - self.arms.across(info.approach, n);
+        let bound = |n: usize| friction_bound(self.mu[n], now.p[n]);
         let [contact, slipping, gap_squares, stick, direction, slipped] = sum_cells(cells, |n| {
             if now.p[n] <= 0.0 {
                 return [0.0; 6];
@@ -213,7 +228,8 @@ impl March {
             let slip: [f64; 2] = std::array::from_fn(|c| now.u[c][n] - before[c][n] - shift[c]);
             let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
             if now.slip[n] {
-                let e = [now.q[0][n], now.q[1][n]].map(|q| q / (mu * now.p[n]));
+                let bound = bound(n).max(f64::MIN_POSITIVE);
+                let e = [now.q[0][n], now.q[1][n]].map(|q| q / bound);
                 let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
                 let off = [slip[0] - along * e[0], slip[1] - along * e[1]];
                 [1.0, 1.0, gap(n).powi(2), 0.0, square(off), square(slip)]
@@ -222,7 +238,7 @@ impl March {
             }
         });
         let p_max = largest(cells, |n| now.p[n]);
-        let excess = |n: usize| size([now.q[0][n], now.q[1][n]]) - mu * now.p[n];
+        let excess = |n: usize| size([now.q[0][n], now.q[1][n]]) - bound(n);
         let mut r = Residuals {
             coulomb: largest(cells, excess),
             ..Residuals::default()
@@ -261,12 +277,11 @@ impl March {
         let (asked, motions) = (point.loads.forces(), point.loads.given.motions());
         let W = carried[0];
         let scale = |k: usize| {
-            let arm = if matches!(k, 1 | 2 | 5) {
-                self.arms.length
+            if k < 3 {
+                W * self.unit(k)
             } else {
-                1.0
-            };
-            if k < 3 { W * arm } else { mu * W * arm }
+                mu * W * self.unit(k)
+            }
         };
         (0..6)
             .filter(|&k| motions[k].is_none() && scale(k) > 0.0)
@@ -278,22 +293,42 @@ impl March {
     /// Makes the increment the present state.
     fn keep(&mut self, point: &LoadPoint, now: Interface, motion: Motion, work: f64) {
         let (_, shift) = self.change(&motion);
+        let at_bound = self.slips_at_bound(point);
+        self.roll_history();
         let state = &mut self.state;
         let last = std::mem::replace(&mut state.interface, now);
         let now = &state.interface;
-        for n in 0..now.p.len() {
+        let before = self.carried.as_ref().map_or(&last, Carried::interface);
+        let slip = |n: usize| -> [f64; 2] {
             let shift = self.arms.in_plane(shift, n);
-            for c in 0..2 {
-                let slip = now.u[c][n] - last.u[c][n] - shift[c];
-                state.dissipated[n] -= 0.5 * (now.q[c][n] + last.q[c][n]) * slip;
-                if now.p[n] > 0.0 && now.slip[n] {
-                    state.slip[c][n] += slip;
-                }
+            std::array::from_fn(|c| now.u[c][n] - before.u[c][n] - shift[c])
+        };
+        set_cells(&mut state.dissipated, |n, dissipated| {
+            let slip = slip(n);
+            let mean = |c: usize| 0.5 * (now.q[c][n] + before.q[c][n]);
+            let power = |c: usize| (if at_bound { now.q[c][n] } else { mean(c) }) * slip[c];
+            dissipated - power(0) - power(1)
+        });
+        let slips = |n: usize| now.p[n] > 0.0 && now.slip[n];
+        let [slip_x, slip_y] = &mut state.slip;
+        set_pairs([slip_x, slip_y], |n, total| {
+            if slips(n) {
+                let slip = slip(n);
+                [total[0] + slip[0], total[1] + slip[1]]
+            } else {
+                total
             }
-        }
-        state.step = point
-            .loads
-            .since(state.loads.forces(), state.motion.motions());
+        });
+        let stretch = self.arms.stretch;
+        set_cells(&mut state.slip_length, |n, length| {
+            if slips(n) {
+                let slip = slip(n);
+                length + size([slip[0], slip[1] / stretch])
+            } else {
+                length
+            }
+        });
+        state.step = point.loads.since(&state.loads, state.motion.motions());
         state.p_before = last.p;
         state.q_before = last.q;
         state.loads = point.loads;

@@ -20,7 +20,7 @@ impl March {
         let touched = (0..now.p.len()).filter(|&n| now.p[n] > 0.0).map(|n| {
             let (i, j) = (n / rows, n % rows);
             let end_x = i == 0 || i + 1 == grid.nx;
-            let end_y = j + 1 == rows || (j == 0 && rows == grid.ny);
+            let end_y = !grid.plane_strain && (j + 1 == rows || (j == 0 && rows == grid.ny));
             let length = |touches: bool, extent: f64| if touches { extent } else { 0.0 };
             length(end_x, extent.0).max(length(end_y, extent.1))
         });
@@ -60,6 +60,9 @@ fn expected_radius(scene: &Scene) -> f64 {
     // settle.
     for _ in 0..60 {
         a = (a * hertz.a * (compliance(1.5 / a) / uncoated).cbrt()).sqrt();
+    }
+    if scene.grid.plane_strain {
+        return a;
     }
     // Of an ellipse, a_x/a_y is about (R_x/R_y)^(2/3).
     let (steep, shallow) = scene.principal_curvatures();

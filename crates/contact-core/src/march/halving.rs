@@ -43,7 +43,7 @@ impl March {
             }
             done => done,
         };
-        let middle = point.middle(self.state.loads.forces(), self.state.motion.motions());
+        let middle = point.middle(&self.state.loads, self.state.motion.motions());
         let first = piece(self, &middle)?;
         // Both halves are one increment of the path.
         self.state.increments -= 1;

@@ -68,14 +68,15 @@ impl Status {
 /// Energy of one increment, with mid-increment (trapezoidal) tractions \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
-    /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi).
+    /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi), of the bulk stress on what the
+    /// contact moves, and of what makes the bodies roll.
     pub work: f64,
     /// Change of the elastic energy, 1/2 sum of traction times displacement.
     pub elastic: f64,
     /// Energy dissipated by friction, -sum of q . ds dA, >= 0.
     pub dissipated: f64,
-    /// Work of the pressure on cells that close or open, -sum of p dh dA; it vanishes with the
-    /// increment.
+    /// Work of the tractions on cells that close or open, -sum of p dh dA, and of the shear on what
+    /// cells moved before they closed; it vanishes with the increment.
     pub opening: f64,
 }
 

@@ -1,7 +1,11 @@
 //! Stage 5: THE LOAD PATH, one increment at a time (the outer loop of figure 2 of the paper).
 
+mod awake;
 mod balance;
 mod border;
+mod carried;
+mod coarse;
+mod entering;
 mod fields;
 mod halving;
 mod increment;
@@ -17,10 +21,16 @@ pub use state::State;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::convolution::{CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, SurfaceOperator};
+use self::awake::with_all_awake;
+use self::carried::Carried;
+use self::coarse::coarse_start;
+use self::predict::first_touch;
+use crate::convolution::{
+    CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, PARALLEL_FROM, SurfaceOperator,
+};
 use crate::error::Error;
 use crate::kernels::influence_coefficients;
-use crate::scene::{KernelMethod, LoadPoint, Plan, Preset, Scene};
+use crate::scene::{History, KernelMethod, LoadPoint, Plan, Preset, Scene};
 use crate::solvers::{
     Arms, CoupledInfo, CoupledParams, CoupledWorkspace, Drive, IncrementProblem, Interface,
     NormalParams, Response, TangentialMethod, TangentialParams, coupled,
@@ -35,11 +45,17 @@ pub struct March {
     h_init: Vec<f64>,
     /// Where the kept cells are.
     arms: Arms,
+    /// Factor of the friction coefficient over the kept cells; empty where it is 1.
+    friction_map: Vec<f64>,
+    /// Friction coefficient of the kept cells in this increment.
+    mu: Vec<f64>,
     op: Box<dyn SurfaceOperator + Send>,
     inverse: Option<CirculantInverse>,
     /// Approach that lengths are measured against \[m\].
     approach: f64,
     state: State,
+    /// The last interface, where the increment does not find it as it was left.
+    carried: Option<Carried>,
     workspace: CoupledWorkspace,
     /// Raised from outside to end the run.
     stop: Arc<AtomicBool>,
@@ -60,7 +76,10 @@ impl March {
                 settings.skip.equal_layers,
             )
         };
-        let pair = coefficients(&scene.body2)?.pair(&coefficients(&scene.body1)?);
+        let stretch = scene.friction.stretch();
+        let pair = coefficients(&scene.body2)?
+            .pair(&coefficients(&scene.body1)?)
+            .stretched(stretch);
         let inverse = match settings.solver.preset {
             Preset::Fast => Some(CirculantInverse::new(&pair, plan.mirror)),
             Preset::Spinu2020 => None,
@@ -78,7 +97,11 @@ impl March {
         let h_init = plan.mirror.fold(&scene.h_init());
         let cells = h_init.len();
         let extent = scene.grid.extent();
-        let length = 0.5 * extent.0.max(extent.1);
+        let length = if scene.grid.plane_strain {
+            0.5 * extent.0
+        } else {
+            0.5 * extent.0.max(extent.1)
+        };
         let arm = |along: &dyn Fn(f64, f64) -> f64| {
             plan.mirror
                 .fold(&scene.grid.map(|x, y| along(x, y) / length))
@@ -87,18 +110,25 @@ impl March {
             length,
             x: arm(&|x, _| x),
             y: arm(&|_, y| y),
+            stretch,
         };
+        let friction_map = scene.friction.map.as_ref().map_or_else(Vec::new, |map| {
+            plan.mirror.fold(&scene.grid.map(|x, y| map.at(x, y)))
+        });
         let approach = scene.approach();
         Ok(Self {
-            points: scene.path.points(),
+            points: plan.points(scene),
             scene: scene.clone(),
             plan,
             h_init,
             arms,
+            friction_map,
+            mu: vec![scene.friction.mu; cells],
             op,
             inverse,
             approach,
             state: State::unloaded(cells),
+            carried: None,
             workspace: CoupledWorkspace::new(cells),
             stop: Arc::default(),
         })
@@ -135,7 +165,7 @@ impl March {
         &self.plan
     }
 
-    /// The loads at the end of every increment of the path.
+    /// The loads at the end of every increment that is solved.
     pub fn points(&self) -> &[LoadPoint] {
         &self.points
     }
@@ -154,71 +184,49 @@ impl March {
         let end = &self.scene.path.branches[point.branch].to;
         let state = &self.state;
         let point = point.resolved(end, state.loads.forces(), state.motion.motions());
-        // On a thread of the pool, so that the others are a steal away and not a wake-up.
-        Some(rayon::scope(|_| self.reach(&point)))
+        Some(if self.h_init.len() < PARALLEL_FROM {
+            self.reach(&point)
+        } else {
+            with_all_awake(|| self.reach(&point))
+        })
     }
 
     /// One increment: predict, solve, account, keep.
     fn increment(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let index = self.state.increments + 1;
         let transforms = self.op.transforms();
-        let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
-        let (normal, tangential) = self.drives(point, cell_area);
+        let (normal, tangential) = self.drives(point);
+        self.carry(point);
+        self.update_friction();
         let pressed = !normal.free[0] || normal.sums[0] > 0.0;
-        let mut now = if pressed {
+        let mut coarse_convolutions = 0.0;
+        let start = if pressed {
+            let touch = (self.state.loads.W <= 0.0).then(|| {
+                let Some(start) = coarse_start(&self.scene, point) else {
+                    return first_touch(&self.h_init, self.approach_at(point));
+                };
+                coarse_convolutions = start.convolutions;
+                self.plan.mirror.fold(&start.p)
+            });
             self.state.predict(
                 point,
-                &self.h_init,
-                self.scene.friction.mu,
+                touch,
+                &self.mu,
                 &normal,
-                self.approach_at(point),
                 self.scene.settings.solver.preset,
             )
         } else {
             Interface::unloaded(self.h_init.len())
         };
-        let problem = IncrementProblem {
-            h_init: &self.h_init,
-            u_ref: [&self.state.interface.u[0], &self.state.interface.u[1]],
-            mu: self.scene.friction.mu,
-            arms: &self.arms,
-            normal,
-            tangential,
-        };
-        let mut response = Response {
-            op: &mut *self.op,
-            inverse: self.inverse.as_mut(),
-            stop: Some(&self.stop),
-        };
-        let info = if pressed {
-            let params = params(&self.scene, self.approach);
-            coupled(
-                &mut response,
-                &problem,
-                &mut now,
-                &mut self.workspace,
-                &params,
-            )
-            .map_err(|e| {
-                if self.stop.load(Ordering::Relaxed) {
-                    return Error::Interrupted {
-                        increment: index - 1,
-                    };
-                }
-                Error::NotConverged {
-                    increment: index,
-                    solver: e.solver,
-                    residual: e.residual,
-                    tolerance: e.tolerance,
-                    iterations: e.iterations,
-                }
-            })?
+        let (now, info) = if pressed {
+            self.solve_entering(point, start)?
         } else {
-            CoupledInfo {
+            let info = CoupledInfo {
                 approach: normal.given,
                 shift: tangential.given,
                 ..CoupledInfo::default()
-            }
+            };
+            (start, info)
         };
         if info.exceeds_friction() {
             return Err(Error::BeyondFriction {
@@ -228,33 +236,118 @@ impl March {
         }
         self.check_border(&now, index)?;
         let transforms = self.op.transforms() - transforms;
-        self.account(point, now, &info, transforms)
+        let convolutions = transforms as f64 / 6.0 + coarse_convolutions;
+        self.account(point, now, &info, convolutions)
+    }
+
+    /// Solves the increment from a start, on the cells of the last contact alone if it is `kept`.
+    fn solve_pressed(
+        &mut self,
+        mut now: Interface,
+        (normal, tangential): (Drive, Drive),
+        kept: bool,
+    ) -> Result<(Interface, CoupledInfo), Error> {
+        let apart;
+        let h_init = if kept {
+            let far = 1e3 * (self.approach + self.h_init.iter().fold(0.0, |m, h| h.abs().max(m)));
+            let p = &self.state.interface.p;
+            let cells = self.h_init.iter().zip(p);
+            apart = cells
+                .map(|(h, &p)| if p > 0.0 { *h } else { h + far })
+                .collect();
+            &apart
+        } else {
+            &self.h_init
+        };
+        // As March::before, for the sake of the workspace borrowed beside it.
+        let carried = self.carried.as_ref();
+        let before = carried.map_or(&self.state.interface, Carried::interface);
+        let problem = IncrementProblem {
+            h_init,
+            u_ref: [&before.u[0], &before.u[1]],
+            mu: &self.mu,
+            arms: &self.arms,
+            normal,
+            tangential,
+        };
+        let mut response = Response {
+            op: &mut *self.op,
+            inverse: self.inverse.as_mut(),
+            stop: Some(&self.stop),
+        };
+        let params = params(&self.scene, self.approach);
+        let ws = &mut self.workspace;
+        match coupled(&mut response, &problem, &mut now, ws, &params) {
+            Ok(info) => Ok((now, info)),
+            Err(_) if self.stop.load(Ordering::Relaxed) => Err(Error::Interrupted {
+                increment: self.state.increments,
+            }),
+            Err(e) => Err(Error::NotConverged {
+                increment: self.state.increments + 1,
+                solver: e.solver,
+                residual: e.residual,
+                tolerance: e.tolerance,
+                iterations: e.iterations,
+            }),
+        }
     }
 
     /// What drives the motions across the plane, from the unloaded state, and those in it, in this
     /// increment. By symmetry the half of a mirrored scene has no motion that turns it.
-    fn drives(&self, point: &LoadPoint, cell_area: f64) -> (Drive, Drive) {
+    fn drives(&self, point: &LoadPoint) -> (Drive, Drive) {
+        let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
         let (forces, given) = (point.loads.forces(), point.loads.given.motions());
         let before = self.state.motion.motions();
         let mirrored = self.plan.mirror != Mirror::None;
         let drive = |of: [usize; 3], from: [f64; 6]| {
             let mut drive = Drive::default();
             for (k, &load) in of.iter().enumerate() {
-                let turns = matches!(load, 1 | 2 | 5);
-                let arm = if turns { self.arms.length } else { 1.0 };
+                let unit = self.unit(load);
                 let odd = mirrored && matches!(load, 1 | 4 | 5);
                 match given[load] {
                     _ if odd => {}
-                    Some(motion) => drive.given[k] = (motion - from[load]) * arm,
+                    Some(motion) => drive.given[k] = (motion - from[load]) * unit,
                     None => {
                         drive.free[k] = true;
-                        drive.sums[k] = forces[load] / (cell_area * arm);
+                        drive.sums[k] = forces[load] / (cell_area * unit);
                     }
                 }
             }
             drive
         };
         (drive([0, 1, 2], [0.0; 6]), drive([3, 4, 5], before))
+    }
+
+    /// What a motion of [`MOTIONS`](crate::scene::MOTIONS) is multiplied by, and its load divided by,
+    /// for the solvers.
+    pub(super) fn unit(&self, k: usize) -> f64 {
+        match k {
+            1 | 2 | 5 => self.arms.length,
+            4 => self.arms.stretch,
+            _ => 1.0,
+        }
+    }
+
+    /// The friction coefficient of each cell after what it has been through.
+    fn update_friction(&mut self) {
+        for n in 0..self.mu.len() {
+            let (friction, state) = (&self.scene.friction, &self.state);
+            let slipped = self.before().slip[n];
+            let mu = friction.kinetic.filter(|_| slipped).unwrap_or(friction.mu);
+            let map = self.friction_map.get(n).copied().unwrap_or(1.0);
+            let history = friction.history.as_ref().map_or(1.0, |history| {
+                history.factor(match history.of {
+                    History::Increment => state.increments as f64,
+                    History::Slip => self.origin(n).map_or(0.0, |n| state.slip_length[n]),
+                    History::Dissipated => self.origin(n).map_or(0.0, |n| state.dissipated[n]),
+                })
+            });
+            self.mu[n] = if map * history > 0.0 {
+                mu * map * history
+            } else {
+                0.0
+            };
+        }
     }
 
     /// Hertz's approach at the loads of a point \[m\], for the first guess.
@@ -276,6 +369,7 @@ impl March {
             phi_y,
             ..
         } = s.motion;
+        let stretch = self.arms.stretch;
         let rigid = self.scene.grid.map(|x, y| delta_z + y * phi_x - x * phi_y);
         let p = unfold(&now.p, Half::Even);
         let u_z = unfold(&now.u_z, Half::Even);
@@ -288,11 +382,11 @@ impl March {
         Fields {
             gap: u_z.clone() + self.scene.h_init() - rigid,
             q_x: unfold(&now.q[0], Half::Even),
-            q_y: unfold(&now.q[1], Half::Odd),
+            q_y: unfold(&now.q[1], Half::Odd) * stretch,
             u_x: unfold(&now.u[0], Half::Even),
-            u_y: unfold(&now.u[1], Half::Odd),
+            u_y: unfold(&now.u[1], Half::Odd) / stretch,
             slip_x: unfold(&s.slip[0], Half::Even),
-            slip_y: unfold(&s.slip[1], Half::Odd),
+            slip_y: unfold(&s.slip[1], Half::Odd) / stretch,
             dissipated: unfold(&s.dissipated, Half::Even),
             p,
             u_z,
@@ -329,7 +423,7 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
                 TangentialMethod::Newton
             },
             // What the shear misses acts on the gap, however large mu is.
-            tolerance: TANGENTIAL_SHARE * scene.friction.mu.min(1.0) * gap,
+            tolerance: TANGENTIAL_SHARE * scene.friction.scale().min(1.0) * gap,
             max_iterations: solver.max_iterations,
             forcing: 0.2,
             max_passes: 12,

@@ -1,16 +1,24 @@
 //! The first guess of an increment.
 
+use rayon::prelude::*;
+
 use super::State;
 use crate::scene::{Given, LoadPoint, Loads, Preset};
-use crate::solvers::{Drive, Interface, size};
+use crate::solvers::{CHUNK, Drive, Interface, friction_bound, set_cells, size, sum_cells};
 
 impl Loads {
-    /// The change from `forces` and `motions` to here, of what is given.
-    pub(crate) fn since(&self, forces: [f64; 6], motions: [f64; 6]) -> Self {
+    /// The change from `before` and `motions` to here, of what is given.
+    pub(crate) fn since(&self, before: &Self, motions: [f64; 6]) -> Self {
+        let forces = before.forces();
         let (to, given) = (self.forces(), self.given.motions());
         let force = |k: usize| given[k].map_or(to[k] - forces[k], |_| 0.0);
         let motion = |k: usize| given[k].map(|to| to - motions[k]);
-        Self::from_forces(
+        Self {
+            sigma_B: self.sigma_B - before.sigma_B,
+            rolled: self.rolled - before.rolled,
+            ..Self::default()
+        }
+        .with_forces(
             std::array::from_fn(force),
             Given::from_motions(std::array::from_fn(motion)),
         )
@@ -24,7 +32,9 @@ impl Loads {
             return None;
         }
         let (f, g) = (self.forces(), other.forces());
-        let pairs = (0..6).map(|k| a[k].zip(b[k]).unwrap_or((f[k], g[k])));
+        let pairs = (0..6)
+            .map(|k| a[k].zip(b[k]).unwrap_or((f[k], g[k])))
+            .chain([(self.sigma_B, other.sigma_B), (self.rolled, other.rolled)]);
         let (mut both, mut own, mut its) = (0.0, 0.0, 0.0);
         for (a, b) in pairs {
             // Forces, moments, lengths and angles compare as parts of the larger of the two.
@@ -44,82 +54,86 @@ impl Loads {
 impl State {
     /// Tractions and slip set to start from: the last increment's, extrapolated while the loads
     /// keep their direction (the paper takes them as they are). At a reversal every cell is taken
-    /// to stick: slip needs the load to move on before it sets in again.
+    /// to stick: slip needs the load to move on before it sets in again. Bodies that have not touched
+    /// start from the pressure `touch`.
     pub(crate) fn predict(
         &self,
         point: &LoadPoint,
-        h_init: &[f64],
-        mu: f64,
+        touch: Option<Vec<f64>>,
+        mu: &[f64],
         normal: &Drive,
-        approach: f64,
         preset: Preset,
     ) -> Interface {
         let mut guess = self.interface.clone();
-        if self.loads.W <= 0.0 {
-            first_touch(&mut guess, h_init, approach);
+        if let Some(p) = touch {
+            guess.p = p;
         }
-        let step = point
-            .loads
-            .since(self.loads.forces(), self.motion.motions());
+        let step = point.loads.since(&self.loads, self.motion.motions());
         let same_way = step.along(&self.step).filter(|_| self.increments > 1);
         if let (Some(factor), Preset::Fast) = (same_way, preset) {
-            extrapolate(&mut guess.p, &self.p_before, factor);
-            guess.p.iter_mut().for_each(|p| *p = p.max(0.0));
+            let before = &self.p_before;
+            set_cells(&mut guess.p, |n, p| (p + factor * (p - before[n])).max(0.0));
             approach_slip(&mut guess, &self.q_before, mu, factor);
         } else if same_way.is_none() {
             guess.slip.fill(false);
         }
         if normal.free[0] {
-            let factor = normal.sums[0] / guess.p.iter().sum::<f64>();
-            guess.p.iter_mut().for_each(|p| *p *= factor);
+            let [sum] = sum_cells(guess.p.len(), |n| [guess.p[n]]);
+            let factor = normal.sums[0] / sum;
+            set_cells(&mut guess.p, |_, p| p * factor);
         }
         guess
     }
-}
-
-/// now + factor (now - before)
-fn extrapolate(now: &mut [f64], before: &[f64], factor: f64) {
-    now.iter_mut()
-        .zip(before)
-        .for_each(|(now, before)| *now += factor * (*now - before));
 }
 
 /// Extrapolates the shear. The shear of a stick cell nears its bound as the root of the distance
 /// to the moving slip front (Cattaneo: g - q ~ (c^2 - r^2)^(1/2)), smoothed over a cell: a power
 /// in between of what is left of the way to the bound is extrapolated; a cell for which nothing is
 /// left starts to slip.
-fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: f64, factor: f64) {
-    for n in 0..guess.p.len() {
-        let bound = mu * guess.p[n];
-        if bound <= 0.0 {
-            continue;
+fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64], factor: f64) {
+    let Interface { p, q, slip, .. } = guess;
+    let [q_x, q_y] = q;
+    let chunks = (
+        q_x.par_chunks_mut(CHUNK),
+        q_y.par_chunks_mut(CHUNK),
+        slip.par_chunks_mut(CHUNK),
+    );
+    let chunks = chunks.into_par_iter().enumerate();
+    chunks.for_each(|(chunk, (q_x, q_y, slip))| {
+        for (i, n) in (chunk * CHUNK..).take(q_x.len()).enumerate() {
+            let bound = friction_bound(mu[n], p[n]);
+            if bound <= 0.0 {
+                continue;
+            }
+            let q = [q_x[i], q_y[i]];
+            let change = [q[0] - q_before[0][n], q[1] - q_before[1][n]];
+            let moved = size(change);
+            let inside = bound * bound - q[0] * q[0] - q[1] * q[1];
+            let mut part = factor;
+            if !slip[i] && inside > 0.0 && inside.is_finite() && moved > 0.0 {
+                let along = (q[0] * change[0] + q[1] * change[1]) / moved;
+                let left = (along * along + inside).sqrt() - along;
+                let power = |left: f64| left * left.sqrt();
+                let next = power(left) + factor * (power(left) - power(left + moved));
+                slip[i] = next <= 0.0;
+                part = (left - next.max(0.0).cbrt().powi(2)) / moved;
+            }
+            q_x[i] += part * change[0];
+            q_y[i] += part * change[1];
         }
-        let q = [guess.q[0][n], guess.q[1][n]];
-        let change = [q[0] - q_before[0][n], q[1] - q_before[1][n]];
-        let moved = size(change);
-        let inside = bound * bound - q[0] * q[0] - q[1] * q[1];
-        let mut part = factor;
-        if !guess.slip[n] && inside > 0.0 && moved > 0.0 {
-            let along = (q[0] * change[0] + q[1] * change[1]) / moved;
-            let left = (along * along + inside).sqrt() - along;
-            let power = |left: f64| left * left.sqrt();
-            let next = power(left) + factor * (power(left) - power(left + moved));
-            guess.slip[n] = next <= 0.0;
-            part = (left - next.max(0.0).cbrt().powi(2)) / moved;
-        }
-        for c in 0..2 {
-            guess.q[c][n] += part * change[c];
-        }
-    }
+    });
 }
 
-/// A pressure for bodies that have not touched: that of a Hertz contact of the given approach.
-fn first_touch(guess: &mut Interface, h_init: &[f64], approach: f64) {
-    if approach <= 0.0 {
-        return;
-    }
+/// A pressure for bodies that have not touched: that of a Hertz contact of the given approach \[m\],
+/// up to a factor.
+pub(super) fn first_touch(h_init: &[f64], approach: f64) -> Vec<f64> {
     let lowest = h_init.iter().fold(f64::INFINITY, |m, h| m.min(*h));
-    for (p, h) in guess.p.iter_mut().zip(h_init) {
-        *p = (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt();
-    }
+    let p = |h: &f64| {
+        if approach > 0.0 {
+            (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt()
+        } else {
+            0.0
+        }
+    };
+    h_init.iter().map(p).collect()
 }

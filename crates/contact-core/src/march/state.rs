@@ -19,6 +19,8 @@ pub struct State {
     pub motion: Motion,
     /// Slip added up over the path \[m\].
     pub slip: [Vec<f64>; 2],
+    /// Length of the way slipped over the path \[m\].
+    pub slip_length: Vec<f64>,
     /// Energy dissipated per area over the path \[J/m^2\].
     pub dissipated: Vec<f64>,
     /// Work of the applied forces over the path \[J\].
@@ -42,6 +44,7 @@ impl State {
             interface: Interface::unloaded(cells),
             motion: Motion::default(),
             slip: pair(),
+            slip_length: field(),
             dissipated: field(),
             work: 0.0,
             p_before: field(),
@@ -53,7 +56,7 @@ impl State {
     /// Whether every field has that many cells.
     pub(crate) fn fits(&self, cells: usize) -> bool {
         let Interface { p, q, u, u_z, slip } = &self.interface;
-        let fields = [p, u_z, &self.dissipated, &self.p_before];
+        let fields = [p, u_z, &self.slip_length, &self.dissipated, &self.p_before];
         let pairs = [q, u, &self.slip, &self.q_before];
         let fields = fields.into_iter().chain(pairs.into_iter().flatten());
         fields.into_iter().all(|f| f.len() == cells) && slip.len() == cells

@@ -115,6 +115,15 @@ pub const SCALARS: &[Scalar] = &[
     real("M_z", "N m", "torsional moment on body 2", |i| {
         i.point.loads.M_z
     }),
+    real("sigma_B", "Pa", "bulk stress along x in body 2", |i| {
+        i.point.loads.sigma_B
+    }),
+    real(
+        "rolled",
+        "m",
+        "way that the contact has rolled along x",
+        |i| i.point.loads.rolled,
+    ),
     real("delta_z", "m", "approach of the bodies", |i| {
         i.motion.delta_z
     }),

@@ -28,7 +28,7 @@ pub use image_data::ImageData;
 pub use reader::Store;
 pub use resume::{Resumed, resume};
 pub use stress_store::StressStore;
-pub use volume::{VolumeMaximum, VolumeSink, write_volume};
+pub use volume::{VolumeSink, write_volume};
 pub use writer::StoreWriter;
 
 /// The version of the store's layout.

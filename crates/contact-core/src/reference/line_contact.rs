@@ -31,6 +31,31 @@ pub fn line_contact(R: f64, E_star: f64, W: f64) -> LineContact {
 }
 
 impl LineContact {
+    /// Approach relative to the points of the surfaces at the distance `far` \[m\] for the relative
+    /// radius `R` \[m\]: a^2/(2 R) (ln(2 far/a) + 1/2), from the integral of ln(far/|x|) under p.
+    pub fn approach(&self, R: f64, far: f64) -> f64 {
+        self.a * self.a / (2.0 * R) * ((2.0 * far / self.a).ln() + 0.5)
+    }
+
+    /// Middle \[m\] of the stick zone under `T` > 0 and the strain `eps_x` of body 2 along x, brought
+    /// up together with T: e = eps_x E* a/(2 mu p0). With similar bodies, plane strain and a bulk
+    /// stress sigma_B this is a sigma_B/(4 mu p0); it holds while e + c <= a.
+    ///
+    /// D. Nowell, D. A. Hills, Int. J. Mech. Sci. 29 (1987) 355-365.
+    pub fn stick_middle(&self, eps_x: f64, E_star: f64, mu: f64) -> f64 {
+        eps_x * E_star * self.a / (2.0 * mu * self.p0)
+    }
+
+    /// Shear traction q_x(x) \[Pa\] under `T` \[N/m\] with the stick zone's middle at `e` \[m\]: mu
+    /// times the pressure less the similar one on the stick zone. With e the stick zone's shift in
+    /// steady rolling, a - c towards the leading edge, it is Carter's (F. W. Carter, Proc. R. Soc. A
+    /// 112 (1926) 151-157).
+    pub fn q_shifted(&self, x: f64, e: f64, T: f64, mu: f64) -> f64 {
+        let c = self.stick_half_width(T, mu);
+        let stuck = (c * c - (x - e) * (x - e)).max(0.0).sqrt() / self.a;
+        T.signum() * mu * (self.p(x) - self.p0 * stuck)
+    }
+
     /// Pressure at x \[Pa\], p0 sqrt(1 - x^2/a^2).
     pub fn p(&self, x: f64) -> f64 {
         self.p0 * (1.0 - (x / self.a).powi(2)).max(0.0).sqrt()

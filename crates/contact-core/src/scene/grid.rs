@@ -20,6 +20,9 @@ pub struct Grid {
     pub dx: f64,
     /// Cell length along y \[m\].
     pub dy: f64,
+    /// Plane strain: one row of cells that are infinitely long along y, of which `dy` is the width
+    /// that forces, moments and energies are reckoned over.
+    pub plane_strain: bool,
 }
 
 impl Grid {
@@ -35,6 +38,18 @@ impl Grid {
             ny: n.1,
             dx: d.0,
             dy: d.1,
+            plane_strain: false,
+        };
+        grid.check()?;
+        Ok(grid)
+    }
+
+    /// Plane strain: `n` cells over the length `extent` \[m\] along x, without end along y; forces
+    /// are those on the width `width` \[m\].
+    pub fn strip(extent: f64, n: usize, width: f64) -> Result<Self, Error> {
+        let grid = Self {
+            plane_strain: true,
+            ..Self::from_spacing((n, 1), (extent / n as f64, width))?
         };
         grid.check()?;
         Ok(grid)
@@ -81,6 +96,13 @@ impl Grid {
                 "grid.n",
                 format!("[{}, {}]", self.nx, self.ny),
                 format!("at most {MOST_CELLS} cells in all"),
+            ));
+        }
+        if self.plane_strain && self.ny != 1 {
+            return Err(Error::invalid(
+                "grid.n",
+                format!("[{}, {}]", self.nx, self.ny),
+                "one row of cells, [n, 1], in plane strain",
             ));
         }
         for (key, d) in [("grid.dx", self.dx), ("grid.dy", self.dy)] {

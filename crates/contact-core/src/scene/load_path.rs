@@ -2,112 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::{Friction, Given, Grid, LOADS, Loads, MOTIONS};
 use crate::error::Error;
-
-/// The loads that the contact transmits at one moment, on body 2, and the rigid motions that are
-/// given instead of them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Loads {
-    /// Normal force W \[N\], compression positive.
-    pub W: f64,
-    /// Tangential force along x on body 2 \[N\].
-    pub T_x: f64,
-    /// Tangential force along y on body 2 \[N\].
-    pub T_y: f64,
-    /// Tilting moment about x, the sum of y p dA \[N m\].
-    pub M_x: f64,
-    /// Tilting moment about y, the sum of -x p dA \[N m\].
-    pub M_y: f64,
-    /// Torsional moment about z, the sum of (x q_y - y q_x) dA \[N m\].
-    pub M_z: f64,
-    /// Motions that are given. The load that goes with each is what the solution says; in a path
-    /// its value has no meaning.
-    pub given: Given,
-}
-
-/// Rigid motions of body 1 against body 2 that are given; `None` where the load is. Without a word
-/// the forces are given and the bodies do not rotate.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Given {
-    /// Approach \[m\], instead of W.
-    pub delta_z: Option<f64>,
-    /// Shift along x \[m\], instead of T_x.
-    pub delta_x: Option<f64>,
-    /// Shift along y \[m\], instead of T_y.
-    pub delta_y: Option<f64>,
-    /// Tilt about x \[rad\], instead of M_x (default 0).
-    pub phi_x: Option<f64>,
-    /// Tilt about y \[rad\], instead of M_y (default 0).
-    pub phi_y: Option<f64>,
-    /// Rotation about z \[rad\], instead of M_z (default 0).
-    pub phi_z: Option<f64>,
-}
-
-impl Default for Given {
-    fn default() -> Self {
-        Self {
-            delta_z: None,
-            delta_x: None,
-            delta_y: None,
-            phi_x: Some(0.0),
-            phi_y: Some(0.0),
-            phi_z: Some(0.0),
-        }
-    }
-}
-
-/// Names of the loads and of the motions that they drive, in the order of [`Loads::forces`].
-pub const LOADS: [&str; 6] = ["W", "M_x", "M_y", "T_x", "T_y", "M_z"];
-/// Names of the rigid motions, in the order of [`LOADS`].
-pub const MOTIONS: [&str; 6] = ["delta_z", "phi_x", "phi_y", "delta_x", "delta_y", "phi_z"];
-
-impl Loads {
-    /// The six loads: W, M_x, M_y across the contact plane, T_x, T_y, M_z in it.
-    pub fn forces(&self) -> [f64; 6] {
-        [self.W, self.M_x, self.M_y, self.T_x, self.T_y, self.M_z]
-    }
-
-    /// The loads of [`Self::forces`] with the motions given.
-    pub fn from_forces(forces: [f64; 6], given: Given) -> Self {
-        let [W, M_x, M_y, T_x, T_y, M_z] = forces;
-        Self {
-            W,
-            T_x,
-            T_y,
-            M_x,
-            M_y,
-            M_z,
-            given,
-        }
-    }
-}
-
-impl Given {
-    /// The six motions in the order of [`MOTIONS`].
-    pub fn motions(&self) -> [Option<f64>; 6] {
-        [
-            self.delta_z,
-            self.phi_x,
-            self.phi_y,
-            self.delta_x,
-            self.delta_y,
-            self.phi_z,
-        ]
-    }
-
-    /// The motions of [`Self::motions`].
-    pub fn from_motions(motions: [Option<f64>; 6]) -> Self {
-        let [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z] = motions;
-        Self {
-            delta_z,
-            delta_x,
-            delta_y,
-            phi_x,
-            phi_y,
-            phi_z,
-        }
-    }
-}
 
 /// How the increments of a branch are spaced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -170,16 +66,22 @@ pub struct LoadPoint {
 }
 
 impl LoadPoint {
-    /// Half of the way to this point from where `forces` and `motions` stand; not the end of a
+    /// Half of the way to this point from where `loads` and `motions` stand; not the end of a
     /// branch.
-    pub(crate) fn middle(&self, forces: [f64; 6], motions: [f64; 6]) -> Self {
+    pub(crate) fn middle(&self, loads: &Loads, motions: [f64; 6]) -> Self {
         let mean = |a: f64, b: f64| 0.5 * (a + b);
+        let forces = loads.forces();
         let (ends, given) = (self.loads.forces(), self.loads.given.motions());
         let halfway = std::array::from_fn(|k| mean(forces[k], ends[k]));
         let moved = std::array::from_fn(|k| given[k].map(|end| mean(motions[k], end)));
         Self {
             ends_branch: false,
-            loads: Loads::from_forces(halfway, Given::from_motions(moved)),
+            loads: Loads {
+                sigma_B: mean(loads.sigma_B, self.loads.sigma_B),
+                rolled: mean(loads.rolled, self.loads.rolled),
+                ..Loads::default()
+            }
+            .with_forces(halfway, Given::from_motions(moved)),
             ..*self
         }
     }
@@ -203,7 +105,7 @@ impl LoadPoint {
             given[k].map(|value| onward(value, motions[k], end))
         });
         Self {
-            loads: Loads::from_forces(resolved, Given::from_motions(moved)),
+            loads: self.loads.with_forces(resolved, Given::from_motions(moved)),
             ..*self
         }
     }
@@ -215,7 +117,7 @@ impl LoadPath {
         Self::default()
     }
 
-    fn last(&self) -> (Loads, f64) {
+    pub(super) fn last(&self) -> (Loads, f64) {
         self.branches
             .last()
             .map_or((Loads::default(), 0.0), |b| (b.to, b.t_end))
@@ -285,7 +187,7 @@ impl LoadPath {
     }
 
     /// Visits values in turn, the increments in proportion to the change.
-    fn visit(
+    pub(super) fn visit(
         mut self,
         values: &[f64],
         increments: usize,
@@ -355,6 +257,7 @@ impl LoadPath {
     pub fn points(&self) -> Vec<LoadPoint> {
         let mut points = Vec::with_capacity(self.increments());
         let (mut forces, mut motions, mut t0) = ([0.0; 6], [0.0; 6], 0.0);
+        let mut from = Loads::default();
         for (branch, b) in self.branches.iter().enumerate() {
             let (to, given) = (b.to.forces(), b.to.given.motions());
             let mut before = 0.0;
@@ -379,7 +282,12 @@ impl LoadPath {
                     } else {
                         (f - before) / (1.0 - before)
                     },
-                    loads: Loads::from_forces(
+                    loads: Loads {
+                        sigma_B: between(from.sigma_B, b.to.sigma_B),
+                        rolled: between(from.rolled, b.to.rolled),
+                        ..Loads::default()
+                    }
+                    .with_forces(
                         std::array::from_fn(force),
                         Given::from_motions(std::array::from_fn(motion)),
                     ),
@@ -392,12 +300,12 @@ impl LoadPath {
                     Some(motion) => (f64::NAN, motion),
                 };
             }
-            t0 = b.t_end;
+            (t0, from) = (b.t_end, b.to);
         }
         points
     }
 
-    pub(crate) fn check(&self, mu: f64) -> Result<(), Error> {
+    pub(crate) fn check(&self, friction: &Friction) -> Result<(), Error> {
         if self.branches.is_empty() {
             return Err(Error::invalid("path", "empty", "at least one branch"));
         }
@@ -412,6 +320,11 @@ impl LoadPath {
         let mut t = 0.0;
         for (i, b) in self.branches.iter().enumerate() {
             let key = |name: &str| format!("path[{i}].{name}");
+            for (name, value) in [("sigma_B", b.to.sigma_B), ("rolled", b.to.rolled)] {
+                if !value.is_finite() {
+                    return Err(Error::invalid(key(name), value, "a finite number"));
+                }
+            }
             if !(b.t_end > t && b.t_end.is_finite()) {
                 return Err(Error::invalid(
                     key("t"),
@@ -427,72 +340,45 @@ impl LoadPath {
                     "at least one increment",
                 ));
             }
-            b.to.check(&key, mu)?;
+            b.to.check(&key, friction)?;
         }
         Ok(())
     }
-}
 
-impl Loads {
-    fn check(&self, key: &dyn Fn(&str) -> String, mu: f64) -> Result<(), Error> {
-        let (forces, given) = (self.forces(), self.given.motions());
-        for k in 0..6 {
-            match given[k] {
-                Some(motion) if !motion.is_finite() => {
-                    let unit = if MOTIONS[k].starts_with("phi") {
-                        "rotation in rad"
-                    } else {
-                        "shift in m"
-                    };
-                    return Err(Error::invalid(
-                        key(MOTIONS[k]),
-                        motion,
-                        format!("a finite {unit}"),
-                    ));
-                }
-                None if !forces[k].is_finite() => {
-                    let unit = if LOADS[k].starts_with('M') {
-                        "moment in N m"
-                    } else {
-                        "force in N"
-                    };
-                    return Err(Error::invalid(
-                        key(LOADS[k]),
-                        forces[k],
-                        format!("a finite {unit}"),
-                    ));
-                }
-                _ => {}
-            }
-        }
-        if given[0].is_some() {
-            return Ok(());
-        }
-        if self.W < 0.0 {
-            return Err(Error::invalid(
-                key("W"),
-                self.W,
-                "a finite compressive force >= 0 in N",
-            ));
-        }
-        for k in 1..6 {
-            if self.W == 0.0 && given[k].is_none() && forces[k] != 0.0 {
+    /// Fails if the grid cannot follow: the contact rolls whole cells in an increment, straight and
+    /// without spin, and a strip neither twists nor tilts about its length.
+    pub(crate) fn check_on(&self, grid: &Grid) -> Result<(), Error> {
+        let mut rolled = 0.0;
+        for (i, b) in self.branches.iter().enumerate() {
+            let key = |name: &str| format!("path[{i}].{name}");
+            let given = b.to.given.motions();
+            let held = |k: usize| given[k].is_some_and(|motion| motion == 0.0);
+            let cells = (b.to.rolled - rolled) / grid.dx / b.increments as f64;
+            if (cells - cells.round()).abs() > 1e-6 * cells.abs().max(1.0) {
                 return Err(Error::invalid(
-                    key(LOADS[k]),
-                    forces[k],
-                    "0 where W = 0: the bodies part",
+                    key("rolled"),
+                    b.to.rolled,
+                    format!(
+                        "whole cells of {} m per increment further than before",
+                        grid.dx
+                    ),
                 ));
             }
-        }
-        let part = |k: usize| if given[k].is_none() { forces[k] } else { 0.0 };
-        let (T_x, T_y) = (part(3), part(4));
-        let (T, limit) = (T_x.hypot(T_y), mu * self.W);
-        if T > limit * (1.0 + 1e-12) {
-            return Err(Error::invalid(
-                key(if T_x.abs() >= T_y.abs() { "T_x" } else { "T_y" }),
-                T,
-                format!("|T| <= mu W = {limit} N, the largest force that friction can carry"),
-            ));
+            for k in [1, 2, 5] {
+                let stays = k == 2 && cells.round() == 0.0;
+                let fixed = cells.round() != 0.0 || grid.plane_strain;
+                if fixed && !stays && !held(k) {
+                    let allowed = if grid.plane_strain && k != 2 {
+                        "left out in plane strain: nothing turns about x or z"
+                    } else {
+                        "left out while the contact rolls"
+                    };
+                    let value = given[k].unwrap_or(b.to.forces()[k]);
+                    let name = given[k].map_or(LOADS[k], |_| MOTIONS[k]);
+                    return Err(Error::invalid(key(name), value, allowed));
+                }
+            }
+            rolled = b.to.rolled;
         }
         Ok(())
     }

@@ -74,7 +74,7 @@ fn check_shape(key: &str, shape: &Shape) -> Result<(), Error> {
             let key = format!("{key}.height_map");
             within(SMALLEST, &format!("{key}.spacing"), map.spacing.0)?;
             within(SMALLEST, &format!("{key}.spacing"), map.spacing.1)?;
-            let highest = map.z.iter().fold(0.0, |m: f64, z| m.max(z.abs()));
+            let highest = map.values.iter().fold(0.0, |m: f64, z| m.max(z.abs()));
             within(0.0, &format!("{key}.z"), highest)
         }
         Shape::Rough(rough) => {

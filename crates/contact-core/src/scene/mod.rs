@@ -5,31 +5,38 @@
 
 mod body;
 mod case;
+mod direct;
 mod friction;
 mod grid;
 mod load_path;
+mod load_table;
+mod loads;
 mod magnitude;
 mod material;
 mod memory;
 mod plan;
 mod settings;
 mod shape;
+mod surface_map;
 
 pub use body::{Body, Coating};
 pub use case::Reach;
-pub use friction::Friction;
+pub use friction::{Friction, FrictionHistory, History};
 pub use grid::Grid;
-pub use load_path::{Branch, Given, LOADS, LoadPath, LoadPoint, Loads, MOTIONS, Spacing};
+pub use load_path::{Branch, LoadPath, LoadPoint, Spacing};
+pub use load_table::Increments;
+pub use loads::{Given, LOADS, Loads, MOTIONS};
 pub use material::Elastic;
 pub use memory::available_memory;
 pub use plan::{Plan, PlanLine};
 pub use settings::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
 };
-pub use shape::{HeightMap, Rough, Shape};
+pub use shape::{Rough, Shape};
+pub use surface_map::SurfaceMap;
 
 use crate::error::Error;
-use crate::reference::{Hertz, contact_modulus, hertz, hertz_ellipse};
+use crate::reference::{Hertz, contact_modulus, hertz, hertz_ellipse, line_contact};
 
 /// A fretting contact problem.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,10 +70,21 @@ impl Scene {
                 "finite, since body 1 is rigid",
             ));
         }
-        self.friction.check()?;
         self.grid.check()?;
         self.check_magnitudes()?;
         self.check_surfaces_fit()?;
+        self.friction.check(Some(&self.grid))?;
+        let by_frequency = matches!(
+            self.settings.kernel.method,
+            KernelMethod::FrequencyDomain { .. }
+        );
+        if let Some(mu_y) = self.friction.mu_y.filter(|_| by_frequency) {
+            return Err(Error::invalid(
+                "friction.mu_y",
+                mu_y,
+                "left out with the frequency-domain operator",
+            ));
+        }
         self.body1.shape.check_on(&self.grid, "body1.shape")?;
         self.body2.shape.check_on(&self.grid, "body2.shape")?;
         if !self.parts_at_the_border() {
@@ -77,7 +95,23 @@ impl Scene {
                 "a surface that parts from the other one towards the border of the grid",
             ));
         }
-        self.path.check(self.friction.mu)?;
+        self.path.check(&self.friction)?;
+        self.path.check_on(&self.grid)?;
+        if self.grid.plane_strain && self.settings.kernel.method != KernelMethod::Hankel {
+            return Err(Error::invalid(
+                "kernel.method",
+                "a transform in two dimensions",
+                "\"hankel\" in plane strain",
+            ));
+        }
+        let loaded = self.path.branches.iter().find(|b| b.to.sigma_B != 0.0);
+        if let Some(branch) = loaded.filter(|_| self.body2.substrate.is_rigid()) {
+            return Err(Error::invalid(
+                "path.sigma_B",
+                branch.to.sigma_B,
+                "0, since body 2 is rigid",
+            ));
+        }
         self.check_yardsticks()?;
         self.settings.check()
     }
@@ -86,9 +120,13 @@ impl Scene {
     /// largest approach that it gives: the yardstick `a_H`, `p_H` of every dimensionless result.
     /// `None` where a substrate pair is rigid, nothing presses the bodies together or their shapes
     /// meet in no point. A contact of unequal radii has the mean of its semi-axes for `a_H`, the
-    /// geometric one.
+    /// geometric one. In plane strain it is that of parallel cylinders, `a_H` their half-width, the
+    /// approach relative to the points at the grid's length; `None` there if the path gives no W.
     pub fn hertz(&self) -> Option<Hertz> {
         let both_rigid = self.body1.substrate.is_rigid() && self.body2.substrate.is_rigid();
+        if self.grid.plane_strain {
+            return self.hertz_line().filter(|_| !both_rigid);
+        }
         let (k_1, k_2) = self.principal_curvatures();
         if k_2 <= 1e-9 * k_1 || both_rigid {
             return None;
@@ -112,6 +150,21 @@ impl Scene {
         (W > 0.0).then(|| at(W))
     }
 
+    /// The Hertz contact of the sections y = 0 in plane strain.
+    fn hertz_line(&self) -> Option<Hertz> {
+        let k = self.body1.shape.curvature()[0] + self.body2.shape.curvature()[0];
+        let W = self.path.W_max();
+        let E_star = contact_modulus(self.body1.substrate, self.body2.substrate);
+        let line = line_contact(1.0 / k, E_star, W / self.grid.dy);
+        (k > 0.0 && W > 0.0).then(|| Hertz {
+            W,
+            E_star,
+            a: line.a,
+            p0: line.p0,
+            delta_z: line.approach(1.0 / k, self.grid.extent().0),
+        })
+    }
+
     /// The length that approaches are compared with \[m\]: Hertz's approach, or where there is none
     /// the largest approach that is given or that the largest force would cause under a punch as
     /// wide as the grid.
@@ -125,7 +178,12 @@ impl Scene {
                 };
                 let E_star = contact_modulus(softest(&self.body1), softest(&self.body2));
                 let (length, width) = self.grid.extent();
-                let under_punch = self.path.W_max() / (E_star * length.max(width));
+                let wide = if self.grid.plane_strain {
+                    width
+                } else {
+                    length.max(width)
+                };
+                let under_punch = self.path.W_max() / (E_star * wide);
                 self.path.delta_z_max().max(under_punch)
             },
             |hertz| hertz.delta_z,
@@ -151,7 +209,8 @@ impl Scene {
         let (nx, ny) = h.dim();
         let (mut inside, mut border) = (f64::INFINITY, f64::INFINITY);
         for ((i, j), &h) in h.indexed_iter() {
-            let at_border = i == 0 || j == 0 || i + 1 == nx || j + 1 == ny;
+            let along_y = !self.grid.plane_strain && (j == 0 || j + 1 == ny);
+            let at_border = i == 0 || i + 1 == nx || along_y;
             let lowest = if at_border { &mut border } else { &mut inside };
             *lowest = lowest.min(h);
         }

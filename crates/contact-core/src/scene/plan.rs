@@ -2,7 +2,8 @@
 
 use ndarray::Array2;
 
-use super::{Body, KernelMethod, Loads, Scene};
+use super::direct::direct_branches;
+use super::{Body, KernelMethod, LoadPoint, Loads, Scene, SurfaceMap};
 use crate::convolution::Mirror;
 
 /// What is computed and what is left out.
@@ -15,6 +16,8 @@ pub struct Plan {
     pub friction: bool,
     /// Part of the grid that is solved for.
     pub mirror: Mirror,
+    /// Branches of the load path whose end does not depend on the way there.
+    pub direct: Vec<bool>,
     /// One line per rule, for people.
     pub lines: Vec<PlanLine>,
 }
@@ -38,6 +41,13 @@ impl std::fmt::Display for PlanLine {
 }
 
 impl Plan {
+    /// The increments that are solved: of a branch whose end does not depend on the way, the last.
+    pub fn points(&self, scene: &Scene) -> Vec<LoadPoint> {
+        let mut points = scene.path.points();
+        points.retain(|point| point.ends_branch || !self.direct[point.branch]);
+        points
+    }
+
     /// The plan of a scene.
     pub fn new(scene: &Scene) -> Self {
         let mut lines = Vec::new();
@@ -63,10 +73,18 @@ impl Plan {
         );
         let coupling = !rule("normal-tangential coupling", uncoupled(scene));
         let half = rule("the half y < 0 of the grid", mirror(scene));
+        let (direct, verdict) = direct_branches(scene, coupling);
+        let subject = match direct.iter().filter(|&&d| d).count() {
+            0 => "increments within the branches".to_owned(),
+            n if n == direct.len() => "increments within all branches".to_owned(),
+            n => format!("increments within {n} of {} branches", direct.len()),
+        };
+        rule(&subject, verdict);
         Self {
             coupling,
             friction,
             mirror: if half { Mirror::Y } else { Mirror::None },
+            direct,
             lines,
         }
     }
@@ -115,7 +133,7 @@ fn layers(body: &Body, scene: &Scene) -> Vec<(f64, f64, f64)> {
         .collect()
 }
 
-/// Whether the gap is its own mirror image under y -> -y, up to rounding.
+/// Whether a field is its own mirror image under y -> -y, up to rounding.
 fn is_mirror_symmetric(h: &Array2<f64>) -> bool {
     let ny = h.ncols();
     let largest = h.iter().fold(0.0, |m: f64, h| m.max(h.abs()));
@@ -139,6 +157,10 @@ fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     }
     if !is_mirror_symmetric(&scene.h_init()) {
         return Err("the surfaces are not mirror-symmetric in y");
+    }
+    let map = |map: &SurfaceMap| is_mirror_symmetric(&scene.grid.map(|x, y| map.at(x, y)));
+    if !scene.friction.map.as_ref().is_none_or(map) {
+        return Err("the friction is not mirror-symmetric in y");
     }
     let uneven = |to: &Loads| {
         let (forces, given) = (to.forces(), to.given.motions());

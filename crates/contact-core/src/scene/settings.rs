@@ -67,6 +67,10 @@ pub struct SolverSettings {
     /// contact and deepest overlap outside over the Hertz approach, tangential misfit over mu
     /// times the Hertz approach.
     pub tolerance: f64,
+    /// Reckon the slip of cells that come into contact from their entry (default true): one more
+    /// solution in increments in which the contact grows, and far fewer increments. The preset
+    /// [`Preset::Spinu2020`] does without.
+    pub entering: bool,
     /// Most passes of the intermediate loop per increment (default 60).
     pub max_alternations: usize,
     /// Most iterations of an inner loop (default 1000).
@@ -78,6 +82,7 @@ impl Default for SolverSettings {
         Self {
             preset: Preset::Fast,
             tolerance: 1e-6,
+            entering: true,
             max_alternations: 60,
             max_iterations: 1000,
         }
@@ -96,6 +101,7 @@ pub enum Preset {
 
 /// What may be skipped. Every rule leaves the answer as it is; each can be switched off to prove it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(clippy::struct_excessive_bools)] // one for each rule
 pub struct SkipSettings {
     /// Treat a body whose layers all equal its substrate as homogeneous (default true).
     pub equal_layers: bool,
@@ -104,6 +110,10 @@ pub struct SkipSettings {
     pub coupling: bool,
     /// Solve on half of a mirror-symmetric scene (default true).
     pub mirror: bool,
+    /// Leave out the increments of branches whose end does not depend on the way (default false:
+    /// the results have a row for every increment asked for, and loops their points); they are
+    /// solved all the same if their fields are to be kept.
+    pub path: bool,
 }
 
 impl Default for SkipSettings {
@@ -112,6 +122,7 @@ impl Default for SkipSettings {
             equal_layers: true,
             coupling: true,
             mirror: true,
+            path: false,
         }
     }
 }

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::rigid_motion::{add, inverse, product};
 use super::shear::TangentialProblem;
-use super::vector::{CHUNK, dot, size, sum_cells};
+use super::vector::{CHUNK, dot, set_cells, set_pairs, size, sum_cells};
 
 /// Rounds of clipping and balancing before the stick cells are taken to be too few.
 const ROUNDS: usize = 8;
@@ -28,9 +28,10 @@ pub(crate) fn admissible(
         project(problem, q, &mut [0.0; 3]);
         mark_circle(problem, q, slip);
     }
-    for (change, q) in change.iter_mut().zip(q.iter()) {
-        (change.iter_mut().zip(q.iter())).for_each(|(change, q)| *change = q - *change);
-    }
+    let [change_x, change_y] = change;
+    set_pairs([change_x, change_y], |n, before| {
+        [q[0][n] - before[0], q[1][n] - before[1]]
+    });
     change.iter().map(|c| dot(c, c)).sum::<f64>().sqrt()
 }
 
@@ -41,7 +42,6 @@ fn share_force(
     q: &mut [&mut [f64]; 2],
     slip: &mut [bool],
 ) -> bool {
-    let cells = problem.bound.len();
     let enough = rounding(problem);
     for _ in 0..ROUNDS {
         cut_all(problem.bound, q, slip);
@@ -51,12 +51,15 @@ fn share_force(
         }
         let sticks = |n: usize| problem.bound[n] > 0.0 && !slip[n];
         let share = spread(problem, missing, sticks);
-        for n in (0..cells).filter(|&n| sticks(n)) {
+        let [q_x, q_y] = q;
+        set_pairs([q_x, q_y], |n, q| {
             let share = problem.arms.in_plane(share, n);
-            for c in 0..2 {
-                q[c][n] += share[c];
+            if sticks(n) {
+                [q[0] + share[0], q[1] + share[1]]
+            } else {
+                q
             }
-        }
+        });
     }
     false
 }
@@ -109,7 +112,7 @@ fn spread(
 ) -> [f64; 3] {
     let arms = problem.arms;
     let [count, x, y, r2] = sum_cells(problem.bound.len(), |n| {
-        let (x, y) = (arms.x[n], arms.y[n]);
+        let (x, y) = (arms.turn_x(n), arms.y[n]);
         if inside(n) {
             [1.0, x, y, x * x + y * y]
         } else {
@@ -120,17 +123,11 @@ fn spread(
     product(&inverse(gram, problem.drive.free), asked)
 }
 
-/// gram += b^T S b for the modes b of a cell at (x, y), S the symmetric matrix (xx, xy, yy).
-fn add_gram(gram: &mut [[f64; 3]; 3], x: f64, y: f64, [xx, xy, yy]: [f64; 3]) {
+/// b^T S b for the modes b of a cell at (x, y), S the symmetric matrix (xx, xy, yy): its entries
+/// xx, xy, yy, xr, yr, rr.
+fn modes(x: f64, y: f64, [xx, xy, yy]: [f64; 3]) -> [f64; 6] {
     let r = [xy * x - xx * y, yy * x - xy * y];
-    let rows = [
-        [xx, xy, r[0]],
-        [xy, yy, r[1]],
-        [r[0], r[1], x * r[1] - y * r[0]],
-    ];
-    for k in 0..3 {
-        gram[k] = add(gram[k], rows[k]);
-    }
+    [xx, xy, yy, r[0], r[1], x * r[1] - y * r[0]]
 }
 
 /// What rounding may leave of the sums: a part of all that friction can carry, or of the loads
@@ -146,10 +143,10 @@ const ON_CIRCLE: f64 = 1.0 - 1e-9;
 
 /// Slip cells are those on the circle.
 pub(crate) fn mark_circle(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], slip: &mut [bool]) {
-    for n in 0..problem.bound.len() {
+    set_cells(slip, |n, _| {
         let g = problem.bound[n];
-        slip[n] = g > 0.0 && size([q[0][n], q[1][n]]) >= ON_CIRCLE * g;
-    }
+        g > 0.0 && size([q[0][n], q[1][n]]) >= ON_CIRCLE * g
+    });
 }
 
 /// Nearest shear with |q| <= g in each cell and the sums asked for: q - B shift, cut to the circle.
@@ -175,23 +172,18 @@ pub(crate) fn project(
         });
     }
     *shift = trial;
-    for n in 0..problem.bound.len() {
+    let [q_x, q_y] = q;
+    set_pairs([q_x, q_y], |n, q| {
         let v = cut_from(problem, q, trial, n);
         let factor = cut(size(v), problem.bound[n]);
-        q[0][n] = factor * v[0];
-        q[1][n] = factor * v[1];
-    }
+        [factor * v[0], factor * v[1]]
+    });
 }
 
 /// q - B shift in cell n.
-fn cut_from(
-    problem: &TangentialProblem<'_>,
-    q: &[&mut [f64]; 2],
-    shift: [f64; 3],
-    n: usize,
-) -> [f64; 2] {
+fn cut_from(problem: &TangentialProblem<'_>, q: [f64; 2], shift: [f64; 3], n: usize) -> [f64; 2] {
     let shift = problem.arms.in_plane(shift, n);
-    [q[0][n] - shift[0], q[1][n] - shift[1]]
+    [q[0] - shift[0], q[1] - shift[1]]
 }
 
 /// The factor that brings a traction of this size within the bound.
@@ -230,19 +222,14 @@ struct Excess {
 }
 
 fn excess(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], shift: [f64; 3]) -> Excess {
-    let mut sums = [0.0; 3];
-    let (mut slope, mut weights) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-    for n in 0..problem.bound.len() {
+    let sums = sum_cells(problem.bound.len(), |n| {
         let g = problem.bound[n];
         if g <= 0.0 {
-            continue;
+            return [0.0; 15];
         }
-        let v = cut_from(problem, q, shift, n);
+        let v = cut_from(problem, [q[0][n], q[1][n]], shift, n);
         let length = size(v);
         let cut = cut(length, g);
-        sums = add(sums, problem.arms.sums_in_plane(v.map(|v| cut * v), n));
-        let (x, y) = (problem.arms.x[n], problem.arms.y[n]);
-        add_gram(&mut weights, x, y, [cut, 0.0, cut]);
         // Cells beyond the circle give way only across their direction.
         let e = if length > g {
             [v[0] / length, v[1] / length]
@@ -250,11 +237,20 @@ fn excess(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], shift: [f64; 3])
             [0.0, 0.0]
         };
         let across = [1.0 - e[0] * e[0], -e[0] * e[1], 1.0 - e[1] * e[1]];
-        add_gram(&mut slope, x, y, across.map(|a| cut * a));
-    }
+        let (x, y) = (problem.arms.turn_x(n), problem.arms.y[n]);
+        let [a, b, c] = problem.arms.sums_in_plane(v.map(|v| cut * v), n);
+        let [d, e, f, g, h, i] = modes(x, y, across.map(|a| cut * a));
+        let [j, k, l, m, n, o] = modes(x, y, [cut, 0.0, cut]);
+        [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o]
+    });
+    let [a, b, c, matrices @ ..] = sums;
+    let symmetric = |from: usize| {
+        let [xx, xy, yy, xr, yr, rr] = std::array::from_fn(|i| matrices[from + i]);
+        [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]]
+    };
     Excess {
-        sums: missing(problem, sums).map(|m| -m),
-        slope,
-        weights,
+        sums: missing(problem, [a, b, c]).map(|m| -m),
+        slope: symmetric(0),
+        weights: symmetric(6),
     }
 }

@@ -26,7 +26,7 @@ impl ContactShear {
         problem: &TangentialProblem<'_>,
         shear: &Shear<'_>,
     ) {
-        self.arms.length = problem.arms.length;
+        (self.arms.length, self.arms.stretch) = (problem.arms.length, problem.arms.stretch);
         let grid = [problem.bound, &problem.arms.x, &problem.arms.y];
         let packed = [&mut self.bound, &mut self.arms.x, &mut self.arms.y];
         for (packed, grid) in packed.into_iter().zip(grid) {
@@ -81,6 +81,9 @@ impl Shear<'_> {
     }
 }
 
+/// What rounding leaves of a difference of two numbers, over their size.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// The shear before a step.
 #[derive(Debug, Default)]
 pub(crate) struct Before {
@@ -108,7 +111,7 @@ impl Before {
     }
 
     /// Whether the energy was lower before, by more than `tolerance` \[m\] makes of the change of
-    /// shear. With C symmetric and the sum of the change zero, the difference of the energy is the
+    /// shear and rounding of the work. With C symmetric and the sum of the change zero, the difference of the energy is the
     /// change times the mean slip.
     pub(crate) fn is_lower(
         &self,
@@ -117,17 +120,19 @@ impl Before {
         tolerance: f64,
     ) -> bool {
         let given = problem.drive.given;
-        let [rise, moved] = sum_cells(problem.bound.len(), |n| {
+        let [rise, moved, work] = sum_cells(problem.bound.len(), |n| {
             let given = problem.arms.in_plane(given, n);
-            let (mut rise, mut moved) = (0.0, 0.0);
+            let (mut rise, mut moved, mut work) = (0.0, 0.0, 0.0);
             for c in 0..2 {
                 let change = shear.q[c][n] - self.q[c][n];
                 let mean = 0.5 * (shear.u[c][n] + self.u[c][n]) - problem.u_ref[c][n];
-                rise += change * (mean - given[c]);
+                let slip = mean - given[c];
+                rise += change * slip;
                 moved += change.abs();
+                work += (shear.q[c][n] * slip).abs();
             }
-            [rise, moved]
+            [rise, moved, work]
         });
-        rise > tolerance * moved
+        rise > tolerance * moved + ROUNDING * work
     }
 }

@@ -12,7 +12,7 @@ use super::limit::{Sliding, exceeds, sliding};
 use super::mixing::Mixing;
 use super::rigid_motion::{Arms, Drive, add};
 use super::shear_gradient::shear_gradient;
-use super::vector::{add_scaled, size};
+use super::vector::{add_scaled, set_cells, set_pairs, size};
 use super::{
     NormalParams, NormalProblem, NormalWorkspace, Response, Shear, SolverError, TangentialMethod,
     TangentialParams, TangentialProblem, TangentialWorkspace, normal, tangential,
@@ -73,8 +73,8 @@ pub struct IncrementProblem<'a> {
     pub h_init: &'a [f64],
     /// Tangential displacements of the last increment, the reference of the slip \[m\].
     pub u_ref: [&'a [f64]; 2],
-    /// Friction coefficient.
-    pub mu: f64,
+    /// Friction coefficient of each cell.
+    pub mu: &'a [f64],
     /// Where the cells are.
     pub arms: &'a Arms,
     /// What drives approach and tilts, from the unloaded state.
@@ -119,6 +119,13 @@ impl CoupledInfo {
     pub fn exceeds_friction(&self) -> bool {
         exceeds(self.friction_used)
     }
+
+    /// Adds the work of another solution that this one took.
+    pub(crate) fn add_work(&mut self, other: &Self) {
+        self.alternations += other.alternations;
+        self.normal_iterations += other.normal_iterations;
+        self.tangential_iterations += other.tangential_iterations;
+    }
 }
 
 /// Buffers of the intermediate loop.
@@ -150,6 +157,14 @@ impl CoupledWorkspace {
             mixing: Mixing::new(cells),
         }
     }
+
+    fn change_of_shear(&mut self, now: &Interface) {
+        let [change_x, change_y] = &mut self.change;
+        let before = &self.q_before;
+        set_pairs([change_x, change_y], |n, _| {
+            [now.q[0][n] - before[0][n], now.q[1][n] - before[1][n]]
+        });
+    }
 }
 
 /// Solves one increment, from a guess in `now` to the solution.
@@ -160,7 +175,7 @@ pub fn coupled(
     ws: &mut CoupledWorkspace,
     params: &CoupledParams,
 ) -> Result<CoupledInfo, SolverError> {
-    let friction = problem.mu > 0.0;
+    let friction = problem.mu.iter().any(|&mu| mu > 0.0);
     let coupled = response.op.is_coupled() && friction;
     let mut info = CoupledInfo::default();
     let mut slides = make_admissible(problem, now, ws, friction);
@@ -232,15 +247,8 @@ pub fn coupled(
         }
 
         // What the change of shear does to the gap.
-        let mut changed = false;
-        for c in 0..2 {
-            for ((change, q), before) in ws.change[c].iter_mut().zip(&now.q[c]).zip(&ws.q_before[c])
-            {
-                *change = q - before;
-                changed |= *change != 0.0;
-            }
-        }
-        if changed {
+        ws.change_of_shear(now);
+        if ws.change.iter().flatten().any(|&change| change != 0.0) {
             let [change_x, change_y] = &ws.change;
             response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
         } else if ws.mixing.mixes() {
@@ -277,8 +285,8 @@ fn make_admissible(
     if !friction {
         return Sliding::default();
     }
-    for (bound, p) in ws.bound.iter_mut().zip(&now.p) {
-        *bound = problem.mu * p;
+    for ((bound, &mu), &p) in ws.bound.iter_mut().zip(problem.mu).zip(&now.p) {
+        *bound = friction_bound(mu, p);
     }
     let slip = problem.slip(&ws.bound);
     let slides = sliding(&slip);
@@ -298,6 +306,11 @@ fn make_admissible(
     slides
 }
 
+/// Largest shear under the pressure p \[Pa\].
+pub(crate) fn friction_bound(mu: f64, p: f64) -> f64 {
+    if p > 0.0 { mu * p } else { 0.0 }
+}
+
 /// u_t after the pressure changed from `p_before` and the shear from `q_before`.
 fn follow_pressure(
     response: &mut Response<'_>,
@@ -305,14 +318,8 @@ fn follow_pressure(
     ws: &mut CoupledWorkspace,
     coupled: bool,
 ) {
-    for c in 0..2 {
-        for ((change, q), before) in ws.change[c].iter_mut().zip(&now.q[c]).zip(&ws.q_before[c]) {
-            *change = q - before;
-        }
-    }
-    for (before, p) in ws.p_before.iter_mut().zip(&now.p) {
-        *before = p - *before;
-    }
+    ws.change_of_shear(now);
+    set_cells(&mut ws.p_before, |n, before| now.p[n] - before);
     let [u_x, u_y] = &mut ws.response;
     let tractions = Tractions {
         q_x: Some(&ws.change[0]),

@@ -78,7 +78,7 @@ fn turned_by(problem: &TangentialProblem<'_>, weight: impl Fn(usize) -> f64) -> 
     let mut gram = [[0.0; 3]; 3];
     for n in (0..problem.bound.len()).filter(|&n| problem.bound[n] > 0.0) {
         let w = problem.bound[n] * weight(n);
-        let (x, y) = (problem.arms.x[n], problem.arms.y[n]);
+        let (x, y) = (problem.arms.turn_x(n), problem.arms.y[n]);
         let rows = [[1.0, 0.0, -y], [0.0, 1.0, x], [-y, x, x * x + y * y]];
         for k in 0..3 {
             gram[k] = add(gram[k], rows[k].map(|r| w * r));

@@ -24,6 +24,7 @@ mod shear_gradient;
 mod tangential;
 mod vector;
 
+pub(crate) use coupled::friction_bound;
 pub use coupled::{
     CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, Interface, coupled,
 };
@@ -32,7 +33,7 @@ pub use response::Response;
 pub use rigid_motion::{Arms, Drive};
 pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
 pub use tangential::{TangentialWorkspace, tangential};
-pub(crate) use vector::{largest, size, sum_cells};
+pub(crate) use vector::{CHUNK, add_scaled, largest, set_cells, set_pairs, size, sum_cells};
 
 /// A solver that stopped before its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

@@ -1,10 +1,12 @@
 //! One Newton step of the tangential problem: the linear system on the tangent space.
 
+use rayon::prelude::*;
+
 use super::Response;
 use super::contact_cells::ContactCells;
 use super::rigid_motion::{add, inverse, product};
 use super::shear::{Shear, TangentialProblem};
-use super::vector::{add_scaled, dot, sum};
+use super::vector::{CHUNK, add_scaled, dot, set_pairs, sum};
 
 type Pair = [Vec<f64>; 2];
 
@@ -93,7 +95,7 @@ impl NewtonStep {
         t.arm_x.clear();
         t.arm_y.clear();
         if problem.drive.free[2] {
-            t.arm_x.extend_from_slice(&problem.arms.x);
+            t.arm_x.extend((0..count).map(|i| problem.arms.turn_x(i)));
             t.arm_y.extend_from_slice(&problem.arms.y);
         }
         for pair in [
@@ -122,25 +124,33 @@ impl NewtonStep {
         c_xx: f64,
     ) -> [f64; 3] {
         let t = &mut self.tangent;
-        for i in 0..problem.bound.len() {
-            let slip = shear.slip_of(problem, shift, i);
-            let (tangent, diagonal) = if shear.slip[i] {
-                let g = problem.bound[i];
-                let e = [shear.q[0][i] / g, shear.q[1][i] / g];
-                let against = -(slip[0] * e[0] + slip[1] * e[1]);
-                (
-                    [e[1] * e[1], -e[0] * e[1], e[0] * e[0]],
-                    against.max(0.0) / g,
-                )
-            } else {
-                ([1.0, 0.0, 1.0], 0.0)
-            };
-            [t.xx[i], t.xy[i], t.yy[i]] = tangent;
-            self.diagonal[i] = diagonal;
-            self.scale[i] = 1.0 / (1.0 + diagonal / c_xx).sqrt();
-            self.residual[0][i] = -slip[0];
-            self.residual[1][i] = -slip[1];
-        }
+        let [residual_x, residual_y] = &mut self.residual;
+        let chunks = (
+            t.xx.par_chunks_mut(CHUNK),
+            t.xy.par_chunks_mut(CHUNK),
+            t.yy.par_chunks_mut(CHUNK),
+            self.diagonal.par_chunks_mut(CHUNK),
+            self.scale.par_chunks_mut(CHUNK),
+            residual_x.par_chunks_mut(CHUNK),
+            residual_y.par_chunks_mut(CHUNK),
+        );
+        let chunks = chunks.into_par_iter().enumerate();
+        chunks.for_each(|(chunk, (xx, xy, yy, diagonal, scale, r_x, r_y))| {
+            for i in 0..xx.len() {
+                let n = chunk * CHUNK + i;
+                let slip = problem.slip(&shear.u, shift, n);
+                (xx[i], xy[i], yy[i], diagonal[i]) = (1.0, 0.0, 1.0, 0.0);
+                if shear.slip[n] {
+                    let g = problem.bound[n];
+                    let e = [shear.q[0][n] / g, shear.q[1][n] / g];
+                    let against = -(slip[0] * e[0] + slip[1] * e[1]);
+                    (xx[i], xy[i], yy[i]) = (e[1] * e[1], -e[0] * e[1], e[0] * e[0]);
+                    diagonal[i] = against.max(0.0) / g;
+                }
+                scale[i] = 1.0 / (1.0 + diagonal[i] / c_xx).sqrt();
+                (r_x[i], r_y[i]) = (-slip[0], -slip[1]);
+            }
+        });
         t.inverse_sum = inverse(t.gram(), problem.drive.free);
         let behind = t.project(&mut self.residual);
         add(shift, behind.map(|s| -s))
@@ -260,14 +270,18 @@ impl NewtonStep {
         let given = problem.drive.given;
         for c in 0..2 {
             contact.pack(&self.response_x[c], &mut self.z[c]);
-            for i in 0..problem.bound.len() {
-                let x = self.x[c][i];
-                shear.q[c][i] += x;
-                shear.u[c][i] += self.z[c][i];
-                let slip = shear.u[c][i] - problem.u_ref[c][i] - problem.arms.in_plane(given, i)[c];
-                self.z[c][i] = slip + self.diagonal[i] * x;
-            }
+            add_scaled(shear.u[c], 1.0, &self.z[c]);
+            add_scaled(shear.q[c], 1.0, &self.x[c]);
         }
+        let (x, diagonal) = (&self.x, &self.diagonal);
+        let [z_x, z_y] = &mut self.z;
+        set_pairs([z_x, z_y], |i, _| {
+            let slip = problem.slip(&shear.u, given, i);
+            [
+                slip[0] + diagonal[i] * x[0][i],
+                slip[1] + diagonal[i] * x[1][i],
+            ]
+        });
         let sums = self.tangent.project_cells(&mut self.z);
         add(given, product(&self.tangent.inverse_sum, sums))
     }

@@ -14,7 +14,7 @@
 //! iteration costs one convolution, and a second one only when cells leave.
 
 use super::rigid_motion::{Arms, Drive, add};
-use super::vector::{add_scaled, dot, largest, sum_cells};
+use super::vector::{add_scaled, dot, largest, set_cells, sum_cells};
 use super::{Response, SolverError};
 
 /// What is given: the gap and what drives the approach and the tilts.
@@ -236,9 +236,7 @@ fn add_response_of_change(
     u_z: &mut [f64],
     ws: &mut NormalWorkspace,
 ) {
-    for ((change, p), before) in ws.z.iter_mut().zip(p).zip(&ws.response) {
-        *change = p - before;
-    }
+    set_cells(&mut ws.z, |n, _| p[n] - ws.response[n]);
     response.normal(&ws.z, &mut ws.response);
     add_scaled(u_z, 1.0, &ws.response);
 }
@@ -296,22 +294,26 @@ fn descend(
     } = towards;
     let cells = p.len();
     std::mem::swap(&mut ws.residual, &mut ws.last_residual);
-    for n in 0..cells {
+    set_cells(&mut ws.residual, |n, _| {
         let gap = u_z[n] + problem.h_init[n] - problem.arms.across(motion, n);
-        ws.residual[n] = if p[n] > 0.0 || gap < 0.0 { -gap } else { 0.0 };
-    }
+        if p[n] > 0.0 || gap < 0.0 { -gap } else { 0.0 }
+    });
     response.invert_normal(&ws.residual, &mut ws.z, preconditioned);
     let enters = |n: usize| ws.residual[n] > 0.0;
     let arms = problem.arms;
     let of_all = fit(problem, &ws.z, |n| p[n] > 0.0 || enters(n));
     // A cell without pressure that the direction would pull at stays out.
-    for n in 0..cells {
-        ws.free[n] = p[n] > 0.0 || (enters(n) && ws.z[n] > arms.across(of_all, n));
-    }
+    set_cells(&mut ws.free, |n, _| {
+        p[n] > 0.0 || (enters(n) && ws.z[n] > arms.across(of_all, n))
+    });
     let of_free = fit(problem, &ws.z, |n| ws.free[n]);
-    for n in (0..cells).filter(|&n| ws.free[n]) {
-        ws.z[n] -= arms.across(of_free, n);
-    }
+    set_cells(&mut ws.z, |n, z| {
+        if ws.free[n] {
+            z - arms.across(of_free, n)
+        } else {
+            z
+        }
+    });
     let [product, fresh] = sum_cells(cells, |n| {
         if ws.free[n] {
             let change = ws.residual[n] - ws.last_residual[n];
@@ -326,10 +328,13 @@ fn descend(
         0.0
     };
     let drift = fit(problem, &ws.direction, |n| ws.free[n]);
-    for n in 0..cells {
-        let d = ws.direction[n] - arms.across(drift, n);
-        ws.direction[n] = if ws.free[n] { ws.z[n] + beta * d } else { 0.0 };
-    }
+    set_cells(&mut ws.direction, |n, d| {
+        if ws.free[n] {
+            ws.z[n] + beta * (d - arms.across(drift, n))
+        } else {
+            0.0
+        }
+    });
     product
 }
 

@@ -21,12 +21,21 @@ pub struct Arms {
     pub x: Vec<f64>,
     /// y of each cell over `length`.
     pub y: Vec<f64>,
+    /// What motions and displacements along y are multiplied by, and forces and tractions divided
+    /// by: elliptic friction is round in these. The modes in the plane are (1, 0), (0, 1) and
+    /// (-y, stretch x).
+    pub stretch: f64,
 }
 
 impl Arms {
+    /// How far cell n moves along y in a unit rotation.
+    pub(crate) fn turn_x(&self, n: usize) -> f64 {
+        self.stretch * self.x[n]
+    }
+
     /// B m in the plane at cell n \[m\].
     pub(crate) fn in_plane(&self, m: [f64; 3], n: usize) -> [f64; 2] {
-        [m[0] - self.y[n] * m[2], m[1] + self.x[n] * m[2]]
+        [m[0] - self.y[n] * m[2], m[1] + self.turn_x(n) * m[2]]
     }
 
     /// B m across the plane at cell n \[m\].
@@ -36,7 +45,7 @@ impl Arms {
 
     /// B^T q in the plane, of cell n.
     pub(crate) fn sums_in_plane(&self, q: [f64; 2], n: usize) -> [f64; 3] {
-        [q[0], q[1], self.x[n] * q[1] - self.y[n] * q[0]]
+        [q[0], q[1], self.turn_x(n) * q[1] - self.y[n] * q[0]]
     }
 
     /// B^T p across the plane, of cell n.
@@ -60,7 +69,7 @@ impl Arms {
         }
         let [count, x, y, r2, a, b, moment] = sum_cells(cells, |n| {
             value(n).map_or([0.0; 7], |v| {
-                let (x, y) = (self.x[n], self.y[n]);
+                let (x, y) = (self.turn_x(n), self.y[n]);
                 [1.0, x, y, x * x + y * y, v[0], v[1], x * v[1] - y * v[0]]
             })
         });
@@ -210,6 +219,7 @@ mod tests {
             length: 1.0,
             x: vec![0.0, 1.0, -1.0, 2.0],
             y: vec![0.5, 0.0, 1.0, -3.0],
+            stretch: 0.8,
         };
         let m = [0.3, -0.2, 0.7];
         let plane = arms.fit_in_plane([true; 3], |n| Some(arms.in_plane(m, n)));

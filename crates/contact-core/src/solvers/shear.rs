@@ -17,6 +17,15 @@ pub struct TangentialProblem<'a> {
 }
 
 impl TangentialProblem<'_> {
+    /// Slip ds = u - u_ref - shift in cell n \[m\].
+    pub(crate) fn slip(&self, u: &[&mut [f64]; 2], shift: [f64; 3], n: usize) -> [f64; 2] {
+        let rigid = self.arms.in_plane(shift, n);
+        [
+            u[0][n] - self.u_ref[0][n] - rigid[0],
+            u[1][n] - self.u_ref[1][n] - rigid[1],
+        ]
+    }
+
     /// Sums of the shear over the cells \[Pa\]: forces, and the moment about z over the length.
     pub(crate) fn sums(&self, q: &[&mut [f64]; 2]) -> [f64; 3] {
         sum_cells(self.bound.len(), |n| {
@@ -72,22 +81,6 @@ pub struct Shear<'a> {
     pub slip: &'a mut [bool],
 }
 
-impl Shear<'_> {
-    /// Slip ds = u - u_ref - shift in cell n \[m\].
-    pub(crate) fn slip_of(
-        &self,
-        problem: &TangentialProblem<'_>,
-        shift: [f64; 3],
-        n: usize,
-    ) -> [f64; 2] {
-        let rigid = problem.arms.in_plane(shift, n);
-        [
-            self.u[0][n] - problem.u_ref[0][n] - rigid[0],
-            self.u[1][n] - problem.u_ref[1][n] - rigid[1],
-        ]
-    }
-}
-
 /// The shift that fits the stick cells best, or all contact cells where none sticks.
 pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 3] {
     let cells = problem.bound.len();
@@ -96,18 +89,7 @@ pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) ->
     let given = problem.drive.given;
     let slip = |n: usize| {
         let counts = problem.bound[n] > 0.0 && (sticks(n) || !any_sticks);
-        counts.then(|| shear.slip_of(problem, given, n))
+        counts.then(|| problem.slip(&shear.u, given, n))
     };
     add(given, problem.arms.fit_in_plane(problem.drive.free, slip))
-}
-
-/// q . ds in cell n, negative where friction dissipates \[Pa m\].
-pub(crate) fn power(
-    problem: &TangentialProblem<'_>,
-    shear: &Shear<'_>,
-    shift: [f64; 3],
-    n: usize,
-) -> f64 {
-    let slip = shear.slip_of(problem, shift, n);
-    shear.q[0][n] * slip[0] + shear.q[1][n] * slip[1]
 }

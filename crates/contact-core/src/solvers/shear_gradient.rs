@@ -74,7 +74,7 @@ pub(crate) fn shear_gradient(
         // Polak-Ribiere: the old direction is forgotten as far as the sets have changed.
         let mut fresh = 0.0;
         for n in 0..cells {
-            let slip = shear.slip_of(problem, info.shift, n);
+            let slip = problem.slip(&shear.u, info.shift, n);
             let sticks = problem.bound[n] > 0.0 && !shear.slip[n];
             for c in 0..2 {
                 let residual = if sticks { -slip[c] } else { 0.0 };
@@ -109,7 +109,7 @@ pub(crate) fn shear_gradient(
 
         for n in 0..cells {
             let g = problem.bound[n];
-            let slip = shear.slip_of(problem, info.shift, n);
+            let slip = problem.slip(&shear.u, info.shift, n);
             for c in 0..2 {
                 ws.q_before[c][n] = shear.q[c][n];
                 shear.q[c][n] += if shear.slip[n] {
@@ -146,7 +146,7 @@ fn misfit(problem: &TangentialProblem<'_>, shear: &Shear<'_>, shift: [f64; 3]) -
             continue;
         }
         count += 1;
-        let slip = shear.slip_of(problem, shift, n);
+        let slip = problem.slip(&shear.u, shift, n);
         let squares = slip[0] * slip[0] + slip[1] * slip[1];
         if shear.slip[n] {
             let along = (slip[0] * shear.q[0][n] + slip[1] * shear.q[1][n]) / g;

@@ -16,16 +16,16 @@
 //! slip, and slip cells whose slip would go along q stick again. A step that raises the energy is
 //! taken back and projected gradients, which cannot, go on from there.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::admissible::admissible;
 use super::contact_cells::ContactCells;
 use super::contact_shear::{Before, ContactShear};
 use super::newton_step::NewtonStep;
 use super::projected_gradient::ProjectedGradient;
-use super::shear::{
-    Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift, power,
-};
+use super::shear::{Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift};
 use super::shear_gradient::GradientBuffers;
-use super::vector::{add_scaled, size};
+use super::vector::{add_scaled, set_cells, size};
 use super::{Response, SolverError};
 
 /// Buffers of the tangential solver.
@@ -93,7 +93,7 @@ pub fn tangential(
         let released = release(&inside, &mut now, info.shift, settled);
         let fitted = step.linearise(&inside, &now, info.shift, c_xx);
         info.misfit = step.residual_norm() / root_of_contact;
-        let solved = released == 0 && info.misfit <= params.tolerance;
+        let solved = !released && info.misfit <= params.tolerance;
         let ahead = |k: usize| (fitted[k] - info.shift[k]).abs();
         if solved && (0..3).all(|k| ahead(k) <= settled) {
             now.unpack(cells, shear);
@@ -140,29 +140,38 @@ pub fn tangential(
 
 /// Stick cells beyond the bound start to slip; slip cells whose slip goes along q stick.
 fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
-    for n in 0..problem.bound.len() {
-        shear.slip[n] = if shear.slip[n] {
-            power(problem, shear, shift, n) <= 0.0
+    let Shear { q, u, slip } = shear;
+    set_cells(slip, |n, slips| {
+        let q = [q[0][n], q[1][n]];
+        if slips {
+            power(q, problem.slip(u, shift, n)) <= 0.0
         } else {
-            let g = problem.bound[n];
-            g > 0.0 && size([shear.q[0][n], shear.q[1][n]]) > g
-        };
-    }
+            size(q) > problem.bound[n]
+        }
+    });
 }
 
-/// Releases slip cells that move along their shear by more than `tolerance` \[m\]; how many.
+/// Releases slip cells that move along their shear by more than `tolerance` \[m\]; whether any did.
 fn release(
     problem: &TangentialProblem<'_>,
     shear: &mut Shear<'_>,
     shift: [f64; 3],
     tolerance: f64,
-) -> usize {
-    let mut released = 0;
-    for n in 0..problem.bound.len() {
-        if shear.slip[n] && power(problem, shear, shift, n) > tolerance * problem.bound[n] {
-            shear.slip[n] = false;
-            released += 1;
+) -> bool {
+    let Shear { q, u, slip } = shear;
+    let released = AtomicBool::new(false);
+    set_cells(slip, |n, slips| {
+        let along = |slip| power([q[0][n], q[1][n]], slip) > tolerance * problem.bound[n];
+        if slips && along(problem.slip(u, shift, n)) {
+            released.store(true, Ordering::Relaxed);
+            return false;
         }
-    }
-    released
+        slips
+    });
+    released.into_inner()
+}
+
+/// q . ds, negative where friction dissipates \[Pa m\].
+fn power(q: [f64; 2], slip: [f64; 2]) -> f64 {
+    q[0] * slip[0] + q[1] * slip[1]
 }

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 /// Numbers summed side by side, so that the sum runs at the speed of memory. Their order depends
 /// on nothing but the length.
 const LANES: usize = 8;
@@ -37,13 +39,36 @@ pub(crate) fn size(v: [f64; 2]) -> f64 {
     (v[0] * v[0] + v[1] * v[1]).sqrt()
 }
 
+/// Cells that one thread sums or changes in one go.
+pub(crate) const CHUNK: usize = 4096;
+
 /// y += factor * x
 pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     y.iter_mut().zip(x).for_each(|(y, x)| *y += factor * x);
 }
 
-/// Cells that one thread sums or changes in one go.
-pub(crate) const CHUNK: usize = 4096;
+/// Sets every cell to its `value(n, old)`, in chunks shared by the threads.
+pub(crate) fn set_cells<T: Copy + Send>(field: &mut [T], value: impl Fn(usize, T) -> T + Sync) {
+    let chunks = field.par_chunks_mut(CHUNK).enumerate();
+    chunks.for_each(|(i, chunk)| {
+        for (n, v) in (i * CHUNK..).zip(chunk) {
+            *v = value(n, *v);
+        }
+    });
+}
+
+/// Sets every cell of two fields to their `values(n, old)`.
+pub(crate) fn set_pairs(
+    [a, b]: [&mut [f64]; 2],
+    values: impl Fn(usize, [f64; 2]) -> [f64; 2] + Sync,
+) {
+    let chunks = (a.par_chunks_mut(CHUNK), b.par_chunks_mut(CHUNK)).into_par_iter();
+    chunks.enumerate().for_each(|(i, (a, b))| {
+        for (n, (a, b)) in (i * CHUNK..).zip(a.iter_mut().zip(b)) {
+            [*a, *b] = values(n, [*a, *b]);
+        }
+    });
+}
 
 /// Sums of K terms per cell, in chunks shared by the threads and in lanes within them. Their order
 /// depends on nothing but the number of cells.

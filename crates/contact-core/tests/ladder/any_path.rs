@@ -10,11 +10,9 @@ use crate::bench::{CORK, R, W, run, sphere_on_flat};
 
 const MU: f64 = 0.3;
 /// Waypoints of a path and increments between two of them.
-const WAYPOINTS: usize = 12;
-
-/// Error of the shift over its range times the increments between two waypoints: while W grows, a
-/// cell that comes into contact within an increment has moved freely before it sticks.
-const PATH: f64 = 0.3;
+const WAYPOINTS: usize = 20;
+/// Error of the shift over its range that the issue allows.
+const ALLOWED: f64 = 5e-3;
 
 /// Waypoints (W, T).
 fn waypoints() -> impl Strategy<Value = Vec<(f64, f64)>> {
@@ -52,7 +50,7 @@ fn error(points: &[(f64, f64)], increments: usize, n: usize) -> f64 {
     let (mut worst, mut range, mut from) = (0.0_f64, [0.0_f64; 2], (0.0, 0.0));
     run(&scene, |_, increment| {
         let to = (increment.point.loads.W, increment.point.loads.T_x);
-        let shift = springs.load(from, to, 100 / increments);
+        let shift = springs.load(from, to, 120 / increments);
         from = to;
         worst = worst.max((increment.motion.delta_x - shift).abs());
         range = [range[0].min(shift), range[1].max(shift)];
@@ -67,11 +65,12 @@ fn the_shift_follows_the_springs() {
         ..Config::default()
     };
     let mut runner = TestRunner::new(config);
-    for _ in 0..3 {
+    for n in 0..10 {
         let points = waypoints().new_tree(&mut runner).expect("a path").current();
-        let (coarse, fine) = (error(&points, 20, 48), error(&points, 50, 48));
-        assert!(coarse < PATH / 20.0, "{coarse}");
-        assert!(fine < PATH / 50.0, "{fine}");
-        assert!(fine < coarse / 2.0, "first order: {coarse} {fine}");
+        let fine = error(&points, 60, 40);
+        assert!(fine < ALLOWED, "path {n}: {fine}");
+        // What enters the contact counts from its entry: a third of the increments do as well.
+        let coarse = error(&points, 20, 40);
+        assert!(coarse < ALLOWED, "path {n}: {coarse}");
     }
 }

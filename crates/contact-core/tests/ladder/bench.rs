@@ -39,7 +39,7 @@ pub(crate) fn sphere_on_flat(
         title: "ladder".into(),
         body1: Body::homogeneous(upper, Shape::Sphere { R }),
         body2: Body::homogeneous(lower, Shape::Flat),
-        friction: Friction { mu },
+        friction: Friction::coulomb(mu),
         grid: Grid::centred(extent * a, n).expect("a grid"),
         path,
         settings: Settings::default(),

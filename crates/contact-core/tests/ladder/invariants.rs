@@ -69,7 +69,7 @@ prop_compose! {
             title: "any".into(),
             body1,
             body2,
-            friction: Friction { mu },
+            friction: Friction::coulomb(mu),
             grid: Grid::from_spacing((nx, ny), (1.0, 1.0)).expect("a grid"),
             path,
             settings: Settings::default(),
@@ -94,6 +94,10 @@ prop_compose! {
 /// How far solutions of one contact may differ that were solved to 1e-6: waves of a few cells make
 /// of a misfit a hundred times as much traction.
 const ALIKE: f64 = 1e-4;
+/// The same for those solved to [`TIGHT`].
+const TWINS: f64 = 1e-9;
+/// Twins differ by rounding alone, but rounding decides where in the tolerance the iterations end.
+const TIGHT: f64 = 1e-11;
 
 /// Fields and motion at the end of the path.
 fn end(scene: &Scene) -> (Fields, Motion) {
@@ -199,4 +203,184 @@ proptest! {
         prop_assert!(distance(&theirs.q_y, -1.0, &ours.q_y, &ours.p) < ALIKE);
         prop_assert!((other.delta_x + motion.delta_x).abs() < ALIKE * motion.delta_z);
     }
+}
+
+/// Radial fretting, mode II, of dissimilar bodies: W to and fro alone. Whatever the rounding does,
+/// the answer has the eight symmetries of the square grid, and slip is radial to the grid's error.
+#[test]
+fn radial_fretting_of_dissimilar_bodies_is_round() {
+    let path = LoadPath::start().radial(&[W, 0.3 * W, W], 24);
+    let upper = Elastic { E: 70e9, nu: 0.1 };
+    let lower = Elastic { E: 300e9, nu: 0.45 };
+    let mut scene = crate::bench::sphere_on_flat(upper, lower, 0.15, (2.4, 49), path);
+    scene.settings.solver.tolerance = 1e-9;
+    // An odd grid, so that nothing of the symmetry is put in by solving half of it.
+    let mut kept = Vec::new();
+    run(&scene, |march, i| {
+        assert!(
+            i.energy.dissipated >= 0.0 && i.residuals.energy.abs() < 1e-9,
+            "{:?}",
+            i.energy
+        );
+        if i.point.ends_branch {
+            kept.push(march.fields());
+        }
+    });
+    for fields in kept {
+        let turned = |f: &Array2<f64>| f.t().to_owned();
+        let flipped = |f: &Array2<f64>| f.slice(ndarray::s![..;-1, ..]).to_owned();
+        let scale = &fields.p;
+        assert!(distance(&turned(&fields.p), 1.0, &fields.p, scale) < TWINS);
+        assert!(distance(&flipped(&fields.p), 1.0, &fields.p, scale) < TWINS);
+        assert!(distance(&turned(&fields.q_y), 1.0, &fields.q_x, scale) < TWINS);
+        assert!(distance(&flipped(&fields.q_x), -1.0, &fields.q_x, scale) < TWINS);
+        assert!(distance(&flipped(&fields.q_y), 1.0, &fields.q_y, scale) < TWINS);
+        let q = norm(&fields.q_x).hypot(norm(&fields.q_y));
+        assert!(q > 0.01 * norm(scale), "{q}");
+        // The hoop part of the shear over the radial one, at all angles.
+        let hoop = Array2::from_shape_fn(fields.p.dim(), |(i, j)| {
+            let (x, y) = (scene.grid.x(i), scene.grid.y(j));
+            let r = x.hypot(y).max(scene.grid.dx);
+            (x * fields.q_y[(i, j)] - y * fields.q_x[(i, j)]) / r
+        });
+        assert!(norm(&hoop) < 0.02 * q, "{}", norm(&hoop) / q);
+    }
+}
+
+/// An ellipsoid on a coated flat, both of dissimilar materials, under W, T_x and T_y that turn.
+fn twin() -> Scene {
+    let body1 = Body::homogeneous(
+        Elastic { E: 120e9, nu: 0.15 },
+        Shape::Ellipsoid {
+            R_x: R,
+            R_y: 1.7 * R,
+            angle: 0.3,
+        },
+    );
+    let mut body2 = Body::homogeneous(Elastic { E: 210e9, nu: 0.4 }, Shape::Flat);
+    body2.coatings = vec![Coating {
+        material: Elastic { E: 330e9, nu: 0.25 },
+        thickness: 2e-4,
+    }];
+    let loads = |normal, along_x, along_y| {
+        move |to: &mut Loads| (to.W, to.T_x, to.T_y) = (normal, along_x, along_y)
+    };
+    let path = LoadPath::start()
+        .to(loads(W, 0.0, 0.0), 4)
+        .to(loads(W, 0.15 * W, 0.05 * W), 3)
+        .to(loads(0.8 * W, 0.02 * W, -0.16 * W), 3);
+    let mut settings = Settings::default();
+    settings.solver.tolerance = TIGHT;
+    Scene {
+        title: "twin".into(),
+        body1,
+        body2,
+        friction: Friction::coulomb(0.3),
+        grid: Grid::from_spacing((26, 24), (7.2e-5, 7.6e-5)).expect("a grid"),
+        path,
+        settings,
+    }
+}
+
+/// Turns the grid and the ellipsoid by a right angle: x goes to y, y to -x.
+fn turned(scene: &Scene) -> Scene {
+    let mut turned = scene.clone();
+    (turned.grid.nx, turned.grid.ny) = (scene.grid.ny, scene.grid.nx);
+    (turned.grid.dx, turned.grid.dy) = (scene.grid.dy, scene.grid.dx);
+    if let Shape::Ellipsoid { angle, .. } = &mut turned.body1.shape {
+        *angle += 0.5 * std::f64::consts::PI;
+    }
+    turned.path = loads_mapped(scene, |l| Loads {
+        T_x: -l.T_y,
+        T_y: l.T_x,
+        ..l
+    });
+    turned
+}
+
+fn assert_twins(what: &str, ours: [&Array2<f64>; 3], theirs: [&Array2<f64>; 3]) {
+    for (ours, theirs_field) in ours.iter().zip(theirs) {
+        let off = distance(theirs_field, 1.0, ours, theirs[0]);
+        assert!(off < TWINS, "{what}: {off:e}");
+    }
+}
+
+#[test]
+fn twins_are_the_same_to_nine_digits() {
+    let scene = twin();
+    let (ours, motion) = end(&scene);
+    let same = [&ours.p, &ours.q_x, &ours.q_y];
+
+    let (theirs, other) = end(&turned(&scene));
+    // Cell (i, j) of ours lies at (-j, i) there.
+    let back = |f: &Array2<f64>, sign: f64| {
+        let (nx, ny) = ours.p.dim();
+        Array2::from_shape_fn((nx, ny), |(i, j)| sign * f[(ny - 1 - j, i)])
+    };
+    let turned = [
+        back(&theirs.p, 1.0),
+        back(&theirs.q_y, 1.0),
+        back(&theirs.q_x, -1.0),
+    ];
+    assert_twins("turned", [&turned[0], &turned[1], &turned[2]], same);
+    let scale = motion.delta_z;
+    crate::bench::close(
+        "delta_x",
+        (other.delta_y - motion.delta_x) / scale,
+        0.0,
+        TWINS,
+    );
+    crate::bench::close("delta_z", other.delta_z / scale, 1.0, TWINS);
+
+    let mut mirrored = scene.clone();
+    if let Shape::Ellipsoid { angle, .. } = &mut mirrored.body1.shape {
+        *angle = -*angle;
+    }
+    mirrored.path = loads_mapped(&scene, |l| Loads { T_x: -l.T_x, ..l });
+    let (theirs, _) = end(&mirrored);
+    let flip = |f: &Array2<f64>, sign: f64| f.slice(ndarray::s![..;-1, ..]).to_owned() * sign;
+    let back = [
+        flip(&theirs.p, 1.0),
+        flip(&theirs.q_x, -1.0),
+        flip(&theirs.q_y, 1.0),
+    ];
+    assert_twins("mirrored", [&back[0], &back[1], &back[2]], same);
+
+    let mut exchanged = scene.clone();
+    std::mem::swap(&mut exchanged.body1, &mut exchanged.body2);
+    exchanged.path = loads_mapped(&scene, |l| Loads {
+        T_x: -l.T_x,
+        T_y: -l.T_y,
+        ..l
+    });
+    let (theirs, _) = end(&exchanged);
+    let back = [theirs.p.clone(), -&theirs.q_x, -&theirs.q_y];
+    assert_twins("exchanged", [&back[0], &back[1], &back[2]], same);
+
+    // Lengths by 3, moduli by 7.
+    let (length, modulus) = (3.0, 7.0);
+    let mut scaled = scene.clone();
+    scaled.body1.shape = Shape::Ellipsoid {
+        R_x: R * length,
+        R_y: 1.7 * R * length,
+        angle: 0.3,
+    };
+    for body in [&mut scaled.body1, &mut scaled.body2] {
+        body.substrate.E *= modulus;
+        for coating in &mut body.coatings {
+            coating.material.E *= modulus;
+            coating.thickness *= length;
+        }
+    }
+    (scaled.grid.dx, scaled.grid.dy) = (scene.grid.dx * length, scene.grid.dy * length);
+    let force = modulus * length * length;
+    scaled.path = loads_mapped(&scene, |l| Loads {
+        W: l.W * force,
+        T_x: l.T_x * force,
+        T_y: l.T_y * force,
+        ..l
+    });
+    let (theirs, _) = end(&scaled);
+    let back = [&theirs.p, &theirs.q_x, &theirs.q_y].map(|f| f / modulus);
+    assert_twins("scaled", [&back[0], &back[1], &back[2]], same);
 }

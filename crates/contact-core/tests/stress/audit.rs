@@ -172,10 +172,18 @@ impl Audit {
             if bound <= 0.0 {
                 continue;
             }
-            let ds = [
-                at(&now.u_x) - at(&last.u_x) - (increment.motion.delta_x - motion.delta_x),
-                at(&now.u_y) - at(&last.u_y) - (increment.motion.delta_y - motion.delta_y),
-            ];
+            // What a cell moved before it entered the contact is no slip.
+            let ds = if at(&last.p) <= 0.0 {
+                [
+                    at(&now.slip_x) - at(&last.slip_x),
+                    at(&now.slip_y) - at(&last.slip_y),
+                ]
+            } else {
+                [
+                    at(&now.u_x) - at(&last.u_x) - (increment.motion.delta_x - motion.delta_x),
+                    at(&now.u_y) - at(&last.u_y) - (increment.motion.delta_y - motion.delta_y),
+                ]
+            };
             let off = if sticks {
                 ds[0].hypot(ds[1])
             } else {

@@ -60,7 +60,7 @@ pub(crate) fn draw(seed: u64) -> Drawn {
         title: format!("stress {seed}"),
         body1,
         body2,
-        friction: Friction { mu },
+        friction: Friction::coulomb(mu),
         grid,
         path: path(rng, mu, W),
         settings: Settings::default(),

@@ -3,7 +3,10 @@
 mod cattaneo_mindlin;
 mod hertz_contact;
 mod indentation;
+
 mod lubkin;
+mod plane_strain;
+mod springs;
 
 use numpy::{AllowTypeChange, PyArrayDyn, PyArrayLikeDyn, ToPyArray};
 use pyo3::prelude::*;
@@ -15,6 +18,8 @@ pub(crate) use indentation::{
     goodman_stick_ratio,
 };
 pub(crate) use lubkin::Lubkin;
+pub(crate) use plane_strain::{LineContact, line_contact};
+pub(crate) use springs::Springs;
 
 /// A number, a sequence or an array of any shape.
 type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;

@@ -26,6 +26,19 @@ impl Grid {
             .map_err(to_python)
     }
 
+    #[staticmethod]
+    #[pyo3(signature = (*, extent, n, width = 1.0))]
+    fn strip(extent: f64, n: usize, width: f64) -> PyResult<Self> {
+        core::Grid::strip(extent, n, width)
+            .map(Self)
+            .map_err(to_python)
+    }
+
+    #[getter]
+    fn plane_strain(&self) -> bool {
+        self.0.plane_strain
+    }
+
     #[getter]
     fn nx(&self) -> usize {
         self.0.nx
@@ -64,7 +77,17 @@ impl Grid {
     }
 
     pub(crate) fn __repr__(&self) -> String {
-        let core::Grid { nx, ny, dx, dy } = self.0;
+        let core::Grid {
+            nx,
+            ny,
+            dx,
+            dy,
+            plane_strain,
+        } = self.0;
+        if plane_strain {
+            let extent = self.0.extent().0;
+            return format!("Grid.strip(extent={extent:?}, n={nx}, width={dy:?})");
+        }
         format!("Grid.from_spacing(({nx}, {ny}), ({dx:?}, {dy:?}))")
     }
 }

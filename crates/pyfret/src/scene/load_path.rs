@@ -1,8 +1,14 @@
 //! The load history.
 
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use contact_core::Error;
 use contact_core::scene as core;
 use numpy::{PyArray1, ToPyArray};
 use pyo3::prelude::*;
+
+use crate::error::to_python;
 
 /// How the increments of a branch are spaced.
 #[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
@@ -108,6 +114,16 @@ impl Branch {
     }
 
     #[getter]
+    fn sigma_B(&self) -> f64 {
+        self.0.to.sigma_B
+    }
+
+    #[getter]
+    fn rolled(&self) -> f64 {
+        self.0.to.rolled
+    }
+
+    #[getter]
     fn increments(&self) -> usize {
         self.0.increments
     }
@@ -163,6 +179,44 @@ impl Values {
     }
 }
 
+/// As many increments as the change needs if the whole range takes this many.
+#[pyclass(frozen, eq, hash, from_py_object, module = "pyfret")]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct PerRange(usize);
+
+#[pymethods]
+impl PerRange {
+    #[new]
+    fn new(increments: usize) -> Self {
+        Self(increments)
+    }
+
+    #[getter]
+    fn increments(&self) -> usize {
+        self.0
+    }
+
+    fn __repr__(&self) -> String {
+        format!("PerRange({})", self.0)
+    }
+}
+
+/// Increments between two waypoints.
+#[derive(FromPyObject)]
+enum AnyIncrements {
+    Each(usize),
+    PerRange(PerRange),
+}
+
+impl From<AnyIncrements> for core::Increments {
+    fn from(increments: AnyIncrements) -> Self {
+        match increments {
+            AnyIncrements::Each(n) => Self::Each(n),
+            AnyIncrements::PerRange(PerRange(n)) => Self::PerRange(n),
+        }
+    }
+}
+
 impl LoadPath {
     /// Appends a branch; `change` makes of each load and given motion the new ones.
     fn branch(
@@ -182,7 +236,7 @@ impl LoadPath {
             (forces[k], motions[k]) = change(k, forces[k], motions[k]);
         }
         Self(self.0.clone().branch(core::Branch {
-            to: core::Loads::from_forces(forces, core::Given::from_motions(motions)),
+            to: at.with_forces(forces, core::Given::from_motions(motions)),
             increments,
             spacing: spacing.into(),
             t_end: t.unwrap_or(t_before + 1.0),
@@ -221,7 +275,45 @@ impl LoadPath {
         Self(self.0.clone().torsion(&M_z.list(), increments))
     }
 
-    #[pyo3(signature = (*, W = None, T_x = None, T_y = None, M_x = None, M_y = None, M_z = None, increments, spacing = Spacing::Uniform, t = None))]
+    #[pyo3(signature = (W, *, increments))]
+    fn radial(&self, W: Values, increments: usize) -> Self {
+        Self(self.0.clone().radial(&W.list(), increments))
+    }
+
+    #[pyo3(signature = (*, T_x, T_y, turns = 1, increments))]
+    fn ellipse(&self, T_x: f64, T_y: f64, turns: usize, increments: usize) -> Self {
+        Self(self.0.clone().ellipse((T_x, T_y), turns, increments))
+    }
+
+    #[pyo3(signature = (*, increments = AnyIncrements::Each(1), **columns))]
+    fn waypoints(
+        &self,
+        increments: AnyIncrements,
+        columns: Option<BTreeMap<String, Vec<f64>>>,
+    ) -> PyResult<Self> {
+        let columns = columns.unwrap_or_default();
+        let rows = columns.values().map(Vec::len).max().unwrap_or(0);
+        if let Some((name, column)) = columns.iter().find(|(_, c)| c.len() != rows) {
+            let allowed = format!("{rows} values, as the longest column");
+            let error = Error::invalid(name, format!("{} values", column.len()), allowed);
+            return Err(to_python(error));
+        }
+        let names: Vec<&str> = columns.keys().map(String::as_str).collect();
+        let row = |i: usize| columns.values().map(|column| column[i]).collect();
+        let rows: Vec<Vec<f64>> = (0..rows).map(row).collect();
+        let path = self.0.clone().waypoints(&names, &rows, increments.into());
+        path.map(Self).map_err(to_python)
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (path, *, increments = AnyIncrements::Each(1)))]
+    fn from_csv(path: PathBuf, increments: AnyIncrements) -> PyResult<Self> {
+        core::LoadPath::from_csv(&path, increments.into())
+            .map(Self)
+            .map_err(to_python)
+    }
+
+    #[pyo3(signature = (*, W = None, T_x = None, T_y = None, M_x = None, M_y = None, M_z = None, sigma_B = None, rolled = None, increments, spacing = Spacing::Uniform, t = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn force(
         &self,
@@ -231,15 +323,22 @@ impl LoadPath {
         M_x: Option<f64>,
         M_y: Option<f64>,
         M_z: Option<f64>,
+        sigma_B: Option<f64>,
+        rolled: Option<f64>,
         increments: usize,
         spacing: Spacing,
         t: Option<f64>,
     ) -> Self {
         let named = [W, M_x, M_y, T_x, T_y, M_z];
-        self.branch(increments, spacing, t, |k, load, motion| match named[k] {
+        let mut path = self.branch(increments, spacing, t, |k, load, motion| match named[k] {
             Some(load) => (load, None),
             None => (load, motion),
-        })
+        });
+        if let Some(branch) = path.0.branches.last_mut() {
+            branch.to.sigma_B = sigma_B.unwrap_or(branch.to.sigma_B);
+            branch.to.rolled = rolled.unwrap_or(branch.to.rolled);
+        }
+        path
     }
 
     #[pyo3(signature = (*, delta_z = None, delta_x = None, delta_y = None, phi_x = None, phi_y = None, phi_z = None, increments, spacing = Spacing::Uniform, t = None))]
@@ -286,6 +385,16 @@ impl LoadPath {
     #[getter]
     fn T_y<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |point| point.loads.T_y)
+    }
+
+    #[getter]
+    fn sigma_B<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |point| point.loads.sigma_B)
+    }
+
+    #[getter]
+    fn rolled<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |point| point.loads.rolled)
     }
 
     #[getter]

@@ -1,6 +1,7 @@
 //! WHAT is in contact, as the user writes it: one file per part of the scene.
 
 mod body;
+mod friction;
 mod grid;
 mod load_path;
 mod material;
@@ -10,13 +11,14 @@ mod shape;
 mod whole;
 
 pub(crate) use body::{Body, Coating};
+pub(crate) use friction::{AnyFriction, Friction, History};
 pub(crate) use grid::Grid;
-pub(crate) use load_path::{Branch, LoadPath, Spacing};
+pub(crate) use load_path::{Branch, LoadPath, PerRange, Spacing};
 pub(crate) use material::Elastic;
 pub(crate) use profile::{Profile, graded};
 pub(crate) use settings::{FrequencyDomain, Hankel, InverseFft, Preset, Save, Settings, Skip};
 pub(crate) use shape::{
-    Cone, CrownedRoller, Cylinder, Ellipsoid, Flat, FlatPunch, HeightMap, Rough, Sphere, Sum,
+    Cone, CrownedRoller, Cylinder, Ellipsoid, Flat, FlatPunch, Rough, Sphere, Sum, SurfaceMap,
     Waviness, Wedge,
 };
 pub(crate) use whole::Scene;

@@ -113,12 +113,13 @@ pub(crate) struct Skip(core::SkipSettings);
 #[pymethods]
 impl Skip {
     #[new]
-    #[pyo3(signature = (*, equal_layers = true, coupling = true, mirror = true))]
-    fn new(equal_layers: bool, coupling: bool, mirror: bool) -> Self {
+    #[pyo3(signature = (*, equal_layers = true, coupling = true, mirror = true, path = false))]
+    fn new(equal_layers: bool, coupling: bool, mirror: bool, path: bool) -> Self {
         Self(core::SkipSettings {
             equal_layers,
             coupling,
             mirror,
+            path,
         })
     }
 
@@ -135,6 +136,11 @@ impl Skip {
     #[getter]
     fn mirror(&self) -> bool {
         self.0.mirror
+    }
+
+    #[getter]
+    fn path(&self) -> bool {
+        self.0.path
     }
 }
 
@@ -178,12 +184,13 @@ pub(crate) struct Settings(pub(crate) core::Settings);
 impl Settings {
     #[new]
     #[pyo3(signature = (
-        *, preset = None, tolerance = None, max_alternations = None, max_iterations = None,
+        *, preset = None, tolerance = None, entering = None, max_alternations = None, max_iterations = None,
         kernel = None, kernel_tolerance = None, skip = None, save = None,
     ))]
     fn new(
         preset: Option<Preset>,
         tolerance: Option<f64>,
+        entering: Option<bool>,
         max_alternations: Option<usize>,
         max_iterations: Option<usize>,
         kernel: Option<Method>,
@@ -199,6 +206,7 @@ impl Settings {
             Some(Preset::Spinu2020) => core::Preset::Spinu2020,
         };
         solver.tolerance = tolerance.unwrap_or(solver.tolerance);
+        solver.entering = entering.unwrap_or(solver.entering);
         solver.max_alternations = max_alternations.unwrap_or(solver.max_alternations);
         solver.max_iterations = max_iterations.unwrap_or(solver.max_iterations);
         settings.kernel.method = kernel.map_or(settings.kernel.method, Into::into);
@@ -221,6 +229,11 @@ impl Settings {
     #[getter]
     fn tolerance(&self) -> f64 {
         self.0.solver.tolerance
+    }
+
+    #[getter]
+    fn entering(&self) -> bool {
+        self.0.solver.entering
     }
 
     #[getter]

@@ -165,18 +165,18 @@ impl Rough {
     }
 }
 
-/// Measured or calculated heights.
+/// Numbers over the contact plane; as a shape, heights.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
-pub(crate) struct HeightMap(core::HeightMap);
+pub(crate) struct SurfaceMap(pub(crate) core::SurfaceMap);
 
 #[pymethods]
-impl HeightMap {
+impl SurfaceMap {
     #[new]
-    #[pyo3(signature = (z, *, spacing))]
-    fn new(z: PyReadonlyArray2<'_, f64>, spacing: (f64, f64)) -> Self {
-        Self(core::HeightMap {
-            z: Arc::new(z.as_array().to_owned()),
+    #[pyo3(signature = (values, *, spacing))]
+    fn new(values: PyReadonlyArray2<'_, f64>, spacing: (f64, f64)) -> Self {
+        Self(core::SurfaceMap {
+            values: Arc::new(values.as_array().to_owned()),
             spacing,
         })
     }
@@ -184,14 +184,14 @@ impl HeightMap {
     #[staticmethod]
     #[pyo3(signature = (path, *, spacing))]
     fn from_file(path: PathBuf, spacing: (f64, f64)) -> PyResult<Self> {
-        core::HeightMap::from_file(&path, spacing)
+        core::SurfaceMap::from_file(&path, spacing)
             .map(Self)
             .map_err(to_python)
     }
 
     #[getter]
-    fn z<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        self.0.z.to_pyarray(py)
+    fn values<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        self.0.values.to_pyarray(py)
     }
 
     #[getter]
@@ -204,9 +204,9 @@ impl HeightMap {
     }
 
     fn __repr__(&self) -> String {
-        let (nx, ny) = self.0.z.dim();
+        let (nx, ny) = self.0.values.dim();
         format!(
-            "HeightMap({nx} x {ny} heights, spacing={:?})",
+            "SurfaceMap({nx} x {ny} numbers, spacing={:?})",
             self.0.spacing
         )
     }
@@ -256,7 +256,7 @@ pub(crate) enum Shape {
     Wedge(Wedge),
     FlatPunch(FlatPunch),
     Waviness(Waviness),
-    HeightMap(HeightMap),
+    HeightMap(SurfaceMap),
     Rough(Rough),
     Sum(Sum),
 }
@@ -335,7 +335,7 @@ impl From<&core::Shape> for Shape {
                 angle,
                 phase,
             }),
-            core::Shape::HeightMap(map) => Self::HeightMap(HeightMap(map)),
+            core::Shape::HeightMap(map) => Self::HeightMap(SurfaceMap(map)),
             core::Shape::Rough(rough) => Self::Rough(Rough(rough)),
             core::Shape::Sum(parts) => Self::Sum(Sum(parts)),
         }

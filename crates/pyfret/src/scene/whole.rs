@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
-use super::{Body, Grid, LoadPath, Save, Settings};
+use super::{AnyFriction, Body, Friction, Grid, LoadPath, Save, Settings};
 use crate::error::to_python;
 use crate::reference::Hertz;
 
@@ -21,7 +21,7 @@ impl Scene {
     fn new(
         body1: Body,
         body2: Body,
-        mu: f64,
+        mu: AnyFriction,
         grid: Grid,
         path: Option<LoadPath>,
         settings: Option<Settings>,
@@ -31,7 +31,7 @@ impl Scene {
             title,
             body1: body1.0,
             body2: body2.0,
-            friction: core::Friction { mu },
+            friction: mu.into(),
             grid: grid.0,
             path: path.map_or_else(core::LoadPath::start, |p| p.0),
             settings: settings.unwrap_or_default().0,
@@ -69,7 +69,7 @@ impl Scene {
         path: Option<LoadPath>,
         settings: Option<Settings>,
         save: Option<Save>,
-        mu: Option<f64>,
+        mu: Option<AnyFriction>,
         title: Option<String>,
     ) -> PyResult<Self> {
         let mut scene = self.0.clone();
@@ -83,7 +83,7 @@ impl Scene {
             scene.settings.save = save.into_core()?;
         }
         if let Some(mu) = mu {
-            scene.friction.mu = mu;
+            scene.friction = mu.into();
         }
         if let Some(title) = title {
             scene.title = title;
@@ -116,6 +116,11 @@ impl Scene {
     }
 
     #[getter]
+    fn friction(&self) -> Friction {
+        Friction(self.0.friction.clone())
+    }
+
+    #[getter]
     fn grid(&self) -> Grid {
         Grid(self.0.grid)
     }
@@ -137,11 +142,11 @@ impl Scene {
 
     fn __repr__(&self) -> String {
         format!(
-            "Scene(title={:?}, body1={}, body2={}, mu={:?}, grid={}, path={})",
+            "Scene(title={:?}, body1={}, body2={}, mu={}, grid={}, path={})",
             self.0.title,
             self.body1().__repr__(),
             self.body2().__repr__(),
-            self.0.friction.mu,
+            self.friction().__repr__(),
             self.grid().__repr__(),
             self.path().__repr__(),
         )

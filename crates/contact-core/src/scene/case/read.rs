@@ -7,11 +7,11 @@ use super::SCHEMA;
 use super::files::Files;
 use super::measure::{self, Measure};
 use super::section::{Fault, Section, count, pair};
-use super::shape::shape;
+use super::shape::{shape, surface_map};
 use crate::scene::{
-    Body, Branch, Coating, Elastic, Friction, Given, Grid, KernelMethod, KernelSettings, LOADS,
-    LoadPath, Loads, MOTIONS, Preset, SaveFields, Scene, Settings, SkipSettings, SolverSettings,
-    Spacing,
+    Body, Branch, Coating, Elastic, Friction, FrictionHistory, Given, Grid, History, Increments,
+    KernelMethod, KernelSettings, LOADS, LoadPath, Loads, MOTIONS, Preset, SaveFields, Scene,
+    Settings, SkipSettings, SolverSettings, Spacing,
 };
 
 const ROOT: [&str; 11] = [
@@ -37,27 +37,27 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
         root.need_section("body1", &BODY)?,
         root.need_section("body2", &BODY)?,
     ];
-    let mu = root
-        .need_section("friction", &["mu"])?
-        .number("mu", "a number >= 0", &[])?;
+    let friction = friction(&root, files)?;
+    let mu = friction.mu;
     let mut scene = Scene {
         title: title.to_owned(),
         body1: uncoated(&bodies[0], files)?,
         body2: uncoated(&bodies[1], files)?,
-        friction: Friction { mu },
+        friction,
         grid: Grid {
             nx: 0,
             ny: 0,
             dx: 0.0,
             dy: 0.0,
+            plane_strain: plane_strain(&root)?,
         },
-        path: path(&root, mu)?,
+        path: path(&root, files, mu)?,
         settings: settings(&root)?,
     };
     scene.body1.check("body1")?;
     scene.body2.check("body2")?;
-    scene.friction.check()?;
-    scene.path.check(mu)?;
+    scene.friction.check(None)?;
+    scene.path.check(&scene.friction)?;
     scene.check_magnitudes()?;
 
     let hertz = scene.hertz();
@@ -67,6 +67,70 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     scene.body2.coatings = coatings(&bodies[1], &scene.body2, &[a_H, p_H])?;
     scene.grid = grid(&root, a_H)?;
     Ok(scene)
+}
+
+/// The friction law.
+fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction, Fault> {
+    let keys = ["mu", "mu_y", "kinetic", "map", "history"];
+    let section = root.need_section("friction", &keys)?;
+    let what = "a number >= 0, or \"stick\" for no slip";
+    let mu = match section.need("mu", what)? {
+        Value::String(word) if word == "stick" => f64::INFINITY,
+        Value::String(_) => {
+            return Err(Fault::value("friction.mu", section.need("mu", what)?, what));
+        }
+        _ => section.number("mu", what, &[])?,
+    };
+    if mu.is_infinite() && section.get("mu").is_some_and(|mu| !mu.is_str()) {
+        let finite = "a finite number >= 0, or \"stick\" for no slip";
+        return Err(Fault::value(
+            "friction.mu",
+            section.need("mu", what)?,
+            finite,
+        ));
+    }
+    let number = |key: &str| {
+        let given = section
+            .get(key)
+            .map(|_| section.number(key, "a positive number", &[]));
+        given.transpose()
+    };
+    let map = section.section("map", &["file", "z", "spacing"])?;
+    Ok(Friction {
+        mu,
+        mu_y: number("mu_y")?,
+        kinetic: number("kinetic")?,
+        map: map.map(|map| surface_map(&map, files)).transpose()?,
+        history: friction_history(&section)?,
+    })
+}
+
+fn friction_history(friction: &Section<'_>) -> Result<Option<FrictionHistory>, Fault> {
+    let Some(section) = friction.section("history", &["of", "table"])? else {
+        return Ok(None);
+    };
+    let of = section.choice(
+        "of",
+        &[
+            ("slip", History::Slip),
+            ("dissipated", History::Dissipated),
+            ("increment", History::Increment),
+        ],
+    )?;
+    let what = "a list of pairs [history, factor]";
+    let (key, value) = (section.path("table"), section.need("table", what)?);
+    let wrong = || Fault::value(&key, value, what);
+    let table = value.as_array().ok_or_else(wrong)?;
+    let pairs = table.iter().map(|row| {
+        let row = row
+            .as_array()
+            .filter(|row| row.len() == 2)
+            .ok_or_else(wrong)?;
+        let number = |i: usize| measure::number(&key, &row[i], &[]);
+        Ok((number(0)?, number(1)?))
+    });
+    let table = pairs.collect::<Result<_, Fault>>()?;
+    Ok(Some(FrictionHistory { of, table }))
 }
 
 fn uncoated(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
@@ -107,11 +171,22 @@ fn coatings(
         .collect()
 }
 
+const GRID: [&str; 4] = ["n", "extent", "spacing", "plane_strain"];
+
+fn plane_strain(root: &Section<'_>) -> Result<bool, Fault> {
+    let section = root.need_section("grid", &GRID)?;
+    section.flag_or("plane_strain", false)
+}
+
 /// Cells by number, and either the extent of the grid or the size of a cell.
 fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
-    let section = root.need_section("grid", &["n", "extent", "spacing"])?;
+    let section = root.need_section("grid", &GRID)?;
+    let plane_strain = plane_strain(root)?;
     let n = section.need("n", "the number of cells, or two along x and y")?;
-    let n = pair(&section.path("n"), n, |key, value| count(key, value, 1))?;
+    let n = match n {
+        Value::Integer(_) if plane_strain => (count("grid.n", n, 1)?, 1),
+        n => pair(&section.path("n"), n, |key, value| count(key, value, 1))?,
+    };
     let length = |key: &str, value: &Value| {
         let length = measure::number(key, value, &[a_H])?;
         if length > 0.0 && length.is_finite() {
@@ -122,6 +197,10 @@ fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
     };
     let lengths = |name: &str| {
         let value = section.need(name, "a length in m, or two along x and y")?;
+        // One length in plane strain: forces are reckoned per metre.
+        if plane_strain && !value.is_array() {
+            return Ok((length(&section.path(name), value)?, 1.0));
+        }
         pair(&section.path(name), value, length)
     };
     let d = match (section.get("extent"), section.get("spacing")) {
@@ -142,12 +221,17 @@ fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
         ny: n.1,
         dx: d.0,
         dy: d.1,
+        plane_strain,
     })
 }
 
 /// The branches; loads that one does not name keep their value.
-fn path(root: &Section<'_>, mu: f64) -> Result<LoadPath, Fault> {
-    let keys = [&LOADS[..], &MOTIONS[..], &["increments", "t", "spacing"]].concat();
+fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<LoadPath, Fault> {
+    let own = ["sigma_B", "rolled", "increments", "t", "spacing"];
+    let keys = [&LOADS[..], &MOTIONS[..], &own].concat();
+    if let Some(Value::Table(_)) = root.get("path") {
+        return measured(root, files);
+    }
     let mut path = LoadPath::start();
     let (mut at, mut t) = (Loads::default(), 0.0);
     for section in root.sections("path", &keys)? {
@@ -200,7 +284,36 @@ fn loads(section: &Section<'_>, at: Loads, mu: f64) -> Result<Loads, Fault> {
             (None, None) => {}
         }
     }
-    Ok(Loads::from_forces(forces, Given::from_motions(motions)))
+    let number = |key: &str, before: f64| section.number_or(key, before, &[]);
+    let bodies = Loads {
+        sigma_B: number("sigma_B", at.sigma_B)?,
+        rolled: number("rolled", at.rolled)?,
+        ..at
+    };
+    Ok(bodies.with_forces(forces, Given::from_motions(motions)))
+}
+
+/// A measured history: a table of waypoints in a file.
+fn measured(root: &Section<'_>, files: &Files<'_>) -> Result<LoadPath, Fault> {
+    let section = root.need_section("path", &["file", "increments"])?;
+    let what = "the name of a .csv file";
+    let (key, value) = (section.path("file"), section.need("file", what)?);
+    let name = value
+        .as_str()
+        .ok_or_else(|| Fault::value(&key, value, what))?;
+    let what = "a whole number >= 1, or { per_range = number }";
+    let increments = match section.get("increments") {
+        None => Increments::Each(1),
+        Some(Value::Table(_)) => {
+            let auto = section.need_section("increments", &["per_range"])?;
+            Increments::PerRange(auto.count("per_range", 1)?)
+        }
+        Some(n @ Value::Integer(_)) => Increments::Each(count("path.increments", n, 1)?),
+        Some(other) => return Err(Fault::value("path.increments", other, what)),
+    };
+    let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
+    let path = files.find(name).map_err(|e| wrong(&e))?;
+    LoadPath::from_csv(&path, increments).map_err(|e| wrong(&e))
 }
 
 fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
@@ -212,7 +325,13 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
             tolerance: section.number_or("tolerance", default.tolerance, &[])?,
         };
     }
-    let keys = ["preset", "tolerance", "max_alternations", "max_iterations"];
+    let keys = [
+        "preset",
+        "tolerance",
+        "entering",
+        "max_alternations",
+        "max_iterations",
+    ];
     if let Some(section) = root.section("solver", &keys)? {
         let default = settings.solver;
         settings.solver = SolverSettings {
@@ -221,16 +340,18 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
                 &[("fast", Preset::Fast), ("spinu2020", Preset::Spinu2020)],
             )?,
             tolerance: section.number_or("tolerance", default.tolerance, &[])?,
+            entering: section.flag_or("entering", default.entering)?,
             max_alternations: section.count_or("max_alternations", 1, default.max_alternations)?,
             max_iterations: section.count_or("max_iterations", 1, default.max_iterations)?,
         };
     }
-    if let Some(section) = root.section("skip", &["equal_layers", "coupling", "mirror"])? {
+    if let Some(section) = root.section("skip", &["equal_layers", "coupling", "mirror", "path"])? {
         let default = settings.skip;
         settings.skip = SkipSettings {
             equal_layers: section.flag_or("equal_layers", default.equal_layers)?,
             coupling: section.flag_or("coupling", default.coupling)?,
             mirror: section.flag_or("mirror", default.mirror)?,
+            path: section.flag_or("path", default.path)?,
         };
     }
     if let Some(section) = root.section("output", &["save"])? {

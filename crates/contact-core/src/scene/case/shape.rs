@@ -7,7 +7,7 @@ use toml::Value;
 
 use super::files::Files;
 use super::section::{Fault, Section, pair};
-use crate::scene::{HeightMap, Rough, Shape};
+use crate::scene::{Rough, Shape, SurfaceMap};
 
 const SHAPES: [&str; 11] = [
     "sphere",
@@ -124,7 +124,7 @@ fn one(shapes: &Section<'_>, name: &str, files: &Files<'_>) -> Result<Shape, Fau
                 })?,
             })
         }
-        "height_map" => Shape::HeightMap(height_map(&numbers(&["file", "z", "spacing"])?, files)?),
+        "height_map" => Shape::HeightMap(surface_map(&numbers(&["file", "z", "spacing"])?, files)?),
         _ => sum(shapes, files)?,
     })
 }
@@ -142,14 +142,14 @@ fn sum(shapes: &Section<'_>, files: &Files<'_>) -> Result<Shape, Fault> {
         .map(Shape::Sum)
 }
 
-/// Heights from a file, or in the scene itself: a list along x of lists along y.
-fn height_map(section: &Section<'_>, files: &Files<'_>) -> Result<HeightMap, Fault> {
+/// Numbers from a file, or in the scene itself: a list along x of lists along y.
+pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<SurfaceMap, Fault> {
     let spacing = section.need("spacing", "the distance of the points in m, or two")?;
     let spacing = pair(&section.path("spacing"), spacing, |key, value| {
         super::measure::number(key, value, &[])
     })?;
     if section.get("z").is_none() {
-        let what = "the name of a .npy or .csv file with heights in m";
+        let what = "the name of a .npy or .csv file";
         let file = section.need("file", what)?;
         let key = section.path("file");
         let name = file
@@ -157,9 +157,9 @@ fn height_map(section: &Section<'_>, files: &Files<'_>) -> Result<HeightMap, Fau
             .ok_or_else(|| Fault::value(&key, file, what))?;
         let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
         let path = files.find(name).map_err(|e| wrong(&e))?;
-        return HeightMap::from_file(&path, spacing).map_err(|e| wrong(&e));
+        return SurfaceMap::from_file(&path, spacing).map_err(|e| wrong(&e));
     }
-    let what = "a list along x of lists along y of heights in m, all of one length";
+    let what = "a list along x of lists along y of numbers, all of one length";
     let (key, value) = (section.path("z"), section.need("z", what)?);
     let wrong = || Fault::new(&key, format!("{key}: must be {what}"));
     let rows = value.as_array().ok_or_else(wrong)?;
@@ -170,9 +170,9 @@ fn height_map(section: &Section<'_>, files: &Files<'_>) -> Result<HeightMap, Fau
         }
     }
     let shape = (rows.len(), heights.len() / rows.len().max(1));
-    let z = Array2::from_shape_vec(shape, heights).map_err(|_| wrong())?;
-    Ok(HeightMap {
-        z: Arc::new(z),
+    let values = Array2::from_shape_vec(shape, heights).map_err(|_| wrong())?;
+    Ok(SurfaceMap {
+        values: Arc::new(values),
         spacing,
     })
 }
@@ -185,12 +185,7 @@ pub(super) fn text(shape: &Shape) -> String {
             let parts: Vec<_> = parts.iter().map(text).collect();
             return format!("{{ sum = [{}] }}", parts.join(", "));
         }
-        Shape::HeightMap(map) => {
-            let rows = map.z.rows().into_iter();
-            let rows: Vec<_> = rows.map(|row| format!("{:?}", row.to_vec())).collect();
-            let (x, y) = map.spacing;
-            format!("spacing = [{x:?}, {y:?}], z = [{}]", rows.join(", "))
-        }
+        Shape::HeightMap(map) => map_text(map),
         Shape::Rough(rough) => format!(
             "rms = {:?}, hurst = {:?}, longest = {:?}, shortest = {:?}, seed = {}",
             rough.rms, rough.hurst, rough.longest, rough.shortest, rough.seed
@@ -205,4 +200,12 @@ pub(super) fn text(shape: &Shape) -> String {
         }
     };
     format!("{{ {} = {{ {fields} }} }}", shape.word())
+}
+
+/// The entries of a surface map.
+pub(super) fn map_text(map: &SurfaceMap) -> String {
+    let rows = map.values.rows().into_iter();
+    let rows: Vec<_> = rows.map(|row| format!("{:?}", row.to_vec())).collect();
+    let (x, y) = map.spacing;
+    format!("spacing = [{x:?}, {y:?}], z = [{}]", rows.join(", "))
 }

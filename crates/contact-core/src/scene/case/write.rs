@@ -6,7 +6,8 @@ use toml::Value;
 
 use super::SCHEMA;
 use crate::scene::{
-    Body, Elastic, KernelMethod, LOADS, MOTIONS, Preset, SaveFields, Scene, Spacing,
+    Body, Elastic, Friction, FrictionHistory, History, KernelMethod, LOADS, Loads, MOTIONS, Preset,
+    SaveFields, Scene, Spacing,
 };
 
 impl Scene {
@@ -25,10 +26,11 @@ impl Scene {
                 line(format_args!("thickness = {:?}", coating.thickness));
             }
         }
-        line(format_args!("\n[friction]\nmu = {:?}", self.friction.mu));
+        line(format_args!("\n[friction]\n{}", friction(&self.friction)));
         let grid = &self.grid;
         line(format_args!("\n[grid]\nn = [{}, {}]", grid.nx, grid.ny));
         line(format_args!("spacing = [{:?}, {:?}]", grid.dx, grid.dy));
+        line(format_args!("plane_strain = {}", grid.plane_strain));
         for branch in &self.path.branches {
             let (forces, motions) = (branch.to.forces(), branch.to.given.motions());
             line(format_args!("\n[[path]]"));
@@ -38,6 +40,10 @@ impl Scene {
                     Some(motion) => line(format_args!("{} = {motion:?}", MOTIONS[k])),
                 }
             }
+            let Loads {
+                sigma_B, rolled, ..
+            } = branch.to;
+            line(format_args!("sigma_B = {sigma_B:?}\nrolled = {rolled:?}"));
             line(format_args!("increments = {}", branch.increments));
             line(format_args!("t = {:?}", branch.t_end));
             let spacing = match branch.spacing {
@@ -57,6 +63,7 @@ impl Scene {
         };
         line(format_args!("\n[solver]\npreset = \"{preset}\""));
         line(format_args!("tolerance = {:?}", solver.tolerance));
+        line(format_args!("entering = {}", solver.entering));
         line(format_args!(
             "max_alternations = {}",
             solver.max_alternations
@@ -68,8 +75,8 @@ impl Scene {
             skip.equal_layers
         ));
         line(format_args!(
-            "coupling = {}\nmirror = {}",
-            skip.coupling, skip.mirror
+            "coupling = {}\nmirror = {}\npath = {}",
+            skip.coupling, skip.mirror, skip.path
         ));
         let save = match &settings.save {
             SaveFields::Branches => "\"branches\"".to_owned(),
@@ -79,6 +86,33 @@ impl Scene {
         line(format_args!("\n[output]\nsave = {save}"));
         text
     }
+}
+
+fn friction(friction: &Friction) -> String {
+    let mut lines = vec![if friction.mu.is_finite() {
+        format!("mu = {:?}", friction.mu)
+    } else {
+        "mu = \"stick\"".to_owned()
+    }];
+    for (key, mu) in [("mu_y", friction.mu_y), ("kinetic", friction.kinetic)] {
+        lines.extend(mu.map(|mu| format!("{key} = {mu:?}")));
+    }
+    let map = friction.map.as_ref();
+    lines.extend(map.map(|map| format!("map = {{ {} }}", super::shape::map_text(map))));
+    if let Some(FrictionHistory { of, table }) = &friction.history {
+        let of = match of {
+            History::Slip => "slip",
+            History::Dissipated => "dissipated",
+            History::Increment => "increment",
+        };
+        let pairs: Vec<_> = table
+            .iter()
+            .map(|(at, f)| format!("[{at:?}, {f:?}]"))
+            .collect();
+        let table = pairs.join(", ");
+        lines.push(format!("history = {{ of = \"{of}\", table = [{table}] }}"));
+    }
+    lines.join("\n")
 }
 
 fn quoted(text: &str) -> String {

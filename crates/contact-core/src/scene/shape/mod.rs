@@ -1,16 +1,14 @@
 //! Shapes of the undeformed surfaces.
 
-mod height_map;
 mod rough;
 
-pub use height_map::HeightMap;
 pub use rough::Rough;
 
 use std::f64::consts::TAU;
 
 use ndarray::Array2;
 
-use super::Grid;
+use super::{Grid, SurfaceMap};
 use crate::error::Error;
 
 /// The undeformed surface of a body, as the height it falls back from the contact plane.
@@ -85,8 +83,8 @@ pub enum Shape {
         /// Phase at the origin \[rad\].
         phase: f64,
     },
-    /// Measured heights.
-    HeightMap(HeightMap),
+    /// Heights \[m\] out of the body, towards the other one.
+    HeightMap(SurfaceMap),
     /// A random self-affine surface.
     Rough(Rough),
     /// Several on top of one another: a wavy sphere, a rough punch.
@@ -148,7 +146,7 @@ impl Shape {
                 angle,
                 phase,
             } => amplitude * (1.0 - (TAU * across(angle) / wavelength + phase).cos()),
-            Self::HeightMap(ref map) => -map.height(x, y),
+            Self::HeightMap(ref map) => -map.at(x, y),
         }
     }
 

@@ -1,4 +1,4 @@
-//! Heights from a measurement or a calculation.
+//! Numbers given on points of the contact plane: heights, friction.
 
 use std::fs::{self, File};
 use std::io::Read;
@@ -8,24 +8,24 @@ use std::sync::Arc;
 use ndarray::{Array2, ArrayView2};
 use ndarray_npy::ViewNpyExt;
 
+use super::{Grid, memory};
 use crate::error::Error;
-use crate::scene::{Grid, memory};
 
-/// Memory that reading heights takes, over the length of the file: a number may be two bytes of
+/// Memory that reading numbers takes, over the length of the file: a number may be two bytes of
 /// text, and a list that grows is copied.
 const COPIES: f64 = 12.0;
 
-/// Heights of a surface on points of its own, the middle of the map over the origin.
+/// Numbers over the contact plane on points of their own, the middle of the map over the origin.
 #[derive(Clone, Debug, PartialEq)]
-pub struct HeightMap {
-    /// Heights \[m\] out of the body, towards the other one, shape (points along x, along y).
-    pub z: Arc<Array2<f64>>,
+pub struct SurfaceMap {
+    /// Numbers, shape (points along x, along y).
+    pub values: Arc<Array2<f64>>,
     /// Distance of the points along x and y \[m\].
     pub spacing: (f64, f64),
 }
 
-impl HeightMap {
-    /// Reads heights \[m\] from a `.npy` array of 64-bit numbers or from a table of numbers parted by
+impl SurfaceMap {
+    /// Reads numbers from a `.npy` array of 64-bit numbers or from a table of numbers parted by
     /// commas (`.csv`), one line per x.
     pub fn from_file(path: &Path, spacing: (f64, f64)) -> Result<Self, Error> {
         // Readers may say it in several lines; an error is one sentence.
@@ -37,39 +37,39 @@ impl HeightMap {
         if !about.is_file() {
             return Err(failed("is not a file".into()));
         }
-        memory::fits("the heights of a file", COPIES * about.len() as f64)?;
+        memory::fits("the numbers of a file", COPIES * about.len() as f64)?;
         let is_npy = path
             .extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("npy"));
         let read = if is_npy { read_npy } else { read_csv };
-        let z = read(path).map_err(failed)?;
+        let values = read(path).map_err(failed)?;
         Ok(Self {
-            z: Arc::new(z),
+            values: Arc::new(values),
             spacing,
         })
     }
 
-    /// Height at (x, y) \[m\], linear between the points, level beyond the border.
-    pub(crate) fn height(&self, x: f64, y: f64) -> f64 {
-        let (nx, ny) = self.z.dim();
+    /// The number at (x, y), linear between the points, level beyond the border.
+    pub(crate) fn at(&self, x: f64, y: f64) -> f64 {
+        let (nx, ny) = self.values.dim();
         let (i, s) = place(x / self.spacing.0, nx);
         let (j, t) = place(y / self.spacing.1, ny);
         let (k, l) = ((i + 1).min(nx - 1), (j + 1).min(ny - 1));
-        let z = &self.z;
+        let z = &self.values;
         (1.0 - s) * ((1.0 - t) * z[(i, j)] + t * z[(i, l)])
             + s * ((1.0 - t) * z[(k, j)] + t * z[(k, l)])
     }
 
     pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
-        if self.z.is_empty() {
+        if self.values.is_empty() {
             return Err(Error::invalid(
                 format!("{key}.z"),
                 "empty",
-                "at least one height",
+                "at least one number",
             ));
         }
-        if let Some(z) = self.z.iter().find(|z| !z.is_finite()) {
-            return Err(Error::invalid(format!("{key}.z"), z, "finite heights in m"));
+        if let Some(z) = self.values.iter().find(|z| !z.is_finite()) {
+            return Err(Error::invalid(format!("{key}.z"), z, "finite numbers"));
         }
         for d in [self.spacing.0, self.spacing.1] {
             if !(d > 0.0 && d.is_finite()) {
@@ -84,7 +84,7 @@ impl HeightMap {
     }
 
     pub(crate) fn check_on(&self, grid: &Grid, key: &str) -> Result<(), Error> {
-        let (nx, ny) = self.z.dim();
+        let (nx, ny) = self.values.dim();
         let covers = |n: usize, d: f64, cells: usize, cell: f64| {
             n as f64 * d >= cells as f64 * cell * (1.0 - 1e-9)
         };
@@ -153,21 +153,21 @@ mod tests {
 
     use ndarray::Array2;
 
-    use super::HeightMap;
+    use super::SurfaceMap;
 
     #[test]
     fn a_plane_is_met_between_its_points() {
-        let z = Array2::from_shape_fn((5, 4), |(i, j)| 2.0 * i as f64 - 3.0 * j as f64);
-        let map = HeightMap {
-            z: Arc::new(z),
+        let values = Array2::from_shape_fn((5, 4), |(i, j)| 2.0 * i as f64 - 3.0 * j as f64);
+        let map = SurfaceMap {
+            values: Arc::new(values),
             spacing: (0.5, 0.25),
         };
         let (middle_i, middle_j) = (2.0, 1.5);
         for (x, y) in [(0.0, 0.0), (0.3, -0.1), (-0.99, 0.37)] {
             let expected = 2.0 * (x / 0.5 + middle_i) - 3.0 * (y / 0.25 + middle_j);
-            assert!((map.height(x, y) - expected).abs() < 1e-13);
+            assert!((map.at(x, y) - expected).abs() < 1e-13);
         }
-        let beyond = map.height(-9.0, -9.0);
+        let beyond = map.at(-9.0, -9.0);
         assert!(beyond.abs() < 1e-15, "{beyond}");
     }
 }

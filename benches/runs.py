@@ -1,0 +1,71 @@
+"""Whole runs of the command ``fret``, start-up and files included, and grids of many cells."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from environment import ROOT, product, run_python
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    Row = dict[str, Any]
+
+FRET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release" / "fret"
+PAPER = "scenes/coated_fretting.toml"
+
+
+def ratio(value: float) -> tuple[str, ...]:
+    """The setting E1/E2."""
+    return ("--set", f"body2.coatings.0.E.E_substrate={value:g}")
+
+
+RUNS: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("small, 64 x 64, 200 increments", ("scenes/coated_small.toml",)),
+    *(
+        (f"paper, 256 x 256, 1000 increments, E1/E2 = {value:g}", (PAPER, *ratio(value)))
+        for value in (0.5, 1.0, 2.0, 4.0)
+    ),
+    (
+        "paper, 256 x 256, E1/E2 = 1, only the increments that count (`skip.path`)",
+        (PAPER, *ratio(1.0), "--set", "skip.path=true"),
+    ),
+)
+
+
+def command_line(*, quick: bool) -> Iterator[Row]:
+    """Wall time of runs, the better of two (short ones: the best of ten) [s]."""
+    for name, arguments in RUNS[: 1 if quick else None]:
+        times: list[float] = []
+        while len(times) < 2 or (sum(times) < 3 and len(times) < 10):
+            with tempfile.TemporaryDirectory() as folder:
+                begun = time.perf_counter()
+                subprocess.run(
+                    [FRET, "run", *arguments, "-o", Path(folder) / "out.zarr"],
+                    cwd=ROOT,
+                    check=True,
+                    capture_output=True,
+                )
+                times.append(time.perf_counter() - begun)
+        yield {"run": name, "seconds": min(times), "repetitions": len(times)}
+
+
+def large(sizes: Sequence[int]) -> Iterator[Row]:
+    """Time and memory over the cells; a grid that the machine's memory cannot hold is left out."""
+    for cells in sizes:
+        if 1000 * cells**2 < free_memory():
+            yield from run_python(product(), "run_large.py", ["--cells", str(cells)])
+
+
+def free_memory() -> float:
+    """Memory that is free [bytes]."""
+    file = Path("/proc/meminfo")
+    if not file.exists():
+        return float("inf")
+    lines = dict(line.split(":", 1) for line in file.read_text().splitlines())
+    return 1024.0 * int(lines["MemAvailable"].split()[0])

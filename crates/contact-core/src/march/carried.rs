@@ -1,0 +1,173 @@
+//! What the bodies bring into an increment when they roll or are stretched meanwhile.
+//!
+//! The grid goes with the contact. When the contact has rolled on by s along x, the material that
+//! is now at x was at x + s before, and with it its displacement, its shear and its history. Under
+//! a bulk stress along x that rises by d(sigma_B) the surface of body 2 stretches by
+//!
+//! ```text
+//! d(eps_x) = d(sigma_B)/E,  d(eps_y) = -nu d(sigma_B)/E        free to contract along y
+//! d(eps_x) = (1 - nu^2) d(sigma_B)/E,  d(eps_y) = 0            plane strain
+//! ```
+//!
+//! with the substrate's E and nu, its coatings with it (D. A. Hills, D. Nowell, Mechanics of
+//! Fretting Fatigue (1994), sec. 5.3). Both enter the slip, eq. (7), through the displacement that
+//! means none: that of the material before, less d(eps) x.
+
+use super::{Interface, March};
+use crate::scene::{LoadPoint, Scene};
+use crate::solvers::add_scaled;
+
+/// The last interface as the increment finds it.
+pub(super) struct Carried {
+    /// Tractions and displacements of the material that is now in each cell; the displacements
+    /// less the stretch.
+    interface: Interface,
+    /// Cells that the contact rolls on along x.
+    cells: isize,
+    /// Strain d(eps_x), d(eps_y) of body 2 in the increment.
+    strain: [f64; 2],
+    /// What cells outside the contact move in the increment before they enter it \[m\], if known.
+    entered: Option<[Vec<f64>; 2]>,
+}
+
+impl Scene {
+    /// Surface strain eps_x, eps_y of body 2 under the bulk stress `sigma_B` \[Pa\].
+    pub(super) fn bulk_strain(&self, sigma_B: f64) -> [f64; 2] {
+        let (E, nu) = (self.body2.substrate.E, self.body2.substrate.nu);
+        if self.grid.plane_strain {
+            [(1.0 - nu * nu) * sigma_B / E, 0.0]
+        } else {
+            [sigma_B / E, -nu * sigma_B / E]
+        }
+    }
+}
+
+impl Carried {
+    pub(super) fn interface(&self) -> &Interface {
+        &self.interface
+    }
+}
+
+impl March {
+    /// Rolls and stretches the last interface to where the increment starts.
+    pub(super) fn carry(&mut self, point: &LoadPoint) {
+        let (now, before) = (&point.loads, &self.state.loads);
+        let at = |rolled: f64| (rolled / self.scene.grid.dx).round() as isize;
+        let cells = at(now.rolled) - at(before.rolled);
+        let strain = self.scene.bulk_strain(now.sigma_B - before.sigma_B);
+        self.carried = None;
+        if cells == 0 && strain.iter().all(|e| *e == 0.0) {
+            return;
+        }
+        let last = &self.state.interface;
+        let roll = |field: &[f64]| self.rolled(field, cells);
+        let pair = |fields: &[Vec<f64>; 2]| [roll(&fields[0]), roll(&fields[1])];
+        let mut interface = Interface {
+            p: roll(&last.p),
+            q: pair(&last.q),
+            u: pair(&last.u),
+            u_z: roll(&last.u_z),
+            slip: (0..last.slip.len())
+                .map(|n| self.source(n, cells).is_some_and(|n| last.slip[n]))
+                .collect(),
+        };
+        for n in 0..last.p.len() {
+            let stretch = self.stretched(strain, n);
+            interface.u[0][n] -= stretch[0];
+            interface.u[1][n] -= stretch[1];
+        }
+        self.carried = Some(Carried {
+            interface,
+            cells,
+            strain,
+            entered: None,
+        });
+    }
+
+    /// Lets cells outside the contact move that much before they enter it: the displacements that
+    /// mean no slip are theirs at entry.
+    pub(super) fn set_entered(&mut self, entered: [Vec<f64>; 2]) {
+        let last = &self.state.interface;
+        let carried = self.carried.get_or_insert_with(|| Carried {
+            interface: last.clone(),
+            cells: 0,
+            strain: [0.0; 2],
+            entered: None,
+        });
+        for c in 0..2 {
+            if let Some(earlier) = &carried.entered {
+                add_scaled(&mut carried.interface.u[c], -1.0, &earlier[c]);
+            }
+            add_scaled(&mut carried.interface.u[c], 1.0, &entered[c]);
+        }
+        carried.entered = Some(entered);
+    }
+
+    /// What cell n moves before it enters the contact \[m\].
+    pub(super) fn entered_at(&self, n: usize) -> [f64; 2] {
+        let entered = self.carried.as_ref().and_then(|c| c.entered.as_ref());
+        entered.map_or([0.0; 2], |moved| [moved[0][n], moved[1][n]])
+    }
+
+    /// The interface that slip is reckoned from.
+    pub(super) fn before(&self) -> &Interface {
+        let carried = self.carried.as_ref();
+        carried.map_or(&self.state.interface, Carried::interface)
+    }
+
+    /// Where the material in cell n was before the increment, if that was on the grid.
+    pub(super) fn origin(&self, n: usize) -> Option<usize> {
+        self.source(n, self.carried.as_ref().map_or(0, |c| c.cells))
+    }
+
+    /// How far the stretch moves body 2 in cell n in the increment \[m\].
+    pub(super) fn stretch_at(&self, n: usize) -> [f64; 2] {
+        let carried = self.carried.as_ref();
+        carried.map_or([0.0; 2], |carried| self.stretched(carried.strain, n))
+    }
+
+    /// How much wider the undeformed gap over the material in cell n is than before \[m\].
+    pub(super) fn gap_rolled(&self, n: usize) -> f64 {
+        match &self.carried {
+            Some(carried) if carried.cells != 0 => {
+                let from = self.origin(n).unwrap_or(n);
+                self.h_init[n] - self.h_init[from]
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// What a history per cell becomes when the material moves on: new material has none.
+    pub(super) fn roll_history(&mut self) {
+        let Some(cells) = self.carried.as_ref().map(|c| c.cells).filter(|c| *c != 0) else {
+            return;
+        };
+        let state = &self.state;
+        let [slip_x, slip_y] = [0, 1].map(|c| self.rolled(&state.slip[c], cells));
+        let slip_length = self.rolled(&state.slip_length, cells);
+        let dissipated = self.rolled(&state.dissipated, cells);
+        let state = &mut self.state;
+        (state.slip, state.slip_length, state.dissipated) =
+            ([slip_x, slip_y], slip_length, dissipated);
+    }
+
+    fn stretched(&self, strain: [f64; 2], n: usize) -> [f64; 2] {
+        let (arms, length) = (&self.arms, self.arms.length);
+        [
+            strain[0] * length * arms.x[n],
+            strain[1] * length * arms.y[n] * arms.stretch,
+        ]
+    }
+
+    fn source(&self, n: usize, cells: isize) -> Option<usize> {
+        let rows = self.plan.mirror.rows(self.scene.grid.ny);
+        let from = n as isize + cells * rows as isize;
+        let inside = (0..self.h_init.len() as isize).contains(&from);
+        inside.then_some(from as usize)
+    }
+
+    fn rolled(&self, field: &[f64], cells: isize) -> Vec<f64> {
+        let from = |n: usize| self.source(n, cells).map_or(0.0, |n| field[n]);
+        (0..field.len()).map(from).collect()
+    }
+}

@@ -1,0 +1,32 @@
+//! The one-dimensional springs that answer every path of W and T.
+
+use contact_core::reference as core;
+use pyo3::prelude::*;
+
+use super::Hertz;
+use crate::scene::Elastic;
+
+/// Independent springs with friction.
+#[pyclass(module = "pyfret.reference")]
+pub(crate) struct Springs {
+    springs: core::Springs,
+    at: (f64, f64),
+}
+
+#[pymethods]
+impl Springs {
+    #[new]
+    #[pyo3(signature = (largest, *, R, bodies, mu, n = 1500))]
+    fn new(largest: Hertz, R: f64, bodies: (Elastic, Elastic), mu: f64, n: usize) -> Self {
+        Self {
+            springs: core::Springs::new(largest.0, R, bodies.0.0, bodies.1.0, mu, n),
+            at: (0.0, 0.0),
+        }
+    }
+
+    #[pyo3(signature = (*, W, T, steps = 10))]
+    fn load(&mut self, W: f64, T: f64, steps: usize) -> f64 {
+        let from = std::mem::replace(&mut self.at, (W, T));
+        self.springs.load(from, self.at, steps)
+    }
+}

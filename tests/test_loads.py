@@ -1,0 +1,125 @@
+"""Loads, friction laws and line contacts from Python."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import MU, R, W, sphere_on_flat
+
+STEEL = fret.Elastic(E=210e9, nu=0.3)
+PRESSED = fret.LoadPath.start().normal(W, increments=1)
+
+
+def test_a_friction_law_survives_the_scene_file() -> None:
+    factors = np.linspace(0.5, 1.5, 64 * 64).reshape(64, 64)
+    law = fret.Friction(
+        0.3,
+        mu_y=0.2,
+        kinetic=0.25,
+        map=fret.SurfaceMap(factors, spacing=(1e-3, 1e-3)),
+        history=(fret.History.SLIP, [(0.0, 1.0), (1e-6, 1.4)]),
+    )
+    scene = sphere_on_flat().replace(mu=law, path=PRESSED)
+    again = fret.Scene.from_toml(scene.to_toml())
+    assert again == scene
+    assert again.friction.history == law.history
+    assert scene.replace(mu=0.4).friction == fret.Friction(0.4)
+
+
+@pytest.mark.parametrize(
+    ("law", "message"),
+    [
+        (fret.Friction(0.3, kinetic=-0.1), r"friction\.kinetic = -0\.1: must be a positive"),
+        (fret.Friction(0.3, mu_y=0.0), r"friction\.mu_y = 0"),
+        (
+            fret.Friction(0.3, map=fret.SurfaceMap(np.ones((4, 4)), spacing=(1e-6, 1e-6))),
+            r"friction\.map = .*: must be at least as large as the grid",
+        ),
+        (
+            fret.Friction(0.3, history=(fret.History.SLIP, [(1.0, 1.0), (0.5, 1.0)])),
+            r"friction\.history\.table = 0\.5: must be a history that grows",
+        ),
+    ],
+)
+def test_a_law_without_meaning_is_refused(law: fret.Friction, message: str) -> None:
+    with pytest.raises(fret.InvalidSceneError, match=message):
+        sphere_on_flat().replace(mu=law, path=PRESSED).check()
+
+
+def test_a_measured_history_is_a_path(tmp_path: Path) -> None:
+    t = np.linspace(0.5, 3.0, 6)
+    force = 0.5 * MU * W * np.sin(t)
+    path = fret.LoadPath.start().waypoints(t=t, W=np.full(6, W), T_x=force, increments=2)
+    assert len(path) == 12
+    np.testing.assert_allclose(path.T_x[1::2], force, rtol=1e-15)
+    file = tmp_path / "history.csv"
+    table = np.column_stack([t, np.full(6, W), force])
+    np.savetxt(file, table, delimiter=",", header="t, W, T_x", comments="", fmt="%.17g")
+    assert fret.LoadPath.from_csv(file, increments=2) == path
+    fine = fret.LoadPath.from_csv(file, increments=fret.PerRange(40))
+    assert fine.branches[0].increments == 40
+    with pytest.raises(fret.InvalidSceneError, match="the nearest is T_x"):
+        fret.LoadPath.start().waypoints(T_X=[1.0])
+
+
+def test_elliptical_loading_dissipates_and_comes_back() -> None:
+    T = 0.6 * MU * W
+    path = PRESSED.ellipse(T_x=T, T_y=0.5 * T, turns=2, increments=16)
+    result = fret.solve(sphere_on_flat(n=24), path, progress=False)
+    scalars = result.dataset
+    assert float(scalars.dissipated.min()) >= -1e-15
+    # The second turn repeats: the rotating force has worn a path.
+    assert float(scalars.delta_x[-1]) == pytest.approx(float(scalars.delta_x[-17]), rel=0.05)
+    assert float(np.abs(scalars.delta_y).max()) > 0
+
+
+def test_a_line_contact_is_that_of_hertz() -> None:
+    line = fret.reference.line_contact(R=R, bodies=(STEEL, STEEL), W=1e5)
+    scene = fret.Scene(
+        body1=fret.Body(STEEL, shape=fret.Cylinder(R=R)),
+        body2=fret.Body(STEEL),
+        mu=MU,
+        grid=fret.Grid.strip(extent=2.4 * line.a, n=200),
+    )
+    path = (
+        fret.LoadPath.start()
+        .normal(1e5, increments=1)
+        .force(T_x=0.5 * MU * 1e5, sigma_B=2e7, increments=4)
+    )
+    end = fret.solve(scene, path, progress=False).at(-1)
+    assert scene.grid.plane_strain
+    assert scene.hertz is not None
+    assert scene.hertz.a == pytest.approx(line.a)
+    x = end.p.x.to_numpy()
+    p = end.p.to_numpy()[:, 0]
+    assert np.linalg.norm(p - line.p(x)) < 0.005 * np.linalg.norm(p)
+    with pytest.raises(fret.InvalidSceneError, match=r"left out in plane strain"):
+        scene.replace(path=PRESSED.torsion(1.0, increments=1)).check()
+
+
+def test_rolling_needs_whole_cells() -> None:
+    scene = sphere_on_flat()
+    for cells, increments, good in ((8, 4, True), (6, 4, False)):
+        path = PRESSED.force(rolled=cells * scene.grid.dx, increments=increments)
+        if good:
+            scene.replace(path=path).check()
+        else:
+            with pytest.raises(fret.InvalidSceneError, match="must be whole cells"):
+                scene.replace(path=path).check()
+
+
+def test_measured_surfaces_come_in_metres(tmp_path: Path) -> None:
+    pytest.importorskip("SurfaceTopography")
+    from SurfaceTopography import Topography
+
+    nx, ny = 12, 8
+    heights = np.sin(np.arange(nx * ny)).reshape(nx, ny) * 0.1
+    file = tmp_path / "surface.nc"
+    Topography(heights, (6.0, 4.0), unit="µm").to_netcdf(file)
+    surface = fret.read_surface(file)
+    assert surface.spacing == pytest.approx((5e-7, 5e-7))
+    np.testing.assert_allclose(surface.values, (heights - heights.mean()) * 1e-6, atol=1e-20)
