@@ -13,17 +13,17 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo stress-figures test stress kill fuzz deny check format bench bench-kernels bench-stress bench-peers clean
+.PHONY: help setup demo figure-13 test stress kill fuzz deny check format bench bench-kernels bench-stress bench-peers clean
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
 
 setup: $(VENV)/.installed target/release/fret ## .venv with pyfret and its tools, binary target/release/fret
 
 demo: setup ## the paper's four runs: results and figures in out/
 	$(PY) examples/paper.py --out out
 
-stress-figures: setup ## stress below the paper's contact: figures in out/
+figure-13: setup ## stress below the paper's contact: figures in out/
 	$(PY) examples/stress.py --out out
 
 test: setup ## all tests: cargo, then pytest

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
     Row = dict[str, Any]
 
+#: Figures that belong to a part, and stand below its table.
+FIGURES = {"wavy": "peers_frictionless.png", "fretting": "peers_fretting.png"}
 PARTS = ("hertz", "wavy", "convolution", "fretting", "runs", "large")
 
 
@@ -80,18 +82,20 @@ def report(found: dict[str, list[Row]], out: Path, document: Path | None) -> Non
     texts = {part: write[part](found[part]) for part in PARTS if found.get(part)}
     if found.get("hertz") and found.get("wavy"):
         ladder = found["wavy_tolerances"]
-        figures.frictionless(found["hertz"], ladder, out / "peers_frictionless.png")
+        figures.frictionless(found["hertz"], ladder, out / FIGURES["wavy"])
     if found.get("fretting"):
-        figures.fretting(found["fretting"], out / "peers_fretting.png")
+        figures.fretting(found["fretting"], out / FIGURES["fretting"])
     page = "\n\n".join(f"## {name}\n\n{text}" for name, text in texts.items())
     (out / "peers.md").write_text(page + "\n")
     print(page)
     if document is None:
         return
-    for name, text in texts.items():
-        tables.write_between_marks(document, name, text)
-    for figure in out.glob("peers_*.png"):
-        shutil.copy(figure, document.parent / "figures")
+    for name in texts:
+        figure = out / FIGURES.get(name, "")
+        if figure.is_file():
+            shutil.copy(figure, document.parent / "figures")
+            texts[name] += f"\n\n![Error against time](figures/{figure.name})"
+        tables.write_between_marks(document, name, texts[name])
 
 
 def main() -> None:

@@ -24,21 +24,26 @@ __all__ = [
     "Cylinder",
     "Elastic",
     "Ellipsoid",
+    "Envelope",
     "Flat",
     "FlatPunch",
     "FrequencyDomain",
+    "Friction",
     "Grid",
     "Hankel",
     "Hertz",
     "HertzEllipse",
+    "History",
     "InvalidSceneError",
     "InverseFft",
     "KernelInaccurateError",
+    "LineContact",
     "LoadPath",
     "Lubkin",
     "March",
     "NoConvergenceError",
     "OffGridError",
+    "PerRange",
     "Preset",
     "Profile",
     "Rough",
@@ -48,7 +53,9 @@ __all__ = [
     "SlidingError",
     "Spacing",
     "Sphere",
+    "Springs",
     "StoreError",
+    "Subsurface",
     "Sum",
     "SurfaceMap",
     "SurfaceOperator",
@@ -57,6 +64,7 @@ __all__ = [
     "__version__",
     "coated_indentation",
     "coupled_indentation",
+    "depths",
     "dundurs_beta",
     "goodman_stick_ratio",
     "graded",
@@ -64,10 +72,17 @@ __all__ = [
     "hertz_ellipse",
     "influence_coefficients",
     "labels",
+    "line_contact",
+    "loops",
+    "maximum",
+    "measure",
+    "principal",
     "resume",
+    "rims",
     "solve",
     "stress_at",
     "stress_coefficients",
+    "stress_labels",
     "surface_frf",
 ]
 
@@ -182,6 +197,7 @@ class Flat:
 
     def __new__(cls) -> Flat: ...
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -201,6 +217,7 @@ class Sphere:
     def R(self) -> float:
         """Radius [m]."""
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -230,6 +247,7 @@ class Ellipsoid:
     def angle(self) -> float:
         """Direction of the first one, from x towards y [rad]."""
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -259,6 +277,7 @@ class Cylinder:
     def angle(self) -> float:
         """Turn of the axis from y [rad]."""
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -295,6 +314,7 @@ class CrownedRoller:
     def angle(self) -> float:
         """Turn of the axis from y [rad]."""
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -314,6 +334,7 @@ class Cone:
     def slope(self) -> float:
         """Tangent of the angle between flank and contact plane."""
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -338,6 +359,7 @@ class Wedge:
     def angle(self) -> float:
         """Turn of the edge from y [rad]."""
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -362,6 +384,7 @@ class FlatPunch:
     def edge(self) -> float:
         """Radius of the rounding beyond it [m]."""
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -398,6 +421,7 @@ class Waviness:
     def phase(self) -> float:
         """Phase at the origin [rad]."""
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -440,6 +464,7 @@ class Rough:
     def seed(self) -> int:
         """Seed of the phases."""
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -470,6 +495,7 @@ class SurfaceMap:
     def spacing(self) -> tuple[float, float]:
         """Distance of the points along x and y [m]."""
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -482,6 +508,7 @@ class Sum:
     def parts(self) -> list[_Shape]:
         """The shapes."""
     def __add__(self, other: _Shape, /) -> Sum: ...
+    def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -763,7 +790,7 @@ class LoadPath:
         for each turn towards (0, T_y), each a branch of its own.
         """
     def waypoints(
-        self, *, increments: int | PerRange = 1, **columns: Sequence[float] | _Array
+        self, *, increments: int | PerRange = ..., **columns: Sequence[float] | _Array
     ) -> LoadPath:
         """Go straight from waypoint to waypoint, a branch for each.
 
@@ -776,7 +803,7 @@ class LoadPath:
             path time ``t`` at the waypoints. What has no column stays as it is.
         """
     @staticmethod
-    def from_csv(path: str | PathLike[str], *, increments: int | PerRange = 1) -> LoadPath:
+    def from_csv(path: str | PathLike[str], *, increments: int | PerRange = ...) -> LoadPath:
         """Read a measured history; the first line names the columns of `waypoints`."""
     def force(
         self,

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use contact_core::scene::{HeightMap, Scene};
+use contact_core::scene::{Scene, SurfaceMap};
 use ndarray::Array2;
 use ndarray_npy::WriteNpyExt;
 use proptest::prelude::*;
@@ -49,7 +49,9 @@ fn lie() -> impl Strategy<Value = Vec<u8>> {
 fn changed(good: Vec<u8>) -> impl Strategy<Value = Vec<u8>> {
     prop::collection::vec(change(), 1..4).prop_map(move |changes| {
         let mut bytes = good.clone();
-        changes.iter().for_each(|change| apply(&mut bytes, change));
+        for change in &changes {
+            apply(&mut bytes, change);
+        }
         bytes
     })
 }
@@ -79,8 +81,8 @@ fn height_maps() {
     crate::fuzz("height maps", files, |(name, bytes)| {
         let file = folder.path().join(name);
         fs::write(&file, bytes).unwrap();
-        match HeightMap::from_file(&file, (1e-4, 1e-4)) {
-            Ok(map) => assert!(map.z.len() <= bytes.len(), "more heights than bytes"),
+        match SurfaceMap::from_file(&file, (1e-4, 1e-4)) {
+            Ok(map) => assert!(map.values.len() <= bytes.len(), "more heights than bytes"),
             Err(error) => crate::one_sentence(&error),
         }
         fs::write(&path, SCENE.replace("NAME", name)).unwrap();

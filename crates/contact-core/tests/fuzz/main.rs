@@ -35,7 +35,7 @@ const SLICE: u64 = 5;
 const ROUND: u32 = 32;
 /// An input that takes longer is a hang: most take a millisecond, solving is stopped after two
 /// seconds.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 fn number(variable: &str) -> Option<u64> {
     std::env::var(variable).ok().map(|n| n.parse().unwrap())

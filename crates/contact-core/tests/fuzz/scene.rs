@@ -84,7 +84,9 @@ fn scene_files() {
     let texts = (select(&SCENES), prop::collection::vec(change(), 1..4));
     let texts = texts.prop_map(|(text, changes)| {
         let mut bytes = text.as_bytes().to_vec();
-        changes.iter().for_each(|change| apply(&mut bytes, change));
+        for change in &changes {
+            apply(&mut bytes, change);
+        }
         String::from_utf8_lossy(&bytes).into_owned()
     });
     crate::fuzz("scene files", texts, |text| match take(text) {

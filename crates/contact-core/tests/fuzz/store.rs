@@ -139,11 +139,12 @@ fn read(path: &Path) -> Result<(), Error> {
     }
     let scene = store.scene();
     let small = scene.grid.cells() <= 400 && scene.path.increments() <= 20;
-    if small && Plan::new(scene).memory(scene) < crate::ANNOUNCED {
-        if let Some(mut resumed) = resume(path)? {
-            let increments = resumed.increments.clone();
-            resumed.march.run(increments, &mut resumed.writer)?;
-        }
+    if small
+        && Plan::new(scene).memory(scene) < crate::ANNOUNCED
+        && let Some(mut resumed) = resume(path)?
+    {
+        let increments = resumed.increments.clone();
+        resumed.march.run(increments, &mut resumed.writer)?;
     }
     outcome
 }
