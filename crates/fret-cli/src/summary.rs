@@ -33,10 +33,12 @@ impl Measures {
 pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
     let Measures { radius, pressure } = Measures::of(scene);
     let loads = branch.loads;
+    let held = loads.given.motions();
     let others = OTHERS.iter().fold(String::new(), |text, &(k, unit, _)| {
-        match loads.forces()[k] {
-            0.0 => text,
-            load => text + &format!(", {} = {load} {unit}", LOADS[k]),
+        match (loads.forces()[k], held[k]) {
+            // What keeps the bodies from turning says little.
+            (0.0, _) | (_, Some(0.0)) => text,
+            (load, _) => text + &format!(", {} = {load} {unit}", LOADS[k]),
         }
     });
     format!(
