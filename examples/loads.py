@@ -200,7 +200,7 @@ def bulk(file: Path, n: int) -> str:
         end = solved(scene).at(2)
         for z in (0.1, 0.5, 1.0):
             below = end.stress(z=[z * line.a], y=0.0)
-            x = below.x.to_numpy()
+            x = below.s_xx.x.to_numpy()
             s_xx = np.asarray(below.s_xx).ravel()
             truth = np.asarray(line.stress(x, z * line.a, T=T, mu=MU)[0])
             (drawn,) = stress.plot(x / line.a, truth / line.p0, label=f"z = {z} a")

@@ -92,8 +92,8 @@ def test_a_line_contact_is_that_of_hertz() -> None:
     )
     end = fret.solve(scene, path, progress=False).at(-1)
     assert scene.grid.plane_strain
-    assert scene.hertz is not None
-    assert scene.hertz.a == pytest.approx(line.a)
+    assert end.scene.hertz is not None
+    assert end.scene.hertz.a == pytest.approx(line.a)
     x = end.p.x.to_numpy()
     p = end.p.to_numpy()[:, 0]
     assert np.linalg.norm(p - line.p(x)) < 0.005 * np.linalg.norm(p)

@@ -73,7 +73,7 @@ def test_the_figures_of_the_paper_in_one_call(coated: fret.Result, tmp_path: Pat
     figures = fret.plot.paper_figures(
         results, tmp_path, jump=fret.solve(sphere_on_flat(ratio=2.0), jump, progress=False)
     )
-    numbers = ["04", "05", "06", "07a", "07b", "07c", "08", "09", "10", "11", "12"]
+    numbers = ["04", "05", "06", "07a", "07b", "07c", "08", "09", "10", "11", "12", "13"]
     assert [figure.name for figure in figures] == [f"figure_{n}.png" for n in numbers]
     for figure in figures:
         with Image.open(figure) as image:

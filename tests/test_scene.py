@@ -143,13 +143,18 @@ def test_a_graded_coating_is_a_stack_with_the_properties_of_each_middle() -> Non
 
 
 def test_a_scene_reads_no_file_outside_its_folder(tmp_path: Path) -> None:
-    np.save(tmp_path / "outside.npy", -np.add.outer(np.arange(-2.0, 3) ** 2, np.arange(-2.0, 3) ** 2) * 1e-6)
+    np.save(
+        tmp_path / "outside.npy",
+        -np.add.outer(np.arange(-2.0, 3) ** 2, np.arange(-2.0, 3) ** 2) * 1e-6,
+    )
     scene = tmp_path / "scene" / "scene.toml"
     scene.parent.mkdir()
     scene.write_text(
         """
         schema = 1
-        body1 = { shape.height_map = { spacing = 1e-3, file = "../outside.npy" }, E = 2e11, nu = 0.3 }
+        body1.shape.height_map = { spacing = 1e-3, file = "../outside.npy" }
+        body1.E = 2e11
+        body1.nu = 0.3
         body2 = { shape = "flat", E = 2e11, nu = 0.3 }
         friction.mu = 0.3
         grid = { n = 8, extent = 3e-3 }
