@@ -1,4 +1,4 @@
-"""Every load against its closed form: torsion, any path, ellipse, bulk stress, rolling, friction.
+"""Every load against its closed form: torsion, any path, ellipse, bulk stress, rolling and others.
 
     python examples/loads.py --out out
 
@@ -286,6 +286,72 @@ def friction(file: Path, n: int) -> str:
     return "T_x/W at the end: " + ", ".join(f"{end:.3f}" for end in ends)
 
 
+def oblique(file: Path, n: int) -> str:
+    """W and T_x = W/5 growing together from nothing: no slip, q = p/5 in every cell."""
+    k, worst = 0.2, 0.0
+    with fret.plot.style():
+        figure, axes = plt.subplots(1, 2, figsize=(8.8, 3.5), sharey=True)
+        for ax, entering in zip(axes, (True, False), strict=True):
+            for increments in (1, 5, 20):
+                path = fret.LoadPath.start().force(W=W, T_x=k * W, increments=increments)
+                settings = fret.Settings(tolerance=1e-9, entering=entering)
+                scene = sphere(CORK, path, n=n).replace(settings=settings)
+                at = solved(scene).at(-1)
+                hertz = at.scene.hertz
+                assert hertz is not None
+                middle = n // 2
+                x, q = at.p.x.to_numpy() / hertz.a, at.q_x.to_numpy()
+                label = f"{increments} increment" + ("s" if increments > 1 else "")
+                ax.plot(x, q[:, middle] / (k * hertz.p0), ".-", ms=3, lw=0.8, label=label)
+                if entering:
+                    worst = max(worst, largest(q, k * at.p.to_numpy(), k * hertz.p0))
+            fine = np.linspace(-1, 1, 301)
+            ax.plot(fine, np.sqrt(1 - fine**2), "k--", lw=0.8, label="$k\\,p$ of Hertz")
+            ax.set(xlabel="$x/a$", title="entering cells " + ("on" if entering else "off"))
+            ax.legend(fontsize=8)
+        axes[0].set_ylabel("$q_x/(k\\,p_0)$")
+        figure.tight_layout()
+        figure.savefig(file)
+        plt.close(figure)
+    return f"q within {worst:.1e} of k p, over k p_0"
+
+
+def radial(file: Path, n: int) -> str:
+    """Fretting mode II: a sphere on a rigid plane, W up, down and up again; all is round."""
+    a = fret.reference.hertz(R=R, bodies=(STEEL, fret.RIGID), W=W).a
+    path = fret.LoadPath.start().radial([W, 0.5 * W, W], increments=60)
+    scene = fret.Scene(
+        body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
+        body2=fret.Body(fret.RIGID),
+        mu=MU,
+        grid=fret.Grid.centred(extent=2.3 * a, n=n),
+        path=path,
+    )
+    result = solved(scene)
+    hertz = scene.hertz
+    assert hertz is not None
+    saved = [int(m) for m in result.dataset.saved_increment.values]
+    worst = 0.0
+    with fret.plot.style():
+        figure, ax = plt.subplots(figsize=(5.4, 3.5))
+        for moment, name in zip(saved, ("pressed", "half unloaded", "pressed again"), strict=True):
+            at = result.at(moment)
+            x, y = at.p.x.to_numpy()[:, None], at.p.y.to_numpy()[None, :]
+            r = np.hypot(x, y)
+            inwards = -(at.q_x.to_numpy() * x + at.q_y.to_numpy() * y) / r
+            round_about = (at.q_y.to_numpy() * x - at.q_x.to_numpy() * y) / r
+            worst = max(worst, float(np.abs(round_about).max()))
+            inside = at.p.to_numpy() > 0
+            radius, traction = r[inside] / hertz.a, inwards[inside] / (MU * hertz.p0)
+            ax.plot(radius, traction, ".", ms=2, label=name)
+        ax.set(xlabel="$r/a$", ylabel=r"$q_r/(\mu p_0)$, inwards on the plane")
+        ax.legend()
+        figure.tight_layout()
+        figure.savefig(file)
+        plt.close(figure)
+    return f"shear round about at most {worst / (MU * hertz.p0):.1e} mu p_0"
+
+
 FIGURES: dict[str, tuple[Callable[[Path, int], str], int]] = {
     "torsion": (torsion, 256),
     "any_path": (any_path, 40),
@@ -293,6 +359,8 @@ FIGURES: dict[str, tuple[Callable[[Path, int], str], int]] = {
     "bulk_stress": (bulk, 256),
     "rolling": (rolling, 240),
     "friction": (friction, 48),
+    "oblique": (oblique, 64),
+    "radial": (radial, 96),
 }
 
 
