@@ -74,7 +74,9 @@ impl March {
         let mut work = CoupledInfo::default();
         let lowest = self.h_init.iter().copied().fold(f64::INFINITY, f64::min);
         let mut start = start;
-        for round in 1.. {
+        let mut round = 0;
+        loop {
+            round += 1;
             let (now, mut info) = self.solve_pressed(start, drives, false)?;
             info.add_work(&work);
             work = info;
@@ -103,7 +105,6 @@ impl March {
             });
             start = now;
         }
-        unreachable!("the rounds have an end")
     }
 
     /// Whether contact grows in the increment and it matters how a cell moved before.

@@ -2,6 +2,9 @@
 
 use ndarray::Array2;
 
+use super::{March, Motion};
+use crate::convolution::Half;
+
 /// Fields at the end of an increment, each of shape (nx, ny).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fields {
@@ -29,4 +32,44 @@ pub struct Fields {
     pub contact: Array2<bool>,
     /// Contact cells that do not slip in this increment.
     pub stick: Array2<bool>,
+}
+
+impl March {
+    /// The fields after the last increment on the whole grid.
+    pub fn fields(&self) -> Fields {
+        let (nx, ny) = (self.scene.grid.nx, self.scene.grid.ny);
+        let unfold = |f: &[f64], half| self.plan.mirror.unfold(f, nx, ny, half);
+        let s = &self.state;
+        let now = &s.interface;
+        let Motion {
+            delta_z,
+            phi_x,
+            phi_y,
+            ..
+        } = s.motion;
+        let stretch = self.arms.stretch;
+        let rigid = self.scene.grid.map(|x, y| delta_z + y * phi_x - x * phi_y);
+        let p = unfold(&now.p, Half::Even);
+        let u_z = unfold(&now.u_z, Half::Even);
+        let slips: Vec<f64> = now.slip.iter().map(|&s| f64::from(u8::from(s))).collect();
+        let slips = unfold(&slips, Half::Even);
+        let contact = p.mapv(|p| p > 0.0);
+        let stick = ndarray::Zip::from(&contact)
+            .and(&slips)
+            .map_collect(|&c, &slips| c && slips == 0.0);
+        Fields {
+            gap: u_z.clone() + self.scene.h_init() - rigid,
+            q_x: unfold(&now.q[0], Half::Even),
+            q_y: unfold(&now.q[1], Half::Odd) * stretch,
+            u_x: unfold(&now.u[0], Half::Even),
+            u_y: unfold(&now.u[1], Half::Odd) / stretch,
+            slip_x: unfold(&s.slip[0], Half::Even),
+            slip_y: unfold(&s.slip[1], Half::Odd) / stretch,
+            dissipated: unfold(&s.dissipated, Half::Even),
+            p,
+            u_z,
+            contact,
+            stick,
+        }
+    }
 }

@@ -6,6 +6,7 @@ mod border;
 mod carried;
 mod coarse;
 mod entering;
+mod equations;
 mod fields;
 mod halving;
 mod increment;
@@ -19,22 +20,19 @@ pub use solve::{BranchSummary, Observer, solve, summarise};
 pub use state::State;
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use self::awake::with_all_awake;
 use self::carried::Carried;
 use self::coarse::coarse_start;
 use self::predict::first_touch;
 use crate::convolution::{
-    CirculantInverse, DcFft, FrequencyDomain, Half, Mirror, PARALLEL_FROM, SurfaceOperator,
+    CirculantInverse, DcFft, FrequencyDomain, PARALLEL_FROM, SurfaceOperator,
 };
 use crate::error::Error;
 use crate::kernels::influence_coefficients;
 use crate::scene::{History, KernelMethod, LoadPoint, Plan, Preset, Scene};
-use crate::solvers::{
-    Arms, CoupledInfo, CoupledParams, CoupledWorkspace, Drive, IncrementProblem, Interface,
-    NormalParams, Response, TangentialMethod, TangentialParams, coupled,
-};
+use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface};
 
 /// A load path being run through.
 pub struct March {
@@ -240,94 +238,6 @@ impl March {
         self.account(point, now, &info, convolutions)
     }
 
-    /// Solves the increment from a start, on the cells of the last contact alone if it is `kept`.
-    fn solve_pressed(
-        &mut self,
-        mut now: Interface,
-        (normal, tangential): (Drive, Drive),
-        kept: bool,
-    ) -> Result<(Interface, CoupledInfo), Error> {
-        let apart;
-        let h_init = if kept {
-            let far = 1e3 * (self.approach + self.h_init.iter().fold(0.0, |m, h| h.abs().max(m)));
-            let p = &self.state.interface.p;
-            let cells = self.h_init.iter().zip(p);
-            apart = cells
-                .map(|(h, &p)| if p > 0.0 { *h } else { h + far })
-                .collect();
-            &apart
-        } else {
-            &self.h_init
-        };
-        // As March::before, for the sake of the workspace borrowed beside it.
-        let carried = self.carried.as_ref();
-        let before = carried.map_or(&self.state.interface, Carried::interface);
-        let problem = IncrementProblem {
-            h_init,
-            u_ref: [&before.u[0], &before.u[1]],
-            mu: &self.mu,
-            arms: &self.arms,
-            normal,
-            tangential,
-        };
-        let mut response = Response {
-            op: &mut *self.op,
-            inverse: self.inverse.as_mut(),
-            stop: Some(&self.stop),
-        };
-        let params = params(&self.scene, self.approach);
-        let ws = &mut self.workspace;
-        match coupled(&mut response, &problem, &mut now, ws, &params) {
-            Ok(info) => Ok((now, info)),
-            Err(_) if self.stop.load(Ordering::Relaxed) => Err(Error::Interrupted {
-                increment: self.state.increments,
-            }),
-            Err(e) => Err(Error::NotConverged {
-                increment: self.state.increments + 1,
-                solver: e.solver,
-                residual: e.residual,
-                tolerance: e.tolerance,
-                iterations: e.iterations,
-            }),
-        }
-    }
-
-    /// What drives the motions across the plane, from the unloaded state, and those in it, in this
-    /// increment. By symmetry the half of a mirrored scene has no motion that turns it.
-    fn drives(&self, point: &LoadPoint) -> (Drive, Drive) {
-        let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
-        let (forces, given) = (point.loads.forces(), point.loads.given.motions());
-        let before = self.state.motion.motions();
-        let mirrored = self.plan.mirror != Mirror::None;
-        let drive = |of: [usize; 3], from: [f64; 6]| {
-            let mut drive = Drive::default();
-            for (k, &load) in of.iter().enumerate() {
-                let unit = self.unit(load);
-                let odd = mirrored && matches!(load, 1 | 4 | 5);
-                match given[load] {
-                    _ if odd => {}
-                    Some(motion) => drive.given[k] = (motion - from[load]) * unit,
-                    None => {
-                        drive.free[k] = true;
-                        drive.sums[k] = forces[load] / (cell_area * unit);
-                    }
-                }
-            }
-            drive
-        };
-        (drive([0, 1, 2], [0.0; 6]), drive([3, 4, 5], before))
-    }
-
-    /// What a motion of [`MOTIONS`](crate::scene::MOTIONS) is multiplied by, and its load divided by,
-    /// for the solvers.
-    pub(super) fn unit(&self, k: usize) -> f64 {
-        match k {
-            1 | 2 | 5 => self.arms.length,
-            4 => self.arms.stretch,
-            _ => 1.0,
-        }
-    }
-
     /// The friction coefficient of each cell after what it has been through.
     fn update_friction(&mut self) {
         for n in 0..self.mu.len() {
@@ -355,79 +265,5 @@ impl March {
         point.loads.given.delta_z.unwrap_or_else(|| {
             self.approach * (point.loads.W / self.scene.path.W_max()).powf(2.0 / 3.0)
         })
-    }
-
-    /// The fields after the last increment on the whole grid.
-    pub fn fields(&self) -> Fields {
-        let (nx, ny) = (self.scene.grid.nx, self.scene.grid.ny);
-        let unfold = |f: &[f64], half| self.plan.mirror.unfold(f, nx, ny, half);
-        let s = &self.state;
-        let now = &s.interface;
-        let Motion {
-            delta_z,
-            phi_x,
-            phi_y,
-            ..
-        } = s.motion;
-        let stretch = self.arms.stretch;
-        let rigid = self.scene.grid.map(|x, y| delta_z + y * phi_x - x * phi_y);
-        let p = unfold(&now.p, Half::Even);
-        let u_z = unfold(&now.u_z, Half::Even);
-        let slips: Vec<f64> = now.slip.iter().map(|&s| f64::from(u8::from(s))).collect();
-        let slips = unfold(&slips, Half::Even);
-        let contact = p.mapv(|p| p > 0.0);
-        let stick = ndarray::Zip::from(&contact)
-            .and(&slips)
-            .map_collect(|&c, &slips| c && slips == 0.0);
-        Fields {
-            gap: u_z.clone() + self.scene.h_init() - rigid,
-            q_x: unfold(&now.q[0], Half::Even),
-            q_y: unfold(&now.q[1], Half::Odd) * stretch,
-            u_x: unfold(&now.u[0], Half::Even),
-            u_y: unfold(&now.u[1], Half::Odd) / stretch,
-            slip_x: unfold(&s.slip[0], Half::Even),
-            slip_y: unfold(&s.slip[1], Half::Odd) / stretch,
-            dissipated: unfold(&s.dissipated, Half::Even),
-            p,
-            u_z,
-            contact,
-            stick,
-        }
-    }
-}
-
-/// Share of the tolerance with which a predicted pressure is taken as it is: the shear moves it
-/// further.
-const PREDICTED_SHARE: f64 = 0.8;
-/// Share of the tolerance that the normal solver iterates to.
-const NORMAL_SHARE: f64 = 0.4;
-/// Share of the tolerance that the tangential solver iterates to; nothing moves after it.
-const TANGENTIAL_SHARE: f64 = 0.9;
-
-/// The settings of the loops, with lengths in metres.
-fn params(scene: &Scene, approach: f64) -> CoupledParams {
-    let solver = &scene.settings.solver;
-    let gap = solver.tolerance * approach;
-    let plain = solver.preset == Preset::Spinu2020;
-    CoupledParams {
-        tolerance: gap,
-        normal: NormalParams {
-            enough: PREDICTED_SHARE * gap,
-            tolerance: NORMAL_SHARE * gap,
-            max_iterations: solver.max_iterations,
-        },
-        tangential: TangentialParams {
-            method: if plain {
-                TangentialMethod::Gradient
-            } else {
-                TangentialMethod::Newton
-            },
-            // What the shear misses acts on the gap, however large mu is.
-            tolerance: TANGENTIAL_SHARE * scene.friction.scale().min(1.0) * gap,
-            max_iterations: solver.max_iterations,
-            forcing: 0.2,
-            max_passes: 12,
-        },
-        max_alternations: solver.max_alternations,
     }
 }

@@ -1,0 +1,138 @@
+//! The equations of one increment, as the solvers are given them.
+
+use std::sync::atomic::Ordering;
+
+use super::{Carried, March};
+use crate::convolution::Mirror;
+use crate::error::Error;
+use crate::scene::{LoadPoint, Preset, Scene};
+use crate::solvers::{
+    CoupledInfo, CoupledParams, Drive, IncrementProblem, Interface, NormalParams, Response,
+    TangentialMethod, TangentialParams, coupled,
+};
+
+impl March {
+    /// Solves the increment from a start, on the cells of the last contact alone if it is `kept`.
+    pub(super) fn solve_pressed(
+        &mut self,
+        mut now: Interface,
+        (normal, tangential): (Drive, Drive),
+        kept: bool,
+    ) -> Result<(Interface, CoupledInfo), Error> {
+        let apart;
+        let h_init = if kept {
+            let far = 1e3 * (self.approach + self.h_init.iter().fold(0.0, |m, h| h.abs().max(m)));
+            let p = &self.state.interface.p;
+            let cells = self.h_init.iter().zip(p);
+            apart = cells
+                .map(|(h, &p)| if p > 0.0 { *h } else { h + far })
+                .collect();
+            &apart
+        } else {
+            &self.h_init
+        };
+        // As March::before, for the sake of the workspace borrowed beside it.
+        let carried = self.carried.as_ref();
+        let before = carried.map_or(&self.state.interface, Carried::interface);
+        let problem = IncrementProblem {
+            h_init,
+            u_ref: [&before.u[0], &before.u[1]],
+            mu: &self.mu,
+            arms: &self.arms,
+            normal,
+            tangential,
+        };
+        let mut response = Response {
+            op: &mut *self.op,
+            inverse: self.inverse.as_mut(),
+            stop: Some(&self.stop),
+        };
+        let params = params(&self.scene, self.approach);
+        let ws = &mut self.workspace;
+        match coupled(&mut response, &problem, &mut now, ws, &params) {
+            Ok(info) => Ok((now, info)),
+            Err(_) if self.stop.load(Ordering::Relaxed) => Err(Error::Interrupted {
+                increment: self.state.increments,
+            }),
+            Err(e) => Err(Error::NotConverged {
+                increment: self.state.increments + 1,
+                solver: e.solver,
+                residual: e.residual,
+                tolerance: e.tolerance,
+                iterations: e.iterations,
+            }),
+        }
+    }
+
+    /// What drives the motions across the plane, from the unloaded state, and those in it, in this
+    /// increment. By symmetry the half of a mirrored scene has no motion that turns it.
+    pub(super) fn drives(&self, point: &LoadPoint) -> (Drive, Drive) {
+        let cell_area = self.scene.grid.cell_area() * self.plan.mirror.multiplicity();
+        let (forces, given) = (point.loads.forces(), point.loads.given.motions());
+        let before = self.state.motion.motions();
+        let mirrored = self.plan.mirror != Mirror::None;
+        let drive = |of: [usize; 3], from: [f64; 6]| {
+            let mut drive = Drive::default();
+            for (k, &load) in of.iter().enumerate() {
+                let unit = self.unit(load);
+                let odd = mirrored && matches!(load, 1 | 4 | 5);
+                match given[load] {
+                    _ if odd => {}
+                    Some(motion) => drive.given[k] = (motion - from[load]) * unit,
+                    None => {
+                        drive.free[k] = true;
+                        drive.sums[k] = forces[load] / (cell_area * unit);
+                    }
+                }
+            }
+            drive
+        };
+        (drive([0, 1, 2], [0.0; 6]), drive([3, 4, 5], before))
+    }
+
+    /// What a motion of [`MOTIONS`](crate::scene::MOTIONS) is multiplied by, and its load divided by,
+    /// for the solvers.
+    pub(super) fn unit(&self, k: usize) -> f64 {
+        match k {
+            1 | 2 | 5 => self.arms.length,
+            4 => self.arms.stretch,
+            _ => 1.0,
+        }
+    }
+}
+
+/// Share of the tolerance with which a predicted pressure is taken as it is: the shear moves it
+/// further.
+const PREDICTED_SHARE: f64 = 0.8;
+/// Share of the tolerance that the normal solver iterates to.
+const NORMAL_SHARE: f64 = 0.4;
+/// Share of the tolerance that the tangential solver iterates to; nothing moves after it.
+const TANGENTIAL_SHARE: f64 = 0.9;
+
+/// The settings of the loops, with lengths in metres.
+fn params(scene: &Scene, approach: f64) -> CoupledParams {
+    let solver = &scene.settings.solver;
+    let gap = solver.tolerance * approach;
+    let plain = solver.preset == Preset::Spinu2020;
+    CoupledParams {
+        tolerance: gap,
+        normal: NormalParams {
+            enough: PREDICTED_SHARE * gap,
+            tolerance: NORMAL_SHARE * gap,
+            max_iterations: solver.max_iterations,
+        },
+        tangential: TangentialParams {
+            method: if plain {
+                TangentialMethod::Gradient
+            } else {
+                TangentialMethod::Newton
+            },
+            // What the shear misses acts on the gap, however large mu is.
+            tolerance: TANGENTIAL_SHARE * scene.friction.scale().min(1.0) * gap,
+            max_iterations: solver.max_iterations,
+            forcing: 0.2,
+            max_passes: 12,
+        },
+        max_alternations: solver.max_alternations,
+    }
+}
