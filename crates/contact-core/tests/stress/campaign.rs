@@ -121,13 +121,7 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
         }
         // How far the contact of ten layers reaches is not known when a scene is drawn.
         (Err(Error::OffGrid { needed, .. }), OffGrid | Edge | Solve) => {
-            return match audited(&widened(scene, needed), stop) {
-                Ok(_) => (Fate::Refused, None),
-                Err(error) => (
-                    Fate::Failed(format!("on the grid asked for: {error}")),
-                    None,
-                ),
-            };
+            return (on_grid_asked_for(scene, needed, stop), None);
         }
         (Err(error), _) => return (Fate::Failed(error.to_string()), None),
     };
@@ -143,6 +137,22 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
         }
     }
     (Fate::Solved(violations, twins), Some(end))
+}
+
+/// How often a grid may be asked for anew: the first answer knows of the normal load alone, and
+/// shear stretches the contact where friction and coupling are strong.
+const ANSWERS: usize = 2;
+
+/// A scene whose contact left its grid, on the grid that the error asks for.
+fn on_grid_asked_for(scene: &Scene, mut needed: f64, stop: &Arc<AtomicBool>) -> Fate {
+    for answer in 1..=ANSWERS {
+        match audited(&widened(scene, needed), stop) {
+            Ok(_) => return Fate::Refused,
+            Err(Error::OffGrid { needed: more, .. }) if answer < ANSWERS => needed = more,
+            Err(error) => return Fate::Failed(format!("on the grid asked for: {error}")),
+        }
+    }
+    Fate::Failed("no grid asked for is large enough".into())
 }
 
 /// The scene on a grid of as many cells that is as long and as wide as needed.
