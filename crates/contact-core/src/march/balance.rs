@@ -333,12 +333,17 @@ impl March {
 /// Energy per area that friction takes from a cell that slips by `slip` \[J/m^2\], >= 0: a cell
 /// slips at its bound, against the final shear, so it is the mean bound of the increment times
 /// the slip, where the trapezoidal rule takes a mean of the shear before slip and in slip. A
-/// single increment is exact while the pressure stays.
+/// single increment is exact while the pressure stays. Of a cell that leaves the contact the mean
+/// shear is half of what it carried.
 fn friction_takes(mu: f64, now: &Interface, last: &Interface, slip: [f64; 2], n: usize) -> f64 {
+    let power = |q: &[Vec<f64>; 2]| q[0][n] * slip[0] + q[1][n] * slip[1];
     let bound = friction_bound(mu, now.p[n]);
-    if bound <= 0.0 || !now.slip[n] {
+    if bound <= 0.0 {
+        return -(0.5 * power(&last.q)).min(0.0);
+    }
+    if !now.slip[n] {
         return 0.0;
     }
     let mean = 0.5 * (1.0 + friction_bound(mu, last.p[n]) / bound);
-    -(mean * (now.q[0][n] * slip[0] + now.q[1][n] * slip[1])).min(0.0)
+    -(mean * power(&now.q)).min(0.0)
 }

@@ -103,7 +103,9 @@ impl Audit {
             };
             let slip = ds[0].hypot(ds[1]);
             // A cell slips at its bound, the mean of the increment.
-            let taken = if p > 0.0 && !now.stick[n] {
+            let taken = if p <= 0.0 {
+                -(0.5 * (last.q_x[n] * ds[0] + last.q_y[n] * ds[1])).min(0.0)
+            } else if !now.stick[n] {
                 let mean = 0.5 * (1.0 + last.p[n] / p);
                 -(mean * (q[0] * ds[0] + q[1] * ds[1])).min(0.0)
             } else {
