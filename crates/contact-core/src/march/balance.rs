@@ -141,7 +141,8 @@ impl March {
     }
 
     /// Energies with mid-increment tractions, an identity for any symmetric C: the sum of mean
-    /// traction times change of displacement is the change of the elastic energy.
+    /// traction times change of displacement is the change of the elastic energy. What friction
+    /// takes beyond the mean shear, the loads give beyond their mean.
     fn energies(
         &self,
         point: &LoadPoint,
@@ -162,7 +163,6 @@ impl March {
             .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
             .sum();
         let (approach, shift) = self.change(motion);
-        let at_bound = self.slips_at_bound(point);
         let sums = sum_cells(now.p.len(), |n| {
             let p = mean(now.p[n], last.p[n]);
             let du_z = now.u_z[n] - last.u_z[n];
@@ -171,33 +171,28 @@ impl March {
             let wider = self.gap_rolled(n);
             let entered = self.entered_at(n);
             let mut elastic = p * du_z;
-            let (mut dissipated, mut late, mut of_bulk) = (0.0, 0.0, 0.0);
+            let (mut trapezoidal, mut of_bulk) = (0.0, 0.0);
+            let slip = [0, 1].map(|c| now.u[c][n] - last.u[c][n] - shift[c]);
             let mut opening = -p * (du_z + wider - self.arms.across(approach, n));
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
                 let du = now.u[c][n] - last.u[c][n];
                 elastic += q * (du - stretch[c] + entered[c]);
                 opening -= q * entered[c];
-                dissipated -= q * (du - shift[c]);
-                late -= (now.q[c][n] - q) * (du - shift[c]);
+                trapezoidal -= q * slip[c];
                 of_bulk -= q * stretch[c];
             }
+            let dissipated = friction_takes(self.mu[n], now, last, slip, n);
+            let late = dissipated - trapezoidal;
             [elastic, dissipated, late, opening, of_bulk, -p * wider]
         });
         let [elastic, dissipated, late, opening, of_bulk, of_rolling] = sums;
-        let late = if at_bound { late * cell_area } else { 0.0 };
         Energy {
-            work: of_loads + (of_bulk + of_rolling) * cell_area + late,
+            work: of_loads + (of_bulk + of_rolling + late) * cell_area,
             elastic: elastic * cell_area,
-            dissipated: dissipated * cell_area + late,
+            dissipated: dissipated * cell_area,
             opening: opening * cell_area,
         }
-    }
-
-    /// Whether all slip of an increment, being a whole branch, happens at the final shear: that of
-    /// a cell grows until it slips, and stays. The force does its work as late.
-    fn slips_at_bound(&self, point: &LoadPoint) -> bool {
-        self.plan.direct[point.branch]
     }
 
     /// Motions across and in the plane from the present state, rotations times the length \[m\].
@@ -293,21 +288,18 @@ impl March {
     /// Makes the increment the present state.
     fn keep(&mut self, point: &LoadPoint, now: Interface, motion: Motion, work: f64) {
         let (_, shift) = self.change(&motion);
-        let at_bound = self.slips_at_bound(point);
         self.roll_history();
         let state = &mut self.state;
         let last = std::mem::replace(&mut state.interface, now);
         let now = &state.interface;
         let before = self.carried.as_ref().map_or(&last, Carried::interface);
+        let mu = &self.mu;
         let slip = |n: usize| -> [f64; 2] {
             let shift = self.arms.in_plane(shift, n);
             std::array::from_fn(|c| now.u[c][n] - before.u[c][n] - shift[c])
         };
         set_cells(&mut state.dissipated, |n, dissipated| {
-            let slip = slip(n);
-            let mean = |c: usize| 0.5 * (now.q[c][n] + before.q[c][n]);
-            let power = |c: usize| (if at_bound { now.q[c][n] } else { mean(c) }) * slip[c];
-            dissipated - power(0) - power(1)
+            dissipated + friction_takes(mu[n], now, before, slip(n), n)
         });
         let slips = |n: usize| now.p[n] > 0.0 && now.slip[n];
         let [slip_x, slip_y] = &mut state.slip;
@@ -336,4 +328,22 @@ impl March {
         state.work += work;
         state.increments += 1;
     }
+}
+
+/// Energy per area that friction takes from a cell that slips by `slip` \[J/m^2\], >= 0: a cell
+/// slips at its bound, against the final shear, so it is the mean bound of the increment times
+/// the slip, where the trapezoidal rule takes a mean of the shear before slip and in slip. A
+/// single increment is exact while the pressure stays. Of a cell that leaves the contact the mean
+/// shear is half of what it carried.
+fn friction_takes(mu: f64, now: &Interface, last: &Interface, slip: [f64; 2], n: usize) -> f64 {
+    let power = |q: &[Vec<f64>; 2]| q[0][n] * slip[0] + q[1][n] * slip[1];
+    let bound = friction_bound(mu, now.p[n]);
+    if bound <= 0.0 {
+        return -(0.5 * power(&last.q)).min(0.0);
+    }
+    if !now.slip[n] {
+        return 0.0;
+    }
+    let mean = 0.5 * (1.0 + friction_bound(mu, last.p[n]) / bound);
+    -(mean * power(&now.q)).min(0.0)
 }

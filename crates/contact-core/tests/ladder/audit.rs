@@ -102,16 +102,22 @@ impl Audit {
                 ]
             };
             let slip = ds[0].hypot(ds[1]);
-            let taken = -0.5 * ((q[0] + last.q_x[n]) * ds[0] + (q[1] + last.q_y[n]) * ds[1]);
+            // A cell slips at its bound, the mean of the increment.
+            let taken = if p <= 0.0 {
+                -(0.5 * (last.q_x[n] * ds[0] + last.q_y[n] * ds[1])).min(0.0)
+            } else if !now.stick[n] {
+                let mean = 0.5 * (1.0 + last.p[n] / p);
+                -(mean * (q[0] * ds[0] + q[1] * ds[1])).min(0.0)
+            } else {
+                0.0
+            };
             dissipated += taken * self.cell_area;
-            // With the mean of the tractions, a pressure that falls while the cell slips back
-            // takes off at most this.
-            let fall = 0.5 * self.mu * (last.p[n] - p).max(0.0) * slip;
             let trace = self.mu * last.p[n].max(p) * allowed;
             entered += if enters { trace * self.cell_area } else { 0.0 };
+            let gained = now.dissipated[n] - last.dissipated[n];
             assert!(
-                taken >= -fall - trace,
-                "friction gives {taken:e} J/m^2 at {at}"
+                gained >= 0.0 && (gained - taken).abs() <= trace + 1e-12 * now.dissipated[n],
+                "friction takes {gained:e} J/m^2, not {taken:e} at {at}"
             );
             if p <= 0.0 || self.mu == 0.0 {
                 continue;

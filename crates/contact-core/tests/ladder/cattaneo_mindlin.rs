@@ -38,28 +38,6 @@ fn truth(c: &CattaneoMindlin, increment: &Increment, r: f64) -> [f64; 3] {
     }
 }
 
-/// Energy of the closed loop, branches 2 and 3.
-#[derive(Default)]
-struct Loop {
-    /// As computed \[J\].
-    dissipated: f64,
-    /// Area under the closed form by trapezoids between the increments \[J\].
-    area: f64,
-    /// T and the closed form's shift at the last increment.
-    last: (f64, f64),
-}
-
-impl Loop {
-    fn add(&mut self, increment: &Increment, shift: f64) {
-        let T = increment.point.loads.T_x;
-        if increment.point.branch >= 2 {
-            self.dissipated += increment.energy.dissipated;
-            self.area += 0.5 * (T + self.last.0) * (shift - self.last.1);
-        }
-        self.last = (T, shift);
-    }
-}
-
 /// Distance of q_x from the closed form over the norm of full sliding, mu p.
 fn shear_error(scene: &Scene, c: &CattaneoMindlin, march: &March, increment: &Increment) -> f64 {
     let q_x = march.fields().q_x;
@@ -75,11 +53,14 @@ fn isotropic_shear_follows_the_closed_form_round_the_loop() {
         let scene = scene(CORK, n, 50);
         let c = CattaneoMindlin::new(hertz_of(&scene), CORK, CORK, MU);
         let d = cell(&scene);
-        let mut loops = Loop::default();
+        let mut dissipated = 0.0;
         run(&scene, |march, increment| {
             let [_, shift, stick] = truth(&c, increment, 0.0);
             let branch = increment.point.branch;
-            loops.add(increment, shift);
+            // The closed loop.
+            if branch >= 2 {
+                dissipated += increment.energy.dissipated;
+            }
             if branch == 0 {
                 return;
             }
@@ -104,19 +85,12 @@ fn isotropic_shear_follows_the_closed_form_round_the_loop() {
                 assert!(norm(&across) < 1e-12 * norm(&march.fields().q_x));
             }
         });
-        // The loop's area by the same trapezoids: what is left is the grid's.
+        // A cell slips at its bound: increments of any size take what the path takes.
         close(
             "loop energy",
-            loops.dissipated / loops.area,
+            dissipated / c.loop_energy(T_M),
             1.0,
             2.0 * SMOOTH * d * d + 2e-4,
-        );
-        // Trapezoids under an arc of 20 increments miss a part of 1/20^2 of it.
-        close(
-            "loop energy",
-            loops.dissipated / c.loop_energy(T_M),
-            1.0,
-            5e-3,
         );
     }
     assert!(ends[0] / ends[2] > 3.0, "first order: {ends:?}");
@@ -145,11 +119,13 @@ fn steel_follows_the_isotropic_formula_to_a_per_cent() {
     // With nu = 0.3 the closed form neglects q_y, a few per cent of mu p_H, in the slip annulus.
     let scene = scene(STEEL, 128, 50);
     let c = CattaneoMindlin::new(hertz_of(&scene), STEEL, STEEL, MU);
-    let mut loops = Loop::default();
+    let mut dissipated = 0.0;
     run(&scene, |march, increment| {
         let [_, shift, stick] = truth(&c, increment, 0.0);
         let branch = increment.point.branch;
-        loops.add(increment, shift);
+        if branch >= 2 {
+            dissipated += increment.energy.dissipated;
+        }
         if branch > 0 {
             let c_num = radius(increment.stick_area);
             close("c", c_num / c.hertz.a, stick / c.hertz.a, 0.01);
@@ -164,5 +140,5 @@ fn steel_follows_the_isotropic_formula_to_a_per_cent() {
             }
         }
     });
-    close("loop energy", loops.dissipated / loops.area, 1.0, 0.01);
+    close("loop energy", dissipated / c.loop_energy(T_M), 1.0, 0.01);
 }
