@@ -6,6 +6,7 @@ import os
 import signal
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -147,6 +148,15 @@ def test_fields_of_a_march_are_those_of_its_last_increment() -> None:
         _ = first.p
 
 
+@pytest.fixture
+def ctrl_c() -> Iterator[None]:
+    """Let SIGINT raise KeyboardInterrupt, also where the tests run in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("ctrl_c")
 def test_ctrl_c_keeps_everything_so_far(tmp_path: Path) -> None:
     counted = []
     ended = threading.Event()
@@ -170,6 +180,7 @@ def test_ctrl_c_keeps_everything_so_far(tmp_path: Path) -> None:
     assert int(left.at(-1).increment) == reached
 
 
+@pytest.mark.usefixtures("ctrl_c")
 def test_ctrl_c_does_not_wait_for_the_end_of_an_increment(tmp_path: Path) -> None:
     """A path of one jump on a fine grid: one increment takes seconds."""
     pressed: list[float] = []
