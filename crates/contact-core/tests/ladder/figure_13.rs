@@ -101,8 +101,8 @@ fn the_most_stressed_place_moves_with_the_coating() {
     let ((_, _, at), below, surface) = soft;
     assert!(at.layer == 0 && (0.3..0.6).contains(&at.z), "{soft:?}");
     assert!(below > 1.1 * surface, "{soft:?}");
-    // On the free surface, at the trailing rim, by a hundredth: less than the samples of one grid of
-    // this size, continued to the rim, are sure of; those of two say so.
+    // On the free surface, at the trailing rim, by a hundredth, if two grids are continued to the
+    // limit; the samples of one grid of this size, continued to the rim, put it in the coating.
     let (_, below, surface) = hard;
     assert!(surface > below, "{hard:?}");
     // At the interface, on the side of the coating.
