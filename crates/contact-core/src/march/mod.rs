@@ -10,12 +10,14 @@ mod equations;
 mod fields;
 mod halving;
 mod increment;
+mod partial_cells;
 mod predict;
 mod solve;
 mod state;
 
 pub use fields::Fields;
 pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
+pub use partial_cells::continued_pressure;
 pub use solve::{BranchSummary, Observer, solve, summarise};
 pub use state::State;
 
