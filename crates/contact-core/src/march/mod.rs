@@ -231,6 +231,7 @@ impl March {
                 shift: tangential.given,
                 ..CoupledInfo::default()
             };
+            self.datum.reset(&start, None);
             (start, info)
         };
         if info.exceeds_friction() {
