@@ -146,11 +146,12 @@ impl Observer for StoreWriter {
         let status = failure.map_or("done".to_owned(), ToString::to_string);
         open.attributes.insert("status".into(), json!(status));
         // Where there is no room for the fields there may be for the rest.
-        open.checkpoint(march.state()).and(last_fields)?;
-        match open.checkpoints.take() {
-            Some(checkpoints) if failure.is_none() => checkpoints.remove(),
-            _ => Ok(()),
+        if failure.is_some() {
+            return open.checkpoint(march.state()).and(last_fields);
         }
+        // Nothing will be resumed: the store is enough.
+        open.flush().and(last_fields)?;
+        open.checkpoints.take().map_or(Ok(()), Checkpoints::remove)
     }
 }
 
