@@ -323,9 +323,11 @@ impl Open {
             documents.insert(".zattrs".into(), Value::Object(self.attributes.clone()));
             return self.write_documents(documents);
         }
-        for column in self.scalars.iter_mut().chain(&mut self.others) {
-            column.flush(&self.folder)?;
-        }
+        let (scalars, others) = (&mut self.scalars, &mut self.others);
+        let mut columns: Vec<_> = scalars.iter_mut().chain(others).collect();
+        columns
+            .par_iter_mut()
+            .try_for_each(|column| column.flush(&self.folder))?;
         let mut documents = self.group_documents();
         let columns = self.scalars.iter().chain(&self.others);
         for variable in columns.map(Column::variable).chain(&self.fields) {
@@ -347,11 +349,11 @@ impl Open {
 
     /// Writes the metadata documents that have changed, and all of them as consolidated metadata.
     pub(super) fn write_documents(&mut self, documents: Map<String, Value>) -> Result<(), Error> {
-        for (key, document) in &documents {
-            if self.documents.get(key) != Some(document) {
-                self.write(key, document)?;
-            }
-        }
+        let changed = documents
+            .iter()
+            .filter(|(key, document)| self.documents.get(*key) != Some(document));
+        (changed.collect::<Vec<_>>().par_iter())
+            .try_for_each(|(key, document)| self.write(key, document))?;
         let consolidated = json!({ "zarr_consolidated_format": 1, "metadata": documents });
         self.write(".zmetadata", &consolidated)?;
         self.documents = documents;
