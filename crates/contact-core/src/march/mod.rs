@@ -10,7 +10,9 @@ mod equations;
 mod fields;
 mod halving;
 mod increment;
+mod kept_contact;
 mod predict;
+mod slip_datum;
 mod solve;
 mod state;
 
@@ -26,6 +28,7 @@ use self::awake::with_all_awake;
 use self::carried::Carried;
 use self::coarse::coarse_start;
 use self::predict::first_touch;
+use self::slip_datum::Datum;
 use crate::convolution::{
     CirculantInverse, DcFft, FrequencyDomain, PARALLEL_FROM, SurfaceOperator,
 };
@@ -54,6 +57,8 @@ pub struct March {
     state: State,
     /// The last interface, where the increment does not find it as it was left.
     carried: Option<Carried>,
+    /// The displacements that mean no slip in the increment.
+    datum: Datum,
     workspace: CoupledWorkspace,
     /// Raised from outside to end the run.
     stop: Arc<AtomicBool>,
@@ -124,6 +129,7 @@ impl March {
             approach,
             state: State::unloaded(cells),
             carried: None,
+            datum: Datum::new(cells),
             workspace: CoupledWorkspace::new(cells),
             stop: Arc::default(),
         })
@@ -195,6 +201,7 @@ impl March {
         self.update_friction();
         let pressed = !normal.free[0] || normal.sums[0] > 0.0;
         let mut coarse_convolutions = 0.0;
+        self.datum.goes_on = self.state.going_on(point).is_some();
         let start = if pressed {
             let touch = (self.state.loads.W <= 0.0).then(|| {
                 let Some(start) = coarse_start(&self.scene, point) else {

@@ -11,6 +11,7 @@ use super::admissible::admissible;
 use super::limit::{Sliding, exceeds, sliding};
 use super::mixing::Mixing;
 use super::rigid_motion::{Arms, Drive, add};
+use super::shear::first_shift;
 use super::shear_gradient::shear_gradient;
 use super::vector::{add_scaled, set_cells, set_pairs, size};
 use super::{
@@ -71,8 +72,6 @@ impl Interface {
 pub struct IncrementProblem<'a> {
     /// Gap between the undeformed surfaces h_init \[m\].
     pub h_init: &'a [f64],
-    /// Tangential displacements of the last increment, the reference of the slip \[m\].
-    pub u_ref: [&'a [f64]; 2],
     /// Friction coefficient of each cell.
     pub mu: &'a [f64],
     /// Where the cells are.
@@ -81,6 +80,14 @@ pub struct IncrementProblem<'a> {
     pub normal: Drive,
     /// What drives shifts and torsion in this increment.
     pub tangential: Drive,
+}
+
+/// The displacements that mean no slip in an increment, of which a part depends on the solution.
+pub trait SlipDatum {
+    /// Follows tractions, displacements and motions as far as they are known.
+    fn follow(&mut self, now: &Interface, info: &CoupledInfo);
+    /// The displacements \[m\].
+    fn displacements(&self) -> [&[f64]; 2];
 }
 
 /// Settings of the intermediate loop.
@@ -171,6 +178,7 @@ impl CoupledWorkspace {
 pub fn coupled(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,
+    datum: &mut dyn SlipDatum,
     now: &mut Interface,
     ws: &mut CoupledWorkspace,
     params: &CoupledParams,
@@ -178,7 +186,7 @@ pub fn coupled(
     let friction = problem.mu.iter().any(|&mu| mu > 0.0);
     let coupled = response.op.is_coupled() && friction;
     let mut info = CoupledInfo::default();
-    let mut slides = make_admissible(problem, now, ws, friction);
+    let mut slides = make_admissible(problem, datum.displacements(), now, ws, friction);
     now.evaluate(response, friction);
     ws.mixing.restart();
     loop {
@@ -210,14 +218,28 @@ pub fn coupled(
             ws.q_before[c].copy_from_slice(&now.q[c]);
         }
         if found.iterations > 0 {
-            slides = make_admissible(problem, now, ws, friction);
+            slides = make_admissible(problem, datum.displacements(), now, ws, friction);
             follow_pressure(response, now, ws, coupled);
         }
         info.friction_used = slides.used;
         if info.exceeds_friction() {
             return Ok(info);
         }
-        let slip = problem.slip(&ws.bound);
+        if info.alternations == 1 && !slides.is_full() {
+            let slip = problem.slip(&ws.bound, datum.displacements());
+            let [q_x, q_y] = &mut now.q;
+            let [u_x, u_y] = &mut now.u;
+            let shear = Shear {
+                q: [q_x, q_y],
+                u: [u_x, u_y],
+                slip: &mut now.slip,
+            };
+            info.shift = first_shift(&slip, &shear);
+        }
+        if !slides.is_full() {
+            datum.follow(now, &info);
+        }
+        let slip = problem.slip(&ws.bound, datum.displacements());
         if slides.is_full() {
             info.shift = incipient_shift(&slip, now, slides.motion);
         } else {
@@ -278,6 +300,7 @@ pub fn coupled(
 /// Brings the shear within the bound mu p of the present pressure and to the loads asked for.
 fn make_admissible(
     problem: &IncrementProblem<'_>,
+    u_ref: [&[f64]; 2],
     now: &mut Interface,
     ws: &mut CoupledWorkspace,
     friction: bool,
@@ -288,7 +311,7 @@ fn make_admissible(
     for ((bound, &mu), &p) in ws.bound.iter_mut().zip(problem.mu).zip(&now.p) {
         *bound = friction_bound(mu, p);
     }
-    let slip = problem.slip(&ws.bound);
+    let slip = problem.slip(&ws.bound, u_ref);
     let slides = sliding(&slip);
     if slides.is_full() {
         for n in 0..now.p.len() {
@@ -364,10 +387,10 @@ fn incipient_shift(
 
 impl<'a> IncrementProblem<'a> {
     /// The tangential problem under a friction bound.
-    fn slip(&self, bound: &'a [f64]) -> TangentialProblem<'a> {
+    fn slip(&self, bound: &'a [f64], u_ref: [&'a [f64]; 2]) -> TangentialProblem<'a> {
         TangentialProblem {
             bound,
-            u_ref: self.u_ref,
+            u_ref,
             arms: self.arms,
             drive: self.tangential,
         }

@@ -12,6 +12,8 @@ mod bench;
 mod cattaneo_mindlin;
 mod coated_hertz;
 mod coupled_indentation;
+mod energy;
+mod entry;
 mod figure_13;
 mod friction;
 mod gross_slip;
