@@ -33,7 +33,7 @@ use crate::convolution::{
     CirculantInverse, DcFft, FrequencyDomain, PARALLEL_FROM, SurfaceOperator,
 };
 use crate::error::Error;
-use crate::kernels::influence_coefficients;
+use crate::kernels::pair_coefficients;
 use crate::scene::{History, KernelMethod, LoadPoint, Plan, Preset, Scene};
 use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface};
 
@@ -71,18 +71,15 @@ impl March {
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
         let settings = &scene.settings;
-        let coefficients = |body| {
-            influence_coefficients(
-                body,
-                &scene.grid,
-                &settings.kernel,
-                settings.skip.equal_layers,
-            )
-        };
         let stretch = scene.friction.stretch();
-        let pair = coefficients(&scene.body2)?
-            .pair(&coefficients(&scene.body1)?)
-            .stretched(stretch);
+        let pair = pair_coefficients(
+            (&scene.body1, &scene.body2),
+            &scene.grid,
+            &settings.kernel,
+            settings.skip.equal_layers,
+            plan.kernels(),
+        )?
+        .stretched(stretch);
         let inverse = match settings.solver.preset {
             Preset::Fast => Some(CirculantInverse::new(&pair, plan.mirror)),
             Preset::Spinu2020 => None,
