@@ -34,6 +34,7 @@ SCALARS = [
     "elastic",
     "dissipated",
     "opening",
+    "quadrature",
     "residual_gap",
     "residual_penetration",
     "residual_coulomb",

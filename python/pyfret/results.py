@@ -29,6 +29,7 @@ SUMMED = frozenset(
         "elastic",
         "dissipated",
         "opening",
+        "quadrature",
         "convolutions",
         "alternations",
         "normal_iterations",

@@ -144,7 +144,7 @@ impl March {
 
     /// Energies with mid-increment tractions, an identity for any symmetric C: the sum of mean
     /// traction times change of displacement is the change of the elastic energy. What friction
-    /// takes beyond the mean shear, the loads give beyond their mean.
+    /// takes is not reckoned with the mean shear; the difference stands apart.
     fn energies(
         &self,
         point: &LoadPoint,
@@ -174,26 +174,41 @@ impl March {
             let entered = self.entered_at(n);
             let mut elastic = p * du_z;
             let (mut trapezoidal, mut of_bulk) = (0.0, 0.0);
-            let slip = [0, 1].map(|c| now.u[c][n] - last.u[c][n] - shift[c]);
+            let slip = [0, 1].map(|c| now.u[c][n] - last.u[c][n] - entered[c] - shift[c]);
             let mut opening = -p * (du_z + wider - self.arms.across(approach, n));
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
                 let du = now.u[c][n] - last.u[c][n];
-                elastic += q * (du - stretch[c] + entered[c]);
+                elastic += q * (du - stretch[c]);
                 opening -= q * entered[c];
                 trapezoidal -= q * slip[c];
                 of_bulk -= q * stretch[c];
             }
             let dissipated = friction_takes(self.mu[n], now, last, slip, n);
-            let late = dissipated - trapezoidal;
-            [elastic, dissipated, late, opening, of_bulk, -p * wider]
+            let quadrature = dissipated - trapezoidal;
+            [
+                elastic,
+                dissipated,
+                quadrature,
+                opening,
+                of_bulk,
+                -p * wider,
+            ]
         });
-        let [elastic, dissipated, late, opening, of_bulk, of_rolling] = sums;
+        let [
+            elastic,
+            dissipated,
+            quadrature,
+            opening,
+            of_bulk,
+            of_rolling,
+        ] = sums;
         Energy {
-            work: of_loads + (of_bulk + of_rolling + late) * cell_area,
+            work: of_loads + (of_bulk + of_rolling) * cell_area,
             elastic: elastic * cell_area,
             dissipated: dissipated * cell_area,
             opening: opening * cell_area,
+            quadrature: quadrature * cell_area,
         }
     }
 
@@ -222,7 +237,9 @@ impl March {
                 return [0.0; 6];
             }
             let shift = self.arms.in_plane(info.shift, n);
-            let slip: [f64; 2] = std::array::from_fn(|c| now.u[c][n] - before[c][n] - shift[c]);
+            let slip: [f64; 2] = std::array::from_fn(|c| {
+                now.u[c][n] - before[c][n] - shift[c] - self.datum.moved[c][n]
+            });
             let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
             if now.slip[n] {
                 let bound = bound(n).max(f64::MIN_POSITIVE);
@@ -295,10 +312,11 @@ impl March {
         let last = std::mem::replace(&mut state.interface, now);
         let now = &state.interface;
         let before = self.carried.as_ref().map_or(&last, Carried::interface);
-        let mu = &self.mu;
+        let (mu, arms, moved) = (&self.mu, &self.arms, &self.datum.moved);
         let slip = |n: usize| -> [f64; 2] {
-            let shift = self.arms.in_plane(shift, n);
-            std::array::from_fn(|c| now.u[c][n] - before.u[c][n] - shift[c])
+            let shift = arms.in_plane(shift, n);
+            let entered = |c: usize| if before.p[n] > 0.0 { 0.0 } else { moved[c][n] };
+            std::array::from_fn(|c| now.u[c][n] - before.u[c][n] - entered(c) - shift[c])
         };
         set_cells(&mut state.dissipated, |n, dissipated| {
             dissipated + friction_takes(mu[n], now, before, slip(n), n)
@@ -332,20 +350,21 @@ impl March {
     }
 }
 
-/// Energy per area that friction takes from a cell that slips by `slip` \[J/m^2\], >= 0: a cell
-/// slips at its bound, against the final shear, so it is the mean bound of the increment times
-/// the slip, where the trapezoidal rule takes a mean of the shear before slip and in slip. A
-/// single increment is exact while the pressure stays. Of a cell that leaves the contact the mean
-/// shear is half of what it carried.
+/// Energy per area that friction takes from a cell that slips by `slip` \[J/m^2\]: a cell slips at
+/// its bound, against the final shear, so it is the mean bound of the increment times the slip,
+/// where the trapezoidal rule takes a mean of the shear before slip and in slip. A single increment
+/// is exact while the pressure stays. It is not negative because slip opposes the shear, to the
+/// tolerance. A cell that leaves the contact slips under half of the shear that it carried, if it
+/// gives way to it; how it moves once it is free is no slip.
 fn friction_takes(mu: f64, now: &Interface, last: &Interface, slip: [f64; 2], n: usize) -> f64 {
     let power = |q: &[Vec<f64>; 2]| q[0][n] * slip[0] + q[1][n] * slip[1];
     let bound = friction_bound(mu, now.p[n]);
     if bound <= 0.0 {
-        return -(0.5 * power(&last.q)).min(0.0);
+        return (-0.5 * power(&last.q)).max(0.0);
     }
     if !now.slip[n] {
         return 0.0;
     }
     let mean = 0.5 * (1.0 + friction_bound(mu, last.p[n]) / bound);
-    -(mean * power(&now.q)).min(0.0)
+    -mean * power(&now.q)
 }

@@ -69,6 +69,7 @@ impl Increment {
                 elastic: e.elastic + f.elastic,
                 dissipated: e.dissipated + f.dissipated,
                 opening: e.opening + f.opening,
+                quadrature: e.quadrature + f.quadrature,
             },
             residuals: Residuals {
                 gap: r.gap.max(s.gap),

@@ -69,23 +69,26 @@ impl Status {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
     /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi), of the bulk stress on what the
-    /// contact moves, and of what makes the bodies roll; with what friction takes beyond the
-    /// trapezoidal rule.
+    /// contact moves, and of what makes the bodies roll.
     pub work: f64,
     /// Change of the elastic energy, 1/2 sum of traction times displacement.
     pub elastic: f64,
-    /// Energy dissipated by friction, -sum of q . ds dA, >= 0: a cell slips at its bound, so that
-    /// the shear is the mean bound of the increment against the slip.
+    /// Energy dissipated by friction, -sum of q . ds dA, >= 0 up to the solver's tolerance: a cell
+    /// slips at its bound, so that the shear is the mean bound of the increment against the slip.
     pub dissipated: f64,
     /// Work of the tractions on cells that close or open, -sum of p dh dA, and of the shear on what
     /// cells moved before they closed; it vanishes with the increment.
     pub opening: f64,
+    /// What `dissipated` is more than -sum of q . ds dA with the mean shear of the increment, the
+    /// rule of the other terms; it vanishes with the increment.
+    pub quadrature: f64,
 }
 
 impl Energy {
-    /// What the balance misses \[J\]: zero up to the solver's tolerance.
+    /// What the balance misses \[J\]: zero up to the solver's tolerance, for any size of the
+    /// increment.
     pub fn imbalance(&self) -> f64 {
-        self.work - self.elastic - self.dissipated - self.opening
+        self.work - self.elastic - (self.dissipated - self.quadrature) - self.opening
     }
 }
 

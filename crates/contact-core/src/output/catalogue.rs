@@ -196,6 +196,12 @@ pub const SCALARS: &[Scalar] = &[
         |i| i.energy.opening,
     ),
     real(
+        "quadrature",
+        "J",
+        "dissipated less what the trapezoidal rule makes of it",
+        |i| i.energy.quadrature,
+    ),
+    real(
         "residual_gap",
         "1",
         "root-mean-square gap in the contact over the Hertz approach",

@@ -6,7 +6,7 @@ use contact_core::scene::{
     Body, Branch, Coating, Elastic, Friction, Grid, LoadPath, Loads, Scene, Settings, Shape,
     Spacing,
 };
-use ndarray::Array2;
+use ndarray::{Array2, Zip};
 
 /// Radius of the sphere \[m\].
 pub(crate) const R: f64 = 0.018;
@@ -82,12 +82,43 @@ pub(crate) fn cell(scene: &Scene) -> f64 {
     scene.grid.dx / hertz_of(scene).a
 }
 
-/// Runs the path; `watch` sees every increment.
+/// Runs the path; `watch` sees every increment. In each, the energies balance and friction takes
+/// energy in every cell.
 pub(crate) fn run(scene: &Scene, mut watch: impl FnMut(&March, &Increment)) -> Vec<Increment> {
     let mut march = March::new(scene).expect("a scene");
     let mut increments = Vec::new();
+    let mut dissipated = Array2::<f64>::zeros((scene.grid.nx, scene.grid.ny));
+    let (mut q_max, mut work) = (0.0_f64, 0.0);
+    let tolerance = scene.settings.solver.tolerance;
     while let Some(increment) = march.advance() {
         let increment = increment.expect("a solution");
+        let at = increment.index;
+        // A gap or a slip within the tolerance, times the traction there.
+        work += increment.energy.work.abs();
+        let missing = increment.energy.imbalance();
+        assert!(
+            missing.abs() <= tolerance * work,
+            "energy {missing:e} of {work:e} at {at}"
+        );
+        // Slip along the shear within the tolerance, all of it in one cell. Where the contact rolls
+        // the cell has other material than before.
+        let fields = march.fields();
+        let cells = fields.contact.iter().filter(|c| **c).count() as f64;
+        let along = tolerance * scene.approach() * scene.friction.mu.min(1.0) * cells.sqrt();
+        q_max = q_max.max(increment.q_max);
+        if increment.point.loads.rolled == 0.0 {
+            Zip::from(&fields.dissipated)
+                .and(&dissipated)
+                .for_each(|now, before| {
+                    let gained = now - before;
+                    assert!(
+                        gained >= -q_max * along - 1e-12 * now.abs(),
+                        "friction gives {:e} J/m^2 at {at}",
+                        -gained
+                    );
+                });
+        }
+        dissipated = fields.dissipated;
         watch(&march, &increment);
         increments.push(increment);
     }

@@ -14,30 +14,33 @@ pub(crate) struct Violations {
     pub(crate) contact: f64,
     pub(crate) coulomb: f64,
     pub(crate) slip: f64,
+    pub(crate) dissipation: f64,
     pub(crate) energy: f64,
     pub(crate) monotone: f64,
     pub(crate) report: f64,
 }
 
 impl Violations {
-    pub(crate) const NAMES: [&str; 8] = [
+    pub(crate) const NAMES: [&str; 9] = [
         "finite numbers",
         "force balance",
         "complementarity",
         "Coulomb's law",
         "stick and slip",
+        "friction takes energy",
         "energy identity",
         "monotone contact",
         "residuals as reported",
     ];
 
-    pub(crate) fn values(&self) -> [f64; 8] {
+    pub(crate) fn values(&self) -> [f64; 9] {
         [
             self.nan,
             self.balance,
             self.contact,
             self.coulomb,
             self.slip,
+            self.dissipation,
             self.energy,
             self.monotone,
             self.report,
@@ -50,6 +53,7 @@ impl Violations {
         self.contact = self.contact.max(other.contact);
         self.coulomb = self.coulomb.max(other.coulomb);
         self.slip = self.slip.max(other.slip);
+        self.dissipation = self.dissipation.max(other.dissipation);
         self.energy = self.energy.max(other.energy);
         self.monotone = self.monotone.max(other.monotone);
         self.report = self.report.max(other.report);
@@ -64,6 +68,7 @@ const ROUNDING: f64 = 1e-9;
 pub(crate) struct Audit {
     h_init: Array2<f64>,
     misfit: Misfit,
+    /// Nothing before the first increment, when all is zero but the gap.
     last: Option<(Fields, Motion, Loads)>,
     work: f64,
 }
@@ -107,12 +112,7 @@ impl Audit {
         found.balance = balance(march, &now, increment) / ROUNDING;
         self.contact(&now, increment, &mut found);
         self.friction(march, &now, increment, &mut found);
-        self.work += increment.energy.work.abs();
-        if self.work > 0.0 {
-            // A gap or a slip within the tolerance, times the traction there.
-            let limit = march.scene().settings.solver.tolerance * self.work;
-            found.energy = increment.energy.imbalance().abs() / limit;
-        }
+        self.energy(march, &now, increment, &mut found);
         self.monotone(march, &now, increment, &mut found);
         self.last = Some((now, increment.motion, increment.point.loads));
         found
@@ -153,6 +153,7 @@ impl Audit {
     /// q in the others, in the root mean square over the contact.
     fn friction(&self, march: &March, now: &Fields, increment: &Increment, found: &mut Violations) {
         let mu = march.scene().friction.mu;
+        let turned = march.turned();
         let p_max = increment.p_max;
         let (mut squares, mut cells) = (0.0, 0.0_f64);
         let at_rest = |n: usize| now.stick.as_slice().is_some_and(|stick| stick[n]);
@@ -184,6 +185,7 @@ impl Audit {
                     at(&now.u_y) - at(&last.u_y) - (increment.motion.delta_y - motion.delta_y),
                 ]
             };
+            let ds = [0, 1].map(|c| ds[c] - turned[c].as_slice().map_or(f64::NAN, |e| e[n]));
             let off = if sticks {
                 ds[0].hypot(ds[1])
             } else {
@@ -202,6 +204,78 @@ impl Audit {
         found.slip = (squares / cells.max(1.0)).sqrt() / self.misfit.slip;
         if mu == 0.0 {
             found.slip = 0.0;
+        }
+    }
+
+    /// Work of the loads = energy stored + work of shear on slip + work of pressure on gaps, with
+    /// the mean tractions of the increment, and as the increment reports them; friction takes
+    /// energy in every cell, up to slip along the shear within the tolerance.
+    fn energy(
+        &mut self,
+        march: &March,
+        now: &Fields,
+        increment: &Increment,
+        found: &mut Violations,
+    ) {
+        let scene = march.scene();
+        let (tolerance, area) = (scene.settings.solver.tolerance, scene.grid.cell_area());
+        let none = (Motion::default(), Loads::default());
+        let (motion, from) = self.last.as_ref().map_or(none, |(_, m, l)| (*m, *l));
+        let (ended, to) = (increment.motion, increment.point.loads);
+        let d = [
+            ended.delta_x - motion.delta_x,
+            ended.delta_y - motion.delta_y,
+            ended.delta_z - motion.delta_z,
+        ];
+        let mean = |a: f64, b: f64| 0.5 * (a + b);
+        let of_loads = mean(from.T_x, to.T_x) * d[0]
+            + mean(from.T_y, to.T_y) * d[1]
+            + mean(from.W, to.W) * d[2];
+        self.work += of_loads.abs();
+        let last = self.last.as_ref().map(|(fields, ..)| fields);
+        let before = |field: fn(&Fields) -> &Array2<f64>, n| last.map_or(0.0, |f| field(f)[n]);
+        let cells = now.contact.iter().filter(|c| **c).count() as f64;
+        let along = self.misfit.slip * cells.sqrt();
+        let (mut stored, mut on_surface) = (0.0, 0.0);
+        for (n, &p) in now.p.indexed_iter() {
+            let tractions = [
+                (p, before(|f| &f.p, n)),
+                (now.q_x[n], before(|f| &f.q_x, n)),
+                (now.q_y[n], before(|f| &f.q_y, n)),
+            ];
+            let displacements = [
+                (now.u_z[n], before(|f| &f.u_z, n), d[2]),
+                (now.u_x[n], before(|f| &f.u_x, n), d[0]),
+                (now.u_y[n], before(|f| &f.u_y, n), d[1]),
+            ];
+            for ((t, t_0), (u, u_0, d)) in tractions.into_iter().zip(displacements) {
+                stored += 0.5 * (t * u - t_0 * u_0);
+                on_surface -= mean(t, t_0) * (u - u_0 - d);
+            }
+            let gained = now.dissipated[n] - before(|f| &f.dissipated, n);
+            let trace = scene.friction.mu * mean(p, before(|f| &f.p, n)) * along
+                + 1e-12 * now.dissipated[n].abs();
+            if gained < 0.0 {
+                found.dissipation = found.dissipation.max(-gained / trace);
+            }
+        }
+        // In pieces, each has mean tractions of its own.
+        if increment.work.parts > 1 || self.work == 0.0 {
+            return;
+        }
+        let (stored, on_surface) = (stored * area, on_surface * area);
+        let e = increment.energy;
+        // A gap or a slip within the tolerance, times the traction there.
+        for (missing, allowed) in [
+            (of_loads - stored - on_surface, tolerance),
+            (e.work - of_loads, ROUNDING),
+            (
+                e.dissipated - e.quadrature + e.opening - on_surface,
+                tolerance,
+            ),
+            (e.imbalance(), tolerance),
+        ] {
+            found.energy = found.energy.max(missing.abs() / (allowed * self.work));
         }
     }
 
