@@ -731,8 +731,11 @@ class Branch:
     def rolled(self) -> float:
         """Way that the contact has rolled along x at its end [m]."""
     @property
-    def increments(self) -> int:
-        """Number of increments."""
+    def increments(self) -> int | None:
+        """Number of increments; None: as many as the path tolerance asks for."""
+    @property
+    def path_error(self) -> float | None:
+        """Estimated error of the shear at the end that the increments leave, over the largest shear."""
     @property
     def spacing(self) -> Spacing:
         """How the increments are spaced."""
@@ -771,17 +774,17 @@ class LoadPath:
     @staticmethod
     def start() -> LoadPath:
         """The path before its first branch."""
-    def normal(self, W: float, *, increments: int) -> LoadPath:
+    def normal(self, W: float, *, increments: _Count = ...) -> LoadPath:
         """Go to the normal force `W` [N], the tangential forces kept, in one unit of path time."""
-    def tangential(self, T_x: float | Sequence[float], *, increments: int) -> LoadPath:
+    def tangential(self, T_x: float | Sequence[float], *, increments: _Count = ...) -> LoadPath:
         """Visit the tangential forces `T_x` [N] in turn.
 
         The increments are shared out in proportion to the change of force. Path time runs as in
         the first branch: one unit for as many increments as that one has.
         """
-    def torsion(self, M_z: float | Sequence[float], *, increments: int) -> LoadPath:
+    def torsion(self, M_z: float | Sequence[float], *, increments: _Count = ...) -> LoadPath:
         """Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces."""
-    def radial(self, W: float | Sequence[float], *, increments: int) -> LoadPath:
+    def radial(self, W: float | Sequence[float], *, increments: _Count = ...) -> LoadPath:
         """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
     def ellipse(self, *, T_x: float, T_y: float, turns: int = 1, increments: int) -> LoadPath:
         """Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
@@ -816,7 +819,7 @@ class LoadPath:
         M_z: float | None = None,
         sigma_B: float | None = None,
         rolled: float | None = None,
-        increments: int,
+        increments: _Count = ...,
         spacing: Spacing = ...,
         t: float | None = None,
     ) -> LoadPath:
@@ -834,8 +837,8 @@ class LoadPath:
             Bulk stress along x in body 2, tension positive: a fatigue load [Pa].
         rolled : float, optional
             Way that the contact has rolled along x over both bodies [m], whole cells per increment.
-        increments : int
-            Number of increments.
+        increments : int or "auto"
+            Number of increments (default: as many as the path tolerance of the settings asks for).
         spacing : Spacing
             How they are spaced (default: equal increments of force).
         t : float, optional
@@ -850,7 +853,7 @@ class LoadPath:
         phi_x: float | None = None,
         phi_y: float | None = None,
         phi_z: float | None = None,
-        increments: int,
+        increments: _Count = ...,
         spacing: Spacing = ...,
         t: float | None = None,
     ) -> LoadPath:
@@ -865,8 +868,8 @@ class LoadPath:
             Approach and shifts [m].
         phi_x, phi_y, phi_z : float, optional
             Tilts and rotation about z [rad].
-        increments : int
-            Number of increments.
+        increments : int or "auto"
+            Number of increments (default: as many as the path tolerance of the settings asks for).
         spacing : Spacing
             How they are spaced (default: equal increments).
         t : float, optional
@@ -967,6 +970,7 @@ class FrequencyDomain:
 
 _Save: TypeAlias = Literal["branches", "all"] | Sequence[int]
 
+_Count: TypeAlias = int | Literal["auto"]
 _KernelMethod: TypeAlias = Hankel | InverseFft | FrequencyDomain
 
 @final
@@ -1025,6 +1029,9 @@ class Settings:
     entering : bool, optional
         Reckon the slip of cells that come into contact from their entry (default True): one more
         solution in increments in which the contact grows, and far fewer increments.
+    path_tolerance : float, optional
+        Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over the
+        largest shear of the path (L2, default 5e-3).
     turning : bool, optional
         Let slip follow the turn of the shear within an increment (default True): the path becomes
         of second order.
@@ -1050,6 +1057,7 @@ class Settings:
         tolerance: float | None = None,
         entering: bool | None = None,
         turning: bool | None = None,
+        path_tolerance: float | None = None,
         max_alternations: int | None = None,
         max_iterations: int | None = None,
         kernel: _KernelMethod | None = None,
@@ -1069,6 +1077,9 @@ class Settings:
     @property
     def turning(self) -> bool:
         """Whether slip follows the turn of the shear within an increment."""
+    @property
+    def path_tolerance(self) -> float:
+        """Largest error of the shear that increments are chosen for."""
     @property
     def max_alternations(self) -> int:
         """Most passes of the intermediate loop per increment."""
