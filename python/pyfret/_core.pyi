@@ -1025,6 +1025,9 @@ class Settings:
     entering : bool, optional
         Reckon the slip of cells that come into contact from their entry (default True): one more
         solution in increments in which the contact grows, and far fewer increments.
+    turning : bool, optional
+        Let slip follow the turn of the shear within an increment (default True): the path becomes
+        of second order.
     max_alternations : int, optional
         Most passes of the intermediate loop per increment (default 60).
     max_iterations : int, optional
@@ -1046,6 +1049,7 @@ class Settings:
         preset: Preset | None = None,
         tolerance: float | None = None,
         entering: bool | None = None,
+        turning: bool | None = None,
         max_alternations: int | None = None,
         max_iterations: int | None = None,
         kernel: _KernelMethod | None = None,
@@ -1062,6 +1066,9 @@ class Settings:
     @property
     def entering(self) -> bool:
         """Whether slip is reckoned from the entry of a cell into the contact."""
+    @property
+    def turning(self) -> bool:
+        """Whether slip follows the turn of the shear within an increment."""
     @property
     def max_alternations(self) -> int:
         """Most passes of the intermediate loop per increment."""

@@ -68,14 +68,14 @@ fn main() -> Result<(), Error> {
             if let KernelMethod::FrequencyDomain { lambda } = method {
                 let start = Instant::now();
                 let bodies = (&indenter, &coated);
-                let pair = exact.pair(&other);
+                let pair = exact.clone().pair(&other);
                 let mut op = FrequencyDomain::new(bodies, &grid, lambda, true, &pair);
                 let kernel_s = start.elapsed().as_secs_f64();
                 let samples = KernelMethod::InverseFft { lambda, aliases: 0 };
                 (coefficients(samples)?.0, kernel_s, convolution(&mut op))
             } else {
                 let (ours, kernel_s) = coefficients(method)?;
-                let mut op = DcFft::new(&ours.pair(&other), Mirror::None, true);
+                let mut op = DcFft::new(&ours.clone().pair(&other), Mirror::None, true);
                 (ours, kernel_s, convolution(&mut op))
             };
         let error = |at: (usize, usize)| ours.zz[at] / exact.zz[at] - 1.0;

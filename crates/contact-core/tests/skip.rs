@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use contact_core::kernels::{KernelSet, Quadrant, influence_coefficients, pair_coefficients};
 use contact_core::march::{Fields, Increment, March, Observer, solve};
 use contact_core::scene::{Plan, PlanLine};
 use contact_core::{Error, Scene};
@@ -78,6 +79,56 @@ fn same_without(settings: &[&str], off: &str) -> [Vec<Increment>; 2] {
         assert!((a.motion.delta_x - b.motion.delta_x).abs() < 1e-7 * scale);
     }
     [with.0, without.0]
+}
+
+/// The coefficients of a set are those of all six, to the bit; the others are not there.
+#[test]
+fn kernels_that_are_not_needed() {
+    let coated = "body2.coatings=[{ E = 4e11, nu = 0.25, thickness = { a_H = 0.5 } }]";
+    for (settings, set) in [
+        (&["friction.mu=0.0"][..], KernelSet::Normal),
+        (
+            &["friction.mu=0.0", coated, "grid.n=[48, 33]"],
+            KernelSet::Normal,
+        ),
+        (&["grid.n=[33, 48]"], KernelSet::Uncoupled),
+        (&["body2.E=70e9"], KernelSet::All),
+        (&[coated], KernelSet::All),
+    ] {
+        let scene = scene(settings);
+        assert_eq!(Plan::new(&scene).kernels(), set, "{settings:?}");
+        let bodies = (&scene.body1, &scene.body2);
+        let pair = |set| {
+            let kernel = &scene.settings.kernel;
+            pair_coefficients(bodies, &scene.grid, kernel, true, set).unwrap()
+        };
+        let (some, all) = (pair(set), pair(KernelSet::All));
+        let same = |some: &Quadrant, all: &Quadrant, needed: bool| {
+            assert!(if needed { some == all } else { some.is_empty() });
+        };
+        let (shear, coupling) = (set != KernelSet::Normal, set == KernelSet::All);
+        same(&some.zz, &all.zz, true);
+        same(&some.xx, &all.xx, shear);
+        same(&some.yy, &all.yy, shear);
+        same(&some.xy, &all.xy, shear);
+        same(&some.xz, &all.xz, coupling);
+        same(&some.yz, &all.yz, coupling);
+    }
+}
+
+/// Bodies of the same layers share their coefficients.
+#[test]
+fn kernels_of_the_same_body() {
+    let coatings = "coatings=[{ E = 4e11, nu = 0.25, thickness = 2e-4 }]";
+    let both = ["body1.", "body2."].map(|body| body.to_owned() + coatings);
+    let alike = scene(&[&both[0], &both[1]]);
+    assert!(line(&alike, "coefficients").skipped);
+    assert!(!line(&scene(&[&both[0]]), "coefficients").skipped);
+    let (grid, kernel) = (&alike.grid, &alike.settings.kernel);
+    let of = |body| influence_coefficients(body, grid, kernel, true).unwrap();
+    let bodies = (&alike.body1, &alike.body2);
+    let once = pair_coefficients(bodies, grid, kernel, true, KernelSet::All).unwrap();
+    assert_eq!(once, of(bodies.1).pair(&of(bodies.0)));
 }
 
 #[test]

@@ -25,7 +25,7 @@ impl DcFft {
             shape: (nx, mirror.rows(ny)),
             product: SpectralProduct::new((nx, ny), mirror, &spectra, period),
             coupled: coupling,
-            self_coefficients: (coefficients.xx[(0, 0)], coefficients.zz[(0, 0)]),
+            self_coefficients: coefficients.at_origin(),
         }
     }
 }

@@ -81,7 +81,7 @@ impl FrequencyDomain {
             shape: (grid.nx, grid.ny),
             product: SpectralProduct::new((grid.nx, grid.ny), Mirror::None, &spectra, (px, py)),
             coupled: coupling,
-            self_coefficients: (coefficients.xx[(0, 0)], coefficients.zz[(0, 0)]),
+            self_coefficients: coefficients.at_origin(),
         }
     }
 }

@@ -25,8 +25,8 @@ impl CirculantInverse {
             yy: cut(&c.yy, false),
             zz: cut(&c.zz, false),
             xy: cut(&c.xy, true),
-            xz: Quadrant::zeros((1, 1)),
-            yz: Quadrant::zeros((1, 1)),
+            xz: Quadrant::zeros((0, 0)),
+            yz: Quadrant::zeros((0, 0)),
         };
         let forward = Spectra::of(&half, period, false);
         let inverse = invert(&forward, (period.0 * period.1) as f64);
@@ -68,6 +68,9 @@ impl CirculantInverse {
 /// The offsets up to half the period; where the two ends of the period meet an odd kernel vanishes.
 fn cut_at_half(q: &Quadrant, period: (usize, usize), odd: bool) -> Quadrant {
     let (nx, ny) = q.dim();
+    if q.is_empty() {
+        return q.clone();
+    }
     let shape = (nx.min(period.0 / 2 + 1), ny.min(period.1 / 2 + 1));
     Quadrant::from_shape_fn(shape, |(i, j)| {
         let meets = 2 * i == period.0 || 2 * j == period.1;
@@ -92,14 +95,14 @@ fn invert(s: &Spectra, cells: f64) -> Spectra {
         })
         .collect();
     let mut inverse = Spectra {
-        xy: xy.clone(),
+        zz: zz.iter().map(|zz| 1.0 / (zz * cells)).collect(),
+        xy,
         ..Spectra::default()
     };
     for (k, xy) in inverse.xy.iter_mut().enumerate() {
         let det = (xx[k] * yy[k] - *xy * *xy) * cells;
         inverse.xx.push(yy[k] / det);
         inverse.yy.push(xx[k] / det);
-        inverse.zz.push(1.0 / (zz[k] * cells));
         *xy = -*xy / det;
     }
     inverse

@@ -13,7 +13,7 @@ pub(crate) type Spectrum = Vec<f64>;
 
 /// The spectra of the six independent coefficients, the inverse transform's factor included.
 ///
-/// An empty spectrum stands for a coefficient that vanishes.
+/// An empty spectrum stands for a coefficient that vanishes or is not asked for.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spectra {
     pub(crate) xx: Spectrum,
@@ -51,6 +51,9 @@ impl Spectra {
 /// The spectrum of a kernel given on the offsets >= 0, along x and then along y.
 fn transform(quadrant: &Quadrant, half: (Half, Half), period: (usize, usize)) -> Spectrum {
     let (nx, ny) = quadrant.dim();
+    if quadrant.is_empty() {
+        return Spectrum::new();
+    }
     let along_x = by_parity(ny, nx, |j, i| quadrant[(i, j)], half.0, period.0);
     let frequencies_x = period.0 / 2 + 1;
     let along_y = by_parity(

@@ -31,6 +31,8 @@ pub(crate) struct SpectralProduct {
     /// Rows kept along y.
     rows: usize,
     mirror: Mirror,
+    /// The components that there are kernels for.
+    components: Range<usize>,
     /// Period along x.
     period: usize,
     y: YTransform,
@@ -50,7 +52,8 @@ pub(crate) struct SpectralProduct {
 /// Buffers of one part of the work.
 struct Scratch {
     y: YScratch,
-    /// A line per component, one number more than the period and room for a last block.
+    /// A line per component that there is, one number more than the period and room for a last
+    /// block.
     line: [Vec<Complex64>; 3],
     fft: Vec<Complex64>,
     /// One block of rows of one component: (line, row in block)
@@ -81,6 +84,7 @@ impl SpectralProduct {
         let fft = x_forward
             .get_inplace_scratch_len()
             .max(x_inverse.get_inplace_scratch_len());
+        let components = if spectra.xx.is_empty() { 2..3 } else { 0..3 };
         let scratch = || Scratch {
             y: y.scratch(),
             line: std::array::from_fn(|_| zeros(period.0 + 1 + ROWS)),
@@ -89,7 +93,7 @@ impl SpectralProduct {
         };
         let width = nx.next_multiple_of(ROWS);
         // Lines a power of two apart would all meet in one set of the cache.
-        let stride = 3 * width + ROWS;
+        let stride = components.len() * width + ROWS;
         Self {
             nx,
             rows,
@@ -99,8 +103,9 @@ impl SpectralProduct {
             spectra: LineSpectra::new(spectra, period.0 / 2 + 1, mirror != Mirror::None),
             x_forward,
             x_inverse,
-            by_row: zeros(3 * y.lines() * width),
+            by_row: zeros(components.len() * y.lines() * width),
             by_line: zeros(stride * y.lines()),
+            components,
             stride,
             y,
             transforms: 0,
@@ -110,7 +115,7 @@ impl SpectralProduct {
     /// Applies the kernels to the tractions.
     ///
     /// # Panics
-    /// If a field does not cover the cells.
+    /// If a field does not cover the cells, or has no kernels.
     pub(crate) fn apply(&mut self, input: Tractions<'_>, output: Displacements<'_>) {
         let input = [input.q_x, input.q_y, input.p];
         let mut output = [output.u_x, output.u_y, output.u_z];
@@ -121,6 +126,9 @@ impl SpectralProduct {
             assert_eq!(size, cells, "a field must cover the operator's cells");
         }
         let wanted: [bool; 3] = std::array::from_fn(|c| output[c].is_some());
+        for c in (0..3).filter(|&c| input[c].is_some() || wanted[c]) {
+            assert!(self.components.contains(&c), "component {c} has no kernels");
+        }
         self.transforms += input.iter().flatten().count() + output.iter().flatten().count();
         let loaded = self.loaded_blocks(input);
         self.rows_forward(input, &loaded);
@@ -145,8 +153,8 @@ impl SpectralProduct {
     /// Along y, from the rows of the fields to blocks of rows by line.
     fn rows_forward(&mut self, input: [Option<&[f64]>; 3], loaded: &Range<usize>) {
         let (rows, y) = (self.rows, &self.y);
-        let lines = y.lines();
-        let per_block = 3 * lines * ROWS;
+        let (lines, components) = (y.lines(), self.components.clone());
+        let per_block = components.len() * lines * ROWS;
         let acting = &mut self.by_row[loaded.start * per_block..loaded.end * per_block];
         let first = loaded.start;
         let work = |(b, block): (usize, &mut [Complex64]), s: &mut Scratch| {
@@ -154,7 +162,8 @@ impl SpectralProduct {
                 let Some(field) = field else { continue };
                 let from = &field[(first + b) * ROWS * rows..];
                 let mut each = from.chunks(rows);
-                let block = &mut block[component * lines * ROWS..][..lines * ROWS];
+                let place = component - components.start;
+                let block = &mut block[place * lines * ROWS..][..lines * ROWS];
                 for r in (0..ROWS).step_by(2) {
                     let (one, two) = (each.next(), each.next());
                     match one {
@@ -180,7 +189,7 @@ impl SpectralProduct {
         let (period, mirrored) = (self.period, self.mirror != Mirror::None);
         let (by_row, spectra) = (&self.by_row, &self.spectra);
         let (forward, inverse) = (&self.x_forward, &self.x_inverse);
-        let lines = self.y.lines();
+        let (lines, components) = (self.y.lines(), self.components.clone());
         let width = self.nx.next_multiple_of(ROWS);
         let work = |(l, convolved): (usize, &mut [Complex64]), s: &mut Scratch| {
             let Scratch { line, fft, .. } = s;
@@ -189,7 +198,8 @@ impl SpectralProduct {
                 z[..loaded.start * ROWS].fill(Complex64::default());
                 z[loaded.end * ROWS..].fill(Complex64::default());
                 for b in loaded.clone() {
-                    let from = ((b * 3 + component) * lines + l) * ROWS;
+                    let place = component - components.start;
+                    let from = ((b * components.len() + place) * lines + l) * ROWS;
                     copy_block(&mut z[b * ROWS..], &by_row[from..]);
                 }
                 forward.process_with_scratch(&mut z[..period], fft);
@@ -199,7 +209,8 @@ impl SpectralProduct {
             for component in (0..3).filter(|&c| wanted[c]) {
                 let z = &mut line[component];
                 inverse.process_with_scratch(&mut z[..period], fft);
-                convolved[component * width..][..width].copy_from_slice(&z[..width]);
+                convolved[(component - components.start) * width..][..width]
+                    .copy_from_slice(&z[..width]);
             }
         };
         share(&mut self.parts, &mut self.by_line, self.stride, work);
@@ -209,10 +220,11 @@ impl SpectralProduct {
     fn rows_inverse(&mut self, output: &mut [Option<&mut [f64]>; 3]) {
         let (rows, y, by_line) = (self.rows, &self.y, &self.by_line);
         let (width, stride) = (self.nx.next_multiple_of(ROWS), self.stride);
+        let first = self.components.start;
         let of_field = |component: usize, field: &mut [f64], parts: &mut [Scratch]| {
             let work = |(b, cells): (usize, &mut [f64]), s: &mut Scratch| {
                 for (l, to) in s.block.chunks_mut(ROWS).enumerate() {
-                    let from = l * stride + component * width + b * ROWS;
+                    let from = l * stride + (component - first) * width + b * ROWS;
                     copy_block(to, &by_line[from..]);
                 }
                 for (r, pair) in cells.chunks_mut(2 * rows).enumerate() {

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
-use super::InfluenceCoefficients;
+use super::{InfluenceCoefficients, KernelSet};
 use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
 
 /// Most memory kept, in numbers: 128 MiB, or the six coefficients of a 1024 x 1024 grid and more.
@@ -16,10 +16,17 @@ pub(crate) struct Key {
     grid: [u64; 5],
     method: KernelMethod,
     tolerance: u64,
+    set: KernelSet,
 }
 
 impl Key {
-    pub(crate) fn new(body: &Body, grid: &Grid, settings: &KernelSettings, bare: bool) -> Self {
+    pub(crate) fn new(
+        body: &Body,
+        grid: &Grid,
+        settings: &KernelSettings,
+        bare: bool,
+        set: KernelSet,
+    ) -> Self {
         let coatings = if bare { &[][..] } else { &body.coatings };
         let layers = coatings
             .iter()
@@ -40,6 +47,7 @@ impl Key {
             ],
             method: settings.method,
             tolerance: settings.tolerance.to_bits(),
+            set,
         }
     }
 }
@@ -61,7 +69,10 @@ pub(crate) fn get(key: &Key) -> Option<Arc<InfluenceCoefficients>> {
 
 /// Keeps coefficients, and forgets the longest unused ones if there are too many.
 pub(crate) fn keep(key: Key, coefficients: &Arc<InfluenceCoefficients>) {
-    let size = |c: &InfluenceCoefficients| 6 * c.zz.len();
+    let size = |c: &InfluenceCoefficients| {
+        let each = [&c.xx, &c.yy, &c.zz, &c.xy, &c.xz, &c.yz];
+        each.iter().map(|q| q.len()).sum::<usize>()
+    };
     if size(coefficients) > CAPACITY {
         return;
     }

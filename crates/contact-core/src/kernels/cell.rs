@@ -25,9 +25,10 @@ impl Cell {
     pub(crate) fn orders(&self, zeta: f64, tolerance: f64) -> Option<(usize, usize)> {
         let order = |x: f64, half_x: f64, y: f64, half_y: f64| {
             let nearest = (y.abs() - half_y).max(0.0);
-            let height = zeta.hypot(nearest) / half_x;
+            let square = (zeta * zeta + nearest * nearest) / (half_x * half_x);
             let (left, right) = (x / half_x - 1.0, x / half_x + 1.0);
-            let axis = f64::midpoint(left.hypot(height), right.hypot(height));
+            let to = |end: f64| (end * end + square).sqrt();
+            let axis = f64::midpoint(to(left), to(right));
             let rho = axis + (axis * axis - 1.0).max(0.0).sqrt();
             let mut error = 1.0 / (rho * rho);
             let mut n = 1;

@@ -2,11 +2,24 @@
 
 use ndarray::{Array2, Array4};
 
+/// Which of the coefficients are asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum KernelSet {
+    /// `zz`, all that a contact without friction needs.
+    Normal,
+    /// `xx`, `yy`, `zz` and `xy`: pressure and shear do not act on each other.
+    Uncoupled,
+    /// All six.
+    #[default]
+    All,
+}
+
 /// One coefficient on the non-negative offsets, shape (nx, ny): entry (i, j) belongs to the offset
 /// (i dx, j dy) of the observed cell from the loaded one. The other quadrants follow by parity.
 pub type Quadrant = Array2<f64>;
 
-/// The independent surface coefficients of a body, or of a pair of bodies \[m/Pa\].
+/// The independent surface coefficients of a body, or of a pair of bodies \[m/Pa\]; those that are
+/// not asked for are empty.
 ///
 /// `C_ij(x)` is the displacement u_i at offset x under unit traction q_j on the cell at the
 /// origin (q_1 = q_x, q_2 = q_y, q_3 = p). Isotropic layers leave six of the nine independent:
@@ -36,23 +49,48 @@ pub struct InfluenceCoefficients {
 }
 
 impl InfluenceCoefficients {
-    /// The same operation on all six.
-    fn map2(&self, other: &Self, f: impl Fn(&Quadrant, &Quadrant, f64) -> Quadrant) -> Self {
-        Self {
-            xx: f(&self.xx, &other.xx, 1.0),
-            yy: f(&self.yy, &other.yy, 1.0),
-            zz: f(&self.zz, &other.zz, 1.0),
-            xy: f(&self.xy, &other.xy, 1.0),
-            xz: f(&self.xz, &other.xz, -1.0),
-            yz: f(&self.yz, &other.yz, -1.0),
-        }
-    }
-
     /// The coefficients of the pair, eq. (4) of the paper, `self` being body 2: those that keep to
     /// one direction family add, those that couple normal and tangential subtract.
     #[must_use]
-    pub fn pair(&self, body1: &Self) -> Self {
-        self.map2(body1, |c2, c1, sign| c2 + &(c1 * sign))
+    pub fn pair(mut self, body1: &Self) -> Self {
+        for (c2, c1) in [
+            (&mut self.xx, &body1.xx),
+            (&mut self.yy, &body1.yy),
+            (&mut self.zz, &body1.zz),
+            (&mut self.xy, &body1.xy),
+        ] {
+            *c2 += c1;
+        }
+        self.xz -= &body1.xz;
+        self.yz -= &body1.yz;
+        self
+    }
+
+    /// [`Self::pair`] of two bodies that have these coefficients.
+    pub(crate) fn twice(mut self) -> Self {
+        for c in [&mut self.xx, &mut self.yy, &mut self.zz, &mut self.xy] {
+            *c *= 2.0;
+        }
+        self.xz.fill(0.0);
+        self.yz.fill(0.0);
+        self
+    }
+
+    /// Those of a set.
+    pub(crate) fn only(mut self, set: KernelSet) -> Self {
+        if set != KernelSet::All {
+            (self.xz, self.yz) = (none(), none());
+        }
+        if set == KernelSet::Normal {
+            (self.xx, self.yy, self.xy) = (none(), none(), none());
+        }
+        self
+    }
+
+    /// C_xx(0,0), zero if not asked for, and C_zz(0,0).
+    pub(crate) fn at_origin(&self) -> (f64, f64) {
+        let value = |c: &Quadrant| c.get((0, 0)).copied().unwrap_or_default();
+        (value(&self.xx), value(&self.zz))
     }
 
     /// The coefficients between u_y times and q_y over `stretch`.
@@ -63,7 +101,7 @@ impl InfluenceCoefficients {
         self
     }
 
-    /// C_ij on all offsets, shape (3, 3, 2 nx - 1, 2 ny - 1) with the offset (0, 0) in the middle.
+    /// C_ij on all offsets, of all six coefficients, shape (3, 3, 2 nx - 1, 2 ny - 1) with the offset (0, 0) in the middle.
     pub fn matrix(&self) -> Array4<f64> {
         let (nx, ny) = self.zz.dim();
         let mut matrix = Array4::zeros((3, 3, 2 * nx - 1, 2 * ny - 1));
@@ -79,6 +117,21 @@ impl InfluenceCoefficients {
         }
         matrix
     }
+}
+
+/// Whether xx, yy, zz, xy, xz, yz are odd along x and y.
+pub(super) const ODD: [(bool, bool); 6] = [
+    (false, false),
+    (false, false),
+    (false, false),
+    (true, true),
+    (true, false),
+    (false, true),
+];
+
+/// A coefficient that is not asked for.
+pub(super) fn none() -> Quadrant {
+    Quadrant::zeros((0, 0))
 }
 
 /// The coefficient at (a - nx + 1, b - ny + 1) cells, by its parity along x and y.

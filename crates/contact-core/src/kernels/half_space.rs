@@ -14,6 +14,7 @@
 
 use std::f64::consts::PI;
 
+use super::KernelSet;
 use super::cell::Cell;
 use super::layered_frf::HalfSpace;
 
@@ -48,8 +49,9 @@ pub(crate) fn radial(material: &HalfSpace, s: f64) -> Radial {
     ]
 }
 
-/// The closed form over a cell; it loses about as many digits as the cell is cells away.
-pub(crate) fn over_cell(material: &HalfSpace, cell: &Cell) -> Six {
+/// The closed form over a cell, of a set of the coefficients, the others zero; it loses about as
+/// many digits as the cell is cells away.
+pub(crate) fn over_cell(material: &HalfSpace, cell: &Cell, set: KernelSet) -> Six {
     let HalfSpace { a, b, c, .. } = *material;
     let corners = |f: fn(f64, f64) -> f64| {
         let (x0, x1) = (cell.x - cell.half_x, cell.x + cell.half_x);
@@ -59,10 +61,16 @@ pub(crate) fn over_cell(material: &HalfSpace, cell: &Cell) -> Six {
     // Integrals of x^2/r^3, y^2/r^3 (their sum is that of 1/r), x y/r^3, x/r^2, y/r^2.
     let xx = corners(y_asinh);
     let yy = corners(|x, y| y_asinh(y, x));
-    let xy = corners(|x, y| -x.hypot(y));
-    let x = corners(log_atan);
-    let y = corners(|x, y| log_atan(y, x));
     let inverse_r = xx + yy;
+    if set == KernelSet::Normal {
+        return [0.0, 0.0, a * inverse_r, 0.0, 0.0, 0.0];
+    }
+    let xy = corners(|x, y| -x.hypot(y));
+    let [x, y] = if set == KernelSet::All {
+        [corners(log_atan), corners(|x, y| log_atan(y, x))]
+    } else {
+        [0.0; 2]
+    };
     // (1 - nu)/G = a and nu/G = c - a.
     [
         a * inverse_r + (c - a) * xx,

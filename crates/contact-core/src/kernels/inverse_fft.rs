@@ -9,20 +9,11 @@ use realfft::{ComplexToReal, RealFftPlanner};
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
 
+use super::coefficients::ODD;
 use super::layered_frf::Stack;
 use super::sampled_frf::SampledFrf;
 use super::{InfluenceCoefficients, Quadrant};
 use crate::scene::Grid;
-
-/// Parity along x and y (true: odd) of xx, yy, zz, xy, xz, yz.
-const ODD: [(bool, bool); 6] = [
-    (false, false),
-    (false, false),
-    (false, false),
-    (true, true),
-    (true, false),
-    (false, true),
-];
 
 /// The coefficients by inverse transform on a domain `lambda` times as long.
 pub(crate) fn inverse_fft(

@@ -28,7 +28,7 @@ mod surface;
 
 pub use cache::clear_cache;
 pub(crate) use cell::Cell;
-pub use coefficients::{InfluenceCoefficients, Quadrant};
+pub use coefficients::{InfluenceCoefficients, KernelSet, Quadrant};
 pub use convert::{Conversion, SurfaceFrf, convert};
 pub use depth_frf::FrequencyResponse;
 pub(crate) use depth_kernel::{DepthKernel, Quantity};
@@ -61,29 +61,58 @@ pub fn influence_coefficients(
     settings: &KernelSettings,
     shortcut_equal_layers: bool,
 ) -> Result<InfluenceCoefficients, Error> {
+    let set = KernelSet::All;
+    let coefficients = of_body(body, grid, settings, shortcut_equal_layers, set)?;
+    Ok(Arc::unwrap_or_clone(coefficients))
+}
+
+/// The coefficients of a pair of bodies, eq. (4) of the paper, those of a set; of bodies of the same
+/// layers they are computed once.
+pub fn pair_coefficients(
+    (body1, body2): (&Body, &Body),
+    grid: &Grid,
+    settings: &KernelSettings,
+    shortcut_equal_layers: bool,
+    set: KernelSet,
+) -> Result<InfluenceCoefficients, Error> {
+    let of = |body| of_body(body, grid, settings, shortcut_equal_layers, set);
+    let two = Arc::unwrap_or_clone(of(body2)?);
+    if body1.layers(shortcut_equal_layers) == body2.layers(shortcut_equal_layers) {
+        return Ok(two.twice());
+    }
+    Ok(two.pair(&*of(body1)?))
+}
+
+fn of_body(
+    body: &Body,
+    grid: &Grid,
+    settings: &KernelSettings,
+    shortcut_equal_layers: bool,
+    set: KernelSet,
+) -> Result<Arc<InfluenceCoefficients>, Error> {
     body.check("body")?;
     grid.check()?;
     let bare = shortcut_equal_layers && body.is_homogeneous();
-    let key = cache::Key::new(body, grid, settings, bare);
+    let key = cache::Key::new(body, grid, settings, bare, set);
     if let Some(kept) = cache::get(&key) {
-        return Ok((*kept).clone());
+        return Ok(kept);
     }
     let mut stack = Stack::new(body);
     if bare {
         stack.layers.clear();
     }
     let coefficients = match settings.method {
-        _ if grid.plane_strain => line::line_coefficients(&stack, grid),
+        _ if grid.plane_strain => line::line_coefficients(&stack, grid).only(set),
         KernelMethod::InverseFft { lambda, aliases } if !stack.layers.is_empty() => {
-            inverse_fft::inverse_fft(&stack, grid, lambda, aliases)
+            inverse_fft::inverse_fft(&stack, grid, lambda, aliases).only(set)
         }
         _ => {
-            let (coefficients, estimate) = surface::surface_coefficients(&stack, grid);
+            let (coefficients, estimate) = surface::surface_coefficients(&stack, grid, set);
             surface::check(estimate, settings.tolerance)?;
             coefficients
         }
     };
     let coefficients = Arc::new(coefficients);
     cache::keep(key, &coefficients);
-    Ok(Arc::unwrap_or_clone(coefficients))
+    Ok(coefficients)
 }

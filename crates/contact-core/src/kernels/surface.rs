@@ -8,11 +8,12 @@
 use ndarray::Array2;
 use rayon::prelude::*;
 
-use super::InfluenceCoefficients;
 use super::cell::Cell;
+use super::coefficients::{ODD, none};
 use super::half_space::{Radial, Six, add_kernel, over_cell, radial};
 use super::layered_frf::{HalfSpace, Stack};
 use super::radial_table::{Hankel, RadialTable};
+use super::{InfluenceCoefficients, KernelSet};
 use crate::error::Error;
 use crate::scene::Grid;
 
@@ -31,10 +32,16 @@ struct SurfaceKernel<'a> {
     outermost: HalfSpace,
     remainder: Option<Remainder>,
     grid: &'a Grid,
+    set: KernelSet,
 }
 
-/// The coefficients of a stack on a grid, and an estimate of their error over C33(0,0).
-pub(crate) fn surface_coefficients(stack: &Stack, grid: &Grid) -> (InfluenceCoefficients, f64) {
+/// The coefficients of a stack on a grid, those of a set, and an estimate of their error over
+/// C33(0,0).
+pub(crate) fn surface_coefficients(
+    stack: &Stack,
+    grid: &Grid,
+    set: KernelSet,
+) -> (InfluenceCoefficients, f64) {
     let r_max = (grid.nx as f64 * grid.dx).hypot(grid.ny as f64 * grid.dy);
     let mut estimate = 0.0;
     let remainder = stack.layers.first().map(|(_, h)| {
@@ -56,6 +63,7 @@ pub(crate) fn surface_coefficients(stack: &Stack, grid: &Grid) -> (InfluenceCoef
         outermost: stack.outermost(),
         remainder,
         grid,
+        set,
     };
     let coefficients = kernel.fill();
     // An error e/r of the kernel adds e times the integral of 1/r over the cell.
@@ -68,7 +76,7 @@ pub(crate) fn surface_coefficients(stack: &Stack, grid: &Grid) -> (InfluenceCoef
     let origin = kernel.cell(0, 0);
     let self_zz = coefficients.zz[(0, 0)];
     let estimate = if self_zz > 0.0 {
-        estimate * over_cell(&one, &origin)[2] / self_zz + CUBATURE
+        estimate * over_cell(&one, &origin, KernelSet::Normal)[2] / self_zz + CUBATURE
     } else {
         0.0
     };
@@ -86,7 +94,7 @@ impl SurfaceKernel<'_> {
         }
     }
 
-    /// The coefficients at one offset.
+    /// The coefficients at one offset; what is not of the set is any number.
     fn at(&self, i: usize, j: usize) -> Six {
         let cell = self.cell(i, j);
         // The kernel falls off like 1/r, and so does what its integral may err.
@@ -94,14 +102,20 @@ impl SurfaceKernel<'_> {
         let tolerance = CUBATURE * cells_away.max(1.0);
         let mut sum = [0.0; 6];
         if let Some(orders) = cell.orders(0.0, tolerance) {
-            cell.nodes(orders, |x, y, w| {
-                let s = x * x + y * y;
+            let functions = |s: f64| {
                 let mut g = radial(&self.outermost, s);
                 if let Some(remainder) = &self.remainder {
                     add(&mut g, remainder.table.at(s));
                 }
-                add_kernel(&mut sum, x, y, w, g);
-            });
+                g
+            };
+            if self.set == KernelSet::Normal {
+                cell.nodes(orders, |x, y, w| sum[2] += w * functions(x * x + y * y)[0]);
+            } else {
+                cell.nodes(orders, |x, y, w| {
+                    add_kernel(&mut sum, x, y, w, functions(x * x + y * y));
+                });
+            }
             return sum;
         }
         if let Some(Remainder { table, zeta }) = &self.remainder {
@@ -109,8 +123,14 @@ impl SurfaceKernel<'_> {
                 add_kernel(&mut sum, x, y, w, table.at(x * x + y * y));
             });
         }
-        let closed = over_cell(&self.outermost, &cell);
+        let closed = over_cell(&self.outermost, &cell, self.set);
         std::array::from_fn(|n| sum[n] + closed[n])
+    }
+
+    /// Which of the six are of the set.
+    fn asked_for(&self) -> [bool; 6] {
+        let (shear, coupling) = (self.set != KernelSet::Normal, self.set == KernelSet::All);
+        [shear, shear, true, shear, coupling, coupling]
     }
 
     /// All offsets >= 0; where cells are square, one octant is computed and mirrored.
@@ -122,33 +142,41 @@ impl SurfaceKernel<'_> {
             0
         };
         let mirrored = |i: usize, j: usize| i < j && j < square;
-        let empty = || Array2::<f64>::zeros((nx, ny));
-        let mut c: [Array2<f64>; 6] = std::array::from_fn(|_| empty());
-        let [xx, yy, zz, xy, xz, yz] = c.each_mut().map(|c| {
-            c.as_slice_mut()
-                .expect("standard layout")
-                .par_chunks_mut(ny)
+        let mut c = self.asked_for().map(|asked| {
+            if asked {
+                Array2::<f64>::zeros((nx, ny))
+            } else {
+                none()
+            }
         });
-        (xx, yy, zz, xy, xz, yz)
-            .into_par_iter()
-            .enumerate()
-            .for_each(|(i, (xx, yy, zz, xy, xz, yz))| {
-                for j in (0..ny).filter(|j| !mirrored(i, *j)) {
-                    [xx[j], yy[j], zz[j], xy[j], xz[j], yz[j]] = self.at(i, j);
+        let mut rows: Vec<[&mut [f64]; 6]> = (0..nx).map(|_| Default::default()).collect();
+        for (n, c) in c.iter_mut().enumerate() {
+            let c = c.as_slice_mut().expect("standard layout");
+            for (row, c) in rows.iter_mut().zip(c.chunks_mut(ny)) {
+                row[n] = c;
+            }
+        }
+        rows.par_iter_mut().enumerate().for_each(|(i, row)| {
+            for j in (0..ny).filter(|j| !mirrored(i, *j)) {
+                for ((c, value), odd) in row.iter_mut().zip(self.at(i, j)).zip(ODD) {
+                    if let Some(c) = c.get_mut(j) {
+                        // What is odd vanishes on its axis.
+                        let vanishes = (odd.0 && i == 0) || (odd.1 && j == 0);
+                        *c = if vanishes { 0.0 } else { value };
+                    }
                 }
-                // What is odd vanishes on its axis.
-                if i == 0 {
-                    xy.fill(0.0);
-                    xz.fill(0.0);
-                }
-                (xy[0], yz[0]) = (0.0, 0.0);
-            });
+            }
+        });
+        drop(rows);
         let [mut xx, mut yy, mut zz, mut xy, mut xz, mut yz] = c;
-        for j in 0..square {
-            for i in 0..j {
-                let (here, there) = ((i, j), (j, i));
+        for (i, j) in (0..square).flat_map(|i| (i + 1..square).map(move |j| (i, j))) {
+            let (here, there) = ((i, j), (j, i));
+            zz[here] = zz[there];
+            if !xx.is_empty() {
                 (xx[here], yy[here]) = (yy[there], xx[there]);
-                (zz[here], xy[here]) = (zz[there], xy[there]);
+                xy[here] = xy[there];
+            }
+            if !xz.is_empty() {
                 (xz[here], yz[here]) = (yz[there], xz[there]);
             }
         }

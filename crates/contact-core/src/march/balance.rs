@@ -172,12 +172,12 @@ impl March {
             let entered = self.entered_at(n);
             let mut elastic = p * du_z;
             let (mut trapezoidal, mut of_bulk) = (0.0, 0.0);
-            let slip = [0, 1].map(|c| now.u[c][n] - last.u[c][n] - shift[c]);
+            let slip = [0, 1].map(|c| now.u[c][n] - last.u[c][n] - entered[c] - shift[c]);
             let mut opening = -p * (du_z + wider - self.arms.across(approach, n));
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
                 let du = now.u[c][n] - last.u[c][n];
-                elastic += q * (du - stretch[c] + entered[c]);
+                elastic += q * (du - stretch[c]);
                 opening -= q * entered[c];
                 trapezoidal -= q * slip[c];
                 of_bulk -= q * stretch[c];
@@ -235,7 +235,9 @@ impl March {
                 return [0.0; 6];
             }
             let shift = self.arms.in_plane(info.shift, n);
-            let slip: [f64; 2] = std::array::from_fn(|c| now.u[c][n] - before[c][n] - shift[c]);
+            let slip: [f64; 2] = std::array::from_fn(|c| {
+                now.u[c][n] - before[c][n] - shift[c] - self.datum.moved[c][n]
+            });
             let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
             if now.slip[n] {
                 let bound = bound(n).max(f64::MIN_POSITIVE);
@@ -308,10 +310,11 @@ impl March {
         let last = std::mem::replace(&mut state.interface, now);
         let now = &state.interface;
         let before = self.carried.as_ref().map_or(&last, Carried::interface);
-        let mu = &self.mu;
+        let (mu, arms, moved) = (&self.mu, &self.arms, &self.datum.moved);
         let slip = |n: usize| -> [f64; 2] {
-            let shift = self.arms.in_plane(shift, n);
-            std::array::from_fn(|c| now.u[c][n] - before.u[c][n] - shift[c])
+            let shift = arms.in_plane(shift, n);
+            let entered = |c: usize| if before.p[n] > 0.0 { 0.0 } else { moved[c][n] };
+            std::array::from_fn(|c| now.u[c][n] - before.u[c][n] - entered(c) - shift[c])
         };
         set_cells(&mut state.dissipated, |n, dissipated| {
             dissipated + friction_takes(mu[n], now, before, slip(n), n)

@@ -15,7 +15,6 @@
 
 use super::{Interface, March};
 use crate::scene::{LoadPoint, Scene};
-use crate::solvers::add_scaled;
 
 /// The last interface as the increment finds it.
 pub(super) struct Carried {
@@ -26,8 +25,6 @@ pub(super) struct Carried {
     cells: isize,
     /// Strain d(eps_x), d(eps_y) of body 2 in the increment.
     strain: [f64; 2],
-    /// What cells outside the contact move in the increment before they enter it \[m\], if known.
-    entered: Option<[Vec<f64>; 2]>,
 }
 
 impl Scene {
@@ -80,33 +77,15 @@ impl March {
             interface,
             cells,
             strain,
-            entered: None,
         });
-    }
-
-    /// Lets cells outside the contact move that much before they enter it: the displacements that
-    /// mean no slip are theirs at entry.
-    pub(super) fn set_entered(&mut self, entered: [Vec<f64>; 2]) {
-        let last = &self.state.interface;
-        let carried = self.carried.get_or_insert_with(|| Carried {
-            interface: last.clone(),
-            cells: 0,
-            strain: [0.0; 2],
-            entered: None,
-        });
-        for c in 0..2 {
-            if let Some(earlier) = &carried.entered {
-                add_scaled(&mut carried.interface.u[c], -1.0, &earlier[c]);
-            }
-            add_scaled(&mut carried.interface.u[c], 1.0, &entered[c]);
-        }
-        carried.entered = Some(entered);
     }
 
     /// What cell n moves before it enters the contact \[m\].
     pub(super) fn entered_at(&self, n: usize) -> [f64; 2] {
-        let entered = self.carried.as_ref().and_then(|c| c.entered.as_ref());
-        entered.map_or([0.0; 2], |moved| [moved[0][n], moved[1][n]])
+        if self.before().p[n] > 0.0 {
+            return [0.0; 2];
+        }
+        [0, 1].map(|c| self.datum.moved[c][n])
     }
 
     /// The interface that slip is reckoned from.

@@ -1,24 +1,20 @@
 //! Cells that come into contact within an increment.
 //!
 //! Such a cell has moved freely before it stuck: its slip is reckoned from its entry, not from the
-//! start of the increment. With the contact kept to the old cells, in p and in q, a new cell closes
-//! its gap beyond zero and shows its free motion relative to the rigid shift. It entered at
+//! start of the increment. Solved with the contact kept to the old cells first, the increment tells
+//! how far a new cell has moved by then ([`KeptContact`]); that is added to the displacement that
+//! means no slip. A cell that leaves the contact needs nothing of the kind: its shear ends with its
+//! pressure, and nothing remembers it.
 //!
-//! ```text
-//! theta = gap_0/(gap_0 - gap_kept)
-//! ```
-//!
-//! of the increment, and theta times that motion is added to the displacement that means no slip.
-//! With gap and tangential motion alike (proportional loads on similar bodies of nu = 0) this is
-//! exact: q = k p without slip in increments of any size.
-//!
-//! Bodies that have not touched move rigidly before they do: gap_0 is h_init, gap_kept is
-//! h_init - delta_z, and the motion is -d(delta), which the solution has yet to tell.
+//! Bodies that have not touched move rigidly before they do: the gap h_init closes by delta_z, a
+//! cell enters at theta = h_init/delta_z of the increment, and its motion is -theta d(delta), which
+//! the solution has yet to tell.
 
+use super::kept_contact::KeptContact;
 use super::{Interface, March};
 use crate::error::Error;
 use crate::scene::{LoadPoint, Preset};
-use crate::solvers::{CoupledInfo, Drive, set_pairs};
+use crate::solvers::{CoupledInfo, Drive};
 
 /// Rounds that look for the shift of bodies that touch for the first time.
 const ROUNDS: usize = 6;
@@ -37,7 +33,7 @@ impl March {
     ) -> Result<Solution, Error> {
         let drives = self.drives(point);
         if !self.lets_cells_enter(&drives) {
-            return self.solve_pressed(start, drives, false);
+            return self.solve_pressed(start, drives, None, false);
         }
         if self.state.interface.p.iter().all(|&p| p <= 0.0) {
             return self.solve_first_contact(start, drives);
@@ -47,19 +43,35 @@ impl March {
             let factor = drives.0.sums[0] / kept.p.iter().sum::<f64>();
             kept.p.iter_mut().for_each(|p| *p *= factor);
         }
-        let (kept, info) = self.solve_pressed(kept, drives, true)?;
-        self.move_before_entry(|march, n| {
-            let last = march.before();
-            let h = march.h_init[n];
-            let gap_0 = (last.u_z[n] + h - march.arms.across(march.approach_before(), n)).max(0.0);
-            let gap_kept = kept.u_z[n] + h - march.arms.across(info.approach, n);
-            let theta = (gap_0 / (gap_0 - gap_kept).max(f64::MIN_POSITIVE)).min(1.0);
-            let shift = march.arms.in_plane(info.shift, n);
-            [0, 1].map(|c| theta * (kept.u[c][n] - last.u[c][n] - shift[c]))
-        });
-        let (now, mut found) = self.solve_pressed(start, drives, false)?;
+        let (kept, info) = self.solve_pressed(kept, drives, None, true)?;
+        let p = &self.before().p;
+        let moved = self.kept_contact(&kept, &info).moved(|n| p[n] <= 0.0);
+        let (now, mut found) = self.solve_pressed(start, drives, Some(&moved), false)?;
         found.add_work(&info);
         Ok((now, found))
+    }
+
+    /// What an increment with the contact kept to its old cells has done.
+    fn kept_contact(&self, kept: &Interface, info: &CoupledInfo) -> KeptContact {
+        let (last, approach) = (self.before(), self.approach_before());
+        let cells = 0..self.h_init.len();
+        let gap = |u_z: &[f64], approach: [f64; 3], n: usize| {
+            u_z[n] + self.h_init[n] - self.arms.across(approach, n)
+        };
+        let before = |n: usize| gap(&last.u_z, approach, n).max(0.0);
+        let motion = |c: usize| {
+            let shift = |n: usize| self.arms.in_plane(info.shift, n)[c];
+            let motion = |n: usize| kept.u[c][n] - last.u[c][n] - shift(n);
+            cells.clone().map(motion).collect()
+        };
+        KeptContact {
+            motion: [motion(0), motion(1)],
+            gap: cells.clone().map(before).collect(),
+            closing: cells
+                .map(|n| before(n) - gap(&kept.u_z, info.approach, n))
+                .collect(),
+            rows: self.plan.mirror.rows(self.scene.grid.ny),
+        }
     }
 
     /// Solves for the first contact: the shift s before the entry of the cells is that of the
@@ -73,11 +85,20 @@ impl March {
         let mut last: Option<([f64; 3], [f64; 3])> = None;
         let mut work = CoupledInfo::default();
         let lowest = self.h_init.iter().copied().fold(f64::INFINITY, f64::min);
+        let mut closed = f64::INFINITY;
         let mut start = start;
         let mut round = 0;
         loop {
             round += 1;
-            let (now, mut info) = self.solve_pressed(start, drives, false)?;
+            let moved = |c: usize| {
+                let moved = |n: usize| {
+                    let theta = ((self.h_init[n] - lowest) / closed).clamp(0.0, 1.0);
+                    -theta * self.arms.in_plane(assumed, n)[c]
+                };
+                (0..self.h_init.len()).map(moved).collect()
+            };
+            let entering = [moved(0), moved(1)];
+            let (now, mut info) = self.solve_pressed(start, drives, Some(&entering), false)?;
             info.add_work(&work);
             work = info;
             let misfit: [f64; 3] = std::array::from_fn(|k| info.shift[k] - assumed[k]);
@@ -98,11 +119,7 @@ impl March {
             };
             last = Some((assumed, misfit));
             assumed = next;
-            let closed = info.approach[0] - lowest;
-            self.move_before_entry(|march, n| {
-                let theta = ((march.h_init[n] - lowest) / closed).clamp(0.0, 1.0);
-                march.arms.in_plane(assumed, n).map(|s| -theta * s)
-            });
+            closed = info.approach[0] - lowest;
             start = now;
         }
     }
@@ -124,21 +141,6 @@ impl March {
                 .any(|&t| t != 0.0)
             || q.iter().flatten().any(|&q| q != 0.0);
         solver.entering && solver.preset == Preset::Fast && self.plan.friction && grows && sheared
-    }
-
-    /// Adds what a cell outside the contact moves before its entry to the displacement that means
-    /// no slip.
-    fn move_before_entry(&mut self, moved: impl Fn(&Self, usize) -> [f64; 2] + Sync) {
-        let outside = |n: usize| self.state.interface.p[n] <= 0.0;
-        let mut entered = [vec![0.0; self.h_init.len()], vec![0.0; self.h_init.len()]];
-        let [x, y] = &mut entered;
-        set_pairs(
-            [x, y],
-            |n, _| {
-                if outside(n) { moved(self, n) } else { [0.0; 2] }
-            },
-        );
-        self.set_entered(entered);
     }
 
     /// Approach and tilts of the last increment, as lengths \[m\].

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
+use super::slip_datum::Following;
 use super::{Carried, March};
 use crate::convolution::Mirror;
 use crate::error::Error;
@@ -12,11 +13,13 @@ use crate::solvers::{
 };
 
 impl March {
-    /// Solves the increment from a start, on the cells of the last contact alone if it is `kept`.
+    /// Solves the increment from a start, with cells outside the contact `entering` after that motion
+    /// \[m\]; on the cells of the last contact alone if it is `kept`.
     pub(super) fn solve_pressed(
         &mut self,
         mut now: Interface,
         (normal, tangential): (Drive, Drive),
+        entering: Option<&[Vec<f64>; 2]>,
         kept: bool,
     ) -> Result<(Interface, CoupledInfo), Error> {
         let apart;
@@ -36,7 +39,6 @@ impl March {
         let before = carried.map_or(&self.state.interface, Carried::interface);
         let problem = IncrementProblem {
             h_init,
-            u_ref: [&before.u[0], &before.u[1]],
             mu: &self.mu,
             arms: &self.arms,
             normal,
@@ -48,8 +50,18 @@ impl March {
             stop: Some(&self.stop),
         };
         let params = params(&self.scene, self.approach);
+        let solver = &self.scene.settings.solver;
         let ws = &mut self.workspace;
-        match coupled(&mut response, &problem, &mut now, ws, &params) {
+        let goes_on = self.datum.goes_on;
+        self.datum.reset(before, entering);
+        let turns = !kept && goes_on && solver.turning && solver.preset == Preset::Fast;
+        let mut datum = Following {
+            datum: &mut self.datum,
+            last: before,
+            q_before: turns.then_some(&self.state.q_before),
+            arms: &self.arms,
+        };
+        match coupled(&mut response, &problem, &mut datum, &mut now, ws, &params) {
             Ok(info) => Ok((now, info)),
             Err(_) if self.stop.load(Ordering::Relaxed) => Err(Error::Interrupted {
                 increment: self.state.increments,

@@ -10,7 +10,9 @@ mod equations;
 mod fields;
 mod halving;
 mod increment;
+mod kept_contact;
 mod predict;
+mod slip_datum;
 mod solve;
 mod state;
 
@@ -26,11 +28,12 @@ use self::awake::with_all_awake;
 use self::carried::Carried;
 use self::coarse::coarse_start;
 use self::predict::first_touch;
+use self::slip_datum::Datum;
 use crate::convolution::{
     CirculantInverse, DcFft, FrequencyDomain, PARALLEL_FROM, SurfaceOperator,
 };
 use crate::error::Error;
-use crate::kernels::influence_coefficients;
+use crate::kernels::pair_coefficients;
 use crate::scene::{History, KernelMethod, LoadPoint, Plan, Preset, Scene};
 use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface};
 
@@ -54,6 +57,8 @@ pub struct March {
     state: State,
     /// The last interface, where the increment does not find it as it was left.
     carried: Option<Carried>,
+    /// The displacements that mean no slip in the increment.
+    datum: Datum,
     workspace: CoupledWorkspace,
     /// Raised from outside to end the run.
     stop: Arc<AtomicBool>,
@@ -66,18 +71,15 @@ impl March {
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
         let settings = &scene.settings;
-        let coefficients = |body| {
-            influence_coefficients(
-                body,
-                &scene.grid,
-                &settings.kernel,
-                settings.skip.equal_layers,
-            )
-        };
         let stretch = scene.friction.stretch();
-        let pair = coefficients(&scene.body2)?
-            .pair(&coefficients(&scene.body1)?)
-            .stretched(stretch);
+        let pair = pair_coefficients(
+            (&scene.body1, &scene.body2),
+            &scene.grid,
+            &settings.kernel,
+            settings.skip.equal_layers,
+            plan.kernels(),
+        )?
+        .stretched(stretch);
         let inverse = match settings.solver.preset {
             Preset::Fast => Some(CirculantInverse::new(&pair, plan.mirror)),
             Preset::Spinu2020 => None,
@@ -127,6 +129,7 @@ impl March {
             approach,
             state: State::unloaded(cells),
             carried: None,
+            datum: Datum::new(cells),
             workspace: CoupledWorkspace::new(cells),
             stop: Arc::default(),
         })
@@ -198,6 +201,7 @@ impl March {
         self.update_friction();
         let pressed = !normal.free[0] || normal.sums[0] > 0.0;
         let mut coarse_convolutions = 0.0;
+        self.datum.goes_on = self.state.going_on(point).is_some();
         let start = if pressed {
             let touch = (self.state.loads.W <= 0.0).then(|| {
                 let Some(start) = coarse_start(&self.scene, point) else {
@@ -224,6 +228,7 @@ impl March {
                 shift: tangential.given,
                 ..CoupledInfo::default()
             };
+            self.datum.reset(&start, None);
             (start, info)
         };
         if info.exceeds_friction() {

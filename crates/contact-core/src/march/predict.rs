@@ -52,6 +52,13 @@ impl Loads {
 }
 
 impl State {
+    /// The factor by which the change of the loads to a point is that of the last increment, if both
+    /// go the same way.
+    pub(super) fn going_on(&self, point: &LoadPoint) -> Option<f64> {
+        let step = point.loads.since(&self.loads, self.motion.motions());
+        step.along(&self.step).filter(|_| self.increments > 1)
+    }
+
     /// Tractions and slip set to start from: the last increment's, extrapolated while the loads
     /// keep their direction (the paper takes them as they are). At a reversal every cell is taken
     /// to stick: slip needs the load to move on before it sets in again. Bodies that have not touched
@@ -68,8 +75,7 @@ impl State {
         if let Some(p) = touch {
             guess.p = p;
         }
-        let step = point.loads.since(&self.loads, self.motion.motions());
-        let same_way = step.along(&self.step).filter(|_| self.increments > 1);
+        let same_way = self.going_on(point);
         if let (Some(factor), Preset::Fast) = (same_way, preset) {
             let before = &self.p_before;
             set_cells(&mut guess.p, |n, p| (p + factor * (p - before[n])).max(0.0));

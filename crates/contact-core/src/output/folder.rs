@@ -13,8 +13,11 @@ use zarrs::storage::{
 
 use crate::error::Error;
 
-/// Name of a file on its way; no Zarr library looks at it.
-const UNFINISHED: &str = ".unfinished";
+/// Where a file is on its way to its place: beside it, under a name that no Zarr library looks at.
+fn unfinished(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!(".{name}.unfinished"))
+}
 
 /// The folder of a store.
 #[derive(Debug)]
@@ -37,7 +40,7 @@ impl Folder {
     /// outlives the process; only a power failure can undo what was written last.
     pub(super) fn write(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
         let path = self.root.join(key);
-        let unfinished = path.with_file_name(UNFINISHED);
+        let unfinished = unfinished(&path);
         let written = fs::write(&unfinished, bytes).or_else(|_| {
             // The folder may be missing; anything else fails again, and says why.
             fs::create_dir_all(path.parent().unwrap_or(&self.root))?;
@@ -54,7 +57,7 @@ impl Folder {
         content: impl FnOnce(&File) -> io::Result<()>,
     ) -> io::Result<()> {
         let path = self.root.join(key);
-        let unfinished = path.with_file_name(UNFINISHED);
+        let unfinished = unfinished(&path);
         let written = File::create(&unfinished).and_then(|file| {
             content(&file)?;
             file.sync_all()

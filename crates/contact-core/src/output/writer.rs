@@ -146,11 +146,12 @@ impl Observer for StoreWriter {
         let status = failure.map_or("done".to_owned(), ToString::to_string);
         open.attributes.insert("status".into(), json!(status));
         // Where there is no room for the fields there may be for the rest.
-        open.checkpoint(march.state()).and(last_fields)?;
-        match open.checkpoints.take() {
-            Some(checkpoints) if failure.is_none() => checkpoints.remove(),
-            _ => Ok(()),
+        if failure.is_some() {
+            return open.checkpoint(march.state()).and(last_fields);
         }
+        // Nothing will be resumed: the store is enough.
+        open.flush().and(last_fields)?;
+        open.checkpoints.take().map_or(Ok(()), Checkpoints::remove)
     }
 }
 
@@ -322,9 +323,11 @@ impl Open {
             documents.insert(".zattrs".into(), Value::Object(self.attributes.clone()));
             return self.write_documents(documents);
         }
-        for column in self.scalars.iter_mut().chain(&mut self.others) {
-            column.flush(&self.folder)?;
-        }
+        let (scalars, others) = (&mut self.scalars, &mut self.others);
+        let mut columns: Vec<_> = scalars.iter_mut().chain(others).collect();
+        columns
+            .par_iter_mut()
+            .try_for_each(|column| column.flush(&self.folder))?;
         let mut documents = self.group_documents();
         let columns = self.scalars.iter().chain(&self.others);
         for variable in columns.map(Column::variable).chain(&self.fields) {
@@ -346,11 +349,11 @@ impl Open {
 
     /// Writes the metadata documents that have changed, and all of them as consolidated metadata.
     pub(super) fn write_documents(&mut self, documents: Map<String, Value>) -> Result<(), Error> {
-        for (key, document) in &documents {
-            if self.documents.get(key) != Some(document) {
-                self.write(key, document)?;
-            }
-        }
+        let changed = documents
+            .iter()
+            .filter(|(key, document)| self.documents.get(*key) != Some(document));
+        (changed.collect::<Vec<_>>().par_iter())
+            .try_for_each(|(key, document)| self.write(key, document))?;
         let consolidated = json!({ "zarr_consolidated_format": 1, "metadata": documents });
         self.write(".zmetadata", &consolidated)?;
         self.documents = documents;

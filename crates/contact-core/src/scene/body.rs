@@ -43,6 +43,22 @@ impl Body {
         self.coatings.iter().all(|c| c.material == self.substrate)
     }
 
+    /// The elastic make-up: E, nu and thickness of each layer from the surface down, 0 for the
+    /// substrate; with `shortcut` one of layers that all equal the substrate is the substrate alone.
+    pub(crate) fn layers(&self, shortcut: bool) -> Vec<(f64, f64, f64)> {
+        let coatings = if shortcut && self.is_homogeneous() {
+            &[][..]
+        } else {
+            &self.coatings[..]
+        };
+        let coatings = coatings
+            .iter()
+            .map(|c| (c.material.E, c.material.nu, c.thickness));
+        coatings
+            .chain([(self.substrate.E, self.substrate.nu, 0.0)])
+            .collect()
+    }
+
     /// Fails if a material or a thickness is out of its range; `key` is `body1` or `body2`.
     pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
         self.substrate.check(key)?;

@@ -192,7 +192,10 @@ impl Scene {
 
     /// Gap between the undeformed surfaces, h_init \[m\], shape (nx, ny).
     pub fn h_init(&self) -> ndarray::Array2<f64> {
-        self.body1.shape.fall(&self.grid) + self.body2.shape.fall(&self.grid)
+        match (&self.body1.shape, &self.body2.shape) {
+            (shape, Shape::Flat) | (Shape::Flat, shape) => shape.fall(&self.grid),
+            (one, other) => one.fall(&self.grid) + other.fall(&self.grid),
+        }
     }
 
     /// The larger and the smaller principal curvature of the gap between the nominal shapes \[1/m\].

@@ -5,6 +5,7 @@ use ndarray::Array2;
 use super::direct::direct_branches;
 use super::{Body, KernelMethod, LoadPoint, Loads, Scene, SurfaceMap};
 use crate::convolution::Mirror;
+use crate::kernels::KernelSet;
 
 /// What is computed and what is left out.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +42,15 @@ impl std::fmt::Display for PlanLine {
 }
 
 impl Plan {
+    /// The influence coefficients that are computed.
+    pub fn kernels(&self) -> KernelSet {
+        match (self.friction, self.coupling) {
+            (_, true) => KernelSet::All,
+            (true, false) => KernelSet::Uncoupled,
+            (false, false) => KernelSet::Normal,
+        }
+    }
+
     /// The increments that are solved: of a branch whose end does not depend on the way, the last.
     pub fn points(&self, scene: &Scene) -> Vec<LoadPoint> {
         let mut points = scene.path.points();
@@ -71,6 +81,7 @@ impl Plan {
                 Err("friction transmits shear")
             },
         );
+        rule("influence coefficients of body 1", alike(scene));
         let coupling = !rule("normal-tangential coupling", uncoupled(scene));
         let half = rule("the half y < 0 of the grid", mirror(scene));
         let (direct, verdict) = direct_branches(scene, coupling);
@@ -90,6 +101,15 @@ impl Plan {
     }
 }
 
+/// Whether, and why, the coefficients of one body are those of the other.
+fn alike(scene: &Scene) -> Result<&'static str, &'static str> {
+    if layers(&scene.body1, scene) == layers(&scene.body2, scene) {
+        Ok("those of body 2, which has the same layers")
+    } else {
+        Err("the bodies differ in elasticity")
+    }
+}
+
 /// Whether, and why, pressure causes no tangential mismatch.
 fn uncoupled(scene: &Scene) -> Result<&'static str, &'static str> {
     if scene.friction.mu == 0.0 {
@@ -98,15 +118,14 @@ fn uncoupled(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.settings.skip.coupling {
         return Err("skip.coupling is off");
     }
-    let (body1, body2) = (&scene.body1, &scene.body2);
-    if layers(body1, scene) == layers(body2, scene) {
+    if alike(scene).is_ok() {
         return Ok("the bodies are elastically alike, eq. (4): C_13(2) = C_13(1)");
     }
     let alone = |b: &Body| {
-        let homogeneous = b.coatings.is_empty() || is_shortcut(b, scene);
+        let homogeneous = layers(b, scene).len() == 1;
         homogeneous.then(|| (1.0 - 2.0 * b.substrate.nu) / b.substrate.G())
     };
-    match (alone(body1), alone(body2)) {
+    match (alone(&scene.body1), alone(&scene.body2)) {
         (Some(a), Some(b)) if a.to_bits() == b.to_bits() => {
             Ok("(1 - 2 nu)/G is the same in both bodies")
         }
@@ -114,23 +133,8 @@ fn uncoupled(scene: &Scene) -> Result<&'static str, &'static str> {
     }
 }
 
-fn is_shortcut(body: &Body, scene: &Scene) -> bool {
-    scene.settings.skip.equal_layers && body.is_homogeneous()
-}
-
-/// The elastic make-up of a body.
 fn layers(body: &Body, scene: &Scene) -> Vec<(f64, f64, f64)> {
-    let coatings = if is_shortcut(body, scene) {
-        &[][..]
-    } else {
-        &body.coatings[..]
-    };
-    let coatings = coatings
-        .iter()
-        .map(|c| (c.material.E, c.material.nu, c.thickness));
-    coatings
-        .chain([(body.substrate.E, body.substrate.nu, 0.0)])
-        .collect()
+    body.layers(scene.settings.skip.equal_layers)
 }
 
 /// Whether a field is its own mirror image under y -> -y, up to rounding.

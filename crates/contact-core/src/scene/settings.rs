@@ -71,6 +71,9 @@ pub struct SolverSettings {
     /// solution in increments in which the contact grows, and far fewer increments. The preset
     /// [`Preset::Spinu2020`] does without.
     pub entering: bool,
+    /// Let slip follow the turn of the shear within an increment (default true): the path becomes of
+    /// second order. The preset [`Preset::Spinu2020`] does without.
+    pub turning: bool,
     /// Most passes of the intermediate loop per increment (default 60).
     pub max_alternations: usize,
     /// Most iterations of an inner loop (default 1000).
@@ -83,6 +86,7 @@ impl Default for SolverSettings {
             preset: Preset::Fast,
             tolerance: 1e-6,
             entering: true,
+            turning: true,
             max_alternations: 60,
             max_iterations: 1000,
         }

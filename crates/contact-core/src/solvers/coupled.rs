@@ -11,6 +11,7 @@ use super::admissible::admissible;
 use super::limit::{Sliding, exceeds, sliding};
 use super::mixing::Mixing;
 use super::rigid_motion::{Arms, Drive, add};
+use super::shear::first_shift;
 use super::shear_gradient::shear_gradient;
 use super::vector::{add_scaled, set_cells, set_pairs, size};
 use super::{
@@ -47,6 +48,16 @@ impl Interface {
         }
     }
 
+    /// What the tangential solvers work on.
+    fn shear(&mut self) -> Shear<'_> {
+        let ([q_x, q_y], [u_x, u_y]) = (&mut self.q, &mut self.u);
+        Shear {
+            q: [q_x, q_y],
+            u: [u_x, u_y],
+            slip: &mut self.slip,
+        }
+    }
+
     /// Computes the displacements from the tractions.
     pub(crate) fn evaluate(&mut self, response: &mut Response<'_>, shear: bool) {
         let [u_x, u_y] = &mut self.u;
@@ -71,8 +82,6 @@ impl Interface {
 pub struct IncrementProblem<'a> {
     /// Gap between the undeformed surfaces h_init \[m\].
     pub h_init: &'a [f64],
-    /// Tangential displacements of the last increment, the reference of the slip \[m\].
-    pub u_ref: [&'a [f64]; 2],
     /// Friction coefficient of each cell.
     pub mu: &'a [f64],
     /// Where the cells are.
@@ -82,6 +91,20 @@ pub struct IncrementProblem<'a> {
     /// What drives shifts and torsion in this increment.
     pub tangential: Drive,
 }
+
+/// The displacements that mean no slip in an increment.
+pub trait SlipDatum {
+    /// Follows the solution as far as it is known, and its shift; how far the displacements of contact
+    /// cells have moved, root mean square \[m\].
+    fn follow(&mut self, now: &Interface, shift: [f64; 3]) -> f64;
+    /// The displacements \[m\].
+    fn displacements(&self) -> [&[f64]; 2];
+}
+
+/// Passes in which the displacements that mean no slip follow the solution.
+const FOLLOWED: usize = 3;
+/// Part of the tolerance by which they may move without another solution.
+const NEGLIGIBLE: f64 = 0.1;
 
 /// Settings of the intermediate loop.
 #[derive(Clone, Copy, Debug)]
@@ -171,6 +194,7 @@ impl CoupledWorkspace {
 pub fn coupled(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,
+    datum: &mut dyn SlipDatum,
     now: &mut Interface,
     ws: &mut CoupledWorkspace,
     params: &CoupledParams,
@@ -178,7 +202,7 @@ pub fn coupled(
     let friction = problem.mu.iter().any(|&mu| mu > 0.0);
     let coupled = response.op.is_coupled() && friction;
     let mut info = CoupledInfo::default();
-    let mut slides = make_admissible(problem, now, ws, friction);
+    let mut slides = make_admissible(problem, datum.displacements(), now, ws, friction);
     now.evaluate(response, friction);
     ws.mixing.restart();
     loop {
@@ -210,37 +234,18 @@ pub fn coupled(
             ws.q_before[c].copy_from_slice(&now.q[c]);
         }
         if found.iterations > 0 {
-            slides = make_admissible(problem, now, ws, friction);
+            slides = make_admissible(problem, datum.displacements(), now, ws, friction);
             follow_pressure(response, now, ws, coupled);
         }
         info.friction_used = slides.used;
         if info.exceeds_friction() {
             return Ok(info);
         }
-        let slip = problem.slip(&ws.bound);
         if slides.is_full() {
+            let slip = problem.slip(&ws.bound, datum.displacements());
             info.shift = incipient_shift(&slip, now, slides.motion);
         } else {
-            let [q_x, q_y] = &mut now.q;
-            let [u_x, u_y] = &mut now.u;
-            let mut shear = Shear {
-                q: [q_x, q_y],
-                u: [u_x, u_y],
-                slip: &mut now.slip,
-            };
-            let solve = match params.tangential.method {
-                TangentialMethod::Newton => tangential,
-                TangentialMethod::Gradient => shear_gradient,
-            };
-            let found = solve(
-                response,
-                &slip,
-                &mut shear,
-                &mut ws.tangential,
-                &params.tangential,
-            )?;
-            info.tangential_iterations += found.passes;
-            info.shift = found.shift;
+            shear_under(response, problem, datum, now, ws, params, &mut info)?;
         }
         if !coupled {
             return Ok(info);
@@ -275,9 +280,48 @@ pub fn coupled(
     }
 }
 
+/// Shear for known pressure.
+fn shear_under(
+    response: &mut Response<'_>,
+    problem: &IncrementProblem<'_>,
+    datum: &mut dyn SlipDatum,
+    now: &mut Interface,
+    ws: &mut CoupledWorkspace,
+    params: &CoupledParams,
+    info: &mut CoupledInfo,
+) -> Result<(), SolverError> {
+    let solve = match params.tangential.method {
+        TangentialMethod::Newton => tangential,
+        TangentialMethod::Gradient => shear_gradient,
+    };
+    if info.alternations == 1 {
+        let slip = problem.slip(&ws.bound, datum.displacements());
+        info.shift = first_shift(&slip, &now.shear());
+    }
+    // The guess tells where the slip goes, the solution tells it better, the next pass better still.
+    let rounds = if info.alternations == 1 { 2 } else { 1 };
+    for round in 0..rounds {
+        let moved = if info.alternations <= FOLLOWED {
+            datum.follow(now, info.shift)
+        } else {
+            0.0
+        };
+        if round > 0 && moved <= NEGLIGIBLE * params.tangential.tolerance {
+            break;
+        }
+        let slip = problem.slip(&ws.bound, datum.displacements());
+        let inner = &mut ws.tangential;
+        let found = solve(response, &slip, &mut now.shear(), inner, &params.tangential)?;
+        info.tangential_iterations += found.passes;
+        info.shift = found.shift;
+    }
+    Ok(())
+}
+
 /// Brings the shear within the bound mu p of the present pressure and to the loads asked for.
 fn make_admissible(
     problem: &IncrementProblem<'_>,
+    u_ref: [&[f64]; 2],
     now: &mut Interface,
     ws: &mut CoupledWorkspace,
     friction: bool,
@@ -288,7 +332,7 @@ fn make_admissible(
     for ((bound, &mu), &p) in ws.bound.iter_mut().zip(problem.mu).zip(&now.p) {
         *bound = friction_bound(mu, p);
     }
-    let slip = problem.slip(&ws.bound);
+    let slip = problem.slip(&ws.bound, u_ref);
     let slides = sliding(&slip);
     if slides.is_full() {
         for n in 0..now.p.len() {
@@ -364,10 +408,10 @@ fn incipient_shift(
 
 impl<'a> IncrementProblem<'a> {
     /// The tangential problem under a friction bound.
-    fn slip(&self, bound: &'a [f64]) -> TangentialProblem<'a> {
+    fn slip(&self, bound: &'a [f64], u_ref: [&'a [f64]; 2]) -> TangentialProblem<'a> {
         TangentialProblem {
             bound,
-            u_ref: self.u_ref,
+            u_ref,
             arms: self.arms,
             drive: self.tangential,
         }

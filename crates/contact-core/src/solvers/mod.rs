@@ -26,14 +26,14 @@ mod vector;
 
 pub(crate) use coupled::friction_bound;
 pub use coupled::{
-    CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, Interface, coupled,
+    CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, Interface, SlipDatum, coupled,
 };
 pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub use response::Response;
 pub use rigid_motion::{Arms, Drive};
 pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
 pub use tangential::{TangentialWorkspace, tangential};
-pub(crate) use vector::{CHUNK, add_scaled, largest, set_cells, set_pairs, size, sum_cells};
+pub(crate) use vector::{CHUNK, largest, set_cells, set_pairs, size, sum_cells};
 
 /// A solver that stopped before its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

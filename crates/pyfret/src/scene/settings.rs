@@ -184,13 +184,14 @@ pub(crate) struct Settings(pub(crate) core::Settings);
 impl Settings {
     #[new]
     #[pyo3(signature = (
-        *, preset = None, tolerance = None, entering = None, max_alternations = None, max_iterations = None,
+        *, preset = None, tolerance = None, entering = None, turning = None, max_alternations = None, max_iterations = None,
         kernel = None, kernel_tolerance = None, skip = None, save = None,
     ))]
     fn new(
         preset: Option<Preset>,
         tolerance: Option<f64>,
         entering: Option<bool>,
+        turning: Option<bool>,
         max_alternations: Option<usize>,
         max_iterations: Option<usize>,
         kernel: Option<Method>,
@@ -207,6 +208,7 @@ impl Settings {
         };
         solver.tolerance = tolerance.unwrap_or(solver.tolerance);
         solver.entering = entering.unwrap_or(solver.entering);
+        solver.turning = turning.unwrap_or(solver.turning);
         solver.max_alternations = max_alternations.unwrap_or(solver.max_alternations);
         solver.max_iterations = max_iterations.unwrap_or(solver.max_iterations);
         settings.kernel.method = kernel.map_or(settings.kernel.method, Into::into);
@@ -234,6 +236,11 @@ impl Settings {
     #[getter]
     fn entering(&self) -> bool {
         self.0.solver.entering
+    }
+
+    #[getter]
+    fn turning(&self) -> bool {
+        self.0.solver.turning
     }
 
     #[getter]

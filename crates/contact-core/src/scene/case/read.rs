@@ -329,6 +329,7 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
         "preset",
         "tolerance",
         "entering",
+        "turning",
         "max_alternations",
         "max_iterations",
     ];
@@ -341,6 +342,7 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
             )?,
             tolerance: section.number_or("tolerance", default.tolerance, &[])?,
             entering: section.flag_or("entering", default.entering)?,
+            turning: section.flag_or("turning", default.turning)?,
             max_alternations: section.count_or("max_alternations", 1, default.max_alternations)?,
             max_iterations: section.count_or("max_iterations", 1, default.max_iterations)?,
         };

@@ -64,6 +64,7 @@ impl Scene {
         line(format_args!("\n[solver]\npreset = \"{preset}\""));
         line(format_args!("tolerance = {:?}", solver.tolerance));
         line(format_args!("entering = {}", solver.entering));
+        line(format_args!("turning = {}", solver.turning));
         line(format_args!(
             "max_alternations = {}",
             solver.max_alternations

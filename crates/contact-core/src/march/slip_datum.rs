@@ -1,0 +1,169 @@
+//! The displacements that mean no slip in an increment.
+//!
+//! Eq. (7) reckons the slip from the last increment, ds = u - u_ref - d(delta), and eq. (8) holds it
+//! against the shear at the end. Both are of first order in the increment. Two corrections of u_ref
+//! make the path of second order, for cells that enter the contact (`kept_contact`) and for slip whose
+//! direction turns within the increment:
+//!
+//! ```text
+//! ds = -lambda m,   m = (e_0 + e_1)/|e_0 + e_1|
+//! ```
+//!
+//! with e_0 and e_1 the directions of the shear where the slip begins and at the end; the part of
+//! that slip across e_1, |ds| ((m.e_1) e_1 - m), is added to u_ref, so that the solver, which holds
+//! the slip against the final shear, finds it there. A cell that starts to slip on the way does so
+//! where its shear, going on as in the last increment, meets the bound; after a reversal, where slip
+//! has only begun, nothing is known of that. Where no cell sticks, bodies slide by as much as they are moved, and the shear
+//! has turned into their direction at the end.
+
+use crate::solvers::{Arms, Interface, SlipDatum, set_pairs, size, sum_cells};
+
+/// Least cosine between e_0 and e_1: where the shear turns further, the way there is not known.
+const TURN: f64 = 0.5;
+
+/// What the displacements that mean no slip differ by from the last ones.
+#[derive(Debug)]
+pub(super) struct Datum {
+    /// The difference \[m\]: of cells outside the contact their motion before they enter it, of those
+    /// in it the turn of their slip.
+    pub(super) moved: [Vec<f64>; 2],
+    /// Whether the loads go on as in the last increment.
+    pub(super) goes_on: bool,
+    displacements: [Vec<f64>; 2],
+}
+
+impl Datum {
+    pub(super) fn new(cells: usize) -> Self {
+        let pair = || [vec![0.0; cells], vec![0.0; cells]];
+        Self {
+            moved: pair(),
+            goes_on: false,
+            displacements: pair(),
+        }
+    }
+
+    /// Begins with the last displacements, of cells outside the contact with what these move before
+    /// they enter it, where that matters.
+    pub(super) fn reset(&mut self, last: &Interface, entering: Option<&[Vec<f64>; 2]>) {
+        for c in 0..2 {
+            match entering {
+                Some(entering) => self.moved[c].copy_from_slice(&entering[c]),
+                None => self.moved[c].fill(0.0),
+            }
+        }
+        self.add_to(last);
+    }
+
+    fn add_to(&mut self, last: &Interface) {
+        let moved = &self.moved;
+        let [x, y] = &mut self.displacements;
+        set_pairs([x, y], |n, _| {
+            [last.u[0][n] + moved[0][n], last.u[1][n] + moved[1][n]]
+        });
+    }
+}
+
+/// The datum of an increment while that is being solved.
+pub(super) struct Following<'a> {
+    pub(super) datum: &'a mut Datum,
+    /// The interface that the increment starts from.
+    pub(super) last: &'a Interface,
+    /// The shear an increment earlier, if slip is to follow the turn of the shear and the loads go on as
+    /// in that increment.
+    pub(super) q_before: Option<&'a [Vec<f64>; 2]>,
+    pub(super) arms: &'a Arms,
+}
+
+impl SlipDatum for Following<'_> {
+    fn follow(&mut self, now: &Interface, shift: [f64; 3]) -> f64 {
+        let (Some(q_before), last, arms) = (self.q_before, self.last, self.arms) else {
+            return 0.0;
+        };
+        let cells = now.p.len();
+        if (0..cells).all(|n| now.p[n] <= 0.0 || now.slip[n]) {
+            return 0.0;
+        }
+        let slip = |n: usize| -> [f64; 2] {
+            let shift = arms.in_plane(shift, n);
+            std::array::from_fn(|c| now.u[c][n] - last.u[c][n] - shift[c])
+        };
+        let [x, y] = &mut self.datum.moved;
+        set_pairs([x, y], |n, moved| {
+            if last.p[n] <= 0.0 {
+                moved
+            } else if now.p[n] > 0.0 && now.slip[n] {
+                turn(last, q_before, now, slip(n), n)
+            } else {
+                [0.0; 2]
+            }
+        });
+        let Datum {
+            moved,
+            displacements,
+            ..
+        } = &*self.datum;
+        let [contact, squares] = sum_cells(cells, |n| {
+            if now.p[n] <= 0.0 {
+                return [0.0; 2];
+            }
+            let change = |c: usize| last.u[c][n] + moved[c][n] - displacements[c][n];
+            [1.0, change(0).powi(2) + change(1).powi(2)]
+        });
+        self.datum.add_to(last);
+        (squares / contact).sqrt()
+    }
+
+    fn displacements(&self) -> [&[f64]; 2] {
+        let [x, y] = &self.datum.displacements;
+        [x, y]
+    }
+}
+
+/// The part of the slip across the final shear \[m\].
+fn turn(
+    last: &Interface,
+    q_before: &[Vec<f64>; 2],
+    now: &Interface,
+    slip: [f64; 2],
+    n: usize,
+) -> [f64; 2] {
+    let at = |q: &[Vec<f64>; 2]| [q[0][n], q[1][n]];
+    let end = at(&now.q);
+    let begin = if last.slip[n] {
+        Some(at(&last.q))
+    } else {
+        met(at(q_before), at(&last.q), size(end))
+    };
+    let Some(begin) = begin else {
+        return [0.0; 2];
+    };
+    let (e_0, e_1) = (unit(begin), unit(end));
+    if dot(e_0, e_1) < TURN {
+        return [0.0; 2];
+    }
+    let m = unit([e_0[0] + e_1[0], e_0[1] + e_1[1]]);
+    let along = dot(m, e_1);
+    std::array::from_fn(|c| size(slip) * (along * e_1[c] - m[c]))
+}
+
+/// Where a shear that goes on from `before` through `last` meets the circle of radius `bound`.
+fn met(before: [f64; 2], last: [f64; 2], bound: f64) -> Option<[f64; 2]> {
+    let on = [last[0] - before[0], last[1] - before[1]];
+    let inside = bound * bound - dot(last, last);
+    if inside <= 0.0 {
+        return Some(last);
+    }
+    let (a, b) = (dot(on, on), dot(last, on));
+    let t = ((b * b + a * inside).sqrt() - b) / a;
+    t.is_finite()
+        .then(|| [last[0] + t * on[0], last[1] + t * on[1]])
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn unit(a: [f64; 2]) -> [f64; 2] {
+    let size = size(a).max(f64::MIN_POSITIVE);
+    [a[0] / size, a[1] / size]
+}
