@@ -77,12 +77,12 @@ __all__ = [
     "maximum",
     "measure",
     "principal",
+    "probe_labels",
     "resume",
     "rims",
     "solve",
     "stress_at",
     "stress_coefficients",
-    "stress_labels",
     "surface_frf",
 ]
 
@@ -1623,7 +1623,7 @@ def resume(
 ) -> None:
     """Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it."""
 
-def stress_labels() -> dict[str, tuple[str, str]]:
+def probe_labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of everything that follows from the stress."""
 
 def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
@@ -1682,21 +1682,11 @@ class Subsurface:
         *,
         x: float | None = None,
         y: float | None = None,
+        displacement: bool = False,
     ) -> _Array:
-        """Stress on a section, shape (6, depths, places) [Pa]."""
-    def section_displacement(
-        self,
-        z: Sequence[float],
-        layer: Sequence[int],
-        *,
-        x: float | None = None,
-        y: float | None = None,
-    ) -> _Array:
-        """Displacement on a section, shape (3, depths, places) [m]."""
-    def slice(self, z: float, layer: int) -> list[_Array]:
-        """Stress on a plane, six arrays of shape (nx, ny) [Pa]."""
-    def slice_displacement(self, z: float, layer: int) -> list[_Array]:
-        """Displacement on a plane, three arrays of shape (nx, ny) [m]."""
+        """Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places)."""
+    def slice(self, z: float, layer: int, *, displacement: bool = False) -> list[_Array]:
+        """Stress [Pa] or displacement [m] on a plane, six or three arrays of shape (nx, ny)."""
     def points(self, places: Sequence[tuple[float, float, float, int]]) -> tuple[_Array, _Array]:
         """Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer."""
     def volume(
@@ -1708,7 +1698,7 @@ class Subsurface:
         of: Sequence[str],
         title: str = "",
     ) -> None:
-        """Write measures of the stress in a volume to a .vti file or a Zarr folder."""
+        """Write measures of stress, and displacements, to a .vti file or a Zarr folder."""
 
 @final
 class Envelope:
