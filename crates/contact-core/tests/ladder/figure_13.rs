@@ -20,7 +20,7 @@ fn scene(ratio: f64, n: usize) -> Scene {
     ];
     let mut scene = Scene::from_toml_str(text, "scene", &settings).unwrap();
     for (n, branch) in scene.path.branches.iter_mut().enumerate() {
-        branch.increments = if n == 0 { 30 } else { 8 };
+        branch.increments = Some(if n == 0 { 30 } else { 8 });
         if n == 0 {
             branch.spacing = Spacing::EqualRadius;
         }
