@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use clap::Args;
-use contact_core::march::{Increment, March, Observer, solve};
+use contact_core::march::{Increment, March, Observer, choose_increments, solve};
 use contact_core::output::StoreWriter;
 use contact_core::{Error, Scene};
 
@@ -51,9 +51,10 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// Runs through the load path.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let scene = options.scene.read().map_err(Failure::BadInput)?;
-    let writer = StoreWriter::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
     let manner = &options.manner;
     manner.use_threads();
+    let scene = choose_increments(&scene).map_err(ended)?;
+    let writer = StoreWriter::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
     manner.watch(&scene, &options.out, writer, Vec::new(), |watcher| {
         solve(&scene, watcher)
     })
@@ -105,13 +106,18 @@ impl Manner {
                     out.display()
                 ));
             }
-            match error {
-                Error::InvalidScene { .. } | Error::OffGrid { .. } | Error::TooLarge { .. } => {
-                    Failure::BadInput(error)
-                }
-                error => Failure::EndedEarly(error),
-            }
+            ended(error)
         })
+    }
+}
+
+/// What an error means for the exit code.
+fn ended(error: Error) -> Failure {
+    match error {
+        Error::InvalidScene { .. } | Error::OffGrid { .. } | Error::TooLarge { .. } => {
+            Failure::BadInput(error)
+        }
+        error => Failure::EndedEarly(error),
     }
 }
 

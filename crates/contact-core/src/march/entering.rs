@@ -32,9 +32,8 @@ impl March {
         start: Interface,
     ) -> Result<Solution, Error> {
         let drives = self.drives(point);
-        self.datum.entering = None;
         if !self.lets_cells_enter(&drives) {
-            return self.solve_pressed(start, drives, false);
+            return self.solve_pressed(start, drives, None, false);
         }
         if self.state.interface.p.iter().all(|&p| p <= 0.0) {
             return self.solve_first_contact(start, drives);
@@ -44,11 +43,10 @@ impl March {
             let factor = drives.0.sums[0] / kept.p.iter().sum::<f64>();
             kept.p.iter_mut().for_each(|p| *p *= factor);
         }
-        let (kept, info) = self.solve_pressed(kept, drives, true)?;
+        let (kept, info) = self.solve_pressed(kept, drives, None, true)?;
         let p = &self.before().p;
         let moved = self.kept_contact(&kept, &info).moved(|n| p[n] <= 0.0);
-        self.datum.entering = Some(moved);
-        let (now, mut found) = self.solve_pressed(start, drives, false)?;
+        let (now, mut found) = self.solve_pressed(start, drives, Some(&moved), false)?;
         found.add_work(&info);
         Ok((now, found))
     }
@@ -87,11 +85,20 @@ impl March {
         let mut last: Option<([f64; 3], [f64; 3])> = None;
         let mut work = CoupledInfo::default();
         let lowest = self.h_init.iter().copied().fold(f64::INFINITY, f64::min);
+        let mut closed = f64::INFINITY;
         let mut start = start;
         let mut round = 0;
         loop {
             round += 1;
-            let (now, mut info) = self.solve_pressed(start, drives, false)?;
+            let moved = |c: usize| {
+                let moved = |n: usize| {
+                    let theta = ((self.h_init[n] - lowest) / closed).clamp(0.0, 1.0);
+                    -theta * self.arms.in_plane(assumed, n)[c]
+                };
+                (0..self.h_init.len()).map(moved).collect()
+            };
+            let entering = [moved(0), moved(1)];
+            let (now, mut info) = self.solve_pressed(start, drives, Some(&entering), false)?;
             info.add_work(&work);
             work = info;
             let misfit: [f64; 3] = std::array::from_fn(|k| info.shift[k] - assumed[k]);
@@ -112,15 +119,7 @@ impl March {
             };
             last = Some((assumed, misfit));
             assumed = next;
-            let closed = info.approach[0] - lowest;
-            let moved = |c: usize| {
-                let moved = |n: usize| {
-                    let theta = ((self.h_init[n] - lowest) / closed).clamp(0.0, 1.0);
-                    -theta * self.arms.in_plane(assumed, n)[c]
-                };
-                (0..self.h_init.len()).map(moved).collect()
-            };
-            self.datum.entering = Some([moved(0), moved(1)]);
+            closed = info.approach[0] - lowest;
             start = now;
         }
     }

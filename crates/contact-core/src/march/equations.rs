@@ -13,11 +13,13 @@ use crate::solvers::{
 };
 
 impl March {
-    /// Solves the increment from a start, on the cells of the last contact alone if it is `kept`.
+    /// Solves the increment from a start, with cells outside the contact `entering` after that motion
+    /// \[m\]; on the cells of the last contact alone if it is `kept`.
     pub(super) fn solve_pressed(
         &mut self,
         mut now: Interface,
         (normal, tangential): (Drive, Drive),
+        entering: Option<&[Vec<f64>; 2]>,
         kept: bool,
     ) -> Result<(Interface, CoupledInfo), Error> {
         let apart;
@@ -51,12 +53,12 @@ impl March {
         let solver = &self.scene.settings.solver;
         let ws = &mut self.workspace;
         let goes_on = self.datum.goes_on;
-        self.datum.reset(before);
+        self.datum.reset(before, entering);
+        let turns = !kept && goes_on && solver.turning && solver.preset == Preset::Fast;
         let mut datum = Following {
             datum: &mut self.datum,
             last: before,
-            q_before: goes_on.then_some(&self.state.q_before),
-            turns: !kept && solver.turning && solver.preset == Preset::Fast,
+            q_before: turns.then_some(&self.state.q_before),
             arms: &self.arms,
         };
         match coupled(&mut response, &problem, &mut datum, &mut now, ws, &params) {

@@ -35,6 +35,22 @@ pub struct Fields {
 }
 
 impl March {
+    /// The part of the slip of the last increment, along x and y \[m\], that the turn of the shear
+    /// within the increment puts across the final shear; zero where the slip opposes that.
+    pub fn turned(&self) -> [Array2<f64>; 2] {
+        let (nx, ny) = (self.scene.grid.nx, self.scene.grid.ny);
+        let unfold = |f: &[f64], half| self.plan.mirror.unfold(f, nx, ny, half);
+        let last = &self.state.p_before;
+        let turned = |c: usize| -> Vec<f64> {
+            let of = self.datum.moved[c].iter().zip(last);
+            of.map(|(e, p)| if *p > 0.0 { *e } else { 0.0 }).collect()
+        };
+        [
+            unfold(&turned(0), Half::Even),
+            unfold(&turned(1), Half::Odd) / self.arms.stretch,
+        ]
+    }
+
     /// The fields after the last increment on the whole grid.
     pub fn fields(&self) -> Fields {
         let (nx, ny) = (self.scene.grid.nx, self.scene.grid.ny);

@@ -96,7 +96,9 @@ impl KeptContact {
             let mut next = Vec::new();
             for (&n, way) in layer.iter().zip(found) {
                 let [_, x, y] = way.sums();
-                put(n, [x, y]);
+                // A cell that enters does so within the increment.
+                let over = way.parts.iter().sum::<f64>().max(1.0);
+                put(n, [x / over, y / over]);
                 if way.enters() {
                     next.extend(self.beside(n).filter(|&m| outside(m)));
                 }

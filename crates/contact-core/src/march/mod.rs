@@ -11,6 +11,7 @@ mod fields;
 mod halving;
 mod increment;
 mod kept_contact;
+mod path_error;
 mod predict;
 mod slip_datum;
 mod solve;
@@ -18,6 +19,7 @@ mod state;
 
 pub use fields::Fields;
 pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
+pub use path_error::{choose_increments, estimate_path_error};
 pub use solve::{BranchSummary, Observer, solve, summarise};
 pub use state::State;
 
@@ -65,9 +67,12 @@ pub struct March {
 }
 
 impl March {
-    /// Checks the scene, plans, and computes the kernels.
+    /// Checks the scene, chooses the increments that are not given, plans, and computes the kernels.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         scene.check()?;
+        if scene.path.is_open() {
+            return Self::new(&choose_increments(scene)?);
+        }
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
         let settings = &scene.settings;
@@ -228,6 +233,7 @@ impl March {
                 shift: tangential.given,
                 ..CoupledInfo::default()
             };
+            self.datum.reset(&start, None);
             (start, info)
         };
         if info.exceeds_friction() {

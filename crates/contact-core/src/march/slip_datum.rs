@@ -2,7 +2,7 @@
 //!
 //! Eq. (7) reckons the slip from the last increment, ds = u - u_ref - d(delta), and eq. (8) holds it
 //! against the shear at the end. Both are of first order in the increment. Two corrections of u_ref
-//! make the path of second order, for cells that enter the contact (`entering`) and for slip whose
+//! make the path of second order, for cells that enter the contact (`kept_contact`) and for slip whose
 //! direction turns within the increment:
 //!
 //! ```text
@@ -12,10 +12,11 @@
 //! with e_0 and e_1 the directions of the shear where the slip begins and at the end; the part of
 //! that slip across e_1, |ds| ((m.e_1) e_1 - m), is added to u_ref, so that the solver, which holds
 //! the slip against the final shear, finds it there. A cell that starts to slip on the way does so
-//! where its shear, going on as in the last increment, meets the bound. Where no cell sticks, bodies
-//! slide by as much as they are moved, and the shear has turned into their direction at the end.
+//! where its shear, going on as in the last increment, meets the bound; after a reversal, where slip
+//! has only begun, nothing is known of that. Where no cell sticks, bodies slide by as much as they are moved, and the shear
+//! has turned into their direction at the end.
 
-use crate::solvers::{Arms, CoupledInfo, Interface, SlipDatum, set_pairs, size};
+use crate::solvers::{Arms, Interface, SlipDatum, set_pairs, size, sum_cells};
 
 /// Least cosine between e_0 and e_1: where the shear turns further, the way there is not known.
 const TURN: f64 = 0.5;
@@ -23,15 +24,12 @@ const TURN: f64 = 0.5;
 /// What the displacements that mean no slip differ by from the last ones.
 #[derive(Debug)]
 pub(super) struct Datum {
-    /// The difference \[m\]: of cells that enter the contact their motion before, of those that
-    /// slip on the turn of their shear.
+    /// The difference \[m\]: of cells outside the contact their motion before they enter it, of those
+    /// in it the turn of their slip.
     pub(super) moved: [Vec<f64>; 2],
-    /// The displacements that mean no slip \[m\].
-    displacements: [Vec<f64>; 2],
     /// Whether the loads go on as in the last increment.
     pub(super) goes_on: bool,
-    /// What cells outside the contact move before they enter it \[m\], where it matters.
-    pub(super) entering: Option<[Vec<f64>; 2]>,
+    displacements: [Vec<f64>; 2],
 }
 
 impl Datum {
@@ -39,18 +37,29 @@ impl Datum {
         let pair = || [vec![0.0; cells], vec![0.0; cells]];
         Self {
             moved: pair(),
-            displacements: pair(),
             goes_on: false,
-            entering: None,
+            displacements: pair(),
         }
     }
 
-    /// Begins with the last displacements.
-    pub(super) fn reset(&mut self, last: &Interface) {
+    /// Begins with the last displacements, of cells outside the contact with what these move before
+    /// they enter it, where that matters.
+    pub(super) fn reset(&mut self, last: &Interface, entering: Option<&[Vec<f64>; 2]>) {
         for c in 0..2 {
-            self.moved[c].fill(0.0);
-            self.displacements[c].copy_from_slice(&last.u[c]);
+            match entering {
+                Some(entering) => self.moved[c].copy_from_slice(&entering[c]),
+                None => self.moved[c].fill(0.0),
+            }
         }
+        self.add_to(last);
+    }
+
+    fn add_to(&mut self, last: &Interface) {
+        let moved = &self.moved;
+        let [x, y] = &mut self.displacements;
+        set_pairs([x, y], |n, _| {
+            [last.u[0][n] + moved[0][n], last.u[1][n] + moved[1][n]]
+        });
     }
 }
 
@@ -59,47 +68,49 @@ pub(super) struct Following<'a> {
     pub(super) datum: &'a mut Datum,
     /// The interface that the increment starts from.
     pub(super) last: &'a Interface,
-    /// The shear an increment earlier, if the loads go on as in that increment.
+    /// The shear an increment earlier, if slip is to follow the turn of the shear and the loads go on as
+    /// in that increment.
     pub(super) q_before: Option<&'a [Vec<f64>; 2]>,
-    /// Whether slip follows the turn of the shear.
-    pub(super) turns: bool,
     pub(super) arms: &'a Arms,
 }
 
 impl SlipDatum for Following<'_> {
-    fn follow(&mut self, now: &Interface, info: &CoupledInfo) {
-        let Datum {
-            moved,
-            displacements,
-            entering,
-            ..
-        } = &mut *self.datum;
-        let (last, arms) = (self.last, self.arms);
-        let motion = |n: usize| -> [f64; 2] {
-            let shift = arms.in_plane(info.shift, n);
+    fn follow(&mut self, now: &Interface, shift: [f64; 3]) -> f64 {
+        let (Some(q_before), last, arms) = (self.q_before, self.last, self.arms) else {
+            return 0.0;
+        };
+        let cells = now.p.len();
+        if (0..cells).all(|n| now.p[n] <= 0.0 || now.slip[n]) {
+            return 0.0;
+        }
+        let slip = |n: usize| -> [f64; 2] {
+            let shift = arms.in_plane(shift, n);
             std::array::from_fn(|c| now.u[c][n] - last.u[c][n] - shift[c])
         };
-        let (entering, q_before) = (&*entering, self.q_before);
-        let turns = self.turns && (0..now.p.len()).any(|n| now.p[n] > 0.0 && !now.slip[n]);
-        let [x, y] = moved;
-        set_pairs([x, y], |n, _| {
-            if now.p[n] <= 0.0 {
-                [0.0; 2]
-            } else if last.p[n] <= 0.0 {
-                entering
-                    .as_ref()
-                    .map_or([0.0; 2], |moved| [moved[0][n], moved[1][n]])
-            } else if turns && now.slip[n] {
-                turned(last, q_before, now, motion(n), n)
+        let [x, y] = &mut self.datum.moved;
+        set_pairs([x, y], |n, moved| {
+            if last.p[n] <= 0.0 {
+                moved
+            } else if now.p[n] > 0.0 && now.slip[n] {
+                turn(last, q_before, now, slip(n), n)
             } else {
                 [0.0; 2]
             }
         });
-        let moved = &*moved;
-        let [x, y] = displacements;
-        set_pairs([x, y], |n, _| {
-            [last.u[0][n] + moved[0][n], last.u[1][n] + moved[1][n]]
+        let Datum {
+            moved,
+            displacements,
+            ..
+        } = &*self.datum;
+        let [contact, squares] = sum_cells(cells, |n| {
+            if now.p[n] <= 0.0 {
+                return [0.0; 2];
+            }
+            let change = |c: usize| last.u[c][n] + moved[c][n] - displacements[c][n];
+            [1.0, change(0).powi(2) + change(1).powi(2)]
         });
+        self.datum.add_to(last);
+        (squares / contact).sqrt()
     }
 
     fn displacements(&self) -> [&[f64]; 2] {
@@ -109,9 +120,9 @@ impl SlipDatum for Following<'_> {
 }
 
 /// The part of the slip across the final shear \[m\].
-fn turned(
+fn turn(
     last: &Interface,
-    q_before: Option<&[Vec<f64>; 2]>,
+    q_before: &[Vec<f64>; 2],
     now: &Interface,
     slip: [f64; 2],
     n: usize,
@@ -121,7 +132,7 @@ fn turned(
     let begin = if last.slip[n] {
         Some(at(&last.q))
     } else {
-        q_before.and_then(|before| met(at(before), at(&last.q), size(end)))
+        met(at(q_before), at(&last.q), size(end))
     };
     let Some(begin) = begin else {
         return [0.0; 2];

@@ -48,6 +48,16 @@ impl Interface {
         }
     }
 
+    /// What the tangential solvers work on.
+    fn shear(&mut self) -> Shear<'_> {
+        let ([q_x, q_y], [u_x, u_y]) = (&mut self.q, &mut self.u);
+        Shear {
+            q: [q_x, q_y],
+            u: [u_x, u_y],
+            slip: &mut self.slip,
+        }
+    }
+
     /// Computes the displacements from the tractions.
     pub(crate) fn evaluate(&mut self, response: &mut Response<'_>, shear: bool) {
         let [u_x, u_y] = &mut self.u;
@@ -82,13 +92,19 @@ pub struct IncrementProblem<'a> {
     pub tangential: Drive,
 }
 
-/// The displacements that mean no slip in an increment, of which a part depends on the solution.
+/// The displacements that mean no slip in an increment.
 pub trait SlipDatum {
-    /// Follows tractions, displacements and motions as far as they are known.
-    fn follow(&mut self, now: &Interface, info: &CoupledInfo);
+    /// Follows the solution as far as it is known, and its shift; how far the displacements of contact
+    /// cells have moved, root mean square \[m\].
+    fn follow(&mut self, now: &Interface, shift: [f64; 3]) -> f64;
     /// The displacements \[m\].
     fn displacements(&self) -> [&[f64]; 2];
 }
+
+/// Passes in which the displacements that mean no slip follow the solution.
+const FOLLOWED: usize = 2;
+/// Factor of the tolerance of the first solution where they move by more than that; a second follows.
+const LOOSE: f64 = 10.0;
 
 /// Settings of the intermediate loop.
 #[derive(Clone, Copy, Debug)]
@@ -225,46 +241,17 @@ pub fn coupled(
         if info.exceeds_friction() {
             return Ok(info);
         }
-        if info.alternations == 1 && !slides.is_full() {
-            let slip = problem.slip(&ws.bound, datum.displacements());
-            let [q_x, q_y] = &mut now.q;
-            let [u_x, u_y] = &mut now.u;
-            let shear = Shear {
-                q: [q_x, q_y],
-                u: [u_x, u_y],
-                slip: &mut now.slip,
-            };
-            info.shift = first_shift(&slip, &shear);
-        }
-        if !slides.is_full() {
-            datum.follow(now, &info);
-        }
-        let slip = problem.slip(&ws.bound, datum.displacements());
+        let mut again = false;
         if slides.is_full() {
+            let slip = problem.slip(&ws.bound, datum.displacements());
             info.shift = incipient_shift(&slip, now, slides.motion);
         } else {
-            let [q_x, q_y] = &mut now.q;
-            let [u_x, u_y] = &mut now.u;
-            let mut shear = Shear {
-                q: [q_x, q_y],
-                u: [u_x, u_y],
-                slip: &mut now.slip,
-            };
-            let solve = match params.tangential.method {
-                TangentialMethod::Newton => tangential,
-                TangentialMethod::Gradient => shear_gradient,
-            };
-            let found = solve(
-                response,
-                &slip,
-                &mut shear,
-                &mut ws.tangential,
-                &params.tangential,
-            )?;
-            info.tangential_iterations += found.passes;
-            info.shift = found.shift;
+            again = shear_under(response, problem, datum, now, ws, params, &mut info)?;
         }
         if !coupled {
+            if again {
+                continue;
+            }
             return Ok(info);
         }
 
@@ -275,6 +262,8 @@ pub fn coupled(
             response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
         } else if ws.mixing.mixes() {
             ws.response[0].fill(0.0);
+        } else if again {
+            continue;
         } else {
             return Ok(info);
         }
@@ -282,7 +271,7 @@ pub fn coupled(
         let check = super::normal::assess(&gap, &now.p, &now.u_z);
         info.approach = check.motion;
         let residual = check.gap.max(check.penetration);
-        if residual <= params.tolerance {
+        if residual <= params.tolerance && !again {
             return Ok(info);
         }
         if info.alternations == params.max_alternations {
@@ -295,6 +284,46 @@ pub fn coupled(
         }
         ws.mixing.mix(&now.p, &mut now.u_z);
     }
+}
+
+/// Shear for known pressure; whether it has to be looked for again, with the displacements that mean
+/// no slip where the solution says.
+fn shear_under(
+    response: &mut Response<'_>,
+    problem: &IncrementProblem<'_>,
+    datum: &mut dyn SlipDatum,
+    now: &mut Interface,
+    ws: &mut CoupledWorkspace,
+    params: &CoupledParams,
+    info: &mut CoupledInfo,
+) -> Result<bool, SolverError> {
+    let solve = match params.tangential.method {
+        TangentialMethod::Newton => tangential,
+        TangentialMethod::Gradient => shear_gradient,
+    };
+    if info.alternations == 1 {
+        let slip = problem.slip(&ws.bound, datum.displacements());
+        info.shift = first_shift(&slip, &now.shear());
+    }
+    // The guess tells where the slip goes, the first solution tells it better.
+    let followed = info.alternations <= FOLLOWED;
+    let moved = if followed {
+        datum.follow(now, info.shift)
+    } else {
+        0.0
+    };
+    let tolerance = params.tangential.tolerance;
+    let again = info.alternations < FOLLOWED && moved > LOOSE * tolerance;
+    let asked = TangentialParams {
+        tolerance: if again { LOOSE * tolerance } else { tolerance },
+        ..params.tangential
+    };
+    let slip = problem.slip(&ws.bound, datum.displacements());
+    let inner = &mut ws.tangential;
+    let found = solve(response, &slip, &mut now.shear(), inner, &asked)?;
+    info.tangential_iterations += found.passes;
+    info.shift = found.shift;
+    Ok(again)
 }
 
 /// Brings the shear within the bound mu p of the present pressure and to the loads asked for.

@@ -58,7 +58,7 @@ impl Audit {
         if increment.work.parts == 1 {
             let entry = entry(march, &self.last, increment, self.allowed(&now));
             self.energy(&now, increment);
-            self.friction(&now, increment, &entry);
+            self.friction(&now, increment, &entry, &march.turned());
         }
         self.last = Last {
             fields: now,
@@ -108,11 +108,18 @@ impl Audit {
 
     /// |q| <= mu p, no slip in stick cells, slip against q in slip cells, friction takes energy:
     /// the mean bound times the slip, since a cell slips at its bound.
-    fn friction(&self, now: &Fields, increment: &Increment, entry: &Entry) {
+    fn friction(
+        &self,
+        now: &Fields,
+        increment: &Increment,
+        entry: &Entry,
+        turned: &[Array2<f64>; 2],
+    ) {
         let at = increment.index;
         let last = &self.last.fields;
         let shift = self.shift(increment);
         let (mut dissipated, mut doubt) = (0.0, 0.0);
+        let (mut slips, mut turns) = (0.0_f64, 0.0_f64);
         for (n, &p) in now.p.indexed_iter() {
             let q = [now.q_x[n], now.q_y[n]];
             let size = q[0].hypot(q[1]);
@@ -127,6 +134,9 @@ impl Audit {
                 now.u_y[n] - last.u_y[n] - shift[1] - moved[1],
             ];
             let slip = ds[0].hypot(ds[1]);
+            // But for the turn of the shear within the increment.
+            let turned = turned.each_ref().map(|e| e[n]);
+            let off = [ds[0] - turned[0], ds[1] - turned[1]];
             let allowed = self.mu.min(1.0) * self.allowed(now) + entry.doubt(n);
             let mean = self.mu * 0.5 * (last.p[n] + p);
             let gained = now.dissipated[n] - last.dissipated[n];
@@ -135,6 +145,7 @@ impl Audit {
                 // Until it left; what it moved since is no slip.
                 (-0.5 * (last.q_x[n] * ds[0] + last.q_y[n] * ds[1])).max(0.0)
             } else if now.stick[n] {
+                let slip = off[0].hypot(off[1]);
                 assert!(
                     slip <= allowed,
                     "slip {slip:e} in a stick cell at {at}, allowed {allowed:e}"
@@ -142,16 +153,18 @@ impl Audit {
                 0.0
             } else {
                 let along = -(ds[0] * q[0] + ds[1] * q[1]) / size;
-                let across = (ds[0] * q[1] - ds[1] * q[0]).abs() / size;
                 assert!(
                     size > self.mu * p * (1.0 - ROUNDING),
                     "slip below the limit at {at}"
                 );
                 assert!(along >= -allowed, "slip along q by {along:e} at {at}");
+                let across = (off[0] * q[1] - off[1] * q[0]).abs() / size;
                 assert!(
                     across <= 1e-3 * slip + allowed,
                     "slip at an angle, {across:e} of {slip:e} at {at}"
                 );
+                slips += slip * slip;
+                turns += turned[0].powi(2) + turned[1].powi(2);
                 mean * along
             };
             assert!(
@@ -167,6 +180,10 @@ impl Audit {
             dissipated += taken * self.cell_area;
             doubt += mean * entry.doubt(n) * self.cell_area;
         }
+        assert!(
+            turns.sqrt() <= 0.5 * slips.sqrt() + self.allowed(now),
+            "slip turned by {turns:e} of {slips:e} m^2 at {at}"
+        );
         let theirs = increment.energy.dissipated;
         assert!(
             (dissipated - theirs).abs() <= ROUNDING * self.work + doubt,

@@ -23,6 +23,7 @@ mod line;
 mod mindlin_shear;
 mod oblique;
 mod paper_scene;
+mod path_order;
 mod shapes;
 mod tilt;
 mod torsion;

@@ -153,6 +153,7 @@ impl Audit {
     /// q in the others, in the root mean square over the contact.
     fn friction(&self, march: &March, now: &Fields, increment: &Increment, found: &mut Violations) {
         let mu = march.scene().friction.mu;
+        let turned = march.turned();
         let p_max = increment.p_max;
         let (mut squares, mut cells) = (0.0, 0.0_f64);
         let at_rest = |n: usize| now.stick.as_slice().is_some_and(|stick| stick[n]);
@@ -184,6 +185,7 @@ impl Audit {
                     at(&now.u_y) - at(&last.u_y) - (increment.motion.delta_y - motion.delta_y),
                 ]
             };
+            let ds = [0, 1].map(|c| ds[c] - turned[c].as_slice().map_or(f64::NAN, |e| e[n]));
             let off = if sticks {
                 ds[0].hypot(ds[1])
             } else {
