@@ -63,6 +63,7 @@ __all__ = [
     "Wedge",
     "__version__",
     "coated_indentation",
+    "continued_pressure",
     "coupled_indentation",
     "depths",
     "dundurs_beta",
@@ -1599,6 +1600,9 @@ class Conversion:
         """Wave numbers k_x, k_y [1/m] at which the response is needed, never both zero."""
     def convert(self, frf: NDArray[np.complex128]) -> _Array:
         """Influence coefficients from the response at the wave vectors, shape (n, 3, 3)."""
+
+def continued_pressure(p: ArrayLike, grid: Grid) -> _Array:
+    """Pressure [Pa], that at the rim continued from inside; use :meth:`Snapshot.p_continued`."""
 
 def labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of every variable of a result, scalars and fields."""

@@ -6,13 +6,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use contact_core::march as core;
 use contact_core::output::{FIELDS, FieldView, Kind, SCALARS};
-use numpy::ToPyArray;
+use numpy::{AllowTypeChange, IntoPyArray, PyArray2, PyArrayLike2, ToPyArray};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error::to_python;
 use crate::interruptible::interruptible;
-use crate::scene::Scene;
+use crate::scene::{Grid, Scene};
 
 /// A load path being run through; iterating solves one increment after the other.
 #[pyclass(module = "pyfret")]
@@ -86,6 +87,22 @@ impl March {
         }
         Ok(fields)
     }
+}
+
+/// The pressure at the centres of the cells, that at the rim continued from inside.
+#[pyfunction]
+pub(crate) fn continued_pressure<'py>(
+    py: Python<'py>,
+    p: PyArrayLike2<'py, f64, AllowTypeChange>,
+    grid: Grid,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let (p, shape) = (p.as_array().to_owned(), (grid.0.nx, grid.0.ny));
+    if p.dim() != shape {
+        return Err(PyValueError::new_err(format!(
+            "p: must be of the grid's shape {shape:?}"
+        )));
+    }
+    Ok(core::continued_pressure(&p, &grid.0).into_pyarray(py))
 }
 
 /// Units and meaning of every variable of a result, scalars and fields.

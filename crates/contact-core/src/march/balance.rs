@@ -33,6 +33,8 @@ impl March {
         let slipping = now.slip.iter().filter(|&&s| s).count();
         let energy = self.energies(point, &now, &motion, cell_area);
         let residuals = self.residuals(point, &now, info, cell_area);
+        let [contact_area, stick_area] =
+            self.contact_and_stick(&now).map(|cells| cells * cell_area);
         let cells = now.p.len();
         let mut increment = Increment {
             index: last.increments + 1,
@@ -44,8 +46,8 @@ impl March {
                 (contact, slipping) if contact == slipping => Status::GrossSlip,
                 _ => Status::PartialSlip,
             },
-            contact_area: contact as f64 * cell_area,
-            stick_area: (contact - slipping) as f64 * cell_area,
+            contact_area,
+            stick_area,
             p_max: largest(cells, |n| now.p[n]),
             q_max: largest(cells, |n| {
                 size([now.q[0][n], self.arms.stretch * now.q[1][n]])

@@ -140,9 +140,9 @@ pub struct Increment {
     pub motion: Motion,
     /// State of the interface.
     pub status: Status,
-    /// Area of the cells in contact \[m^2\].
+    /// Area of the contact \[m^2\], of cells at its rim the part within.
     pub contact_area: f64,
-    /// Area of the cells that stick \[m^2\].
+    /// Area of the stick zone \[m^2\], of cells at its border the part within.
     pub stick_area: f64,
     /// Largest pressure \[Pa\].
     pub p_max: f64,

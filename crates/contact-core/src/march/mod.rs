@@ -11,6 +11,7 @@ mod fields;
 mod halving;
 mod increment;
 mod kept_contact;
+mod partial_cells;
 mod path_error;
 mod predict;
 mod slip_datum;
@@ -19,6 +20,7 @@ mod state;
 
 pub use fields::Fields;
 pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
+pub use partial_cells::continued_pressure;
 pub use path_error::{choose_increments, estimate_path_error};
 pub use solve::{BranchSummary, Observer, solve, summarise};
 pub use state::State;

@@ -151,10 +151,10 @@ pub const SCALARS: &[Scalar] = &[
         kind: Kind::Code,
         value: |i| f64::from(i.status.code()),
     },
-    real("contact_area", "m^2", "area of the cells in contact", |i| {
+    real("contact_area", "m^2", "area of the contact", |i| {
         i.contact_area
     }),
-    real("stick_area", "m^2", "area of the cells that stick", |i| {
+    real("stick_area", "m^2", "area of the stick zone", |i| {
         i.stick_area
     }),
     real(

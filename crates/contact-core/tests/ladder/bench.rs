@@ -17,8 +17,12 @@ pub(crate) const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
 /// Without lateral contraction the shear kernel is isotropic.
 pub(crate) const CORK: Elastic = Elastic { E: 210e9, nu: 0.0 };
 
-/// Error of a rim's radius, in cells: the area of whole cells inside a circle scatters by this.
-pub(crate) const RIM: f64 = 0.25;
+/// Error of the radius of a contact or a stick zone, in cells: the pressure or the shear a few cells
+/// inside, which tells the rim, is off by as much as if the rim were off by a hundredth of a cell.
+pub(crate) const RIM: f64 = 0.05;
+/// The same where cells a few rows inside do not tell the rim (a stick zone that grows, two borders
+/// within a few cells): the radius of whole cells scatters by this.
+pub(crate) const WHOLE_CELLS: f64 = 0.25;
 /// Error of a field in the L2 norm, relative, over the cell size in contact radii: 2.8 times the
 /// part of p0 sqrt(2 d/a), the pressure one cell inside, that the 2 pi a/d rim cells are off by, a
 /// tenth at most.

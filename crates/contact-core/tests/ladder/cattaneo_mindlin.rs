@@ -6,7 +6,8 @@ use contact_core::scene::{Elastic, LoadPath, Scene};
 use ndarray::Array2;
 
 use crate::bench::{
-    CORK, FIELD, RIM, SMOOTH, STEEL, W, cell, close, hertz_of, norm, radius, run, sphere_on_flat,
+    CORK, FIELD, RIM, SMOOTH, STEEL, W, WHOLE_CELLS, cell, close, hertz_of, norm, radius, run,
+    sphere_on_flat,
 };
 
 const MU: f64 = 0.3;
@@ -65,7 +66,13 @@ fn isotropic_shear_follows_the_closed_form_round_the_loop() {
                 return;
             }
             let c_num = radius(increment.stick_area);
-            close("c", c_num / c.hertz.a, stick / c.hertz.a, RIM * d);
+            // Near the end of a reversed stroke the border comes within a few cells of that of the
+            // last stroke, and merges with it in the end.
+            let last_stroke = c.stick_radius(T_M);
+            let near = (stick - last_stroke) / (d * c.hertz.a);
+            let merging = branch >= 2 && !increment.point.ends_branch && near < 12.0;
+            let allowed = if merging { WHOLE_CELLS } else { RIM };
+            close("c", c_num / c.hertz.a, stick / c.hertz.a, allowed * d);
             let shift_num = increment.motion.delta_x / c.shift_limit();
             close(
                 "delta_x",

@@ -17,7 +17,10 @@ fn compare(scene: &Scene, truth: &CoatedIndentation) {
         let exact = scene.grid.map(|x, y| truth.p(x.hypot(y)));
         let p = march.fields().p;
         let highest = truth.p(scene.grid.dx / 2f64.sqrt());
-        close("a", increment.contact_radius() / truth.a, 1.0, RIM * d);
+        // The pressure a few cells inside tells less of the rim where it changes over the coating's
+        // thickness: what a parabola leaves out over some four cells.
+        let rim = RIM + 16.0 * narrow;
+        close("a", increment.contact_radius() / truth.a, 1.0, rim * d);
         close("p_max", increment.p_max / highest, 1.0, smooth);
         close(
             "delta_z",

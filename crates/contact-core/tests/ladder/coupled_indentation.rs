@@ -5,7 +5,7 @@ use contact_core::scene::{Elastic, LoadPath};
 
 use crate::audit::Audit;
 use crate::bench::{
-    CORK, RIM, STEEL, W, cell, close, hertz_of, indentation, norm, run, sphere_on_flat,
+    CORK, STEEL, W, WHOLE_CELLS, cell, close, hertz_of, indentation, norm, run, sphere_on_flat,
 };
 
 /// Error of c/a times the number of increments of equal radius: a cell that comes into contact
@@ -33,9 +33,14 @@ fn stick_radius_pressure_and_approach_of_every_pair() {
             let part = (at + 1) as f64 / increments as f64;
             let (d, steps) = (d / part, (at + 1) as f64);
             let a = hertz.a * part * truth.W.cbrt().recip();
-            close("a", increment.contact_radius() / a, 1.0, RIM * d);
+            close("a", increment.contact_radius() / a, 1.0, WHOLE_CELLS * d);
             let ratio = (increment.stick_area / increment.contact_area).sqrt();
-            close("c/a", ratio, truth.stick_ratio, PATH / steps + RIM * d);
+            close(
+                "c/a",
+                ratio,
+                truth.stick_ratio,
+                PATH / steps + WHOLE_CELLS * d,
+            );
             // p has a cusp in the middle, as wide as the stick circle: first order in the cell.
             let p0 = truth.p0 * truth.W.powf(2.0 / 3.0) * hertz.p0 * part;
             close(

@@ -118,7 +118,8 @@ fn a_given_approach_is_a_given_force() {
             0.0,
             1e-5,
         );
-        assert_eq!(f.contact_area.to_bits(), m.contact_area.to_bits());
+        // The rim follows from the pressure a few cells inside, a tenth of the largest.
+        close("area", m.contact_area / f.contact_area, 1.0, 1e-4);
     }
 }
 

