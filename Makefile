@@ -13,7 +13,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo figure-13 validation test stress kill fuzz deny check format bench bench-kernels bench-stress bench-peers clean
+.PHONY: help setup demo figure-13 loads validation test stress kill fuzz deny check format bench bench-kernels bench-stress bench-peers clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -25,6 +25,10 @@ demo: setup ## the paper's four runs: results and figures in out/
 
 figure-13: setup ## stress below the paper's contact: figures in out/
 	$(PY) examples/stress.py --out out
+
+loads: setup ## every load, law and shape against its closed form, twins, moments, energy: figures in out/
+	$(PY) examples/loads.py --out out
+	$(PY) examples/balances.py --out out
 
 validation: setup ## the validation book, every page from runs: docs/validation
 	$(PY) -m validation --out docs/validation

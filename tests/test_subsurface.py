@@ -99,8 +99,9 @@ def test_volumes_open_in_vtk_and_xarray(coated: fret.Result, tmp_path: Path) -> 
 
     snapshot = coated.at(-1)
     z = np.linspace(0, 2 * coated.a_H, 9)
-    snapshot.write_volume(tmp_path / "stress.vti", z, of=("von_mises", "s_xz"))
-    snapshot.write_volume(tmp_path / "stress.zarr", z, of=("von_mises", "s_xz"))
+    of = ("von_mises", "u_z", "s_xz", "u_x")
+    snapshot.write_volume(tmp_path / "stress.vti", z, of=of)
+    snapshot.write_volume(tmp_path / "stress.zarr", z, of=of)
     reader = reader_module.vtkXMLImageDataReader()
     reader.SetFileName(str(tmp_path / "stress.vti"))
     reader.Update()
@@ -120,6 +121,14 @@ def test_volumes_open_in_vtk_and_xarray(coated: fret.Result, tmp_path: Path) -> 
         np.testing.assert_allclose(stored[name], values, atol=1e-9 * coated.p_H)
         drawn = vtk_to_numpy(image.GetPointData().GetArray(name)).reshape(9, 32, 32)
         np.testing.assert_allclose(drawn, values.transpose(0, 2, 1), rtol=1e-6, atol=1.0)
+    u = snapshot.displacement(z)
+    for name in ("u_x", "u_z"):
+        assert stored[name].attrs["units"] == "m"
+        np.testing.assert_allclose(stored[name], u[name].values[keep], rtol=1e-9, atol=1e-18)
+        drawn = vtk_to_numpy(image.GetPointData().GetArray(name)).reshape(9, 32, 32)
+        np.testing.assert_allclose(drawn.transpose(0, 2, 1), stored[name], rtol=1e-6)
+    with pytest.raises(ValueError, match="one of s_xx"):
+        snapshot.write_volume(tmp_path / "other.vti", z, of=("mises",))
     with pytest.raises(fret.StoreError, match="exists"):
         snapshot.write_volume(tmp_path / "stress.vti", z)
 

@@ -78,12 +78,12 @@ __all__ = [
     "maximum",
     "measure",
     "principal",
+    "probe_labels",
     "resume",
     "rims",
     "solve",
     "stress_at",
     "stress_coefficients",
-    "stress_labels",
     "surface_frf",
 ]
 
@@ -732,8 +732,11 @@ class Branch:
     def rolled(self) -> float:
         """Way that the contact has rolled along x at its end [m]."""
     @property
-    def increments(self) -> int:
-        """Number of increments."""
+    def increments(self) -> int | None:
+        """Number of increments; None: as many as the path tolerance asks for."""
+    @property
+    def path_error(self) -> float | None:
+        """Estimated error of the shear at the end that the increments leave, over the largest shear."""
     @property
     def spacing(self) -> Spacing:
         """How the increments are spaced."""
@@ -772,17 +775,17 @@ class LoadPath:
     @staticmethod
     def start() -> LoadPath:
         """The path before its first branch."""
-    def normal(self, W: float, *, increments: int) -> LoadPath:
+    def normal(self, W: float, *, increments: _Count = ...) -> LoadPath:
         """Go to the normal force `W` [N], the tangential forces kept, in one unit of path time."""
-    def tangential(self, T_x: float | Sequence[float], *, increments: int) -> LoadPath:
+    def tangential(self, T_x: float | Sequence[float], *, increments: _Count = ...) -> LoadPath:
         """Visit the tangential forces `T_x` [N] in turn.
 
         The increments are shared out in proportion to the change of force. Path time runs as in
         the first branch: one unit for as many increments as that one has.
         """
-    def torsion(self, M_z: float | Sequence[float], *, increments: int) -> LoadPath:
+    def torsion(self, M_z: float | Sequence[float], *, increments: _Count = ...) -> LoadPath:
         """Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces."""
-    def radial(self, W: float | Sequence[float], *, increments: int) -> LoadPath:
+    def radial(self, W: float | Sequence[float], *, increments: _Count = ...) -> LoadPath:
         """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
     def ellipse(self, *, T_x: float, T_y: float, turns: int = 1, increments: int) -> LoadPath:
         """Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
@@ -817,7 +820,7 @@ class LoadPath:
         M_z: float | None = None,
         sigma_B: float | None = None,
         rolled: float | None = None,
-        increments: int,
+        increments: _Count = ...,
         spacing: Spacing = ...,
         t: float | None = None,
     ) -> LoadPath:
@@ -835,8 +838,8 @@ class LoadPath:
             Bulk stress along x in body 2, tension positive: a fatigue load [Pa].
         rolled : float, optional
             Way that the contact has rolled along x over both bodies [m], whole cells per increment.
-        increments : int
-            Number of increments.
+        increments : int or "auto"
+            Number of increments (default: as many as the path tolerance of the settings asks for).
         spacing : Spacing
             How they are spaced (default: equal increments of force).
         t : float, optional
@@ -851,7 +854,7 @@ class LoadPath:
         phi_x: float | None = None,
         phi_y: float | None = None,
         phi_z: float | None = None,
-        increments: int,
+        increments: _Count = ...,
         spacing: Spacing = ...,
         t: float | None = None,
     ) -> LoadPath:
@@ -866,8 +869,8 @@ class LoadPath:
             Approach and shifts [m].
         phi_x, phi_y, phi_z : float, optional
             Tilts and rotation about z [rad].
-        increments : int
-            Number of increments.
+        increments : int or "auto"
+            Number of increments (default: as many as the path tolerance of the settings asks for).
         spacing : Spacing
             How they are spaced (default: equal increments).
         t : float, optional
@@ -968,6 +971,7 @@ class FrequencyDomain:
 
 _Save: TypeAlias = Literal["branches", "all"] | Sequence[int]
 
+_Count: TypeAlias = int | Literal["auto"]
 _KernelMethod: TypeAlias = Hankel | InverseFft | FrequencyDomain
 
 @final
@@ -1026,6 +1030,9 @@ class Settings:
     entering : bool, optional
         Reckon the slip of cells that come into contact from their entry (default True): one more
         solution in increments in which the contact grows, and far fewer increments.
+    path_tolerance : float, optional
+        Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over the
+        largest shear of the path (L2, default 5e-3).
     turning : bool, optional
         Let slip follow the turn of the shear within an increment (default True): the path becomes
         of second order.
@@ -1051,6 +1058,7 @@ class Settings:
         tolerance: float | None = None,
         entering: bool | None = None,
         turning: bool | None = None,
+        path_tolerance: float | None = None,
         max_alternations: int | None = None,
         max_iterations: int | None = None,
         kernel: _KernelMethod | None = None,
@@ -1070,6 +1078,9 @@ class Settings:
     @property
     def turning(self) -> bool:
         """Whether slip follows the turn of the shear within an increment."""
+    @property
+    def path_tolerance(self) -> float:
+        """Largest error of the shear that increments are chosen for."""
     @property
     def max_alternations(self) -> int:
         """Most passes of the intermediate loop per increment."""
@@ -1617,7 +1628,7 @@ def resume(
 ) -> None:
     """Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it."""
 
-def stress_labels() -> dict[str, tuple[str, str]]:
+def probe_labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of everything that follows from the stress."""
 
 def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
@@ -1676,21 +1687,11 @@ class Subsurface:
         *,
         x: float | None = None,
         y: float | None = None,
+        displacement: bool = False,
     ) -> _Array:
-        """Stress on a section, shape (6, depths, places) [Pa]."""
-    def section_displacement(
-        self,
-        z: Sequence[float],
-        layer: Sequence[int],
-        *,
-        x: float | None = None,
-        y: float | None = None,
-    ) -> _Array:
-        """Displacement on a section, shape (3, depths, places) [m]."""
-    def slice(self, z: float, layer: int) -> list[_Array]:
-        """Stress on a plane, six arrays of shape (nx, ny) [Pa]."""
-    def slice_displacement(self, z: float, layer: int) -> list[_Array]:
-        """Displacement on a plane, three arrays of shape (nx, ny) [m]."""
+        """Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places)."""
+    def slice(self, z: float, layer: int, *, displacement: bool = False) -> list[_Array]:
+        """Stress [Pa] or displacement [m] on a plane, six or three arrays of shape (nx, ny)."""
     def points(self, places: Sequence[tuple[float, float, float, int]]) -> tuple[_Array, _Array]:
         """Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer."""
     def volume(
@@ -1702,7 +1703,7 @@ class Subsurface:
         of: Sequence[str],
         title: str = "",
     ) -> None:
-        """Write measures of the stress in a volume to a .vti file or a Zarr folder."""
+        """Write measures of stress, and displacements, to a .vti file or a Zarr folder."""
 
 @final
 class Envelope:

@@ -174,7 +174,7 @@ class Snapshot:
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
     ) -> None:
-        """Write stress in the volume; see :func:`pyfret.subsurface.write_volume`."""
+        """Write stress, displacement in the volume: :func:`pyfret.subsurface.write_volume`."""
         body, grid = self._body(body_number), self.scene.grid
         subsurface.write_volume(
             body,

@@ -141,8 +141,11 @@ class Stress:
         return f"Stress({self.dataset!r})"
 
 
+_PROBES = _core.probe_labels()
 #: Name, unit and meaning of every measure of stress.
-LABELS = _core.stress_labels()
+LABELS = {name: label for name, label in _PROBES.items() if label[0] == "Pa"}
+#: Name, unit and meaning of the displacements.
+DISPLACEMENTS = {name: _PROBES[name] for name in ("u_x", "u_y", "u_z")}
 
 
 def _depths(body: Body, z: ArrayLike) -> tuple[list[float], list[int]]:
@@ -207,16 +210,8 @@ def stress(
     Stress
         Of dims (depth, x), (depth, y), (depth) or (depth, x, y).
     """
-    depths, layers = _depths(body, z)
     below = _subsurface(body, grid, (p, q_x, q_y), body_number)
-    if x is not None and y is not None:
-        values = below.points([(x, y, *d) for d in zip(depths, layers, strict=True)])[0].T
-    elif x is None and y is None:
-        planes = [below.slice(*d) for d in zip(depths, layers, strict=True)]
-        values = np.stack([np.stack(plane) for plane in planes], axis=1)
-    else:
-        values = below.section(depths, layers, x=x, y=y)
-    return Stress(_dataset(COMPONENTS, values, LABELS, _coords(grid, depths, layers, x, y)))
+    return Stress(_sampled(below, body, grid, z, (x, y), displacement=False))
 
 
 def displacement(
@@ -232,29 +227,36 @@ def displacement(
     body_number: int = 2,
 ) -> xr.Dataset:
     """Displacements u_x, u_y, u_z in a body relative to infinity [m], as in :func:`stress`."""
-    depths, layers = _depths(body, z)
     below = _subsurface(body, grid, (p, q_x, q_y), body_number)
+    return _sampled(below, body, grid, z, (x, y), displacement=True)
+
+
+def _sampled(
+    below: _core.Subsurface,
+    body: Body,
+    grid: Grid,
+    z: ArrayLike,
+    at: tuple[float | None, float | None],
+    *,
+    displacement: bool,
+) -> xr.Dataset:
+    """Stress or displacement on planes, below a line or below a point."""
+    depths, layers = _depths(body, z)
+    pairs = list(zip(depths, layers, strict=True))
+    x, y = at
     if x is not None and y is not None:
-        values = below.points([(x, y, *d) for d in zip(depths, layers, strict=True)])[1].T
+        values = below.points([(x, y, *d) for d in pairs])[int(displacement)].T
     elif x is None and y is None:
-        planes = [below.slice_displacement(*d) for d in zip(depths, layers, strict=True)]
+        planes = [below.slice(*d, displacement=displacement) for d in pairs]
         values = np.stack([np.stack(plane) for plane in planes], axis=1)
     else:
-        values = below.section_displacement(depths, layers, x=x, y=y)
-    labels = {f"u_{axis}": ("m", f"displacement along {axis}") for axis in "xyz"}
-    return _dataset(tuple(labels), values, labels, _coords(grid, depths, layers, x, y))
-
-
-def _dataset(
-    names: tuple[str, ...],
-    values: NDArray[np.float64],
-    labels: dict[str, tuple[str, str]],
-    coords: dict[str, object],
-) -> xr.Dataset:
+        values = below.section(depths, layers, x=x, y=y, displacement=displacement)
+    coords = _coords(grid, depths, layers, x, y)
     dims = ["depth", *(k for k in ("x", "y") if coords[k][0] == k)]  # type: ignore[index]
+    labels = DISPLACEMENTS if displacement else {name: LABELS[name] for name in COMPONENTS}
     variables = {
-        name: (dims, of, dict(zip(("units", "long_name"), labels[name], strict=True)))
-        for name, of in zip(names, values, strict=True)
+        name: (dims, of, {"units": units, "long_name": meaning})
+        for (name, (units, meaning)), of in zip(labels.items(), values, strict=True)
     }
     return xr.Dataset(variables, coords=coords)
 
@@ -272,7 +274,7 @@ def write_volume(
     body_number: int = 2,
     title: str = "",
 ) -> None:
-    """Write stress in the volume under the grid, plane by plane while it is computed.
+    """Write stress and displacement under the grid, plane by plane while they are computed.
 
     Parameters
     ----------
@@ -282,7 +284,7 @@ def write_volume(
         A ``.vti`` file (VTK image data for ParaView and PyVista; depths evenly spaced) or a Zarr
         folder. It must not exist.
     of : sequence of str
-        Measures, as in :class:`Stress`.
+        Measures, as in :class:`Stress`, and displacements ``u_x``, ``u_y``, ``u_z``.
     title : str
         What the Zarr group calls itself.
     """

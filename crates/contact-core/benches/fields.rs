@@ -9,6 +9,7 @@ use std::hint::black_box;
 
 use contact_core::fields::{Line, Points, Section, Side, Slices};
 use criterion::{Criterion, criterion_group, criterion_main};
+use rayon::prelude::*;
 use stressed::{Contact, coated};
 
 fn section(c: &mut Criterion) {
@@ -32,7 +33,10 @@ fn section(c: &mut Criterion) {
         b.iter(|| {
             let slices =
                 Slices::new(black_box(&body), Side::Body2, &grid, &[contact.tractions()]).unwrap();
-            slices.map_stress(&depths, |_, s| Ok(s[0][2][(128, 128)]))
+            depths
+                .par_iter()
+                .map(|depth| slices.stress(*depth).map(|s| s[0][2][(128, 128)]))
+                .collect::<Result<Vec<_>, _>>()
         });
     });
     group.bench_function("points/256/1", |b| {

@@ -2,7 +2,8 @@
 //! 256 depths.
 //!
 //! `cargo run --release --example subsurface -- plane` computes the six components on y = 0,
-//! `-- volume FILE.vti` the von Mises stress in the volume, streamed to the disk.
+//! `-- volume FILE.vti` the von Mises stress in the volume, streamed to the disk; names after the
+//! file, such as `s_xx u_z`, say what else.
 
 #![allow(clippy::print_stdout, clippy::unwrap_used)]
 
@@ -11,7 +12,7 @@ mod stressed;
 
 use std::time::Instant;
 
-use contact_core::fields::{Line, Section, Side, Slices, measure_named};
+use contact_core::fields::{Line, Probe, Section, Side, Slices};
 use contact_core::output::{ImageData, write_volume};
 
 const N: usize = 256;
@@ -29,14 +30,22 @@ fn main() {
             let section = Section::new(body, Side::Body2, grid, line, &states).unwrap();
             section.stress(&depths).unwrap();
         }
-        ["volume", file] => {
-            let of = [*measure_named("von_mises").unwrap()];
+        ["volume", file, ref names @ ..] => {
+            let names = if names.is_empty() {
+                &["von_mises"]
+            } else {
+                names
+            };
+            let of: Vec<_> = names
+                .iter()
+                .map(|name| Probe::named(name, "probe").unwrap())
+                .collect();
             let slices = Slices::new(body, Side::Body2, grid, &states).unwrap();
             let image = ImageData::create(file, grid, Side::Body2, &depths, &of).unwrap();
             write_volume(&slices, &depths, &of, &[&image]).unwrap();
             image.finish().unwrap();
         }
-        _ => panic!("arguments: plane, or volume FILE.vti"),
+        _ => panic!("arguments: plane, or volume FILE.vti NAMES"),
     }
     let seconds = start.elapsed().as_secs_f64();
     println!("{}: {seconds:.2} s, {}", arguments[0], peak_memory());

@@ -5,8 +5,8 @@
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::fields::{
-    Direction, Envelope, Largest, Line, LoopPoint, Section, Side, Slices, Stream, cycles, depths,
-    loops, measure_named,
+    Direction, Envelope, Largest, Line, LoopPoint, Probe, Section, Side, Slices, Stream, cycles,
+    depths, loops, measure_named,
 };
 use contact_core::march::{Increment, March, Observer, Status, solve};
 use contact_core::output::{ImageData, StressStore, write_volume};
@@ -256,7 +256,8 @@ fn volumes_are_stored_and_drawn() {
     }];
     let z: Vec<f64> = (0..4).map(|i| 5e-6 * f64::from(i)).collect();
     let depths = depths(&body, &z).unwrap();
-    let measures = ["von_mises", "s_zz"].map(|name| *measure_named(name).unwrap());
+    let probes = ["von_mises", "u_z", "s_zz", "u_x"];
+    let probes = probes.map(|name| Probe::named(name, "of").unwrap());
     let folder = std::env::temp_dir().join(format!("pyfret-volume-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     for side in [Side::Body1, Side::Body2] {
@@ -265,26 +266,29 @@ fn volumes_are_stored_and_drawn() {
             folder.join(format!("{side:?}.vti")),
             folder.join(format!("{side:?}.zarr")),
         );
-        let image = ImageData::create(&file, &grid, side, &depths, &measures).unwrap();
+        let image = ImageData::create(&file, &grid, side, &depths, &probes).unwrap();
         let group =
-            StressStore::create(&store, "test", &grid, side, &depths, None, &measures).unwrap();
-        let largest = write_volume(&slices, &depths, &measures, &[&image, &group]).unwrap();
+            StressStore::create(&store, "test", &grid, side, &depths, None, &probes).unwrap();
+        let largest = write_volume(&slices, &depths, &probes, &[&image, &group]).unwrap();
         image.finish().unwrap();
         group.finish().unwrap();
-        assert!(ImageData::create(&file, &grid, side, &depths, &measures).is_err());
-        assert!(
-            StressStore::create(&store, "test", &grid, side, &depths, None, &measures).is_err()
-        );
+        assert!(ImageData::create(&file, &grid, side, &depths, &probes).is_err());
+        assert!(StressStore::create(&store, "test", &grid, side, &depths, None, &probes).is_err());
         let bytes = std::fs::read(&file).unwrap();
         let start = bytes.windows(2).position(|w| w == b"\n_").unwrap() + 2;
         let block = 8 + 4 * 7 * 5 * 4;
         assert_eq!(bytes[start..start + 8], (block as u64 - 8).to_le_bytes());
-        assert!(bytes[start + 2 * block..].starts_with(b"\n  </AppendedData>"));
+        assert!(bytes[start + 4 * block..].starts_with(b"\n  </AppendedData>"));
         for (k, depth) in depths.iter().enumerate() {
             let s = slices.stress(*depth).unwrap().remove(0);
-            for (m, measure) in measures.iter().enumerate() {
+            let u = slices.displacement(*depth).unwrap().remove(0);
+            for (m, probe) in probes.iter().enumerate() {
                 for ((i, j), _) in s[0].indexed_iter() {
-                    let value = (measure.value)(&std::array::from_fn(|c| s[c][(i, j)]));
+                    let value = match probe {
+                        Probe::Stress(of) => (of.value)(&std::array::from_fn(|c| s[c][(i, j)])),
+                        Probe::Displacement(of) if of.name == "u_x" => u[0][(i, j)],
+                        Probe::Displacement(_) => u[2][(i, j)],
+                    };
                     let plane = if side == Side::Body1 { 3 - k } else { k };
                     let at = start + m * block + 8 + 4 * ((plane * 5 + j) * 7 + i);
                     let drawn = f32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
@@ -295,8 +299,6 @@ fn volumes_are_stored_and_drawn() {
         }
     }
     let uneven = [depths[0], depths[1], depths[3]];
-    assert!(
-        ImageData::create(folder.join("u.vti"), &grid, Side::Body2, &uneven, &measures).is_err()
-    );
+    assert!(ImageData::create(folder.join("u.vti"), &grid, Side::Body2, &uneven, &probes).is_err());
     std::fs::remove_dir_all(&folder).unwrap();
 }

@@ -43,9 +43,9 @@ fn description(scene: &Scene, plan: &Plan) -> String {
     line(
         "load path",
         format!(
-            "{} branches, {} increments, W up to {} N",
+            "{} branches, {}, W up to {} N",
             scene.path.branches.len(),
-            scene.path.increments(),
+            increments(scene),
             scene.path.W_max()
         ),
     );
@@ -58,4 +58,25 @@ fn description(scene: &Scene, plan: &Plan) -> String {
         line("plan", rule.to_string());
     }
     lines.join("\n")
+}
+
+/// The increments of the path, or what they are chosen for.
+fn increments(scene: &Scene) -> String {
+    let given: usize = scene
+        .path
+        .branches
+        .iter()
+        .filter_map(|b| b.increments)
+        .sum();
+    if scene.path.is_open() {
+        let tolerance = 100.0 * scene.settings.solver.path_tolerance;
+        let others = if given > 0 {
+            format!("{given} increments and as many")
+        } else {
+            "as many increments".to_owned()
+        };
+        format!("{others} as a path error of {tolerance} % of the shear asks for")
+    } else {
+        format!("{given} increments")
+    }
 }

@@ -6,7 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use clap::Args;
-use contact_core::march::{Increment, March, Observer, coarser, error_bars, solve};
+use contact_core::march::{
+    Increment, March, Observer, choose_increments, coarser, error_bars, solve,
+};
 use contact_core::output::{StoreWriter, write_error_bars};
 use contact_core::{Error, Scene};
 
@@ -58,17 +60,18 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     if options.error {
         coarser(&scene).map_err(Failure::BadInput)?;
     }
-    let writer = StoreWriter::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
     let manner = &options.manner;
     manner.use_threads();
+    let scene = choose_increments(&scene).map_err(ended)?;
+    let writer = StoreWriter::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
     let mut increments = Vec::new();
     manner.watch(&scene, &options.out, writer, Vec::new(), |watcher| {
         increments = solve(&scene, watcher)?;
         Ok(increments.clone())
     })?;
     if options.error {
-        let bars = error_bars(&scene, &increments).map_err(Failure::EndedEarly)?;
-        write_error_bars(&options.out, &bars).map_err(Failure::EndedEarly)?;
+        let bars = error_bars(&scene, &increments).map_err(ended)?;
+        write_error_bars(&options.out, &bars).map_err(ended)?;
         if !manner.quiet {
             print(&summary::error_table(&scene, &increments, &bars));
         }
@@ -122,13 +125,18 @@ impl Manner {
                     out.display()
                 ));
             }
-            match error {
-                Error::InvalidScene { .. } | Error::OffGrid { .. } | Error::TooLarge { .. } => {
-                    Failure::BadInput(error)
-                }
-                error => Failure::EndedEarly(error),
-            }
+            ended(error)
         })
+    }
+}
+
+/// What an error means for the exit code.
+fn ended(error: Error) -> Failure {
+    match error {
+        Error::InvalidScene { .. } | Error::OffGrid { .. } | Error::TooLarge { .. } => {
+            Failure::BadInput(error)
+        }
+        error => Failure::EndedEarly(error),
     }
 }
 

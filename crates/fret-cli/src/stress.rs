@@ -5,12 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 use contact_core::Error;
 use contact_core::convolution::Tractions;
-use contact_core::fields::{
-    Depth, Line, MEASURES, Maximum, Measure, Section, Side, Slices, depths, measure_named,
-};
+use contact_core::fields::{Depth, Line, Maximum, Probe, Section, Side, Slices, depths};
 use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volume};
 use contact_core::scene::Scene;
-use ndarray::{Array2, ArrayView1, Axis};
+use ndarray::Array2;
 
 use crate::{Failure, print};
 
@@ -48,7 +46,7 @@ pub(crate) struct Options {
     /// Number of depths, evenly from the surface
     #[arg(long, value_name = "N", default_value = "256", value_parser = clap::value_parser!(u16).range(1..))]
     depths: u16,
-    /// What to give, such as von_mises,s_xx,tresca,s_1,hydrostatic
+    /// What to give, such as von_mises,s_xx,tresca,s_1,hydrostatic,u_z
     #[arg(
         long,
         value_name = "NAMES",
@@ -71,7 +69,7 @@ struct Task {
     scene: Scene,
     side: Side,
     depths: Vec<Depth>,
-    measures: Vec<Measure>,
+    probes: Vec<Probe>,
     loads: Loads,
 }
 
@@ -105,12 +103,7 @@ impl Task {
         } else {
             &scene.body2
         };
-        let measures = options.of.iter().map(|name| {
-            measure_named(name).copied().ok_or_else(|| {
-                let known: Vec<_> = MEASURES.iter().map(|m| m.name).collect();
-                Error::invalid("--of", name, format!("one of {}", known.join(", ")))
-            })
-        });
+        let probes = options.of.iter().map(|name| Probe::named(name, "--of"));
         let deepest = match (options.depth, scene.hertz()) {
             (Some(z), _) => z,
             (None, Some(hertz)) => 2.0 * hertz.a,
@@ -129,7 +122,7 @@ impl Task {
             depths.dedup_by_key(|d| d.z.to_bits());
         }
         Ok(Self {
-            measures: measures.collect::<Result<_, _>>()?,
+            probes: probes.collect::<Result<_, _>>()?,
             loads: Loads::of(&store, options.increment)?,
             scene,
             side,
@@ -156,7 +149,7 @@ impl Task {
             self.side,
             &self.depths,
             line,
-            &self.measures,
+            &self.probes,
         )
         .map(Some)
     }
@@ -170,21 +163,19 @@ impl Task {
         let store = self.store(options, Some(line))?;
         let states = [self.loads.tractions()];
         let section = Section::new(self.body(), self.side, grid, line, &states)?;
-        let stress = section.stress(&self.depths)?.swap_remove(0);
         let (axis, along): (_, Vec<f64>) = match line {
             Line::AlongX(_) => ("x", (0..grid.nx).map(|i| grid.x(i)).collect()),
             Line::AlongY(_) => ("y", (0..grid.ny).map(|j| grid.y(j)).collect()),
         };
+        let found = section.probe(&self.depths, &along, &self.probes)?;
         let mut lines = Vec::new();
-        for (m, measure) in self.measures.iter().enumerate() {
+        for (n, (probe, (values, largest))) in self.probes.iter().zip(&found).enumerate() {
             if let Some(store) = &store {
-                let value =
-                    |s: ArrayView1<'_, f64>| (measure.value)(&std::array::from_fn(|c| s[c]));
-                store.put_section(m, &stress.map_axis(Axis(0), value))?;
+                store.put_section(n, values)?;
             }
-            if let Some(m) = measure.maximum(&stress, &self.depths, &along) {
+            if let Some(m) = largest {
                 let place = format!("{axis} = {}", self.length(m.place[0]));
-                lines.push(self.line(measure, m.value, &place, m.depth));
+                lines.push(self.line(probe, m.value, &place, m.depth));
             }
         }
         store.map_or(Ok(()), StressStore::finish)?;
@@ -196,8 +187,8 @@ impl Task {
         let (mut image, mut store) = (None, None);
         match &options.out {
             Some(out) if is_image(options) => {
-                let (depths, measures) = (&self.depths, &self.measures);
-                image = Some(ImageData::create(out, grid, self.side, depths, measures)?);
+                let (depths, probes) = (&self.depths, &self.probes);
+                image = Some(ImageData::create(out, grid, self.side, depths, probes)?);
             }
             _ => store = self.store(options, None)?,
         }
@@ -205,22 +196,22 @@ impl Task {
         sinks.extend(image.as_ref().map(|i| i as &dyn VolumeSink));
         sinks.extend(store.as_ref().map(|s| s as &dyn VolumeSink));
         let slices = Slices::new(self.body(), self.side, grid, &[self.loads.tractions()])?;
-        let largest = write_volume(&slices, &self.depths, &self.measures, &sinks)?;
+        let largest = write_volume(&slices, &self.depths, &self.probes, &sinks)?;
         image.map_or(Ok(()), ImageData::finish)?;
         store.map_or(Ok(()), StressStore::finish)?;
-        let line = |(measure, m): (&Measure, Option<Maximum<2>>)| {
+        let line = |(probe, m): (&Probe, Option<Maximum<2>>)| {
             let m = m?;
             let [x, y] = m.place.map(|v| self.length(v));
-            Some(self.line(measure, m.value, &format!("x = {x}, y = {y}"), m.depth))
+            Some(self.line(probe, m.value, &format!("x = {x}, y = {y}"), m.depth))
         };
-        Ok(self.measures.iter().zip(largest).filter_map(line).collect())
+        Ok(self.probes.iter().zip(largest).filter_map(line).collect())
     }
 
-    /// The largest value of a measure and where it is.
-    fn line(&self, measure: &Measure, value: f64, place: &str, depth: Depth) -> String {
-        let value = match self.scene.hertz() {
-            Some(hertz) => format!("{:.5} p_H", value / hertz.p0),
-            None => format!("{value:.5e} Pa"),
+    /// The largest value of a probe and where it is.
+    fn line(&self, probe: &Probe, value: f64, place: &str, depth: Depth) -> String {
+        let value = match (probe, self.scene.hertz()) {
+            (Probe::Stress(_), Some(hertz)) => format!("{:.5} p_H", value / hertz.p0),
+            _ => format!("{value:.5e} {}", probe.unit()),
         };
         let z = self.length(depth.z);
         let layer = match (self.body().coatings.len(), depth.layer) {
@@ -228,7 +219,7 @@ impl Task {
             (layers, n) if n == layers => ", in the substrate".into(),
             (_, n) => format!(", in coating {n}"),
         };
-        let name = measure.name;
+        let name = probe.name();
         let increment = self.loads.increment;
         format!("increment {increment}: largest {name} {value} at {place}, z = {z}{layer}")
     }

@@ -119,6 +119,13 @@ fn columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
         column("CG\np", |b, _| b.work.normal_iterations.to_string()),
         column("CG\nq", |b, _| b.work.tangential_iterations.to_string()),
     ]);
+    let errors: Vec<Option<f64>> = scene.path.branches.iter().map(|b| b.path_error).collect();
+    if errors.iter().any(Option::is_some) {
+        columns.push(column("path\nerror\nof q", move |b, _| {
+            let error = errors.get(b.branch).copied().flatten();
+            error.map_or_else(String::new, |error| format!("{:.2} %", 100.0 * error))
+        }));
+    }
     if increments.iter().any(|i| i.work.parts > 1) {
         columns.push(column("pieces", |b, _| b.work.parts.to_string()));
     }

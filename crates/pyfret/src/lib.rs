@@ -58,7 +58,7 @@ mod _core {
 
     #[pymodule_export]
     use crate::subsurface::{
-        Envelope, Subsurface, depths, loops, maximum, measure, principal, rims, stress_labels,
+        Envelope, Subsurface, depths, loops, maximum, measure, principal, probe_labels, rims,
     };
 
     #[pymodule_init]

@@ -58,11 +58,11 @@ fn line(x: Option<f64>, y: Option<f64>) -> PyResult<Line> {
     }
 }
 
-/// Name, unit and meaning of everything that follows from the stress.
+/// Name, unit and meaning of everything that can be asked of a place.
 #[pyfunction]
-pub(crate) fn stress_labels() -> HashMap<&'static str, (&'static str, &'static str)> {
-    let label = |m: &Measure| (m.name, ("Pa", m.long_name));
-    core::MEASURES.iter().map(label).collect()
+pub(crate) fn probe_labels() -> HashMap<&'static str, (&'static str, &'static str)> {
+    let label = |p: core::Probe| (p.name(), (p.unit(), p.long_name()));
+    core::Probe::all().map(label).collect()
 }
 
 /// The depths with their layers; on an interface both.
@@ -173,7 +173,7 @@ impl Subsurface {
         })
     }
 
-    #[pyo3(signature = (z, layer, *, x = None, y = None))]
+    #[pyo3(signature = (z, layer, *, x = None, y = None, displacement = false))]
     fn section<'py>(
         &self,
         py: Python<'py>,
@@ -181,62 +181,41 @@ impl Subsurface {
         layer: Vec<usize>,
         x: Option<f64>,
         y: Option<f64>,
+        displacement: bool,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let (depths, line) = (Self::depths(&z, &layer)?, line(x, y)?);
-        let stress = py.detach(|| {
+        let found = py.detach(|| {
             let states = [self.tractions()];
-            core::Section::new(&self.body.0, self.side, &self.grid.0, line, &states)?
-                .stress(&depths)
+            let section = core::Section::new(&self.body.0, self.side, &self.grid.0, line, &states)?;
+            if displacement {
+                section.displacement(&depths)
+            } else {
+                section.stress(&depths)
+            }
         });
-        Ok(stress.map_err(to_python)?.swap_remove(0).into_pyarray(py))
+        Ok(found.map_err(to_python)?.swap_remove(0).into_pyarray(py))
     }
 
-    #[pyo3(signature = (z, layer, *, x = None, y = None))]
-    fn section_displacement<'py>(
-        &self,
-        py: Python<'py>,
-        z: Vec<f64>,
-        layer: Vec<usize>,
-        x: Option<f64>,
-        y: Option<f64>,
-    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let (depths, line) = (Self::depths(&z, &layer)?, line(x, y)?);
-        let u = py.detach(|| {
-            let states = [self.tractions()];
-            core::Section::new(&self.body.0, self.side, &self.grid.0, line, &states)?
-                .displacement(&depths)
-        });
-        Ok(u.map_err(to_python)?.swap_remove(0).into_pyarray(py))
-    }
-
+    #[pyo3(signature = (z, layer, *, displacement = false))]
     fn slice<'py>(
         &self,
         py: Python<'py>,
         z: f64,
         layer: usize,
+        displacement: bool,
     ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
-        let stress = py.detach(|| {
+        let found = py.detach(|| {
             let states = [self.tractions()];
-            core::Slices::new(&self.body.0, self.side, &self.grid.0, &states)?
-                .stress(Depth { z, layer })
+            let slices = core::Slices::new(&self.body.0, self.side, &self.grid.0, &states)?;
+            let depth = Depth { z, layer };
+            Ok(if displacement {
+                Vec::from(slices.displacement(depth)?.swap_remove(0))
+            } else {
+                Vec::from(slices.stress(depth)?.swap_remove(0))
+            })
         });
-        let stress = stress.map_err(to_python)?.swap_remove(0);
-        Ok(stress.into_iter().map(|s| s.into_pyarray(py)).collect())
-    }
-
-    fn slice_displacement<'py>(
-        &self,
-        py: Python<'py>,
-        z: f64,
-        layer: usize,
-    ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
-        let u = py.detach(|| {
-            let states = [self.tractions()];
-            core::Slices::new(&self.body.0, self.side, &self.grid.0, &states)?
-                .displacement(Depth { z, layer })
-        });
-        let u = u.map_err(to_python)?.swap_remove(0);
-        Ok(u.into_iter().map(|u| u.into_pyarray(py)).collect())
+        let found = found.map_err(to_python)?;
+        Ok(found.into_iter().map(|f| f.into_pyarray(py)).collect())
     }
 
     fn points<'py>(
@@ -269,23 +248,24 @@ impl Subsurface {
         of: Vec<String>,
         title: &str,
     ) -> PyResult<()> {
-        let (depths, measures) = (Self::depths(&z, &layer)?, measures(&of)?);
+        let depths = Self::depths(&z, &layer)?;
+        let probes = of.iter().map(|name| core::Probe::named(name, "of"));
+        let probes: Vec<_> = probes.collect::<Result<_, _>>().map_err(to_python)?;
         let (grid, side) = (&self.grid.0, self.side);
         let write = || {
             let states = [self.tractions()];
             let slices = core::Slices::new(&self.body.0, side, grid, &states)?;
-            let write = |sink: &dyn VolumeSink| {
-                write_volume(&slices, &depths, &measures, &[sink]).map(drop)
-            };
+            let write =
+                |sink: &dyn VolumeSink| write_volume(&slices, &depths, &probes, &[sink]).map(drop);
             if out
                 .extension()
                 .is_some_and(|e| e.eq_ignore_ascii_case("vti"))
             {
-                let image = ImageData::create(&out, grid, side, &depths, &measures)?;
+                let image = ImageData::create(&out, grid, side, &depths, &probes)?;
                 write(&image)?;
                 image.finish()
             } else {
-                let store = StressStore::create(&out, title, grid, side, &depths, None, &measures)?;
+                let store = StressStore::create(&out, title, grid, side, &depths, None, &probes)?;
                 write(&store)?;
                 store.finish()
             }

@@ -7,7 +7,7 @@
 //! turns into gross slip at an energy ratio of 0.2 and a sliding ratio of 0.26.
 
 use crate::march::{Increment, Status};
-use crate::scene::{LoadPath, Loads};
+use crate::scene::{Branch, LoadPath, Loads};
 
 /// Loads that agree to this share of the largest are the same.
 const SAME: f64 = 1e-9;
@@ -157,7 +157,7 @@ impl LoopPoint {
 pub fn loops(path: &LoadPath, history: &[LoopPoint]) -> Vec<Cycle> {
     let upto = |branch: usize| -> usize {
         let before = path.branches.iter().take(branch);
-        before.map(|b| b.increments).sum()
+        before.map(Branch::count).sum()
     };
     let done = cycles(path).into_iter().filter_map(|(first, last)| {
         let (start, end) = (upto(first), upto(last + 1));

@@ -80,20 +80,6 @@ impl Slices {
         self.at::<Displacement, 5, 3>(depth)
     }
 
-    /// Hands the stresses of all states at each depth to `f` as soon as they are known, depths in
-    /// parallel. Only as many planes are in memory as there are threads.
-    pub fn map_stress<T: Send>(
-        &self,
-        depths: &[Depth],
-        f: impl Fn(usize, Vec<[Array2<f64>; 6]>) -> Result<T, Error> + Sync,
-    ) -> Result<Vec<T>, Error> {
-        depths
-            .par_iter()
-            .enumerate()
-            .map(|(n, depth)| f(n, self.stress(*depth)?))
-            .collect()
-    }
-
     /// Hands the stresses of all states at each depth, of shape (6, cells in row-major order), to
     /// `f` as soon as they are known, with what it keeps of that depth; depths in parallel.
     pub fn pass_stress<T: Send>(

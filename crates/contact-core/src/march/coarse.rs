@@ -52,9 +52,10 @@ pub(super) fn coarse_start(scene: &Scene, point: &LoadPoint) -> Option<CoarseSta
     coarse.path = LoadPath {
         branches: vec![Branch {
             to,
-            increments: 1,
+            increments: Some(1),
             spacing: Spacing::Uniform,
             t_end: 1.0,
+            path_error: None,
         }],
     };
     let mut march = March::new(&coarse).ok()?;

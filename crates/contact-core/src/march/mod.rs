@@ -13,6 +13,7 @@ mod halving;
 mod increment;
 mod kept_contact;
 mod partial_cells;
+mod path_error;
 mod predict;
 mod slip_datum;
 mod solve;
@@ -22,6 +23,7 @@ pub use error_bars::{ErrorBars, coarser, error_bars};
 pub use fields::Fields;
 pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
 pub use partial_cells::continued_pressure;
+pub use path_error::{choose_increments, estimate_path_error};
 pub use solve::{BranchSummary, Observer, solve, summarise};
 pub use state::State;
 
@@ -69,9 +71,12 @@ pub struct March {
 }
 
 impl March {
-    /// Checks the scene, plans, and computes the kernels.
+    /// Checks the scene, chooses the increments that are not given, plans, and computes the kernels.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         scene.check()?;
+        if scene.path.is_open() {
+            return Self::new(&choose_increments(scene)?);
+        }
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
         let settings = &scene.settings;

@@ -13,7 +13,7 @@ use ndarray::Array2;
 
 use super::volume::VolumeSink;
 use crate::error::Error;
-use crate::fields::{Depth, Measure, Side};
+use crate::fields::{Depth, Probe, Side};
 use crate::scene::Grid;
 
 /// Share of the spacing by which depths may be uneven.
@@ -32,14 +32,14 @@ pub struct ImageData {
 }
 
 impl ImageData {
-    /// Begins `path`, for `measures` at the middles of the cells of the grid and at `depths`,
+    /// Begins `path`, for `probes` at the middles of the cells of the grid and at `depths`,
     /// which must be evenly spaced. Fails if there is something at `path`.
     pub fn create(
         path: impl AsRef<Path>,
         grid: &Grid,
         side: Side,
         depths: &[Depth],
-        measures: &[Measure],
+        probes: &[Probe],
     ) -> Result<Self, Error> {
         let path = path.as_ref();
         if path.exists() {
@@ -53,7 +53,7 @@ impl ImageData {
             _ => 0.0,
         };
         let shape = (grid.nx, grid.ny, depths.len());
-        let header = header(grid, (first, spacing), shape, measures);
+        let header = header(grid, (first, spacing), shape, probes);
         let mut name = path.file_name().unwrap_or_default().to_owned();
         name.push(".unfinished");
         let unfinished = path.with_file_name(name);
@@ -61,11 +61,11 @@ impl ImageData {
             let mut file = File::create(&unfinished)?;
             file.write_all(header.as_bytes())?;
             let bytes = block_length(shape);
-            for n in 0..measures.len() as u64 {
+            for n in 0..probes.len() as u64 {
                 file.seek(SeekFrom::Start(header.len() as u64 + n * (8 + bytes)))?;
                 file.write_all(&bytes.to_le_bytes())?;
             }
-            let end = header.len() as u64 + measures.len() as u64 * (8 + bytes);
+            let end = header.len() as u64 + probes.len() as u64 * (8 + bytes);
             file.seek(SeekFrom::Start(end))?;
             file.write_all(b"\n  </AppendedData>\n</VTKFile>\n")?;
             Ok(file)
@@ -88,10 +88,10 @@ impl ImageData {
 }
 
 impl VolumeSink for ImageData {
-    fn put(&self, measure: usize, depth: usize, values: &Array2<f64>) -> Result<(), Error> {
+    fn put(&self, probe: usize, depth: usize, values: &Array2<f64>) -> Result<(), Error> {
         let (nx, ny, nz) = self.shape;
         let plane = if self.upwards { nz - 1 - depth } else { depth };
-        let block = self.start + measure as u64 * (8 + block_length(self.shape)) + 8;
+        let block = self.start + probe as u64 * (8 + block_length(self.shape)) + 8;
         let at = block + (plane * nx * ny * 4) as u64;
         let bytes: Vec<u8> = (0..ny)
             .flat_map(|j| (0..nx).map(move |i| values[(i, j)] as f32))
@@ -148,7 +148,7 @@ fn header(
     grid: &Grid,
     (first, spacing): (f64, f64),
     (nx, ny, nz): (usize, usize, usize),
-    measures: &[Measure],
+    probes: &[Probe],
 ) -> String {
     let extent = format!("0 {} 0 {} 0 {}", nx - 1, ny - 1, nz - 1);
     let (x, y, dx, dy) = (grid.x(0), grid.y(0), grid.dx, grid.dy);
@@ -159,9 +159,9 @@ fn header(
          <ImageData WholeExtent=\"{extent}\" Origin=\"{x} {y} {first}\" \
          Spacing=\"{dx} {dy} {spacing}\">\n    <Piece Extent=\"{extent}\">\n      <PointData>\n"
     );
-    for (n, measure) in measures.iter().enumerate() {
+    for (n, probe) in probes.iter().enumerate() {
         let offset = n as u64 * (8 + block_length((nx, ny, nz)));
-        let name = measure.name;
+        let name = probe.name();
         let _ = writeln!(
             text,
             "        <DataArray type=\"Float32\" Name=\"{name}\" format=\"appended\" \

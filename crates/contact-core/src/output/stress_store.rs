@@ -1,4 +1,4 @@
-//! Stress below the surface as a Zarr group, over (`depth`, `x`, `y`) or along a line.
+//! Stress and displacement below the surface as a Zarr group, over (`depth`, `x`, `y`) or along a line.
 
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -12,7 +12,7 @@ use super::folder::Folder;
 use super::variable::{Column, Variable};
 use super::volume::VolumeSink;
 use crate::error::Error;
-use crate::fields::{Depth, Line, Measure, Side};
+use crate::fields::{Depth, Line, Probe, Side};
 use crate::scene::Grid;
 
 /// A group being written: complete once [`Self::finish`] has been called.
@@ -26,7 +26,7 @@ pub struct StressStore {
 }
 
 impl StressStore {
-    /// Begins the group at `path`, which must not exist, for `measures` at `depths` of a volume,
+    /// Begins the group at `path`, which must not exist, for `probes` at `depths` of a volume,
     /// or below `line`. `title` says which contact it is.
     pub fn create(
         path: impl AsRef<Path>,
@@ -35,7 +35,7 @@ impl StressStore {
         side: Side,
         depths: &[Depth],
         line: Option<Line>,
-        measures: &[Measure],
+        probes: &[Probe],
     ) -> Result<Self, Error> {
         let path = path.as_ref();
         let folder = Folder::new(path);
@@ -84,11 +84,11 @@ impl StressStore {
             None => [vec![1], shape[1..].to_vec()].concat(),
             Some(_) => shape.clone(),
         };
-        let variable = |m: &Measure| {
+        let variable = |p: &Probe| {
             Variable::new(
-                m.name,
+                p.name(),
                 Kind::Real,
-                ("Pa", m.long_name),
+                (p.unit(), p.long_name()),
                 &dims,
                 shape.clone(),
                 chunks.clone(),
@@ -110,14 +110,14 @@ impl StressStore {
             folder,
             attributes,
             coordinates,
-            variables: measures.iter().map(variable).collect(),
+            variables: probes.iter().map(variable).collect(),
             writing: Mutex::new(()),
         })
     }
 
-    /// Stores a measure on a section, shape (depths, places).
-    pub fn put_section(&self, measure: usize, values: &Array2<f64>) -> Result<(), Error> {
-        self.variables[measure].store(&self.folder, &[0, 0], values.iter().copied())
+    /// Stores a probe on a section, shape (depths, places).
+    pub fn put_section(&self, probe: usize, values: &Array2<f64>) -> Result<(), Error> {
+        self.variables[probe].store(&self.folder, &[0, 0], values.iter().copied())
     }
 
     /// Writes coordinates and metadata: only now is the group there for its readers.
@@ -149,8 +149,8 @@ impl StressStore {
 }
 
 impl VolumeSink for StressStore {
-    fn put(&self, measure: usize, depth: usize, values: &Array2<f64>) -> Result<(), Error> {
+    fn put(&self, probe: usize, depth: usize, values: &Array2<f64>) -> Result<(), Error> {
         let _one = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
-        self.variables[measure].store(&self.folder, &[depth as u64, 0, 0], values.iter().copied())
+        self.variables[probe].store(&self.folder, &[depth as u64, 0, 0], values.iter().copied())
     }
 }

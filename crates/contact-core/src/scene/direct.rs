@@ -24,7 +24,7 @@ pub(super) fn direct_branches(
     if scene.settings.save != SaveFields::Branches {
         return none("fields within the branches are to be kept");
     }
-    if branches.iter().all(|b| b.increments == 1) {
+    if branches.iter().all(|b| b.increments == Some(1)) {
         return none("every branch has one increment");
     }
     if scene.friction.mu == 0.0 {

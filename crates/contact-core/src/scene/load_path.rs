@@ -32,12 +32,23 @@ impl Spacing {
 pub struct Branch {
     /// Loads at the end of the branch.
     pub to: Loads,
-    /// Number of increments, at least one.
-    pub increments: usize,
+    /// Number of increments, at least one; `None`: as many as the error of the path asks for,
+    /// [`choose_increments`](crate::march::choose_increments).
+    pub increments: Option<usize>,
     /// How they are spaced.
     pub spacing: Spacing,
     /// Path time at the end of the branch; only a label, the contact is quasi-static.
     pub t_end: f64,
+    /// What the increments so far leave of the error of the shear at the end of the branch, estimated:
+    /// over the largest shear of the path (L2). `None` where it was not asked for.
+    pub path_error: Option<f64>,
+}
+
+impl Branch {
+    /// Increments, one where the number is yet to be chosen.
+    pub(crate) fn count(&self) -> usize {
+        self.increments.unwrap_or(1)
+    }
 }
 
 /// Most increments of a path: the points alone take some 60 bytes each.
@@ -125,7 +136,7 @@ impl LoadPath {
 
     /// Goes to the normal force `W` \[N\], the tangential forces kept, in one unit of path time.
     #[must_use]
-    pub fn normal(self, W: f64, increments: usize) -> Self {
+    pub fn normal(self, W: f64, increments: impl Into<Option<usize>>) -> Self {
         let (at, t) = self.last();
         self.branch(Branch {
             to: Loads {
@@ -136,9 +147,10 @@ impl LoadPath {
                 },
                 ..at
             },
-            increments,
+            increments: increments.into(),
             spacing: Spacing::Uniform,
             t_end: t + 1.0,
+            path_error: None,
         })
     }
 
@@ -146,10 +158,10 @@ impl LoadPath {
     /// change of force; each branch takes path time in proportion to its increments, one unit in
     /// all for as many increments as the first branch of the path has.
     #[must_use]
-    pub fn tangential(self, T_x: &[f64], increments: usize) -> Self {
+    pub fn tangential(self, T_x: &[f64], increments: impl Into<Option<usize>>) -> Self {
         self.visit(
             T_x,
-            increments,
+            increments.into(),
             |at| at.T_x,
             |at, T_x| {
                 at.given.delta_x = None;
@@ -160,10 +172,10 @@ impl LoadPath {
 
     /// Visits the torsional moments `M_z` \[N m\] in turn, as [`Self::tangential`] does the forces.
     #[must_use]
-    pub fn torsion(self, M_z: &[f64], increments: usize) -> Self {
+    pub fn torsion(self, M_z: &[f64], increments: impl Into<Option<usize>>) -> Self {
         self.visit(
             M_z,
-            increments,
+            increments.into(),
             |at| at.M_z,
             |at, M_z| {
                 at.given.phi_z = None;
@@ -175,14 +187,15 @@ impl LoadPath {
     /// Goes to the loads and motions that `change` makes of the present ones, in one unit of path
     /// time.
     #[must_use]
-    pub fn to(self, change: impl FnOnce(&mut Loads), increments: usize) -> Self {
+    pub fn to(self, change: impl FnOnce(&mut Loads), increments: impl Into<Option<usize>>) -> Self {
         let (mut to, t) = self.last();
         change(&mut to);
         self.branch(Branch {
             to,
-            increments,
+            increments: increments.into(),
             spacing: Spacing::Uniform,
             t_end: t + 1.0,
+            path_error: None,
         })
     }
 
@@ -190,14 +203,16 @@ impl LoadPath {
     pub(super) fn visit(
         mut self,
         values: &[f64],
-        increments: usize,
+        increments: Option<usize>,
         get: impl Fn(&Loads) -> f64,
         set: impl Fn(&mut Loads, f64),
     ) -> Self {
         let per_unit = self
             .branches
             .first()
-            .map_or(increments, |b| b.increments)
+            .and_then(|b| b.increments)
+            .or(increments)
+            .unwrap_or(1)
             .max(1);
         let mut changes = Vec::with_capacity(values.len());
         let mut from = get(&self.last().0);
@@ -210,16 +225,20 @@ impl LoadPath {
         for (&value, change) in values.iter().zip(&changes) {
             passed += change;
             let share = if total > 0.0 { passed / total } else { 1.0 };
-            let upto = (increments as f64 * share).round() as usize;
-            let n = upto.saturating_sub(taken).max(1);
-            taken += n;
+            let n = increments.map(|increments| {
+                let upto = (increments as f64 * share).round() as usize;
+                let n = upto.saturating_sub(taken).max(1);
+                taken += n;
+                n
+            });
             let (mut to, t) = self.last();
             set(&mut to, value);
             self.branches.push(Branch {
                 to,
                 increments: n,
                 spacing: Spacing::Uniform,
-                t_end: t + n as f64 / per_unit as f64,
+                t_end: t + n.map_or(1.0, |n| n as f64 / per_unit as f64),
+                path_error: None,
             });
         }
         self
@@ -232,9 +251,14 @@ impl LoadPath {
         self
     }
 
-    /// Number of increments of the whole path.
+    /// Number of increments of the whole path; a branch whose number is yet to be chosen counts as one.
     pub fn increments(&self) -> usize {
-        self.branches.iter().map(|b| b.increments).sum()
+        self.branches.iter().map(Branch::count).sum()
+    }
+
+    /// Whether the increments of a branch are yet to be chosen.
+    pub fn is_open(&self) -> bool {
+        self.branches.iter().any(|b| b.increments.is_none())
     }
 
     /// The largest normal force that the path gives \[N\].
@@ -261,9 +285,9 @@ impl LoadPath {
         for (branch, b) in self.branches.iter().enumerate() {
             let (to, given) = (b.to.forces(), b.to.given.motions());
             let mut before = 0.0;
-            for i in 1..=b.increments {
-                let last = i == b.increments;
-                let s = i as f64 / b.increments as f64;
+            for i in 1..=b.count() {
+                let last = i == b.count();
+                let s = i as f64 / b.count() as f64;
                 let f = b.spacing.covered(s, b.to.given.delta_z.is_some());
                 let between = |a: f64, c: f64| if last { c } else { a + f * (c - a) };
                 let force =
@@ -309,7 +333,7 @@ impl LoadPath {
         if self.branches.is_empty() {
             return Err(Error::invalid("path", "empty", "at least one branch"));
         }
-        let total = self.branches.iter().map(|b| b.increments);
+        let total = self.branches.iter().map(Branch::count);
         if total.fold(0, usize::saturating_add) > MOST_INCREMENTS {
             return Err(Error::invalid(
                 "path",
@@ -333,7 +357,7 @@ impl LoadPath {
                 ));
             }
             t = b.t_end;
-            if b.increments == 0 {
+            if b.increments == Some(0) {
                 return Err(Error::invalid(
                     key("increments"),
                     0,
@@ -353,7 +377,7 @@ impl LoadPath {
             let key = |name: &str| format!("path[{i}].{name}");
             let given = b.to.given.motions();
             let held = |k: usize| given[k].is_some_and(|motion| motion == 0.0);
-            let cells = (b.to.rolled - rolled) / grid.dx / b.increments as f64;
+            let cells = (b.to.rolled - rolled) / grid.dx / b.count() as f64;
             if (cells - cells.round()).abs() > 1e-6 * cells.abs().max(1.0) {
                 return Err(Error::invalid(
                     key("rolled"),
@@ -377,6 +401,13 @@ impl LoadPath {
                     let name = given[k].map_or(LOADS[k], |_| MOTIONS[k]);
                     return Err(Error::invalid(key(name), value, allowed));
                 }
+            }
+            if cells.round() != 0.0 && b.increments.is_none() {
+                return Err(Error::invalid(
+                    key("increments"),
+                    "auto",
+                    "a number where the contact rolls: whole cells in each",
+                ));
             }
             rolled = b.to.rolled;
         }

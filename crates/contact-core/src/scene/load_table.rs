@@ -63,10 +63,10 @@ impl LoadPath {
     /// Presses with the normal forces `W` \[N\] in turn, as [`Self::tangential`] visits its values:
     /// radial fretting, mode II.
     #[must_use]
-    pub fn radial(self, W: &[f64], increments: usize) -> Self {
+    pub fn radial(self, W: &[f64], increments: impl Into<Option<usize>>) -> Self {
         self.visit(
             W,
-            increments,
+            increments.into(),
             |at| at.W,
             |at, W| {
                 at.given.delta_z = None;
@@ -94,9 +94,10 @@ impl LoadPath {
         };
         let branch = |to: Loads, increments: usize, t_end: f64| Branch {
             to,
-            increments,
+            increments: Some(increments),
             spacing: Spacing::Uniform,
             t_end,
+            path_error: None,
         };
         self.branches.push(branch(at(0.0), increments, t0 + 1.0));
         for i in 1..=turns * increments {
@@ -191,9 +192,10 @@ impl LoadPath {
         for ((to, t_end), increments) in branches.into_iter().zip(counts) {
             self.branches.push(Branch {
                 to,
-                increments,
+                increments: Some(increments),
                 spacing: Spacing::Uniform,
                 t_end,
+                path_error: None,
             });
         }
         Ok(self)
@@ -236,7 +238,7 @@ mod tests {
         let names = ["t", "W", "T_x"];
         let path = LoadPath::start().waypoints(&names, &rows, Increments::PerRange(8));
         let path = path.expect("a path");
-        let counts: Vec<usize> = path.branches.iter().map(|b| b.increments).collect();
+        let counts: Vec<usize> = path.branches.iter().map(|b| b.count()).collect();
         assert_eq!(counts, [8, 4, 8]);
         let (points, end) = (path.points(), path.branches[2].to);
         assert_eq!((points[7].loads.W, points[9].loads.T_x), (100.0, 10.0));

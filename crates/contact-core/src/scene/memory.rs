@@ -4,15 +4,10 @@ use sysinfo::{MemoryRefreshKind, System};
 
 use super::{Grid, KernelMethod, Plan, Scene};
 use crate::error::Error;
+use crate::kernels::KernelSet;
 
 /// Memory of the program itself \[bytes\].
 const PROGRAM: f64 = 10e6;
-/// Numbers per cell that is solved for: fields, their last values, buffers of the solvers.
-const FIELDS: f64 = 84.0;
-/// The same without friction.
-const FIELDS_WITHOUT_FRICTION: f64 = 64.0;
-/// Numbers per cell of the grid: spectra of the kernels, buffers of the transforms.
-const SPECTRA: f64 = 22.0;
 /// Numbers per cell of the domain of [`KernelMethod::FrequencyDomain`], lambda^2 times the grid:
 /// samples of the response and buffers of the transforms.
 const SAMPLES: f64 = 10.0;
@@ -38,6 +33,25 @@ pub fn available_memory() -> f64 {
     }
 }
 
+/// Numbers that a solution keeps.
+struct Numbers {
+    /// Per cell that is solved for: fields, their last values, buffers of the solvers.
+    fields: f64,
+    /// Per cell of the grid: kernels, their spectra, buffers of the transforms.
+    spectra: f64,
+}
+
+impl Numbers {
+    fn of(kernels: KernelSet) -> Self {
+        let (fields, spectra) = match kernels {
+            KernelSet::Normal => (35.0, 18.0),
+            KernelSet::Uncoupled => (84.0, 22.0),
+            KernelSet::All => (168.0, 36.0),
+        };
+        Self { fields, spectra }
+    }
+}
+
 impl Plan {
     /// Peak memory of a solution of the scene \[bytes\], an estimate within a fifth from 256 cells
     /// per side on: what runs were measured to take.
@@ -47,18 +61,14 @@ impl Plan {
             grid.nx as f64 * self.mirror.rows(grid.ny) as f64,
             cells(grid),
         );
-        let fields = if self.friction {
-            FIELDS
-        } else {
-            FIELDS_WITHOUT_FRICTION
-        };
+        let Numbers { fields, spectra } = Numbers::of(self.kernels());
         let conversion = match scene.settings.kernel.method {
             KernelMethod::Hankel => 0.0,
             KernelMethod::InverseFft { lambda, .. } => HALF_WAY * lambda as f64,
             KernelMethod::FrequencyDomain { lambda } => SAMPLES * (lambda * lambda) as f64,
         };
         let increments = INCREMENT * scene.path.increments() as f64;
-        PROGRAM + BYTES * (fields * kept + (SPECTRA + conversion) * cells + increments)
+        PROGRAM + BYTES * (fields * kept + (spectra + conversion) * cells + increments)
     }
 
     /// Fails with both numbers if the solution needs more memory than there is.

@@ -74,6 +74,9 @@ pub struct SolverSettings {
     /// Let slip follow the turn of the shear within an increment (default true): the path becomes of
     /// second order. The preset [`Preset::Spinu2020`] does without.
     pub turning: bool,
+    /// Largest error of the shear at the ends of branches that increments are chosen for where no
+    /// number is given, over the largest shear of the path (L2, default 5e-3).
+    pub path_tolerance: f64,
     /// Most passes of the intermediate loop per increment (default 60).
     pub max_alternations: usize,
     /// Most iterations of an inner loop (default 1000).
@@ -87,6 +90,7 @@ impl Default for SolverSettings {
             tolerance: 1e-6,
             entering: true,
             turning: true,
+            path_tolerance: 5e-3,
             max_alternations: 60,
             max_iterations: 1000,
         }
@@ -163,6 +167,7 @@ impl Settings {
         for (key, value) in [
             ("kernel.tolerance", self.kernel.tolerance),
             ("solver.tolerance", self.solver.tolerance),
+            ("solver.path_tolerance", self.solver.path_tolerance),
         ] {
             if !(value > 0.0 && value < 1.0) {
                 return Err(Error::invalid(key, value, "between 0 and 1"));

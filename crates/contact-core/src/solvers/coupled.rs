@@ -102,9 +102,9 @@ pub trait SlipDatum {
 }
 
 /// Passes in which the displacements that mean no slip follow the solution.
-const FOLLOWED: usize = 3;
-/// Part of the tolerance by which they may move without another solution.
-const NEGLIGIBLE: f64 = 0.1;
+const FOLLOWED: usize = 2;
+/// Factor of the tolerance of the first solution where they move by more than that; a second follows.
+const LOOSE: f64 = 10.0;
 
 /// Settings of the intermediate loop.
 #[derive(Clone, Copy, Debug)]
@@ -241,13 +241,17 @@ pub fn coupled(
         if info.exceeds_friction() {
             return Ok(info);
         }
+        let mut again = false;
         if slides.is_full() {
             let slip = problem.slip(&ws.bound, datum.displacements());
             info.shift = incipient_shift(&slip, now, slides.motion);
         } else {
-            shear_under(response, problem, datum, now, ws, params, &mut info)?;
+            again = shear_under(response, problem, datum, now, ws, params, &mut info)?;
         }
         if !coupled {
+            if again {
+                continue;
+            }
             return Ok(info);
         }
 
@@ -258,6 +262,8 @@ pub fn coupled(
             response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
         } else if ws.mixing.mixes() {
             ws.response[0].fill(0.0);
+        } else if again {
+            continue;
         } else {
             return Ok(info);
         }
@@ -265,7 +271,7 @@ pub fn coupled(
         let check = super::normal::assess(&gap, &now.p, &now.u_z);
         info.approach = check.motion;
         let residual = check.gap.max(check.penetration);
-        if residual <= params.tolerance {
+        if residual <= params.tolerance && !again {
             return Ok(info);
         }
         if info.alternations == params.max_alternations {
@@ -280,7 +286,8 @@ pub fn coupled(
     }
 }
 
-/// Shear for known pressure.
+/// Shear for known pressure; whether it has to be looked for again, with the displacements that mean
+/// no slip where the solution says.
 fn shear_under(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,
@@ -289,7 +296,7 @@ fn shear_under(
     ws: &mut CoupledWorkspace,
     params: &CoupledParams,
     info: &mut CoupledInfo,
-) -> Result<(), SolverError> {
+) -> Result<bool, SolverError> {
     let solve = match params.tangential.method {
         TangentialMethod::Newton => tangential,
         TangentialMethod::Gradient => shear_gradient,
@@ -298,24 +305,25 @@ fn shear_under(
         let slip = problem.slip(&ws.bound, datum.displacements());
         info.shift = first_shift(&slip, &now.shear());
     }
-    // The guess tells where the slip goes, the solution tells it better, the next pass better still.
-    let rounds = if info.alternations == 1 { 2 } else { 1 };
-    for round in 0..rounds {
-        let moved = if info.alternations <= FOLLOWED {
-            datum.follow(now, info.shift)
-        } else {
-            0.0
-        };
-        if round > 0 && moved <= NEGLIGIBLE * params.tangential.tolerance {
-            break;
-        }
-        let slip = problem.slip(&ws.bound, datum.displacements());
-        let inner = &mut ws.tangential;
-        let found = solve(response, &slip, &mut now.shear(), inner, &params.tangential)?;
-        info.tangential_iterations += found.passes;
-        info.shift = found.shift;
-    }
-    Ok(())
+    // The guess tells where the slip goes, the first solution tells it better.
+    let followed = info.alternations <= FOLLOWED;
+    let moved = if followed {
+        datum.follow(now, info.shift)
+    } else {
+        0.0
+    };
+    let tolerance = params.tangential.tolerance;
+    let again = info.alternations < FOLLOWED && moved > LOOSE * tolerance;
+    let asked = TangentialParams {
+        tolerance: if again { LOOSE * tolerance } else { tolerance },
+        ..params.tangential
+    };
+    let slip = problem.slip(&ws.bound, datum.displacements());
+    let inner = &mut ws.tangential;
+    let found = solve(response, &slip, &mut now.shear(), inner, &asked)?;
+    info.tangential_iterations += found.passes;
+    info.shift = found.shift;
+    Ok(again)
 }
 
 /// Brings the shear within the bound mu p of the present pressure and to the loads asked for.

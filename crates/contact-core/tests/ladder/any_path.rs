@@ -29,7 +29,7 @@ fn scene(points: &[(f64, f64)], increments: usize, n: usize) -> Scene {
                 T_x,
                 ..Loads::default()
             },
-            increments,
+            increments: Some(increments),
             // From nothing the contact grows like the cube root of W.
             spacing: if i == 0 {
                 Spacing::EqualRadius
@@ -37,6 +37,7 @@ fn scene(points: &[(f64, f64)], increments: usize, n: usize) -> Scene {
                 Spacing::Uniform
             },
             t_end: i as f64 + 1.0,
+            path_error: None,
         });
     }
     sphere_on_flat(CORK, CORK, MU, (2.3, n), path)

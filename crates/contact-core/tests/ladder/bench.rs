@@ -66,9 +66,10 @@ pub(crate) fn indentation(increments: usize) -> LoadPath {
             W,
             ..Loads::default()
         },
-        increments,
+        increments: Some(increments),
         spacing: Spacing::EqualRadius,
         t_end: 1.0,
+        path_error: None,
     })
 }
 

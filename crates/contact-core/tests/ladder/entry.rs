@@ -188,9 +188,11 @@ fn stages(
         .into_iter()
         .map(|(n, t)| {
             let chain = &chains[&n];
+            // A cell that enters does so within the increment.
+            let over = t.iter().sum::<f64>().max(1.0);
             let stages = t.iter().zip(chain.iter().rev());
-            let weights =
-                stages.flat_map(|(t, place)| place.iter().map(move |(m, part)| (*m, t * part)));
+            let weights = stages
+                .flat_map(|(t, place)| place.iter().map(move |(m, part)| (*m, t * part / over)));
             (n, weights.collect())
         })
         .collect()

@@ -20,7 +20,7 @@ fn scene(ratio: f64, n: usize) -> Scene {
     ];
     let mut scene = Scene::from_toml_str(text, "scene", &settings).unwrap();
     for (n, branch) in scene.path.branches.iter_mut().enumerate() {
-        branch.increments = if n == 0 { 30 } else { 8 };
+        branch.increments = Some(if n == 0 { 30 } else { 8 });
         if n == 0 {
             branch.spacing = Spacing::EqualRadius;
         }
@@ -38,8 +38,11 @@ struct Stressed {
     below: f64,
 }
 
-fn stressed(ratio: f64, n: usize) -> Stressed {
-    let scene = scene(ratio, n);
+/// On `n` cells along x and a number along y.
+fn stressed(ratio: f64, (n, across): (usize, usize)) -> Stressed {
+    let mut scene = scene(ratio, across);
+    let length = scene.grid.extent().0;
+    (scene.grid.nx, scene.grid.dx) = (n, length / n as f64);
     let hertz = scene.hertz().unwrap();
     let mut march = March::new(&scene).unwrap();
     while let Some(increment) = march.advance() {
@@ -82,31 +85,50 @@ fn limit(coarse: f64, fine: f64) -> f64 {
     fine + (fine - coarse) / (2.0_f64.sqrt() - 1.0)
 }
 
+/// On `n` and 2 `n` cells along x; those along y, fewer, matter to a thousandth.
+fn on_two_grids(ratio: f64, n: usize) -> [Stressed; 2] {
+    let grids = [n, 2 * n].map(|n| stressed(ratio, (n, 64)));
+    let [coarse, fine] = &grids;
+    // Below the surface both grids agree, on it the samples climb to the cusp.
+    let change = coarse.below / fine.below - 1.0;
+    assert!(change.abs() < 2e-3, "E1/E2 = {ratio}: {change:.1e}");
+    println!(
+        "E1/E2 = {ratio}: {:?}, below the surface {:.4}, on it {:.4} to {:.4}",
+        fine.largest, fine.below, coarse.surface, fine.surface
+    );
+    grids
+}
+
+/// In the compliant coating, in its middle.
 #[test]
-fn the_most_stressed_place_moves_with_the_coating() {
-    let [soft, hard, harder] = [0.5, 2.0, 4.0].map(|ratio| {
-        let grids = [64, 128].map(|n| stressed(ratio, n));
-        let [coarse, fine] = &grids;
-        // Below the surface both grids agree.
-        let change = coarse.below / fine.below - 1.0;
-        assert!(change.abs() < 2e-3, "E1/E2 = {ratio}: {change:.1e}");
-        let surface = limit(coarse.surface, fine.surface);
-        println!(
-            "E1/E2 = {ratio}: {:?}, below the surface {:.4}, on it {surface:.4}",
-            fine.largest, fine.below
-        );
-        (fine.largest, fine.below, surface)
-    });
-    // In the compliant coating, in its middle.
-    let ((_, _, at), below, surface) = soft;
-    assert!(at.layer == 0 && (0.3..0.6).contains(&at.z), "{soft:?}");
-    assert!(below > 1.1 * surface, "{soft:?}");
-    // On the free surface, at the trailing rim, by a hundredth, if two grids are continued to the
-    // limit; the samples of one grid of this size, continued to the rim, put it in the coating.
-    let (_, below, surface) = hard;
-    assert!(surface > below, "{hard:?}");
-    // At the interface, on the side of the coating.
-    let ((_, _, at), below, surface) = harder;
-    assert!(at.layer == 0 && (at.z - 1.0).abs() < 1e-9, "{harder:?}");
-    assert!(below > 1.05 * surface, "{harder:?}");
+fn a_compliant_coating_is_stressed_most_in_its_middle() {
+    let [coarse, fine] = on_two_grids(0.5, 64);
+    let (_, _, at) = fine.largest;
+    assert!(at.layer == 0 && (0.3..0.6).contains(&at.z), "{at:?}");
+    assert!(fine.below > 1.1 * limit(coarse.surface, fine.surface));
+}
+
+/// On the free surface, at the trailing rim, by a few hundredths. Samples underestimate a cusp, the
+/// more the coarser they are, and so does what [`contact_core::fields::rims`] makes of them: up to
+/// 128 cells along x it is 0.005 p_H below the stress in the middle of the coating, at 256 it is
+/// 0.002 above, at 512 0.007 (0.7213 and 0.7268 against 0.7198), and the samples tend to 0.02 above.
+#[test]
+fn a_stiff_coating_is_stressed_most_on_the_free_surface() {
+    let [coarse, fine] = on_two_grids(2.0, 128);
+    let (value, x, at) = fine.largest;
+    assert!(at.layer == 0 && at.z == 0.0, "{at:?}");
+    // A cell from the rim of the contact, which the coating draws in from a_H.
+    assert!((-0.94..-0.90).contains(&x), "x = {x}");
+    assert!(value > fine.below && fine.surface > coarse.surface);
+    let top = limit(coarse.surface, fine.surface);
+    assert!(top > value && top > 1.015 * fine.below, "{top}");
+}
+
+/// At the interface, on the side of the coating.
+#[test]
+fn a_stiffer_coating_is_stressed_most_at_the_interface() {
+    let [coarse, fine] = on_two_grids(4.0, 64);
+    let (_, _, at) = fine.largest;
+    assert!(at.layer == 0 && (at.z - 1.0).abs() < 1e-9, "{at:?}");
+    assert!(fine.below > 1.05 * limit(coarse.surface, fine.surface));
 }

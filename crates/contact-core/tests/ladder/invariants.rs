@@ -47,9 +47,10 @@ prop_compose! {
         let body2 = Body::homogeneous(lower, Shape::Flat);
         let mut path = LoadPath::start().branch(Branch {
             to: Loads { W, ..Loads::default() },
-            increments: 4,
+            increments: Some(4),
             spacing: Spacing::EqualRadius,
             t_end: 1.0,
+            path_error: None,
         });
         for (i, (part, x, y, increments)) in branches.into_iter().enumerate() {
             let load = part * W;
@@ -60,9 +61,10 @@ prop_compose! {
                     T_y: y * mu * load,
                     ..Loads::default()
                 },
-                increments,
+                increments: Some(increments),
                 spacing: Spacing::Uniform,
                 t_end: i as f64 + 2.0,
+                path_error: None,
             });
         }
         let mut scene = Scene {

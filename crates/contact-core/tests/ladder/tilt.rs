@@ -79,3 +79,43 @@ fn a_flat_punch_balances_its_moments() {
     // The side that carries more is pressed in deeper.
     assert!(end.motion.phi_x > 0.0 && end.motion.phi_y > 0.0);
 }
+
+/// A ball in a seat a tenth wider: moments move the wide contact as they do that of a ball on a
+/// flat, by M/W.
+#[test]
+fn a_conformal_contact_balances_its_moments() {
+    let mut scene = sphere_on_flat(STEEL, STEEL, 0.3, (3.2, 64), indentation(2));
+    scene.body2.shape = Shape::Sphere { R: -1.1 * R };
+    let a = hertz_of(&scene).a;
+    scene.grid = Grid::centred(3.2 * a, 64).expect("a grid");
+    let (e_x, e_y) = (0.25, -0.1);
+    scene.path = scene.path.to(
+        |to| {
+            (to.given.phi_x, to.given.phi_y) = (None, None);
+            (to.M_x, to.M_y) = (e_y * W * a, -e_x * W * a);
+            to.T_x = 0.4 * 0.3 * W;
+        },
+        3,
+    );
+    let mut place = [0.0; 2];
+    let increments = run(&scene, |march, increment| {
+        let (fields, grid) = (march.fields(), &march.scene().grid);
+        let first = |arm: &dyn Fn(usize, usize) -> f64| -> f64 {
+            let moments = fields.p.indexed_iter().map(|((i, j), p)| p * arm(i, j));
+            moments.sum::<f64>() * grid.cell_area()
+        };
+        place = [first(&|i, _| grid.x(i)), first(&|_, j| grid.y(j))].map(|m| m / (W * a));
+        assert!(
+            increment.residuals.balance < 1e-9,
+            "{:?}",
+            increment.residuals
+        );
+    });
+    close("M_y", place[0], e_x, 1e-9);
+    close("M_x", place[1], e_y, 1e-9);
+    // A tilted paraboloid is a shifted one: phi = e a/R of the pair.
+    let curvature = 1.0 / R - 1.0 / (1.1 * R);
+    let end = increments.last().expect("an increment");
+    close("phi_y", end.motion.phi_y / (a * curvature), -e_x, 2e-3);
+    close("phi_x", end.motion.phi_x / (a * curvature), e_y, 2e-3);
+}

@@ -177,9 +177,10 @@ fn path(rng: &mut Rng, mu: f64, W: f64) -> LoadPath {
         t += 1.0;
         path.branch(Branch {
             to,
-            increments,
+            increments: Some(increments),
             spacing,
             t_end: t,
+            path_error: None,
         })
     };
     let spacing = if rng.bool() {

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use contact_core::Error;
 use contact_core::scene as core;
 use numpy::{PyArray1, ToPyArray};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::to_python;
@@ -124,8 +125,13 @@ impl Branch {
     }
 
     #[getter]
-    fn increments(&self) -> usize {
+    fn increments(&self) -> Option<usize> {
         self.0.increments
+    }
+
+    #[getter]
+    fn path_error(&self) -> Option<f64> {
+        self.0.path_error
     }
 
     #[getter]
@@ -152,7 +158,9 @@ impl Branch {
         format!(
             "Branch({}, increments={}, t={:?})",
             parts.collect::<Vec<_>>().join(", "),
-            self.0.increments,
+            self.0
+                .increments
+                .map_or_else(|| "\"auto\"".to_owned(), |n| n.to_string()),
             self.0.t_end
         )
     }
@@ -201,6 +209,21 @@ impl PerRange {
     }
 }
 
+/// Increments of a branch: a number, or "auto" for as many as the path tolerance asks for.
+struct Count(Option<usize>);
+
+impl<'py> FromPyObject<'_, 'py> for Count {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if value.extract::<&str>().is_ok_and(|word| word == "auto") {
+            return Ok(Self(None));
+        }
+        let wrong = |_| PyValueError::new_err("increments: a whole number >= 1, or \"auto\"");
+        value.extract().map(|n| Self(Some(n))).map_err(wrong)
+    }
+}
+
 /// Increments between two waypoints.
 #[derive(FromPyObject)]
 enum AnyIncrements {
@@ -221,7 +244,7 @@ impl LoadPath {
     /// Appends a branch; `change` makes of each load and given motion the new ones.
     fn branch(
         &self,
-        increments: usize,
+        increments: Option<usize>,
         spacing: Spacing,
         t: Option<f64>,
         change: impl Fn(usize, f64, Option<f64>) -> (f64, Option<f64>),
@@ -240,6 +263,7 @@ impl LoadPath {
             increments,
             spacing: spacing.into(),
             t_end: t.unwrap_or(t_before + 1.0),
+            path_error: None,
         }))
     }
 
@@ -260,24 +284,24 @@ impl LoadPath {
         Self(core::LoadPath::start())
     }
 
-    #[pyo3(signature = (W, *, increments))]
-    fn normal(&self, W: f64, increments: usize) -> Self {
-        Self(self.0.clone().normal(W, increments))
+    #[pyo3(signature = (W, *, increments = Count(None)))]
+    fn normal(&self, W: f64, increments: Count) -> Self {
+        Self(self.0.clone().normal(W, increments.0))
     }
 
-    #[pyo3(signature = (T_x, *, increments))]
-    fn tangential(&self, T_x: Values, increments: usize) -> Self {
-        Self(self.0.clone().tangential(&T_x.list(), increments))
+    #[pyo3(signature = (T_x, *, increments = Count(None)))]
+    fn tangential(&self, T_x: Values, increments: Count) -> Self {
+        Self(self.0.clone().tangential(&T_x.list(), increments.0))
     }
 
-    #[pyo3(signature = (M_z, *, increments))]
-    fn torsion(&self, M_z: Values, increments: usize) -> Self {
-        Self(self.0.clone().torsion(&M_z.list(), increments))
+    #[pyo3(signature = (M_z, *, increments = Count(None)))]
+    fn torsion(&self, M_z: Values, increments: Count) -> Self {
+        Self(self.0.clone().torsion(&M_z.list(), increments.0))
     }
 
-    #[pyo3(signature = (W, *, increments))]
-    fn radial(&self, W: Values, increments: usize) -> Self {
-        Self(self.0.clone().radial(&W.list(), increments))
+    #[pyo3(signature = (W, *, increments = Count(None)))]
+    fn radial(&self, W: Values, increments: Count) -> Self {
+        Self(self.0.clone().radial(&W.list(), increments.0))
     }
 
     #[pyo3(signature = (*, T_x, T_y, turns = 1, increments))]
@@ -313,7 +337,7 @@ impl LoadPath {
             .map_err(to_python)
     }
 
-    #[pyo3(signature = (*, W = None, T_x = None, T_y = None, M_x = None, M_y = None, M_z = None, sigma_B = None, rolled = None, increments, spacing = Spacing::Uniform, t = None))]
+    #[pyo3(signature = (*, W = None, T_x = None, T_y = None, M_x = None, M_y = None, M_z = None, sigma_B = None, rolled = None, increments = Count(None), spacing = Spacing::Uniform, t = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn force(
         &self,
@@ -325,12 +349,12 @@ impl LoadPath {
         M_z: Option<f64>,
         sigma_B: Option<f64>,
         rolled: Option<f64>,
-        increments: usize,
+        increments: Count,
         spacing: Spacing,
         t: Option<f64>,
     ) -> Self {
         let named = [W, M_x, M_y, T_x, T_y, M_z];
-        let mut path = self.branch(increments, spacing, t, |k, load, motion| match named[k] {
+        let mut path = self.branch(increments.0, spacing, t, |k, load, motion| match named[k] {
             Some(load) => (load, None),
             None => (load, motion),
         });
@@ -341,7 +365,7 @@ impl LoadPath {
         path
     }
 
-    #[pyo3(signature = (*, delta_z = None, delta_x = None, delta_y = None, phi_x = None, phi_y = None, phi_z = None, increments, spacing = Spacing::Uniform, t = None))]
+    #[pyo3(signature = (*, delta_z = None, delta_x = None, delta_y = None, phi_x = None, phi_y = None, phi_z = None, increments = Count(None), spacing = Spacing::Uniform, t = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn displace(
         &self,
@@ -351,12 +375,12 @@ impl LoadPath {
         phi_x: Option<f64>,
         phi_y: Option<f64>,
         phi_z: Option<f64>,
-        increments: usize,
+        increments: Count,
         spacing: Spacing,
         t: Option<f64>,
     ) -> Self {
         let named = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
-        self.branch(increments, spacing, t, |k, load, motion| match named[k] {
+        self.branch(increments.0, spacing, t, |k, load, motion| match named[k] {
             Some(motion) => (0.0, Some(motion)),
             None => (load, motion),
         })

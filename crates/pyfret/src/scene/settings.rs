@@ -184,7 +184,7 @@ pub(crate) struct Settings(pub(crate) core::Settings);
 impl Settings {
     #[new]
     #[pyo3(signature = (
-        *, preset = None, tolerance = None, entering = None, turning = None, max_alternations = None, max_iterations = None,
+        *, preset = None, tolerance = None, entering = None, turning = None, path_tolerance = None, max_alternations = None, max_iterations = None,
         kernel = None, kernel_tolerance = None, skip = None, save = None,
     ))]
     fn new(
@@ -192,6 +192,7 @@ impl Settings {
         tolerance: Option<f64>,
         entering: Option<bool>,
         turning: Option<bool>,
+        path_tolerance: Option<f64>,
         max_alternations: Option<usize>,
         max_iterations: Option<usize>,
         kernel: Option<Method>,
@@ -209,6 +210,7 @@ impl Settings {
         solver.tolerance = tolerance.unwrap_or(solver.tolerance);
         solver.entering = entering.unwrap_or(solver.entering);
         solver.turning = turning.unwrap_or(solver.turning);
+        solver.path_tolerance = path_tolerance.unwrap_or(solver.path_tolerance);
         solver.max_alternations = max_alternations.unwrap_or(solver.max_alternations);
         solver.max_iterations = max_iterations.unwrap_or(solver.max_iterations);
         settings.kernel.method = kernel.map_or(settings.kernel.method, Into::into);
@@ -241,6 +243,11 @@ impl Settings {
     #[getter]
     fn turning(&self) -> bool {
         self.0.solver.turning
+    }
+
+    #[getter]
+    fn path_tolerance(&self) -> f64 {
+        self.0.solver.path_tolerance
     }
 
     #[getter]

@@ -227,7 +227,14 @@ fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
 
 /// The branches; loads that one does not name keep their value.
 fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<LoadPath, Fault> {
-    let own = ["sigma_B", "rolled", "increments", "t", "spacing"];
+    let own = [
+        "sigma_B",
+        "rolled",
+        "increments",
+        "t",
+        "spacing",
+        "path_error",
+    ];
     let keys = [&LOADS[..], &MOTIONS[..], &own].concat();
     if let Some(Value::Table(_)) = root.get("path") {
         return measured(root, files);
@@ -240,7 +247,7 @@ fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<LoadPath, Faul
         t = t_end;
         path = path.branch(Branch {
             to: at,
-            increments: section.count("increments", 1)?,
+            increments: branch_increments(&section)?,
             spacing: section.choice(
                 "spacing",
                 &[
@@ -249,9 +256,30 @@ fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<LoadPath, Faul
                 ],
             )?,
             t_end,
+            path_error: section
+                .get("path_error")
+                .map(|_| section.number("path_error", "a number", &[]))
+                .transpose()?,
         });
     }
     Ok(path)
+}
+
+/// The increments of a branch, if they are given.
+fn branch_increments(section: &Section<'_>) -> Result<Option<usize>, Fault> {
+    match section.get("increments") {
+        None => Ok(None),
+        Some(Value::String(auto)) if auto == "auto" => Ok(None),
+        Some(n @ Value::Integer(_)) => count(&section.path("increments"), n, 1).map(Some),
+        Some(other) => {
+            let key = section.path("increments");
+            Err(Fault::value(
+                &key,
+                other,
+                "a whole number >= 1, or \"auto\"",
+            ))
+        }
+    }
 }
 
 /// The loads and motions of a branch. Naming a load sets its motion free, naming a motion gives it.
@@ -330,6 +358,7 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
         "tolerance",
         "entering",
         "turning",
+        "path_tolerance",
         "max_alternations",
         "max_iterations",
     ];
@@ -343,6 +372,7 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
             tolerance: section.number_or("tolerance", default.tolerance, &[])?,
             entering: section.flag_or("entering", default.entering)?,
             turning: section.flag_or("turning", default.turning)?,
+            path_tolerance: section.number_or("path_tolerance", default.path_tolerance, &[])?,
             max_alternations: section.count_or("max_alternations", 1, default.max_alternations)?,
             max_iterations: section.count_or("max_iterations", 1, default.max_iterations)?,
         };

@@ -44,7 +44,13 @@ impl Scene {
                 sigma_B, rolled, ..
             } = branch.to;
             line(format_args!("sigma_B = {sigma_B:?}\nrolled = {rolled:?}"));
-            line(format_args!("increments = {}", branch.increments));
+            match branch.increments {
+                Some(n) => line(format_args!("increments = {n}")),
+                None => line(format_args!("increments = \"auto\"")),
+            }
+            if let Some(error) = branch.path_error {
+                line(format_args!("path_error = {error:?}"));
+            }
             line(format_args!("t = {:?}", branch.t_end));
             let spacing = match branch.spacing {
                 Spacing::Uniform => "uniform",
@@ -65,6 +71,7 @@ impl Scene {
         line(format_args!("tolerance = {:?}", solver.tolerance));
         line(format_args!("entering = {}", solver.entering));
         line(format_args!("turning = {}", solver.turning));
+        line(format_args!("path_tolerance = {:?}", solver.path_tolerance));
         line(format_args!(
             "max_alternations = {}",
             solver.max_alternations

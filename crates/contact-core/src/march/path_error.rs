@@ -1,0 +1,235 @@
+//! The error that the increments leave along the path, and how many of them a tolerance asks for.
+//!
+//! The path is run through with n and with 2 n increments in each branch. What the shear at the end of
+//! a branch changes by, over the largest shear of the path (L2), is a part of the error with n:
+//!
+//! ```text
+//! error(n) = |q_n - q_2n|/(1 - 2^-order) = 2^order error(2 n)
+//! ```
+//!
+//! The error along the path hardly depends on the grid, so that a coarse one does, which takes a small
+//! part of the time; the contact must span it well.
+
+use super::March;
+use crate::error::Error;
+use crate::scene::{Grid, LoadPath, Scene, Spacing};
+
+/// Order of the error in the increments: between that of cells that enter one by one and that of
+/// turning slip.
+const ORDER: f64 = 1.5;
+/// Cells of a grid that is not made coarser.
+const CELLS: usize = 64 * 64;
+/// Contact cells that a grid must have.
+const CONTACT: usize = 300;
+/// Increments to begin with: of a branch that begins without contact, and of others.
+const FIRST: (usize, usize) = (12, 6);
+/// Part of the tolerance that is aimed at.
+const AIM: f64 = 0.8;
+/// Most that the number of increments of a branch grows by in a round.
+const GROWTH: f64 = 4.0;
+/// Rounds of choosing.
+const ROUNDS: usize = 6;
+/// Most increments of a path that are chosen.
+const MOST: usize = 20_000;
+
+/// The scene with a number of increments for each branch that has none, so many that the error of
+/// the shear stays within `solver.path_tolerance`, and with the estimated error of each branch.
+///
+/// A scene whose increments are given is returned as it is.
+pub fn choose_increments(scene: &Scene) -> Result<Scene, Error> {
+    if !scene.path.is_open() {
+        return Ok(scene.clone());
+    }
+    scene.check()?;
+    let open: Vec<bool> = scene
+        .path
+        .branches
+        .iter()
+        .map(|b| b.increments.is_none())
+        .collect();
+    let mut chosen = scene.clone();
+    begin(&mut chosen.path, scene.friction.mu > 0.0);
+    if scene.friction.mu == 0.0 {
+        // Pressure depends on the loads alone.
+        chosen
+            .path
+            .branches
+            .iter_mut()
+            .for_each(|b| b.path_error = Some(0.0));
+        return Ok(chosen);
+    }
+    let tolerance = scene.settings.solver.path_tolerance;
+    let mut trial = Trial::new(&chosen)?;
+    for _ in 0..ROUNDS {
+        let errors = trial.errors(&chosen.path)?;
+        let mut more = false;
+        for ((branch, error), open) in chosen.path.branches.iter_mut().zip(errors).zip(&open) {
+            branch.path_error = Some(error);
+            if *open && error > tolerance {
+                let factor = (error / (AIM * tolerance)).powf(1.0 / ORDER).min(GROWTH);
+                branch.increments = Some((branch.count() as f64 * factor).ceil() as usize);
+                more = true;
+            }
+        }
+        if !more {
+            return Ok(chosen);
+        }
+        if chosen.path.increments() > MOST {
+            break;
+        }
+    }
+    let errors = trial.errors(&chosen.path)?;
+    for (branch, error) in chosen.path.branches.iter_mut().zip(errors) {
+        branch.path_error = Some(error);
+    }
+    Ok(chosen)
+}
+
+/// The scene with the estimated error of the shear at the end of each branch.
+///
+/// Compared with half of the increments, or with twice as many where a branch has only one.
+pub fn estimate_path_error(scene: &Scene) -> Result<Scene, Error> {
+    let mut estimated = choose_increments(scene)?;
+    if scene.path.is_open() {
+        return Ok(estimated);
+    }
+    let mut trial = Trial::new(scene)?;
+    let mut errors = Vec::new();
+    if scene.path.branches.iter().all(|b| b.count() > 1) {
+        let mut half = scene.path.clone();
+        half.branches
+            .iter_mut()
+            .for_each(|b| b.increments = Some(b.count() / 2));
+        for error in trial.change(&half, &scene.path)? {
+            errors.push(error / (2.0_f64.powf(ORDER) - 1.0));
+        }
+    } else {
+        errors = trial.errors(&scene.path)?;
+    }
+    for (branch, error) in estimated.path.branches.iter_mut().zip(errors) {
+        branch.path_error = Some(error);
+    }
+    Ok(estimated)
+}
+
+/// Gives open branches the increments to begin with; those that begin without contact grow by equal
+/// radii.
+fn begin(path: &mut LoadPath, friction: bool) {
+    let mut touches = false;
+    for branch in &mut path.branches {
+        if branch.increments.is_none() {
+            if !touches {
+                branch.spacing = Spacing::EqualRadius;
+            }
+            branch.increments = Some(match (friction, touches) {
+                (false, _) => 1,
+                (true, false) => FIRST.0,
+                (true, true) => FIRST.1,
+            });
+        }
+        touches = branch.to.W > 0.0 || branch.to.given.delta_z.is_some_and(|d| d > 0.0);
+    }
+}
+
+/// The scene on a grid that is just fine enough, for runs along its path.
+struct Trial(Scene);
+
+impl Trial {
+    /// On the coarsest grid on which the contact is not lost.
+    fn new(scene: &Scene) -> Result<Self, Error> {
+        let mut grids = vec![scene.grid];
+        while let Some(coarse) = grids.last().and_then(halved) {
+            grids.push(coarse);
+        }
+        let mut trial = scene.clone();
+        let solver = &mut trial.settings.solver;
+        solver.tolerance = solver.tolerance.max(solver.path_tolerance * 2e-3);
+        let rolls = scene.path.branches.iter().any(|b| b.to.rolled != 0.0);
+        while let Some(grid) = grids.pop() {
+            if rolls && !grids.is_empty() {
+                continue;
+            }
+            trial.grid = grid;
+            let mut once = trial.clone();
+            once.path
+                .branches
+                .iter_mut()
+                .for_each(|b| b.increments = Some(1));
+            if grids.is_empty() || most_contact(&once)? >= CONTACT {
+                break;
+            }
+        }
+        Ok(Self(trial))
+    }
+
+    /// Estimated error of the shear at the end of each branch.
+    fn errors(&mut self, path: &LoadPath) -> Result<Vec<f64>, Error> {
+        let mut twice = path.clone();
+        twice
+            .branches
+            .iter_mut()
+            .for_each(|b| b.increments = Some(2 * b.count()));
+        let change = self.change(path, &twice)?;
+        let part = 1.0 - 0.5_f64.powf(ORDER);
+        Ok(change.into_iter().map(|change| change / part).collect())
+    }
+
+    /// The change of the shear at the end of each branch from few increments to many, over the
+    /// largest shear.
+    fn change(&mut self, few: &LoadPath, many: &LoadPath) -> Result<Vec<f64>, Error> {
+        let (few, many) = (self.shear(few)?, self.shear(many)?);
+        let norm = |q: &[Vec<f64>; 2]| q.iter().flatten().map(|q| q * q).sum::<f64>().sqrt();
+        let largest = many.iter().map(norm).fold(f64::MIN_POSITIVE, f64::max);
+        let pairs = few.iter().zip(&many);
+        Ok(pairs
+            .map(|(few, many)| {
+                let off = few.iter().flatten().zip(many.iter().flatten());
+                let squares: f64 = off.map(|(a, b)| (a - b) * (a - b)).sum();
+                squares.sqrt() / largest
+            })
+            .collect())
+    }
+
+    /// The shear at the end of each branch.
+    fn shear(&mut self, path: &LoadPath) -> Result<Vec<[Vec<f64>; 2]>, Error> {
+        self.0.path = path.clone();
+        let mut march = March::new(&self.0)?;
+        let mut ends = Vec::new();
+        while let Some(increment) = march.advance() {
+            if increment?.point.ends_branch {
+                ends.push(march.state().interface.q.clone());
+            }
+        }
+        Ok(ends)
+    }
+}
+
+/// The most contact cells that the branches end with.
+fn most_contact(scene: &Scene) -> Result<usize, Error> {
+    let cell_area = scene.grid.cell_area();
+    let mut march = March::new(scene)?;
+    let mut most = 0.0_f64;
+    while let Some(increment) = march.advance() {
+        most = most.max(increment?.contact_area);
+    }
+    Ok((most / cell_area).round() as usize)
+}
+
+/// The grid of half as many cells each way, if there is one that is not too coarse.
+fn halved(grid: &Grid) -> Option<Grid> {
+    let Grid { nx, ny, dx, dy, .. } = *grid;
+    let line = grid.plane_strain;
+    let even = nx.is_multiple_of(2) && (line || ny.is_multiple_of(2));
+    let enough = if line {
+        nx / 2 >= CONTACT
+    } else {
+        nx * ny / 4 >= CELLS
+    };
+    (even && enough).then(|| Grid {
+        nx: nx / 2,
+        ny: if line { ny } else { ny / 2 },
+        dx: 2.0 * dx,
+        dy: if line { dy } else { 2.0 * dy },
+        ..*grid
+    })
+}
