@@ -27,6 +27,8 @@ const FIRST: (usize, usize) = (12, 6);
 const AIM: f64 = 0.8;
 /// Most that the number of increments of a branch grows by in a round.
 const GROWTH: f64 = 4.0;
+/// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.
+const SOLVED: f64 = 4e-4;
 /// Rounds of choosing.
 const ROUNDS: usize = 6;
 /// Most increments of a path that are chosen.
@@ -143,7 +145,7 @@ impl Trial {
         }
         let mut trial = scene.clone();
         let solver = &mut trial.settings.solver;
-        solver.tolerance = solver.tolerance.max(solver.path_tolerance * 2e-3);
+        solver.tolerance = solver.tolerance.max(solver.path_tolerance * SOLVED);
         let rolls = scene.path.branches.iter().any(|b| b.to.rolled != 0.0);
         while let Some(grid) = grids.pop() {
             if rolls && !grids.is_empty() {
