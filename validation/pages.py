@@ -45,7 +45,9 @@ def convergence(outcome: Outcome, file: Path) -> None:
     if outcome.increments is not None:
         ladders.append((outcome.increments, "increments"))
     with fret.plot.style():
-        figure, row = plt.subplots(1, len(ladders), figsize=(4.2 * len(ladders), 3.2), squeeze=False)
+        figure, row = plt.subplots(
+            1, len(ladders), figsize=(1.6 + 3.8 * len(ladders), 3.2), squeeze=False
+        )
         for ax, (ladder, counted) in zip(row[0], ladders, strict=True):
             for name in ladder.names():
                 errors = [abs(error) for error in ladder.errors(name)]
@@ -58,7 +60,7 @@ def convergence(outcome: Outcome, file: Path) -> None:
             ax.set(xlabel=counted, ylabel="error")
             ax.set_xticks(ladder.sizes, [str(n) for n in ladder.sizes])
             ax.minorticks_off()
-            ax.legend(fontsize=7)
+        row[0][-1].legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
         figure.savefig(file, dpi=DPI)
         plt.close(figure)
 
@@ -73,10 +75,13 @@ def write(outcome: Outcome, folder: Path) -> None:
         plt.close(figure)
     convergence(outcome, folder / f"{truth.name}_error.png")
     finest = outcome.grids.known[-1]
-    numbers = ["| number | ours | truth | error |", "|---|---|---|---|"]
+    numbers = ["| number | ours | truth | error | estimated error |", "|---|---|---|---|---|"]
+    bars = outcome.grids.bars[-1]
     for name, known in finest.items():
+        size = abs(known.truth if known.scale is None else known.scale)
+        bar = f"{100 * bars[name] / size:.2g} %" if name in bars else ""
         numbers.append(
-            f"| {name} | {known.ours:.6g} | {known.truth:.6g} | {percent(known.error)} |"
+            f"| {name} | {known.ours:.6g} | {known.truth:.6g} | {percent(known.error)} | {bar} |"
         )
     parts = [
         f"# {truth.title}",

@@ -61,12 +61,12 @@ def solve(n: int) -> tuple[Results, fret.Result, float]:
 def q_over(result: fret.Result, t: float) -> Array:
     """q_x along y = 0 over mu p_H."""
     at = result.at(t)
-    return at.along_x().q_x.values / (at.mu * at.p_H)
+    q: Array = at.along_x().q_x.values / (at.mu * at.p_H)
+    return q
 
 
 def outwards(result: fret.Result) -> float:
-    """Shear on the coated body away from the middle, over mu p_H, after the indentation; mean of
-    the contact, inwards negative."""
+    """Mean outward shear on the coated body after the indentation, over mu p_H."""
     at = result.at(0.1)
     x, y = at.x.values[:, None], at.y.values[None, :]
     q_r = (at.q_x.values * x + at.q_y.values * y) / np.hypot(x, y)

@@ -15,11 +15,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Ladder:
-    """A truth met by ever finer runs: errors of every number, order, run times."""
+    """A truth met by ever finer runs: errors of every number, order, run times with error bars."""
 
     sizes: tuple[int, ...]
     seconds: list[float]
     known: list[dict[str, Known]]
+    #: Estimated error of every number that has an error bar, in its own unit.
+    bars: list[dict[str, float]]
 
     def names(self) -> list[str]:
         """Names of the numbers."""
@@ -28,6 +30,15 @@ class Ladder:
     def errors(self, name: str) -> list[float]:
         """Errors of a number, over its truth or its scale."""
         return [known[name].error for known in self.known]
+
+    def honesty(self) -> list[float]:
+        """True error over estimated error of every number with an error bar, on every grid."""
+        return [
+            abs(known[name].ours - known[name].truth) / bar
+            for known, bars in zip(self.known, self.bars, strict=True)
+            for name, bar in bars.items()
+            if bar > 0
+        ]
 
     def order(self, name: str) -> float:
         """Order that a number converges with."""
@@ -51,23 +62,30 @@ class Outcome:
 
 
 def climb(
-    truth: Truth, scene: Callable[[int], fret.Scene], sizes: tuple[int, ...]
+    truth: Truth, scene: Callable[[int], fret.Scene], sizes: tuple[int, ...], *, error: bool
 ) -> tuple[Ladder, fret.Result]:
-    """Solve the scene at every size; the ladder, and the last result."""
-    seconds, known = [], []
+    """Solve the scene at every size, with error bars or not; the ladder, and the last result."""
+    seconds, known, bars = [], [], []
     for size in sizes:
         started = time.perf_counter()
-        result = fret.solve(scene(size), progress=False)
+        result = fret.solve(scene(size), progress=False, error=error)
         seconds.append(time.perf_counter() - started)
         known.append(truth.known(result))
-    return Ladder(sizes, seconds, known), result
+        bars.append(error_bars(result, known[-1]) if error else {})
+    return Ladder(sizes, seconds, known, bars), result
+
+
+def error_bars(result: fret.Result, known: dict[str, Known]) -> dict[str, float]:
+    """Estimated errors of the numbers that have one."""
+    bars = result.error_bars()
+    return {name: float(bars[k.of][-1]) for name, k in known.items() if k.of is not None}
 
 
 def run(truth: Truth, *, quick: bool = False) -> Outcome:
     """Solve a truth; `quick` on its two coarsest grids and with its two smallest numbers."""
     part = slice(2) if quick else slice(None)
-    grids, finest = climb(truth, truth.scene, truth.grids[part])
+    grids, finest = climb(truth, truth.scene, truth.grids[part], error=True)
     increments = None
     if truth.path is not None:
-        increments, _ = climb(truth, truth.path, truth.increments[part])
+        increments, _ = climb(truth, truth.path, truth.increments[part], error=False)
     return Outcome(truth, finest, grids, increments)

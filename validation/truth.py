@@ -19,11 +19,15 @@ if TYPE_CHECKING:
 
 
 class Known(NamedTuple):
-    """A number of ours and what it should be; errors are over the truth, or over `scale`."""
+    """A number of ours and what it should be; errors are over the truth, or over `scale`.
+
+    `of` is the variable of the result, at its end, that it is, where that has an error bar.
+    """
 
     ours: float
     truth: float
     scale: float | None = None
+    of: str | None = None
 
     @property
     def error(self) -> float:

@@ -1612,6 +1612,7 @@ def solve(
     *,
     store: str | PathLike[str],
     checkpoint: float = 5.0,
+    error: bool = False,
     on_increment: Callable[[int], object] | None = None,
 ) -> None:
     """Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.

@@ -306,6 +306,23 @@ class Result:
         here = fields.sel(increment=increment).drop_vars(("saved_increment", "saved_t"))
         return Snapshot(here)
 
+    def error_bars(self) -> xr.Dataset:
+        """Errors that the cells leave in the numbers at the end of every branch.
+
+        They are estimated from a run on half as many cells each way, which
+        ``solve(..., error=True)`` and ``fret run --error`` do. Increments and solver are the same
+        there: their errors are no part of it.
+        """
+        bars = self.dataset.attrs.get("error_bars")
+        if not bars:
+            raise ValueError(
+                "the run has no error bars: solve(..., error=True) or fret run --error"
+            )
+        table = xr.Dataset(coords={"branch": [bar["branch"] for bar in bars]})
+        for name in (name for name in bars[0] if name != "branch"):
+            table[name] = ("branch", [bar[name] for bar in bars], self.dataset[name].attrs)
+        return table
+
     def branches(self) -> xr.Dataset:
         """Scalars at the end of every branch; energies and work are sums over the branch."""
         of = self.dataset.branch_of_increment.values

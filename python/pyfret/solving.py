@@ -29,6 +29,7 @@ def solve(
     save: Literal["branches", "all"] | Sequence[int] | None = None,
     out: str | os.PathLike[str] | None = None,
     checkpoint: float = 5.0,
+    error: bool = False,
     progress: bool = True,
 ) -> Result:
     """Run through the load path and give the scalars of all increments and the fields of some.
@@ -50,6 +51,9 @@ def solve(
         Seconds of the run between two checkpoints, what a crash may lose; 0 for one after every
         increment. The ends of branches have theirs too, unless that costs more than 3 % of the
         run.
+    error : bool
+        Whether to run the path once more on half as many cells each way, for
+        :meth:`Result.error_bars`.
     progress : bool
         Whether to draw a progress bar on a terminal or in a notebook.
 
@@ -65,11 +69,13 @@ def solve(
     scene = scene.replace(path=path, save=save)
     with Progress(len(scene.path), title=scene.title or "fretting", shown=progress) as bar:
         if out is not None:
-            _core.solve(scene, store=out, checkpoint=checkpoint, on_increment=bar.update)
+            _core.solve(
+                scene, store=out, checkpoint=checkpoint, error=error, on_increment=bar.update
+            )
             return open(out)
         with tempfile.TemporaryDirectory(prefix="pyfret-", dir=memory(scene)) as folder:
             store = Path(folder) / "run.zarr"
-            _core.solve(scene, store=store, on_increment=bar.update)
+            _core.solve(scene, store=store, error=error, on_increment=bar.update)
             return Result(open(store).dataset.load())
 
 

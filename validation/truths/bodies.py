@@ -13,12 +13,15 @@ from validation.truth import Known, Truth, l2
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from validation.truth import Array
+
 ROUND = hertz(STEEL, STEEL)
 
 
-def distance(at: fret.Snapshot) -> np.ndarray:
+def distance(at: fret.Snapshot) -> Array:
     """Distance of the cells from the middle [m], shape (nx, ny)."""
-    return np.hypot(at.x.values[:, None], at.y.values[None, :])
+    r: Array = np.hypot(at.x.values[:, None], at.y.values[None, :])
+    return r
 
 
 def hertz_known(result: fret.Result) -> dict[str, Known]:
@@ -26,9 +29,9 @@ def hertz_known(result: fret.Result) -> dict[str, Known]:
     at = result.at(-1)
     p = ROUND.p(distance(at))
     return {
-        "a": Known(float(at.contact_radius), ROUND.a),
-        "p_max": Known(float(at.p_max), ROUND.p0),
-        "delta_z": Known(float(at.delta_z), ROUND.delta_z),
+        "a": Known(float(at.contact_radius), ROUND.a, of="contact_radius"),
+        "p_max": Known(float(at.p_max), ROUND.p0, of="p_max"),
+        "delta_z": Known(float(at.delta_z), ROUND.delta_z, of="delta_z"),
         "p, L2": l2(at.p.values, p),
         "p continued to the rim, L2": l2(at.p_continued().values, p),
     }
@@ -82,9 +85,9 @@ def oval_known(result: fret.Result) -> dict[str, Known]:
     p = OVAL.p0 * np.sqrt(np.maximum(1 - x**2 - y**2, 0))
     return {
         "contact area": Known(float(at.contact_area), np.pi * OVAL.a_x * OVAL.a_y),
-        "p_max": Known(float(at.p_max), OVAL.p0),
-        "delta_z": Known(float(at.delta_z), OVAL.delta_z),
-        "stick ratio": Known(float(at.stick_ratio), STICK_OVAL**2),
+        "p_max": Known(float(at.p_max), OVAL.p0, of="p_max"),
+        "delta_z": Known(float(at.delta_z), OVAL.delta_z, of="delta_z"),
+        "stick ratio": Known(float(at.stick_ratio), STICK_OVAL**2, of="stick_ratio"),
         "p, L2": l2(at.p.values, p),
     }
 

@@ -49,9 +49,9 @@ def known(result: fret.Result, *, ratio: float, h: float) -> dict[str, Known]:
     truth, at = closed_form(ratio, h), result.at(-1)
     p = truth.p(distance(at))
     return {
-        "a": Known(float(at.contact_radius), truth.a),
-        "p_max": Known(float(at.p_max), float(truth.p(0.0))),
-        "delta_z": Known(float(at.delta_z), truth.delta_z),
+        "a": Known(float(at.contact_radius), truth.a, of="contact_radius"),
+        "p_max": Known(float(at.p_max), float(truth.p(0.0)), of="p_max"),
+        "delta_z": Known(float(at.delta_z), truth.delta_z, of="delta_z"),
         "p, L2": l2(at.p.values, p),
         "p continued to the rim, L2": l2(at.p_continued().values, p),
     }
@@ -80,7 +80,8 @@ def page(ratio: float, h: float) -> Truth:
         name=f"coated_{ratio:g}_{h:g}".replace(".", ""),
         title=f"Coated indentation, E1/E2 = {ratio:g}, h = {h:g} a0",
         law=(
-            "A rigid sphere on a coated half-space, no friction: the dual integral equations of the "
+            "A rigid sphere on a coated half-space, no friction: the dual integral equations of "
+            "the "
             "layered response, solved by Gauss quadrature. $a_0$, $p_0$ are Hertz's of the bare "
             "substrate."
         ),
@@ -139,7 +140,8 @@ PAGES = (
         name="thin_layer",
         title="A thin compressible layer on a rigid base",
         law=(
-            "$p = (M/h)(\\delta_z - r^2/2R)$, $M = 2G(1-\\nu)/(1-2\\nu)$, $W = \\pi M a^4/(4hR)$: the "
+            "$p = (M/h)(\\delta_z - r^2/2R)$, $M = 2G(1-\\nu)/(1-2\\nu)$, $W = \\pi M "
+            "a^4/(4hR)$: the "
             "limit of a layer much thinner than the contact (K. L. Johnson, Contact Mechanics, "
             "sec. 5.8), here $a = 60\\,h$."
         ),

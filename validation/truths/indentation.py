@@ -46,9 +46,9 @@ def known(result: fret.Result, *, pair: str) -> dict[str, Known]:
     at = result.at(-1)
     return {
         "c/a": Known(float(np.sqrt(at.stick_ratio)), truth.stick_ratio),
-        "a": Known(float(at.contact_radius), a),
-        "p(0)": Known(float(at.p_max), truth.p0 * truth.W ** (2 / 3) * round_.p0),
-        "delta_z": Known(float(at.delta_z), truth.delta_z * a**2 / R),
+        "a": Known(float(at.contact_radius), a, of="contact_radius"),
+        "p(0)": Known(float(at.p_max), truth.p0 * truth.W ** (2 / 3) * round_.p0, of="p_max"),
+        "delta_z": Known(float(at.delta_z), truth.delta_z * a**2 / R, of="delta_z"),
     }
 
 

@@ -38,8 +38,8 @@ def bulk_known(result: fret.Result) -> dict[str, Known]:
     x, sliding = at.x.values, MU * LINE.p(at.x.values)
     return {
         "contact width": Known(float(at.contact_area), 2 * LINE.a),
-        "stick ratio": Known(float(at.stick_ratio), HALF / LINE.a),
-        "p_max": Known(float(at.p_max), LINE.p0),
+        "stick ratio": Known(float(at.stick_ratio), HALF / LINE.a, of="stick_ratio"),
+        "p_max": Known(float(at.p_max), LINE.p0, of="p_max"),
         "p, L2": l2(at.p.values[:, 0], LINE.p(x)),
         "q_x, L2": l2(at.q_x.values[:, 0], q_bulk(x), sliding),
     }
@@ -84,7 +84,7 @@ def rolling_known(result: fret.Result) -> dict[str, Known]:
     carter = LINE.q(x, T=T, mu=MU, middle=LINE.a - HALF)
     return {
         "creepage": Known(creepage, MU * (LINE.a - HALF) / R),
-        "stick ratio": Known(float(at.stick_ratio), HALF / LINE.a),
+        "stick ratio": Known(float(at.stick_ratio), HALF / LINE.a, of="stick_ratio"),
         "q_x, L2": l2(at.q_x.values[:, 0], carter, MU * LINE.p(x)),
     }
 
@@ -114,13 +114,13 @@ PAGES = (
         name="cylinder_bulk_stress",
         title="Cattaneo's cylinder with a bulk stress",
         law=(
-            "Plane strain, $T_x = 0.6\\,\\mu W$ and a bulk stress in body 2 in phase: the stick zone "
-            "keeps its width and moves by $a\\,\\sigma_B/(4\\mu p_0)$ (D. Nowell, D. A. Hills, Int. J. "
+            "Plane strain, $T_x = 0.6\\,\\mu W$ and a bulk stress in body 2 in phase: the stick "
+            "zone "
+            "keeps its width and moves by $a\\,\\sigma_B/(4\\mu p_0)$ (D. Nowell, D. A. Hills, "
+            "Int. J. "
             "Mech. Sci. 29 (1987) 355)."
         ),
-        scene=lambda n: cylinder(
-            pressed().force(T_x=T, sigma_B=SHIFTED, increments=10), n=n
-        ),
+        scene=lambda n: cylinder(pressed().force(T_x=T, sigma_B=SHIFTED, increments=10), n=n),
         known=bulk_known,
         draw=bulk_drawn,
         grids=(64, 128, 256, 512),

@@ -53,6 +53,8 @@ def cattaneo_known(result: fret.Result) -> dict[str, Known]:
             float(at.delta_x), float(CATTANEO.shift_loading(T))
         )
     q = CATTANEO.q_loading(r, T=T)
+    known["stick ratio"] = Known(float(at.stick_ratio), (c / ROUND.a) ** 2, of="stick_ratio")
+    known["delta_x"] = known.pop(f"delta_x at {part:g} mu W")._replace(of="delta_x")
     known[f"q_x at {part:g} mu W, L2"] = l2(at.q_x.values, q, MU * ROUND.p(r))
     return known
 
@@ -104,11 +106,9 @@ def loop_known(result: fret.Result) -> dict[str, Known]:
             float(back.delta_x), float(CATTANEO.shift_unloading(-T_M, T_m=T_M)), shift
         ),
         "delta_x at T_m": Known(
-            float(forth.delta_x), float(CATTANEO.shift_reloading(T_M, T_m=T_M)), shift
+            float(forth.delta_x), float(CATTANEO.shift_reloading(T_M, T_m=T_M)), shift, "delta_x"
         ),
-        "q_x at T_m, L2": l2(
-            forth.q_x.values, CATTANEO.q_reloading(r, T=T_M, T_m=T_M), sliding
-        ),
+        "q_x at T_m, L2": l2(forth.q_x.values, CATTANEO.q_reloading(r, T=T_M, T_m=T_M), sliding),
     }
 
 
@@ -159,6 +159,7 @@ def twisted_known(result: fret.Result) -> dict[str, Known]:
         c, at = part * TWISTED.a, result.at(n + 2)
         known[f"phi_z at c = {part:g} a"] = Known(float(at.phi_z), float(LUBKIN.phi(c)))
         known[f"c = {part:g} a"] = Known(stick_radius(at), c, TWISTED.a)
+    known["phi_z"] = known.pop(f"phi_z at c = {part:g} a")._replace(of="phi_z")
     return known
 
 
@@ -177,7 +178,9 @@ def twisted_drawn(figure: Figure, result: fret.Result) -> None:
         at = result.at(n + 2)
         x, q = at.x.values, at.q_y.values[:, at.y.size // 2]
         truth = np.sign(x) * LUBKIN.q(np.abs(x), c=part * TWISTED.a)
-        (drawn,) = shear.plot(x / TWISTED.a, truth / (MU * TWISTED.p0), lw=1, label=f"$c = {part:g}\\,a$")
+        (drawn,) = shear.plot(
+            x / TWISTED.a, truth / (MU * TWISTED.p0), lw=1, label=f"$c = {part:g}\\,a$"
+        )
         shear.plot(x / TWISTED.a, q / (MU * TWISTED.p0), ".", ms=3, color=drawn.get_color())
     shear.set(xlabel="$x/a$", ylabel=r"$q_\theta/(\mu p_0)$", xlim=(-1.1, 1.1))
     shear.legend()
@@ -215,7 +218,7 @@ def wandering_known(result: fret.Result) -> dict[str, Known]:
     gap = float(np.abs(ours[ends] - truth[ends]).max())
     return {
         "delta_x, worst end of a branch": Known(gap, 0.0, float(np.ptp(truth))),
-        "delta_x at the end": Known(ours[-1], truth[-1], float(np.ptp(truth))),
+        "delta_x at the end": Known(ours[-1], truth[-1], float(np.ptp(truth)), "delta_x"),
     }
 
 
@@ -252,7 +255,7 @@ def oblique_known(result: fret.Result) -> dict[str, Known]:
     return {
         "q_x against k p, L2": l2(at.q_x.values, SLOPE * at.p.values),
         "stick ratio": Known(float(at.stick_ratio), 1.0),
-        "delta_x": Known(float(at.delta_x), proportional),
+        "delta_x": Known(float(at.delta_x), proportional, of="delta_x"),
     }
 
 
@@ -308,7 +311,8 @@ PAGES = (
         name="torsion",
         title="Lubkin: torsion",
         law=(
-            "$G a^2 \\varphi_z/(\\mu W) = \\frac{3}{4\\pi}[K(k) - E(k)]$, $k^2 = 1 - (c/a)^2$, exact "
+            "$G a^2 \\varphi_z/(\\mu W) = \\frac{3}{4\\pi}[K(k) - E(k)]$, $k^2 = 1 - (c/a)^2$, "
+            "exact "
             "for every $\\nu$ (J. L. Lubkin, J. Appl. Mech. 18 (1951) 183)."
         ),
         scene=twisted,
@@ -335,8 +339,10 @@ PAGES = (
         name="oblique",
         title="Oblique loading from nothing",
         law=(
-            "$W$ and $T_x = kW$, $k = 1/5 < \\mu$, grow together: nothing slips and $q_x = k\\,p$ in "
-            "every cell, $\\delta_x = k\\,\\delta_z E^*/(4 G^*)$ (R. D. Mindlin, H. Deresiewicz 1953)."
+            "$W$ and $T_x = kW$, $k = 1/5 < \\mu$, grow together: nothing slips and $q_x = "
+            "k\\,p$ in "
+            "every cell, $\\delta_x = k\\,\\delta_z E^*/(4 G^*)$ (R. D. Mindlin, H. Deresiewicz "
+            "1953)."
         ),
         scene=oblique,
         known=oblique_known,

@@ -105,7 +105,8 @@ PAGES = (
         name="mcewen",
         title="McEwen: stress below a cylinder in partial slip",
         law=(
-            "Plane strain, $T_x = 0.6\\,\\mu W$: the difference of two elliptical tractions (E. McEwen, "
+            "Plane strain, $T_x = 0.6\\,\\mu W$: the difference of two elliptical tractions (E. "
+            "McEwen, "
             "Phil. Mag. 40 (1949) 454)."
         ),
         scene=lambda n: cylinder(

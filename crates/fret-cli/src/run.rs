@@ -6,8 +6,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use clap::Args;
-use contact_core::march::{Increment, March, Observer, choose_increments, solve};
-use contact_core::output::StoreWriter;
+use contact_core::march::{
+    Increment, March, Observer, choose_increments, coarser, error_bars, solve,
+};
+use contact_core::output::{StoreWriter, write_error_bars};
 use contact_core::{Error, Scene};
 
 use crate::progress::Progress;
@@ -24,6 +26,10 @@ pub(crate) struct Options {
     /// Replace a result store that exists
     #[arg(long)]
     overwrite: bool,
+    /// Run the path once more on half as many cells each way and give every headline number with
+    /// the error that the cells leave
+    #[arg(long)]
+    error: bool,
     #[command(flatten)]
     manner: Manner,
 }
@@ -51,13 +57,26 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// Runs through the load path.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let scene = options.scene.read().map_err(Failure::BadInput)?;
+    if options.error {
+        coarser(&scene).map_err(Failure::BadInput)?;
+    }
     let manner = &options.manner;
     manner.use_threads();
     let scene = choose_increments(&scene).map_err(ended)?;
     let writer = StoreWriter::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
+    let mut increments = Vec::new();
     manner.watch(&scene, &options.out, writer, Vec::new(), |watcher| {
-        solve(&scene, watcher)
-    })
+        increments = solve(&scene, watcher)?;
+        Ok(increments.clone())
+    })?;
+    if options.error {
+        let bars = error_bars(&scene, &increments).map_err(ended)?;
+        write_error_bars(&options.out, &bars).map_err(ended)?;
+        if !manner.quiet {
+            print(&summary::error_table(&scene, &increments, &bars));
+        }
+    }
+    Ok(())
 }
 
 impl Manner {

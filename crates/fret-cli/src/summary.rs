@@ -2,7 +2,7 @@
 
 use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
-use contact_core::march::{BranchSummary, Increment, summarise};
+use contact_core::march::{BranchSummary, ErrorBars, Increment, summarise};
 use contact_core::scene::{Branch, LOADS, MOTIONS};
 
 /// Micrometres, or microjoules, per SI unit.
@@ -130,6 +130,48 @@ fn columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
         columns.push(column("pieces", |b, _| b.work.parts.to_string()));
     }
     columns
+}
+
+/// A number and its error, with as many decimals as the error has a say in.
+fn with_error(value: f64, error: f64) -> String {
+    let decimals = if error > 0.0 {
+        (1.0 - error.log10().floor()).clamp(0.0, 9.0) as usize
+    } else {
+        6
+    };
+    format!("{value:.decimals$} +- {error:.decimals$}")
+}
+
+/// The headline numbers at the end of every branch with the errors that the cells leave.
+pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[ErrorBars]) -> String {
+    let Measures { radius, pressure } = Measures::of(scene);
+    let mut table = Table::new();
+    table
+        .load_style(presets::ASCII_BORDERS_ONLY_CONDENSED)
+        .set_header([
+            "branch".to_owned(),
+            format!("contact radius\n[{}]", radius.0),
+            "stick ratio".to_owned(),
+            format!("p_max\n[{}]", pressure.0),
+            "approach delta_z\n[um]".to_owned(),
+            "shift delta_x\n[um]".to_owned(),
+            "dissipated\n[uJ]".to_owned(),
+        ]);
+    for (of, bar) in summarise(increments).iter().zip(bars) {
+        table.add_row([
+            (of.branch + 1).to_string(),
+            with_error(of.contact_radius / radius.1, bar.contact_radius / radius.1),
+            with_error(of.stick_ratio, bar.stick_ratio),
+            with_error(of.p_max / pressure.1, bar.p_max / pressure.1),
+            with_error(of.motion.delta_z * MICRO, bar.delta_z * MICRO),
+            with_error(of.motion.delta_x * MICRO, bar.delta_x * MICRO),
+            with_error(of.dissipated * MICRO, bar.dissipated * MICRO),
+        ]);
+    }
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    format!("errors of the cells, from half as many each way\n{table}")
 }
 
 /// One row per branch that has begun.

@@ -58,6 +58,22 @@ fn assert_bad_input(output: &Output, words: &[&str]) {
 }
 
 #[test]
+fn error_bars_stand_in_the_summary_and_in_the_store() {
+    let out = free("error.zarr");
+    let output = run(&out, &["--error"]);
+    let told = text(&output.stdout);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    // Six numbers at the end of each of four branches.
+    assert_eq!(told.matches("+-").count(), 24, "{told}");
+    Store::open(&out).unwrap();
+    let attributes = fs::read_to_string(out.join(".zattrs")).unwrap();
+    assert_eq!(attributes.matches("\"contact_radius\"").count(), 4);
+
+    let output = run(&free("odd.zarr"), &["--error", "--set", "grid.n=25"]);
+    assert_bad_input(&output, &["grid.n", "[25, 25]", "even"]);
+}
+
+#[test]
 fn a_run_says_what_it_does_and_leaves_a_store() {
     let out = free("run.zarr");
     let output = run(&out, &[]);

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use contact_core::Error;
-use contact_core::march::{Increment, March, Observer};
+use contact_core::march::{Increment, March, Observer, coarser, error_bars};
 use contact_core::output::{self, Resumed, StoreWriter};
 use pyo3::prelude::*;
 
@@ -77,19 +77,27 @@ fn watched(
 
 /// Runs a scene into a new result store; other Python threads go on meanwhile.
 #[pyfunction]
-#[pyo3(signature = (scene, *, store, checkpoint = 5.0, on_increment = None))]
+#[pyo3(signature = (scene, *, store, checkpoint = 5.0, error = false, on_increment = None))]
 pub(crate) fn solve(
     py: Python<'_>,
     scene: Scene,
     store: PathBuf,
     checkpoint: f64,
+    error: bool,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {
-    let writer = StoreWriter::create(store, false)
+    if error {
+        coarser(&scene.0).map_err(to_python)?;
+    }
+    let writer = StoreWriter::create(&store, false)
         .map_err(to_python)?
         .with_interval(interval(checkpoint)?);
     watched(py, writer, on_increment, |watch| {
-        contact_core::march::solve(&scene.0, watch)
+        let increments = contact_core::march::solve(&scene.0, watch)?;
+        if error {
+            output::write_error_bars(&store, &error_bars(&scene.0, &increments)?)?;
+        }
+        Ok(increments)
     })
 }
 

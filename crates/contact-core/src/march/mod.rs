@@ -7,6 +7,7 @@ mod carried;
 mod coarse;
 mod entering;
 mod equations;
+mod error_bars;
 mod fields;
 mod halving;
 mod increment;
@@ -18,6 +19,7 @@ mod slip_datum;
 mod solve;
 mod state;
 
+pub use error_bars::{ErrorBars, coarser, error_bars};
 pub use fields::Fields;
 pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
 pub use partial_cells::continued_pressure;

@@ -14,6 +14,7 @@
 
 mod catalogue;
 mod checkpoint;
+mod error_bars;
 mod folder;
 mod image_data;
 mod reader;
@@ -24,6 +25,7 @@ mod volume;
 mod writer;
 
 pub use catalogue::{FIELDS, Field, FieldView, Kind, SCALARS, Scalar};
+pub use error_bars::write_error_bars;
 pub use image_data::ImageData;
 pub use reader::Store;
 pub use resume::{Resumed, resume};
