@@ -1,0 +1,131 @@
+//! Increments chosen for an error of the path: is the error what it is said to be?
+//!
+//! Random coated scenes, each against a path of eight times the increments that were chosen. A few in
+//! the test; `FRET_PATH_ERRORS=50` for as many (`make path-errors`).
+
+use std::fmt::Write as _;
+
+use contact_core::march::{March, choose_increments};
+use contact_core::scene::{LoadPath, Scene};
+
+/// True error over estimate: within this in nine of ten scenes.
+const HONEST: (f64, f64) = (0.2, 1.5);
+/// Increments of the reference over those chosen.
+const FINER: usize = 8;
+
+/// Numbers in [0, 1) from a seed (S. Vigna's splitmix64).
+struct Draw(u64);
+
+impl Draw {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.next())
+    }
+}
+
+/// A sphere on a coated half-space, fretted.
+fn scene(seed: u64) -> Scene {
+    let mut draw = Draw(seed);
+    let mut text = String::from("schema = 1\n");
+    let (nu_1, nu_2) = (draw.next() * 0.45, draw.next() * 0.45);
+    let _ = write!(
+        text,
+        "[body1]\nshape.sphere.R = 0.01\nE = 210e9\nnu = {nu_1:.4}\n[body2]\nshape = \"flat\"\nE = {:e}\nnu = {:.4}\n",
+        draw.between(50e9, 800e9),
+        draw.next() * 0.45,
+    );
+    if draw.next() < 0.7 {
+        let _ = write!(
+            text,
+            "[[body2.coatings]]\nE = {:e}\nnu = {nu_2:.4}\nthickness = {{ a_H = {} }}\n",
+            draw.between(50e9, 800e9),
+            draw.between(0.1, 2.0),
+        );
+    }
+    let n = if draw.next() < 0.3 { 128 } else { 64 };
+    let mu = draw.between(0.1, 0.8);
+    let _ = write!(
+        text,
+        "[friction]\nmu = {mu}\n[grid]\nn = {n}\nextent = {{ a_H = 3.0 }}\n"
+    );
+    let tolerance = draw.between(3e-3, 2e-2);
+    let _ = write!(
+        text,
+        "[solver]\ntolerance = 1e-6\npath_tolerance = {tolerance}\n"
+    );
+    let (W, T) = (100.0, draw.between(0.3, 0.95));
+    let _ = write!(text, "[[path]]\nW = {W}\n");
+    for sign in [1.0, -1.0, 1.0] {
+        let part = sign * T;
+        let _ = write!(text, "[[path]]\nT_x = {{ mu_W = {part} }}\n");
+    }
+    if draw.next() < 0.3 {
+        let _ = write!(text, "[[path]]\nW = {}\nT_x = {{ mu_W = 0.2 }}\n", 0.8 * W);
+    }
+    Scene::from_toml_str(&text, "drawn", &[]).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// The shear at the ends of the branches.
+fn ends(scene: &Scene, path: &LoadPath) -> Vec<[Vec<f64>; 2]> {
+    let mut scene = scene.clone();
+    scene.path = path.clone();
+    let mut march = March::new(&scene).expect("a scene");
+    let mut ends = Vec::new();
+    while let Some(increment) = march.advance() {
+        if increment.expect("an increment").point.ends_branch {
+            ends.push(march.state().interface.q.clone());
+        }
+    }
+    ends
+}
+
+fn norm(q: impl Iterator<Item = f64>) -> f64 {
+    q.map(|q| q * q).sum::<f64>().sqrt()
+}
+
+/// The largest error and the largest estimate over the branches of a scene, and the tolerance.
+fn compared(seed: u64) -> (f64, f64, f64) {
+    let drawn = scene(seed);
+    let chosen = choose_increments(&drawn).unwrap_or_else(|e| panic!("{seed}: {e}"));
+    let estimate = chosen.path.branches.iter().filter_map(|b| b.path_error);
+    let estimate = estimate.fold(0.0, f64::max);
+    let mut finer = chosen.path.clone();
+    for branch in &mut finer.branches {
+        branch.increments = branch.increments.map(|n| FINER * n);
+    }
+    let (few, many) = (ends(&chosen, &chosen.path), ends(&chosen, &finer));
+    let largest = many.iter().map(|q| norm(q.iter().flatten().copied()));
+    let largest = largest.fold(0.0, f64::max);
+    let errors = few.iter().zip(&many).map(|(few, many)| {
+        let pairs = few.iter().flatten().zip(many.iter().flatten());
+        norm(pairs.map(|(a, b)| a - b)) / largest
+    });
+    let tolerance = drawn.settings.solver.path_tolerance;
+    (errors.fold(0.0, f64::max), estimate, tolerance)
+}
+
+#[test]
+fn the_estimated_error_of_the_path_is_honest() {
+    let asked = std::env::var("FRET_PATH_ERRORS").ok();
+    let scenes: u64 = asked.map_or(5, |n| n.parse().expect("a number of scenes"));
+    let (mut honest, mut met) = (0, 0);
+    for seed in 0..scenes {
+        let (error, estimate, tolerance) = compared(seed);
+        let ratio = error / estimate;
+        println!(
+            "{seed:3}: error {error:.2e}, estimate {estimate:.2e}, tolerance {tolerance:.2e}, ratio {ratio:.2}"
+        );
+        met += u64::from(estimate <= tolerance);
+        honest += u64::from((HONEST.0..=HONEST.1).contains(&ratio));
+    }
+    println!("{honest} of {scenes} within {HONEST:?}, {met} within their tolerance");
+    assert!(10 * met >= 9 * scenes, "{met} of {scenes}");
+    assert!(10 * honest >= 9 * scenes, "{honest} of {scenes}");
+}
