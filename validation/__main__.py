@@ -9,12 +9,14 @@ from pathlib import Path
 import numpy as np
 
 import pyfret as fret
-from validation import pages, paper
+from validation import pages, paper, work_precision
 from validation.runner import run
 from validation.truths import TRUTHS
 
+#: Pages that are no truths.
+OTHERS = ("paper", "work_precision")
 #: Cells a side of the paper's runs, and of a quick look.
-CELLS, QUICK_CELLS = 256, 32
+CELLS, WORK_CELLS, QUICK_CELLS = 256, 64, 32
 
 
 def main() -> None:
@@ -23,7 +25,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("docs/validation"), help="its folder")
     parser.add_argument("--quick", action="store_true", help="coarse grids only, for a look")
     names = [truth.name for truth in TRUTHS]
-    parser.add_argument("--only", nargs="+", choices=[*names, "paper"], help="these pages alone")
+    parser.add_argument("--only", nargs="+", choices=[*names, *OTHERS], help="these pages alone")
     options = parser.parse_args()
     out: Path = options.out
     out.mkdir(parents=True, exist_ok=True)
@@ -37,13 +39,15 @@ def main() -> None:
             rows.append(pages.front_row(outcome))
             ratios += outcome.grids.honesty()
             print(rows[-1], flush=True)
-    figures = []
+    figures, work = [], ""
     if options.only is None or "paper" in options.only:
         figures = paper.write(out, n=QUICK_CELLS if options.quick else CELLS)
         print(*figures, sep="\n", flush=True)
+    if options.only is None or "work_precision" in options.only:
+        work = work_precision.write(out, n=QUICK_CELLS if options.quick else WORK_CELLS)
     if options.only is None:
         seconds = time.perf_counter() - started
-        front(out, rows, figures, honesty(ratios), seconds)
+        front(out, rows, figures, f"{honesty(ratios)}\n\n{work}", seconds)
         print(f"{seconds:.0f} s")
 
 
@@ -59,7 +63,7 @@ def honesty(ratios: list[float]) -> str:
     )
 
 
-def front(folder: Path, rows: list[str], figures: list[str], honest: str, seconds: float) -> None:
+def front(folder: Path, rows: list[str], figures: list[str], others: str, seconds: float) -> None:
     """Write the front page."""
     parts = [
         "# Validation",
@@ -75,7 +79,7 @@ def front(folder: Path, rows: list[str], figures: list[str], honest: str, second
                 *rows,
             ]
         ),
-        honest,
+        others,
         "## The paper's figures",
         "\n".join(["| figure | the paper says | ours |", "|---|---|---|", *figures]),
     ]

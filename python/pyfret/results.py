@@ -311,7 +311,8 @@ class Result:
 
         They are estimated from a run on half as many cells each way, which
         ``solve(..., error=True)`` and ``fret run --error`` do. Increments and solver are the same
-        there: their errors are no part of it.
+        there: their errors are no part of it. ``path_error`` is what the increments leave in the
+        shear at the end of the branch, over the largest shear of the path (L2).
         """
         bars = self.dataset.attrs.get("error_bars")
         if not bars:
@@ -320,7 +321,8 @@ class Result:
             )
         table = xr.Dataset(coords={"branch": [bar["branch"] for bar in bars]})
         for name in (name for name in bars[0] if name != "branch"):
-            table[name] = ("branch", [bar[name] for bar in bars], self.dataset[name].attrs)
+            attrs = self.dataset[name].attrs if name in self.dataset else {"units": "1"}
+            table[name] = ("branch", [bar[name] for bar in bars], attrs)
         return table
 
     def branches(self) -> xr.Dataset:

@@ -106,7 +106,8 @@ def rolling_drawn(figure: Figure, result: fret.Result) -> None:
     slope = np.diff(d.delta_x.values[1:]) / np.diff(d.rolled.values[1:])
     creep.plot(d.rolled.values[2:] / LINE.a, slope * R / (MU * (LINE.a - HALF)))
     creep.axhline(1.0, color="0.4", ls="--", lw=0.8)
-    creep.set(xlabel="way rolled over $a$", ylabel="creepage over Carter's", ylim=(0, 1.1))
+    creep.set(xlabel="way rolled over $a$", ylabel="creepage over Carter's")
+    creep.set_ylim(bottom=0.0)
 
 
 PAGES = (

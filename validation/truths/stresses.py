@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import pyfret as fret
+from pyfret.plot.stresses import SYMBOLS
 from validation.scenes import LINE_W, MU, STEEL, W, cylinder, hertz, line, sphere
 from validation.truth import Known, Truth, l2
 
@@ -46,7 +47,7 @@ def axis_drawn(figure: Figure, result: fret.Result) -> None:
     ax = figure.subplots()
     ours = below(result)
     for name, s in hamilton(DEPTHS).items():
-        (drawn,) = ax.plot(DEPTHS / ROUND.a, s / ROUND.p0, lw=1, label=name)
+        (drawn,) = ax.plot(DEPTHS / ROUND.a, s / ROUND.p0, lw=1, label=f"${SYMBOLS[name]}$")
         values = ours.measure(name).values / ROUND.p0
         ax.plot(DEPTHS / ROUND.a, values, ".", ms=4, color=drawn.get_color())
     ax.set(xlabel="$z/a$", ylabel=r"$\sigma/p_0$", title="lines: closed form, dots: ours")
@@ -83,7 +84,9 @@ def line_drawn(figure: Figure, result: fret.Result) -> None:
             x, ours, truth = line_stress(result, z)
             (drawn,) = ax.plot(x / LINE.a, truth[name] / LINE.p0, lw=1, label=f"$z = {z:g}\\,a$")
             ax.plot(x / LINE.a, ours[name] / LINE.p0, ".", ms=2, color=drawn.get_color())
-        ax.set(xlabel="$x/a$", ylabel=f"{name}$/p_0$", title="lines: closed form, dots: ours")
+        ax.set(
+            xlabel="$x/a$", ylabel=f"${SYMBOLS[name]}/p_0$", title="lines: closed form, dots: ours"
+        )
         ax.legend()
 
 

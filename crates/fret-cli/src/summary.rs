@@ -156,6 +156,7 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
             "approach delta_z\n[um]".to_owned(),
             "shift delta_x\n[um]".to_owned(),
             "dissipated\n[uJ]".to_owned(),
+            "shear, path\n[%]".to_owned(),
         ]);
     for (of, bar) in summarise(increments).iter().zip(bars) {
         table.add_row([
@@ -166,12 +167,15 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
             with_error(of.motion.delta_z * MICRO, bar.delta_z * MICRO),
             with_error(of.motion.delta_x * MICRO, bar.delta_x * MICRO),
             with_error(of.dissipated * MICRO, bar.dissipated * MICRO),
+            format!("+- {:.2}", 100.0 * bar.path_error),
         ]);
     }
     for column in table.column_iter_mut() {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    format!("errors of the cells, from half as many each way\n{table}")
+    format!(
+        "errors: of the cells, from half as many each way; of the shear from the increments\n{table}"
+    )
 }
 
 /// One row per branch that has begun.

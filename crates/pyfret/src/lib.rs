@@ -11,6 +11,7 @@
 )]
 
 mod error;
+mod history;
 mod interruptible;
 mod kernels;
 mod march;
@@ -18,6 +19,7 @@ mod operator;
 mod reference;
 mod result;
 mod scene;
+mod stress;
 mod subsurface;
 
 use pyo3::prelude::*;
@@ -57,9 +59,11 @@ mod _core {
     };
 
     #[pymodule_export]
-    use crate::subsurface::{
-        Envelope, Subsurface, depths, loops, maximum, measure, principal, probe_labels, rims,
-    };
+    use crate::history::{Envelope, loops};
+    #[pymodule_export]
+    use crate::stress::{maximum, measure, principal, probe_labels, rims};
+    #[pymodule_export]
+    use crate::subsurface::{Subsurface, depths};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

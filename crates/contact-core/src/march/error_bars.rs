@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{BranchSummary, Increment, solve, summarise};
+use super::{BranchSummary, Increment, estimate_path_error, solve, summarise};
 use crate::error::Error;
 use crate::scene::{Grid, SaveFields, Scene};
 
@@ -14,7 +14,8 @@ const RIM: f64 = 1.0;
 /// Order m of all others.
 const SMOOTH: f64 = 1.5;
 
-/// Estimated errors of the numbers at the end of a branch, >= 0, from the cells alone.
+/// Estimated errors of the numbers at the end of a branch, >= 0: those that the cells leave, and that
+/// of the shear that the increments leave.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorBars {
     /// Branch, from 0.
@@ -35,11 +36,13 @@ pub struct ErrorBars {
     pub phi_z: f64,
     /// Of the energy dissipated in the branch \[J\].
     pub dissipated: f64,
+    /// Of the shear, from the increments alone: L2, over the largest shear of the path.
+    pub path_error: f64,
 }
 
 impl ErrorBars {
     /// From the same branch on both grids.
-    fn between(fine: &BranchSummary, coarse: &BranchSummary) -> Self {
+    fn between(fine: &BranchSummary, coarse: &BranchSummary, path_error: f64) -> Self {
         let bar = |order: f64, f: f64, c: f64| (f - c).abs() / (order.exp2() - 1.0);
         let (m, n) = (&fine.motion, &coarse.motion);
         Self {
@@ -52,6 +55,7 @@ impl ErrorBars {
             delta_y: bar(SMOOTH, m.delta_y, n.delta_y),
             phi_z: bar(SMOOTH, m.phi_z, n.phi_z),
             dissipated: bar(SMOOTH, fine.dissipated, coarse.dissipated),
+            path_error,
         }
     }
 }
@@ -59,14 +63,17 @@ impl ErrorBars {
 /// Solves the scene again on a grid of half as many cells each way, at a fourth of the work or less,
 /// and gives the errors of the branches of `fine`, its increments on its own grid.
 ///
-/// Increments and solver are the same on both grids, so that their errors, and what a rough surface
-/// says between its cells, are no part of it.
+/// Increments and solver are the same on both grids: their errors, and what a rough surface says
+/// between its cells, are no part of these numbers. What the increments leave is told of the shear,
+/// from runs with fewer or more of them.
 pub fn error_bars(scene: &Scene, fine: &[Increment]) -> Result<Vec<ErrorBars>, Error> {
+    let scene = &estimate_path_error(scene)?;
     let coarse = solve(&coarser(scene)?, &mut ())?;
+    let of_path = |branch: usize| scene.path.branches[branch].path_error.unwrap_or(0.0);
     Ok(summarise(fine)
         .iter()
         .zip(&summarise(&coarse))
-        .map(|(fine, coarse)| ErrorBars::between(fine, coarse))
+        .map(|(fine, coarse)| ErrorBars::between(fine, coarse, of_path(fine.branch)))
         .collect())
 }
 

@@ -3,7 +3,7 @@
 use contact_core::kernels::Stack;
 use contact_core::reference::hertz;
 use contact_core::scene::{
-    Body, Branch, Coating, Elastic, Friction, Grid, LoadPath, Loads, Scene, Settings, Shape,
+    Body, Branch, Coating, Elastic, Friction, Grid, LoadPath, Loads, Rough, Scene, Settings, Shape,
     Spacing,
 };
 use fastrand::Rng;
@@ -26,10 +26,71 @@ pub(crate) struct Drawn {
     pub(crate) intent: Intent,
 }
 
+/// Seeds from here on draw other shapes than a sphere, and branches of given shifts.
+pub(crate) const SHAPED: u64 = 100_000;
+
 /// The scene of a seed.
 pub(crate) fn draw(seed: u64) -> Drawn {
+    let mut drawn = sphere(seed);
+    if seed >= SHAPED {
+        shape(&mut Rng::with_seed(!seed), &mut drawn);
+    }
+    drawn
+}
+
+/// Gives body 1 another shape, about as wide in contact as its sphere, and, of every other scene,
+/// the last branch shifts in place of forces.
+fn shape(rng: &mut Rng, drawn: &mut Drawn) {
+    let scene = &mut drawn.scene;
+    let R = 0.018;
+    let extent = scene.grid.extent();
+    let (narrow, approach) = (extent.0.min(extent.1), scene.approach());
+    let sphere = Shape::Sphere { R };
+    let shortest = 3.0 * scene.grid.dx.max(scene.grid.dy);
+    scene.body1.shape = match rng.u32(0..4) {
+        0 => Shape::Ellipsoid {
+            R_x: R * (0.2 + 0.8 * rng.f64()),
+            R_y: R * (0.2 + 0.8 * rng.f64()),
+            angle: std::f64::consts::TAU * rng.f64(),
+        },
+        1 => Shape::FlatPunch {
+            radius: narrow * (0.1 + 0.15 * rng.f64()),
+            edge: R * power(rng, -3.0, -1.0),
+        },
+        2 => Shape::Sum(vec![
+            sphere,
+            Shape::Waviness {
+                amplitude: 0.1 * approach * rng.f64(),
+                wavelength: narrow * (0.1 + 0.4 * rng.f64()),
+                angle: std::f64::consts::TAU * rng.f64(),
+                phase: std::f64::consts::TAU * rng.f64(),
+            },
+        ]),
+        _ => Shape::Sum(vec![
+            sphere,
+            Shape::Rough(Rough {
+                rms: 0.1 * approach * rng.f64(),
+                hurst: 0.3 + 0.6 * rng.f64(),
+                longest: shortest.max(0.5 * narrow),
+                shortest,
+                seed: rng.u32(..),
+            }),
+        ]),
+    };
+    if rng.bool() {
+        let far = scene.friction.mu * approach * power(rng, -2.0, 1.0);
+        let angle = std::f64::consts::TAU * rng.f64();
+        if let Some(last) = scene.path.branches.last_mut() {
+            last.to.given.delta_x = Some(far * angle.cos());
+            last.to.given.delta_y = Some(far * angle.sin());
+        }
+    }
+}
+
+fn sphere(seed: u64) -> Drawn {
     let rng = &mut Rng::with_seed(seed);
     let intent = match rng.u32(0..100) {
+        _ if seed >= SHAPED => Intent::Solve,
         0 => Intent::PastFriction,
         1 | 2 => Intent::OffGrid,
         3 | 4 => Intent::Edge,

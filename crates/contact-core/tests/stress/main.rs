@@ -21,7 +21,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use campaign::{Fate, Outcome, outcome};
+use campaign::{Fate, LIMIT, Outcome, outcome};
 
 /// Scenes of the slice.
 const SLICE: u64 = 60;
@@ -30,7 +30,8 @@ fn number(variable: &str) -> Option<u64> {
     std::env::var(variable).ok().map(|n| n.parse().unwrap())
 }
 
-/// Runs the scenes of the seeds 0 to n, each in one thread.
+/// Runs n scenes, each in one thread: three quarters with spheres, of the seeds from 0 on, the
+/// others with other shapes.
 fn campaign(n: u64) -> Vec<Outcome> {
     let next = AtomicU64::new(0);
     let outcomes = Mutex::new(Vec::new());
@@ -45,18 +46,29 @@ fn campaign(n: u64) -> Vec<Outcome> {
                     .build()
                     .unwrap();
                 loop {
-                    let seed = next.fetch_add(1, Ordering::Relaxed);
-                    if seed >= n || begun.elapsed() > bound {
+                    let k = next.fetch_add(1, Ordering::Relaxed);
+                    if k >= n || begun.elapsed() > bound {
                         return;
                     }
+                    let seed = if k % 4 < 3 {
+                        k - k / 4
+                    } else {
+                        draw::SHAPED + k / 4
+                    };
                     let drawn = draw::draw(seed);
-                    let outcome = pool.install(|| outcome(seed, &drawn));
+                    let outcome = pool.install(|| outcome(seed, &drawn, LIMIT));
                     outcomes.lock().unwrap().push(outcome);
                 }
             });
         }
     });
-    let mut outcomes = outcomes.into_inner().unwrap();
+    let mut outcomes: Vec<Outcome> = outcomes.into_inner().unwrap();
+    // Once more, alone, what others may have kept from ending.
+    for slow in &mut outcomes {
+        if matches!(slow.fate, Fate::Stopped) {
+            *slow = outcome(slow.seed, &draw::draw(slow.seed), 4 * LIMIT);
+        }
+    }
     outcomes.sort_by_key(|o| o.seed);
     outcomes
 }
@@ -65,7 +77,11 @@ fn campaign(n: u64) -> Vec<Outcome> {
 fn random_scenes_are_solved_or_refused() {
     if let Some(seed) = number("FRET_STRESS_SEED") {
         let drawn = draw::draw(seed);
-        println!("{}\n{:?}", drawn.scene.to_toml(), outcome(seed, &drawn));
+        println!(
+            "{}\n{:?}",
+            drawn.scene.to_toml(),
+            outcome(seed, &drawn, 4 * LIMIT)
+        );
         return;
     }
     let outcomes = campaign(number("FRET_STRESS").unwrap_or(SLICE));
@@ -76,12 +92,12 @@ fn random_scenes_are_solved_or_refused() {
     }
     let bad = outcomes.iter().filter(|o| o.is_silently_wrong()).count();
     assert_eq!(bad, 0, "panics, NaN or violated equations");
-    let failed = outcomes
-        .iter()
-        .filter(|o| matches!(o.fate, Fate::Failed(_)))
-        .count();
+    let count = |is: fn(&Fate) -> bool| outcomes.iter().filter(|o| is(&o.fate)).count();
+    let failed = count(|fate| matches!(fate, Fate::Failed(_) | Fate::Stopped));
+    assert_eq!(failed, 0, "errors without a right reason");
     // Friction above 2 with strong coupling may leave an increment without a solution.
-    assert!(100 * failed <= outcomes.len(), "{failed} failed");
+    let unsolved = count(|fate| matches!(fate, Fate::Unsolved(_)));
+    assert!(100 * unsolved <= outcomes.len(), "{unsolved} unsolved");
 }
 
 /// Seeds that failed once: slip in cells said to stick (192, 675, 833, 1192, 1544), coatings stiff as
@@ -89,7 +105,7 @@ fn random_scenes_are_solved_or_refused() {
 #[test]
 fn scenes_that_failed_once_are_solved() {
     for seed in [192, 675, 833, 1192, 1544, 811, 821] {
-        let outcome = outcome(seed, &draw::draw(seed));
+        let outcome = outcome(seed, &draw::draw(seed), 4 * LIMIT);
         assert!(
             matches!(outcome.fate, Fate::Solved(..)) && !outcome.is_silently_wrong(),
             "{outcome:?}"

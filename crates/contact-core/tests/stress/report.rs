@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use crate::audit::Violations;
 use crate::campaign::{Fate, Outcome};
+use crate::draw::SHAPED;
 
 impl Outcome {
     /// Whether a result was given that is not one.
@@ -18,7 +19,7 @@ impl Outcome {
                     .all(|v| v <= 1.0)
             }
             Fate::Panicked(_) => true,
-            Fate::Refused | Fate::Failed(_) => false,
+            Fate::Refused | Fate::Unsolved(_) | Fate::Stopped | Fate::Failed(_) => false,
         }
     }
 }
@@ -29,12 +30,17 @@ pub(crate) fn report(outcomes: &[Outcome]) -> String {
     let count = |kind: &dyn Fn(&Fate) -> bool| outcomes.iter().filter(|o| kind(&o.fate)).count();
     let solved = count(&|f| matches!(f, Fate::Solved(..)));
     let refused = count(&|f| matches!(f, Fate::Refused));
-    let failed = count(&|f| matches!(f, Fate::Failed(_)));
+    let unsolved = count(&|f| matches!(f, Fate::Unsolved(_)));
+    let failed = count(&|f| matches!(f, Fate::Failed(_) | Fate::Stopped));
+    let shaped = outcomes.iter().filter(|o| o.seed >= SHAPED).count();
     let panicked = count(&|f| matches!(f, Fate::Panicked(_)));
     let wrong = outcomes.iter().filter(|o| o.is_silently_wrong()).count() - panicked;
     let share = 100.0 * solved as f64 / (total - refused).max(1) as f64;
     let sum = |f: &dyn Fn(&Outcome) -> f64| outcomes.iter().map(f).sum::<f64>();
-    let _ = writeln!(text, "| scenes | {total} |\n|---|---|");
+    let _ = writeln!(
+        text,
+        "| scenes, of these with other shapes than a sphere | {total}, {shaped} |\n|---|---|"
+    );
     let _ = writeln!(
         text,
         "| solved to their tolerance | {solved} ({share:.2} % of those that have a solution) |"
@@ -43,7 +49,14 @@ pub(crate) fn report(outcomes: &[Outcome]) -> String {
         text,
         "| without a solution (force past mu W, contact beyond the grid): refused with the reason | {refused} |"
     );
-    let _ = writeln!(text, "| ended with an error | {failed} |");
+    let _ = writeln!(
+        text,
+        "| friction above 2 and strong coupling: refused with the residual that is left | {unsolved} |"
+    );
+    let _ = writeln!(
+        text,
+        "| ended with another error, or not in time | {failed} |"
+    );
     let _ = writeln!(text, "| panics | {panicked} |");
     let _ = writeln!(
         text,
@@ -90,7 +103,10 @@ pub(crate) fn report(outcomes: &[Outcome]) -> String {
     }
     for outcome in outcomes {
         match &outcome.fate {
-            Fate::Failed(reason) => {
+            Fate::Stopped => {
+                let _ = writeln!(text, "\nSeed {} did not end in time.", outcome.seed);
+            }
+            Fate::Unsolved(reason) | Fate::Failed(reason) => {
                 let _ = writeln!(text, "\nSeed {}: {reason}.", outcome.seed);
             }
             Fate::Panicked(reason) => {

@@ -1,0 +1,200 @@
+//! Stress and energy over a load path.
+
+use contact_core::fields as core;
+use contact_core::fields::{Line, Stream};
+use contact_core::march;
+use ndarray::{Array1, Array2, Axis};
+use numpy::IntoPyArray;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::error::to_python;
+use crate::scene::{Body, Grid, LoadPath};
+use crate::stress::measures;
+use crate::subsurface::{Field, Subsurface, line, side};
+
+/// Stress below a line or on planes over a load path; give it every increment, then take what it
+/// kept.
+#[pyclass(module = "pyfret")]
+pub(crate) struct Envelope {
+    stream: Option<Stream<(core::Envelope, core::Largest)>>,
+    names: Vec<String>,
+    cycles: Vec<(usize, usize)>,
+    /// Whether it is that below a line.
+    of_line: bool,
+}
+
+#[pymethods]
+impl Envelope {
+    #[new]
+    #[pyo3(signature = (body, grid, path, z, layer, *, of, x = None, y = None, body_number = 2))]
+    fn new(
+        body: Body,
+        grid: Grid,
+        path: LoadPath,
+        z: Vec<f64>,
+        layer: Vec<usize>,
+        of: Vec<String>,
+        x: Option<f64>,
+        y: Option<f64>,
+        body_number: u8,
+    ) -> PyResult<Self> {
+        let cycles = core::cycles(&path.0);
+        let line = match (x, y) {
+            (None, None) => None,
+            _ => Some(line(x, y)?),
+        };
+        let along = match line {
+            Some(Line::AlongX(_)) => (0..grid.0.nx).map(|i| grid.0.x(i)).collect(),
+            Some(Line::AlongY(_)) => (0..grid.0.ny).map(|j| grid.0.y(j)).collect(),
+            None => Vec::new(),
+        };
+        let accumulate = (
+            core::Envelope {
+                measures: measures(&of)?,
+                cycles: cycles.clone(),
+            },
+            core::Largest {
+                // Only a line has tops that are known between its samples.
+                measures: if line.is_some() {
+                    measures(&of)?
+                } else {
+                    Vec::new()
+                },
+                along,
+            },
+        );
+        let depths = Subsurface::depths(&z, &layer)?;
+        let side = side(body_number)?;
+        let stream = Stream::new(&body.0, side, &grid.0, line, depths, accumulate);
+        Ok(Self {
+            stream: Some(stream.map_err(to_python)?),
+            names: of,
+            cycles,
+            of_line: line.is_some(),
+        })
+    }
+
+    #[getter]
+    fn cycles(&self) -> Vec<(usize, usize)> {
+        self.cycles.clone()
+    }
+
+    #[pyo3(signature = (increment, branch, *, p, q_x, q_y))]
+    fn push(
+        &mut self,
+        py: Python<'_>,
+        increment: usize,
+        branch: usize,
+        p: Field<'_>,
+        q_x: Field<'_>,
+        q_y: Field<'_>,
+    ) -> PyResult<()> {
+        let tractions = [q_x, q_y, p].map(|f| f.as_array().as_standard_layout().into_owned());
+        let stream = self.stream.as_mut().ok_or_else(finished)?;
+        let moment = core::Moment { increment, branch };
+        py.detach(|| stream.push(moment, tractions))
+            .map_err(to_python)
+    }
+
+    /// For each name, arrays over (depth, place): max, min, increment of the largest value; lists
+    /// over cycles of amplitude and mean; below a line, rows of the largest values at each
+    /// increment: increment, value, place along the line, depth, layer.
+    fn finish<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let stream = self.stream.take().ok_or_else(finished)?;
+        let (_, kept) = py.detach(|| stream.finish()).map_err(to_python)?;
+        let (kept, tops): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
+        let largest = core::Largest::over_depths(&tops);
+        let result = PyDict::new(py);
+        for (m, name) in self.names.iter().enumerate() {
+            let rows = |of: &dyn Fn(&core::DepthEnvelope) -> Array1<f64>| {
+                let rows: Vec<_> = kept.iter().map(of).collect();
+                let views: Vec<_> = rows.iter().map(|r| r.view()).collect();
+                ndarray::stack(Axis(0), &views).unwrap_or_default()
+            };
+            let row = |a: &Array2<f64>| a.row(m).to_owned();
+            let of = PyDict::new(py);
+            of.set_item("max", rows(&|k| row(&k.path.max)).into_pyarray(py))?;
+            of.set_item("min", rows(&|k| row(&k.path.min)).into_pyarray(py))?;
+            let when = rows(&|k| k.path.increment_of_max.row(m).mapv(|n| n as f64));
+            of.set_item("increment", when.into_pyarray(py))?;
+            let cycles = |of: &dyn Fn(&core::Extremes) -> Array2<f64>| -> Vec<_> {
+                (0..self.cycles.len())
+                    .map(|c| rows(&|k| row(&of(&k.cycles[c]))).into_pyarray(py))
+                    .collect()
+            };
+            of.set_item("amplitude", cycles(&core::Extremes::amplitude))?;
+            of.set_item("mean", cycles(&core::Extremes::mean))?;
+            if self.of_line {
+                let rows = largest.iter().filter_map(|(moment, of)| {
+                    let m = of[m]?;
+                    let layer = m.depth.layer as f64;
+                    Some([
+                        moment.increment as f64,
+                        m.value,
+                        m.place[0],
+                        m.depth.z,
+                        layer,
+                    ])
+                });
+                let rows = Array2::from(rows.collect::<Vec<_>>());
+                of.set_item("largest", rows.into_pyarray(py))?;
+            }
+            result.set_item(name, of)?;
+        }
+        Ok(result)
+    }
+}
+
+fn finished() -> PyErr {
+    PyValueError::new_err("the envelope has been finished")
+}
+
+/// The loops of a history, one dictionary per cycle.
+#[pyfunction]
+#[pyo3(signature = (path, *, branch, T, delta, dissipated, status))]
+pub(crate) fn loops(
+    py: Python<'_>,
+    path: LoadPath,
+    branch: Vec<usize>,
+    T: Vec<f64>,
+    delta: Vec<f64>,
+    dissipated: Vec<f64>,
+    status: Vec<u8>,
+) -> PyResult<Vec<Bound<'_, PyDict>>> {
+    let history: Vec<core::LoopPoint> = branch
+        .iter()
+        .zip(&T)
+        .zip(&delta)
+        .zip(&dissipated)
+        .zip(&status)
+        .map(
+            |((((&branch, &T), &delta), &dissipated), &status)| core::LoopPoint {
+                branch,
+                T,
+                delta,
+                dissipated,
+                status: march::Status::ALL[usize::from(status).min(3)],
+            },
+        )
+        .collect();
+    core::loops(&path.0, &history)
+        .iter()
+        .map(|c| {
+            let of = PyDict::new(py);
+            of.set_item("first_branch", c.branches.0)?;
+            of.set_item("last_branch", c.branches.1)?;
+            of.set_item("dissipated", c.dissipated)?;
+            of.set_item("T", c.T)?;
+            of.set_item("delta", c.delta)?;
+            of.set_item("stiffness", c.stiffness)?;
+            of.set_item("secant_stiffness", c.secant_stiffness())?;
+            of.set_item("opening", c.opening)?;
+            of.set_item("energy_ratio", c.energy_ratio())?;
+            of.set_item("sliding_ratio", c.sliding_ratio())?;
+            of.set_item("status", c.status.code())?;
+            Ok(of)
+        })
+        .collect()
+}
