@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import matplotlib.pyplot as plt
+from matplotlib.ticker import LogLocator, NullFormatter
 
 import pyfret as fret
 
@@ -40,20 +41,25 @@ def frictionless(grids: Sequence[Row], ladder: Sequence[Row], file: Path) -> Non
             x = [row["set_up_s"] + row["solve_s"] for row in line]
             y = [row["error_p"] for row in line]
             left.loglog(x, y, "o-", color=colour, label=program)
-            for row, at, error in zip(line, x, y, strict=True):
-                left.annotate(
-                    str(row["cells"]),
-                    (at, error),
-                    xytext=(0, 6),
-                    textcoords="offset points",
-                    size=7,
-                    ha="center",
-                )
+            # The curves run in pairs: those at the border of the picture say the grids.
+            if program in ("pyfret", "ContactMechanics"):
+                side = -1 if program == "pyfret" else 1
+                for row, at, error in zip(line, x, y, strict=True):
+                    left.annotate(
+                        str(row["cells"]),
+                        (at, error),
+                        xytext=(6 * side, 3 * side),
+                        textcoords="offset points",
+                        size=7,
+                        ha="right" if side < 0 else "left",
+                        va="center",
+                    )
             line = of(ladder, program=program)
             x = [row["solve_s"] for row in line]
             right.loglog(x, [row["residual"] for row in line], "o-", color=colour, label=program)
         cells = {row["cells"] for row in of(ladder)}
         size = " x ".join(2 * [str(max(cells))]) if cells else ""
+        left.margins(x=0.1)
         left.set_title("Hertz contact, grids of n x n cells", size=10)
         left.set_ylabel("error of p against the closed form (L2)")
         right.set_title(f"Sphere with waves, {size} cells", size=10)
@@ -96,6 +102,10 @@ def fretting(rows: Sequence[Row], file: Path) -> None:
                 )
                 labels[f"{program}, {cells} x {cells}, {increments:.0f} increments"] = drawn
             axes.set_title(f"$E_1/E_2 = {ratio:g}$", size=10)
+            # Labels within a decade would run into each other.
+            axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+            axes.xaxis.set_major_formatter("{x:g}")
+            axes.xaxis.set_minor_formatter(NullFormatter())
             axes.set_xlabel("time [s]")
         panels[0][0].set_ylabel("error of q (L2), largest of the branch ends")
         figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=2)
