@@ -68,10 +68,11 @@ def climb(
     seconds, known, bars = [], [], []
     for size in sizes:
         started = time.perf_counter()
-        result = fret.solve(scene(size), progress=False, error=error)
+        result = fret.solve(scene(size), progress=False, error=error and truth.has_error_bars)
         seconds.append(time.perf_counter() - started)
         known.append(truth.known(result))
-        bars.append(error_bars(result, known[-1]) if error else {})
+        has_bars = error and truth.has_error_bars
+        bars.append(error_bars(result, known[-1]) if has_bars else {})
     return Ladder(sizes, seconds, known, bars), result
 
 

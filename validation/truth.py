@@ -67,6 +67,8 @@ class Truth:
         Their numbers.
     remark : str
         What explains the errors; Markdown.
+    has_error_bars : bool
+        Whether the scene can be solved on half as many cells; not where it rolls by a cell.
     """
 
     name: str
@@ -79,6 +81,7 @@ class Truth:
     path: Callable[[int], fret.Scene] | None = None
     increments: tuple[int, ...] = field(default=())
     remark: str = ""
+    has_error_bars: bool = True
 
 
 def order(sizes: tuple[int, ...], errors: list[float]) -> float:

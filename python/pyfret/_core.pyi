@@ -736,7 +736,7 @@ class Branch:
         """Number of increments; None: as many as the path tolerance asks for."""
     @property
     def path_error(self) -> float | None:
-        """Estimated error of the shear at the end that the increments leave, over the largest shear."""
+        """Estimated error that the increments leave in the shear, over the largest shear."""
     @property
     def spacing(self) -> Spacing:
         """How the increments are spaced."""
@@ -1031,8 +1031,8 @@ class Settings:
         Reckon the slip of cells that come into contact from their entry (default True): one more
         solution in increments in which the contact grows, and far fewer increments.
     path_tolerance : float, optional
-        Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over the
-        largest shear of the path (L2, default 5e-3).
+        Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over
+        the largest shear of the path (L2, default 5e-3).
     turning : bool, optional
         Let slip follow the turn of the shear within an increment (default True): the path becomes
         of second order.

@@ -84,7 +84,7 @@ def rolling_known(result: fret.Result) -> dict[str, Known]:
     carter = LINE.q(x, T=T, mu=MU, middle=LINE.a - HALF)
     return {
         "creepage": Known(creepage, MU * (LINE.a - HALF) / R),
-        "stick ratio": Known(float(at.stick_ratio), HALF / LINE.a, of="stick_ratio"),
+        "stick ratio": Known(float(at.stick_ratio), HALF / LINE.a),
         "q_x, L2": l2(at.q_x.values[:, 0], carter, MU * LINE.p(x)),
     }
 
@@ -137,6 +137,7 @@ PAGES = (
         scene=rolling,
         known=rolling_known,
         draw=rolling_drawn,
+        has_error_bars=False,
         grids=(64, 128, 256, 512),
         remark=f"After a way of {WAY:g} half-widths the transient is nearly over.",
     ),
