@@ -3,6 +3,8 @@
 //! Random coated scenes, each against a path of eight times the increments that were chosen. A few in
 //! the test; `FRET_PATH_ERRORS=50` for as many (`make path-errors`).
 
+#![allow(clippy::print_stdout, reason = "a report for people")]
+
 use std::fmt::Write as _;
 
 use contact_core::march::{March, choose_increments};

@@ -234,7 +234,7 @@ fn halved(grid: &Grid) -> Option<Grid> {
     } else {
         nx * ny / 4 >= CELLS
     };
-    (even && enough).then(|| Grid {
+    (even && enough).then_some(Grid {
         nx: nx / 2,
         ny: if line { ny } else { ny / 2 },
         dx: 2.0 * dx,

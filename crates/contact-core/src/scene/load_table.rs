@@ -226,7 +226,7 @@ impl LoadPath {
 
 #[cfg(test)]
 mod tests {
-    use super::{Increments, LoadPath};
+    use super::{Branch, Increments, LoadPath};
 
     #[test]
     fn a_table_is_a_path() {
@@ -238,7 +238,7 @@ mod tests {
         let names = ["t", "W", "T_x"];
         let path = LoadPath::start().waypoints(&names, &rows, Increments::PerRange(8));
         let path = path.expect("a path");
-        let counts: Vec<usize> = path.branches.iter().map(|b| b.count()).collect();
+        let counts: Vec<usize> = path.branches.iter().map(Branch::count).collect();
         assert_eq!(counts, [8, 4, 8]);
         let (points, end) = (path.points(), path.branches[2].to);
         assert_eq!((points[7].loads.W, points[9].loads.T_x), (100.0, 10.0));

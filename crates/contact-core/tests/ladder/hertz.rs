@@ -40,7 +40,6 @@ fn radius_pressure_and_approach_converge_with_the_grid() {
     // The second cell from the rim is off as well, by a fourth of that.
     assert!(continued[2] < 1e-3, "{continued:?}");
     assert!(continued[2] < errors[2] / 2.0, "{continued:?}");
-    println!("{errors:?} {continued:?}");
 }
 
 #[test]
