@@ -184,7 +184,8 @@ impl March {
                 trapezoidal -= q * slip[c];
                 of_bulk -= q * stretch[c];
             }
-            let dissipated = friction_takes(self.mu[n], now, last, slip, n);
+            let held = held(slip, &self.datum.moved, now, last, n);
+            let dissipated = friction_takes(self.mu[n], now, last, held, n);
             let quadrature = dissipated - trapezoidal;
             [
                 elastic,
@@ -319,7 +320,8 @@ impl March {
             std::array::from_fn(|c| now.u[c][n] - before.u[c][n] - entered(c) - shift[c])
         };
         set_cells(&mut state.dissipated, |n, dissipated| {
-            dissipated + friction_takes(mu[n], now, before, slip(n), n)
+            let held = held(slip(n), moved, now, before, n);
+            dissipated + friction_takes(mu[n], now, before, held, n)
         });
         let slips = |n: usize| now.p[n] > 0.0 && now.slip[n];
         let [slip_x, slip_y] = &mut state.slip;
@@ -350,8 +352,23 @@ impl March {
     }
 }
 
-/// Energy per area that friction takes from a cell that slips by `slip` \[J/m^2\]: a cell slips at
-/// its bound, against the final shear, so it is the mean bound of the increment times the slip,
+/// The slip that is held against the final shear \[m\]: without its turn on the way.
+fn held(
+    slip: [f64; 2],
+    moved: &[Vec<f64>; 2],
+    now: &Interface,
+    last: &Interface,
+    n: usize,
+) -> [f64; 2] {
+    if now.p[n] > 0.0 && last.p[n] > 0.0 {
+        [slip[0] - moved[0][n], slip[1] - moved[1][n]]
+    } else {
+        slip
+    }
+}
+
+/// Energy per area that friction takes from a cell whose `slip` is held against the final shear
+/// \[J/m^2\]: a cell slips at its bound, so it is the mean bound of the increment times the slip,
 /// where the trapezoidal rule takes a mean of the shear before slip and in slip. A single increment
 /// is exact while the pressure stays. It is not negative because slip opposes the shear, to the
 /// tolerance. A cell that leaves the contact slips under half of the shear that it carried, if it

@@ -24,10 +24,10 @@ const CONTACT: usize = 300;
 /// Increments to begin with: of a branch that begins without contact, and of others.
 const FIRST: (usize, usize) = (12, 6);
 /// Part of the tolerance that is aimed at.
-const AIM: f64 = 0.7;
+const AIM: f64 = 0.8;
 /// Part of the tolerance that is left to the growth of contact from nothing: what sticks keeps its
 /// error, on fine grids a little more than on the coarse one.
-const INHERITED: f64 = 0.7;
+const INHERITED: f64 = 0.75;
 /// Most that the number of increments of a branch grows by in a round.
 const GROWTH: f64 = 4.0;
 /// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.

@@ -152,7 +152,7 @@ impl Audit {
                 );
                 0.0
             } else {
-                let along = -(ds[0] * q[0] + ds[1] * q[1]) / size;
+                let along = -(off[0] * q[0] + off[1] * q[1]) / size;
                 assert!(
                     size > self.mu * p * (1.0 - ROUNDING),
                     "slip below the limit at {at}"
