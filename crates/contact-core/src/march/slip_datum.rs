@@ -18,8 +18,9 @@
 
 use crate::solvers::{Arms, Interface, SlipDatum, set_pairs, size, sum_cells};
 
-/// Least cosine between e_0 and e_1: where the shear turns further, the way there is not known.
-const TURN: f64 = 0.5;
+/// Cosines between e_0 and e_1 between which the turn comes to count: where the shear turns further, the
+/// way there is not known.
+const TURN: [f64; 2] = [0.5, 0.7];
 
 /// What the displacements that mean no slip differ by from the last ones.
 #[derive(Debug)]
@@ -138,12 +139,10 @@ fn turn(
         return [0.0; 2];
     };
     let (e_0, e_1) = (unit(begin), unit(end));
-    if dot(e_0, e_1) < TURN {
-        return [0.0; 2];
-    }
+    let known = ((dot(e_0, e_1) - TURN[0]) / (TURN[1] - TURN[0])).clamp(0.0, 1.0);
     let m = unit([e_0[0] + e_1[0], e_0[1] + e_1[1]]);
     let along = dot(m, e_1);
-    std::array::from_fn(|c| size(slip) * (along * e_1[c] - m[c]))
+    std::array::from_fn(|c| known * size(slip) * (along * e_1[c] - m[c]))
 }
 
 /// Where a shear that goes on from `before` through `last` meets the circle of radius `bound`.
