@@ -33,8 +33,11 @@ impl March {
         let slipping = now.slip.iter().filter(|&&s| s).count();
         let energy = self.energies(point, &now, &motion, cell_area);
         let residuals = self.residuals(point, &now, info, cell_area);
-        let [contact_area, stick_area] =
+        let [contact_area, without_slip] =
             self.contact_and_stick(&now).map(|cells| cells * cell_area);
+        let stick_area = self
+            .grown_to_the_end(without_slip, slipping > 0)
+            .min(contact_area);
         let cells = now.p.len();
         let mut increment = Increment {
             index: last.increments + 1,
@@ -64,6 +67,7 @@ impl March {
         };
         self.check_residuals(&increment, (contact, slipping))?;
         self.keep(point, now, motion, increment.energy.work);
+        self.state.without_slip = without_slip;
         if self.state.work != 0.0 {
             increment.residuals.energy = energy.imbalance() / self.state.work;
         }
@@ -303,6 +307,18 @@ impl March {
             .fold(0.0, |worst, k| {
                 ((carried[k] - asked[k]) / scale(k)).abs().max(worst)
             })
+    }
+
+    /// The stick area at the end of an increment \[m^2\] from the area `without_slip` in all of it:
+    /// where the zone grows, the cells that have come to stick on the way count as slipping, and the zone is
+    /// that of the middle. Its radius grows on by half of what it grew from the last increment.
+    fn grown_to_the_end(&self, without_slip: f64, slips: bool) -> f64 {
+        let before = self.state.without_slip;
+        if !(self.datum.goes_on && slips && before > 0.0 && without_slip > before) {
+            return without_slip;
+        }
+        let (radius, last) = (without_slip.sqrt(), before.sqrt());
+        (radius + 0.5 * (radius - last)).powi(2)
     }
 
     /// Makes the increment the present state.

@@ -375,6 +375,10 @@ mod tests {
             // Within a cell the border is straight: its sagitta is d^2/(8 a).
             let d = 2.4 / n as f64;
             for axes in [(1.0, 1.0), (0.9, 0.5)] {
+                // Seven cells to the border bend too much: whole cells count.
+                if d > axes.1 / 8.0 {
+                    continue;
+                }
                 let error = (area(n, axes, Mirror::None) - 1.0).abs();
                 assert!(error < (d / axes.1).powi(2), "{n} {axes:?} {error:e}");
             }

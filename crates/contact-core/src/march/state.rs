@@ -25,6 +25,8 @@ pub struct State {
     pub dissipated: Vec<f64>,
     /// Work of the applied forces over the path \[J\].
     pub work: f64,
+    /// Area of the cells that did not slip in the last increment \[m^2\].
+    pub(crate) without_slip: f64,
     /// Pressure before the last increment \[Pa\].
     pub(crate) p_before: Vec<f64>,
     /// Shear before the last increment \[Pa\].
@@ -47,6 +49,7 @@ impl State {
             slip_length: field(),
             dissipated: field(),
             work: 0.0,
+            without_slip: 0.0,
             p_before: field(),
             q_before: pair(),
             step: Loads::default(),
