@@ -58,6 +58,7 @@ fn stick_radius_pressure_and_approach_of_every_pair() {
 
 #[test]
 fn more_increments_lead_to_the_self_similar_stick_radius() {
+    let truth = coupled_indentation(0.5, 0.5).stick_ratio;
     let error = |increments: usize| {
         let scene = sphere_on_flat(
             CORK,
@@ -68,12 +69,15 @@ fn more_increments_lead_to_the_self_similar_stick_radius() {
         );
         let all = run(&scene, |_, _| {});
         let last = all.last().expect("an increment");
-        let truth = coupled_indentation(0.5, 0.5).stick_ratio;
-        (last.stick_area / last.contact_area).sqrt() - truth
+        let ratio = (last.stick_area / last.contact_area).sqrt();
+        (ratio - truth, cell(&scene))
     };
-    let (coarse, fine) = (error(10), error(80));
-    // What the grid leaves of eight times less.
-    assert!(fine.abs() < coarse.abs() / 4.0, "{coarse} {fine}");
+    let ((coarse, _), (fine, d)) = (error(10), error(80));
+    // The stick zone of the middle of the increment would miss half of what it grows by; what is left
+    // of that is of second order, and in the end what the grid leaves.
+    let half = 0.5 * truth / 10.0;
+    assert!(coarse.abs() < half / 4.0, "{coarse} of {half}");
+    assert!(fine.abs() < WHOLE_CELLS * d, "{fine}, cells of {d}");
 }
 
 #[test]
