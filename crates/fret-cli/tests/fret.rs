@@ -64,7 +64,7 @@ fn error_bars_stand_in_the_summary_and_in_the_store() {
     let told = text(&output.stdout);
     assert!(output.status.success(), "{}", text(&output.stderr));
     // Six numbers at the end of each of four branches, and the shear.
-    assert_eq!(told.matches("+-").count(), 28, "{told}");
+    assert_eq!(told.matches(" +- ").count(), 28, "{told}");
     Store::open(&out).unwrap();
     let attributes = fs::read_to_string(out.join(".zattrs")).unwrap();
     assert_eq!(attributes.matches("\"contact_radius\"").count(), 4);

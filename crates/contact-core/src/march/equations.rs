@@ -60,6 +60,7 @@ impl March {
             last: before,
             q_before: turns.then_some(&self.state.q_before),
             arms: &self.arms,
+            reach: self.scene.friction.scale() * self.approach,
         };
         match coupled(&mut response, &problem, &mut datum, &mut now, ws, &params) {
             Ok(info) => Ok((now, info)),

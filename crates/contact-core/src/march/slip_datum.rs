@@ -13,7 +13,8 @@
 //! that slip across e_1, |ds| ((m.e_1) e_1 - m), is added to u_ref, so that the solver, which holds
 //! the slip against the final shear, finds it there. A cell that starts to slip on the way does so
 //! where its shear, going on as in the last increment, meets the bound; after a reversal, where slip
-//! has only begun, nothing is known of that. Where no cell sticks, bodies slide by as much as they are moved, and the shear
+//! has only begun, nothing is known of that. Where no cell sticks, or cells slip by as much as the
+//! shear can move a surface, mu times the approach, bodies slide by as much as they are moved, and the shear
 //! has turned into their direction at the end.
 
 use crate::solvers::{Arms, Interface, SlipDatum, set_pairs, size, sum_cells};
@@ -73,6 +74,8 @@ pub(super) struct Following<'a> {
     /// in that increment.
     pub(super) q_before: Option<&'a [Vec<f64>; 2]>,
     pub(super) arms: &'a Arms,
+    /// What the shear may move a surface by before the bodies slide, about \[m\].
+    pub(super) reach: f64,
 }
 
 impl SlipDatum for Following<'_> {
@@ -81,19 +84,21 @@ impl SlipDatum for Following<'_> {
             return 0.0;
         };
         let cells = now.p.len();
-        if (0..cells).all(|n| now.p[n] <= 0.0 || now.slip[n]) {
-            return 0.0;
-        }
+        let sticks = (0..cells).any(|n| now.p[n] > 0.0 && !now.slip[n]);
         let slip = |n: usize| -> [f64; 2] {
             let shift = arms.in_plane(shift, n);
             std::array::from_fn(|c| now.u[c][n] - last.u[c][n] - shift[c])
         };
+        let reach = self.reach;
         let [x, y] = &mut self.datum.moved;
         set_pairs([x, y], |n, moved| {
             if last.p[n] <= 0.0 {
                 moved
-            } else if now.p[n] > 0.0 && now.slip[n] {
-                turn(last, q_before, now, slip(n), n)
+            } else if sticks && now.p[n] > 0.0 && now.slip[n] {
+                let slip = slip(n);
+                let slides = size(slip) / reach;
+                let part = (2.0 - 2.0 * slides).clamp(0.0, 1.0);
+                turn(last, q_before, now, slip, n).map(|e| part * e)
             } else {
                 [0.0; 2]
             }
