@@ -313,7 +313,8 @@ fn shear_under(
         0.0
     };
     let tolerance = params.tangential.tolerance;
-    let again = info.alternations < FOLLOWED && moved > LOOSE * tolerance;
+    let last = FOLLOWED.min(params.max_alternations);
+    let again = info.alternations < last && moved > LOOSE * tolerance;
     let asked = TangentialParams {
         tolerance: if again { LOOSE * tolerance } else { tolerance },
         ..params.tangential

@@ -8,9 +8,9 @@ use crate::bench::{
     CORK, STEEL, W, WHOLE_CELLS, cell, close, hertz_of, indentation, norm, run, sphere_on_flat,
 };
 
-/// Error of c/a times the number of increments of equal radius: a cell that comes into contact
-/// within an increment has moved freely before it sticks, a first-order error.
-const PATH: f64 = 0.45;
+/// Error of c/a times the number of increments of equal radius. A stick zone that missed half of the
+/// growth of an increment would be off by 0.5; a slip ring thinner than a cell leaves some of that.
+const PATH: f64 = 0.1;
 
 #[test]
 fn stick_radius_pressure_and_approach_of_every_pair() {
@@ -35,13 +35,12 @@ fn stick_radius_pressure_and_approach_of_every_pair() {
             let a = hertz.a * part * truth.W.cbrt().recip();
             close("a", increment.contact_radius() / a, 1.0, WHOLE_CELLS * d);
             let ratio = (increment.stick_area / increment.contact_area).sqrt();
-            // A slip ring thinner than a cell is there or not.
-            let cells = if 1.0 - truth.stick_ratio < d {
-                1.0
-            } else {
-                WHOLE_CELLS
-            };
-            close("c/a", ratio, truth.stick_ratio, PATH / steps + cells * d);
+            close(
+                "c/a",
+                ratio,
+                truth.stick_ratio,
+                PATH / steps + WHOLE_CELLS * d,
+            );
             // p has a cusp in the middle, as wide as the stick circle: first order in the cell.
             let p0 = truth.p0 * truth.W.powf(2.0 / 3.0) * hertz.p0 * part;
             close(
