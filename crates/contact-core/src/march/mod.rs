@@ -73,9 +73,14 @@ pub struct March {
 impl March {
     /// Checks the scene, chooses the increments that are not given, plans, and computes the kernels.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
+        Self::until(scene, &Arc::default())
+    }
+
+    /// As [`Self::new`] and [`Self::stop_on`]: the flag also ends the choice of the increments.
+    pub fn until(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         scene.check()?;
         if scene.path.is_open() {
-            return Self::new(&choose_increments(scene)?);
+            return Self::until(&choose_increments(scene, stop)?, stop);
         }
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
@@ -145,7 +150,7 @@ impl March {
             carried: None,
             datum: Datum::new(cells),
             workspace: CoupledWorkspace::new(cells),
-            stop: Arc::default(),
+            stop: stop.clone(),
         })
     }
 
@@ -218,7 +223,7 @@ impl March {
         self.datum.goes_on = self.state.going_on(point).is_some();
         let start = if pressed {
             let touch = (self.state.loads.W <= 0.0).then(|| {
-                let Some(start) = coarse_start(&self.scene, point) else {
+                let Some(start) = coarse_start(&self.scene, point, &self.stop) else {
                     return first_touch(&self.h_init, self.approach_at(point));
                 };
                 coarse_convolutions = start.convolutions;
