@@ -13,6 +13,8 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use ndarray::Array2;
+
 use super::{Increment, March};
 use crate::error::Error;
 use crate::scene::{Grid, LoadPath, Scene, Spacing};
@@ -198,7 +200,7 @@ impl Trial {
     /// largest shear.
     fn change(&mut self, few: &LoadPath, many: &LoadPath) -> Result<Vec<f64>, Error> {
         let (few, many) = (self.shear(few)?, self.shear(many)?);
-        let norm = |q: &[Vec<f64>; 2]| q.iter().flatten().map(|q| q * q).sum::<f64>().sqrt();
+        let norm = |q: &[Array2<f64>; 2]| q.iter().flatten().map(|q| q * q).sum::<f64>().sqrt();
         let largest = many.iter().map(norm).fold(f64::MIN_POSITIVE, f64::max);
         let pairs = few.iter().zip(&many);
         Ok(pairs
@@ -211,13 +213,13 @@ impl Trial {
     }
 
     /// The shear at the end of each branch.
-    fn shear(&mut self, path: &LoadPath) -> Result<Vec<[Vec<f64>; 2]>, Error> {
+    fn shear(&mut self, path: &LoadPath) -> Result<Vec<[Array2<f64>; 2]>, Error> {
         self.scene.path = path.clone();
         let mut march = March::until(&self.scene, &self.stop)?;
         let mut ends = Vec::new();
         while let Some(increment) = march.advance() {
             if of_trial(increment)?.point.ends_branch {
-                ends.push(march.state().interface.q.clone());
+                ends.push(march.shear());
             }
         }
         Ok(ends)
