@@ -995,6 +995,9 @@ class Skip:
         Leave out the normal-tangential kernels where they vanish (default True).
     mirror : bool
         Solve on half of a mirror-symmetric scene (default True).
+    digits : bool
+        Answer changes of the tractions in single precision where the tolerance is 1e-6 or more
+        (default True).
     path : bool
         Leave out the increments of branches whose end does not depend on the way there
         (default False: results have a row for every increment asked for); they are solved if
@@ -1007,6 +1010,7 @@ class Skip:
         equal_layers: bool = True,
         coupling: bool = True,
         mirror: bool = True,
+        digits: bool = True,
         path: bool = False,
     ) -> Skip: ...
     @property
@@ -1018,6 +1022,9 @@ class Skip:
     @property
     def mirror(self) -> bool:
         """Whether a mirror-symmetric scene is solved on its half."""
+    @property
+    def digits(self) -> bool:
+        """Whether changes of the tractions are answered in single precision."""
     @property
     def path(self) -> bool:
         """Whether increments are left out where the way does not count."""

@@ -216,3 +216,35 @@ fn increments_whose_way_counts() {
         assert_eq!(third, 5, "{setting}: {}", line(&scene, "increments"));
     }
 }
+
+/// Down to the tolerance at which single precision serves, the answers differ by less than it.
+#[test]
+fn digits_that_the_tolerance_does_not_need() {
+    let coated = "body2.coatings=[{ E = 4e11, nu = 0.25, thickness = { a_H = 0.5 } }]";
+    for tolerance in ["1e-4", "1e-6"] {
+        let asked = format!("solver.tolerance={tolerance}");
+        let single = scene(&[coated, &asked]);
+        assert!(line(&single, "digits").skipped);
+        let double = scene(&[coated, &asked, "skip.digits=false"]);
+        assert!(!line(&double, "digits").skipped);
+        let exact = scene(&[coated]);
+        assert!(!line(&exact, "digits").skipped);
+        let mut ends = [Ends::default(), Ends::default(), Ends::default()];
+        let run = |scene: &Scene, ends: &mut Ends| solve(scene, ends).unwrap();
+        let with = run(&single, &mut ends[0]);
+        let without = run(&double, &mut ends[1]);
+        run(&exact, &mut ends[2]);
+        let work = |run: &[Increment]| run.iter().map(|i| i.work.convolutions).sum::<f64>();
+        assert!(work(&with) < 1.05 * work(&without) + 1.0);
+        let [with, without, exact] = ends.map(|ends| ends.0);
+        for ((with, without), exact) in with.iter().zip(&without).zip(&exact) {
+            let off = |of: &(Increment, Fields)| norm(&(&of.1.q_x - &exact.1.q_x));
+            let rounding = norm(&(&with.1.q_x - &without.1.q_x));
+            assert!(
+                rounding < 0.3 * off(without).max(1e-5 * norm(&exact.1.q_x)),
+                "{tolerance}: {rounding:e} of {:e}",
+                off(without)
+            );
+        }
+    }
+}

@@ -11,7 +11,7 @@ use crate::kernels::{InfluenceCoefficients, Quadrant};
 
 /// Circulant inverse of the normal and of the tangential part of an operator.
 pub struct CirculantInverse {
-    product: SpectralProduct,
+    product: SpectralProduct<f32>,
 }
 
 impl CirculantInverse {

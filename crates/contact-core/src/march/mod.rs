@@ -101,7 +101,12 @@ impl March {
                 plan.coupling,
                 &pair,
             )),
-            _ => Box::new(DcFft::new(&pair, plan.mirror, plan.coupling)),
+            _ => Box::new(DcFft::with_single(
+                &pair,
+                plan.mirror,
+                plan.coupling,
+                plan.single,
+            )),
         };
         let h_init = plan.mirror.fold(&scene.h_init());
         let cells = h_init.len();

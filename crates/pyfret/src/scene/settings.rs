@@ -113,12 +113,14 @@ pub(crate) struct Skip(core::SkipSettings);
 #[pymethods]
 impl Skip {
     #[new]
-    #[pyo3(signature = (*, equal_layers = true, coupling = true, mirror = true, path = false))]
-    fn new(equal_layers: bool, coupling: bool, mirror: bool, path: bool) -> Self {
+    #[pyo3(signature = (*, equal_layers = true, coupling = true, mirror = true, digits = true, path = false))]
+    #[allow(clippy::fn_params_excessive_bools)] // one for each rule
+    fn new(equal_layers: bool, coupling: bool, mirror: bool, digits: bool, path: bool) -> Self {
         Self(core::SkipSettings {
             equal_layers,
             coupling,
             mirror,
+            digits,
             path,
         })
     }
@@ -136,6 +138,11 @@ impl Skip {
     #[getter]
     fn mirror(&self) -> bool {
         self.0.mirror
+    }
+
+    #[getter]
+    fn digits(&self) -> bool {
+        self.0.digits
     }
 
     #[getter]

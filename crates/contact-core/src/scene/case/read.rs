@@ -379,12 +379,14 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
             max_iterations: section.count_or("max_iterations", 1, default.max_iterations)?,
         };
     }
-    if let Some(section) = root.section("skip", &["equal_layers", "coupling", "mirror", "path"])? {
+    let rules = ["equal_layers", "coupling", "mirror", "digits", "path"];
+    if let Some(section) = root.section("skip", &rules)? {
         let default = settings.skip;
         settings.skip = SkipSettings {
             equal_layers: section.flag_or("equal_layers", default.equal_layers)?,
             coupling: section.flag_or("coupling", default.coupling)?,
             mirror: section.flag_or("mirror", default.mirror)?,
+            digits: section.flag_or("digits", default.digits)?,
             path: section.flag_or("path", default.path)?,
         };
     }
