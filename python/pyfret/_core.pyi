@@ -998,6 +998,8 @@ class Skip:
     digits : bool
         Answer changes of the tractions in single precision where the tolerance is 1e-6 or more
         (default True).
+    far : bool
+        Solve in a window around the contact, where no cell beyond it can touch (default True).
     path : bool
         Leave out the increments of branches whose end does not depend on the way there
         (default False: results have a row for every increment asked for); they are solved if
@@ -1011,6 +1013,7 @@ class Skip:
         coupling: bool = True,
         mirror: bool = True,
         digits: bool = True,
+        far: bool = True,
         path: bool = False,
     ) -> Skip: ...
     @property
@@ -1025,6 +1028,9 @@ class Skip:
     @property
     def digits(self) -> bool:
         """Whether changes of the tractions are answered in single precision."""
+    @property
+    def far(self) -> bool:
+        """Whether cells that can never touch are left out."""
     @property
     def path(self) -> bool:
         """Whether increments are left out where the way does not count."""

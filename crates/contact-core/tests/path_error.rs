@@ -9,6 +9,7 @@ use std::fmt::Write as _;
 
 use contact_core::march::{March, choose_increments};
 use contact_core::scene::{LoadPath, Scene};
+use ndarray::Array2;
 
 /// True error over estimate: within this in nine of ten scenes.
 const HONEST: (f64, f64) = (0.2, 1.5);
@@ -75,14 +76,14 @@ fn scene(seed: u64) -> Scene {
 }
 
 /// The shear at the ends of the branches.
-fn ends(scene: &Scene, path: &LoadPath) -> Vec<[Vec<f64>; 2]> {
+fn ends(scene: &Scene, path: &LoadPath) -> Vec<[Array2<f64>; 2]> {
     let mut scene = scene.clone();
     scene.path = path.clone();
     let mut march = March::new(&scene).expect("a scene");
     let mut ends = Vec::new();
     while let Some(increment) = march.advance() {
         if increment.expect("an increment").point.ends_branch {
-            ends.push(march.state().interface.q.clone());
+            ends.push(march.shear());
         }
     }
     ends

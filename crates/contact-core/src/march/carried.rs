@@ -95,7 +95,7 @@ impl March {
         match &self.carried {
             Some(carried) if carried.cells != 0 => {
                 let from = self.origin(n).unwrap_or(n);
-                self.h_init[n] - self.h_init[from]
+                self.window.h_init[n] - self.window.h_init[from]
             }
             _ => 0.0,
         }
@@ -116,7 +116,7 @@ impl March {
     }
 
     fn stretched(&self, strain: [f64; 2], n: usize) -> [f64; 2] {
-        let (arms, length) = (&self.arms, self.arms.length);
+        let (arms, length) = (&self.window.arms, self.window.arms.length);
         [
             strain[0] * length * arms.x[n],
             strain[1] * length * arms.y[n] * arms.stretch,
@@ -124,9 +124,9 @@ impl March {
     }
 
     fn source(&self, n: usize, cells: isize) -> Option<usize> {
-        let rows = self.plan.mirror.rows(self.scene.grid.ny);
+        let rows = self.plan.mirror.rows(self.window.grid.ny);
         let from = n as isize + cells * rows as isize;
-        let inside = (0..self.h_init.len() as isize).contains(&from);
+        let inside = (0..self.window.h_init.len() as isize).contains(&from);
         inside.then_some(from as usize)
     }
 

@@ -10,6 +10,8 @@
 //! The error along the path hardly depends on the grid, so that a coarse one does, which takes a small
 //! part of the time; the contact must span it well.
 
+use ndarray::Array2;
+
 use super::March;
 use crate::error::Error;
 use crate::scene::{Grid, LoadPath, Scene, Spacing};
@@ -187,7 +189,7 @@ impl Trial {
     /// largest shear.
     fn change(&mut self, few: &LoadPath, many: &LoadPath) -> Result<Vec<f64>, Error> {
         let (few, many) = (self.shear(few)?, self.shear(many)?);
-        let norm = |q: &[Vec<f64>; 2]| q.iter().flatten().map(|q| q * q).sum::<f64>().sqrt();
+        let norm = |q: &[Array2<f64>; 2]| q.iter().flatten().map(|q| q * q).sum::<f64>().sqrt();
         let largest = many.iter().map(norm).fold(f64::MIN_POSITIVE, f64::max);
         let pairs = few.iter().zip(&many);
         Ok(pairs
@@ -200,13 +202,13 @@ impl Trial {
     }
 
     /// The shear at the end of each branch.
-    fn shear(&mut self, path: &LoadPath) -> Result<Vec<[Vec<f64>; 2]>, Error> {
+    fn shear(&mut self, path: &LoadPath) -> Result<Vec<[Array2<f64>; 2]>, Error> {
         self.0.path = path.clone();
         let mut march = March::new(&self.0)?;
         let mut ends = Vec::new();
         while let Some(increment) = march.advance() {
             if increment?.point.ends_branch {
-                ends.push(march.state().interface.q.clone());
+                ends.push(march.shear());
             }
         }
         Ok(ends)

@@ -1,5 +1,6 @@
 //! The first guess of an increment.
 
+use ndarray::Array2;
 use rayon::prelude::*;
 
 use super::State;
@@ -137,7 +138,7 @@ fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64], fa
 
 /// A pressure for bodies that have not touched: that of a Hertz contact of the given approach \[m\],
 /// up to a factor.
-pub(super) fn first_touch(h_init: &[f64], approach: f64) -> Vec<f64> {
+pub(super) fn first_touch(h_init: &Array2<f64>, approach: f64) -> Array2<f64> {
     let lowest = h_init.iter().fold(f64::INFINITY, |m, h| m.min(*h));
     let p = |h: &f64| {
         if approach > 0.0 {
@@ -146,5 +147,5 @@ pub(super) fn first_touch(h_init: &[f64], approach: f64) -> Vec<f64> {
             0.0
         }
     };
-    h_init.iter().map(p).collect()
+    h_init.map(p)
 }

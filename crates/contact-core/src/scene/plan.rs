@@ -9,6 +9,7 @@ use crate::kernels::KernelSet;
 
 /// What is computed and what is left out.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::struct_excessive_bools)] // one for each rule
 pub struct Plan {
     /// Whether pressure and shear act on each other: the normal-tangential kernels and the
     /// intermediate loop.
@@ -17,6 +18,8 @@ pub struct Plan {
     pub friction: bool,
     /// Part of the grid that is solved for.
     pub mirror: Mirror,
+    /// Whether a window around the contact is solved on.
+    pub window: bool,
     /// Whether changes of the tractions are answered in single precision.
     pub single: bool,
     /// Branches of the load path whose end does not depend on the way there.
@@ -86,6 +89,7 @@ impl Plan {
         rule("influence coefficients of body 1", alike(scene));
         let coupling = !rule("normal-tangential coupling", uncoupled(scene));
         let half = rule("the half y < 0 of the grid", mirror(scene));
+        let window = rule("cells far from the contact", far(scene));
         let single = rule(
             "digits beyond single precision in the iterations",
             digits(scene),
@@ -101,6 +105,7 @@ impl Plan {
             coupling,
             friction,
             mirror: if half { Mirror::Y } else { Mirror::None },
+            window,
             single,
             direct,
             lines,
@@ -167,6 +172,26 @@ fn digits(scene: &Scene) -> Result<&'static str, &'static str> {
 fn in_frequency_domain(scene: &Scene) -> bool {
     let method = &scene.settings.kernel.method;
     matches!(method, KernelMethod::FrequencyDomain { .. })
+}
+
+/// Whether, and why, a window around the contact is enough to solve on.
+fn far(scene: &Scene) -> Result<&'static str, &'static str> {
+    if !scene.settings.skip.far {
+        return Err("skip.far is off");
+    }
+    if scene.settings.solver.preset != Preset::Fast {
+        return Err("the preset is plain");
+    }
+    if in_frequency_domain(scene) {
+        return Err("the frequency-domain operator works on the whole grid");
+    }
+    if scene.grid.plane_strain {
+        return Err("the grid is one row of cells");
+    }
+    if scene.path.branches.iter().any(|b| b.to.rolled != 0.0) {
+        return Err("the bodies roll over the grid");
+    }
+    Ok("a window goes with the contact; every increment looks beyond it")
 }
 
 /// Whether a field is its own mirror image under y -> -y, up to rounding.

@@ -121,6 +121,8 @@ pub struct SkipSettings {
     /// Answer changes of the tractions in single precision where the tolerance is a thousand times
     /// coarser than its digits (default true).
     pub digits: bool,
+    /// Solve in a window around the contact, where no cell beyond it can touch (default true).
+    pub far: bool,
     /// Leave out the increments of branches whose end does not depend on the way (default false:
     /// the results have a row for every increment asked for, and loops their points); they are
     /// solved all the same if their fields are to be kept.
@@ -134,6 +136,7 @@ impl Default for SkipSettings {
             coupling: true,
             mirror: true,
             digits: true,
+            far: true,
             path: false,
         }
     }

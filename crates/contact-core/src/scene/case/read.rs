@@ -379,7 +379,14 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
             max_iterations: section.count_or("max_iterations", 1, default.max_iterations)?,
         };
     }
-    let rules = ["equal_layers", "coupling", "mirror", "digits", "path"];
+    let rules = [
+        "equal_layers",
+        "coupling",
+        "mirror",
+        "digits",
+        "far",
+        "path",
+    ];
     if let Some(section) = root.section("skip", &rules)? {
         let default = settings.skip;
         settings.skip = SkipSettings {
@@ -387,6 +394,7 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
             coupling: section.flag_or("coupling", default.coupling)?,
             mirror: section.flag_or("mirror", default.mirror)?,
             digits: section.flag_or("digits", default.digits)?,
+            far: section.flag_or("far", default.far)?,
             path: section.flag_or("path", default.path)?,
         };
     }

@@ -89,8 +89,8 @@ impl Scene {
             skip.equal_layers
         ));
         line(format_args!(
-            "coupling = {}\nmirror = {}\ndigits = {}\npath = {}",
-            skip.coupling, skip.mirror, skip.digits, skip.path
+            "coupling = {}\nmirror = {}\ndigits = {}\nfar = {}\npath = {}",
+            skip.coupling, skip.mirror, skip.digits, skip.far, skip.path
         ));
         let save = match &settings.save {
             SaveFields::Branches => "\"branches\"".to_owned(),
