@@ -6,6 +6,7 @@
 #![allow(clippy::print_stdout, reason = "a report for people")]
 
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 use contact_core::march::{March, choose_increments};
 use contact_core::scene::{LoadPath, Scene};
@@ -96,7 +97,8 @@ fn norm(q: impl Iterator<Item = f64>) -> f64 {
 /// The largest error and the largest estimate over the branches of a scene, and the tolerance.
 fn compared(seed: u64) -> (f64, f64, f64) {
     let drawn = scene(seed);
-    let chosen = choose_increments(&drawn).unwrap_or_else(|e| panic!("{seed}: {e}"));
+    let chosen =
+        choose_increments(&drawn, &Arc::default()).unwrap_or_else(|e| panic!("{seed}: {e}"));
     let estimate = chosen.path.branches.iter().filter_map(|b| b.path_error);
     let estimate = estimate.fold(0.0, f64::max);
     let mut finer = chosen.path.clone();

@@ -93,9 +93,10 @@ pub(crate) fn solve(
         .map_err(to_python)?
         .with_interval(interval(checkpoint)?);
     watched(py, writer, on_increment, |watch| {
+        let stop = watch.stop().unwrap_or_default();
         let increments = contact_core::march::solve(&scene.0, watch)?;
         if error {
-            output::write_error_bars(&store, &error_bars(&scene.0, &increments)?)?;
+            output::write_error_bars(&store, &error_bars(&scene.0, &increments, &stop)?)?;
         }
         Ok(increments)
     })

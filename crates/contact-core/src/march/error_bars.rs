@@ -3,9 +3,12 @@
 //! An error that falls like the m-th power of the cell leaves a difference f - c of the fine and the
 //! coarse grid that is 2^m - 1 times the error of the fine one (Richardson).
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use serde::{Deserialize, Serialize};
 
-use super::{BranchSummary, Increment, estimate_path_error, solve, summarise};
+use super::{BranchSummary, Increment, March, estimate_path_error, summarise};
 use crate::error::Error;
 use crate::scene::{Grid, SaveFields, Scene};
 
@@ -65,10 +68,14 @@ impl ErrorBars {
 ///
 /// Increments and solver are the same on both grids: their errors, and what a rough surface says
 /// between its cells, are no part of these numbers. What the increments leave is told of the shear,
-/// from runs with fewer or more of them.
-pub fn error_bars(scene: &Scene, fine: &[Increment]) -> Result<Vec<ErrorBars>, Error> {
-    let scene = &estimate_path_error(scene)?;
-    let coarse = solve(&coarser(scene)?, &mut ())?;
+/// from runs with fewer or more of them. Ends when `stop` is raised.
+pub fn error_bars(
+    scene: &Scene,
+    fine: &[Increment],
+    stop: &Arc<AtomicBool>,
+) -> Result<Vec<ErrorBars>, Error> {
+    let scene = &estimate_path_error(scene, stop)?;
+    let coarse = March::until(&coarser(scene)?, stop)?.run(Vec::new(), &mut ())?;
     let of_path = |branch: usize| scene.path.branches[branch].path_error.unwrap_or(0.0);
     Ok(summarise(fine)
         .iter()

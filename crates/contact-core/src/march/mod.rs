@@ -68,9 +68,14 @@ pub struct March {
 impl March {
     /// Checks the scene, chooses the increments that are not given, plans, and computes the kernels.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
+        Self::until(scene, &Arc::default())
+    }
+
+    /// As [`Self::new`] and [`Self::stop_on`]: the flag also ends the choice of the increments.
+    pub fn until(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         scene.check()?;
         if scene.path.is_open() {
-            return Self::new(&choose_increments(scene)?);
+            return Self::until(&choose_increments(scene, stop)?, stop);
         }
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
@@ -90,7 +95,7 @@ impl March {
             workspace: CoupledWorkspace::new(cells),
             whole,
             window,
-            stop: Arc::default(),
+            stop: stop.clone(),
         })
     }
 
@@ -184,7 +189,7 @@ impl March {
         let (normal, _) = self.drives(point);
         let pressed = !normal.free[0] || normal.sums[0] > 0.0;
         let touch = (pressed && self.state.loads.W <= 0.0).then(|| {
-            let Some(start) = coarse_start(&self.scene, point) else {
+            let Some(start) = coarse_start(&self.scene, point, &self.stop) else {
                 return first_touch(&self.scene.h_init(), self.approach_at(point));
             };
             *coarse_convolutions += start.convolutions;

@@ -10,9 +10,12 @@
 //! The error along the path hardly depends on the grid, so that a coarse one does, which takes a small
 //! part of the time; the contact must span it well.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use ndarray::Array2;
 
-use super::March;
+use super::{Increment, March};
 use crate::error::Error;
 use crate::scene::{Grid, LoadPath, Scene, Spacing};
 
@@ -42,8 +45,9 @@ const MOST: usize = 20_000;
 /// The scene with a number of increments for each branch that has none, so many that the error of
 /// the shear stays within `solver.path_tolerance`, and with the estimated error of each branch.
 ///
-/// A scene whose increments are given is returned as it is.
-pub fn choose_increments(scene: &Scene) -> Result<Scene, Error> {
+/// A scene whose increments are given is returned as it is. Ends when `stop` is raised:
+/// [`Error::Interrupted`] after increment 0.
+pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
     if !scene.path.is_open() {
         return Ok(scene.clone());
     }
@@ -66,7 +70,7 @@ pub fn choose_increments(scene: &Scene) -> Result<Scene, Error> {
         return Ok(chosen);
     }
     let tolerance = scene.settings.solver.path_tolerance;
-    let mut trial = Trial::new(&chosen)?;
+    let mut trial = Trial::new(&chosen, stop)?;
     for _ in 0..ROUNDS {
         let errors = trial.errors(&chosen.path)?;
         let mut more = false;
@@ -98,13 +102,14 @@ pub fn choose_increments(scene: &Scene) -> Result<Scene, Error> {
 
 /// The scene with the estimated error of the shear at the end of each branch.
 ///
-/// Compared with half of the increments, or with twice as many where a branch has only one.
-pub fn estimate_path_error(scene: &Scene) -> Result<Scene, Error> {
-    let mut estimated = choose_increments(scene)?;
+/// Compared with half of the increments, or with twice as many where a branch has only one. Ends when
+/// `stop` is raised.
+pub fn estimate_path_error(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
+    let mut estimated = choose_increments(scene, stop)?;
     if scene.path.is_open() {
         return Ok(estimated);
     }
-    let mut trial = Trial::new(scene)?;
+    let mut trial = Trial::new(scene, stop)?;
     let mut errors = Vec::new();
     if scene.path.branches.iter().all(|b| b.count() > 1) {
         let mut half = scene.path.clone();
@@ -143,11 +148,14 @@ fn begin(path: &mut LoadPath, friction: bool) {
 }
 
 /// The scene on a grid that is just fine enough, for runs along its path.
-struct Trial(Scene);
+struct Trial {
+    scene: Scene,
+    stop: Arc<AtomicBool>,
+}
 
 impl Trial {
     /// On the coarsest grid on which the contact is not lost.
-    fn new(scene: &Scene) -> Result<Self, Error> {
+    fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         let mut grids = vec![scene.grid];
         while let Some(coarse) = grids.last().and_then(halved) {
             grids.push(coarse);
@@ -166,11 +174,14 @@ impl Trial {
                 .branches
                 .iter_mut()
                 .for_each(|b| b.increments = Some(1));
-            if grids.is_empty() || most_contact(&once)? >= CONTACT {
+            if grids.is_empty() || most_contact(&once, stop)? >= CONTACT {
                 break;
             }
         }
-        Ok(Self(trial))
+        Ok(Self {
+            scene: trial,
+            stop: stop.clone(),
+        })
     }
 
     /// Estimated error of the shear at the end of each branch.
@@ -203,11 +214,11 @@ impl Trial {
 
     /// The shear at the end of each branch.
     fn shear(&mut self, path: &LoadPath) -> Result<Vec<[Array2<f64>; 2]>, Error> {
-        self.0.path = path.clone();
-        let mut march = March::new(&self.0)?;
+        self.scene.path = path.clone();
+        let mut march = March::until(&self.scene, &self.stop)?;
         let mut ends = Vec::new();
         while let Some(increment) = march.advance() {
-            if increment?.point.ends_branch {
+            if of_trial(increment)?.point.ends_branch {
                 ends.push(march.shear());
             }
         }
@@ -216,14 +227,22 @@ impl Trial {
 }
 
 /// The most contact cells that the branches end with.
-fn most_contact(scene: &Scene) -> Result<usize, Error> {
+fn most_contact(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<usize, Error> {
     let cell_area = scene.grid.cell_area();
-    let mut march = March::new(scene)?;
+    let mut march = March::until(scene, stop)?;
     let mut most = 0.0_f64;
     while let Some(increment) = march.advance() {
-        most = most.max(increment?.contact_area);
+        most = most.max(of_trial(increment)?.contact_area);
     }
     Ok((most / cell_area).round() as usize)
+}
+
+/// An increment of a trial; a stop comes before the first increment of the run itself.
+fn of_trial(increment: Result<Increment, Error>) -> Result<Increment, Error> {
+    increment.map_err(|error| match error {
+        Error::Interrupted { .. } => Error::Interrupted { increment: 0 },
+        error => error,
+    })
 }
 
 /// The grid of half as many cells each way, if there is one that is not too coarse.
