@@ -729,6 +729,9 @@ class Branch:
     def sigma_B(self) -> float:
         """Bulk stress along x in body 2 at its end [Pa]."""
     @property
+    def sigma_B1(self) -> float:
+        """Bulk stress along x in body 1 at its end [Pa]."""
+    @property
     def rolled(self) -> float:
         """Way that the contact has rolled along x at its end [m]."""
     @property
@@ -803,8 +806,8 @@ class LoadPath:
         increments : int or PerRange
             Increments per branch; or as many as the change needs.
         **columns : array
-            Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``rolled`` and the
-            path time ``t`` at the waypoints. What has no column stays as it is.
+            Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
+            ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
         """
     @staticmethod
     def from_csv(path: str | PathLike[str], *, increments: int | PerRange = ...) -> LoadPath:
@@ -819,6 +822,7 @@ class LoadPath:
         M_y: float | None = None,
         M_z: float | None = None,
         sigma_B: float | None = None,
+        sigma_B1: float | None = None,
         rolled: float | None = None,
         increments: _Count = ...,
         spacing: Spacing = ...,
@@ -836,6 +840,8 @@ class LoadPath:
             Tilting moments and torsional moment on body 2 [N m].
         sigma_B : float, optional
             Bulk stress along x in body 2, tension positive: a fatigue load [Pa].
+        sigma_B1 : float, optional
+            The same in body 1.
         rolled : float, optional
             Way that the contact has rolled along x over both bodies [m], whole cells per increment.
         increments : int or "auto"
@@ -893,7 +899,10 @@ class LoadPath:
         """Tangential force along y at the end of every increment [N]."""
     @property
     def sigma_B(self) -> _Array:
-        """Bulk stress at the end of every increment [Pa]."""
+        """Bulk stress of body 2 at the end of every increment [Pa]."""
+    @property
+    def sigma_B1(self) -> _Array:
+        """Bulk stress of body 1 at the end of every increment [Pa]."""
     @property
     def rolled(self) -> _Array:
         """Way rolled at the end of every increment [m]."""
@@ -1692,6 +1701,7 @@ class Subsurface:
         q_x: ArrayLike | None = None,
         q_y: ArrayLike | None = None,
         body_number: int = 2,
+        sigma_B: float = 0.0,
     ) -> Subsurface: ...
     def section(
         self,
@@ -1739,9 +1749,16 @@ class Envelope:
     def cycles(self) -> list[tuple[int, int]]:
         """First and last branch of every cycle."""
     def push(
-        self, increment: int, branch: int, *, p: ArrayLike, q_x: ArrayLike, q_y: ArrayLike
+        self,
+        increment: int,
+        branch: int,
+        *,
+        p: ArrayLike,
+        q_x: ArrayLike,
+        q_y: ArrayLike,
+        sigma_B: float = 0.0,
     ) -> None:
-        """Take the tractions of an increment."""
+        """Take the tractions of an increment, and the bulk stress of the body [Pa]."""
     def finish(self) -> dict[str, dict[str, _Array]]:
         """Give the extremes of every measure."""
 

@@ -16,6 +16,7 @@ impl Loads {
         let motion = |k: usize| given[k].map(|to| to - motions[k]);
         Self {
             sigma_B: self.sigma_B - before.sigma_B,
+            sigma_B1: self.sigma_B1 - before.sigma_B1,
             rolled: self.rolled - before.rolled,
             ..Self::default()
         }
@@ -35,7 +36,11 @@ impl Loads {
         let (f, g) = (self.forces(), other.forces());
         let pairs = (0..6)
             .map(|k| a[k].zip(b[k]).unwrap_or((f[k], g[k])))
-            .chain([(self.sigma_B, other.sigma_B), (self.rolled, other.rolled)]);
+            .chain([
+                (self.sigma_B, other.sigma_B),
+                (self.sigma_B1, other.sigma_B1),
+                (self.rolled, other.rolled),
+            ]);
         let (mut both, mut own, mut its) = (0.0, 0.0, 0.0);
         for (a, b) in pairs {
             // Forces, moments, lengths and angles compare as parts of the larger of the two.

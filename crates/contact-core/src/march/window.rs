@@ -49,7 +49,7 @@ pub(super) struct Whole {
     pair: InfluenceCoefficients,
     /// The whole grid, for what is beyond the window; there once it has been needed.
     grid: Mutex<Option<Window>>,
-    /// Transforms done before the present window was laid out.
+    /// Transforms done in windows that were given up.
     transforms: usize,
 }
 
@@ -324,7 +324,7 @@ impl March {
 
     /// Lays out a wider window and puts the present state into it.
     pub(super) fn widen(&mut self, shape: (usize, usize)) {
-        self.whole.transforms = self.transforms();
+        self.whole.transforms += self.window.op.transforms();
         let whole = self
             .whole
             .grid
@@ -333,7 +333,6 @@ impl March {
         let known = whole.take_if(|whole| whole.shape() == shape);
         let lay_out = || self.whole.window(&self.scene, &self.plan, shape);
         self.window = known.unwrap_or_else(lay_out);
-        self.whole.transforms -= self.window.op.transforms();
         let cells = self.window.h_init.len();
         self.carried = None;
         self.mu = vec![self.scene.friction.mu; cells];

@@ -229,6 +229,7 @@ fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
 fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<LoadPath, Fault> {
     let own = [
         "sigma_B",
+        "sigma_B1",
         "rolled",
         "increments",
         "t",
@@ -315,6 +316,7 @@ fn loads(section: &Section<'_>, at: Loads, mu: f64) -> Result<Loads, Fault> {
     let number = |key: &str, before: f64| section.number_or(key, before, &[]);
     let bodies = Loads {
         sigma_B: number("sigma_B", at.sigma_B)?,
+        sigma_B1: number("sigma_B1", at.sigma_B1)?,
         rolled: number("rolled", at.rolled)?,
         ..at
     };
