@@ -19,7 +19,7 @@ mod slip_datum;
 mod solve;
 mod state;
 
-pub use error_bars::{ErrorBars, coarser, error_bars};
+pub use error_bars::{Bar, BranchEnds, ErrorBars, Tractions, coarsest, error_bars, means};
 pub use fields::Fields;
 pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
 pub use partial_cells::continued_pressure;
