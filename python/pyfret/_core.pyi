@@ -730,6 +730,9 @@ class Branch:
     def sigma_B(self) -> float:
         """Bulk stress along x in body 2 at its end [Pa]."""
     @property
+    def sigma_B1(self) -> float:
+        """Bulk stress along x in body 1 at its end [Pa]."""
+    @property
     def rolled(self) -> float:
         """Way that the contact has rolled along x at its end [m]."""
     @property
@@ -804,8 +807,8 @@ class LoadPath:
         increments : int or PerRange
             Increments per branch; or as many as the change needs.
         **columns : array
-            Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``rolled`` and the
-            path time ``t`` at the waypoints. What has no column stays as it is.
+            Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
+            ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
         """
     @staticmethod
     def from_csv(path: str | PathLike[str], *, increments: int | PerRange = ...) -> LoadPath:
@@ -820,6 +823,7 @@ class LoadPath:
         M_y: float | None = None,
         M_z: float | None = None,
         sigma_B: float | None = None,
+        sigma_B1: float | None = None,
         rolled: float | None = None,
         increments: _Count = ...,
         spacing: Spacing = ...,
@@ -837,6 +841,8 @@ class LoadPath:
             Tilting moments and torsional moment on body 2 [N m].
         sigma_B : float, optional
             Bulk stress along x in body 2, tension positive: a fatigue load [Pa].
+        sigma_B1 : float, optional
+            The same in body 1.
         rolled : float, optional
             Way that the contact has rolled along x over both bodies [m], whole cells per increment.
         increments : int or "auto"
@@ -894,7 +900,10 @@ class LoadPath:
         """Tangential force along y at the end of every increment [N]."""
     @property
     def sigma_B(self) -> _Array:
-        """Bulk stress at the end of every increment [Pa]."""
+        """Bulk stress of body 2 at the end of every increment [Pa]."""
+    @property
+    def sigma_B1(self) -> _Array:
+        """Bulk stress of body 1 at the end of every increment [Pa]."""
     @property
     def rolled(self) -> _Array:
         """Way rolled at the end of every increment [m]."""
@@ -987,6 +996,11 @@ class Skip:
         Leave out the normal-tangential kernels where they vanish (default True).
     mirror : bool
         Solve on half of a mirror-symmetric scene (default True).
+    digits : bool
+        Answer changes of the tractions in single precision where the tolerance is 1e-6 or more
+        (default True).
+    far : bool
+        Solve in a window around the contact, where no cell beyond it can touch (default True).
     path : bool
         Leave out the increments of branches whose end does not depend on the way there
         (default False: results have a row for every increment asked for); they are solved if
@@ -999,6 +1013,8 @@ class Skip:
         equal_layers: bool = True,
         coupling: bool = True,
         mirror: bool = True,
+        digits: bool = True,
+        far: bool = True,
         path: bool = False,
     ) -> Skip: ...
     @property
@@ -1010,6 +1026,12 @@ class Skip:
     @property
     def mirror(self) -> bool:
         """Whether a mirror-symmetric scene is solved on its half."""
+    @property
+    def digits(self) -> bool:
+        """Whether changes of the tractions are answered in single precision."""
+    @property
+    def far(self) -> bool:
+        """Whether cells that can never touch are left out."""
     @property
     def path(self) -> bool:
         """Whether increments are left out where the way does not count."""
@@ -1698,6 +1720,7 @@ class Subsurface:
         q_x: ArrayLike | None = None,
         q_y: ArrayLike | None = None,
         body_number: int = 2,
+        sigma_B: float = 0.0,
     ) -> Subsurface: ...
     def section(
         self,
@@ -1745,9 +1768,16 @@ class Envelope:
     def cycles(self) -> list[tuple[int, int]]:
         """First and last branch of every cycle."""
     def push(
-        self, increment: int, branch: int, *, p: ArrayLike, q_x: ArrayLike, q_y: ArrayLike
+        self,
+        increment: int,
+        branch: int,
+        *,
+        p: ArrayLike,
+        q_x: ArrayLike,
+        q_y: ArrayLike,
+        sigma_B: float = 0.0,
     ) -> None:
-        """Take the tractions of an increment."""
+        """Take the tractions of an increment, and the bulk stress of the body [Pa]."""
     def finish(self) -> dict[str, dict[str, _Array]]:
         """Give the extremes of every measure."""
 

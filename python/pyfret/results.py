@@ -120,6 +120,10 @@ class Snapshot:
     def _tractions(self) -> dict[str, np.ndarray]:
         return {k: self.dataset[k].values for k in ("p", "q_x", "q_y")}
 
+    def bulk_stress(self, body_number: int = 2) -> float:
+        """Bulk stress along x of the substrate of a body [Pa]."""
+        return float(self.dataset["sigma_B1" if body_number == 1 else "sigma_B"])
+
     def stress(
         self,
         z: ArrayLike,
@@ -127,6 +131,7 @@ class Snapshot:
         x: float | None = None,
         y: float | None = None,
         body_number: int = 2,
+        bulk: bool = True,
     ) -> Stress:
         """Stress below the contact, in the lower body unless `body_number` is 1.
 
@@ -139,10 +144,21 @@ class Snapshot:
             below a point; with neither, the whole plane at every depth.
         body_number : 1 or 2
             The body.
+        bulk : bool
+            Whether its bulk stress is part of the stress.
         """
         body, grid = self._body(body_number), self.scene.grid
-        loads = self._tractions()
-        return subsurface.stress(body, grid, z, x=x, y=y, body_number=body_number, **loads)
+        sigma_B = self.bulk_stress(body_number) if bulk else 0.0
+        return subsurface.stress(
+            body,
+            grid,
+            z,
+            x=x,
+            y=y,
+            body_number=body_number,
+            sigma_B=sigma_B,
+            **self._tractions(),
+        )
 
     def p_continued(self) -> xr.DataArray:
         """Pressure at the centres of the cells [Pa], that at the rim continued from inside.
@@ -173,6 +189,7 @@ class Snapshot:
         *,
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
+        bulk: bool = True,
     ) -> None:
         """Write stress, displacement in the volume: :func:`pyfret.subsurface.write_volume`."""
         body, grid = self._body(body_number), self.scene.grid
@@ -183,6 +200,7 @@ class Snapshot:
             z,
             of=of,
             body_number=body_number,
+            sigma_B=self.bulk_stress(body_number) if bulk else 0.0,
             title=repr(self),
             **self._tractions(),
         )
@@ -390,6 +408,7 @@ class Result:
         y: float | None = None,
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
+        bulk: bool = True,
     ) -> xr.Dataset:
         """Extremes of stress over the increments whose fields were kept, on a section or on planes.
 
@@ -397,7 +416,9 @@ class Result:
         path without keeping their fields; parameters and result are those of that function.
         """
         kept = (self.at(int(n)) for n in self.dataset.saved_increment.values)
-        return subsurface.envelope(self.scene, kept, z, x=x, y=y, of=of, body_number=body_number)
+        return subsurface.envelope(
+            self.scene, kept, z, x=x, y=y, of=of, body_number=body_number, bulk=bulk
+        )
 
     def summary(self) -> str:
         """Tabulate what the run ended with, one line per branch."""

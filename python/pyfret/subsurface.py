@@ -49,9 +49,12 @@ def _subsurface(
     grid: Grid,
     loads: tuple[ArrayLike | None, ArrayLike | None, ArrayLike | None],
     body_number: int,
+    sigma_B: float = 0.0,
 ) -> _core.Subsurface:
     p, q_x, q_y = loads
-    return _core.Subsurface(body, grid, p=p, q_x=q_x, q_y=q_y, body_number=body_number)
+    return _core.Subsurface(
+        body, grid, p=p, q_x=q_x, q_y=q_y, body_number=body_number, sigma_B=sigma_B
+    )
 
 
 def stress(
@@ -65,6 +68,7 @@ def stress(
     x: float | None = None,
     y: float | None = None,
     body_number: int = 2,
+    sigma_B: float = 0.0,
 ) -> Stress:
     """Stress in a body under tractions on its surface.
 
@@ -83,13 +87,15 @@ def stress(
         below a point; with neither, the whole plane at every depth.
     body_number : 1 or 2
         Whether `body` is the upper one, on which the shear acts reversed, or the lower one.
+    sigma_B : float
+        Bulk stress along x of its substrate [Pa]; coatings are stretched with it.
 
     Returns
     -------
     Stress
         Of dims (depth, x), (depth, y), (depth) or (depth, x, y).
     """
-    below = _subsurface(body, grid, (p, q_x, q_y), body_number)
+    below = _subsurface(body, grid, (p, q_x, q_y), body_number, sigma_B)
     return Stress(_sampled(below, body, grid, z, (x, y), displacement=False))
 
 
@@ -105,7 +111,10 @@ def displacement(
     y: float | None = None,
     body_number: int = 2,
 ) -> xr.Dataset:
-    """Displacements u_x, u_y, u_z in a body relative to infinity [m], as in :func:`stress`."""
+    """Displacements u_x, u_y, u_z in a body relative to infinity [m], as in :func:`stress`.
+
+    They are those that the tractions cause; what a bulk stress stretches comes on top.
+    """
     below = _subsurface(body, grid, (p, q_x, q_y), body_number)
     return _sampled(below, body, grid, z, (x, y), displacement=True)
 
@@ -151,13 +160,14 @@ def write_volume(
     q_y: ArrayLike | None = None,
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
+    sigma_B: float = 0.0,
     title: str = "",
 ) -> None:
     """Write stress and displacement under the grid, plane by plane while they are computed.
 
     Parameters
     ----------
-    body, grid, z, p, q_x, q_y, body_number
+    body, grid, z, p, q_x, q_y, body_number, sigma_B
         As in :func:`stress`; on an interface the value is that of the upper layer.
     out : path
         A ``.vti`` file (VTK image data for ParaView and PyVista; depths evenly spaced) or a Zarr
@@ -169,7 +179,7 @@ def write_volume(
     """
     depths, layers = _depths(body, z)
     once = [n for n, depth in enumerate(depths) if n == 0 or depth != depths[n - 1]]
-    below = _subsurface(body, grid, (p, q_x, q_y), body_number)
+    below = _subsurface(body, grid, (p, q_x, q_y), body_number, sigma_B)
     z_once, layer_once = [depths[n] for n in once], [layers[n] for n in once]
     below.volume(out, z_once, layer_once, of=list(of), title=title)
 
@@ -183,6 +193,7 @@ def envelope(
     y: float | None = None,
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
+    bulk: bool = True,
 ) -> xr.Dataset:
     """Extremes of stress over a load path, none of whose increments is kept.
 
@@ -196,6 +207,8 @@ def envelope(
         The section, as in :func:`stress`: `x` or `y`, or neither for whole planes.
     of : sequence of str
         Measures, as in :class:`Stress`.
+    bulk : bool
+        Whether the body's bulk stress is part of the stress.
 
     Returns
     -------
@@ -224,8 +237,9 @@ def envelope(
     )
     for snapshot in increments:
         fields = {k: snapshot.dataset[k].values for k in ("p", "q_x", "q_y")}
-        number = int(snapshot.dataset.increment)
-        stream.push(number, int(snapshot.dataset.branch_of_increment), **fields)
+        number, branch = (int(snapshot.dataset[k]) for k in ("increment", "branch_of_increment"))
+        sigma_B = snapshot.bulk_stress(body_number) if bulk else 0.0
+        stream.push(number, branch, sigma_B=sigma_B, **fields)
     coords = _coords(scene.grid, depths, layers, x, y)
     along = [name for name, at in (("x", x), ("y", y)) if at is None]
     dims = ("depth", *along)

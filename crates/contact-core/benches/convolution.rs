@@ -87,7 +87,7 @@ fn convolution(c: &mut Criterion) {
                 });
             }
         }
-        let mut inverse = CirculantInverse::new(&coefficients, Mirror::Y);
+        let mut inverse = CirculantInverse::new(&coefficients, Mirror::Y, true);
         let q = tractions(n, n / 2);
         let mut z = [q.clone(), q.clone()];
         group.bench_function(BenchmarkId::new("preconditioner", n), |b| {

@@ -7,9 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::thread;
+use std::time::{Duration, Instant};
 
-use contact_core::march::{Increment, March, Observer, solve};
+use contact_core::march::{Increment, March, Observer, choose_increments, error_bars, solve};
 use contact_core::output::{Resumed, Store, StoreWriter, resume};
 use contact_core::{Error, Scene};
 
@@ -311,4 +312,28 @@ fn a_raised_flag_ends_the_increment() {
     );
     go_on(taken_up(&path), 0).unwrap();
     assert!(files(&path) == undisturbed("flagged_undisturbed.zarr").1);
+}
+
+/// So it does while the increments are chosen, and while the errors of the cells are found.
+#[test]
+fn a_raised_flag_ends_what_comes_before_and_after_the_increments() {
+    let mut open = scene();
+    for branch in &mut open.path.branches {
+        branch.increments = None;
+    }
+    open.settings.solver.path_tolerance = 1e-4;
+    let stop = Arc::<AtomicBool>::default();
+    let raised = thread::scope(|scope| {
+        let raise = scope.spawn(|| {
+            thread::sleep(Duration::from_millis(100));
+            stop.store(true, Ordering::Relaxed);
+            Instant::now()
+        });
+        let chosen = choose_increments(&open, &stop);
+        assert_eq!(chosen, Err(Error::Interrupted { increment: 0 }));
+        raise.join().unwrap()
+    });
+    assert!(raised.elapsed() < Duration::from_secs(1));
+    let bars = error_bars(&scene(), &[], &[], &stop);
+    assert!(matches!(bars, Err(Error::Interrupted { .. })), "{bars:?}");
 }

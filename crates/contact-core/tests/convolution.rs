@@ -122,3 +122,48 @@ fn the_mirrored_half_equals_the_whole() {
         }
     }
 }
+
+/// Single precision keeps seven digits of the largest displacement at any magnitude of the tractions.
+#[test]
+fn single_precision_keeps_its_digits_at_any_magnitude() {
+    for (nx, ny) in [(8, 8), (23, 18), (64, 96)] {
+        let c = coefficients(nx, ny);
+        for mirror in [Mirror::None, Mirror::Y] {
+            let cells = nx * mirror.rows(ny);
+            let mut op = DcFft::with_single(&c, mirror, true, true);
+            for magnitude in [1e-60, 1.0, 1e9, 1e60] {
+                let mut random = noise(11);
+                let mut field =
+                    || -> Vec<f64> { (0..cells).map(|_| magnitude * random()).collect() };
+                let q = [field(), field(), field()];
+                let given = || Tractions {
+                    q_x: Some(&q[0]),
+                    q_y: Some(&q[1]),
+                    p: Some(&q[2]),
+                };
+                let mut found = [(); 2].map(|()| [(); 3].map(|()| vec![0.0; cells]));
+                let wanted = |u: &mut [Vec<f64>; 3], respond: bool, op: &mut DcFft| {
+                    let [u_x, u_y, u_z] = u;
+                    let wanted = Displacements {
+                        u_x: Some(u_x),
+                        u_y: Some(u_y),
+                        u_z: Some(u_z),
+                    };
+                    if respond {
+                        op.respond(given(), wanted);
+                    } else {
+                        op.apply(given(), wanted);
+                    }
+                };
+                let [exact, single] = &mut found;
+                wanted(exact, false, &mut op);
+                wanted(single, true, &mut op);
+                let largest = exact.iter().flatten().fold(0.0, |m: f64, u| m.max(u.abs()));
+                for k in 0..3 {
+                    let error = largest_difference(&exact[k], &single[k]) / largest;
+                    assert!(error > 0.0 && error < 5e-7, "{nx} x {ny}: {error:e}");
+                }
+            }
+        }
+    }
+}

@@ -6,6 +6,7 @@
 #![allow(clippy::print_stdout, reason = "a report for people")]
 
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 use contact_core::march::{
     Bar, BranchEnds, BranchSummary, ErrorBars, Tractions, error_bars, means, solve, summarise,
@@ -137,7 +138,7 @@ fn ratios(seed: u64) -> Option<Ratios> {
     let mut ends = BranchEnds::beside(&mut nobody);
     // A soft coating may spread the contact over the border.
     let increments = solve(&coarse, &mut ends).ok()?;
-    let bars = error_bars(&coarse, &increments, &ends.tractions).ok()?;
+    let bars = error_bars(&coarse, &increments, &ends.tractions, &Arc::default()).ok()?;
     let mut true_ends = BranchEnds::beside(&mut no_one);
     let reference = solve(&fine, &mut true_ends).ok()?;
     let mut numbers = Vec::new();

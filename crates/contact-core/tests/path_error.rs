@@ -6,9 +6,11 @@
 #![allow(clippy::print_stdout, reason = "a report for people")]
 
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 use contact_core::march::{March, choose_increments};
 use contact_core::scene::{LoadPath, Scene};
+use ndarray::Array2;
 
 /// True error over estimate: within this in nine of ten scenes.
 const HONEST: (f64, f64) = (0.2, 1.5);
@@ -75,14 +77,14 @@ fn scene(seed: u64) -> Scene {
 }
 
 /// The shear at the ends of the branches.
-fn ends(scene: &Scene, path: &LoadPath) -> Vec<[Vec<f64>; 2]> {
+fn ends(scene: &Scene, path: &LoadPath) -> Vec<[Array2<f64>; 2]> {
     let mut scene = scene.clone();
     scene.path = path.clone();
     let mut march = March::new(&scene).expect("a scene");
     let mut ends = Vec::new();
     while let Some(increment) = march.advance() {
         if increment.expect("an increment").point.ends_branch {
-            ends.push(march.state().interface.q.clone());
+            ends.push(march.shear());
         }
     }
     ends
@@ -95,7 +97,8 @@ fn norm(q: impl Iterator<Item = f64>) -> f64 {
 /// The largest error and the largest estimate over the branches of a scene, and the tolerance.
 fn compared(seed: u64) -> (f64, f64, f64) {
     let drawn = scene(seed);
-    let chosen = choose_increments(&drawn).unwrap_or_else(|e| panic!("{seed}: {e}"));
+    let chosen =
+        choose_increments(&drawn, &Arc::default()).unwrap_or_else(|e| panic!("{seed}: {e}"));
     let estimate = chosen.path.branches.iter().filter_map(|b| b.path_error);
     let estimate = estimate.fold(0.0, f64::max);
     let mut finer = chosen.path.clone();

@@ -71,6 +71,10 @@ fn same_without(settings: &[&str], off: &str) -> [Vec<Increment>; 2] {
             norm(&b_fields.p),
             norm(&b_fields.q_x).max(1e-6 * norm(&b_fields.p)),
         );
+        if p == 0.0 {
+            assert!(norm(&a_fields.p) <= 0.0);
+            continue;
+        }
         assert!(norm(&(&a_fields.p - &b_fields.p)) < 1e-7 * p);
         assert!(norm(&(&a_fields.q_x - &b_fields.q_x)) < 1e-6 * q);
         assert!(norm(&(&a_fields.q_y - &b_fields.q_y)) < 1e-6 * q);
@@ -214,5 +218,70 @@ fn increments_whose_way_counts() {
         let kept = Plan::new(&scene).points(&scene);
         let third = kept.iter().filter(|p| p.branch == 2).count();
         assert_eq!(third, 5, "{setting}: {}", line(&scene, "increments"));
+    }
+}
+
+/// Down to the tolerance at which single precision serves, the answers differ by less than it.
+#[test]
+fn digits_that_the_tolerance_does_not_need() {
+    let coated = "body2.coatings=[{ E = 4e11, nu = 0.25, thickness = { a_H = 0.5 } }]";
+    for tolerance in ["1e-4", "1e-6"] {
+        let asked = format!("solver.tolerance={tolerance}");
+        let single = scene(&[coated, &asked]);
+        assert!(line(&single, "digits").skipped);
+        let double = scene(&[coated, &asked, "skip.digits=false"]);
+        assert!(!line(&double, "digits").skipped);
+        let exact = scene(&[coated]);
+        assert!(!line(&exact, "digits").skipped);
+        let mut ends = [Ends::default(), Ends::default(), Ends::default()];
+        let run = |scene: &Scene, ends: &mut Ends| solve(scene, ends).unwrap();
+        let with = run(&single, &mut ends[0]);
+        let without = run(&double, &mut ends[1]);
+        run(&exact, &mut ends[2]);
+        let work = |run: &[Increment]| run.iter().map(|i| i.work.convolutions).sum::<f64>();
+        assert!(work(&with) < 1.05 * work(&without) + 1.0);
+        let [with, without, exact] = ends.map(|ends| ends.0);
+        for ((with, without), exact) in with.iter().zip(&without).zip(&exact) {
+            let off = |of: &(Increment, Fields)| norm(&(&of.1.q_x - &exact.1.q_x));
+            let rounding = norm(&(&with.1.q_x - &without.1.q_x));
+            assert!(
+                rounding < 0.3 * off(without).max(1e-5 * norm(&exact.1.q_x)),
+                "{tolerance}: {rounding:e} of {:e}",
+                off(without)
+            );
+        }
+    }
+}
+
+/// A small contact on a wide grid; contacts that appear far from the first, on the crests of waves;
+/// a contact that is lost and found again, smaller; an odd grid and an ellipse.
+#[test]
+fn cells_far_from_the_contact() {
+    let coated = "body2.coatings=[{ E = 4e11, nu = 0.25, thickness = { a_H = 0.5 } }]";
+    let wide = "grid={ n = 96, extent = { a_H = 6.0 } }";
+    let waves = "body1.shape={ sphere = { R = 0.018 }, waviness = { amplitude = 2e-6, wavelength = 6e-4 } }";
+    let ellipse = "body1.shape={ ellipsoid = { R_x = 0.018, R_y = 0.05, angle = 0.4 } }";
+    let again = "path=[{ W = 900.0, increments = 3 }, { T_x = 100.0, increments = 2 }, \
+                 { W = 0.0, T_x = 0.0, increments = 2 }, { W = 500.0, increments = 2 }]";
+    for settings in [
+        &[wide, coated][..],
+        &[wide, waves],
+        &[wide, coated, again],
+        &[
+            "grid={ n = [71, 93], extent = { a_H = 8.0 } }",
+            ellipse,
+            coated,
+        ],
+    ] {
+        let windowed = scene(settings);
+        assert!(line(&windowed, "far").skipped);
+        let whole = scene(&[settings, &["skip.far=false"]].concat());
+        assert!(!line(&whole, "far").skipped);
+        let [with, without] = same_without(settings, "skip.far=false");
+        let pairs = with.iter().zip(&without);
+        for (a, b) in pairs.filter(|(a, _)| a.contact_area > 0.0) {
+            assert!((a.contact_area / b.contact_area - 1.0).abs() < 1e-6);
+            assert!((a.stick_area - b.stick_area).abs() < 1e-6 * b.contact_area);
+        }
     }
 }

@@ -36,4 +36,5 @@ pub(crate) fn resume(options: &Options) -> Result<(), Failure> {
         .watch(&scene, &options.store, writer, increments, |watcher| {
             march.run(before, watcher)
         })
+        .map(drop)
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use contact_core::march::{
@@ -62,17 +62,17 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     }
     let manner = &options.manner;
     manner.use_threads();
-    let scene = choose_increments(&scene).map_err(ended)?;
+    let scene = choose_increments(&scene, &Arc::default()).map_err(ended)?;
     let writer = StoreWriter::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
     let (mut increments, mut tractions) = (Vec::new(), Vec::new());
-    manner.watch(&scene, &options.out, writer, Vec::new(), |watcher| {
+    let stop = manner.watch(&scene, &options.out, writer, Vec::new(), |watcher| {
         let mut ends = BranchEnds::beside(watcher);
         increments = solve(&scene, &mut ends)?;
         tractions = ends.tractions;
         Ok(increments.clone())
     })?;
     if options.error {
-        let bars = error_bars(&scene, &increments, &tractions).map_err(ended)?;
+        let bars = error_bars(&scene, &increments, &tractions, &stop).map_err(ended)?;
         write_error_bars(&options.out, &bars).map_err(ended)?;
         if !manner.quiet {
             print(&summary::error_table(&scene, &increments, &bars));
@@ -93,7 +93,7 @@ impl Manner {
     }
 
     /// Watches a run of the scene into the store `out` that has done `increments` already, and
-    /// says how it ended.
+    /// says how it ended. Returns the flag that Ctrl-C raises.
     pub(crate) fn watch(
         &self,
         scene: &Scene,
@@ -101,24 +101,30 @@ impl Manner {
         writer: StoreWriter,
         increments: Vec<Increment>,
         run: impl FnOnce(&mut dyn Observer) -> Result<Vec<Increment>, Error>,
-    ) -> Result<(), Failure> {
+    ) -> Result<Arc<AtomicBool>, Failure> {
+        let begun = Instant::now();
+        let kept = Arc::new(AtomicBool::new(!increments.is_empty()));
         let mut watcher = Watcher {
             writer: writer.with_interval(self.checkpoint),
             progress: Progress::new(scene, self.quiet),
-            stop: stop_on_interrupt(),
+            stop: stop_on_interrupt(&kept),
+            kept,
             increments,
         };
         let outcome = run(&mut watcher);
         let Watcher {
+            writer,
             progress,
             increments,
+            stop,
             ..
         } = watcher;
         progress.end();
         if !self.quiet && !increments.is_empty() {
             print(&summary::table(scene, &increments));
+            say(&summary::time(begun.elapsed(), writer.checkpoints()));
         }
-        outcome.map(drop).map_err(|error| {
+        outcome.map(|_| stop).map_err(|error| {
             if !increments.is_empty() {
                 say(&format!(
                     "fret: {} of {} increments are kept in {}; `fret resume` goes on from there",
@@ -147,12 +153,15 @@ struct Watcher {
     writer: StoreWriter,
     progress: Progress,
     stop: Arc<AtomicBool>,
+    /// Whether there is an increment to keep.
+    kept: Arc<AtomicBool>,
     increments: Vec<Increment>,
 }
 
 impl Observer for Watcher {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         self.increments.push(*increment);
+        self.kept.store(true, Ordering::Relaxed);
         self.writer.on_increment(march, increment)?;
         self.progress.on_increment(&self.increments);
         if self.stop.load(Ordering::Relaxed) {
@@ -172,11 +181,16 @@ impl Observer for Watcher {
     }
 }
 
-/// A flag that the first Ctrl-C raises; the second ends the process.
-fn stop_on_interrupt() -> Arc<AtomicBool> {
+/// A flag that the first Ctrl-C raises; the second ends the process, and so does the first as long
+/// as nothing is kept: then nothing is written either.
+fn stop_on_interrupt(kept: &Arc<AtomicBool>) -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
-    let flag = stop.clone();
+    let (flag, kept) = (stop.clone(), kept.clone());
     let handler = move || {
+        if !kept.load(Ordering::Relaxed) {
+            say("fret: stopped before the first increment");
+            std::process::exit(1);
+        }
         if flag.swap(true, Ordering::Relaxed) {
             std::process::exit(1);
         }

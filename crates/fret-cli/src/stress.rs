@@ -40,6 +40,9 @@ pub(crate) struct Options {
     /// The whole volume under the grid, plane by plane (default: the section along x at y = 0)
     #[arg(long)]
     volume: bool,
+    /// Leave out the bulk stress of the body
+    #[arg(long)]
+    no_bulk: bool,
     /// Largest depth in metres; by default 2 a_H
     #[arg(long, value_name = "Z")]
     depth: Option<f64>,
@@ -62,6 +65,8 @@ struct Loads {
     q_x: Array2<f64>,
     q_y: Array2<f64>,
     p: Array2<f64>,
+    /// Bulk stress of the body in Pa.
+    sigma_B: f64,
 }
 
 /// What is to be computed.
@@ -123,7 +128,7 @@ impl Task {
         }
         Ok(Self {
             probes: probes.collect::<Result<_, _>>()?,
-            loads: Loads::of(&store, options.increment)?,
+            loads: Loads::of(&store, options)?,
             scene,
             side,
             depths,
@@ -162,7 +167,8 @@ impl Task {
         }
         let store = self.store(options, Some(line))?;
         let states = [self.loads.tractions()];
-        let section = Section::new(self.body(), self.side, grid, line, &states)?;
+        let section = Section::new(self.body(), self.side, grid, line, &states)?
+            .with_bulk_stress(&[self.loads.sigma_B]);
         let (axis, along): (_, Vec<f64>) = match line {
             Line::AlongX(_) => ("x", (0..grid.nx).map(|i| grid.x(i)).collect()),
             Line::AlongY(_) => ("y", (0..grid.ny).map(|j| grid.y(j)).collect()),
@@ -195,7 +201,8 @@ impl Task {
         let mut sinks: Vec<&dyn VolumeSink> = Vec::new();
         sinks.extend(image.as_ref().map(|i| i as &dyn VolumeSink));
         sinks.extend(store.as_ref().map(|s| s as &dyn VolumeSink));
-        let slices = Slices::new(self.body(), self.side, grid, &[self.loads.tractions()])?;
+        let slices = Slices::new(self.body(), self.side, grid, &[self.loads.tractions()])?
+            .with_bulk_stress(&[self.loads.sigma_B]);
         let largest = write_volume(&slices, &self.depths, &self.probes, &sinks)?;
         image.map_or(Ok(()), ImageData::finish)?;
         store.map_or(Ok(()), StressStore::finish)?;
@@ -234,7 +241,8 @@ impl Task {
 
 impl Loads {
     /// Of the increment asked for, or of the last one kept.
-    fn of(store: &Store, increment: Option<usize>) -> Result<Self, Error> {
+    fn of(store: &Store, options: &Options) -> Result<Self, Error> {
+        let increment = options.increment;
         let kept: Vec<usize> = store
             .column("saved_increment")?
             .into_iter()
@@ -252,8 +260,25 @@ impl Loads {
                 format!("one whose fields were kept: {kept:?}"),
             ));
         };
+        let sigma_B = if options.no_bulk {
+            0.0
+        } else {
+            let name = if options.body == 1 {
+                "sigma_B1"
+            } else {
+                "sigma_B"
+            };
+            // Rows are increments from 1.
+            let row = kept[place].wrapping_sub(1);
+            let stress = store.column(name)?.get(row).copied();
+            stress.ok_or_else(|| {
+                let allowed = "one of the increments of the store";
+                Error::invalid("saved_increment", kept[place], allowed)
+            })?
+        };
         Ok(Self {
             increment: kept[place],
+            sigma_B,
             q_x: store.field("q_x", place)?,
             q_y: store.field("q_y", place)?,
             p: store.field("p", place)?,

@@ -1,5 +1,7 @@
 //! A branch of the load path in a line, a run in a table.
 
+use std::time::Duration;
+
 use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
 use contact_core::march::{Bar, BranchSummary, ErrorBars, Increment, summarise};
@@ -130,6 +132,15 @@ fn columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
         columns.push(column("pieces", |b, _| b.work.parts.to_string()));
     }
     columns
+}
+
+/// How long a run took, and what of that went to its checkpoints.
+pub(crate) fn time(run: Duration, (count, spent): (usize, Duration)) -> String {
+    let (run, spent) = (run.as_secs_f64(), spent.as_secs_f64());
+    format!(
+        "fret: {run:.2} s, of these {spent:.3} s ({:.1} %) for {count} checkpoints",
+        100.0 * spent / run
+    )
 }
 
 /// A number and its error, with as many decimals as the error has a say in.

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use contact_core::output::Store;
 
@@ -344,6 +344,28 @@ fn an_interrupted_run_ends_cleanly() {
     assert!(rest.iter().any(|line| line.ends_with(&last)));
     let saved = store.column("saved_increment").unwrap();
     assert_eq!(saved.last().map(|&n| n as usize), Some(store.increments()));
+}
+
+/// Before the first increment there is nothing to keep: it ends at once, on grids whose coefficients
+/// take seconds too.
+#[cfg(unix)]
+#[test]
+fn a_run_without_an_increment_ends_at_once() {
+    let out = free("not_begun.zarr");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_fret"))
+        .args(["run", SCENE, "-o", out.to_str().unwrap()])
+        .args(["--set", "grid.n=1024"])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(300));
+    let id = child.id().to_string();
+    let killed = Command::new("kill").args(["-INT", &id]).status().unwrap();
+    assert!(killed.success());
+    let asked = Instant::now();
+    assert!(!child.wait().unwrap().success());
+    assert!(asked.elapsed() < Duration::from_secs(1));
+    assert!(!out.exists());
 }
 
 /// kill -9 at any moment: the store opens, and is as it was at its last checkpoint.

@@ -81,7 +81,8 @@ impl Envelope {
         self.cycles.clone()
     }
 
-    #[pyo3(signature = (increment, branch, *, p, q_x, q_y))]
+    #[pyo3(signature = (increment, branch, *, p, q_x, q_y, sigma_B = 0.0))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn push(
         &mut self,
         py: Python<'_>,
@@ -90,10 +91,15 @@ impl Envelope {
         p: Field<'_>,
         q_x: Field<'_>,
         q_y: Field<'_>,
+        sigma_B: f64,
     ) -> PyResult<()> {
         let tractions = [q_x, q_y, p].map(|f| f.as_array().as_standard_layout().into_owned());
         let stream = self.stream.as_mut().ok_or_else(finished)?;
-        let moment = core::Moment { increment, branch };
+        let moment = core::Moment {
+            increment,
+            branch,
+            sigma_B,
+        };
         py.detach(|| stream.push(moment, tractions))
             .map_err(to_python)
     }

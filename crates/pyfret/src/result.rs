@@ -93,10 +93,11 @@ pub(crate) fn solve(
         .map_err(to_python)?
         .with_interval(interval(checkpoint)?);
     watched(py, writer, on_increment, |watch| {
+        let stop = watch.stop().unwrap_or_default();
         let mut ends = BranchEnds::beside(watch);
         let increments = contact_core::march::solve(&scene.0, &mut ends)?;
         if error {
-            let bars = error_bars(&scene.0, &increments, &ends.tractions)?;
+            let bars = error_bars(&scene.0, &increments, &ends.tractions, &stop)?;
             output::write_error_bars(&store, &bars)?;
         }
         Ok(increments)

@@ -54,6 +54,7 @@ pub(crate) struct Subsurface {
     body: Body,
     grid: Grid,
     side: Side,
+    sigma_B: f64,
     fields: [Option<Vec<f64>>; 3],
 }
 
@@ -79,7 +80,8 @@ impl Subsurface {
 #[pymethods]
 impl Subsurface {
     #[new]
-    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number = 2))]
+    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number = 2, sigma_B = 0.0))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         body: Body,
         grid: Grid,
@@ -87,6 +89,7 @@ impl Subsurface {
         q_x: Option<Field<'_>>,
         q_y: Option<Field<'_>>,
         body_number: u8,
+        sigma_B: f64,
     ) -> PyResult<Self> {
         let shape = (grid.0.nx, grid.0.ny);
         let cells = |name: &str, field: Option<Field<'_>>| match field {
@@ -100,6 +103,7 @@ impl Subsurface {
         Ok(Self {
             fields: [cells("q_x", q_x)?, cells("q_y", q_y)?, cells("p", p)?],
             side: side(body_number)?,
+            sigma_B,
             body,
             grid,
         })
@@ -118,7 +122,8 @@ impl Subsurface {
         let (depths, line) = (Self::depths(&z, &layer)?, line(x, y)?);
         let found = py.detach(|| {
             let states = [self.tractions()];
-            let section = core::Section::new(&self.body.0, self.side, &self.grid.0, line, &states)?;
+            let section = core::Section::new(&self.body.0, self.side, &self.grid.0, line, &states)?
+                .with_bulk_stress(&[self.sigma_B]);
             if displacement {
                 section.displacement(&depths)
             } else {
@@ -138,7 +143,8 @@ impl Subsurface {
     ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
         let found = py.detach(|| {
             let states = [self.tractions()];
-            let slices = core::Slices::new(&self.body.0, self.side, &self.grid.0, &states)?;
+            let slices = core::Slices::new(&self.body.0, self.side, &self.grid.0, &states)?
+                .with_bulk_stress(&[self.sigma_B]);
             let depth = Depth { z, layer };
             Ok(if displacement {
                 Vec::from(slices.displacement(depth)?.swap_remove(0))
@@ -161,7 +167,8 @@ impl Subsurface {
             .collect();
         let both = py.detach(|| {
             let states = [self.tractions()];
-            let points = core::Points::new(&self.body.0, self.side, &self.grid.0, &states)?;
+            let points = core::Points::new(&self.body.0, self.side, &self.grid.0, &states)?
+                .with_bulk_stress(&[self.sigma_B]);
             Ok((points.stress(&places)?, points.displacement(&places)?))
         });
         let (stress, u) = both.map_err(to_python)?;
@@ -186,7 +193,8 @@ impl Subsurface {
         let (grid, side) = (&self.grid.0, self.side);
         let write = || {
             let states = [self.tractions()];
-            let slices = core::Slices::new(&self.body.0, side, grid, &states)?;
+            let slices = core::Slices::new(&self.body.0, side, grid, &states)?
+                .with_bulk_stress(&[self.sigma_B]);
             let write =
                 |sink: &dyn VolumeSink| write_volume(&slices, &depths, &probes, &[sink]).map(drop);
             if out

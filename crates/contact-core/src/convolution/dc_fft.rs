@@ -9,7 +9,8 @@ use crate::kernels::InfluenceCoefficients;
 /// S. Liu, Q. Wang, G. Liu, Wear 243 (2000) 101-111.
 pub struct DcFft {
     shape: (usize, usize),
-    product: SpectralProduct,
+    product: SpectralProduct<f64>,
+    single: Option<SpectralProduct<f32>>,
     coupled: bool,
     self_coefficients: (f64, f64),
 }
@@ -18,12 +19,24 @@ impl DcFft {
     /// For the coefficients of a pair of bodies. With [`Mirror::Y`] the fields are those of the
     /// half y > 0; without `coupling` the normal-tangential kernels are taken as zero.
     pub fn new(coefficients: &InfluenceCoefficients, mirror: Mirror, coupling: bool) -> Self {
+        Self::with_single(coefficients, mirror, coupling, false)
+    }
+
+    /// As [`Self::new`]; if `single`, changes are answered in single precision
+    /// ([`SurfaceOperator::respond`]).
+    pub fn with_single(
+        coefficients: &InfluenceCoefficients,
+        mirror: Mirror,
+        coupling: bool,
+        single: bool,
+    ) -> Self {
         let (nx, ny) = coefficients.zz.dim();
         let period = (good_size(2 * nx - 1), good_size(2 * ny - 1));
         let spectra = Spectra::of(coefficients, period, coupling);
         Self {
             shape: (nx, mirror.rows(ny)),
             product: SpectralProduct::new((nx, ny), mirror, &spectra, period),
+            single: single.then(|| SpectralProduct::new((nx, ny), mirror, &spectra, period)),
             coupled: coupling,
             self_coefficients: coefficients.at_origin(),
         }
@@ -39,8 +52,15 @@ impl SurfaceOperator for DcFft {
         self.product.apply(tractions, displacements);
     }
 
+    fn respond(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
+        match &mut self.single {
+            Some(single) => single.apply(tractions, displacements),
+            None => self.product.apply(tractions, displacements),
+        }
+    }
+
     fn transforms(&self) -> usize {
-        self.product.transforms
+        self.product.transforms + self.single.as_ref().map_or(0, |single| single.transforms)
     }
 
     fn is_coupled(&self) -> bool {

@@ -14,7 +14,7 @@ use crate::scene::{Body, Grid};
 /// The frequency-domain operator.
 pub struct FrequencyDomain {
     shape: (usize, usize),
-    product: SpectralProduct,
+    product: SpectralProduct<f64>,
     coupled: bool,
     self_coefficients: (f64, f64),
 }

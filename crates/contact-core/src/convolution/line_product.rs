@@ -6,9 +6,10 @@
 //! both cases load, multiply and store alike. Kernels even along x have real spectra S, odd ones
 //! -i S, and S(-k) is +-S(k) accordingly, which makes the factor of Y that of X.
 
-use rustfft::num_complex::Complex64;
+use rustfft::num_complex::Complex;
 
 use super::line_spectra::{LANES, LineKernels};
+use super::precision::Precision;
 
 /// A power of i.
 #[derive(Clone, Copy, Debug)]
@@ -49,13 +50,13 @@ const KERNELS: [[(Group, usize, Unit); 3]; 3] = {
 };
 
 /// A line per component: `period + 1` numbers, the last of which repeats the first.
-pub(crate) type Line<'a> = [&'a mut [Complex64]; 3];
+pub(crate) type Line<'a, T> = [&'a mut [Complex<T>]; 3];
 
 /// Replaces the spectra of the tractions `given` by those of the displacements `wanted`, times
 /// two if `mirrored`.
-pub(crate) fn multiply(
-    mut line: Line<'_>,
-    kernels: LineKernels<'_>,
+pub(crate) fn multiply<T: Precision>(
+    mut line: Line<'_, T>,
+    kernels: LineKernels<'_, T>,
     given: [bool; 3],
     wanted: [bool; 3],
     mirrored: bool,
@@ -65,44 +66,44 @@ pub(crate) fn multiply(
         z[period] = z[0];
     }
     if mirrored {
-        multiply_pairs::<true>(&mut line, kernels, given, wanted);
+        multiply_pairs::<T, true>(&mut line, kernels, given, wanted);
     } else {
-        multiply_pairs::<false>(&mut line, kernels, given, wanted);
+        multiply_pairs::<T, false>(&mut line, kernels, given, wanted);
     }
 }
 
-fn multiply_pairs<const MIRRORED: bool>(
-    line: &mut Line<'_>,
-    kernels: LineKernels<'_>,
+fn multiply_pairs<T: Precision, const MIRRORED: bool>(
+    line: &mut Line<'_, T>,
+    kernels: LineKernels<'_, T>,
     given: [bool; 3],
     wanted: [bool; 3],
 ) {
     let half = (line[0].len() - 1) / 2;
     let whole = (half + 1) / LANES * LANES;
     for k in (0..whole).step_by(LANES) {
-        at::<LANES, MIRRORED>(line, k, kernels, given, wanted);
+        at::<T, LANES, MIRRORED>(line, k, kernels, given, wanted);
     }
     for k in whole..=half {
-        at::<1, MIRRORED>(line, k, kernels, given, wanted);
+        at::<T, 1, MIRRORED>(line, k, kernels, given, wanted);
     }
 }
 
 /// The frequencies k to k + N - 1 and their negatives.
 #[inline]
-fn at<const N: usize, const MIRRORED: bool>(
-    line: &mut Line<'_>,
+fn at<T: Precision, const N: usize, const MIRRORED: bool>(
+    line: &mut Line<'_, T>,
     k: usize,
-    kernels: LineKernels<'_>,
+    kernels: LineKernels<'_, T>,
     given: [bool; 3],
     wanted: [bool; 3],
 ) {
-    let mut cause = [[Complexes::<N>::ZERO; 2]; 3];
+    let mut cause = [[Complexes::<T, N>::zero(); 2]; 3];
     for c in 0..3 {
         if given[c] {
             let end = line[c].len() - k;
             let x = Complexes::load(&line[c][k..k + N]);
             let y = Complexes::load_mirrored(&line[c][end - N..end]);
-            cause[c] = split::<N, MIRRORED>([x, y]);
+            cause[c] = split::<T, N, MIRRORED>([x, y]);
         }
     }
     let (block, lane) = (k / LANES, k % LANES);
@@ -110,7 +111,7 @@ fn at<const N: usize, const MIRRORED: bool>(
         if !wanted[e] {
             continue;
         }
-        let mut sum = [Complexes::<N>::ZERO; 2];
+        let mut sum = [Complexes::<T, N>::zero(); 2];
         for c in 0..3 {
             let (group, kernel, unit) = KERNELS[e][c];
             let (values, count) = match group {
@@ -126,7 +127,7 @@ fn at<const N: usize, const MIRRORED: bool>(
             sum[0].add(&lanes(&at[0], lane), unit, &cause[c][0]);
             sum[1].add(&lanes(&at[each - 1], lane), unit, &cause[c][1]);
         }
-        let [x, y] = split::<N, MIRRORED>(sum);
+        let [x, y] = split::<T, N, MIRRORED>(sum);
         let end = line[e].len() - k;
         x.store(&mut line[e][k..k + N]);
         y.store_mirrored(&mut line[e][end - N..end]);
@@ -135,11 +136,13 @@ fn at<const N: usize, const MIRRORED: bool>(
 
 /// (x + y, x - y) on a mirrored line: from the pair to its two frequencies, and back.
 #[inline]
-fn split<const N: usize, const MIRRORED: bool>([x, y]: [Complexes<N>; 2]) -> [Complexes<N>; 2] {
+fn split<T: Precision, const N: usize, const MIRRORED: bool>(
+    [x, y]: [Complexes<T, N>; 2],
+) -> [Complexes<T, N>; 2] {
     if !MIRRORED {
         return [x, y];
     }
-    let each = |f: &dyn Fn(f64, f64) -> f64| Complexes {
+    let each = |f: &dyn Fn(T, T) -> T| Complexes {
         re: std::array::from_fn(|i| f(x.re[i], y.re[i])),
         im: std::array::from_fn(|i| f(x.im[i], y.im[i])),
     };
@@ -147,7 +150,7 @@ fn split<const N: usize, const MIRRORED: bool>([x, y]: [Complexes<N>; 2]) -> [Co
 }
 
 #[inline]
-fn lanes<const N: usize>(block: &[f64; LANES], first: usize) -> [f64; N] {
+fn lanes<T: Precision, const N: usize>(block: &[T; LANES], first: usize) -> [T; N] {
     if N == LANES {
         std::array::from_fn(|i| block[i])
     } else {
@@ -157,20 +160,23 @@ fn lanes<const N: usize>(block: &[f64; LANES], first: usize) -> [f64; N] {
 
 /// N complex numbers, real and imaginary parts apart.
 #[derive(Clone, Copy)]
-struct Complexes<const N: usize> {
-    re: [f64; N],
-    im: [f64; N],
+struct Complexes<T, const N: usize> {
+    re: [T; N],
+    im: [T; N],
 }
 
-impl<const N: usize> Complexes<N> {
-    const ZERO: Self = Self {
-        re: [0.0; N],
-        im: [0.0; N],
-    };
+impl<T: Precision, const N: usize> Complexes<T, N> {
+    #[inline]
+    fn zero() -> Self {
+        Self {
+            re: [T::zero(); N],
+            im: [T::zero(); N],
+        }
+    }
 
     #[inline]
-    fn load(z: &[Complex64]) -> Self {
-        let z: &[Complex64; N] = z.try_into().expect("N numbers");
+    fn load(z: &[Complex<T>]) -> Self {
+        let z: &[Complex<T>; N] = z.try_into().expect("N numbers");
         Self {
             re: std::array::from_fn(|i| z[i].re),
             im: std::array::from_fn(|i| z[i].im),
@@ -179,8 +185,8 @@ impl<const N: usize> Complexes<N> {
 
     /// Conjugates, in reverse order.
     #[inline]
-    fn load_mirrored(z: &[Complex64]) -> Self {
-        let z: &[Complex64; N] = z.try_into().expect("N numbers");
+    fn load_mirrored(z: &[Complex<T>]) -> Self {
+        let z: &[Complex<T>; N] = z.try_into().expect("N numbers");
         Self {
             re: std::array::from_fn(|i| z[N - 1 - i].re),
             im: std::array::from_fn(|i| -z[N - 1 - i].im),
@@ -188,24 +194,24 @@ impl<const N: usize> Complexes<N> {
     }
 
     #[inline]
-    fn store(&self, z: &mut [Complex64]) {
-        let z: &mut [Complex64; N] = z.try_into().expect("N numbers");
+    fn store(&self, z: &mut [Complex<T>]) {
+        let z: &mut [Complex<T>; N] = z.try_into().expect("N numbers");
         for i in 0..N {
-            z[i] = Complex64::new(self.re[i], self.im[i]);
+            z[i] = Complex::new(self.re[i], self.im[i]);
         }
     }
 
     #[inline]
-    fn store_mirrored(&self, z: &mut [Complex64]) {
-        let z: &mut [Complex64; N] = z.try_into().expect("N numbers");
+    fn store_mirrored(&self, z: &mut [Complex<T>]) {
+        let z: &mut [Complex<T>; N] = z.try_into().expect("N numbers");
         for i in 0..N {
-            z[N - 1 - i] = Complex64::new(self.re[i], -self.im[i]);
+            z[N - 1 - i] = Complex::new(self.re[i], -self.im[i]);
         }
     }
 
     /// self += unit * spectrum * z
     #[inline]
-    fn add(&mut self, spectrum: &[f64; N], unit: Unit, z: &Self) {
+    fn add(&mut self, spectrum: &[T; N], unit: Unit, z: &Self) {
         match unit {
             Unit::One => {
                 for i in 0..N {

@@ -1,6 +1,7 @@
 //! The spectra in the order in which the lines use them.
 
 use super::Spectra;
+use super::precision::Precision;
 use super::spectra::Spectrum;
 
 /// Frequencies k_x that are worked on together.
@@ -9,8 +10,8 @@ pub(crate) const LANES: usize = 4;
 /// Spectra of a group of kernels that are used together: (line, block of k_x, kernel, frequency
 /// k_y of the line), [`LANES`] frequencies k_x each, so that a product reads memory in one go.
 #[derive(Clone, Debug, Default)]
-struct Group {
-    values: Vec<[f64; LANES]>,
+struct Group<T> {
+    values: Vec<[T; LANES]>,
     per_line: usize,
 }
 
@@ -18,34 +19,35 @@ struct Group {
 ///
 /// A line has one frequency k_y, or the two 2 l and 2 l + 1 in a mirror-symmetric scene.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct LineSpectra {
-    tangential: Group,
-    normal: Group,
-    coupling: Group,
+pub(crate) struct LineSpectra<T> {
+    tangential: Group<T>,
+    normal: Group<T>,
+    coupling: Group<T>,
 }
 
 /// What acts on one line; a group is empty where its kernels vanish.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LineKernels<'a> {
+pub(crate) struct LineKernels<'a, T> {
     /// xx, yy, xy
-    pub(crate) tangential: &'a [[f64; LANES]],
+    pub(crate) tangential: &'a [[T; LANES]],
     /// zz
-    pub(crate) normal: &'a [[f64; LANES]],
+    pub(crate) normal: &'a [[T; LANES]],
     /// xz, yz
-    pub(crate) coupling: &'a [[f64; LANES]],
+    pub(crate) coupling: &'a [[T; LANES]],
 }
 
-impl LineSpectra {
-    /// `row` numbers per frequency k_y; lines of two frequencies if `mirrored`.
-    pub(crate) fn new(s: &Spectra, row: usize, mirrored: bool) -> Self {
+impl<T: Precision> LineSpectra<T> {
+    /// `row` numbers per frequency k_y, divided by `unit`; lines of two frequencies if `mirrored`.
+    pub(crate) fn new(s: &Spectra, row: usize, mirrored: bool, unit: f64) -> Self {
+        let group = |spectra: &[&Spectrum]| Group::new(spectra, row, mirrored, unit);
         Self {
-            tangential: Group::new(&[&s.xx, &s.yy, &s.xy], row, mirrored),
-            normal: Group::new(&[&s.zz], row, mirrored),
-            coupling: Group::new(&[&s.xz, &s.yz], row, mirrored),
+            tangential: group(&[&s.xx, &s.yy, &s.xy]),
+            normal: group(&[&s.zz]),
+            coupling: group(&[&s.xz, &s.yz]),
         }
     }
 
-    pub(crate) fn of(&self, line: usize) -> LineKernels<'_> {
+    pub(crate) fn of(&self, line: usize) -> LineKernels<'_, T> {
         LineKernels {
             tangential: self.tangential.of(line),
             normal: self.normal.of(line),
@@ -54,8 +56,8 @@ impl LineSpectra {
     }
 }
 
-impl Group {
-    fn new(spectra: &[&Spectrum], row: usize, mirrored: bool) -> Self {
+impl<T: Precision> Group<T> {
+    fn new(spectra: &[&Spectrum], row: usize, mirrored: bool, unit: f64) -> Self {
         if spectra.iter().any(|s| s.is_empty()) {
             return Self::default();
         }
@@ -74,9 +76,9 @@ impl Group {
                             let k_x = block * LANES + i;
                             let inside = k_x < row && k_y < frequencies;
                             if inside {
-                                spectrum[k_y * row + k_x]
+                                T::of(spectrum[k_y * row + k_x] / unit)
                             } else {
-                                0.0
+                                T::zero()
                             }
                         };
                         values.push(std::array::from_fn(at));
@@ -90,7 +92,7 @@ impl Group {
         }
     }
 
-    fn of(&self, line: usize) -> &[[f64; LANES]] {
+    fn of(&self, line: usize) -> &[[T; LANES]] {
         &self.values[line * self.per_line..(line + 1) * self.per_line]
     }
 }

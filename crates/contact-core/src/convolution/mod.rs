@@ -11,6 +11,7 @@ mod good_size;
 mod line_product;
 mod line_spectra;
 mod mirror;
+mod precision;
 mod preconditioner;
 mod spectra;
 mod spectral_product;
@@ -57,6 +58,15 @@ pub trait SurfaceOperator: Send + Sync {
     /// # Panics
     /// If a field does not have nx ny entries.
     fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>);
+
+    /// As [`Self::apply`] for a change of the tractions, of which some digits are enough: an operator
+    /// that has single precision at hand errs by about 1e-7 of the largest displacement.
+    ///
+    /// # Panics
+    /// If a field does not have nx ny entries.
+    fn respond(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
+        self.apply(tractions, displacements);
+    }
 
     /// Two-dimensional transforms done so far; a three-component convolution takes six.
     fn transforms(&self) -> usize;

@@ -11,12 +11,19 @@ use crate::kernels::{InfluenceCoefficients, Quadrant};
 
 /// Circulant inverse of the normal and of the tangential part of an operator.
 pub struct CirculantInverse {
-    product: SpectralProduct,
+    product: Product,
+}
+
+/// A guess needs few digits; but a last digit of the solution needs all of a guess's symmetry.
+enum Product {
+    Single(SpectralProduct<f32>),
+    Double(SpectralProduct<f64>),
 }
 
 impl CirculantInverse {
-    /// For the coefficients of a pair of bodies, on the whole grid or its mirrored half.
-    pub fn new(c: &InfluenceCoefficients, mirror: Mirror) -> Self {
+    /// For the coefficients of a pair of bodies, on the whole grid or its mirrored half, in single
+    /// precision if `single`.
+    pub fn new(c: &InfluenceCoefficients, mirror: Mirror, single: bool) -> Self {
         let (nx, ny) = c.zz.dim();
         let period = (good_size(nx), good_size(ny));
         let cut = |q: &Quadrant, odd: bool| cut_at_half(q, period, odd);
@@ -30,9 +37,12 @@ impl CirculantInverse {
         };
         let forward = Spectra::of(&half, period, false);
         let inverse = invert(&forward, (period.0 * period.1) as f64);
-        Self {
-            product: SpectralProduct::new((nx, ny), mirror, &inverse, period),
-        }
+        let product = if single {
+            Product::Single(SpectralProduct::new((nx, ny), mirror, &inverse, period))
+        } else {
+            Product::Double(SpectralProduct::new((nx, ny), mirror, &inverse, period))
+        };
+        Self { product }
     }
 
     /// z ~ C_zz^-1 r.
@@ -45,7 +55,7 @@ impl CirculantInverse {
             u_z: Some(z),
             ..Displacements::default()
         };
-        self.product.apply(tractions, displacements);
+        self.apply(tractions, displacements);
     }
 
     /// z ~ C_tt^-1 r.
@@ -61,7 +71,14 @@ impl CirculantInverse {
             u_y: Some(z_y),
             u_z: None,
         };
-        self.product.apply(tractions, displacements);
+        self.apply(tractions, displacements);
+    }
+
+    fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
+        match &mut self.product {
+            Product::Single(product) => product.apply(tractions, displacements),
+            Product::Double(product) => product.apply(tractions, displacements),
+        }
     }
 }
 

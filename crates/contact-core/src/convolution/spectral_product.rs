@@ -2,7 +2,7 @@
 //!
 //! Only rows that hold data are transformed along y, and along x the lines never leave the cache:
 //! each is padded, transformed, multiplied, transformed back and cut. The transform of a traction
-//! is shared by all its kernels. Between the two passes numbers travel in blocks of four rows, a
+//! is shared by all its kernels. Between the two passes numbers travel in blocks of eight rows, a
 //! cache line at a time.
 //! Every number is computed by one thread alone, so the result does not depend on their number.
 
@@ -10,11 +10,12 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use rustfft::num_complex::Complex64;
+use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 use super::line_product::multiply;
 use super::line_spectra::LineSpectra;
+use super::precision::Precision;
 use super::y_transform::{ROWS, YScratch, YTransform};
 use super::{Displacements, Half, Mirror, Spectra, Tractions};
 
@@ -26,7 +27,7 @@ const PARTS_PER_THREAD: usize = 4;
 const HALF: [Half; 3] = [Half::Even, Half::Odd, Half::Even];
 
 /// Planned transforms, spectra and buffers for fields of one shape.
-pub(crate) struct SpectralProduct {
+pub(crate) struct SpectralProduct<T: Precision> {
     nx: usize,
     /// Rows kept along y.
     rows: usize,
@@ -35,32 +36,34 @@ pub(crate) struct SpectralProduct {
     components: Range<usize>,
     /// Period along x.
     period: usize,
-    y: YTransform,
-    spectra: LineSpectra,
-    x_forward: Arc<dyn Fft<f64>>,
-    x_inverse: Arc<dyn Fft<f64>>,
+    y: YTransform<T>,
+    spectra: LineSpectra<T>,
+    /// What the spectra are divided by.
+    unit: f64,
+    x_forward: Arc<dyn Fft<T>>,
+    x_inverse: Arc<dyn Fft<T>>,
     /// Spectra along y: (block of rows, component, line, row in block)
-    by_row: Vec<Complex64>,
+    by_row: Vec<Complex<T>>,
     /// Convolved lines: (line, component, x), `stride` numbers per line.
-    by_line: Vec<Complex64>,
+    by_line: Vec<Complex<T>>,
     stride: usize,
-    parts: Vec<Scratch>,
+    parts: Vec<Scratch<T>>,
     /// Two-dimensional transforms done.
     pub(crate) transforms: usize,
 }
 
 /// Buffers of one part of the work.
-struct Scratch {
-    y: YScratch,
+struct Scratch<T> {
+    y: YScratch<T>,
     /// A line per component that there is, one number more than the period and room for a last
     /// block.
-    line: [Vec<Complex64>; 3],
-    fft: Vec<Complex64>,
+    line: [Vec<Complex<T>>; 3],
+    fft: Vec<Complex<T>>,
     /// One block of rows of one component: (line, row in block)
-    block: Vec<Complex64>,
+    block: Vec<Complex<T>>,
 }
 
-impl SpectralProduct {
+impl<T: Precision> SpectralProduct<T> {
     /// For fields of the whole grid of nx x ny cells, or of its mirrored half, and spectra of the
     /// given periods (even).
     pub(crate) fn new(
@@ -80,7 +83,7 @@ impl SpectralProduct {
         } else {
             PARTS_PER_THREAD * threads
         };
-        let zeros = |n| vec![Complex64::default(); n];
+        let zeros = |n| vec![Complex::default(); n];
         let fft = x_forward
             .get_inplace_scratch_len()
             .max(x_inverse.get_inplace_scratch_len());
@@ -92,6 +95,8 @@ impl SpectralProduct {
             block: zeros(ROWS * y.lines()),
         };
         let width = nx.next_multiple_of(ROWS);
+        let largest = || spectra.zz.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
+        let unit = T::unit(largest);
         // Lines a power of two apart would all meet in one set of the cache.
         let stride = components.len() * width + ROWS;
         Self {
@@ -100,7 +105,8 @@ impl SpectralProduct {
             mirror,
             period: period.0,
             parts: (0..parts).map(|_| scratch()).collect(),
-            spectra: LineSpectra::new(spectra, period.0 / 2 + 1, mirror != Mirror::None),
+            spectra: LineSpectra::new(spectra, period.0 / 2 + 1, mirror != Mirror::None, unit),
+            unit,
             x_forward,
             x_inverse,
             by_row: zeros(components.len() * y.lines() * width),
@@ -131,9 +137,13 @@ impl SpectralProduct {
         }
         self.transforms += input.iter().flatten().count() + output.iter().flatten().count();
         let loaded = self.loaded_blocks(input);
-        self.rows_forward(input, &loaded);
+        let unit = T::unit(|| {
+            let fields = input.into_iter().flatten().flatten();
+            fields.fold(0.0, |m: f64, v| m.max(v.abs()))
+        });
+        self.rows_forward(input, 1.0 / unit, &loaded);
         self.lines(input.map(|f| f.is_some()), wanted, &loaded);
-        self.rows_inverse(&mut output);
+        self.rows_inverse(unit * self.unit, &mut output);
     }
 
     /// The blocks of rows outside which nothing acts.
@@ -151,13 +161,13 @@ impl SpectralProduct {
     }
 
     /// Along y, from the rows of the fields to blocks of rows by line.
-    fn rows_forward(&mut self, input: [Option<&[f64]>; 3], loaded: &Range<usize>) {
+    fn rows_forward(&mut self, input: [Option<&[f64]>; 3], scale: f64, loaded: &Range<usize>) {
         let (rows, y) = (self.rows, &self.y);
         let (lines, components) = (y.lines(), self.components.clone());
         let per_block = components.len() * lines * ROWS;
         let acting = &mut self.by_row[loaded.start * per_block..loaded.end * per_block];
         let first = loaded.start;
-        let work = |(b, block): (usize, &mut [Complex64]), s: &mut Scratch| {
+        let work = |(b, block): (usize, &mut [Complex<T>]), s: &mut Scratch<T>| {
             for (component, field) in input.iter().enumerate() {
                 let Some(field) = field else { continue };
                 let from = &field[(first + b) * ROWS * rows..];
@@ -169,6 +179,7 @@ impl SpectralProduct {
                     match one {
                         Some(one) => y.forward(
                             [one, two.unwrap_or_default()],
+                            scale,
                             HALF[component],
                             &mut s.y,
                             &mut block[r..],
@@ -191,12 +202,12 @@ impl SpectralProduct {
         let (forward, inverse) = (&self.x_forward, &self.x_inverse);
         let (lines, components) = (self.y.lines(), self.components.clone());
         let width = self.nx.next_multiple_of(ROWS);
-        let work = |(l, convolved): (usize, &mut [Complex64]), s: &mut Scratch| {
+        let work = |(l, convolved): (usize, &mut [Complex<T>]), s: &mut Scratch<T>| {
             let Scratch { line, fft, .. } = s;
             for component in (0..3).filter(|&c| given[c]) {
                 let z = &mut line[component];
-                z[..loaded.start * ROWS].fill(Complex64::default());
-                z[loaded.end * ROWS..].fill(Complex64::default());
+                z[..loaded.start * ROWS].fill(Complex::default());
+                z[loaded.end * ROWS..].fill(Complex::default());
                 for b in loaded.clone() {
                     let place = component - components.start;
                     let from = ((b * components.len() + place) * lines + l) * ROWS;
@@ -217,19 +228,25 @@ impl SpectralProduct {
     }
 
     /// Along y, back to the rows of the fields, side by side.
-    fn rows_inverse(&mut self, output: &mut [Option<&mut [f64]>; 3]) {
+    fn rows_inverse(&mut self, scale: f64, output: &mut [Option<&mut [f64]>; 3]) {
         let (rows, y, by_line) = (self.rows, &self.y, &self.by_line);
         let (width, stride) = (self.nx.next_multiple_of(ROWS), self.stride);
         let first = self.components.start;
-        let of_field = |component: usize, field: &mut [f64], parts: &mut [Scratch]| {
-            let work = |(b, cells): (usize, &mut [f64]), s: &mut Scratch| {
+        let of_field = |component: usize, field: &mut [f64], parts: &mut [Scratch<T>]| {
+            let work = |(b, cells): (usize, &mut [f64]), s: &mut Scratch<T>| {
                 for (l, to) in s.block.chunks_mut(ROWS).enumerate() {
                     let from = l * stride + (component - first) * width + b * ROWS;
                     copy_block(to, &by_line[from..]);
                 }
                 for (r, pair) in cells.chunks_mut(2 * rows).enumerate() {
                     let (one, two) = pair.split_at_mut(rows);
-                    y.inverse(HALF[component], &mut s.y, &s.block[2 * r..], [one, two]);
+                    y.inverse(
+                        HALF[component],
+                        scale,
+                        &mut s.y,
+                        &s.block[2 * r..],
+                        [one, two],
+                    );
                 }
             };
             share(parts, field, ROWS * rows, work);
@@ -251,25 +268,25 @@ impl SpectralProduct {
 }
 
 /// A constant size spares the call that a copy of any size is.
-fn copy_block(to: &mut [Complex64], from: &[Complex64]) {
+fn copy_block<T: Copy>(to: &mut [Complex<T>], from: &[Complex<T>]) {
     if let (Some(to), Some(from)) = (to.first_chunk_mut::<ROWS>(), from.first_chunk()) {
         *to = *from;
     }
 }
 
 /// A row of a block that lies beyond the grid.
-fn clear(block: &mut [Complex64], row: usize) {
+fn clear<T: Precision>(block: &mut [Complex<T>], row: usize) {
     for line in block.chunks_mut(ROWS) {
-        line[row] = Complex64::default();
+        line[row] = Complex::default();
     }
 }
 
 /// Does the `work` on every `size` items, in as many parts as there are buffers.
-fn share<T: Send>(
-    parts: &mut [Scratch],
+fn share<T: Send, P: Precision>(
+    parts: &mut [Scratch<P>],
     items: &mut [T],
     size: usize,
-    work: impl Fn((usize, &mut [T]), &mut Scratch) + Sync,
+    work: impl Fn((usize, &mut [T]), &mut Scratch<P>) + Sync,
 ) {
     let each = items.len().div_ceil(size).div_ceil(parts.len()).max(1);
     if let [scratch] = parts {

@@ -11,39 +11,38 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use rustfft::num_complex::Complex64;
+use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
+use super::precision::Precision;
 use super::{Half, Mirror};
 
-/// Rows that travel together: four complex numbers fill a cache line.
-pub(crate) const ROWS: usize = 4;
-
-const I: Complex64 = Complex64::new(0.0, 1.0);
+/// Rows that travel together: eight complex numbers of single precision fill a cache line.
+pub(crate) const ROWS: usize = 8;
 
 /// Transform of rows of `rows` cells, zero-padded to the period.
-pub(crate) struct YTransform {
+pub(crate) struct YTransform<T: Precision> {
     mirror: Mirror,
     /// Length of the transform: the period, or half of it with the mirror.
     length: usize,
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
+    forward: Arc<dyn Fft<T>>,
+    inverse: Arc<dyn Fft<T>>,
     /// exp(-i pi k / (2 length)) for k <= length/2, for the cosine transform.
-    twiddle: Vec<Complex64>,
+    twiddle: Vec<Complex<T>>,
 }
 
 /// Buffers of one thread.
-pub(crate) struct YScratch {
+pub(crate) struct YScratch<T> {
     /// Two rows, then their spectrum; the last number repeats the first.
-    pair: Vec<Complex64>,
+    pair: Vec<Complex<T>>,
     /// Cosine spectrum of two rows, k_y = 0 to half the period, and a zero.
-    cosines: Vec<Complex64>,
-    fft: Vec<Complex64>,
+    cosines: Vec<Complex<T>>,
+    fft: Vec<Complex<T>>,
 }
 
-impl YTransform {
+impl<T: Precision> YTransform<T> {
     /// For rows periodic after `period` (even) cells.
-    pub(crate) fn new(mirror: Mirror, period: usize, planner: &mut FftPlanner<f64>) -> Self {
+    pub(crate) fn new(mirror: Mirror, period: usize, planner: &mut FftPlanner<T>) -> Self {
         let (length, twiddles) = match mirror {
             Mirror::None => (period, 0),
             Mirror::Y => (period / 2, period / 4 + 1),
@@ -55,7 +54,10 @@ impl YTransform {
             forward: planner.plan_fft_forward(length),
             inverse: planner.plan_fft_inverse(length),
             twiddle: (0..twiddles)
-                .map(|k| Complex64::from_polar(1.0, angle(k)))
+                .map(|k| {
+                    let (sin, cos) = angle(k).sin_cos();
+                    Complex::new(T::of(cos), T::of(sin))
+                })
                 .collect(),
         }
     }
@@ -65,8 +67,8 @@ impl YTransform {
         self.length / 2 + 1
     }
 
-    pub(crate) fn scratch(&self) -> YScratch {
-        let zeros = |n| vec![Complex64::default(); n];
+    pub(crate) fn scratch(&self) -> YScratch<T> {
+        let zeros = |n| vec![Complex::default(); n];
         let fft = [&self.forward, &self.inverse].map(|f| f.get_inplace_scratch_len());
         YScratch {
             pair: zeros(self.length + 1),
@@ -75,34 +77,38 @@ impl YTransform {
         }
     }
 
-    /// Transforms a pair of rows; the second may be missing. Line l of the pair goes to
-    /// `lines[ROWS * l]` and `lines[ROWS * l + 1]`.
+    /// Transforms a pair of rows times `scale`; the second may be missing. Line l of the pair goes
+    /// to `lines[ROWS * l]` and `lines[ROWS * l + 1]`.
     pub(crate) fn forward(
         &self,
         rows: [&[f64]; 2],
+        scale: f64,
         half: Half,
-        s: &mut YScratch,
-        lines: &mut [Complex64],
+        s: &mut YScratch<T>,
+        lines: &mut [Complex<T>],
     ) {
         let n = self.length;
-        s.pair[..n].fill(Complex64::default());
+        s.pair[..n].fill(Complex::default());
         let both = |j: usize| {
             let second = rows[1].get(j).copied().unwrap_or(0.0);
-            Complex64::new(rows[0][j], second)
+            Complex::new(T::of(rows[0][j] * scale), T::of(second * scale))
         };
         match self.mirror {
             Mirror::None if rows[1].is_empty() => {
-                (s.pair.iter_mut().zip(rows[0])).for_each(|(v, a)| v.re = *a);
+                (s.pair.iter_mut().zip(rows[0])).for_each(|(v, a)| v.re = T::of(a * scale));
             }
             Mirror::None => {
                 let both = rows[0].iter().zip(rows[1]);
-                (s.pair.iter_mut().zip(both)).for_each(|(v, (a, b))| *v = Complex64::new(*a, *b));
+                (s.pair.iter_mut().zip(both)).for_each(|(v, (a, b))| {
+                    *v = Complex::new(T::of(a * scale), T::of(b * scale));
+                });
             }
             Mirror::Y => {
                 let m = rows[0].len();
+                let sign = T::of(half.sign());
                 for j in 0..m / 2 {
                     s.pair[j] = both(2 * j);
-                    s.pair[n - 1 - j] = half.sign() * both(2 * j + 1);
+                    s.pair[n - 1 - j] = both(2 * j + 1) * sign;
                 }
                 if m % 2 == 1 {
                     s.pair[m / 2] = both(m - 1);
@@ -131,19 +137,20 @@ impl YTransform {
             Mirror::Y => {
                 self.to_cosines(s, half);
                 for (c, line) in s.cosines.chunks_exact(2).zip(lines) {
-                    line[0] = Complex64::new(c[0].re, c[1].re);
-                    line[1] = Complex64::new(c[0].im, c[1].im);
+                    line[0] = Complex::new(c[0].re, c[1].re);
+                    line[1] = Complex::new(c[0].im, c[1].im);
                 }
             }
         }
     }
 
-    /// Inverse of [`Self::forward`] times the period; the second row may be empty.
+    /// Inverse of [`Self::forward`] times the period and `scale`; the second row may be empty.
     pub(crate) fn inverse(
         &self,
         half: Half,
-        s: &mut YScratch,
-        lines: &[Complex64],
+        scale: f64,
+        s: &mut YScratch<T>,
+        lines: &[Complex<T>],
         rows: [&mut [f64]; 2],
     ) {
         let n = self.length;
@@ -152,8 +159,8 @@ impl YTransform {
             Mirror::None => {
                 for (k, line) in lines.take(n / 2 + 1).enumerate() {
                     let (f, ig) = match half {
-                        Half::Even => (line[0], I * line[1]),
-                        Half::Odd => (I * line[0], -line[1]),
+                        Half::Even => (line[0], times_i(line[1])),
+                        Half::Odd => (times_i(line[0]), -line[1]),
                     };
                     s.pair[k] = f + ig;
                     s.pair[n - k] = (f - ig).conj();
@@ -161,8 +168,8 @@ impl YTransform {
             }
             Mirror::Y => {
                 for (c, line) in s.cosines.chunks_exact_mut(2).zip(lines) {
-                    c[0] = Complex64::new(line[0].re, line[1].re);
-                    c[1] = Complex64::new(line[0].im, line[1].im);
+                    c[0] = Complex::new(line[0].re, line[1].re);
+                    c[1] = Complex::new(line[0].im, line[1].im);
                 }
                 self.take_cosines(s, half);
             }
@@ -171,18 +178,19 @@ impl YTransform {
             .process_with_scratch(&mut s.pair[..n], &mut s.fft);
         // The half left out in the forward transform, and in a mirrored line's product.
         let [first, second] = rows;
+        let scale = 0.5 * scale;
         match self.mirror {
             Mirror::None => {
-                (first.iter_mut().zip(&s.pair)).for_each(|(f, v)| *f = 0.5 * v.re);
-                (second.iter_mut().zip(&s.pair)).for_each(|(f, v)| *f = 0.5 * v.im);
+                (first.iter_mut().zip(&s.pair)).for_each(|(f, v)| *f = scale * v.re.wide());
+                (second.iter_mut().zip(&s.pair)).for_each(|(f, v)| *f = scale * v.im.wide());
             }
             Mirror::Y => {
-                let odd_cells = 0.5 * half.sign();
-                let spread = |row: &mut [f64], part: &dyn Fn(Complex64) -> f64| {
+                let odd_cells = scale * half.sign();
+                let spread = |row: &mut [f64], part: &dyn Fn(Complex<T>) -> T| {
                     for (j, cells) in row.chunks_mut(2).enumerate() {
-                        cells[0] = 0.5 * part(s.pair[j]);
+                        cells[0] = scale * part(s.pair[j]).wide();
                         if let Some(f) = cells.get_mut(1) {
-                            *f = odd_cells * part(s.pair[n - 1 - j]);
+                            *f = odd_cells * part(s.pair[n - 1 - j]).wide();
                         }
                     }
                 };
@@ -194,12 +202,12 @@ impl YTransform {
 
     /// C(k) = 2 sum f_j cos(pi k (j + 1/2)/n); an odd field has its sine sums, those of
     /// (-1)^j f_j read backwards, with the factor -i of the spectrum of q_y.
-    fn to_cosines(&self, s: &mut YScratch, half: Half) {
+    fn to_cosines(&self, s: &mut YScratch<T>, half: Half) {
         let n = self.length;
         for (k, w) in self.twiddle.iter().enumerate() {
             let a = w * s.pair[k];
             let b = w.conj() * s.pair[n - k];
-            let (low, high) = (a + b, I * (a - b));
+            let (low, high) = (a + b, times_i(a - b));
             match half {
                 Half::Even => {
                     s.cosines[k] = low;
@@ -212,26 +220,31 @@ impl YTransform {
             }
         }
         // The zero frequency of the sines and the last one of the cosines carry nothing.
-        s.cosines[if half == Half::Even { n } else { 0 }] = Complex64::default();
-        s.cosines[n + 1] = Complex64::default();
+        s.cosines[if half == Half::Even { n } else { 0 }] = Complex::default();
+        s.cosines[n + 1] = Complex::default();
     }
 
     /// The other way.
-    fn take_cosines(&self, s: &mut YScratch, half: Half) {
+    fn take_cosines(&self, s: &mut YScratch<T>, half: Half) {
         let n = self.length;
-        s.cosines[if half == Half::Even { n } else { 0 }] = Complex64::default();
+        s.cosines[if half == Half::Even { n } else { 0 }] = Complex::default();
         for (k, w) in self.twiddle.iter().enumerate() {
             let (low, high) = match half {
                 Half::Even => (s.cosines[k], s.cosines[n - k]),
                 Half::Odd => (-s.cosines[n - k], -s.cosines[k]),
             };
-            s.pair[k] = (low - I * high) * w.conj();
-            s.pair[n - k] = (low + I * high) * w;
+            s.pair[k] = (low - times_i(high)) * w.conj();
+            s.pair[n - k] = (low + times_i(high)) * w;
         }
     }
 }
 
+/// i z
+fn times_i<T: Precision>(z: Complex<T>) -> Complex<T> {
+    Complex::new(-z.im, z.re)
+}
+
 /// z / i
-fn over_i(z: Complex64) -> Complex64 {
-    Complex64::new(z.im, -z.re)
+fn over_i<T: Precision>(z: Complex<T>) -> Complex<T> {
+    Complex::new(z.im, -z.re)
 }

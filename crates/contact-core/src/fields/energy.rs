@@ -66,7 +66,7 @@ fn ratio(a: f64, b: f64) -> f64 {
 }
 
 /// First and last branch of every cycle of a load path: from a turning point, the first time that
-/// its loads, the motions given in place of loads and the bulk stress return; cycles follow each
+/// its loads, the motions given in place of loads and the bulk stresses return; cycles follow each
 /// other and do not overlap.
 pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
     let ends: Vec<Loads> = std::iter::once(Loads::default())
@@ -84,9 +84,14 @@ pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
             }
         }
     }
-    let bulk = ends.iter().fold(0.0, |m: f64, l| m.max(l.sigma_B.abs()));
+    let pulls = |l: &Loads| [l.sigma_B, l.sigma_B1];
+    let bulk = ends
+        .iter()
+        .flat_map(pulls)
+        .fold(0.0, |m: f64, s| m.max(s.abs()));
     let same = |a: &Loads, b: &Loads| {
-        let pulled_alike = (a.sigma_B - b.sigma_B).abs() <= SAME * bulk;
+        let (a_pulls, b_pulls) = (pulls(a), pulls(b));
+        let pulled_alike = (0..2).all(|k| (a_pulls[k] - b_pulls[k]).abs() <= SAME * bulk);
         let driven_alike = driven(a).zip(driven(b)).enumerate().all(|(k, (a, b))| {
             let [loads, motions] = largest[usize::from(is_turn(k))];
             match (a.1, b.1) {
@@ -250,11 +255,14 @@ mod tests {
             .fold(LoadPath::start().normal(10.0, 1), shifted);
         // The force that was given before the shifts is no end of a cycle of shifts.
         assert_eq!(cycles(&path), [(2, 3)]);
-        let pulled = |path: LoadPath, by: f64| path.to(|l| l.sigma_B = by, 2);
-        let path = [1e8, -1e8, 1e8]
-            .into_iter()
-            .fold(LoadPath::start().normal(10.0, 1), pulled);
-        assert_eq!(cycles(&path), [(2, 3)]);
+        let lower = |path: LoadPath, by: f64| path.to(|l| l.sigma_B = by, 2);
+        let upper = |path: LoadPath, by: f64| path.to(|l| l.sigma_B1 = by, 2);
+        for pulled in [lower, upper] {
+            let path = [1e8, -1e8, 1e8]
+                .into_iter()
+                .fold(LoadPath::start().normal(10.0, 1), pulled);
+            assert_eq!(cycles(&path), [(2, 3)]);
+        }
         let rocking = |path: LoadPath, by: f64| path.to(|l| l.given.phi_y = Some(by), 2);
         let path = [1e-4, -1e-4, 0.0]
             .into_iter()

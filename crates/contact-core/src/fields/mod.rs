@@ -8,12 +8,14 @@
 //!
 //! Depth z is counted into the body; components are those of the axes of `docs/conventions.md`,
 //! in body 1 as well. At an interface s_xx, s_yy and s_xy have two values: a [`Depth`] names the
-//! layer.
+//! layer. The stress is that which the tractions cause, and where one is named the body's bulk
+//! stress with it; displacements are those that the tractions cause in the stretched body.
 //!
 //! From a depth of eight cells on, the uniform load of a cell is replaced by point loads
 //! on it and its neighbours that act alike to 1e-9 of the traction there; nearer to the surface it
 //! is integrated over the cell.
 
+mod bulk;
 mod depth;
 mod derived;
 mod energy;

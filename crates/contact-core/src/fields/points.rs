@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
+use super::bulk::Bulk;
 use super::loads::{Loads, Plane, Source, snapped};
 use super::{Depth, Side};
 use crate::convolution::Tractions;
@@ -15,8 +16,10 @@ use crate::scene::{Body, Grid};
 pub struct Points {
     body: Body,
     stack: Stack,
+    grid: Grid,
     side: Side,
     plane: Plane,
+    bulk: Bulk,
     /// By state, for loads on cells and for point loads.
     loads: Vec<[Loads; 2]>,
 }
@@ -45,10 +48,20 @@ impl Points {
         Ok(Self {
             stack: Stack::new(body),
             body: body.clone(),
+            grid: *grid,
             side,
             plane,
+            bulk: Bulk::default(),
             loads: loads.collect(),
         })
+    }
+
+    /// Adds the stress that the body has under the bulk stress `sigma_B` of each of the states \[Pa\]
+    /// (0 for those beyond the list): that of its own modulus in each layer.
+    #[must_use]
+    pub fn with_bulk_stress(mut self, sigma_B: &[f64]) -> Self {
+        self.bulk = Bulk::new(sigma_B, &self.grid);
+        self
     }
 
     /// Stress of each state at each point \[Pa\]: xx, yy, zz, xy, xz, yz.
@@ -56,7 +69,16 @@ impl Points {
     /// On the surface the stress jumps at the border of a cell; there it is the mean of both sides,
     /// as far as these are finite.
     pub fn stress(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 6]>>, Error> {
-        self.gather::<Stress, 10, 6>(points)
+        let mut all = self.gather::<Stress, 10, 6>(points)?;
+        for (state, stresses) in all.iter_mut().enumerate() {
+            for (stress, (_, _, depth)) in stresses.iter_mut().zip(points) {
+                let bulk = self.bulk.stress(&self.body, state, depth.layer);
+                for (s, bulk) in stress.iter_mut().zip(bulk) {
+                    *s += bulk;
+                }
+            }
+        }
+        Ok(all)
     }
 
     /// Displacement of each state at each point relative to infinity \[m\].

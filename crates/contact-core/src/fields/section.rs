@@ -13,6 +13,7 @@ use rustfft::num_complex::Complex64;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::bulk::Bulk;
 use super::loads::{Loads, Plane, Source, snapped};
 use super::parity::Buffers;
 use super::{Depth, Side};
@@ -34,9 +35,11 @@ pub enum Line {
 pub struct Section {
     body: Body,
     stack: Stack,
+    grid: Grid,
     side: Side,
     exchanged: bool,
     plane: Plane,
+    bulk: Bulk,
     states: usize,
     /// For loads on cells and for point loads; the latter may serve all depths asked for.
     rows: [Rows; 2],
@@ -93,24 +96,34 @@ impl Section {
         Ok(Self {
             stack: Stack::new(body),
             body: body.clone(),
+            grid: *grid,
             side,
             exchanged,
             plane,
+            bulk: Bulk::default(),
             states: states.len(),
             rows,
         })
     }
 
+    /// Adds the stress that the body has under the bulk stress `sigma_B` of each of the states \[Pa\]
+    /// (0 for those beyond the list): that of its own modulus in each layer.
+    #[must_use]
+    pub fn with_bulk_stress(mut self, sigma_B: &[f64]) -> Self {
+        self.bulk = Bulk::new(sigma_B, &self.grid);
+        self
+    }
+
     /// Stress of each state \[Pa\], shape (6, depths, cells along the line): xx, yy, zz, xy, xz,
     /// yz.
     pub fn stress(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
-        self.gather::<Stress, 10, 6>(depths)
+        self.gather::<6>(depths, |depth| self.stress_at(depth))
     }
 
     /// Displacement of each state relative to infinity \[m\], shape (3, depths, cells along the
     /// line).
     pub fn displacement(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
-        self.gather::<Displacement, 5, 3>(depths)
+        self.gather::<3>(depths, |depth| self.at::<Displacement, 5, 3>(depth))
     }
 
     /// Hands the stresses of all states on each line, of shape (6, cells along the line), to `f`
@@ -122,18 +135,20 @@ impl Section {
         f: impl Fn(&mut T, &[Array2<f64>]) + Sync,
     ) -> Result<(), Error> {
         depths.par_iter().zip(kept).try_for_each(|(depth, kept)| {
-            f(kept, &self.at::<Stress, 10, 6>(*depth)?);
+            f(kept, &self.stress_at(*depth)?);
             Ok(())
         })
     }
 
-    fn gather<Q: Quantity<N, R>, const N: usize, const R: usize>(
+    /// The lines at all depths, by state.
+    fn gather<const R: usize>(
         &self,
         depths: &[Depth],
+        lines: impl Fn(Depth) -> Result<Vec<Array2<f64>>, Error> + Sync,
     ) -> Result<Vec<Array3<f64>>, Error> {
         let lines: Vec<_> = depths
             .par_iter()
-            .map(|depth| self.at::<Q, N, R>(*depth))
+            .map(|depth| lines(*depth))
             .collect::<Result<_, _>>()?;
         let of_state = |state: usize| {
             Array3::from_shape_fn((R, depths.len(), self.plane.n.0), |(r, depth, i)| {
@@ -141,6 +156,18 @@ impl Section {
             })
         };
         Ok((0..self.states).map(of_state).collect())
+    }
+
+    /// The stress of all states at one depth, each of shape (6, cells along the line).
+    fn stress_at(&self, depth: Depth) -> Result<Vec<Array2<f64>>, Error> {
+        let mut lines = self.at::<Stress, 10, 6>(depth)?;
+        for (state, line) in lines.iter_mut().enumerate() {
+            let bulk = self.bulk.stress(&self.body, state, depth.layer);
+            for (mut row, bulk) in line.rows_mut().into_iter().zip(bulk) {
+                row += bulk;
+            }
+        }
+        Ok(lines)
     }
 
     /// The lines of all states at one depth, each of shape (R, cells along the line).

@@ -11,6 +11,7 @@ use rustfft::num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
 use std::sync::Arc;
 
+use super::bulk::Bulk;
 use super::loads::{Patch, Plane, Source};
 use super::parity::Buffers;
 use super::{Depth, Side};
@@ -27,6 +28,7 @@ pub struct Slices {
     side: Side,
     plane: Plane,
     states: usize,
+    bulk: Bulk,
     /// For loads on cells and for point loads.
     transforms: [Transform; 2],
 }
@@ -66,13 +68,29 @@ impl Slices {
             side,
             plane,
             states: states.len(),
+            bulk: Bulk::default(),
             transforms: Source::ALL.map(|source| Transform::new(&plane, side, states, source)),
         })
     }
 
+    /// Adds the stress that the body has under the bulk stress `sigma_B` of each of the states \[Pa\]
+    /// (0 for those beyond the list): that of its own modulus in each layer.
+    #[must_use]
+    pub fn with_bulk_stress(mut self, sigma_B: &[f64]) -> Self {
+        self.bulk = Bulk::new(sigma_B, &self.grid);
+        self
+    }
+
     /// Stress of each state at one depth \[Pa\]: xx, yy, zz, xy, xz, yz, each of shape (nx, ny).
     pub fn stress(&self, depth: Depth) -> Result<Vec<[Array2<f64>; 6]>, Error> {
-        self.at::<Stress, 10, 6>(depth)
+        let mut planes = self.at::<Stress, 10, 6>(depth)?;
+        for (state, planes) in planes.iter_mut().enumerate() {
+            let bulk = self.bulk.stress(&self.body, state, depth.layer);
+            for (plane, bulk) in planes.iter_mut().zip(bulk) {
+                *plane += bulk;
+            }
+        }
+        Ok(planes)
     }
 
     /// Displacement of each state at one depth relative to infinity \[m\].

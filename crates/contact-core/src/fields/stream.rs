@@ -26,6 +26,23 @@ pub struct Moment {
     pub increment: usize,
     /// Branch of the load path, from 0.
     pub branch: usize,
+    /// Bulk stress of the body at that moment \[Pa\], part of the stress; 0 to leave it out.
+    pub sigma_B: f64,
+}
+
+impl Moment {
+    /// The end of an increment, in the body `side`.
+    pub fn of(increment: &Increment, side: Side) -> Self {
+        let loads = &increment.point.loads;
+        Self {
+            increment: increment.index,
+            branch: increment.point.branch,
+            sigma_B: match side {
+                Side::Body1 => loads.sigma_B1,
+                Side::Body2 => loads.sigma_B,
+            },
+        }
+    }
 }
 
 /// What is kept of the stresses that pass by.
@@ -145,12 +162,13 @@ impl<A: Accumulate> Stream<A> {
                 self.accumulate.add(kept, *moment, stress);
             }
         };
+        let bulk: Vec<f64> = self.waiting.iter().map(|(m, _)| m.sigma_B).collect();
         let (body, side, grid) = (&self.body, self.side, &self.grid);
         if let Some(line) = self.line {
-            let section = Section::new(body, side, grid, line, &states)?;
+            let section = Section::new(body, side, grid, line, &states)?.with_bulk_stress(&bulk);
             section.pass_stress(&self.depths, &mut self.kept, add)?;
         } else {
-            let slices = Slices::new(body, side, grid, &states)?;
+            let slices = Slices::new(body, side, grid, &states)?.with_bulk_stress(&bulk);
             slices.pass_stress(&self.depths, &mut self.kept, add)?;
         }
         self.waiting.clear();
@@ -161,10 +179,7 @@ impl<A: Accumulate> Stream<A> {
 impl<A: Accumulate> Observer for Stream<A> {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         let fields = march.fields();
-        let moment = Moment {
-            increment: increment.index,
-            branch: increment.point.branch,
-        };
+        let moment = Moment::of(increment, self.side);
         self.push(moment, [fields.q_x, fields.q_y, fields.p])
     }
 }

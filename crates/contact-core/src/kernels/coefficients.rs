@@ -32,7 +32,7 @@ pub type Quadrant = Array2<f64>;
 /// | `yz` = C_yz = -C_zy | even | odd |
 ///
 /// For a homogeneous half-space of nu < 1/2 pressure draws the surface inwards: `xz < 0` at x > 0.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct InfluenceCoefficients {
     /// u_x under q_x.
     pub xx: Quadrant,
@@ -99,6 +99,22 @@ impl InfluenceCoefficients {
         self.xy *= stretch;
         self.yz *= stretch;
         self
+    }
+
+    /// Those of the offsets within nx x ny cells.
+    pub(crate) fn within(&self, (nx, ny): (usize, usize)) -> Self {
+        let part = |q: &Quadrant| {
+            let shape = if q.is_empty() { (0, 0) } else { (nx, ny) };
+            Quadrant::from_shape_fn(shape, |at| q[at])
+        };
+        Self {
+            xx: part(&self.xx),
+            yy: part(&self.yy),
+            zz: part(&self.zz),
+            xy: part(&self.xy),
+            xz: part(&self.xz),
+            yz: part(&self.yz),
+        }
     }
 
     /// C_ij on all offsets, of all six coefficients, shape (3, 3, 2 nx - 1, 2 ny - 1) with the offset (0, 0) in the middle.

@@ -53,7 +53,7 @@ impl March {
             stick_area,
             p_max: largest(cells, |n| now.p[n]),
             q_max: largest(cells, |n| {
-                size([now.q[0][n], self.arms.stretch * now.q[1][n]])
+                size([now.q[0][n], self.window.arms.stretch * now.q[1][n]])
             }),
             energy,
             residuals,
@@ -127,9 +127,11 @@ impl March {
     fn transmitted(&self, point: &LoadPoint, now: &Interface, cell_area: f64) -> Loads {
         let cells = now.p.len();
         let sums = [
-            sum_cells(cells, |n| self.arms.sums_across(now.p[n], n)),
+            sum_cells(cells, |n| self.window.arms.sums_across(now.p[n], n)),
             sum_cells(cells, |n| {
-                self.arms.sums_in_plane([now.q[0][n], now.q[1][n]], n)
+                self.window
+                    .arms
+                    .sums_in_plane([now.q[0][n], now.q[1][n]], n)
             }),
         ];
         let mirrored = self.plan.mirror != Mirror::None;
@@ -172,14 +174,14 @@ impl March {
         let sums = sum_cells(now.p.len(), |n| {
             let p = mean(now.p[n], last.p[n]);
             let du_z = now.u_z[n] - last.u_z[n];
-            let shift = self.arms.in_plane(shift, n);
+            let shift = self.window.arms.in_plane(shift, n);
             let stretch = self.stretch_at(n);
             let wider = self.gap_rolled(n);
             let entered = self.entered_at(n);
             let mut elastic = p * du_z;
             let (mut trapezoidal, mut of_bulk) = (0.0, 0.0);
             let slip = [0, 1].map(|c| now.u[c][n] - last.u[c][n] - entered[c] - shift[c]);
-            let mut opening = -p * (du_z + wider - self.arms.across(approach, n));
+            let mut opening = -p * (du_z + wider - self.window.arms.across(approach, n));
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
                 let du = now.u[c][n] - last.u[c][n];
@@ -235,13 +237,15 @@ impl March {
         let mu = self.scene.friction.scale();
         let cells = now.p.len();
         let before = &self.before().u;
-        let gap = |n: usize| now.u_z[n] + self.h_init[n] - self.arms.across(info.approach, n);
+        let gap = |n: usize| {
+            now.u_z[n] + self.window.h_init[n] - self.window.arms.across(info.approach, n)
+        };
         let bound = |n: usize| friction_bound(self.mu[n], now.p[n]);
         let [contact, slipping, gap_squares, stick, direction, slipped] = sum_cells(cells, |n| {
             if now.p[n] <= 0.0 {
                 return [0.0; 6];
             }
-            let shift = self.arms.in_plane(info.shift, n);
+            let shift = self.window.arms.in_plane(info.shift, n);
             let slip: [f64; 2] = std::array::from_fn(|c| {
                 now.u[c][n] - before[c][n] - shift[c] - self.datum.moved[c][n]
             });
@@ -329,7 +333,7 @@ impl March {
         let last = std::mem::replace(&mut state.interface, now);
         let now = &state.interface;
         let before = self.carried.as_ref().map_or(&last, Carried::interface);
-        let (mu, arms, moved) = (&self.mu, &self.arms, &self.datum.moved);
+        let (mu, arms, moved) = (&self.mu, &self.window.arms, &self.datum.moved);
         let slip = |n: usize| -> [f64; 2] {
             let shift = arms.in_plane(shift, n);
             let entered = |c: usize| if before.p[n] > 0.0 { 0.0 } else { moved[c][n] };
@@ -349,7 +353,7 @@ impl March {
                 total
             }
         });
-        let stretch = self.arms.stretch;
+        let stretch = self.window.arms.stretch;
         set_cells(&mut state.slip_length, |n, length| {
             if slips(n) {
                 let slip = slip(n);

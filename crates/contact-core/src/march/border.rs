@@ -12,15 +12,19 @@ const ROOM: f64 = 1.4;
 const GROWTH: f64 = 1.4;
 
 impl March {
-    /// Fails if a cell at the border of the grid is in contact.
+    /// Fails if a cell at the border of the grid is in contact; that of a window is kept free.
     pub(super) fn check_border(&self, now: &Interface, index: usize) -> Result<(), Error> {
-        let grid = &self.scene.grid;
+        let (whole, grid) = (&self.scene.grid, &self.window.grid);
+        let (at_x, at_y) = (
+            grid.nx == whole.nx,
+            grid.ny == whole.ny && !grid.plane_strain,
+        );
         let rows = self.plan.mirror.rows(grid.ny);
-        let extent = grid.extent();
+        let extent = whole.extent();
         let touched = (0..now.p.len()).filter(|&n| now.p[n] > 0.0).map(|n| {
             let (i, j) = (n / rows, n % rows);
-            let end_x = i == 0 || i + 1 == grid.nx;
-            let end_y = !grid.plane_strain && (j + 1 == rows || (j == 0 && rows == grid.ny));
+            let end_x = at_x && (i == 0 || i + 1 == grid.nx);
+            let end_y = at_y && (j + 1 == rows || (j == 0 && rows == grid.ny));
             let length = |touches: bool, extent: f64| if touches { extent } else { 0.0 };
             length(end_x, extent.0).max(length(end_y, extent.1))
         });

@@ -1,20 +1,13 @@
 //! What the bodies bring into an increment when they roll or are stretched meanwhile.
 //!
 //! The grid goes with the contact. When the contact has rolled on by s along x, the material that
-//! is now at x was at x + s before, and with it its displacement, its shear and its history. Under
-//! a bulk stress along x that rises by d(sigma_B) the surface of body 2 stretches by
-//!
-//! ```text
-//! d(eps_x) = d(sigma_B)/E,  d(eps_y) = -nu d(sigma_B)/E        free to contract along y
-//! d(eps_x) = (1 - nu^2) d(sigma_B)/E,  d(eps_y) = 0            plane strain
-//! ```
-//!
-//! with the substrate's E and nu, its coatings with it (D. A. Hills, D. Nowell, Mechanics of
-//! Fretting Fatigue (1994), sec. 5.3). Both enter the slip, eq. (7), through the displacement that
-//! means none: that of the material before, less d(eps) x.
+//! is now at x was at x + s before, and with it its displacement, its shear and its history. Bulk
+//! stresses that change meanwhile stretch the surface of body 2 by d(eps) more than that of body 1
+//! (`scene::bulk_stress`). Both enter the slip, eq. (7), through the displacement that means none:
+//! since u = u(2) - u(1), that of the material before, less d(eps_x) x and d(eps_y) y.
 
 use super::{Interface, March};
-use crate::scene::{LoadPoint, Scene};
+use crate::scene::{LoadPoint, Loads};
 
 /// The last interface as the increment finds it.
 pub(super) struct Carried {
@@ -23,20 +16,8 @@ pub(super) struct Carried {
     interface: Interface,
     /// Cells that the contact rolls on along x.
     cells: isize,
-    /// Strain d(eps_x), d(eps_y) of body 2 in the increment.
+    /// Strain d(eps_x), d(eps_y) of body 2 less that of body 1 in the increment.
     strain: [f64; 2],
-}
-
-impl Scene {
-    /// Surface strain eps_x, eps_y of body 2 under the bulk stress `sigma_B` \[Pa\].
-    pub(super) fn bulk_strain(&self, sigma_B: f64) -> [f64; 2] {
-        let (E, nu) = (self.body2.substrate.E, self.body2.substrate.nu);
-        if self.grid.plane_strain {
-            [(1.0 - nu * nu) * sigma_B / E, 0.0]
-        } else {
-            [sigma_B / E, -nu * sigma_B / E]
-        }
-    }
 }
 
 impl Carried {
@@ -51,7 +32,11 @@ impl March {
         let (now, before) = (&point.loads, &self.state.loads);
         let at = |rolled: f64| (rolled / self.scene.grid.dx).round() as isize;
         let cells = at(now.rolled) - at(before.rolled);
-        let strain = self.scene.bulk_strain(now.sigma_B - before.sigma_B);
+        let strain = self.scene.bulk_mismatch(&Loads {
+            sigma_B: now.sigma_B - before.sigma_B,
+            sigma_B1: now.sigma_B1 - before.sigma_B1,
+            ..Loads::default()
+        });
         self.carried = None;
         if cells == 0 && strain.iter().all(|e| *e == 0.0) {
             return;
@@ -99,7 +84,7 @@ impl March {
         self.source(n, self.carried.as_ref().map_or(0, |c| c.cells))
     }
 
-    /// How far the stretch moves body 2 in cell n in the increment \[m\].
+    /// How far the stretch moves body 2 against body 1 in cell n in the increment \[m\].
     pub(super) fn stretch_at(&self, n: usize) -> [f64; 2] {
         let carried = self.carried.as_ref();
         carried.map_or([0.0; 2], |carried| self.stretched(carried.strain, n))
@@ -110,7 +95,7 @@ impl March {
         match &self.carried {
             Some(carried) if carried.cells != 0 => {
                 let from = self.origin(n).unwrap_or(n);
-                self.h_init[n] - self.h_init[from]
+                self.window.h_init[n] - self.window.h_init[from]
             }
             _ => 0.0,
         }
@@ -131,7 +116,7 @@ impl March {
     }
 
     fn stretched(&self, strain: [f64; 2], n: usize) -> [f64; 2] {
-        let (arms, length) = (&self.arms, self.arms.length);
+        let (arms, length) = (&self.window.arms, self.window.arms.length);
         [
             strain[0] * length * arms.x[n],
             strain[1] * length * arms.y[n] * arms.stretch,
@@ -139,9 +124,9 @@ impl March {
     }
 
     fn source(&self, n: usize, cells: isize) -> Option<usize> {
-        let rows = self.plan.mirror.rows(self.scene.grid.ny);
+        let rows = self.plan.mirror.rows(self.window.grid.ny);
         let from = n as isize + cells * rows as isize;
-        let inside = (0..self.h_init.len() as isize).contains(&from);
+        let inside = (0..self.window.h_init.len() as isize).contains(&from);
         inside.then_some(from as usize)
     }
 

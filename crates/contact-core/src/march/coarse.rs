@@ -4,6 +4,9 @@
 //! Solved there, from a grid coarser still, without friction and not further than the coarse cells
 //! deserve, it spares the fine grid most of its iterations.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use ndarray::Array2;
 
 use super::March;
@@ -24,8 +27,13 @@ pub(super) struct CoarseStart {
 
 /// The pressure under the loads of a point, if a coarse grid is of use.
 ///
-/// Where the bodies are paraboloids of one material each, Hertz's pressure is a better start.
-pub(super) fn coarse_start(scene: &Scene, point: &LoadPoint) -> Option<CoarseStart> {
+/// Where the bodies are paraboloids of one material each, Hertz's pressure is a better start. None,
+/// too, once `stop` is raised.
+pub(super) fn coarse_start(
+    scene: &Scene,
+    point: &LoadPoint,
+    stop: &Arc<AtomicBool>,
+) -> Option<CoarseStart> {
     let Grid { nx, ny, dx, dy, .. } = scene.grid;
     let homogeneous = scene.body1.is_homogeneous() && scene.body2.is_homogeneous();
     let of_use = scene.settings.solver.preset == Preset::Fast
@@ -58,7 +66,7 @@ pub(super) fn coarse_start(scene: &Scene, point: &LoadPoint) -> Option<CoarseSta
             path_error: None,
         }],
     };
-    let mut march = March::new(&coarse).ok()?;
+    let mut march = March::until(&coarse, stop).ok()?;
     let increment = march.advance()?.ok()?;
     let p = march.fields().p;
     Some(CoarseStart {

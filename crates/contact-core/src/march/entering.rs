@@ -54,13 +54,13 @@ impl March {
     /// What an increment with the contact kept to its old cells has done.
     fn kept_contact(&self, kept: &Interface, info: &CoupledInfo) -> KeptContact {
         let (last, approach) = (self.before(), self.approach_before());
-        let cells = 0..self.h_init.len();
+        let cells = 0..self.window.h_init.len();
         let gap = |u_z: &[f64], approach: [f64; 3], n: usize| {
-            u_z[n] + self.h_init[n] - self.arms.across(approach, n)
+            u_z[n] + self.window.h_init[n] - self.window.arms.across(approach, n)
         };
         let before = |n: usize| gap(&last.u_z, approach, n).max(0.0);
         let motion = |c: usize| {
-            let shift = |n: usize| self.arms.in_plane(info.shift, n)[c];
+            let shift = |n: usize| self.window.arms.in_plane(info.shift, n)[c];
             let motion = |n: usize| kept.u[c][n] - last.u[c][n] - shift(n);
             cells.clone().map(motion).collect()
         };
@@ -70,7 +70,7 @@ impl March {
             closing: cells
                 .map(|n| before(n) - gap(&kept.u_z, info.approach, n))
                 .collect(),
-            rows: self.plan.mirror.rows(self.scene.grid.ny),
+            rows: self.plan.mirror.rows(self.window.grid.ny),
         }
     }
 
@@ -84,7 +84,12 @@ impl March {
         let mut assumed = [0.0; 3];
         let mut last: Option<([f64; 3], [f64; 3])> = None;
         let mut work = CoupledInfo::default();
-        let lowest = self.h_init.iter().copied().fold(f64::INFINITY, f64::min);
+        let lowest = self
+            .window
+            .h_init
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min);
         let mut closed = f64::INFINITY;
         let mut start = start;
         let mut round = 0;
@@ -92,10 +97,10 @@ impl March {
             round += 1;
             let moved = |c: usize| {
                 let moved = |n: usize| {
-                    let theta = ((self.h_init[n] - lowest) / closed).clamp(0.0, 1.0);
-                    -theta * self.arms.in_plane(assumed, n)[c]
+                    let theta = ((self.window.h_init[n] - lowest) / closed).clamp(0.0, 1.0);
+                    -theta * self.window.arms.in_plane(assumed, n)[c]
                 };
-                (0..self.h_init.len()).map(moved).collect()
+                (0..self.window.h_init.len()).map(moved).collect()
             };
             let entering = [moved(0), moved(1)];
             let (now, mut info) = self.solve_pressed(start, drives, Some(&entering), false)?;

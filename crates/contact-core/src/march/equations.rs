@@ -24,15 +24,16 @@ impl March {
     ) -> Result<(Interface, CoupledInfo), Error> {
         let apart;
         let h_init = if kept {
-            let far = 1e3 * (self.approach + self.h_init.iter().fold(0.0, |m, h| h.abs().max(m)));
+            let far =
+                1e3 * (self.approach + self.window.h_init.iter().fold(0.0, |m, h| h.abs().max(m)));
             let p = &self.state.interface.p;
-            let cells = self.h_init.iter().zip(p);
+            let cells = self.window.h_init.iter().zip(p);
             apart = cells
                 .map(|(h, &p)| if p > 0.0 { *h } else { h + far })
                 .collect();
             &apart
         } else {
-            &self.h_init
+            &self.window.h_init
         };
         // As March::before, for the sake of the workspace borrowed beside it.
         let carried = self.carried.as_ref();
@@ -40,13 +41,13 @@ impl March {
         let problem = IncrementProblem {
             h_init,
             mu: &self.mu,
-            arms: &self.arms,
+            arms: &self.window.arms,
             normal,
             tangential,
         };
         let mut response = Response {
-            op: &mut *self.op,
-            inverse: self.inverse.as_mut(),
+            op: &mut *self.window.op,
+            inverse: self.window.inverse.as_mut(),
             stop: Some(&self.stop),
         };
         let params = params(&self.scene, self.approach);
@@ -59,7 +60,7 @@ impl March {
             datum: &mut self.datum,
             last: before,
             q_before: turns.then_some(&self.state.q_before),
-            arms: &self.arms,
+            arms: &self.window.arms,
             reach: self.scene.friction.scale() * self.approach,
         };
         match coupled(&mut response, &problem, &mut datum, &mut now, ws, &params) {
@@ -107,8 +108,8 @@ impl March {
     /// for the solvers.
     pub(super) fn unit(&self, k: usize) -> f64 {
         match k {
-            1 | 2 | 5 => self.arms.length,
-            4 => self.arms.stretch,
+            1 | 2 | 5 => self.window.arms.length,
+            4 => self.window.arms.stretch,
             _ => 1.0,
         }
     }
@@ -143,7 +144,7 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
             // What the shear misses acts on the gap, however large mu is.
             tolerance: TANGENTIAL_SHARE * scene.friction.scale().min(1.0) * gap,
             max_iterations: solver.max_iterations,
-            forcing: 0.2,
+            forcing: 0.3,
             max_passes: 12,
         },
         max_alternations: solver.max_alternations,

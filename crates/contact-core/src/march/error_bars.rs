@@ -15,13 +15,14 @@
 //!
 //! **Solver.** Its tolerance.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 use super::path_error::path_errors;
-use super::{
-    BranchSummary, Fields, Increment, March, Observer, choose_increments, solve, summarise,
-};
+use super::{BranchSummary, Fields, Increment, March, Observer, choose_increments, summarise};
 use crate::error::Error;
 use crate::scene::{Grid, SaveFields, Scene};
 
@@ -135,20 +136,22 @@ impl Observer for BranchEnds<'_> {
         self.watcher.on_end(march, failure)
     }
 
-    fn stop(&self) -> Option<std::sync::Arc<std::sync::atomic::AtomicBool>> {
+    fn stop(&self) -> Option<Arc<AtomicBool>> {
         self.watcher.stop()
     }
 }
 
 /// Solves the scene again on two coarser grids, at less than half of the work, and along the path with
-/// fewer increments, and gives the errors of the branches of `increments`, which ended with these tractions.
+/// fewer increments, and gives the errors of the branches of `increments`, which ended with these
+/// tractions. Ends when `stop` is raised.
 pub fn error_bars(
     scene: &Scene,
     increments: &[Increment],
     tractions: &[Tractions],
+    stop: &Arc<AtomicBool>,
 ) -> Result<Vec<ErrorBars>, Error> {
-    let scene = &choose_increments(scene)?;
-    let along_path = path_errors(scene)?;
+    let scene = &choose_increments(scene, stop)?;
+    let along_path = path_errors(scene, stop)?;
     let fine = summarise(increments);
     let mut squares = vec![[0.0; 8]; fine.len()];
     let mut fields = Vec::new();
@@ -156,7 +159,8 @@ pub fn error_bars(
         let coarser = coarser(scene, part)?;
         let mut nobody = ();
         let mut coarse_ends = BranchEnds::beside(&mut nobody);
-        let coarse = summarise(&solve(&coarser, &mut coarse_ends)?);
+        let march = March::until(&coarser, stop)?;
+        let coarse = summarise(&march.run(Vec::new(), &mut coarse_ends)?);
         let ratio = ratio(&coarser.grid, &scene.grid);
         for ((squares, fine), coarse) in squares.iter_mut().zip(&fine).zip(&coarse) {
             let (f, c) = (numbers(fine), numbers(coarse));

@@ -38,8 +38,7 @@ impl March {
     /// The part of the slip of the last increment, along x and y \[m\], that the turn of the shear
     /// within the increment puts across the final shear; zero where the slip opposes that.
     pub fn turned(&self) -> [Array2<f64>; 2] {
-        let (nx, ny) = (self.scene.grid.nx, self.scene.grid.ny);
-        let unfold = |f: &[f64], half| self.plan.mirror.unfold(f, nx, ny, half);
+        let unfold = |f: &[f64], half| self.on_grid(f, half);
         let last = &self.state.p_before;
         let turned = |c: usize| -> Vec<f64> {
             let of = self.datum.moved[c].iter().zip(last);
@@ -47,14 +46,20 @@ impl March {
         };
         [
             unfold(&turned(0), Half::Even),
-            unfold(&turned(1), Half::Odd) / self.arms.stretch,
+            unfold(&turned(1), Half::Odd) / self.window.arms.stretch,
         ]
+    }
+
+    /// The shear tractions q_x, q_y after the last increment on the whole grid \[Pa\], shape (nx, ny).
+    pub fn shear(&self) -> [Array2<f64>; 2] {
+        let q = &self.state.interface.q;
+        let q_y = self.on_grid(&q[1], Half::Odd) * self.window.arms.stretch;
+        [self.on_grid(&q[0], Half::Even), q_y]
     }
 
     /// The fields after the last increment on the whole grid.
     pub fn fields(&self) -> Fields {
-        let (nx, ny) = (self.scene.grid.nx, self.scene.grid.ny);
-        let unfold = |f: &[f64], half| self.plan.mirror.unfold(f, nx, ny, half);
+        let unfold = |f: &[f64], half| self.on_grid(f, half);
         let s = &self.state;
         let now = &s.interface;
         let Motion {
@@ -63,10 +68,11 @@ impl March {
             phi_y,
             ..
         } = s.motion;
-        let stretch = self.arms.stretch;
+        let stretch = self.window.arms.stretch;
         let rigid = self.scene.grid.map(|x, y| delta_z + y * phi_x - x * phi_y);
+        let [q_x, q_y] = self.shear();
         let p = unfold(&now.p, Half::Even);
-        let u_z = unfold(&now.u_z, Half::Even);
+        let [u_x, u_y, u_z] = self.displacements();
         let slips: Vec<f64> = now.slip.iter().map(|&s| f64::from(u8::from(s))).collect();
         let slips = unfold(&slips, Half::Even);
         let contact = p.mapv(|p| p > 0.0);
@@ -75,10 +81,10 @@ impl March {
             .map_collect(|&c, &slips| c && slips == 0.0);
         Fields {
             gap: u_z.clone() + self.scene.h_init() - rigid,
-            q_x: unfold(&now.q[0], Half::Even),
-            q_y: unfold(&now.q[1], Half::Odd) * stretch,
-            u_x: unfold(&now.u[0], Half::Even),
-            u_y: unfold(&now.u[1], Half::Odd) / stretch,
+            q_x,
+            q_y,
+            u_x,
+            u_y: u_y / stretch,
             slip_x: unfold(&s.slip[0], Half::Even),
             slip_y: unfold(&s.slip[1], Half::Odd) / stretch,
             dissipated: unfold(&s.dissipated, Half::Even),

@@ -14,16 +14,22 @@ const HALVINGS: u32 = 5;
 impl March {
     /// The increment to `point`, whole or in pieces; after an error the state is as before.
     pub(super) fn reach(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
-        let transforms = self.op.transforms();
+        let transforms = self.transforms();
         let failure = match self.increment(point) {
             Err(failure @ Error::NotConverged { .. }) => failure,
             done => return done,
         };
         let before = self.state.clone();
         let increment = self.in_halves(point, HALVINGS, failure);
-        let mut increment = increment.inspect_err(|_| self.state = before)?;
+        let mut increment = match increment {
+            Ok(increment) => increment,
+            Err(failure) => {
+                self.put(before);
+                return Err(failure);
+            }
+        };
         // What was tried in vain was work too.
-        increment.work.convolutions = (self.op.transforms() - transforms) as f64 / 6.0;
+        increment.work.convolutions = (self.transforms() - transforms) as f64 / 6.0;
         Ok(increment)
     }
 

@@ -18,6 +18,7 @@ mod predict;
 mod slip_datum;
 mod solve;
 mod state;
+mod window;
 
 pub use error_bars::{Bar, BranchEnds, ErrorBars, Tractions, coarsest, error_bars, means};
 pub use fields::Fields;
@@ -35,29 +36,23 @@ use self::carried::Carried;
 use self::coarse::coarse_start;
 use self::predict::first_touch;
 use self::slip_datum::Datum;
-use crate::convolution::{
-    CirculantInverse, DcFft, FrequencyDomain, PARALLEL_FROM, SurfaceOperator,
-};
+use self::window::{Whole, Window};
+use crate::convolution::PARALLEL_FROM;
 use crate::error::Error;
-use crate::kernels::pair_coefficients;
-use crate::scene::{History, KernelMethod, LoadPoint, Plan, Preset, Scene};
-use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface};
+use crate::scene::{History, LoadPoint, Plan, Scene};
+use crate::solvers::{CoupledInfo, CoupledWorkspace, Interface};
 
 /// A load path being run through.
 pub struct March {
     scene: Scene,
     plan: Plan,
     points: Vec<LoadPoint>,
-    /// Gap between the undeformed surfaces on the kept cells \[m\].
-    h_init: Vec<f64>,
-    /// Where the kept cells are.
-    arms: Arms,
-    /// Factor of the friction coefficient over the kept cells; empty where it is 1.
-    friction_map: Vec<f64>,
+    /// What the window is cut from.
+    whole: Whole,
+    /// The part of the grid that is solved on.
+    window: Window,
     /// Friction coefficient of the kept cells in this increment.
     mu: Vec<f64>,
-    op: Box<dyn SurfaceOperator + Send>,
-    inverse: Option<CirculantInverse>,
     /// Approach that lengths are measured against \[m\].
     approach: f64,
     state: State,
@@ -73,74 +68,34 @@ pub struct March {
 impl March {
     /// Checks the scene, chooses the increments that are not given, plans, and computes the kernels.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
+        Self::until(scene, &Arc::default())
+    }
+
+    /// As [`Self::new`] and [`Self::stop_on`]: the flag also ends the choice of the increments.
+    pub fn until(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         scene.check()?;
         if scene.path.is_open() {
-            return Self::new(&choose_increments(scene)?);
+            return Self::until(&choose_increments(scene, stop)?, stop);
         }
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
-        let settings = &scene.settings;
-        let stretch = scene.friction.stretch();
-        let pair = pair_coefficients(
-            (&scene.body1, &scene.body2),
-            &scene.grid,
-            &settings.kernel,
-            settings.skip.equal_layers,
-            plan.kernels(),
-        )?
-        .stretched(stretch);
-        let inverse = match settings.solver.preset {
-            Preset::Fast => Some(CirculantInverse::new(&pair, plan.mirror)),
-            Preset::Spinu2020 => None,
-        };
-        let op: Box<dyn SurfaceOperator + Send> = match settings.kernel.method {
-            KernelMethod::FrequencyDomain { lambda } => Box::new(FrequencyDomain::new(
-                (&scene.body1, &scene.body2),
-                &scene.grid,
-                lambda,
-                plan.coupling,
-                &pair,
-            )),
-            _ => Box::new(DcFft::new(&pair, plan.mirror, plan.coupling)),
-        };
-        let h_init = plan.mirror.fold(&scene.h_init());
-        let cells = h_init.len();
-        let extent = scene.grid.extent();
-        let length = if scene.grid.plane_strain {
-            0.5 * extent.0
-        } else {
-            0.5 * extent.0.max(extent.1)
-        };
-        let arm = |along: &dyn Fn(f64, f64) -> f64| {
-            plan.mirror
-                .fold(&scene.grid.map(|x, y| along(x, y) / length))
-        };
-        let arms = Arms {
-            length,
-            x: arm(&|x, _| x),
-            y: arm(&|_, y| y),
-            stretch,
-        };
-        let friction_map = scene.friction.map.as_ref().map_or_else(Vec::new, |map| {
-            plan.mirror.fold(&scene.grid.map(|x, y| map.at(x, y)))
-        });
+        let whole = Whole::new(scene, &plan)?;
+        let window = whole.window(scene, &plan, Window::first(scene, &plan));
+        let cells = window.h_init.len();
         let approach = scene.approach();
         Ok(Self {
             points: plan.points(scene),
             scene: scene.clone(),
             plan,
-            h_init,
-            arms,
-            friction_map,
             mu: vec![scene.friction.mu; cells],
-            op,
-            inverse,
             approach,
-            state: State::unloaded(cells),
+            state: State::unloaded(window.shape(), cells),
             carried: None,
             datum: Datum::new(cells),
             workspace: CoupledWorkspace::new(cells),
-            stop: Arc::default(),
+            whole,
+            window,
+            stop: stop.clone(),
         })
     }
 
@@ -148,12 +103,16 @@ impl March {
     /// the interruption, bit by bit.
     pub fn resume(scene: &Scene, state: State) -> Result<Self, Error> {
         let mut march = Self::new(scene)?;
-        if !state.fits(march.h_init.len()) || state.increments > march.points.len() {
+        let fits = state.fits(&scene.grid, march.plan.mirror);
+        if !fits || state.increments > march.points.len() {
             return Err(Error::invalid(
                 "state",
                 format!("after increment {}", state.increments),
                 "one of this scene: on its grid and within its load path",
             ));
+        }
+        if state.window != march.window.shape() {
+            march.widen(state.window);
         }
         march.state = state;
         Ok(march)
@@ -194,62 +153,89 @@ impl March {
         let end = &self.scene.path.branches[point.branch].to;
         let state = &self.state;
         let point = point.resolved(end, state.loads.forces(), state.motion.motions());
-        Some(if self.h_init.len() < PARALLEL_FROM {
+        Some(if self.window.h_init.len() < PARALLEL_FROM {
             self.reach(&point)
         } else {
             with_all_awake(|| self.reach(&point))
         })
     }
 
-    /// One increment: predict, solve, account, keep.
+    /// One increment: predict, solve, account, keep; again in a wider window where it needs one.
     fn increment(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let index = self.state.increments + 1;
-        let transforms = self.op.transforms();
-        let (normal, tangential) = self.drives(point);
-        self.carry(point);
-        self.update_friction();
-        let pressed = !normal.free[0] || normal.sums[0] > 0.0;
+        let transforms = self.transforms();
         let mut coarse_convolutions = 0.0;
-        self.datum.goes_on = self.state.going_on(point).is_some();
-        let start = if pressed {
-            let touch = (self.state.loads.W <= 0.0).then(|| {
-                let Some(start) = coarse_start(&self.scene, point) else {
-                    return first_touch(&self.h_init, self.approach_at(point));
-                };
-                coarse_convolutions = start.convolutions;
-                self.plan.mirror.fold(&start.p)
-            });
-            self.state.predict(
+        let (now, info) = loop {
+            let start = self.start(point, &mut coarse_convolutions);
+            let (now, info) = self.solve_from(point, start)?;
+            if info.exceeds_friction() {
+                return Err(Error::BeyondFriction {
+                    increment: index,
+                    used: info.friction_used,
+                });
+            }
+            let narrow = self.make_room(&now.p, self.window.shape(), 1.0);
+            if !narrow && !self.touches_beyond(&now, &info) {
+                break (now, info);
+            }
+        };
+        self.check_border(&now, index)?;
+        let convolutions = (self.transforms() - transforms) as f64 / 6.0 + coarse_convolutions;
+        self.account(point, now, &info, convolutions)
+    }
+
+    /// The first guess of the increment, in a window with room for it.
+    fn start(&mut self, point: &LoadPoint, coarse_convolutions: &mut f64) -> Option<Interface> {
+        let (normal, _) = self.drives(point);
+        let pressed = !normal.free[0] || normal.sums[0] > 0.0;
+        let touch = (pressed && self.state.loads.W <= 0.0).then(|| {
+            let Some(start) = coarse_start(&self.scene, point, &self.stop) else {
+                return first_touch(&self.scene.h_init(), self.approach_at(point));
+            };
+            *coarse_convolutions += start.convolutions;
+            start.p
+        });
+        if let Some(p) = &touch {
+            self.make_room(&self.plan.mirror.fold(p), p.dim(), 1.0);
+        }
+        loop {
+            self.carry(point);
+            self.update_friction();
+            self.datum.goes_on = self.state.going_on(point).is_some();
+            if !pressed {
+                return None;
+            }
+            let start = self.state.predict(
                 point,
-                touch,
+                touch.as_ref().map(|p| self.in_window(p)),
                 &self.mu,
                 &normal,
                 self.scene.settings.solver.preset,
-            )
-        } else {
-            Interface::unloaded(self.h_init.len())
-        };
-        let (now, info) = if pressed {
-            self.solve_entering(point, start)?
-        } else {
-            let info = CoupledInfo {
-                approach: normal.given,
-                shift: tangential.given,
-                ..CoupledInfo::default()
-            };
-            self.datum.reset(&start, None);
-            (start, info)
-        };
-        if info.exceeds_friction() {
-            return Err(Error::BeyondFriction {
-                increment: index,
-                used: info.friction_used,
-            });
+            );
+            if !self.make_room(&start.p, self.window.shape(), self.growth(point)) {
+                return Some(start);
+            }
         }
-        self.check_border(&now, index)?;
-        let transforms = self.op.transforms() - transforms;
-        let convolutions = transforms as f64 / 6.0 + coarse_convolutions;
-        self.account(point, now, &info, convolutions)
+    }
+
+    /// Solves the increment from a first guess; bodies that are not pressed do not touch.
+    fn solve_from(
+        &mut self,
+        point: &LoadPoint,
+        start: Option<Interface>,
+    ) -> Result<(Interface, CoupledInfo), Error> {
+        if let Some(start) = start {
+            return self.solve_entering(point, start);
+        }
+        let (normal, tangential) = self.drives(point);
+        let apart = Interface::unloaded(self.window.h_init.len());
+        let info = CoupledInfo {
+            approach: normal.given,
+            shift: tangential.given,
+            ..CoupledInfo::default()
+        };
+        self.datum.reset(&apart, None);
+        Ok((apart, info))
     }
 
     /// The friction coefficient of each cell after what it has been through.
@@ -258,7 +244,7 @@ impl March {
             let (friction, state) = (&self.scene.friction, &self.state);
             let slipped = self.before().slip[n];
             let mu = friction.kinetic.filter(|_| slipped).unwrap_or(friction.mu);
-            let map = self.friction_map.get(n).copied().unwrap_or(1.0);
+            let map = self.window.friction_map.get(n).copied().unwrap_or(1.0);
             let history = friction.history.as_ref().map_or(1.0, |history| {
                 history.factor(match history.of {
                     History::Increment => state.increments as f64,

@@ -46,7 +46,7 @@ const BEND: f64 = 0.15;
 impl March {
     /// Area of the contact and of the stick zone, in kept cells.
     pub(super) fn contact_and_stick(&self, now: &Interface) -> [f64; 2] {
-        let lattice = Lattice::new(&self.scene.grid, self.plan.mirror);
+        let lattice = Lattice::new(&self.window.grid, self.plan.mirror);
         let beta = dundurs_beta(self.scene.body1.outermost(), self.scene.body2.outermost());
         let contact: Vec<bool> = now.p.iter().map(|&p| p > 0.0).collect();
         let stick: Vec<bool> = contact

@@ -10,8 +10,13 @@
 //! The error along the path hardly depends on the grid, so that a coarse one does, which takes a small
 //! part of the time; the contact must span it well.
 
-use super::error_bars::numbers;
-use super::{BranchSummary, March, summarise};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use ndarray::Array2;
+
+use super::error_bars::{Tractions, numbers};
+use super::{BranchSummary, Fields, Increment, March, summarise};
 use crate::error::Error;
 use crate::scene::{Grid, LoadPath, Scene, Spacing};
 
@@ -43,8 +48,9 @@ const MOST: usize = 20_000;
 /// The scene with a number of increments for each branch that has none, so many that the error of
 /// the shear stays within `solver.path_tolerance`, and with the estimated error of each branch.
 ///
-/// A scene whose increments are given is returned as it is.
-pub fn choose_increments(scene: &Scene) -> Result<Scene, Error> {
+/// A scene whose increments are given is returned as it is. Ends when `stop` is raised:
+/// [`Error::Interrupted`] after increment 0.
+pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
     if !scene.path.is_open() {
         return Ok(scene.clone());
     }
@@ -67,7 +73,7 @@ pub fn choose_increments(scene: &Scene) -> Result<Scene, Error> {
         return Ok(chosen);
     }
     let tolerance = scene.settings.solver.path_tolerance;
-    let mut trial = Trial::new(&chosen)?;
+    let mut trial = Trial::new(&chosen, stop)?;
     for _ in 0..ROUNDS {
         let errors = trial.errors(&chosen.path)?;
         let mut more = false;
@@ -126,13 +132,14 @@ impl PathError {
 
 /// The scene with the estimated error of the shear at the end of each branch.
 ///
-/// Compared with half of the increments, or with twice as many where a branch has only one.
-pub fn estimate_path_error(scene: &Scene) -> Result<Scene, Error> {
-    let mut estimated = choose_increments(scene)?;
+/// Compared with half of the increments, or with twice as many where a branch has only one. Ends when
+/// `stop` is raised.
+pub fn estimate_path_error(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
+    let mut estimated = choose_increments(scene, stop)?;
     if scene.path.is_open() {
         return Ok(estimated);
     }
-    let errors = path_errors(scene)?;
+    let errors = path_errors(scene, stop)?;
     for (branch, error) in estimated.path.branches.iter_mut().zip(errors) {
         branch.path_error = Some(error.q);
     }
@@ -140,8 +147,8 @@ pub fn estimate_path_error(scene: &Scene) -> Result<Scene, Error> {
 }
 
 /// What the increments of a path that has all of them leave at the end of each branch.
-pub(super) fn path_errors(scene: &Scene) -> Result<Vec<PathError>, Error> {
-    let mut trial = Trial::new(scene)?;
+pub(super) fn path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Vec<PathError>, Error> {
+    let mut trial = Trial::new(scene, stop)?;
     if scene.path.branches.iter().any(|b| b.count() == 1) {
         return trial.errors(&scene.path);
     }
@@ -174,11 +181,14 @@ fn begin(path: &mut LoadPath, friction: bool) {
 }
 
 /// The scene on a grid that is just fine enough, for runs along its path.
-struct Trial(Scene);
+struct Trial {
+    scene: Scene,
+    stop: Arc<AtomicBool>,
+}
 
 impl Trial {
     /// On the coarsest grid on which the contact is not lost.
-    fn new(scene: &Scene) -> Result<Self, Error> {
+    fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         let mut grids = vec![scene.grid];
         while let Some(coarse) = grids.last().and_then(halved) {
             grids.push(coarse);
@@ -197,11 +207,14 @@ impl Trial {
                 .branches
                 .iter_mut()
                 .for_each(|b| b.increments = Some(1));
-            if grids.is_empty() || most_contact(&once)? >= CONTACT {
+            if grids.is_empty() || most_contact(&once, stop)? >= CONTACT {
                 break;
             }
         }
-        Ok(Self(trial))
+        Ok(Self {
+            scene: trial,
+            stop: stop.clone(),
+        })
     }
 
     /// Estimated errors at the end of each branch.
@@ -220,18 +233,19 @@ impl Trial {
     fn change(&mut self, few: &LoadPath, many: &LoadPath) -> Result<Vec<PathError>, Error> {
         let (few, many) = (self.ends(few)?, self.ends(many)?);
         let largest = |of: fn(&End) -> f64| many.iter().map(of).fold(f64::MIN_POSITIVE, f64::max);
-        let (p, q) = (largest(|end| norm(&[&end.p])), largest(End::shear));
-        let mu = self.0.friction.mu;
+        let (p, q) = (largest(End::p), largest(End::q));
+        let mu = self.scene.friction.mu;
         Ok(few
             .iter()
             .zip(&many)
             .map(|(few, many)| {
                 let (f, m) = (numbers(&few.summary), numbers(&many.summary));
+                let off = |k: usize| norm(&(&few.tractions[k] - &many.tractions[k]));
                 PathError {
-                    q: off(&few.q[0], &many.q[0]).hypot(off(&few.q[1], &many.q[1])) / q,
-                    p: off(&few.p, &many.p) / p,
+                    q: off(1).hypot(off(2)) / q,
+                    p: off(0) / p,
                     numbers: std::array::from_fn(|n| (f[n] - m[n]).abs()),
-                    bearable: mu * norm(&[&many.p]) / q,
+                    bearable: mu * many.p() / q,
                 }
             })
             .collect())
@@ -239,56 +253,61 @@ impl Trial {
 
     /// The path run through, and how each branch ends.
     fn ends(&mut self, path: &LoadPath) -> Result<Vec<End>, Error> {
-        self.0.path = path.clone();
-        let mut march = March::new(&self.0)?;
+        self.scene.path = path.clone();
+        let mut march = March::until(&self.scene, &self.stop)?;
         let (mut increments, mut tractions) = (Vec::new(), Vec::new());
         while let Some(increment) = march.advance() {
-            let increment = increment?;
+            let increment = of_trial(increment)?;
             increments.push(increment);
             if increment.point.ends_branch {
-                let now = &march.state().interface;
-                tractions.push((now.p.clone(), now.q.clone()));
+                let Fields { p, q_x, q_y, .. } = march.fields();
+                tractions.push([p, q_x, q_y]);
             }
         }
         let ends = summarise(&increments).into_iter().zip(tractions);
         Ok(ends
-            .map(|(summary, (p, q))| End { summary, p, q })
+            .map(|(summary, tractions)| End { summary, tractions })
             .collect())
     }
 }
 
-/// How a branch ends: its numbers, pressure and shear on the kept cells.
+/// How a branch ends.
 struct End {
     summary: BranchSummary,
-    p: Vec<f64>,
-    q: [Vec<f64>; 2],
+    tractions: Tractions,
 }
 
 impl End {
-    fn shear(&self) -> f64 {
-        norm(&[&self.q[0], &self.q[1]])
+    fn p(&self) -> f64 {
+        norm(&self.tractions[0])
+    }
+
+    fn q(&self) -> f64 {
+        norm(&self.tractions[1]).hypot(norm(&self.tractions[2]))
     }
 }
 
-fn norm(parts: &[&[f64]]) -> f64 {
-    let squares = parts.iter().flat_map(|f| f.iter()).map(|f| f * f);
-    squares.sum::<f64>().sqrt()
-}
-
-fn off(a: &[f64], b: &[f64]) -> f64 {
-    let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
-    squares.sum::<f64>().sqrt()
+fn norm(f: &Array2<f64>) -> f64 {
+    f.iter().map(|f| f * f).sum::<f64>().sqrt()
 }
 
 /// The most contact cells that the branches end with.
-fn most_contact(scene: &Scene) -> Result<usize, Error> {
+fn most_contact(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<usize, Error> {
     let cell_area = scene.grid.cell_area();
-    let mut march = March::new(scene)?;
+    let mut march = March::until(scene, stop)?;
     let mut most = 0.0_f64;
     while let Some(increment) = march.advance() {
-        most = most.max(increment?.contact_area);
+        most = most.max(of_trial(increment)?.contact_area);
     }
     Ok((most / cell_area).round() as usize)
+}
+
+/// An increment of a trial; a stop comes before the first increment of the run itself.
+fn of_trial(increment: Result<Increment, Error>) -> Result<Increment, Error> {
+    increment.map_err(|error| match error {
+        Error::Interrupted { .. } => Error::Interrupted { increment: 0 },
+        error => error,
+    })
 }
 
 /// The grid of half as many cells each way, if there is one that is not too coarse.

@@ -1,5 +1,6 @@
 //! The first guess of an increment.
 
+use ndarray::Array2;
 use rayon::prelude::*;
 
 use super::State;
@@ -15,6 +16,7 @@ impl Loads {
         let motion = |k: usize| given[k].map(|to| to - motions[k]);
         Self {
             sigma_B: self.sigma_B - before.sigma_B,
+            sigma_B1: self.sigma_B1 - before.sigma_B1,
             rolled: self.rolled - before.rolled,
             ..Self::default()
         }
@@ -34,7 +36,11 @@ impl Loads {
         let (f, g) = (self.forces(), other.forces());
         let pairs = (0..6)
             .map(|k| a[k].zip(b[k]).unwrap_or((f[k], g[k])))
-            .chain([(self.sigma_B, other.sigma_B), (self.rolled, other.rolled)]);
+            .chain([
+                (self.sigma_B, other.sigma_B),
+                (self.sigma_B1, other.sigma_B1),
+                (self.rolled, other.rolled),
+            ]);
         let (mut both, mut own, mut its) = (0.0, 0.0, 0.0);
         for (a, b) in pairs {
             // Forces, moments, lengths and angles compare as parts of the larger of the two.
@@ -132,7 +138,7 @@ fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64], fa
 
 /// A pressure for bodies that have not touched: that of a Hertz contact of the given approach \[m\],
 /// up to a factor.
-pub(super) fn first_touch(h_init: &[f64], approach: f64) -> Vec<f64> {
+pub(super) fn first_touch(h_init: &Array2<f64>, approach: f64) -> Array2<f64> {
     let lowest = h_init.iter().fold(f64::INFINITY, |m, h| m.min(*h));
     let p = |h: &f64| {
         if approach > 0.0 {
@@ -141,5 +147,5 @@ pub(super) fn first_touch(h_init: &[f64], approach: f64) -> Vec<f64> {
             0.0
         }
     };
-    h_init.iter().map(p).collect()
+    h_init.map(p)
 }

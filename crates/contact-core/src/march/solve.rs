@@ -32,7 +32,7 @@ impl Observer for () {
 
 /// Runs through the whole path and returns every increment.
 pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Vec<Increment>, Error> {
-    March::new(scene)?.run(Vec::new(), observer)
+    March::until(scene, &observer.stop().unwrap_or_default())?.run(Vec::new(), observer)
 }
 
 impl March {

@@ -3,12 +3,15 @@
 use serde::{Deserialize, Serialize};
 
 use super::Motion;
-use crate::scene::Loads;
+use crate::convolution::Mirror;
+use crate::scene::{Grid, Loads};
 use crate::solvers::Interface;
 
 /// State after an increment, on the kept cells (half of the grid where the scene is symmetric).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
+    /// Cells along x and y that the fields cover, in the middle of the grid.
+    pub window: (usize, usize),
     /// Increments done.
     pub increments: usize,
     /// Loads at the end of the last one.
@@ -37,10 +40,11 @@ pub struct State {
 
 impl State {
     /// Two bodies just touching.
-    pub(crate) fn unloaded(cells: usize) -> Self {
+    pub(crate) fn unloaded(window: (usize, usize), cells: usize) -> Self {
         let field = || vec![0.0; cells];
         let pair = || [field(), field()];
         Self {
+            window,
             increments: 0,
             loads: Loads::default(),
             interface: Interface::unloaded(cells),
@@ -56,8 +60,14 @@ impl State {
         }
     }
 
-    /// Whether every field has that many cells.
-    pub(crate) fn fits(&self, cells: usize) -> bool {
+    /// Whether it is one of that grid: a window in its middle, and fields that fill this.
+    pub(crate) fn fits(&self, grid: &Grid, mirror: Mirror) -> bool {
+        let within = |n: usize, whole: usize| n <= whole && (whole - n).is_multiple_of(2);
+        let (nx, ny) = self.window;
+        if !within(nx, grid.nx) || !within(ny, grid.ny) {
+            return false;
+        }
+        let cells = nx * mirror.rows(ny);
         let Interface { p, q, u, u_z, slip } = &self.interface;
         let fields = [p, u_z, &self.slip_length, &self.dissipated, &self.p_before];
         let pairs = [q, u, &self.slip, &self.q_before];

@@ -118,6 +118,9 @@ pub const SCALARS: &[Scalar] = &[
     real("sigma_B", "Pa", "bulk stress along x in body 2", |i| {
         i.point.loads.sigma_B
     }),
+    real("sigma_B1", "Pa", "bulk stress along x in body 1", |i| {
+        i.point.loads.sigma_B1
+    }),
     real(
         "rolled",
         "m",

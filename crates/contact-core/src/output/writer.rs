@@ -52,6 +52,8 @@ pub(super) struct Open {
     /// When the last checkpoint was written, and how long that took.
     written: Instant,
     cost: Duration,
+    /// Checkpoints so far, and how long they took together.
+    checkpoints_so_far: (usize, Duration),
 }
 
 impl StoreWriter {
@@ -103,6 +105,14 @@ impl StoreWriter {
     pub fn with_interval(mut self, interval: Duration) -> Self {
         self.interval = interval;
         self
+    }
+
+    /// Checkpoints that this writer has written, and the time that they took, what brings the
+    /// store up to date for each included.
+    pub fn checkpoints(&self) -> (usize, Duration) {
+        self.open
+            .as_ref()
+            .map_or((0, Duration::ZERO), |open| open.checkpoints_so_far)
     }
 }
 
@@ -210,6 +220,7 @@ impl Open {
             on_disk: 0,
             written: Instant::now(),
             cost: FIRST_COST,
+            checkpoints_so_far: (0, Duration::ZERO),
         }
     }
 
@@ -271,6 +282,8 @@ impl Open {
         }
         self.written = Instant::now();
         self.cost = self.written - begun;
+        let (count, time) = &mut self.checkpoints_so_far;
+        (*count, *time) = (*count + 1, *time + self.cost);
         Ok(())
     }
 

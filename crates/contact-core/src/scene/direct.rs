@@ -39,7 +39,7 @@ pub(super) fn direct_branches(
     }
     if branches
         .iter()
-        .any(|b| b.to.sigma_B != 0.0 || b.to.rolled != 0.0)
+        .any(|b| [b.to.sigma_B, b.to.sigma_B1, b.to.rolled] != [0.0; 3])
     {
         return none("the bodies roll or are stretched meanwhile");
     }

@@ -89,6 +89,7 @@ impl LoadPoint {
             ends_branch: false,
             loads: Loads {
                 sigma_B: mean(loads.sigma_B, self.loads.sigma_B),
+                sigma_B1: mean(loads.sigma_B1, self.loads.sigma_B1),
                 rolled: mean(loads.rolled, self.loads.rolled),
                 ..Loads::default()
             }
@@ -308,6 +309,7 @@ impl LoadPath {
                     },
                     loads: Loads {
                         sigma_B: between(from.sigma_B, b.to.sigma_B),
+                        sigma_B1: between(from.sigma_B1, b.to.sigma_B1),
                         rolled: between(from.rolled, b.to.rolled),
                         ..Loads::default()
                     }
@@ -344,7 +346,11 @@ impl LoadPath {
         let mut t = 0.0;
         for (i, b) in self.branches.iter().enumerate() {
             let key = |name: &str| format!("path[{i}].{name}");
-            for (name, value) in [("sigma_B", b.to.sigma_B), ("rolled", b.to.rolled)] {
+            for (name, value) in [
+                ("sigma_B", b.to.sigma_B),
+                ("sigma_B1", b.to.sigma_B1),
+                ("rolled", b.to.rolled),
+            ] {
                 if !value.is_finite() {
                     return Err(Error::invalid(key(name), value, "a finite number"));
                 }
@@ -369,8 +375,8 @@ impl LoadPath {
         Ok(())
     }
 
-    /// Fails if the grid cannot follow: the contact rolls whole cells in an increment, straight and
-    /// without spin, and a strip neither twists nor tilts about its length.
+    /// Fails if the grid cannot follow: the contact rolls whole cells in an increment, along x and so
+    /// about y, and a strip neither twists nor tilts about its length.
     pub(crate) fn check_on(&self, grid: &Grid) -> Result<(), Error> {
         let mut rolled = 0.0;
         for (i, b) in self.branches.iter().enumerate() {
@@ -388,21 +394,24 @@ impl LoadPath {
                     ),
                 ));
             }
+            let rolls = cells.round() != 0.0;
             for k in [1, 2, 5] {
-                let stays = k == 2 && cells.round() == 0.0;
-                let fixed = cells.round() != 0.0 || grid.plane_strain;
-                if fixed && !stays && !held(k) {
-                    let allowed = if grid.plane_strain && k != 2 {
+                let allowed = match k {
+                    2 if rolls => {
+                        "left out while the contact rolls, which is a turn about y itself"
+                    }
+                    1 | 5 if grid.plane_strain => {
                         "left out in plane strain: nothing turns about x or z"
-                    } else {
-                        "left out while the contact rolls"
-                    };
+                    }
+                    _ => continue,
+                };
+                if !held(k) {
                     let value = given[k].unwrap_or(b.to.forces()[k]);
                     let name = given[k].map_or(LOADS[k], |_| MOTIONS[k]);
                     return Err(Error::invalid(key(name), value, allowed));
                 }
             }
-            if cells.round() != 0.0 && b.increments.is_none() {
+            if rolls && b.increments.is_none() {
                 return Err(Error::invalid(
                     key("increments"),
                     "auto",

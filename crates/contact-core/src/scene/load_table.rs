@@ -43,6 +43,7 @@ impl Increments {
 fn column(loads: &mut Loads, name: &str, value: f64) -> bool {
     match name {
         "sigma_B" => loads.sigma_B = value,
+        "sigma_B1" => loads.sigma_B1 = value,
         "rolled" => loads.rolled = value,
         _ => {
             let (mut forces, mut motions) = (loads.forces(), loads.given.motions());
@@ -109,8 +110,8 @@ impl LoadPath {
     }
 
     /// Goes straight from waypoint to waypoint, a branch for each. `names` are those of loads and
-    /// motions, `sigma_B`, `rolled` and the path time `t`; each row has a value for each. What has
-    /// no column stays as it is.
+    /// motions, `sigma_B`, `sigma_B1`, `rolled` and the path time `t`; each row has a value for
+    /// each. What has no column stays as it is.
     pub fn waypoints(
         mut self,
         names: &[&str],
@@ -122,7 +123,8 @@ impl LoadPath {
             .iter()
             .find(|n| **n != "t" && !column(&mut sink, n, 0.0))
         {
-            let known = [&LOADS[..], &MOTIONS[..], &["sigma_B", "rolled", "t"]].concat();
+            let others = ["sigma_B", "sigma_B1", "rolled", "t"];
+            let known = [&LOADS[..], &MOTIONS[..], &others].concat();
             let nearest = known
                 .iter()
                 .min_by_key(|known| strsim::damerau_levenshtein(name, known));
@@ -160,6 +162,7 @@ impl LoadPath {
             let k = |names: [&str; 6]| names.iter().position(|n| *n == name);
             match name {
                 "sigma_B" => loads.sigma_B,
+                "sigma_B1" => loads.sigma_B1,
                 "rolled" => loads.rolled,
                 _ => k(LOADS).map_or_else(
                     || {

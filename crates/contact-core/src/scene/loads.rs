@@ -23,6 +23,8 @@ pub struct Loads {
     pub M_z: f64,
     /// Bulk stress along x of body 2, away from the contact \[Pa\], tension positive: a fatigue load.
     pub sigma_B: f64,
+    /// The same of body 1.
+    pub sigma_B1: f64,
     /// Way that the contact has rolled along x over both bodies \[m\].
     pub rolled: f64,
     /// Motions that are given. The load that goes with each is what the solution says; in a path

@@ -4,6 +4,7 @@
 //! the solution. [`Scene::check`] refuses what has no meaning before anything is computed.
 
 mod body;
+mod bulk_stress;
 mod case;
 mod direct;
 mod friction;
@@ -104,13 +105,16 @@ impl Scene {
                 "\"hankel\" in plane strain",
             ));
         }
-        let loaded = self.path.branches.iter().find(|b| b.to.sigma_B != 0.0);
-        if let Some(branch) = loaded.filter(|_| self.body2.substrate.is_rigid()) {
-            return Err(Error::invalid(
-                "path.sigma_B",
-                branch.to.sigma_B,
-                "0, since body 2 is rigid",
-            ));
+        for (key, body, number) in [("sigma_B", &self.body2, 2), ("sigma_B1", &self.body1, 1)] {
+            let bulk = |to: &Loads| if number == 1 { to.sigma_B1 } else { to.sigma_B };
+            let stresses = self.path.branches.iter().map(|b| bulk(&b.to));
+            let stress = stresses
+                .filter(|_| body.substrate.is_rigid())
+                .find(|s| *s != 0.0);
+            if let Some(stress) = stress {
+                let allowed = format!("0, since body {number} is rigid");
+                return Err(Error::invalid(format!("path.{key}"), stress, allowed));
+            }
         }
         self.check_yardsticks()?;
         self.settings.check()

@@ -3,12 +3,13 @@
 use ndarray::Array2;
 
 use super::direct::direct_branches;
-use super::{Body, KernelMethod, LoadPoint, Loads, Scene, SurfaceMap};
+use super::{Body, KernelMethod, LoadPoint, Loads, Preset, Scene, SurfaceMap};
 use crate::convolution::Mirror;
 use crate::kernels::KernelSet;
 
 /// What is computed and what is left out.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::struct_excessive_bools)] // one for each rule
 pub struct Plan {
     /// Whether pressure and shear act on each other: the normal-tangential kernels and the
     /// intermediate loop.
@@ -17,6 +18,10 @@ pub struct Plan {
     pub friction: bool,
     /// Part of the grid that is solved for.
     pub mirror: Mirror,
+    /// Whether a window around the contact is solved on.
+    pub window: bool,
+    /// Whether changes of the tractions are answered in single precision.
+    pub single: bool,
     /// Branches of the load path whose end does not depend on the way there.
     pub direct: Vec<bool>,
     /// One line per rule, for people.
@@ -84,6 +89,11 @@ impl Plan {
         rule("influence coefficients of body 1", alike(scene));
         let coupling = !rule("normal-tangential coupling", uncoupled(scene));
         let half = rule("the half y < 0 of the grid", mirror(scene));
+        let window = rule("cells far from the contact", far(scene));
+        let single = rule(
+            "digits beyond single precision in the iterations",
+            digits(scene),
+        );
         let (direct, verdict) = direct_branches(scene, coupling);
         let subject = match direct.iter().filter(|&&d| d).count() {
             0 => "increments within the branches".to_owned(),
@@ -95,6 +105,8 @@ impl Plan {
             coupling,
             friction,
             mirror: if half { Mirror::Y } else { Mirror::None },
+            window,
+            single,
             direct,
             lines,
         }
@@ -137,6 +149,51 @@ fn layers(body: &Body, scene: &Scene) -> Vec<(f64, f64, f64)> {
     body.layers(scene.settings.skip.equal_layers)
 }
 
+/// The finest tolerance that single precision serves: what it rounds is a tenth of that, or less.
+const SINGLE: f64 = 1e-6;
+
+/// Whether, and why, single precision is enough for the response to a change of the tractions: the
+/// response to what they add up to is computed anew in each increment.
+fn digits(scene: &Scene) -> Result<&'static str, &'static str> {
+    let solver = &scene.settings.solver;
+    if !scene.settings.skip.digits {
+        Err("skip.digits is off")
+    } else if solver.preset != Preset::Fast {
+        Err("the preset is plain")
+    } else if in_frequency_domain(scene) {
+        Err("the frequency-domain operator has double precision alone")
+    } else if solver.tolerance < SINGLE {
+        Err("the tolerance is finer than 1e-6")
+    } else {
+        Ok("the tolerance is 1e-6 or more")
+    }
+}
+
+fn in_frequency_domain(scene: &Scene) -> bool {
+    let method = &scene.settings.kernel.method;
+    matches!(method, KernelMethod::FrequencyDomain { .. })
+}
+
+/// Whether, and why, a window around the contact is enough to solve on.
+fn far(scene: &Scene) -> Result<&'static str, &'static str> {
+    if !scene.settings.skip.far {
+        return Err("skip.far is off");
+    }
+    if scene.settings.solver.preset != Preset::Fast {
+        return Err("the preset is plain");
+    }
+    if in_frequency_domain(scene) {
+        return Err("the frequency-domain operator works on the whole grid");
+    }
+    if scene.grid.plane_strain {
+        return Err("the grid is one row of cells");
+    }
+    if scene.path.branches.iter().any(|b| b.to.rolled != 0.0) {
+        return Err("the bodies roll over the grid");
+    }
+    Ok("a window goes with the contact; every increment looks beyond it")
+}
+
 /// Whether a field is its own mirror image under y -> -y, up to rounding.
 fn is_mirror_symmetric(h: &Array2<f64>) -> bool {
     let ny = h.ncols();
@@ -150,10 +207,7 @@ fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.settings.skip.mirror {
         return Err("skip.mirror is off");
     }
-    if matches!(
-        scene.settings.kernel.method,
-        KernelMethod::FrequencyDomain { .. }
-    ) {
+    if in_frequency_domain(scene) {
         return Err("the frequency-domain operator works on the whole grid");
     }
     if !scene.grid.ny.is_multiple_of(2) {

@@ -118,6 +118,11 @@ pub struct SkipSettings {
     pub coupling: bool,
     /// Solve on half of a mirror-symmetric scene (default true).
     pub mirror: bool,
+    /// Answer changes of the tractions in single precision where the tolerance is a thousand times
+    /// coarser than its digits (default true).
+    pub digits: bool,
+    /// Solve in a window around the contact, where no cell beyond it can touch (default true).
+    pub far: bool,
     /// Leave out the increments of branches whose end does not depend on the way (default false:
     /// the results have a row for every increment asked for, and loops their points); they are
     /// solved all the same if their fields are to be kept.
@@ -130,6 +135,8 @@ impl Default for SkipSettings {
             equal_layers: true,
             coupling: true,
             mirror: true,
+            digits: true,
+            far: true,
             path: false,
         }
     }

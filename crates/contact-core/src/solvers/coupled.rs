@@ -379,7 +379,7 @@ fn follow_pressure(
         q_y: Some(&ws.change[1]),
         p: coupled.then_some(&ws.p_before[..]),
     };
-    response.op.apply(
+    response.op.respond(
         tractions,
         Displacements {
             u_x: Some(u_x),

@@ -20,13 +20,13 @@ impl Response<'_> {
         self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
-    /// u_z under p alone.
+    /// u_z under a change of p alone.
     pub(crate) fn normal(&mut self, p: &[f64], u_z: &mut [f64]) {
         let tractions = Tractions {
             p: Some(p),
             ..Tractions::default()
         };
-        self.op.apply(
+        self.op.respond(
             tractions,
             Displacements {
                 u_z: Some(u_z),
@@ -35,7 +35,7 @@ impl Response<'_> {
         );
     }
 
-    /// u_x, u_y under shear alone.
+    /// u_x, u_y under a change of shear alone.
     pub(crate) fn tangential(&mut self, q: [&[f64]; 2], u: [&mut [f64]; 2]) {
         let [u_x, u_y] = u;
         let tractions = Tractions {
@@ -48,17 +48,17 @@ impl Response<'_> {
             u_y: Some(u_y),
             u_z: None,
         };
-        self.op.apply(tractions, displacements);
+        self.op.respond(tractions, displacements);
     }
 
-    /// u_z under shear alone.
+    /// u_z under a change of shear alone.
     pub(crate) fn normal_under_shear(&mut self, q: [&[f64]; 2], u_z: &mut [f64]) {
         let tractions = Tractions {
             q_x: Some(q[0]),
             q_y: Some(q[1]),
             p: None,
         };
-        self.op.apply(
+        self.op.respond(
             tractions,
             Displacements {
                 u_z: Some(u_z),

@@ -62,6 +62,10 @@ const SETTLED: f64 = 0.1;
 /// Passes of projected gradients after a Newton step that would have raised the energy.
 const DESCENT: usize = 30;
 
+/// Newton steps without a smaller misfit after which no more is to be hoped for: the slip set goes
+/// in circles. Of the steps that lead to a solution most take less than ten.
+const STALLED: usize = 100;
+
 /// Solves for the shear. On entry it must be admissible: within the bound and balanced.
 pub fn tangential(
     response: &mut Response<'_>,
@@ -89,6 +93,7 @@ pub fn tangential(
         shift: first_shift(&inside, &now),
         ..Default::default()
     };
+    let (mut least, mut stalled) = (f64::INFINITY, 0);
     loop {
         let released = release(&inside, &mut now, info.shift, settled);
         let fitted = step.linearise(&inside, &now, info.shift, c_xx);
@@ -99,7 +104,10 @@ pub fn tangential(
             now.unpack(cells, shear);
             return Ok(info);
         }
-        if info.iterations == params.max_iterations || response.stopped() {
+        stalled = if info.misfit < least { 0 } else { stalled + 1 };
+        least = least.min(info.misfit);
+        let ended = stalled == STALLED || info.iterations == params.max_iterations;
+        if ended || response.stopped() {
             return Err(SolverError {
                 solver: "tangential",
                 residual: info.misfit,
@@ -114,7 +122,7 @@ pub fn tangential(
             continue;
         }
         before.keep(&now);
-        let target = (params.forcing * info.misfit).max(0.3 * params.tolerance);
+        let target = (params.forcing * info.misfit).max(0.6 * params.tolerance);
         info.passes += step.solve(response, cells, target * root_of_contact, params.max_passes);
         info.shift = step.take(cells, &inside, &mut now);
         mark_slip(&inside, &mut now, info.shift);

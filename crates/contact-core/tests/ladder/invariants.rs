@@ -97,12 +97,12 @@ prop_compose! {
 /// of a misfit a hundred times as much traction.
 const ALIKE: f64 = 1e-4;
 /// The same for those solved to [`TIGHT`].
-const TWINS: f64 = 1e-9;
+pub(crate) const TWINS: f64 = 1e-9;
 /// Twins differ by rounding alone, but rounding decides where in the tolerance the iterations end.
 const TIGHT: f64 = 1e-11;
 
 /// Fields and motion at the end of the path.
-fn end(scene: &Scene) -> (Fields, Motion) {
+pub(crate) fn end(scene: &Scene) -> (Fields, Motion) {
     let mut kept = None;
     run(scene, |march, increment| {
         kept = Some((march.fields(), increment.motion));
@@ -110,7 +110,7 @@ fn end(scene: &Scene) -> (Fields, Motion) {
     kept.expect("an increment")
 }
 
-fn loads_mapped(scene: &Scene, f: impl Fn(Loads) -> Loads) -> LoadPath {
+pub(crate) fn loads_mapped(scene: &Scene, f: impl Fn(Loads) -> Loads) -> LoadPath {
     let mut path = scene.path.clone();
     for branch in &mut path.branches {
         branch.to = f(branch.to);
@@ -250,7 +250,7 @@ fn radial_fretting_of_dissimilar_bodies_is_round() {
 }
 
 /// An ellipsoid on a coated flat, both of dissimilar materials, under W, T_x and T_y that turn.
-fn twin() -> Scene {
+pub(crate) fn twin() -> Scene {
     let body1 = Body::homogeneous(
         Elastic { E: 120e9, nu: 0.15 },
         Shape::Ellipsoid {
@@ -300,7 +300,7 @@ fn turned(scene: &Scene) -> Scene {
     turned
 }
 
-fn assert_twins(what: &str, ours: [&Array2<f64>; 3], theirs: [&Array2<f64>; 3]) {
+pub(crate) fn assert_twins(what: &str, ours: [&Array2<f64>; 3], theirs: [&Array2<f64>; 3]) {
     for (ours, theirs_field) in ours.iter().zip(theirs) {
         let off = distance(theirs_field, 1.0, ours, theirs[0]);
         assert!(off < TWINS, "{what}: {off:e}");

@@ -9,6 +9,7 @@
 mod any_path;
 mod audit;
 mod bench;
+mod bulk_stress;
 mod cattaneo_mindlin;
 mod coated_hertz;
 mod coupled_indentation;
@@ -24,6 +25,7 @@ mod mindlin_shear;
 mod oblique;
 mod paper_scene;
 mod path_order;
+mod rolling;
 mod shapes;
 mod tilt;
 mod torsion;

@@ -86,7 +86,7 @@ pub(crate) struct End {
     pub(crate) increments: Vec<Increment>,
 }
 
-/// Solves a scene and, of every fourth with a sphere, its twins, within `limit`.
+/// Solves a scene and, of those with a sphere, its twins, within `limit`.
 pub(crate) fn outcome(seed: u64, drawn: &Drawn, limit: Duration) -> Outcome {
     let begun = Instant::now();
     let stop = Arc::<AtomicBool>::default();
@@ -133,7 +133,7 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
         (Err(error), _) => return (ended(scene, "", &error), None),
     };
     let mut twins = Vec::new();
-    if seed.is_multiple_of(4) && seed < SHAPED {
+    if seed < SHAPED {
         let misfit = Misfit::of(scene);
         for (name, twin, map) in twins_of(scene) {
             let distance = match audited(&twin, stop) {

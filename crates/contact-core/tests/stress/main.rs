@@ -30,6 +30,10 @@ fn number(variable: &str) -> Option<u64> {
     std::env::var(variable).ok().map(|n| n.parse().unwrap())
 }
 
+fn threads() -> usize {
+    thread::available_parallelism().map_or(1, usize::from)
+}
+
 /// Runs n scenes, each in one thread: three quarters with spheres, of the seeds from 0 on, the
 /// others with other shapes.
 fn campaign(n: u64) -> Vec<Outcome> {
@@ -37,9 +41,8 @@ fn campaign(n: u64) -> Vec<Outcome> {
     let outcomes = Mutex::new(Vec::new());
     let begun = Instant::now();
     let bound = number("FRET_STRESS_MINUTES").map_or(Duration::MAX, Duration::from_mins);
-    let workers = thread::available_parallelism().map_or(1, usize::from);
     thread::scope(|scope| {
-        for _ in 0..workers {
+        for _ in 0..threads() {
             scope.spawn(|| {
                 let pool = rayon::ThreadPoolBuilder::new()
                     .num_threads(1)
@@ -84,8 +87,9 @@ fn random_scenes_are_solved_or_refused() {
         );
         return;
     }
+    let begun = Instant::now();
     let outcomes = campaign(number("FRET_STRESS").unwrap_or(SLICE));
-    let report = report::report(&outcomes);
+    let report = report::report(&outcomes, begun.elapsed().as_secs_f64(), threads());
     println!("{report}");
     if let Ok(document) = std::env::var("FRET_STRESS_REPORT") {
         document::insert(&document, "stress", &report);

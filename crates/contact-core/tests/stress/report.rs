@@ -24,7 +24,8 @@ impl Outcome {
     }
 }
 
-pub(crate) fn report(outcomes: &[Outcome]) -> String {
+/// `seconds` is the time of all scenes, on so many `threads`.
+pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> String {
     let mut text = String::new();
     let total = outcomes.len();
     let count = |kind: &dyn Fn(&Fate) -> bool| outcomes.iter().filter(|o| kind(&o.fate)).count();
@@ -73,11 +74,20 @@ pub(crate) fn report(outcomes: &[Outcome]) -> String {
         "| convolutions per increment | {:.1} |",
         sum(&|o| o.convolutions) / sum(&|o| o.increments as f64)
     );
-    let slowest = outcomes.iter().map(|o| o.seconds).fold(0.0, f64::max);
+    let slowest = outcomes
+        .iter()
+        .max_by(|a, b| a.seconds.total_cmp(&b.seconds));
     let _ = writeln!(
         text,
-        "| time of a scene, mean and longest | {:.2} s, {slowest:.1} s |",
-        sum(&|o| o.seconds) / total as f64
+        "| time of a scene with its twins, mean and longest | {:.2} s, {:.1} s (seed {}) |",
+        sum(&|o| o.seconds) / total as f64,
+        slowest.map_or(0.0, |o| o.seconds),
+        slowest.map_or(0, |o| o.seed)
+    );
+    let _ = writeln!(
+        text,
+        "| time of all, on {threads} threads | {:.1} min |",
+        seconds / 60.0
     );
 
     let _ = writeln!(

@@ -120,6 +120,11 @@ impl Branch {
     }
 
     #[getter]
+    fn sigma_B1(&self) -> f64 {
+        self.0.to.sigma_B1
+    }
+
+    #[getter]
     fn rolled(&self) -> f64 {
         self.0.to.rolled
     }
@@ -337,7 +342,7 @@ impl LoadPath {
             .map_err(to_python)
     }
 
-    #[pyo3(signature = (*, W = None, T_x = None, T_y = None, M_x = None, M_y = None, M_z = None, sigma_B = None, rolled = None, increments = Count(None), spacing = Spacing::Uniform, t = None))]
+    #[pyo3(signature = (*, W = None, T_x = None, T_y = None, M_x = None, M_y = None, M_z = None, sigma_B = None, sigma_B1 = None, rolled = None, increments = Count(None), spacing = Spacing::Uniform, t = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn force(
         &self,
@@ -348,6 +353,7 @@ impl LoadPath {
         M_y: Option<f64>,
         M_z: Option<f64>,
         sigma_B: Option<f64>,
+        sigma_B1: Option<f64>,
         rolled: Option<f64>,
         increments: Count,
         spacing: Spacing,
@@ -360,6 +366,7 @@ impl LoadPath {
         });
         if let Some(branch) = path.0.branches.last_mut() {
             branch.to.sigma_B = sigma_B.unwrap_or(branch.to.sigma_B);
+            branch.to.sigma_B1 = sigma_B1.unwrap_or(branch.to.sigma_B1);
             branch.to.rolled = rolled.unwrap_or(branch.to.rolled);
         }
         path
@@ -414,6 +421,11 @@ impl LoadPath {
     #[getter]
     fn sigma_B<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |point| point.loads.sigma_B)
+    }
+
+    #[getter]
+    fn sigma_B1<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, |point| point.loads.sigma_B1)
     }
 
     #[getter]

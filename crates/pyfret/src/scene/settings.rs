@@ -113,12 +113,23 @@ pub(crate) struct Skip(core::SkipSettings);
 #[pymethods]
 impl Skip {
     #[new]
-    #[pyo3(signature = (*, equal_layers = true, coupling = true, mirror = true, path = false))]
-    fn new(equal_layers: bool, coupling: bool, mirror: bool, path: bool) -> Self {
+    #[pyo3(signature = (*, equal_layers = true, coupling = true, mirror = true, digits = true,
+                        far = true, path = false))]
+    #[allow(clippy::fn_params_excessive_bools)] // one for each rule
+    fn new(
+        equal_layers: bool,
+        coupling: bool,
+        mirror: bool,
+        digits: bool,
+        far: bool,
+        path: bool,
+    ) -> Self {
         Self(core::SkipSettings {
             equal_layers,
             coupling,
             mirror,
+            digits,
+            far,
             path,
         })
     }
@@ -136,6 +147,16 @@ impl Skip {
     #[getter]
     fn mirror(&self) -> bool {
         self.0.mirror
+    }
+
+    #[getter]
+    fn digits(&self) -> bool {
+        self.0.digits
+    }
+
+    #[getter]
+    fn far(&self) -> bool {
+        self.0.far
     }
 
     #[getter]

@@ -229,6 +229,7 @@ fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
 fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<LoadPath, Fault> {
     let own = [
         "sigma_B",
+        "sigma_B1",
         "rolled",
         "increments",
         "t",
@@ -315,6 +316,7 @@ fn loads(section: &Section<'_>, at: Loads, mu: f64) -> Result<Loads, Fault> {
     let number = |key: &str, before: f64| section.number_or(key, before, &[]);
     let bodies = Loads {
         sigma_B: number("sigma_B", at.sigma_B)?,
+        sigma_B1: number("sigma_B1", at.sigma_B1)?,
         rolled: number("rolled", at.rolled)?,
         ..at
     };
@@ -377,12 +379,22 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
             max_iterations: section.count_or("max_iterations", 1, default.max_iterations)?,
         };
     }
-    if let Some(section) = root.section("skip", &["equal_layers", "coupling", "mirror", "path"])? {
+    let rules = [
+        "equal_layers",
+        "coupling",
+        "mirror",
+        "digits",
+        "far",
+        "path",
+    ];
+    if let Some(section) = root.section("skip", &rules)? {
         let default = settings.skip;
         settings.skip = SkipSettings {
             equal_layers: section.flag_or("equal_layers", default.equal_layers)?,
             coupling: section.flag_or("coupling", default.coupling)?,
             mirror: section.flag_or("mirror", default.mirror)?,
+            digits: section.flag_or("digits", default.digits)?,
+            far: section.flag_or("far", default.far)?,
             path: section.flag_or("path", default.path)?,
         };
     }

@@ -41,9 +41,15 @@ impl Scene {
                 }
             }
             let Loads {
-                sigma_B, rolled, ..
+                sigma_B,
+                sigma_B1,
+                rolled,
+                ..
             } = branch.to;
-            line(format_args!("sigma_B = {sigma_B:?}\nrolled = {rolled:?}"));
+            line(format_args!(
+                "sigma_B = {sigma_B:?}\nsigma_B1 = {sigma_B1:?}"
+            ));
+            line(format_args!("rolled = {rolled:?}"));
             match branch.increments {
                 Some(n) => line(format_args!("increments = {n}")),
                 None => line(format_args!("increments = \"auto\"")),
@@ -83,8 +89,8 @@ impl Scene {
             skip.equal_layers
         ));
         line(format_args!(
-            "coupling = {}\nmirror = {}\npath = {}",
-            skip.coupling, skip.mirror, skip.path
+            "coupling = {}\nmirror = {}\ndigits = {}\nfar = {}\npath = {}",
+            skip.coupling, skip.mirror, skip.digits, skip.far, skip.path
         ));
         let save = match &settings.save {
             SaveFields::Branches => "\"branches\"".to_owned(),

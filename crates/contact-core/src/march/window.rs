@@ -1,0 +1,416 @@
+//! The part of the grid that is solved on: cells far from the contact are left out.
+//!
+//! Tractions act in the contact alone, and displacements of other cells matter only where these might
+//! touch. So an increment is solved in a window around the contact, with room between the two, and
+//! ends with a look at the gap beyond: where cells overlap there, it is solved again on the whole
+//! grid. The window begins around the first guess of the contact and grows with it.
+
+use std::sync::{Mutex, PoisonError};
+
+use ndarray::Array2;
+
+use super::slip_datum::Datum;
+use super::{March, State};
+use crate::convolution::{
+    CirculantInverse, DcFft, Displacements, FrequencyDomain, Half, Mirror, SurfaceOperator,
+    Tractions, good_size,
+};
+use crate::error::Error;
+use crate::kernels::{InfluenceCoefficients, pair_coefficients};
+use crate::scene::{Grid, KernelMethod, LoadPoint, Plan, Preset, Scene};
+use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface, Response};
+
+/// Cells between the contact and the border of the window.
+const ROOM: usize = 4;
+/// What a window is made longer than the contact that asks for it.
+const GROWTH: f64 = 1.08;
+/// Part of the grid's length from which a window is not worth it.
+const WHOLE: f64 = 0.9;
+/// The least cells along an axis of a window.
+const LEAST: usize = 32;
+
+/// Cells in the middle of the grid, and what the solvers need to know of them.
+pub(super) struct Window {
+    /// The cells; those of the scene's grid where nothing is left out.
+    pub(super) grid: Grid,
+    /// Gap between the undeformed surfaces on the kept cells \[m\].
+    pub(super) h_init: Vec<f64>,
+    /// Where the kept cells are.
+    pub(super) arms: Arms,
+    /// Factor of the friction coefficient over the kept cells; empty where it is 1.
+    pub(super) friction_map: Vec<f64>,
+    pub(super) op: Box<dyn SurfaceOperator + Send>,
+    pub(super) inverse: Option<CirculantInverse>,
+}
+
+/// What windows are cut from.
+pub(super) struct Whole {
+    /// The coefficients on the whole grid.
+    pair: InfluenceCoefficients,
+    /// The whole grid, for what is beyond the window; there once it has been needed.
+    grid: Mutex<Option<Window>>,
+    /// Transforms done in windows that were given up.
+    transforms: usize,
+}
+
+impl Whole {
+    /// Computes the coefficients that a plan needs.
+    pub(super) fn new(scene: &Scene, plan: &Plan) -> Result<Self, Error> {
+        let settings = &scene.settings;
+        let pair = pair_coefficients(
+            (&scene.body1, &scene.body2),
+            &scene.grid,
+            &settings.kernel,
+            settings.skip.equal_layers,
+            plan.kernels(),
+        )?;
+        Ok(Self {
+            pair: pair.stretched(scene.friction.stretch()),
+            grid: Mutex::default(),
+            transforms: 0,
+        })
+    }
+
+    /// The nx x ny cells in the middle of the scene's grid.
+    pub(super) fn window(&self, scene: &Scene, plan: &Plan, (nx, ny): (usize, usize)) -> Window {
+        let grid = Grid {
+            nx,
+            ny,
+            ..scene.grid
+        };
+        let settings = &scene.settings;
+        let cut;
+        let pair = if grid == scene.grid {
+            &self.pair
+        } else {
+            cut = self.pair.within((nx, ny));
+            &cut
+        };
+        let inverse = match settings.solver.preset {
+            Preset::Fast => Some(CirculantInverse::new(pair, plan.mirror, plan.single)),
+            Preset::Spinu2020 => None,
+        };
+        let op: Box<dyn SurfaceOperator + Send> = match settings.kernel.method {
+            KernelMethod::FrequencyDomain { lambda } => Box::new(FrequencyDomain::new(
+                (&scene.body1, &scene.body2),
+                &grid,
+                lambda,
+                plan.coupling,
+                pair,
+            )),
+            _ => Box::new(DcFft::with_single(
+                pair,
+                plan.mirror,
+                plan.coupling,
+                plan.single,
+            )),
+        };
+        let extent = scene.grid.extent();
+        let length = if grid.plane_strain {
+            0.5 * extent.0
+        } else {
+            0.5 * extent.0.max(extent.1)
+        };
+        let fold = |field: Array2<f64>| plan.mirror.fold(&field);
+        let map = scene.friction.map.as_ref();
+        Window {
+            h_init: fold(middle(&scene.h_init(), (nx, ny))),
+            arms: Arms {
+                length,
+                x: fold(grid.map(|x, _| x / length)),
+                y: fold(grid.map(|_, y| y / length)),
+                stretch: scene.friction.stretch(),
+            },
+            friction_map: map.map_or_else(Vec::new, |map| fold(grid.map(|x, y| map.at(x, y)))),
+            op,
+            inverse,
+            grid,
+        }
+    }
+}
+
+impl Window {
+    /// The shape of the window to begin with: the whole grid where cells have to be kept everywhere.
+    pub(super) fn first(scene: &Scene, plan: &Plan) -> (usize, usize) {
+        if plan.window {
+            shape_for(&scene.grid, [LEAST, LEAST])
+        } else {
+            shape_of(&scene.grid)
+        }
+    }
+
+    /// Cells along x and along y.
+    pub(super) fn shape(&self) -> (usize, usize) {
+        shape_of(&self.grid)
+    }
+
+    /// Shape of the fields: cells along x, kept rows.
+    fn kept(&self, mirror: Mirror) -> (usize, usize) {
+        (self.grid.nx, mirror.rows(self.grid.ny))
+    }
+}
+
+fn shape_of(grid: &Grid) -> (usize, usize) {
+    (grid.nx, grid.ny)
+}
+
+/// The shape of a window in which so many cells along x and y fit, the longest that transforms take
+/// no longer for.
+fn shape_for(grid: &Grid, cells: [usize; 2]) -> (usize, usize) {
+    let along = |whole: usize, cells: usize| {
+        let longest = good_size(2 * cells) / 2;
+        let even = longest - (whole - longest.min(whole)) % 2;
+        if even as f64 >= WHOLE * whole as f64 {
+            whole
+        } else {
+            even
+        }
+    };
+    (along(grid.nx, cells[0]), along(grid.ny, cells[1]))
+}
+
+/// The nx x ny entries in the middle of a field.
+fn middle(field: &Array2<f64>, (nx, ny): (usize, usize)) -> Array2<f64> {
+    let (i, j) = ((field.nrows() - nx) / 2, (field.ncols() - ny) / 2);
+    Array2::from_shape_fn((nx, ny), |(a, b)| field[(i + a, j + b)])
+}
+
+/// A field of kept cells on more cells around the same middle, `elsewhere` on the new ones.
+fn embedded<T: Copy>(
+    field: &[T],
+    from: (usize, usize),
+    to: (usize, usize),
+    mirror: Mirror,
+    elsewhere: T,
+) -> Vec<T> {
+    let i = (to.0 - from.0) / 2;
+    let j = match mirror {
+        Mirror::None => (to.1 - from.1) / 2,
+        // The half begins in the middle.
+        Mirror::Y => 0,
+    };
+    let mut wide = vec![elsewhere; to.0 * to.1];
+    for (row, values) in field.chunks(from.1).enumerate() {
+        wide[(i + row) * to.1 + j..][..from.1].copy_from_slice(values);
+    }
+    wide
+}
+
+impl Interface {
+    /// The same in a wider window; the displacements are not those of the new cells.
+    fn embedded(&self, from: (usize, usize), to: (usize, usize), mirror: Mirror) -> Self {
+        let wide = |f: &Vec<f64>| embedded(f, from, to, mirror, 0.0);
+        let pair = |f: &[Vec<f64>; 2]| [wide(&f[0]), wide(&f[1])];
+        Self {
+            p: wide(&self.p),
+            q: pair(&self.q),
+            u: pair(&self.u),
+            u_z: wide(&self.u_z),
+            slip: embedded(&self.slip, from, to, mirror, false),
+        }
+    }
+}
+
+impl State {
+    /// The same in a wider window; the displacements are not those of the new cells.
+    fn embedded(&self, from: (usize, usize), to: (usize, usize), mirror: Mirror) -> Self {
+        let wide = |f: &Vec<f64>| embedded(f, from, to, mirror, 0.0);
+        let pair = |f: &[Vec<f64>; 2]| [wide(&f[0]), wide(&f[1])];
+        Self {
+            interface: self.interface.embedded(from, to, mirror),
+            slip: pair(&self.slip),
+            slip_length: wide(&self.slip_length),
+            dissipated: wide(&self.dissipated),
+            p_before: wide(&self.p_before),
+            q_before: pair(&self.q_before),
+            ..*self
+        }
+    }
+}
+
+impl March {
+    /// Whether cells are left out.
+    pub(super) fn is_windowed(&self) -> bool {
+        self.window.grid != self.scene.grid
+    }
+
+    /// Two-dimensional transforms done so far.
+    pub(super) fn transforms(&self) -> usize {
+        let beyond = (self.whole.grid.lock()).unwrap_or_else(PoisonError::into_inner);
+        let beyond = beyond.as_ref().map_or(0, |grid| grid.op.transforms());
+        self.whole.transforms + self.window.op.transforms() + beyond
+    }
+
+    /// Makes the window wide enough for a contact of pressure `p`, given on the kept cells of a grid
+    /// around the same middle, that grows by a `factor`; whether it was not.
+    pub(super) fn make_room(&mut self, p: &[f64], (nx, ny): (usize, usize), factor: f64) -> bool {
+        if !self.is_windowed() {
+            return false;
+        }
+        let rows = self.plan.mirror.rows(ny);
+        // Cells from the middle to the far side of one.
+        let reach = |i: usize, n: usize| (2 * i + 1).abs_diff(n).div_ceil(2) + 1;
+        let mut half = [0; 2];
+        for (n, _) in p.iter().enumerate().filter(|(_, p)| **p > 0.0) {
+            half[0] = half[0].max(reach(n / rows, nx));
+            half[1] = half[1].max(reach(n % rows + ny - rows, ny));
+        }
+        let half = half.map(|half| (half as f64 * factor).ceil() as usize);
+        let (now, whole) = (self.window.shape(), &self.scene.grid);
+        let narrow = |half: usize, n: usize, whole: usize| n < whole && 2 * (half + ROOM) > n;
+        if !narrow(half[0], now.0, whole.nx) && !narrow(half[1], now.1, whole.ny) {
+            return false;
+        }
+        let cells = half.map(|half| 2 * ((half as f64 * GROWTH).ceil() as usize + ROOM));
+        self.widen(shape_for(whole, [cells[0].max(now.0), cells[1].max(now.1)]));
+        true
+    }
+
+    /// What the contact is expected to grow by in an increment to `point`: a cone's grows like the
+    /// root of the force, a sphere's like the root of the approach.
+    pub(super) fn growth(&self, point: &LoadPoint) -> f64 {
+        let (last, now) = (&self.state.loads, &point.loads);
+        let (from, to) = match now.given.delta_z {
+            Some(delta_z) => (self.state.motion.delta_z, delta_z),
+            None => (last.W, now.W),
+        };
+        if from > 0.0 && to > from {
+            (to / from).sqrt()
+        } else {
+            1.0
+        }
+    }
+
+    /// Whether cells beyond the window overlap in this solution; if so, the window is the whole grid
+    /// from now on.
+    pub(super) fn touches_beyond(&mut self, now: &Interface, info: &CoupledInfo) -> bool {
+        if !self.is_windowed() {
+            return false;
+        }
+        let mirror = self.plan.mirror;
+        let (scene, plan, whole) = (&self.scene, &self.plan, &mut self.whole);
+        let mut beyond = (whole.grid.get_mut())
+            .unwrap_or_else(PoisonError::into_inner)
+            .take();
+        let grid = beyond.get_or_insert_with(|| whole.window(scene, plan, shape_of(&scene.grid)));
+        let (from, to) = (self.window.kept(mirror), grid.kept(mirror));
+        let wide = |f: &[f64]| embedded(f, from, to, mirror, 0.0);
+        let (p, q) = (wide(&now.p), [wide(&now.q[0]), wide(&now.q[1])]);
+        let shear = plan.friction && plan.coupling;
+        let mut u_z = vec![0.0; p.len()];
+        grid.op.respond(
+            Tractions {
+                q_x: shear.then_some(&q[0]),
+                q_y: shear.then_some(&q[1]),
+                p: Some(&p),
+            },
+            Displacements {
+                u_z: Some(&mut u_z),
+                ..Displacements::default()
+            },
+        );
+        let inside = embedded(&vec![true; now.p.len()], from, to, mirror, false);
+        let allowed = scene.settings.solver.tolerance * self.approach;
+        let overlap = (0..p.len()).any(|n| {
+            let gap = grid.h_init[n] + u_z[n] - grid.arms.across(info.approach, n);
+            !inside[n] && gap < -allowed
+        });
+        *whole.grid.get_mut().unwrap_or_else(PoisonError::into_inner) = beyond;
+        if overlap {
+            self.widen(shape_of(&self.scene.grid));
+        }
+        overlap
+    }
+
+    /// Lays out a wider window and puts the present state into it.
+    pub(super) fn widen(&mut self, shape: (usize, usize)) {
+        self.whole.transforms += self.window.op.transforms();
+        let whole = self
+            .whole
+            .grid
+            .get_mut()
+            .unwrap_or_else(PoisonError::into_inner);
+        let known = whole.take_if(|whole| whole.shape() == shape);
+        let lay_out = || self.whole.window(&self.scene, &self.plan, shape);
+        self.window = known.unwrap_or_else(lay_out);
+        let cells = self.window.h_init.len();
+        self.carried = None;
+        self.mu = vec![self.scene.friction.mu; cells];
+        self.datum = Datum::new(cells);
+        self.workspace = CoupledWorkspace::new(cells);
+        let state = std::mem::replace(&mut self.state, State::unloaded((0, 0), 0));
+        self.put(state);
+    }
+
+    /// Takes a state, which may be older than the window.
+    pub(super) fn put(&mut self, state: State) {
+        if state.window == self.window.shape() {
+            self.state = state;
+            return;
+        }
+        let mirror = self.plan.mirror;
+        let from = (state.window.0, mirror.rows(state.window.1));
+        let to = self.window.kept(mirror);
+        self.state = state.embedded(from, to, mirror);
+        self.state.window = self.window.shape();
+        let old = embedded(&vec![true; from.0 * from.1], from, to, mirror, false);
+        let mut computed = self.state.interface.clone();
+        computed.evaluate(&mut plain(&mut *self.window.op), self.plan.friction);
+        let now = &mut self.state.interface;
+        let ([x, y], [new_x, new_y]) = (&mut now.u, computed.u);
+        for (now, new) in [(x, new_x), (y, new_y), (&mut now.u_z, computed.u_z)] {
+            for n in (0..old.len()).filter(|&n| !old[n]) {
+                now[n] = new[n];
+            }
+        }
+    }
+
+    /// What a field on the whole grid is in the window, on the kept cells.
+    pub(super) fn in_window(&self, field: &Array2<f64>) -> Vec<f64> {
+        self.plan.mirror.fold(&middle(field, self.window.shape()))
+    }
+
+    /// A field of the window on the whole grid, zero beyond the window.
+    pub(super) fn on_grid(&self, field: &[f64], half: Half) -> Array2<f64> {
+        let (grid, mirror) = (&self.scene.grid, self.plan.mirror);
+        let to = (grid.nx, mirror.rows(grid.ny));
+        let wide = embedded(field, self.window.kept(mirror), to, mirror, 0.0);
+        mirror.unfold(&wide, grid.nx, grid.ny, half)
+    }
+
+    /// The displacements u_x, u_y, u_z of the last increment on the whole grid.
+    pub(super) fn displacements(&self) -> [Array2<f64>; 3] {
+        let (grid, mirror) = (&self.scene.grid, self.plan.mirror);
+        let now = &self.state.interface;
+        let halves = [Half::Even, Half::Odd, Half::Even];
+        let solved = [&now.u[0], &now.u[1], &now.u_z];
+        if !self.is_windowed() {
+            return [0, 1, 2].map(|c| self.on_grid(solved[c], halves[c]));
+        }
+        let to = (grid.nx, mirror.rows(grid.ny));
+        let mut whole = now.embedded(self.window.kept(mirror), to, mirror);
+        let lay_out = || self.whole.window(&self.scene, &self.plan, shape_of(grid));
+        let mut beyond = (self.whole.grid.lock()).unwrap_or_else(PoisonError::into_inner);
+        let beyond = beyond.get_or_insert_with(lay_out);
+        whole.evaluate(&mut plain(&mut *beyond.op), self.plan.friction);
+        let computed = [&whole.u[0], &whole.u[1], &whole.u_z];
+        let part = &self.window.grid;
+        let (i, j) = ((grid.nx - part.nx) / 2, (grid.ny - part.ny) / 2);
+        [0, 1, 2].map(|c| {
+            let mut u = mirror.unfold(computed[c], grid.nx, grid.ny, halves[c]);
+            let solved = mirror.unfold(solved[c], part.nx, part.ny, halves[c]);
+            for ((a, b), u_solved) in solved.indexed_iter() {
+                u[(i + a, j + b)] = *u_solved;
+            }
+            u
+        })
+    }
+}
+
+fn plain(op: &mut dyn SurfaceOperator) -> Response<'_> {
+    Response {
+        op,
+        inverse: None,
+        stop: None,
+    }
+}
