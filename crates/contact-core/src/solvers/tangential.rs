@@ -121,7 +121,7 @@ pub fn tangential(
             continue;
         }
         before.keep(&now);
-        let target = (params.forcing * info.misfit).max(0.6 * params.tolerance);
+        let target = (params.forcing * info.misfit).max(0.3 * params.tolerance);
         info.passes += step.solve(response, cells, target * root_of_contact, params.max_passes);
         info.shift = step.take(cells, &inside, &mut now);
         mark_slip(&inside, &mut now, info.shift);
