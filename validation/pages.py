@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import matplotlib.pyplot as plt
 
 import pyfret as fret
+from validation.truth import PLACES
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -44,6 +45,8 @@ def convergence(outcome: Outcome, file: Path) -> None:
     ladders = [(outcome.grids, "cells a side")]
     if outcome.increments is not None:
         ladders.append((outcome.increments, "increments"))
+    if outcome.placed is not None:
+        ladders.append((outcome.placed, f"cells a side, mean of {PLACES} places"))
     with fret.plot.style():
         figure, row = plt.subplots(
             1, len(ladders), figsize=(1.6 + 3.8 * len(ladders), 3.2), squeeze=False
@@ -94,6 +97,13 @@ def write(outcome: Outcome, folder: Path) -> None:
     ]
     if outcome.increments is not None:
         parts += ["## Error against the increments", table(outcome.increments, "increments")]
+    if outcome.placed is not None:
+        parts += [
+            "## Error over the places of the rim within the cells",
+            f"Root mean square over {PLACES} grids whose cells differ by up to a tenth: single "
+            "runs go up and down by where the rim lies in its cells.",
+            table(outcome.placed, "cells a side"),
+        ]
     parts += [f"![errors]({truth.name}_error.png)"]
     if truth.remark:
         parts.append(truth.remark)

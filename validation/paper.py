@@ -73,11 +73,11 @@ def outwards(result: fret.Result) -> float:
     return float(q_r[at.contact.values].mean() / (at.mu * at.p_H))
 
 
-def stick_middle(result: fret.Result) -> float:
-    """Where the middle of the stick zone is at the end [a_H]."""
-    at = result.at(1.0)
-    x = np.broadcast_to(at.x.values[:, None], at.stick.shape)
-    return float(x[at.stick.values].mean() / at.a_H)
+def stick_middle(result: fret.Result, t: float) -> float:
+    """Midway between the ends of the stick zone along y = 0 [a_H]."""
+    at = result.at(t)
+    stuck = at.x.values[at.stick.values[:, at.y.size // 2]]
+    return float((stuck[0] + stuck[-1]) / 2 / at.a_H)
 
 
 def largest_mises(result: fret.Result) -> tuple[float, float, float]:
@@ -170,10 +170,21 @@ def largest_at(ratio: float) -> Callable[[Results], str]:
     return said
 
 
+#: Middle of the stick zone at 0.2 tau [a_H], of the sketch that the method was tried in.
+MIDDLES = {0.5: -0.066, 2.0: 0.084, 4.0: 0.169}
+
+
 def moved(results: Results) -> str:
-    """The middle of the stick zone at the end."""
-    return "middle of the stick zone at $\\tau$ [$a_H$]: " + ", ".join(
-        f"{stick_middle(result):+.4f} ({ratio:g})" for ratio, result in results.items()
+    """The middle of the stick zone under the largest force, forth and back."""
+    parts = [
+        f"{stick_middle(results[ratio], 0.2):+.3f} (sketch {middle:+.3f}), "
+        f"{stick_middle(results[ratio], 0.4):+.3f}, {stick_middle(results[ratio], 1.0):+.3f} "
+        f"({ratio:g})"
+        for ratio, middle in MIDDLES.items()
+    ]
+    return (
+        "midway between the ends of the stick zone on $x_1$ at $0.2\\,\\tau$, $0.4\\,\\tau$, "
+        "$\\tau$ [$a_H$]: " + "; ".join(parts)
     )
 
 

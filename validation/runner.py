@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import pyfret as fret
-from validation.truth import Known, Truth, order
+from validation.truth import PLACES, Known, Truth, order, root_mean_square
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -53,6 +53,8 @@ class Outcome:
     finest: fret.Result
     grids: Ladder
     increments: Ladder | None
+    #: Root mean square over the places of the rim within the cells.
+    placed: Ladder | None = None
 
     @property
     def worst(self) -> tuple[str, float]:
@@ -78,7 +80,7 @@ def climb(
 
 def error_bars(result: fret.Result, known: dict[str, Known]) -> dict[str, float]:
     """Estimated errors of the numbers that have one."""
-    bars = result.error_bars()
+    bars = result.error_bars().sel(part="total")
     return {name: float(bars[k.of][-1]) for name, k in known.items() if k.of is not None}
 
 
@@ -89,4 +91,20 @@ def run(truth: Truth, *, quick: bool = False) -> Outcome:
     increments = None
     if truth.path is not None:
         increments, _ = climb(truth, truth.path, truth.increments[part], error=False)
-    return Outcome(truth, finest, grids, increments)
+    placed = None
+    if truth.placed is not None:
+        placed = over_places(truth, truth.placed, (32, *truth.grids)[part])
+    return Outcome(truth, finest, grids, increments, placed)
+
+
+def over_places(
+    truth: Truth, scene: Callable[[int, int], fret.Scene], sizes: tuple[int, ...]
+) -> Ladder:
+    """Solve the scene at every size with the rim at several places within the cells."""
+    seconds, known = [], []
+    for size in sizes:
+        started = time.perf_counter()
+        runs = [fret.solve(scene(size, k), progress=False) for k in range(PLACES)]
+        seconds.append((time.perf_counter() - started) / PLACES)
+        known.append(root_mean_square([truth.known(run) for run in runs]))
+    return Ladder(sizes, seconds, known, [{} for _ in sizes])

@@ -37,6 +37,11 @@ def sphere(
     )
 
 
+def stretched(place: int) -> float:
+    """Extents that put the rim at different places within the cells, over the contact radius."""
+    return 2.3 * (1 + 0.0137 * place)
+
+
 def cylinder(path: fret.LoadPath, *, n: int) -> fret.Scene:
     """A steel cylinder on a steel flat, plane strain."""
     return fret.Scene(

@@ -18,6 +18,18 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 
+#: Places of the rim within the cells that errors are averaged over.
+PLACES = 8
+
+
+def root_mean_square(known: list[dict[str, Known]]) -> dict[str, Known]:
+    """Of the errors of every number over several runs."""
+    return {
+        name: Known(float(np.sqrt(np.mean([of[name].error ** 2 for of in known]))), 0.0, 1.0)
+        for name in known[0]
+    }
+
+
 class Known(NamedTuple):
     """A number of ours and what it should be; errors are over the truth, or over `scale`.
 
@@ -65,6 +77,9 @@ class Truth:
         The scene with so many increments, where these matter.
     increments : tuple of int
         Their numbers.
+    placed : callable, optional
+        The scene on a grid of so many cells a side, the rim of the contact at one of
+        :data:`PLACES` places within the cells.
     remark : str
         What explains the errors; Markdown.
     has_error_bars : bool
@@ -80,6 +95,7 @@ class Truth:
     grids: tuple[int, ...] = (64, 128, 256)
     path: Callable[[int], fret.Scene] | None = None
     increments: tuple[int, ...] = field(default=())
+    placed: Callable[[int, int], fret.Scene] | None = None
     remark: str = ""
     has_error_bars: bool = True
 

@@ -33,6 +33,7 @@ __all__ = [
     "Hankel",
     "Hertz",
     "HertzEllipse",
+    "HertzStress",
     "History",
     "InvalidSceneError",
     "InverseFft",
@@ -1380,6 +1381,24 @@ class Lubkin:
         """Stick radius under the moment `M_z` [N m] [m]."""
     def q(self, r: ArrayLike, *, c: float) -> _Array:
         """Circumferential traction at `r` for the stick radius `c` [m] [Pa]."""
+
+@final
+class HertzStress:
+    """A half-space under sqrt(1 - r^2/a^2) of unit peak on r < a: Hamilton's stresses.
+
+    Parameters
+    ----------
+    a : float
+        Radius of the loaded circle [m].
+    nu : float
+        Poisson's ratio.
+    """
+
+    def __new__(cls, *, a: float, nu: float) -> HertzStress: ...
+    def pressure(self, x: ArrayLike, y: float, z: float) -> list[_Array]:
+        """Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure."""
+    def shear(self, x: ArrayLike, y: float, z: float) -> list[_Array]:
+        """The same under a shear traction that acts on the body along +x."""
 
 @final
 class LineContact:

@@ -325,22 +325,25 @@ class Result:
         return Snapshot(here)
 
     def error_bars(self) -> xr.Dataset:
-        """Errors that the cells leave in the numbers at the end of every branch.
+        """Estimated errors of the numbers at the end of every branch: dims (branch, part).
 
-        They are estimated from a run on half as many cells each way, which
-        ``solve(..., error=True)`` and ``fret run --error`` do. Increments and solver are the same
-        there: their errors are no part of it. ``path_error`` is what the increments leave in the
-        shear at the end of the branch, over the largest shear of the path (L2).
+        Parts are ``total``, and what makes it: ``cells``, told by runs on two coarser grids,
+        ``path``, told by a run with fewer increments, and ``solver``, its tolerance. ``p`` and
+        ``q`` are the tractions as fields: L2 norms over the largest of the path. The runs are
+        those of ``solve(..., error=True)`` and ``fret run --error``.
         """
         bars = self.dataset.attrs.get("error_bars")
         if not bars:
             raise ValueError(
                 "the run has no error bars: solve(..., error=True) or fret run --error"
             )
-        table = xr.Dataset(coords={"branch": [bar["branch"] for bar in bars]})
+        parts = list(bars[0]["q"])
+        table = xr.Dataset(coords={"branch": [bar["branch"] for bar in bars], "part": parts})
         for name in (name for name in bars[0] if name != "branch"):
-            attrs = self.dataset[name].attrs if name in self.dataset else {"units": "1"}
-            table[name] = ("branch", [bar[name] for bar in bars], attrs)
+            of_field = name in ("p", "q")
+            attrs = {"units": "1"} if of_field else self.dataset[name].attrs
+            values = [[bar[name][part] for part in parts] for bar in bars]
+            table[name] = (("branch", "part"), values, attrs)
         return table
 
     def branches(self) -> xr.Dataset:

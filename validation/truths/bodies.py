@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import pyfret as fret
-from validation.scenes import CORK, MU, STEEL, R, W, hertz, sphere
+from validation.scenes import CORK, MU, STEEL, R, W, hertz, sphere, stretched
 from validation.truth import Known, Truth, l2
 
 if TYPE_CHECKING:
@@ -16,6 +16,12 @@ if TYPE_CHECKING:
     from validation.truth import Array
 
 ROUND = hertz(STEEL, STEEL)
+
+
+def pressed(n: int, extent: float = 2.4) -> fret.Scene:
+    """A steel sphere pressed on a steel flat without friction."""
+    path = fret.LoadPath.start().normal(W, increments=1)
+    return sphere(STEEL, STEEL, path, n=n, mu=0.0, extent=extent)
 
 
 def distance(at: fret.Snapshot) -> Array:
@@ -122,11 +128,10 @@ PAGES = (
             "$\\delta_z = a^2/R$, $p = p_0\\sqrt{1-r^2/a^2}$ (K. L. Johnson, Contact Mechanics, "
             "eq. 4.22-4.24)."
         ),
-        scene=lambda n: sphere(
-            STEEL, STEEL, fret.LoadPath.start().normal(W, increments=1), n=n, mu=0.0
-        ),
+        scene=pressed,
         known=hertz_known,
         draw=hertz_drawn,
+        placed=lambda n, place: pressed(n, stretched(place)),
         remark=(
             "The rim is where the square of the pressure, continued from the third cell on, "
             "vanishes. Tractions are constant on a cell: the outermost cell carries up to a tenth "

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import pyfret as fret
-from validation.scenes import CORK, MU, STEEL, R, W, hertz, sphere
+from validation.scenes import CORK, MU, STEEL, R, W, hertz, sphere, stretched
 from validation.truth import Known, Truth, l2
 from validation.truths.bodies import distance
 
@@ -39,6 +39,12 @@ def q_along_x(at: fret.Snapshot) -> tuple[Array, Array]:
 # --- Cattaneo-Mindlin ---------------------------------------------------------------------------
 
 FORCES = (0.3, 0.6, 0.9)
+
+
+def pushed(n: int, extent: float = 2.4) -> fret.Scene:
+    """Pushed to three forces."""
+    path = pressed().tangential([t * MU * W for t in FORCES], increments=3)
+    return sphere(CORK, CORK, path, n=n, extent=extent)
 
 
 def cattaneo_known(result: fret.Result) -> dict[str, Known]:
@@ -285,11 +291,10 @@ PAGES = (
             "Mindlin, J. Appl. Mech. 16 (1949) 259). The pressure stays, so that one increment "
             "from force to force is exact."
         ),
-        scene=lambda n: sphere(
-            CORK, CORK, pressed().tangential([t * MU * W for t in FORCES], increments=3), n=n
-        ),
+        scene=pushed,
         known=cattaneo_known,
         draw=cattaneo_drawn,
+        placed=lambda n, place: pushed(n, stretched(place)),
         remark="The shear is over $\\mu p$ in the L2 norm.",
     ),
     Truth(

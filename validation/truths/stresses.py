@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from validation.truth import Array
 
 ROUND, LINE = hertz(STEEL, STEEL), line()
+CATTANEO = fret.reference.CattaneoMindlin(ROUND, bodies=(STEEL, STEEL), mu=MU)
 DEPTHS = np.linspace(0.05, 2.0, 40) * ROUND.a
 LINE_T = 0.6 * MU * LINE_W
 
@@ -52,6 +53,70 @@ def axis_drawn(figure: Figure, result: fret.Result) -> None:
         ax.plot(DEPTHS / ROUND.a, values, ".", ms=4, color=drawn.get_color())
     ax.set(xlabel="$z/a$", ylabel=r"$\sigma/p_0$", title="lines: closed form, dots: ours")
     ax.legend()
+
+
+# --- Sliding sphere -------------------------------------------------------------------------------
+
+#: Depths over the contact radius.
+BELOW = (0.1, 0.25, 0.5, 1.0)
+NAMES = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
+
+
+def slid(n: int) -> fret.Scene:
+    """Pressed, and moved along x until everything slips."""
+    path = fret.LoadPath.start().normal(W, increments=1)
+    shift = 3 * CATTANEO.shift_limit
+    return sphere(STEEL, STEEL, path.displace(delta_x=shift, increments=4), n=n, extent=2.4)
+
+
+def slid_stress(result: fret.Result, z: float) -> tuple[Array, dict[str, Array], dict[str, Array]]:
+    """Places on the row of cells next to y = 0, our components and Hamilton's at a depth over a."""
+    at = result.at(-1)
+    y = float(at.y.values[at.y.size // 2])
+    ours = at.stress([z * ROUND.a], y=y)
+    x = ours.s_xx.x.values
+    form = fret.reference.HertzStress(a=ROUND.a, nu=STEEL.nu)
+    pairs = zip(form.pressure(x, y, z * ROUND.a), form.shear(x, y, z * ROUND.a), strict=True)
+    truth = [ROUND.p0 * (p + MU * q) for p, q in pairs]
+    return (
+        x,
+        {name: ours.measure(name).values.ravel() for name in NAMES},
+        dict(zip(NAMES, truth, strict=True)),
+    )
+
+
+def slid_known(result: fret.Result) -> dict[str, Known]:
+    """All components along x, and the largest von Mises stress there, at every depth."""
+    known = {}
+    for z in BELOW:
+        _, ours, truth = slid_stress(result, z)
+        every = [np.concatenate([s[name] for name in NAMES]) for s in (ours, truth)]
+        known[f"stress at {z:g} a, L2"] = l2(*every)
+        largest, true = (float(von_mises(s).max()) for s in (ours, truth))
+        known[f"largest von Mises at {z:g} a"] = Known(largest, true)
+    return known
+
+
+def von_mises(s: dict[str, Array]) -> Array:
+    """Von Mises stress [Pa]."""
+    normal = (s["s_xx"] - s["s_yy"]) ** 2 + (s["s_yy"] - s["s_zz"]) ** 2
+    normal = (normal + (s["s_zz"] - s["s_xx"]) ** 2) / 2
+    shear = 3 * (s["s_xy"] ** 2 + s["s_xz"] ** 2 + s["s_yz"] ** 2)
+    mises: Array = np.sqrt(normal + shear)
+    return mises
+
+
+def slid_drawn(figure: Figure, result: fret.Result) -> None:
+    """s_xx and s_xz along x at every depth."""
+    for ax, name in zip(figure.subplots(1, 2), ("s_xx", "s_xz"), strict=True):
+        for z in BELOW:
+            x, ours, truth = slid_stress(result, z)
+            (drawn,) = ax.plot(x / ROUND.a, truth[name] / ROUND.p0, lw=1, label=f"$z = {z:g}\\,a$")
+            ax.plot(x / ROUND.a, ours[name] / ROUND.p0, ".", ms=2, color=drawn.get_color())
+        ax.set(
+            xlabel="$x/a$", ylabel=f"${SYMBOLS[name]}/p_0$", title="lines: closed form, dots: ours"
+        )
+        ax.legend()
 
 
 PLACES = (0.1, 0.5, 1.0)
@@ -103,6 +168,23 @@ PAGES = (
         ),
         known=axis_known,
         draw=axis_drawn,
+    ),
+    Truth(
+        name="sliding_sphere",
+        title="Hamilton: stress below a sliding sphere",
+        law=(
+            "A sphere that slides along $+x$, $\\mu = 0.3$, $\\nu = 0.3$: stresses of the "
+            "pressure and of $q_x = \\mu p$ (G. M. Hamilton, Proc. IMechE 197C (1983) 53), along "
+            "$x$ at four depths."
+        ),
+        scene=slid,
+        known=slid_known,
+        draw=slid_drawn,
+        has_error_bars=False,
+        remark=(
+            "Where all cells slip the shear is not quite along $x$: slip has a small part across, "
+            "$u_y$ of the shear itself, and that turns the shear. Hamilton's has none of it."
+        ),
     ),
     Truth(
         name="mcewen",

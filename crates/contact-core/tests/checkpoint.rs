@@ -334,6 +334,6 @@ fn a_raised_flag_ends_what_comes_before_and_after_the_increments() {
         raise.join().unwrap()
     });
     assert!(raised.elapsed() < Duration::from_secs(1));
-    let bars = error_bars(&scene(), &[], &stop);
+    let bars = error_bars(&scene(), &[], &[], &stop);
     assert!(matches!(bars, Err(Error::Interrupted { .. })), "{bars:?}");
 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use contact_core::march::{
-    Increment, March, Observer, choose_increments, coarser, error_bars, solve,
+    BranchEnds, Increment, March, Observer, choose_increments, coarsest, error_bars, solve,
 };
 use contact_core::output::{StoreWriter, write_error_bars};
 use contact_core::{Error, Scene};
@@ -26,8 +26,8 @@ pub(crate) struct Options {
     /// Replace a result store that exists
     #[arg(long)]
     overwrite: bool,
-    /// Run the path once more on half as many cells each way and give every headline number with
-    /// the error that the cells leave
+    /// Run the path once more on two coarser grids and with fewer increments, and give every headline
+    /// number with the error that cells, increments and solver leave
     #[arg(long)]
     error: bool,
     #[command(flatten)]
@@ -58,19 +58,21 @@ fn seconds(text: &str) -> Result<Duration, String> {
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let scene = options.scene.read().map_err(Failure::BadInput)?;
     if options.error {
-        coarser(&scene).map_err(Failure::BadInput)?;
+        coarsest(&scene).map_err(Failure::BadInput)?;
     }
     let manner = &options.manner;
     manner.use_threads();
     let scene = choose_increments(&scene, &Arc::default()).map_err(ended)?;
     let writer = StoreWriter::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
-    let mut increments = Vec::new();
+    let (mut increments, mut tractions) = (Vec::new(), Vec::new());
     let stop = manner.watch(&scene, &options.out, writer, Vec::new(), |watcher| {
-        increments = solve(&scene, watcher)?;
+        let mut ends = BranchEnds::beside(watcher);
+        increments = solve(&scene, &mut ends)?;
+        tractions = ends.tractions;
         Ok(increments.clone())
     })?;
     if options.error {
-        let bars = error_bars(&scene, &increments, &stop).map_err(ended)?;
+        let bars = error_bars(&scene, &increments, &tractions, &stop).map_err(ended)?;
         write_error_bars(&options.out, &bars).map_err(ended)?;
         if !manner.quiet {
             print(&summary::error_table(&scene, &increments, &bars));

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
-use contact_core::march::{BranchSummary, ErrorBars, Increment, summarise};
+use contact_core::march::{Bar, BranchSummary, ErrorBars, Increment, summarise};
 use contact_core::scene::{Branch, LOADS, MOTIONS};
 
 /// Micrometres, or microjoules, per SI unit.
@@ -153,7 +153,7 @@ fn with_error(value: f64, error: f64) -> String {
     format!("{value:.decimals$} +- {error:.decimals$}")
 }
 
-/// The headline numbers at the end of every branch with the errors that the cells leave.
+/// The headline numbers at the end of every branch with their errors, and what leaves them.
 pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[ErrorBars]) -> String {
     let Measures { radius, pressure } = Measures::of(scene);
     let mut table = Table::new();
@@ -167,26 +167,46 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
             "approach delta_z\n[um]".to_owned(),
             "shift delta_x\n[um]".to_owned(),
             "dissipated\n[uJ]".to_owned(),
-            "shear, path\n[%]".to_owned(),
+            "p, field\n[%]".to_owned(),
+            "q, field\n[%]".to_owned(),
         ]);
     for (of, bar) in summarise(increments).iter().zip(bars) {
-        table.add_row([
-            (of.branch + 1).to_string(),
-            with_error(of.contact_radius / radius.1, bar.contact_radius / radius.1),
-            with_error(of.stick_ratio, bar.stick_ratio),
-            with_error(of.p_max / pressure.1, bar.p_max / pressure.1),
-            with_error(of.motion.delta_z * MICRO, bar.delta_z * MICRO),
-            with_error(of.motion.delta_x * MICRO, bar.delta_x * MICRO),
-            with_error(of.dissipated * MICRO, bar.dissipated * MICRO),
-            format!("+- {:.2}", 100.0 * bar.path_error),
-        ]);
+        let numbers = [
+            (of.contact_radius, bar.contact_radius, 1.0 / radius.1),
+            (of.stick_ratio, bar.stick_ratio, 1.0),
+            (of.p_max, bar.p_max, 1.0 / pressure.1),
+            (of.motion.delta_z, bar.delta_z, MICRO),
+            (of.motion.delta_x, bar.delta_x, MICRO),
+            (of.dissipated, bar.dissipated, MICRO),
+        ];
+        let fields = [bar.p, bar.q];
+        let number =
+            |&(value, bar, unit): &(f64, Bar, f64)| with_error(value * unit, bar.total * unit);
+        let field = |bar: &Bar| format!("+- {:.2}", 100.0 * bar.total);
+        let branch = (of.branch + 1).to_string();
+        table.add_row(
+            std::iter::once(branch)
+                .chain(numbers.iter().map(number))
+                .chain(fields.iter().map(field)),
+        );
+        for (name, part) in
+            [("cells", |b: Bar| b.cells), ("path", |b: Bar| b.path)] as [(&str, fn(Bar) -> f64); 2]
+        {
+            let numbers = numbers
+                .iter()
+                .map(|&(_, b, unit)| format!("{:.1e}", part(b) * unit));
+            let fields = fields.iter().map(|&b| format!("{:.2}", 100.0 * part(b)));
+            table.add_row(
+                std::iter::once(name.to_owned())
+                    .chain(numbers)
+                    .chain(fields),
+            );
+        }
     }
     for column in table.column_iter_mut() {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    format!(
-        "errors: of the cells, from half as many each way; of the shear from the increments\n{table}"
-    )
+    format!("errors, and the parts of them that cells and increments leave\n{table}")
 }
 
 /// One row per branch that has begun.

@@ -63,14 +63,15 @@ fn error_bars_stand_in_the_summary_and_in_the_store() {
     let output = run(&out, &["--error"]);
     let told = text(&output.stdout);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    // Six numbers at the end of each of four branches, and the shear.
-    assert_eq!(told.matches(" +- ").count(), 28, "{told}");
+    // Six numbers at the end of each of four branches, and two fields.
+    assert_eq!(told.matches("+- ").count(), 4 * 8, "{told}");
+    assert_eq!(told.matches(" path ").count(), 4, "{told}");
     Store::open(&out).unwrap();
     let attributes = fs::read_to_string(out.join(".zattrs")).unwrap();
     assert_eq!(attributes.matches("\"contact_radius\"").count(), 4);
 
-    let output = run(&free("odd.zarr"), &["--error", "--set", "grid.n=25"]);
-    assert_bad_input(&output, &["grid.n", "[25, 25]", "even"]);
+    let output = run(&free("few.zarr"), &["--error", "--set", "grid.n=12"]);
+    assert_bad_input(&output, &["grid.n", "[12, 12]", "20 or more cells"]);
 }
 
 #[test]

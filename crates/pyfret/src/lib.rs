@@ -44,8 +44,8 @@ mod _core {
     use crate::operator::SurfaceOperator;
     #[pymodule_export]
     use crate::reference::{
-        CattaneoMindlin, CoatedIndentation, CoupledIndentation, Hertz, HertzEllipse, LineContact,
-        Lubkin, Springs, coated_indentation, coupled_indentation, dundurs_beta,
+        CattaneoMindlin, CoatedIndentation, CoupledIndentation, Hertz, HertzEllipse, HertzStress,
+        LineContact, Lubkin, Springs, coated_indentation, coupled_indentation, dundurs_beta,
         goodman_stick_ratio, hertz, hertz_ellipse, line_contact,
     };
     #[pymodule_export]

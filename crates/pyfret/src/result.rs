@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use contact_core::Error;
-use contact_core::march::{Increment, March, Observer, coarser, error_bars};
+use contact_core::march::{BranchEnds, Increment, March, Observer, coarsest, error_bars};
 use contact_core::output::{self, Resumed, StoreWriter};
 use pyo3::prelude::*;
 
@@ -87,16 +87,18 @@ pub(crate) fn solve(
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     if error {
-        coarser(&scene.0).map_err(to_python)?;
+        coarsest(&scene.0).map_err(to_python)?;
     }
     let writer = StoreWriter::create(&store, false)
         .map_err(to_python)?
         .with_interval(interval(checkpoint)?);
     watched(py, writer, on_increment, |watch| {
         let stop = watch.stop().unwrap_or_default();
-        let increments = contact_core::march::solve(&scene.0, watch)?;
+        let mut ends = BranchEnds::beside(watch);
+        let increments = contact_core::march::solve(&scene.0, &mut ends)?;
         if error {
-            output::write_error_bars(&store, &error_bars(&scene.0, &increments, &stop)?)?;
+            let bars = error_bars(&scene.0, &increments, &ends.tractions, &stop)?;
+            output::write_error_bars(&store, &bars)?;
         }
         Ok(increments)
     })

@@ -1,109 +1,324 @@
-//! How far the cells are off: the same path on a grid of half as many cells each way.
+//! How far the numbers of a run are off: what cells, increments and solver leave in them.
 //!
-//! An error that falls like the m-th power of the cell leaves a difference f - c of the fine and the
-//! coarse grid that is 2^m - 1 times the error of the fine one (Richardson).
+//! **Cells.** The path is run again on coarser grids, of r_i times the cell. An error that falls like the
+//! m-th power of the cell is told by each of them (Richardson),
+//!
+//! ```text
+//! error = |f - c_i|/(r_i^m - 1)
+//! ```
+//!
+//! but the place of the rim within the cells makes errors go up and down from grid to grid, as much as
+//! they fall where the rim is well found: the root of the mean square over the grids is the error.
+//! The tractions are compared as fields, their means over the cells of the first coarser grid.
+//!
+//! **Increments.** The change from fewer or to more of them (`path_error`), of every number.
+//!
+//! **Solver.** Its tolerance.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
-use super::{BranchSummary, Increment, March, estimate_path_error, summarise};
+use super::path_error::path_errors;
+use super::{BranchSummary, Fields, Increment, March, Observer, choose_increments, summarise};
 use crate::error::Error;
 use crate::scene::{Grid, SaveFields, Scene};
 
-/// Order m of numbers that follow from the rim or the border of a zone.
-const RIM: f64 = 1.0;
-/// Order m of all others.
-const SMOOTH: f64 = 1.5;
+/// Cells of the coarser grids each way, over those of the grid.
+const PARTS: [f64; 2] = [0.5, 0.375];
+/// Order m of numbers: between that of thin coatings, whose rim is off by a part of a cell, and that
+/// of smooth solutions.
+const NUMBERS: f64 = 1.5;
+/// Order m of the tractions, which are off in the cells of the rim.
+const FIELDS: f64 = 1.0;
+/// How well the border of a stick zone is found at least, in cells: of one that grows whole cells tell.
+const BORDER: f64 = 0.1;
+/// Fewest cells each way of a coarser grid.
+const FEWEST: usize = 8;
 
-/// Estimated errors of the numbers at the end of a branch, >= 0: those that the cells leave, and that
-/// of the shear that the increments leave.
+/// The estimated error of a number and its parts, >= 0, in the unit of the number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Bar {
+    /// All: the root of the sum of the squares.
+    pub total: f64,
+    /// What the cells leave.
+    pub cells: f64,
+    /// What the increments leave.
+    pub path: f64,
+    /// What the solver's tolerance leaves.
+    pub solver: f64,
+}
+
+impl Bar {
+    fn new(cells: f64, path: f64, solver: f64) -> Self {
+        Self {
+            total: cells.hypot(path).hypot(solver),
+            cells,
+            path,
+            solver,
+        }
+    }
+}
+
+/// Estimated errors of the numbers at the end of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorBars {
     /// Branch, from 0.
     pub branch: usize,
     /// Of the contact radius \[m\].
-    pub contact_radius: f64,
+    pub contact_radius: Bar,
     /// Of the stick area over the contact area.
-    pub stick_ratio: f64,
+    pub stick_ratio: Bar,
     /// Of the largest pressure \[Pa\].
-    pub p_max: f64,
+    pub p_max: Bar,
     /// Of the approach \[m\].
-    pub delta_z: f64,
+    pub delta_z: Bar,
     /// Of the shift along x \[m\].
-    pub delta_x: f64,
+    pub delta_x: Bar,
     /// Of the shift along y \[m\].
-    pub delta_y: f64,
+    pub delta_y: Bar,
     /// Of the rotation \[rad\].
-    pub phi_z: f64,
+    pub phi_z: Bar,
     /// Of the energy dissipated in the branch \[J\].
-    pub dissipated: f64,
-    /// Of the shear, from the increments alone: L2, over the largest shear of the path.
-    pub path_error: f64,
+    pub dissipated: Bar,
+    /// Of the pressure as a field: L2 norm, over the largest of the path.
+    pub p: Bar,
+    /// Of the shear as a field: L2 norm, over the largest of the path.
+    pub q: Bar,
 }
 
-impl ErrorBars {
-    /// From the same branch on both grids.
-    fn between(fine: &BranchSummary, coarse: &BranchSummary, path_error: f64) -> Self {
-        let bar = |order: f64, f: f64, c: f64| (f - c).abs() / (order.exp2() - 1.0);
-        let (m, n) = (&fine.motion, &coarse.motion);
+/// The numbers of a branch that have an error bar, in the order of [`ErrorBars`].
+pub(super) fn numbers(branch: &BranchSummary) -> [f64; 8] {
+    [
+        branch.contact_radius,
+        branch.stick_ratio,
+        branch.p_max,
+        branch.motion.delta_z,
+        branch.motion.delta_x,
+        branch.motion.delta_y,
+        branch.motion.phi_z,
+        branch.dissipated,
+    ]
+}
+
+/// Keeps the tractions at the ends of the branches for an observer who watches the run.
+pub struct BranchEnds<'a> {
+    watcher: &'a mut dyn Observer,
+    /// The tractions of the branches that are done.
+    pub tractions: Vec<Tractions>,
+}
+
+/// p, `q_x`, `q_y` \[Pa\], each of shape (nx, ny).
+pub type Tractions = [Array2<f64>; 3];
+
+impl<'a> BranchEnds<'a> {
+    /// Beside an observer.
+    pub fn beside(watcher: &'a mut dyn Observer) -> Self {
         Self {
-            branch: fine.branch,
-            contact_radius: bar(RIM, fine.contact_radius, coarse.contact_radius),
-            stick_ratio: bar(RIM, fine.stick_ratio, coarse.stick_ratio),
-            p_max: bar(SMOOTH, fine.p_max, coarse.p_max),
-            delta_z: bar(SMOOTH, m.delta_z, n.delta_z),
-            delta_x: bar(SMOOTH, m.delta_x, n.delta_x),
-            delta_y: bar(SMOOTH, m.delta_y, n.delta_y),
-            phi_z: bar(SMOOTH, m.phi_z, n.phi_z),
-            dissipated: bar(SMOOTH, fine.dissipated, coarse.dissipated),
-            path_error,
+            watcher,
+            tractions: Vec::new(),
         }
     }
 }
 
-/// Solves the scene again on a grid of half as many cells each way, at a fourth of the work or less,
-/// and gives the errors of the branches of `fine`, its increments on its own grid.
-///
-/// Increments and solver are the same on both grids: their errors, and what a rough surface says
-/// between its cells, are no part of these numbers. What the increments leave is told of the shear,
-/// from runs with fewer or more of them. Ends when `stop` is raised.
+impl Observer for BranchEnds<'_> {
+    fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
+        if increment.point.ends_branch {
+            let Fields { p, q_x, q_y, .. } = march.fields();
+            self.tractions.push([p, q_x, q_y]);
+        }
+        self.watcher.on_increment(march, increment)
+    }
+
+    fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
+        self.watcher.on_end(march, failure)
+    }
+
+    fn stop(&self) -> Option<Arc<AtomicBool>> {
+        self.watcher.stop()
+    }
+}
+
+/// Solves the scene again on two coarser grids, at less than half of the work, and along the path with
+/// fewer increments, and gives the errors of the branches of `increments`, which ended with these
+/// tractions. Ends when `stop` is raised.
 pub fn error_bars(
     scene: &Scene,
-    fine: &[Increment],
+    increments: &[Increment],
+    tractions: &[Tractions],
     stop: &Arc<AtomicBool>,
 ) -> Result<Vec<ErrorBars>, Error> {
-    let scene = &estimate_path_error(scene, stop)?;
-    let coarse = March::until(&coarser(scene)?, stop)?.run(Vec::new(), &mut ())?;
-    let of_path = |branch: usize| scene.path.branches[branch].path_error.unwrap_or(0.0);
-    Ok(summarise(fine)
-        .iter()
-        .zip(&summarise(&coarse))
-        .map(|(fine, coarse)| ErrorBars::between(fine, coarse, of_path(fine.branch)))
+    let scene = &choose_increments(scene, stop)?;
+    let along_path = path_errors(scene, stop)?;
+    let fine = summarise(increments);
+    let mut squares = vec![[0.0; 8]; fine.len()];
+    let mut fields = Vec::new();
+    for (k, part) in PARTS.into_iter().enumerate() {
+        let coarser = coarser(scene, part)?;
+        let mut nobody = ();
+        let mut coarse_ends = BranchEnds::beside(&mut nobody);
+        let march = March::until(&coarser, stop)?;
+        let coarse = summarise(&march.run(Vec::new(), &mut coarse_ends)?);
+        let ratio = ratio(&coarser.grid, &scene.grid);
+        for ((squares, fine), coarse) in squares.iter_mut().zip(&fine).zip(&coarse) {
+            let (f, c) = (numbers(fine), numbers(coarse));
+            for n in 0..8 {
+                squares[n] += ((f[n] - c[n]) / (ratio.powf(NUMBERS) - 1.0)).powi(2);
+            }
+        }
+        if k == 0 {
+            let off = distances(tractions, &coarse_ends.tractions);
+            fields = off
+                .into_iter()
+                .map(|off| off.map(|off| off / (ratio.powf(FIELDS) - 1.0)))
+                .collect();
+        }
+    }
+    let tolerance = scene.settings.solver.tolerance;
+    let cell = if scene.grid.plane_strain {
+        scene.grid.dx
+    } else {
+        scene.grid.cell_area().sqrt()
+    };
+    let branches = fine.iter().zip(squares).zip(fields).zip(along_path);
+    Ok(branches
+        .map(|(((fine, mut squares), [p, q]), path)| {
+            let value = numbers(fine);
+            // A ring along the border of the stick zone over the area of the contact.
+            let ring = 2.0 * BORDER * cell / fine.contact_radius * fine.stick_ratio.sqrt();
+            if fine.stick_ratio < 1.0 && fine.contact_radius > 0.0 {
+                squares[1] += PARTS.len() as f64 * ring * ring;
+            }
+            let bar = |n: usize| {
+                Bar::new(
+                    (squares[n] / PARTS.len() as f64).sqrt(),
+                    path.numbers[n],
+                    tolerance * value[n].abs(),
+                )
+            };
+            ErrorBars {
+                branch: fine.branch,
+                contact_radius: bar(0),
+                stick_ratio: bar(1),
+                p_max: bar(2),
+                delta_z: bar(3),
+                delta_x: bar(4),
+                delta_y: bar(5),
+                phi_z: bar(6),
+                dissipated: bar(7),
+                p: Bar::new(p, path.p, tolerance),
+                q: Bar::new(q, path.q, tolerance),
+            }
+        })
         .collect())
 }
 
-/// The scene in half as many cells each way; a strip keeps its one row. Fails on a grid of an odd
-/// number of cells.
-pub fn coarser(scene: &Scene) -> Result<Scene, Error> {
+/// The scene on the coarsest of the grids that tell the errors of the cells. Fails where there is none.
+pub fn coarsest(scene: &Scene) -> Result<Scene, Error> {
+    coarser(scene, PARTS[1])
+}
+
+/// The scene in a part of its cells each way, an odd number of them where it has an odd one, so that
+/// as much lies in the middle of a cell; a strip keeps its one row.
+fn coarser(scene: &Scene, part: f64) -> Result<Scene, Error> {
     let grid = &scene.grid;
-    let along_y = if grid.plane_strain { 1 } else { 2 };
-    if !grid.nx.is_multiple_of(2) || !grid.ny.is_multiple_of(along_y) {
+    let fewer = |n: usize| {
+        let fewer = (part * n as f64).round() as usize;
+        fewer + (fewer + n) % 2
+    };
+    let (nx, ny) = (fewer(grid.nx), fewer(grid.ny));
+    let ny = if grid.plane_strain { 1 } else { ny };
+    if nx < FEWEST || (ny < FEWEST && !grid.plane_strain) {
         return Err(Error::invalid(
             "grid.n",
             format!("[{}, {}]", grid.nx, grid.ny),
-            "even numbers of cells, so that half of them tell the error",
+            format!(
+                "{} or more cells, so that a part of them tells the error",
+                2 * FEWEST + 4
+            ),
         ));
     }
+    let (along_x, along_y) = grid.extent();
     let mut coarse = scene.clone();
     coarse.settings.save = SaveFields::Branches;
     coarse.grid = Grid {
-        nx: grid.nx / 2,
-        ny: grid.ny / along_y,
-        dx: 2.0 * grid.dx,
-        dy: along_y as f64 * grid.dy,
+        nx,
+        ny,
+        dx: along_x / nx as f64,
+        dy: along_y / ny as f64,
         ..*grid
     };
+    coarse.check()?;
     Ok(coarse)
+}
+
+/// The cell of a grid over that of another, on the mean of both axes.
+fn ratio(grid: &Grid, finer: &Grid) -> f64 {
+    let along_x = grid.dx / finer.dx;
+    if grid.plane_strain {
+        along_x
+    } else {
+        (along_x * grid.dy / finer.dy).sqrt()
+    }
+}
+
+/// The distances of pressures and shears at the ends of the branches, over the largest of the path.
+fn distances(fine: &[Tractions], coarse: &[Tractions]) -> Vec<[f64; 2]> {
+    let norm = |f: &Array2<f64>| f.iter().map(|f| f * f).sum::<f64>();
+    let [p, q] = coarse.iter().fold([f64::MIN_POSITIVE; 2], |[p, q], of| {
+        [p.max(norm(&of[0])), q.max(norm(&of[1]) + norm(&of[2]))]
+    });
+    fine.iter()
+        .zip(coarse)
+        .map(|(fine, coarse)| {
+            let off = |k: usize| norm(&(means(&fine[k], coarse[k].dim()) - &coarse[k]));
+            [(off(0) / p).sqrt(), ((off(1) + off(2)) / q).sqrt()]
+        })
+        .collect()
+}
+
+/// The means of a field over the cells of a coarser grid of the same extent.
+pub fn means(fine: &Array2<f64>, (nx, ny): (usize, usize)) -> Array2<f64> {
+    // The fine cells that a coarse one covers, and the parts of it that they are.
+    let covered = |i: usize, fine: usize, coarse: usize| -> Vec<(usize, f64)> {
+        let ratio = fine as f64 / coarse as f64;
+        let (low, high) = (i as f64 * ratio, (i + 1) as f64 * ratio);
+        (low.floor() as usize..(high.ceil() as usize).min(fine))
+            .map(|k| {
+                let part = (high.min((k + 1) as f64) - low.max(k as f64)) / ratio;
+                (k, part.max(0.0))
+            })
+            .collect()
+    };
+    let (across_x, across_y) = fine.dim();
+    let rows: Vec<_> = (0..ny).map(|j| covered(j, across_y, ny)).collect();
+    let columns: Vec<_> = (0..nx).map(|i| covered(i, across_x, nx)).collect();
+    Array2::from_shape_fn((nx, ny), |(i, j)| {
+        let of = |&(k, part): &(usize, f64)| -> f64 {
+            let row = rows[j].iter().map(|&(l, part)| part * fine[(k, l)]);
+            part * row.sum::<f64>()
+        };
+        columns[i].iter().map(of).sum()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_keep_the_sum() {
+        let fine = Array2::from_shape_fn((12, 7), |(i, j)| (i * i + 3 * j) as f64);
+        for n in [(6, 7), (5, 3), (12, 1)] {
+            let coarse = means(&fine, n);
+            let cell = 12.0 * 7.0 / (n.0 * n.1) as f64;
+            assert!(
+                (coarse.sum() * cell / fine.sum() - 1.0).abs() < 1e-14,
+                "{n:?}"
+            );
+        }
+        assert_eq!(means(&fine, (12, 7)), fine);
+    }
 }

@@ -20,7 +20,7 @@ mod solve;
 mod state;
 mod window;
 
-pub use error_bars::{ErrorBars, coarser, error_bars};
+pub use error_bars::{Bar, BranchEnds, ErrorBars, Tractions, coarsest, error_bars, means};
 pub use fields::Fields;
 pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
 pub use partial_cells::continued_pressure;

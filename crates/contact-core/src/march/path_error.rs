@@ -15,7 +15,8 @@ use std::sync::atomic::AtomicBool;
 
 use ndarray::Array2;
 
-use super::{Increment, March};
+use super::error_bars::{Tractions, numbers};
+use super::{BranchSummary, Fields, Increment, March, summarise};
 use crate::error::Error;
 use crate::scene::{Grid, LoadPath, Scene, Spacing};
 
@@ -31,7 +32,9 @@ const FIRST: (usize, usize) = (12, 6);
 /// Part of the tolerance that is aimed at.
 const AIM: f64 = 0.8;
 /// Part of the tolerance that is left to the growth of contact from nothing: what sticks keeps its
-/// error, on fine grids a little more than on the coarse one.
+/// error, on fine grids a little more than on the coarse one. Where nothing follows, the shear is
+/// what dissimilar bodies make of the load alone, and its error is measured against that which
+/// friction can bear.
 const INHERITED: f64 = 0.75;
 /// Most that the number of increments of a branch grows by in a round.
 const GROWTH: f64 = 4.0;
@@ -74,14 +77,17 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
     for _ in 0..ROUNDS {
         let errors = trial.errors(&chosen.path)?;
         let mut more = false;
-        for ((branch, error), open) in chosen.path.branches.iter_mut().zip(errors).zip(&open) {
-            branch.path_error = Some(error);
+        let last = errors.len() - 1;
+        for (k, branch) in chosen.path.branches.iter_mut().enumerate() {
+            let PathError { q, bearable, .. } = errors[k];
+            branch.path_error = Some(q);
             let allowed = match branch.spacing {
                 Spacing::Uniform => tolerance,
-                Spacing::EqualRadius => INHERITED * tolerance,
+                Spacing::EqualRadius if k < last => INHERITED * tolerance,
+                Spacing::EqualRadius => tolerance * bearable.max(1.0),
             };
-            if *open && error > allowed {
-                let factor = (error / (AIM * allowed)).powf(1.0 / ORDER).min(GROWTH);
+            if open[k] && q > allowed {
+                let factor = (q / (AIM * allowed)).powf(1.0 / ORDER).min(GROWTH);
                 branch.increments = Some((branch.count() as f64 * factor).ceil() as usize);
                 more = true;
             }
@@ -95,9 +101,33 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
     }
     let errors = trial.errors(&chosen.path)?;
     for (branch, error) in chosen.path.branches.iter_mut().zip(errors) {
-        branch.path_error = Some(error);
+        branch.path_error = Some(error.q);
     }
     Ok(chosen)
+}
+
+/// What the increments leave at the end of a branch.
+pub(super) struct PathError {
+    /// In the shear: L2 norm, over the largest of the path.
+    pub(super) q: f64,
+    /// In the pressure: L2 norm, over the largest of the path.
+    pub(super) p: f64,
+    /// In the numbers of the branch, each in its unit.
+    pub(super) numbers: [f64; 8],
+    /// The shear that friction can bear there over the largest of the path (L2).
+    bearable: f64,
+}
+
+impl PathError {
+    /// So many times as large.
+    fn times(self, factor: f64) -> Self {
+        Self {
+            q: factor * self.q,
+            p: factor * self.p,
+            numbers: self.numbers.map(|n| factor * n),
+            ..self
+        }
+    }
 }
 
 /// The scene with the estimated error of the shear at the end of each branch.
@@ -109,23 +139,26 @@ pub fn estimate_path_error(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scen
     if scene.path.is_open() {
         return Ok(estimated);
     }
-    let mut trial = Trial::new(scene, stop)?;
-    let mut errors = Vec::new();
-    if scene.path.branches.iter().all(|b| b.count() > 1) {
-        let mut half = scene.path.clone();
-        half.branches
-            .iter_mut()
-            .for_each(|b| b.increments = Some(b.count() / 2));
-        for error in trial.change(&half, &scene.path)? {
-            errors.push(error / (2.0_f64.powf(ORDER) - 1.0));
-        }
-    } else {
-        errors = trial.errors(&scene.path)?;
-    }
+    let errors = path_errors(scene, stop)?;
     for (branch, error) in estimated.path.branches.iter_mut().zip(errors) {
-        branch.path_error = Some(error);
+        branch.path_error = Some(error.q);
     }
     Ok(estimated)
+}
+
+/// What the increments of a path that has all of them leave at the end of each branch.
+pub(super) fn path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Vec<PathError>, Error> {
+    let mut trial = Trial::new(scene, stop)?;
+    if scene.path.branches.iter().any(|b| b.count() == 1) {
+        return trial.errors(&scene.path);
+    }
+    let mut half = scene.path.clone();
+    half.branches
+        .iter_mut()
+        .for_each(|b| b.increments = Some(b.count() / 2));
+    let change = trial.change(&half, &scene.path)?;
+    let part = ORDER.exp2() - 1.0;
+    Ok(change.into_iter().map(|c| c.times(1.0 / part)).collect())
 }
 
 /// Gives open branches the increments to begin with; those that begin without contact grow by equal
@@ -184,46 +217,78 @@ impl Trial {
         })
     }
 
-    /// Estimated error of the shear at the end of each branch.
-    fn errors(&mut self, path: &LoadPath) -> Result<Vec<f64>, Error> {
+    /// Estimated errors at the end of each branch.
+    fn errors(&mut self, path: &LoadPath) -> Result<Vec<PathError>, Error> {
         let mut twice = path.clone();
         twice
             .branches
             .iter_mut()
             .for_each(|b| b.increments = Some(2 * b.count()));
         let change = self.change(path, &twice)?;
-        let part = 1.0 - 0.5_f64.powf(ORDER);
-        Ok(change.into_iter().map(|change| change / part).collect())
+        let part = 1.0 - (-ORDER).exp2();
+        Ok(change.into_iter().map(|c| c.times(1.0 / part)).collect())
     }
 
-    /// The change of the shear at the end of each branch from few increments to many, over the
-    /// largest shear.
-    fn change(&mut self, few: &LoadPath, many: &LoadPath) -> Result<Vec<f64>, Error> {
-        let (few, many) = (self.shear(few)?, self.shear(many)?);
-        let norm = |q: &[Array2<f64>; 2]| q.iter().flatten().map(|q| q * q).sum::<f64>().sqrt();
-        let largest = many.iter().map(norm).fold(f64::MIN_POSITIVE, f64::max);
-        let pairs = few.iter().zip(&many);
-        Ok(pairs
+    /// The change at the end of each branch from few increments to many.
+    fn change(&mut self, few: &LoadPath, many: &LoadPath) -> Result<Vec<PathError>, Error> {
+        let (few, many) = (self.ends(few)?, self.ends(many)?);
+        let largest = |of: fn(&End) -> f64| many.iter().map(of).fold(f64::MIN_POSITIVE, f64::max);
+        let (p, q) = (largest(End::p), largest(End::q));
+        let mu = self.scene.friction.mu;
+        Ok(few
+            .iter()
+            .zip(&many)
             .map(|(few, many)| {
-                let off = few.iter().flatten().zip(many.iter().flatten());
-                let squares: f64 = off.map(|(a, b)| (a - b) * (a - b)).sum();
-                squares.sqrt() / largest
+                let (f, m) = (numbers(&few.summary), numbers(&many.summary));
+                let off = |k: usize| norm(&(&few.tractions[k] - &many.tractions[k]));
+                PathError {
+                    q: off(1).hypot(off(2)) / q,
+                    p: off(0) / p,
+                    numbers: std::array::from_fn(|n| (f[n] - m[n]).abs()),
+                    bearable: mu * many.p() / q,
+                }
             })
             .collect())
     }
 
-    /// The shear at the end of each branch.
-    fn shear(&mut self, path: &LoadPath) -> Result<Vec<[Array2<f64>; 2]>, Error> {
+    /// The path run through, and how each branch ends.
+    fn ends(&mut self, path: &LoadPath) -> Result<Vec<End>, Error> {
         self.scene.path = path.clone();
         let mut march = March::until(&self.scene, &self.stop)?;
-        let mut ends = Vec::new();
+        let (mut increments, mut tractions) = (Vec::new(), Vec::new());
         while let Some(increment) = march.advance() {
-            if of_trial(increment)?.point.ends_branch {
-                ends.push(march.shear());
+            let increment = of_trial(increment)?;
+            increments.push(increment);
+            if increment.point.ends_branch {
+                let Fields { p, q_x, q_y, .. } = march.fields();
+                tractions.push([p, q_x, q_y]);
             }
         }
-        Ok(ends)
+        let ends = summarise(&increments).into_iter().zip(tractions);
+        Ok(ends
+            .map(|(summary, tractions)| End { summary, tractions })
+            .collect())
     }
+}
+
+/// How a branch ends.
+struct End {
+    summary: BranchSummary,
+    tractions: Tractions,
+}
+
+impl End {
+    fn p(&self) -> f64 {
+        norm(&self.tractions[0])
+    }
+
+    fn q(&self) -> f64 {
+        norm(&self.tractions[1]).hypot(norm(&self.tractions[2]))
+    }
+}
+
+fn norm(f: &Array2<f64>) -> f64 {
+    f.iter().map(|f| f * f).sum::<f64>().sqrt()
 }
 
 /// The most contact cells that the branches end with.

@@ -37,10 +37,11 @@ pub(super) fn direct_branches(
     if scene.friction.kinetic.is_some() || scene.friction.history.is_some() {
         return none("friction depends on what cells have been through");
     }
-    if branches
-        .iter()
-        .any(|b| [b.to.sigma_B, b.to.sigma_B1, b.to.rolled] != [0.0; 3])
-    {
+    if branches.iter().any(|b| {
+        [b.to.sigma_B, b.to.sigma_B1, b.to.rolled]
+            .iter()
+            .any(|v| *v != 0.0)
+    }) {
         return none("the bodies roll or are stretched meanwhile");
     }
     if coupling {

@@ -62,8 +62,7 @@ const SETTLED: f64 = 0.1;
 /// Passes of projected gradients after a Newton step that would have raised the energy.
 const DESCENT: usize = 30;
 
-/// Newton steps without a smaller misfit after which no more is to be hoped for: the slip set goes
-/// in circles. Of the steps that lead to a solution most take less than ten.
+/// Newton steps without a smaller misfit after which the slip set is taken to go in circles.
 const STALLED: usize = 100;
 
 /// Solves for the shear. On entry it must be admissible: within the bound and balanced.
@@ -122,7 +121,7 @@ pub fn tangential(
             continue;
         }
         before.keep(&now);
-        let target = (params.forcing * info.misfit).max(0.6 * params.tolerance);
+        let target = (params.forcing * info.misfit).max(0.3 * params.tolerance);
         info.passes += step.solve(response, cells, target * root_of_contact, params.max_passes);
         info.shift = step.take(cells, &inside, &mut now);
         mark_slip(&inside, &mut now, info.shift);

@@ -2,8 +2,8 @@
 
 mod cattaneo_mindlin;
 mod hertz_contact;
+mod hertz_stress;
 mod indentation;
-
 mod lubkin;
 mod plane_strain;
 mod springs;
@@ -13,6 +13,7 @@ use pyo3::prelude::*;
 
 pub(crate) use cattaneo_mindlin::CattaneoMindlin;
 pub(crate) use hertz_contact::{Hertz, HertzEllipse, hertz, hertz_ellipse};
+pub(crate) use hertz_stress::HertzStress;
 pub(crate) use indentation::{
     CoatedIndentation, CoupledIndentation, coated_indentation, coupled_indentation, dundurs_beta,
     goodman_stick_ratio,
