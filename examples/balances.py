@@ -9,25 +9,21 @@ which cells enter, leave, stick, slip and turn.
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
 import matplotlib.pyplot as plt
 import numpy as np
-from numpy.typing import NDArray
+from shared import MU, STEEL, Array, Figures, R, W, draw
 
 import pyfret as fret
 
-R, W, MU = 0.018, 1e3, 0.3
 SOFT = fret.Elastic(E=120e9, nu=0.15)
-STEEL = fret.Elastic(E=210e9, nu=0.3)
 HARD = fret.Elastic(E=330e9, nu=0.25)
 #: Twins differ by rounding alone, but rounding decides where in the tolerance the solver ends.
 TIGHT = fret.Settings(tolerance=1e-11)
 
-Array = NDArray[np.float64]
 #: Maps a vector field (x, y) and the pressure of a twin back to the scene.
 Back = Callable[[Array, Array, Array], tuple[Array, Array, Array]]
 
@@ -264,25 +260,12 @@ def energy(file: Path, n: int) -> str:
     )
 
 
-FIGURES: dict[str, tuple[Callable[[Path, int], str], int]] = {
+FIGURES: Figures = {
     "twins": (twins, 26),
     "tilt": (tilt, 64),
     "energy": (energy, 48),
 }
 
 
-def main() -> None:
-    """Draw the figures and say what came out."""
-    parser = argparse.ArgumentParser(description="What must hold whatever the load.")
-    parser.add_argument("--out", type=Path, default=Path("out"), help="folder of the figures")
-    parser.add_argument("--only", choices=list(FIGURES), help="one of the figures")
-    parser.add_argument("--cells", type=int, help="cells along a side (default: the figure's own)")
-    options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
-    for name, (draw, n) in FIGURES.items():
-        if options.only in (None, name):
-            print(f"{name}: {draw(options.out / f'balance_{name}.png', options.cells or n)}")
-
-
 if __name__ == "__main__":
-    main()
+    draw(FIGURES, prefix="balance", description="What must hold whatever the load.")

@@ -8,23 +8,17 @@ largest difference.
 
 from __future__ import annotations
 
-import argparse
 import math
-from collections.abc import Callable
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from numpy.typing import NDArray
+from shared import MU, STEEL, Array, Figures, R, W, draw, solved
 
 import pyfret as fret
 
-R, W, MU = 0.018, 1e3, 0.3
 LINE_W = 1e5
-STEEL = fret.Elastic(E=210e9, nu=0.3)
 CORK = fret.Elastic(E=210e9, nu=0.0)
-
-Array = NDArray[np.float64]
 
 
 def sphere(
@@ -52,11 +46,6 @@ def cylinder(path: fret.LoadPath, *, n: int) -> tuple[fret.Scene, fret.reference
         path=path,
     )
     return scene, line
-
-
-def solved(scene: fret.Scene) -> fret.Result:
-    """The scene's result, without a progress bar."""
-    return fret.solve(scene, progress=False)
 
 
 def largest(computed: Array, truth: Array, scale: float) -> float:
@@ -363,7 +352,7 @@ def radial(file: Path, n: int) -> str:
     return f"shear round about at most {worst / (MU * hertz.p0):.1e} mu p_0"
 
 
-FIGURES: dict[str, tuple[Callable[[Path, int], str], int]] = {
+FIGURES: Figures = {
     "torsion": (torsion, 256),
     "any_path": (any_path, 40),
     "ellipse": (ellipse, 96),
@@ -375,18 +364,5 @@ FIGURES: dict[str, tuple[Callable[[Path, int], str], int]] = {
 }
 
 
-def main() -> None:
-    """Draw the figures and say what came out."""
-    parser = argparse.ArgumentParser(description="Loads against closed forms.")
-    parser.add_argument("--out", type=Path, default=Path("out"), help="folder of the figures")
-    parser.add_argument("--only", choices=list(FIGURES), help="one of the figures")
-    parser.add_argument("--cells", type=int, help="cells along a side (default: the figure's own)")
-    options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
-    for name, (draw, n) in FIGURES.items():
-        if options.only in (None, name):
-            print(f"{name}: {draw(options.out / f'loads_{name}.png', options.cells or n)}")
-
-
 if __name__ == "__main__":
-    main()
+    draw(FIGURES, prefix="loads", description="Loads against closed forms.")

@@ -105,6 +105,34 @@ def test_stress_below_is_that_of_python(coated: fret.Result, tmp_path: Path) -> 
     assert first.stdout.startswith("increment 10: largest von_mises")
 
 
+def test_stress_has_the_bulk_stress_unless_left_out(coated: fret.Result, tmp_path: Path) -> None:
+    store = tmp_path / "out.zarr"
+    path = fret.LoadPath.start().force(W=W, sigma_B=2e8, sigma_B1=-1e8, increments=3)
+    snapshot = fret.solve(coated.scene, path, out=store, progress=False).at(-1)
+    z = [0.0, 1e-4, 2e-4]
+    for body in (1, 2):
+        for bulk in (True, False):
+            out = tmp_path / f"{body}{bulk}.zarr"
+            options = ("--body", str(body), *(() if bulk else ("--no-bulk",)))
+            run = fret_run(
+                "stress",
+                store,
+                "--depths",
+                "3",
+                "--depth",
+                "2e-4",
+                "--of",
+                "s_xx",
+                *options,
+                "-o",
+                out,
+            )
+            assert run.returncode == 0, run.stderr
+            written = xr.open_zarr(out, chunks=None).s_xx
+            ours = snapshot.stress(z, y=0.0, body_number=body, bulk=bulk).s_xx
+            np.testing.assert_array_equal(written, ours)
+
+
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [

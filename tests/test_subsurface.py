@@ -161,6 +161,41 @@ def test_the_envelope_streams(tmp_path: Path) -> None:
     np.testing.assert_allclose(planes.s_xx_max[..., 5], across.s_xx_max, rtol=1e-9)
 
 
+def test_the_bulk_stress_is_part_of_the_stress(tmp_path: Path) -> None:
+    ratio, lower, upper = 2.0, 3e8, -1e8
+    scene = sphere_on_flat(ratio=ratio, n=16)
+    path = (
+        fret.LoadPath.start()
+        .normal(W, increments=2)
+        .force(T_x=0.4 * MU * W, sigma_B=lower, sigma_B1=upper, increments=2)
+    )
+    snapshot = fret.solve(scene, path, progress=False).at(-1)
+    assert (float(snapshot.sigma_B), float(snapshot.sigma_B1)) == (lower, upper)
+    far = snapshot.stress([100 * snapshot.a_H], x=0.0, y=0.0).dataset
+    assert float(far.s_xx[0]) == pytest.approx(lower, rel=1e-3)
+    # Equal nu: the coating takes `ratio` times as much, along x alone.
+    z = [0.0, 0.5 * snapshot.a_H]
+    for body_number, bulk in ((1, upper), (2, ratio * lower)):
+        pulled = snapshot.stress(z, y=0.0, body_number=body_number)
+        bare = snapshot.stress(z, y=0.0, body_number=body_number, bulk=False)
+        np.testing.assert_allclose(pulled.s_xx - bare.s_xx, bulk, rtol=1e-6)
+        np.testing.assert_allclose(pulled.s_yy, bare.s_yy, atol=1.0)
+        np.testing.assert_allclose(pulled.s_zz, bare.s_zz)
+    planes = snapshot.stress(z)
+    np.testing.assert_allclose(
+        planes.s_xx - snapshot.stress(z, bulk=False).s_xx, ratio * lower, rtol=1e-6
+    )
+    snapshot.write_volume(tmp_path / "pulled.zarr", z, of=("s_xx",))
+    stored = xr.open_zarr(tmp_path / "pulled.zarr", chunks=None)
+    np.testing.assert_allclose(stored.s_xx, planes.s_xx)
+    over_path = fret.subsurface.envelope(
+        scene.replace(path=path), fret.march(scene, path), z, y=0.0, of=("s_xx",)
+    )
+    last = snapshot.stress(z, y=0.0).s_xx
+    assert float((over_path.s_xx_max - last).min()) >= -1.0
+    np.testing.assert_allclose(over_path.s_xx_max.where(over_path.s_xx_increment == 4, last), last)
+
+
 def test_loops_of_similar_bodies_are_mindlins() -> None:
     bodies = pair(0.0)
     scene = sphere_on_flat(nu=0.0, n=64)

@@ -62,7 +62,7 @@ impl State {
 
     /// Whether it is one of that grid: a window in its middle, and fields that fill this.
     pub(crate) fn fits(&self, grid: &Grid, mirror: Mirror) -> bool {
-        let within = |n: usize, whole: usize| n <= whole && (whole - n).is_multiple_of(2);
+        let within = |n: usize, whole: usize| n > 0 && n <= whole && (whole - n).is_multiple_of(2);
         let (nx, ny) = self.window;
         if !within(nx, grid.nx) || !within(ny, grid.ny) {
             return false;

@@ -44,17 +44,18 @@ struct Numbers {
 impl Numbers {
     fn of(kernels: KernelSet) -> Self {
         let (fields, spectra) = match kernels {
-            KernelSet::Normal => (35.0, 18.0),
-            KernelSet::Uncoupled => (84.0, 22.0),
-            KernelSet::All => (168.0, 36.0),
+            KernelSet::Normal => (50.0, 34.0),
+            KernelSet::Uncoupled => (116.0, 26.0),
+            KernelSet::All => (176.0, 48.0),
         };
         Self { fields, spectra }
     }
 }
 
 impl Plan {
-    /// Peak memory of a solution of the scene \[bytes\], an estimate within a fifth from 256 cells
-    /// per side on: what runs were measured to take.
+    /// Peak memory of a solution of the scene \[bytes\], what goes with it included: nested grids, the
+    /// choice of increments, error bars, the store. Above what runs were measured to allocate, from
+    /// 256 cells per side on by less than a third.
     pub fn memory(&self, scene: &Scene) -> f64 {
         let grid = &scene.grid;
         let (kept, cells) = (

@@ -62,8 +62,7 @@ const SETTLED: f64 = 0.1;
 /// Passes of projected gradients after a Newton step that would have raised the energy.
 const DESCENT: usize = 30;
 
-/// Newton steps without a smaller misfit after which no more is to be hoped for: the slip set goes
-/// in circles. Of the steps that lead to a solution most take less than ten.
+/// Newton steps without a smaller misfit after which the slip set is taken to go in circles.
 const STALLED: usize = 100;
 
 /// Solves for the shear. On entry it must be admissible: within the bound and balanced.

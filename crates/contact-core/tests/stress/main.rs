@@ -23,6 +23,8 @@ use std::time::{Duration, Instant};
 
 use campaign::{Fate, LIMIT, Outcome, outcome};
 
+/// Scenes that take longer are told at once, like those that fail \[s\].
+const SLOW: f64 = 20.0;
 /// Scenes of the slice.
 const SLICE: u64 = 60;
 
@@ -60,6 +62,10 @@ fn campaign(n: u64) -> Vec<Outcome> {
                     };
                     let drawn = draw::draw(seed);
                     let outcome = pool.install(|| outcome(seed, &drawn, LIMIT));
+                    let settled = matches!(outcome.fate, Fate::Solved(..) | Fate::Refused);
+                    if !settled || outcome.is_silently_wrong() || outcome.seconds > SLOW {
+                        println!("{outcome:?}");
+                    }
                     outcomes.lock().unwrap().push(outcome);
                 }
             });
