@@ -56,7 +56,7 @@ def test_error_bars_tell_their_parts() -> None:
     for name in ("p_max", "delta_z", "contact_radius"):
         assert float(total[name]) == pytest.approx(float(cells[name]), rel=0.1)
     for name, truth in (("p_max", bodies.ROUND.p0), ("delta_z", bodies.ROUND.delta_z)):
-        error = abs(float(fine.at(-1)[name]) - truth)
+        error = abs(float(fine.at(-1).dataset[name]) - truth)
         assert 0.2 < error / float(total[name]) < 1.5
     p = fine.at(-1).p.values
     truth = bodies.ROUND.p(bodies.distance(fine.at(-1)))
