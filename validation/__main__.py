@@ -50,6 +50,7 @@ def main() -> None:
         print(*figures, sep="\n", flush=True)
     if options.only is None or "work_precision" in options.only:
         others.append(work_precision.write(out, n=QUICK_CELLS if options.quick else WORK_CELLS))
+    pages.shrink(out)
     if options.only is None:
         seconds = time.perf_counter() - started
         front(out, rows, figures, [honesty(ratios), *others], seconds)
