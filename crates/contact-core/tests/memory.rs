@@ -15,7 +15,7 @@ use std::sync::Arc;
 use cap::Cap;
 use contact_core::Scene;
 use contact_core::kernels::clear_cache;
-use contact_core::march::{error_bars, solve};
+use contact_core::march::{BranchEnds, error_bars, solve};
 use contact_core::output::StoreWriter;
 use contact_core::scene::Plan;
 
@@ -89,9 +89,11 @@ fn a_run_takes_no_more_memory_than_announced() {
     for (run, (announced, scene, bars, settings)) in scenes.into_iter().enumerate() {
         clear_cache();
         let mut writer = StoreWriter::create(folder.path().join(run.to_string()), false).unwrap();
-        let increments = solve(&scene, &mut writer).unwrap();
+        let mut ends = BranchEnds::beside(&mut writer);
+        let increments = solve(&scene, &mut ends).unwrap();
+        let tractions = ends.tractions;
         if bars {
-            error_bars(&scene, &increments, &Arc::default()).unwrap();
+            error_bars(&scene, &increments, &tractions, &Arc::default()).unwrap();
         }
         let (taken, announced) = (MEMORY.max_allocated() as f64 / 1e6, announced / 1e6);
         if taken > before {

@@ -207,7 +207,12 @@ fn checkpoints(scene: &str, out: &Path, more: &[&str]) -> [f64; 4] {
 #[test]
 fn checkpoints_take_little_of_the_time() {
     let out = free("small.zarr");
-    let [_, _, _, count] = checkpoints(SCENE, &out, &["--set", "grid.n=32", "--checkpoint", "0"]);
+    let short = (0..6).flat_map(|n| ["--set".to_owned(), format!("path.{n}.increments=3")]);
+    let more: Vec<_> = short
+        .chain(["--checkpoint".to_owned(), "0".to_owned()])
+        .collect();
+    let more: Vec<_> = more.iter().map(String::as_str).collect();
+    let [_, _, _, count] = checkpoints(SCENE, &out, &more);
     let increments = Store::open(&out).unwrap().increments();
     assert_eq!(count as usize, increments);
 

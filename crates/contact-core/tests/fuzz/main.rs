@@ -82,7 +82,7 @@ where
         "{inputs} inputs in {:.0} s, {taken} taken, {} refused; no panic, no hang, within {} MB.",
         begun.elapsed().as_secs_f64(),
         inputs - taken,
-        MEMORY.max_allocated() / 1_000_000,
+        MEMORY.max_allocated().div_ceil(1_000_000),
     );
     println!("{name}: {text}");
     if let Ok(document) = std::env::var("FRET_FUZZ_REPORT") {

@@ -1,5 +1,7 @@
 //! What physics asks of every increment, computed from the fields alone.
 
+use contact_core::convolution::{DcFft, Displacements, Mirror, SurfaceOperator, Tractions};
+use contact_core::kernels::pair_coefficients;
 use contact_core::march::{Fields, Increment, March, Motion, Status};
 use contact_core::scene::Loads;
 use ndarray::Array2;
@@ -10,6 +12,7 @@ use crate::misfit::Misfit;
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Violations {
     pub(crate) nan: f64,
+    pub(crate) response: f64,
     pub(crate) balance: f64,
     pub(crate) contact: f64,
     pub(crate) coulomb: f64,
@@ -21,8 +24,9 @@ pub(crate) struct Violations {
 }
 
 impl Violations {
-    pub(crate) const NAMES: [&str; 9] = [
+    pub(crate) const NAMES: [&str; 10] = [
         "finite numbers",
+        "displacements of the tractions",
         "force balance",
         "complementarity",
         "Coulomb's law",
@@ -33,9 +37,10 @@ impl Violations {
         "residuals as reported",
     ];
 
-    pub(crate) fn values(&self) -> [f64; 9] {
+    pub(crate) fn values(&self) -> [f64; 10] {
         [
             self.nan,
+            self.response,
             self.balance,
             self.contact,
             self.coulomb,
@@ -49,6 +54,7 @@ impl Violations {
 
     pub(crate) fn worse(&mut self, other: &Self) {
         self.nan = self.nan.max(other.nan);
+        self.response = self.response.max(other.response);
         self.balance = self.balance.max(other.balance);
         self.contact = self.contact.max(other.contact);
         self.coulomb = self.coulomb.max(other.coulomb);
@@ -68,6 +74,8 @@ const ROUNDING: f64 = 1e-9;
 pub(crate) struct Audit {
     h_init: Array2<f64>,
     misfit: Misfit,
+    /// The bodies' response on the whole grid, in double precision.
+    op: DcFft,
     /// Nothing before the first increment, when all is zero but the gap.
     last: Option<(Fields, Motion, Loads)>,
     work: f64,
@@ -75,8 +83,16 @@ pub(crate) struct Audit {
 
 impl Audit {
     pub(crate) fn new(march: &March) -> Self {
-        let scene = march.scene();
+        let (scene, plan) = (march.scene(), march.plan());
+        let pair = pair_coefficients(
+            (&scene.body1, &scene.body2),
+            &scene.grid,
+            &scene.settings.kernel,
+            scene.settings.skip.equal_layers,
+            plan.kernels(),
+        );
         Self {
+            op: DcFft::new(&pair.unwrap(), Mirror::None, plan.coupling),
             h_init: scene.h_init(),
             misfit: Misfit::of(scene),
             last: None,
@@ -109,6 +125,7 @@ impl Audit {
             found.nan = f64::INFINITY;
             return found;
         }
+        found.response = self.response(march, &now);
         found.balance = balance(march, &now, increment) / ROUNDING;
         self.contact(&now, increment, &mut found);
         self.friction(march, &now, increment, &mut found);
@@ -116,6 +133,36 @@ impl Audit {
         self.monotone(march, &now, increment, &mut found);
         self.last = Some((now, increment.motion, increment.point.loads));
         found
+    }
+
+    /// The displacements are those of the tractions, everywhere.
+    fn response(&mut self, march: &March, now: &Fields) -> f64 {
+        let cells = now.p.len();
+        let friction = march.plan().friction;
+        let [mut u_x, mut u_y, mut u_z] = [(); 3].map(|()| vec![0.0; cells]);
+        self.op.respond(
+            Tractions {
+                q_x: now.q_x.as_slice().filter(|_| friction),
+                q_y: now.q_y.as_slice().filter(|_| friction),
+                p: now.p.as_slice(),
+            },
+            Displacements {
+                u_x: friction.then_some(&mut u_x[..]),
+                u_y: friction.then_some(&mut u_y[..]),
+                u_z: Some(&mut u_z),
+            },
+        );
+        let off = |of: &Array2<f64>, u: &[f64]| {
+            let off = of.iter().zip(u).map(|(of, u)| (of - u).abs());
+            off.fold(0.0, f64::max)
+        };
+        let along = off(&now.u_x, &u_x).max(off(&now.u_y, &u_y));
+        let along = if friction {
+            along / self.misfit.slip
+        } else {
+            0.0
+        };
+        along.max(off(&now.u_z, &u_z) / self.misfit.gap)
     }
 
     /// p >= 0, no gap under pressure, no overlap without, as the tolerance says: the first in the
@@ -218,7 +265,7 @@ impl Audit {
         found: &mut Violations,
     ) {
         let scene = march.scene();
-        let (tolerance, area) = (scene.settings.solver.tolerance, scene.grid.cell_area());
+        let area = scene.grid.cell_area();
         let none = (Motion::default(), Loads::default());
         let (motion, from) = self.last.as_ref().map_or(none, |(_, m, l)| (*m, *l));
         let (ended, to) = (increment.motion, increment.point.loads);
@@ -236,7 +283,9 @@ impl Audit {
         let before = |field: fn(&Fields) -> &Array2<f64>, n| last.map_or(0.0, |f| field(f)[n]);
         let cells = now.contact.iter().filter(|c| **c).count() as f64;
         let along = self.misfit.slip * cells.sqrt();
+        let open = self.misfit.gap * cells.sqrt();
         let (mut stored, mut on_surface) = (0.0, 0.0);
+        let (mut pressed, mut sheared) = ([0.0; 2], [0.0; 2]);
         for (n, &p) in now.p.indexed_iter() {
             let tractions = [
                 (p, before(|f| &f.p, n)),
@@ -252,6 +301,11 @@ impl Audit {
                 stored += 0.5 * (t * u - t_0 * u_0);
                 on_surface -= mean(t, t_0) * (u - u_0 - d);
             }
+            for k in 0..2 {
+                let [p, q_x, q_y] = tractions.map(|t| [t.0, t.1][k]);
+                pressed[k] += p * p;
+                sheared[k] += q_x * q_x + q_y * q_y;
+            }
             let gained = now.dissipated[n] - before(|f| &f.dissipated, n);
             let trace = scene.friction.mu * mean(p, before(|f| &f.p, n)) * along
                 + 1e-12 * now.dissipated[n].abs();
@@ -265,17 +319,21 @@ impl Audit {
         }
         let (stored, on_surface) = (stored * area, on_surface * area);
         let e = increment.energy;
-        // A gap or a slip within the tolerance, times the traction there.
+        // A gap or a slip within the tolerance, times the traction there (Cauchy and Schwarz), at
+        // the beginning and at the end.
+        let mean_of = |squares: [f64; 2]| mean(squares[0].sqrt(), squares[1].sqrt());
+        let allowed = area * (open * mean_of(pressed) + along * mean_of(sheared));
+        let rounding = ROUNDING * self.work;
         for (missing, allowed) in [
-            (of_loads - stored - on_surface, tolerance),
-            (e.work - of_loads, ROUNDING),
+            (of_loads - stored - on_surface, allowed + rounding),
+            (e.work - of_loads, rounding),
             (
                 e.dissipated - e.quadrature + e.opening - on_surface,
-                tolerance,
+                allowed + rounding,
             ),
-            (e.imbalance(), tolerance),
+            (e.imbalance(), allowed + rounding),
         ] {
-            found.energy = found.energy.max(missing.abs() / (allowed * self.work));
+            found.energy = found.energy.max(missing.abs() / allowed);
         }
     }
 
