@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 import pyfret as fret
-from validation import elements, kernels, pages, paper, work_precision
+from validation import elements, kernels, pages, paper, rows, work_precision
 from validation.runner import run
 from validation.truths import TRUTHS
 
 #: Pages that are no truths.
-OTHERS = ("kernels", "elements", "paper", "work_precision")
+OTHERS = ("rows", "kernels", "elements", "paper", "work_precision")
 #: Cells a side of the paper's runs, and of a quick look.
 CELLS, WORK_CELLS, QUICK_CELLS = 256, 64, 32
 
@@ -30,18 +30,21 @@ def main() -> None:
     out: Path = options.out
     out.mkdir(parents=True, exist_ok=True)
     started = time.perf_counter()
-    rows = []
+    lines = []
     ratios: list[float] = []
     for truth in TRUTHS:
         if options.only is None or truth.name in options.only:
             outcome = run(truth, quick=options.quick)
             pages.write(outcome, out)
-            rows.append(pages.front_row(outcome))
+            lines.append(pages.front_row(outcome))
             ratios += outcome.grids.honesty()
-            print(rows[-1], flush=True)
+            print(lines[-1], flush=True)
+    if options.only is None or "rows" in options.only:
+        lines.append(rows.write(out, n=QUICK_CELLS * 2 if options.quick else rows.CELLS))
+        print(lines[-1], flush=True)
     if options.only is None or "kernels" in options.only:
-        rows.append(kernels.write(out))
-        print(rows[-1], flush=True)
+        lines.append(kernels.write(out))
+        print(lines[-1], flush=True)
     figures, others = [], []
     if options.only is None or "elements" in options.only:
         others.append(elements.write(out, quick=options.quick))
@@ -50,9 +53,10 @@ def main() -> None:
         print(*figures, sep="\n", flush=True)
     if options.only is None or "work_precision" in options.only:
         others.append(work_precision.write(out, n=QUICK_CELLS if options.quick else WORK_CELLS))
+    pages.shrink(out)
     if options.only is None:
         seconds = time.perf_counter() - started
-        front(out, rows, figures, [honesty(ratios), *others], seconds)
+        front(out, lines, figures, [honesty(ratios), *others], seconds)
         print(f"{seconds:.0f} s")
 
 
@@ -64,7 +68,8 @@ def honesty(ratios: list[float]) -> str:
     return (
         f"Error bars (`fret run --error`) of {len(ratios)} numbers: true over estimated error is "
         f"{middle:.2f} in the middle, {low:.2f} to {high:.2f} in nine tenths; between 0.2 and 1.5 "
-        f"in {within:.0f} % and above in {over:.0f} %."
+        f"in {within:.0f} % and above in {over:.0f} %. Why not more of "
+        "them: [Error bars against true errors](../error_bars.md)."
     )
 
 

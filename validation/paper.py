@@ -90,12 +90,12 @@ def largest_mises(result: fret.Result) -> tuple[float, float, float]:
 def history_left_out(results: Results) -> str:
     """Shear after the indentation, with and without the history."""
     with_history = np.abs(q_over(results[2.0], 0.1)).max()
-    return f"largest $|q_1|/(\\mu p_H)$ with the history {with_history:.3f}"
+    return f"largest $\\lvert q_1 \\rvert/(\\mu p_H)$ with the history {with_history:.3f}"
 
 
 def similar(results: Results) -> str:
     """Shear after the indentation of similar bodies."""
-    return f"largest $|q_1|/(\\mu p_H)$ of ours {np.abs(q_over(results[1.0], 0.1)).max():.1e}"
+    return f"largest $\\lvert q_1 \\rvert/(\\mu p_H)$ of ours {np.abs(q_over(results[1.0], 0.1)).max():.1e}"
 
 
 def cycles(results: Results) -> str:
@@ -123,7 +123,7 @@ def balanced(results: Results) -> str:
         at = results[ratio].at(0.1)
         force = float(at.q_x.values.sum() / np.abs(at.q_x.values).sum())
         parts.append(f"{force:.1e} ({ratio:g})")
-    return "sum of $q_1$ over the sum of $|q_1|$: " + ", ".join(parts)
+    return "sum of $q_1$ over the sum of $\\lvert q_1 \\rvert$: " + ", ".join(parts)
 
 
 def during_indentation(results: Results) -> str:

@@ -141,4 +141,7 @@ def write(folder: Path, *, n: int) -> str:
         "[All pages](README.md)",
     ]
     (folder / "work_precision.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
-    return "[Work and precision](work_precision.md): error of q and p against time."
+    return (
+        "[Work and precision](work_precision.md): error of q and p against time.\n\n"
+        "![work and precision](work_precision.png)"
+    )

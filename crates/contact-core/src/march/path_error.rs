@@ -32,12 +32,14 @@ const CONTACT: usize = 300;
 /// Increments to begin with: of a branch that begins without contact, and of others.
 const FIRST: (usize, usize) = (12, 6);
 /// Part of the tolerance that is aimed at.
-const AIM: f64 = 0.72;
+const AIM: f64 = 0.6;
+/// Part of the tolerance that an estimate may come to.
+const ACCEPTED: f64 = 0.9;
 /// Part of the tolerance that is left to the growth of contact from nothing: what sticks keeps its
 /// error, on fine grids a little more than on the coarse one. Where nothing follows, the shear is
 /// what dissimilar bodies make of the load alone, and its error is measured against that which
 /// friction can bear.
-const INHERITED: f64 = 0.3;
+const INHERITED: f64 = 0.33;
 /// Most that the number of increments of a branch grows by in a round.
 const GROWTH: f64 = 4.0;
 /// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.
@@ -84,7 +86,7 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
             let PathError { q, bearable, .. } = errors[k];
             branch.path_error = Some(q);
             let allowed = match branch.spacing {
-                Spacing::Uniform => tolerance,
+                Spacing::Uniform => ACCEPTED * tolerance,
                 Spacing::EqualRadius if k < last => INHERITED * tolerance,
                 Spacing::EqualRadius => tolerance * bearable.max(1.0),
             };
