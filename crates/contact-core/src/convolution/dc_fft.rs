@@ -59,6 +59,10 @@ impl SurfaceOperator for DcFft {
         }
     }
 
+    fn rounds(&self) -> bool {
+        self.single.is_some()
+    }
+
     fn transforms(&self) -> usize {
         self.product.transforms + self.single.as_ref().map_or(0, |single| single.transforms)
     }

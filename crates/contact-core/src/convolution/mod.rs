@@ -68,6 +68,11 @@ pub trait SurfaceOperator: Send + Sync {
         self.apply(tractions, displacements);
     }
 
+    /// Whether [`Self::respond`] errs by more than [`Self::apply`].
+    fn rounds(&self) -> bool {
+        false
+    }
+
     /// Two-dimensional transforms done so far; a three-component convolution takes six.
     fn transforms(&self) -> usize;
 

@@ -205,6 +205,9 @@ pub fn coupled(
     let mut slides = make_admissible(problem, datum.displacements(), now, ws, friction);
     now.evaluate(response, friction);
     ws.mixing.restart();
+    // The changes on the way may have been answered with some digits only: a solution is looked at
+    // again with the displacements of its tractions.
+    let mut exact = !response.op.rounds();
     loop {
         info.alternations += 1;
 
@@ -226,7 +229,12 @@ pub fn coupled(
         info.normal_iterations += found.iterations;
         info.approach = found.motion;
         if !friction || now.p.iter().all(|&p| p <= 0.0) {
-            return Ok(info);
+            if exact {
+                return Ok(info);
+            }
+            exact = true;
+            now.evaluate(response, friction);
+            continue;
         }
 
         // Shear for known pressure: the bound moves with the pressure.
@@ -249,10 +257,14 @@ pub fn coupled(
             again = shear_under(response, problem, datum, now, ws, params, &mut info)?;
         }
         if !coupled {
-            if again {
-                continue;
+            if !again && exact {
+                return Ok(info);
             }
-            return Ok(info);
+            if !again {
+                exact = true;
+                now.evaluate(response, friction);
+            }
+            continue;
         }
 
         // What the change of shear does to the gap.
@@ -264,17 +276,27 @@ pub fn coupled(
             ws.response[0].fill(0.0);
         } else if again {
             continue;
-        } else {
+        } else if exact {
             return Ok(info);
+        } else {
+            exact = true;
+            now.evaluate(response, friction);
+            continue;
         }
         ws.mixing.settle(&ws.response[0], &mut now.u_z);
         let check = super::normal::assess(&gap, &now.p, &now.u_z);
         info.approach = check.motion;
         let residual = check.gap.max(check.penetration);
         if residual <= params.tolerance && !again {
-            return Ok(info);
+            if exact {
+                return Ok(info);
+            }
+            exact = true;
+            now.evaluate(response, friction);
+            ws.mixing.restart();
+            continue;
         }
-        if info.alternations == params.max_alternations {
+        if info.alternations >= params.max_alternations {
             return Err(SolverError {
                 solver: "coupled",
                 residual,
