@@ -95,7 +95,8 @@ def history_left_out(results: Results) -> str:
 
 def similar(results: Results) -> str:
     """Shear after the indentation of similar bodies."""
-    return f"largest $\\lvert q_1 \\rvert/(\\mu p_H)$ of ours {np.abs(q_over(results[1.0], 0.1)).max():.1e}"
+    largest = np.abs(q_over(results[1.0], 0.1)).max()
+    return f"largest $\\lvert q_1 \\rvert/(\\mu p_H)$ of ours {largest:.1e}"
 
 
 def cycles(results: Results) -> str:

@@ -81,7 +81,6 @@ impl Subsurface {
 impl Subsurface {
     #[new]
     #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number = 2, sigma_B = 0.0))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         body: Body,
         grid: Grid,
