@@ -168,6 +168,14 @@ impl Checkpoints {
             .map_err(|e| folder.error(&format!("{FOLDER}: {e}")))
     }
 
+    /// Removes the checkpoints of a store that is done, which a process that died at its very end has
+    /// left, where that is allowed.
+    pub(super) fn clear(folder: &Folder) {
+        if !Self::in_use(folder) {
+            let _ = fs::remove_dir_all(folder.root().join(FOLDER));
+        }
+    }
+
     /// Whether a process is writing the store.
     pub(super) fn in_use(folder: &Folder) -> bool {
         File::open(folder.root().join(INCREMENTS))

@@ -30,6 +30,7 @@ pub struct Resumed {
 pub fn resume(path: impl AsRef<Path>) -> Result<Option<Resumed>, Error> {
     let store = Store::open(path)?;
     if store.status() == "done" {
+        Checkpoints::clear(store.folder());
         return Ok(None);
     }
     let text = store.metadata()[".zattrs"]["scene"].as_str();

@@ -90,6 +90,13 @@ pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> Stri
         seconds / 60.0
     );
 
+    write_worst(&mut text, outcomes);
+    write_reasons(&mut text, outcomes);
+    text
+}
+
+/// The worst of each equation.
+fn write_worst(text: &mut String, outcomes: &[Outcome]) {
     let _ = writeln!(
         text,
         "\n| equation | worst misfit over what the tolerance allows |\n|---|---|"
@@ -111,6 +118,10 @@ pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> Stri
     for (name, distance) in twins {
         let _ = writeln!(text, "| {name} twin | {distance:.1e} |");
     }
+}
+
+/// What was not solved as asked, scene by scene.
+fn write_reasons(text: &mut String, outcomes: &[Outcome]) {
     for outcome in outcomes {
         match &outcome.fate {
             Fate::Stopped => {
@@ -132,5 +143,4 @@ pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> Stri
             _ => {}
         }
     }
-    text
 }
