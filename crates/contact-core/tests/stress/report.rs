@@ -37,7 +37,6 @@ pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> Stri
     let panicked = count(&|f| matches!(f, Fate::Panicked(_)));
     let wrong = outcomes.iter().filter(|o| o.is_silently_wrong()).count() - panicked;
     let share = 100.0 * solved as f64 / (total - refused).max(1) as f64;
-    let sum = |f: &dyn Fn(&Outcome) -> f64| outcomes.iter().map(f).sum::<f64>();
     let _ = writeln!(
         text,
         "| scenes, of these with other shapes than a sphere | {total}, {shaped} |\n|---|---|"
@@ -63,6 +62,16 @@ pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> Stri
         text,
         "| solved but violating an equation, NaN or unlike a twin | {wrong} |"
     );
+    write_work(&mut text, outcomes, seconds, threads);
+    write_worst(&mut text, outcomes);
+    write_reasons(&mut text, outcomes);
+    text
+}
+
+/// What it took.
+fn write_work(text: &mut String, outcomes: &[Outcome], seconds: f64, threads: usize) {
+    let total = outcomes.len();
+    let sum = |f: &dyn Fn(&Outcome) -> f64| outcomes.iter().map(f).sum::<f64>();
     let _ = writeln!(
         text,
         "| increments, of these solved in pieces | {}, {} |",
@@ -89,10 +98,6 @@ pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> Stri
         "| time of all, on {threads} threads | {:.1} min |",
         seconds / 60.0
     );
-
-    write_worst(&mut text, outcomes);
-    write_reasons(&mut text, outcomes);
-    text
 }
 
 /// The worst of each equation.
