@@ -221,7 +221,8 @@ fn increments_whose_way_counts() {
     }
 }
 
-/// Down to the tolerance at which single precision serves, the answers differ by less than it.
+/// Down to the tolerance at which single precision serves, the answer is as near to that of a far finer
+/// tolerance as the one in double precision.
 #[test]
 fn digits_that_the_tolerance_does_not_need() {
     let coated = "body2.coatings=[{ E = 4e11, nu = 0.25, thickness = { a_H = 0.5 } }]";
@@ -244,11 +245,11 @@ fn digits_that_the_tolerance_does_not_need() {
         let [with, without, exact] = ends.map(|ends| ends.0);
         for ((with, without), exact) in with.iter().zip(&without).zip(&exact) {
             let off = |of: &(Increment, Fields)| norm(&(&of.1.q_x - &exact.1.q_x));
-            let rounding = norm(&(&with.1.q_x - &without.1.q_x));
+            let allowed = 1.5 * off(without).max(1e-5 * norm(&exact.1.q_x));
             assert!(
-                rounding < 0.3 * off(without).max(1e-5 * norm(&exact.1.q_x)),
-                "{tolerance}: {rounding:e} of {:e}",
-                off(without)
+                off(with) < allowed,
+                "{tolerance}: {:e} of {allowed:e}",
+                off(with)
             );
         }
     }
