@@ -298,7 +298,7 @@ fn check_solves_nothing() {
         "cells per a_H 10.00 along x, 10.00 along y",
         "24 x 24 cells",
         "4 branches, 39 increments",
-        "memory        about 10 MB",
+        "memory        about 11 MB",
         "skipped: normal-tangential coupling",
     ] {
         assert!(told.contains(words), "{told:?} lacks {words:?}");

@@ -18,6 +18,10 @@ const INCREMENT: f64 = 200.0;
 /// Numbers per cell that laying out the surfaces takes: each of them, their sum, their making.
 const SURFACES: f64 = 6.0;
 
+/// Most that a window around the contact, 0.9 times as long and wide as the grid, adds to the operators
+/// of that.
+const WINDOW: f64 = 1.8;
+
 const BYTES: f64 = 8.0;
 
 /// Memory that a process may still take \[bytes\]: what the system has to give, or what the control
@@ -54,8 +58,8 @@ impl Numbers {
 
 impl Plan {
     /// Peak memory of a solution of the scene \[bytes\], what goes with it included: nested grids, the
-    /// choice of increments, error bars, the store. Above what runs were measured to allocate, from
-    /// 256 cells per side on by less than a third.
+    /// choice of increments, error bars, the store. A bound from above: runs were measured to take 0.6
+    /// to 1 times as much from 256 cells per side on.
     pub fn memory(&self, scene: &Scene) -> f64 {
         let grid = &scene.grid;
         let (kept, cells) = (
@@ -67,6 +71,11 @@ impl Plan {
             KernelMethod::Hankel => 0.0,
             KernelMethod::InverseFft { lambda, .. } => HALF_WAY * lambda as f64,
             KernelMethod::FrequencyDomain { lambda } => SAMPLES * (lambda * lambda) as f64,
+        };
+        let spectra = if self.window {
+            WINDOW * spectra
+        } else {
+            spectra
         };
         let increments = INCREMENT * scene.path.increments() as f64;
         PROGRAM + BYTES * (fields * kept + (spectra + conversion) * cells + increments)
