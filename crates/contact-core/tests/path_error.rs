@@ -5,34 +5,20 @@
 
 #![allow(clippy::print_stdout, reason = "a report for people")]
 
+mod splitmix;
+
 use std::fmt::Write as _;
 use std::sync::Arc;
 
 use contact_core::march::{March, choose_increments};
 use contact_core::scene::{LoadPath, Scene};
 use ndarray::Array2;
+use splitmix::Draw;
 
 /// True error over estimate: within this in nine of ten scenes.
 const HONEST: (f64, f64) = (0.2, 1.5);
 /// Increments of the reference over those chosen.
 const FINER: usize = 8;
-
-/// Numbers in [0, 1) from a seed (S. Vigna's splitmix64).
-struct Draw(u64);
-
-impl Draw {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf(self.next())
-    }
-}
 
 /// A sphere on a coated half-space, fretted.
 fn scene(seed: u64) -> Scene {
