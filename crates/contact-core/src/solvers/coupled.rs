@@ -5,8 +5,6 @@
 //! the other and one pass is exact. The displacements are carried along: each solver adds the
 //! response to what it changed, and one full convolution at the start ties them to the tractions.
 
-use serde::{Deserialize, Serialize};
-
 use super::admissible::admissible;
 use super::limit::{Sliding, exceeds, sliding};
 use super::mixing::Mixing;
@@ -15,67 +13,10 @@ use super::shear::first_shift;
 use super::shear_gradient::shear_gradient;
 use super::vector::{add_scaled, set_cells, set_pairs, size};
 use super::{
-    NormalParams, NormalProblem, NormalWorkspace, Response, Shear, SolverError, TangentialMethod,
-    TangentialParams, TangentialProblem, TangentialWorkspace, normal, tangential,
+    Interface, NormalParams, NormalProblem, NormalWorkspace, Response, SolverError,
+    TangentialMethod, TangentialParams, TangentialProblem, TangentialWorkspace, normal, tangential,
 };
 use crate::convolution::{Displacements, Tractions};
-
-/// Tractions of an increment and the displacements that belong to them, on the kept cells.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Interface {
-    /// Pressure \[Pa\].
-    pub p: Vec<f64>,
-    /// Shear tractions q_x, q_y on body 2 \[Pa\].
-    pub q: [Vec<f64>; 2],
-    /// Relative tangential displacements u_x, u_y \[m\].
-    pub u: [Vec<f64>; 2],
-    /// Relative normal displacement u_z \[m\].
-    pub u_z: Vec<f64>,
-    /// Contact cells that slip.
-    pub slip: Vec<bool>,
-}
-
-impl Interface {
-    /// Nothing acts.
-    pub fn unloaded(cells: usize) -> Self {
-        let field = || vec![0.0; cells];
-        Self {
-            p: field(),
-            q: [field(), field()],
-            u: [field(), field()],
-            u_z: field(),
-            slip: vec![false; cells],
-        }
-    }
-
-    /// What the tangential solvers work on.
-    fn shear(&mut self) -> Shear<'_> {
-        let ([q_x, q_y], [u_x, u_y]) = (&mut self.q, &mut self.u);
-        Shear {
-            q: [q_x, q_y],
-            u: [u_x, u_y],
-            slip: &mut self.slip,
-        }
-    }
-
-    /// Computes the displacements from the tractions.
-    pub(crate) fn evaluate(&mut self, response: &mut Response<'_>, shear: bool) {
-        let [u_x, u_y] = &mut self.u;
-        let coupled = response.op.is_coupled();
-        let tractions = Tractions {
-            q_x: shear.then_some(&self.q[0][..]),
-            q_y: shear.then_some(&self.q[1][..]),
-            p: Some(&self.p),
-        };
-        let tangential = shear || coupled;
-        let displacements = Displacements {
-            u_x: tangential.then_some(u_x),
-            u_y: tangential.then_some(u_y),
-            u_z: Some(&mut self.u_z),
-        };
-        response.op.apply(tractions, displacements);
-    }
-}
 
 /// What is given in one increment.
 #[derive(Clone, Copy, Debug)]
@@ -203,109 +144,93 @@ pub fn coupled(
     let coupled = response.op.is_coupled() && friction;
     let mut info = CoupledInfo::default();
     let mut slides = make_admissible(problem, datum.displacements(), now, ws, friction);
-    now.evaluate(response, friction);
-    ws.mixing.restart();
-    // The changes on the way may have been answered with some digits only: a solution is looked at
-    // again with the displacements of its tractions.
-    let mut exact = !response.op.rounds();
-    loop {
-        info.alternations += 1;
+    // Where changes on the way are answered with some digits only, the solution is looked at again
+    // with the displacements of its tractions.
+    let looks = if response.op.rounds() { 2 } else { 1 };
+    for _ in 0..looks {
+        now.evaluate(response, friction);
+        ws.mixing.restart();
+        loop {
+            info.alternations += 1;
 
-        // Pressure for known shear.
-        ws.p_before.copy_from_slice(&now.p);
-        let gap = NormalProblem {
-            h_init: problem.h_init,
-            arms: problem.arms,
-            drive: problem.normal,
-        };
-        let found = normal(
-            response,
-            &gap,
-            &mut now.p,
-            &mut now.u_z,
-            &mut ws.normal,
-            &params.normal,
-        )?;
-        info.normal_iterations += found.iterations;
-        info.approach = found.motion;
-        if !friction || now.p.iter().all(|&p| p <= 0.0) {
-            if exact {
+            // Pressure for known shear.
+            ws.p_before.copy_from_slice(&now.p);
+            let gap = NormalProblem {
+                h_init: problem.h_init,
+                arms: problem.arms,
+                drive: problem.normal,
+            };
+            let found = normal(
+                response,
+                &gap,
+                &mut now.p,
+                &mut now.u_z,
+                &mut ws.normal,
+                &params.normal,
+            )?;
+            info.normal_iterations += found.iterations;
+            info.approach = found.motion;
+            if !friction || now.p.iter().all(|&p| p <= 0.0) {
+                break;
+            }
+
+            // Shear for known pressure: the bound moves with the pressure.
+            for c in 0..2 {
+                ws.q_before[c].copy_from_slice(&now.q[c]);
+            }
+            if found.iterations > 0 {
+                slides = make_admissible(problem, datum.displacements(), now, ws, friction);
+                follow_pressure(response, now, ws, coupled);
+            }
+            info.friction_used = slides.used;
+            if info.exceeds_friction() {
                 return Ok(info);
             }
-            exact = true;
-            now.evaluate(response, friction);
-            continue;
-        }
+            let mut again = false;
+            if slides.is_full() {
+                let slip = problem.slip(&ws.bound, datum.displacements());
+                info.shift = incipient_shift(&slip, now, slides.motion);
+            } else {
+                again = shear_under(response, problem, datum, now, ws, params, &mut info)?;
+            }
+            if !coupled {
+                if again {
+                    continue;
+                }
+                break;
+            }
 
-        // Shear for known pressure: the bound moves with the pressure.
-        for c in 0..2 {
-            ws.q_before[c].copy_from_slice(&now.q[c]);
-        }
-        if found.iterations > 0 {
-            slides = make_admissible(problem, datum.displacements(), now, ws, friction);
-            follow_pressure(response, now, ws, coupled);
-        }
-        info.friction_used = slides.used;
-        if info.exceeds_friction() {
-            return Ok(info);
-        }
-        let mut again = false;
-        if slides.is_full() {
-            let slip = problem.slip(&ws.bound, datum.displacements());
-            info.shift = incipient_shift(&slip, now, slides.motion);
-        } else {
-            again = shear_under(response, problem, datum, now, ws, params, &mut info)?;
-        }
-        if !coupled {
-            if !again && exact {
-                return Ok(info);
+            // What the change of shear does to the gap.
+            ws.change_of_shear(now);
+            if ws.change.iter().flatten().any(|&change| change != 0.0) {
+                let [change_x, change_y] = &ws.change;
+                response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
+            } else if ws.mixing.mixes() {
+                ws.response[0].fill(0.0);
+            } else if again {
+                continue;
+            } else {
+                break;
             }
-            if !again {
-                exact = true;
-                now.evaluate(response, friction);
+            ws.mixing.settle(&ws.response[0], &mut now.u_z);
+            let check = super::normal::assess(&gap, &now.p, &now.u_z);
+            info.approach = check.motion;
+            let residual = check.gap.max(check.penetration);
+            if residual <= params.tolerance && !again {
+                break;
             }
-            continue;
-        }
-
-        // What the change of shear does to the gap.
-        ws.change_of_shear(now);
-        if ws.change.iter().flatten().any(|&change| change != 0.0) {
-            let [change_x, change_y] = &ws.change;
-            response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
-        } else if ws.mixing.mixes() {
-            ws.response[0].fill(0.0);
-        } else if again {
-            continue;
-        } else if exact {
-            return Ok(info);
-        } else {
-            exact = true;
-            now.evaluate(response, friction);
-            continue;
-        }
-        ws.mixing.settle(&ws.response[0], &mut now.u_z);
-        let check = super::normal::assess(&gap, &now.p, &now.u_z);
-        info.approach = check.motion;
-        let residual = check.gap.max(check.penetration);
-        if residual <= params.tolerance && !again {
-            if exact {
-                return Ok(info);
+            if info.alternations >= params.max_alternations {
+                return Err(SolverError {
+                    solver: "coupled",
+                    residual,
+                    tolerance: params.tolerance,
+                    iterations: info.alternations,
+                });
             }
-            exact = true;
-            now.evaluate(response, friction);
-            ws.mixing.restart();
-            continue;
+            ws.mixing.mix(&now.p, &mut now.u_z);
         }
-        if info.alternations >= params.max_alternations {
-            return Err(SolverError {
-                solver: "coupled",
-                residual,
-                tolerance: params.tolerance,
-                iterations: info.alternations,
-            });
-        }
-        ws.mixing.mix(&now.p, &mut now.u_z);
     }
+    Ok(info)
 }
 
 /// Shear for known pressure; whether it has to be looked for again, with the displacements that mean

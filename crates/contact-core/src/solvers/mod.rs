@@ -12,6 +12,7 @@ mod admissible;
 mod contact_cells;
 mod contact_shear;
 mod coupled;
+mod interface;
 mod limit;
 mod mixing;
 mod newton_step;
@@ -26,8 +27,9 @@ mod vector;
 
 pub(crate) use coupled::friction_bound;
 pub use coupled::{
-    CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, Interface, SlipDatum, coupled,
+    CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, SlipDatum, coupled,
 };
+pub use interface::Interface;
 pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub use response::Response;
 pub use rigid_motion::{Arms, Drive};
