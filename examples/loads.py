@@ -227,7 +227,7 @@ def rolling(file: Path, n: int) -> str:
     rolled = result.dataset.rolled.to_numpy()
     creep = np.diff(result.delta_x.to_numpy()) / dx
     with fret.plot.style():
-        figure, (shear, slope) = plt.subplots(1, 2, figsize=(8.8, 3.5))
+        figure, (shear, slope) = plt.subplots(1, 2, figsize=(9.6, 3.5))
         for moment in moments:
             at = result.at(moment)
             x = at.p.x.to_numpy()
@@ -240,10 +240,11 @@ def rolling(file: Path, n: int) -> str:
             q = line.q(x, T=T, mu=MU, middle=middle)
             shear.plot(x / line.a, q / (MU * line.p0), "k--", lw=0.8, label=name)
         shear.set(xlabel="$x/a$", ylabel=r"$q_x/(\mu p_0)$", title="rolling to the right")
-        shear.legend(fontsize=8)
+        shear.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
         slope.plot(rolled[2:] / line.a, creep[1:] / truth)
         slope.axhline(1.0, color="k", ls="--", lw=0.8)
-        slope.set(xlabel="way rolled over $a$", ylabel="creepage over Carter's", ylim=(0, 1.1))
+        slope.set(xlabel="way rolled over $a$", ylabel="creepage over Carter's")
+        slope.set_ylim(bottom=0.0)
         figure.savefig(file)
         plt.close(figure)
     return f"creepage at the end {creep[-1] / truth:.4f} of Carter's"
@@ -252,7 +253,7 @@ def rolling(file: Path, n: int) -> str:
 def friction(file: Path, n: int) -> str:
     """Force against shift under several friction laws, full gross-slip loops."""
     hertz = fret.reference.hertz(R=R, bodies=(CORK, CORK), W=W)
-    far = 3e-6
+    far = 7e-6
     path = fret.LoadPath.start().normal(W, increments=1)
     for delta in (far, -far, far):
         path = path.displace(delta_x=delta, increments=40)
