@@ -194,7 +194,7 @@ fn compared(
                     ([f.p.clone(), f.q_x.clone(), f.q_y.clone()], 1.0)
                 });
                 let turn = [turn.pressure, turn.shear, turn.approach];
-                distances.push(("any, with turning", off.over(&misfit, turned, turn)));
+                distances.push(("turning", off.over(&misfit, turned, turn)));
             }
         }
     }
