@@ -13,9 +13,9 @@ mod document;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use contact_core::output::Store;
 
@@ -31,9 +31,11 @@ const PAPER: &str = concat!(
 /// Largest part of a run's time that its checkpoints may take \[%\].
 const SHARE: f64 = 3.0;
 /// Kills, unless the environment says how many.
-const KILLS: usize = 12;
+const KILLS: usize = 8;
 /// Kills in one run at most; then it is let go to its end.
 const KILLS_PER_RUN: usize = 4;
+/// Time between two looks at what a run has reported.
+const LOOK: Duration = Duration::from_millis(5);
 
 fn free(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -52,9 +54,100 @@ fn fret(arguments: &[&str], checkpoint: &str) -> Command {
     command
 }
 
-fn new_run(out: &Path, checkpoint: &str) -> Command {
-    let out = out.to_str().unwrap();
-    fret(&["run", SCENE, "--set", "grid.n=32", "-o", out], checkpoint)
+/// What is killed: a scene, and the seconds between its checkpoints.
+struct Victim {
+    settings: Vec<String>,
+    checkpoint: &'static str,
+    /// Time of a run that nobody disturbs, and its result.
+    duration: Duration,
+    whole: Store,
+    expected: BTreeMap<PathBuf, Vec<u8>>,
+}
+
+impl Victim {
+    fn new(name: &str, settings: Vec<String>, checkpoint: &'static str) -> Self {
+        let out = free(name);
+        let begun = Instant::now();
+        let run = new_run(&settings, &out, checkpoint).status();
+        let duration = begun.elapsed();
+        assert!(run.unwrap().success());
+        Self {
+            settings,
+            checkpoint,
+            duration,
+            expected: files(&out),
+            whole: Store::open(&out).unwrap(),
+        }
+    }
+
+    /// Kills a run at moments over its whole length, each given as a part of it, or until it is
+    /// done; if `reported`, once it has reported an increment at least. How many increments every
+    /// killed run had reported.
+    fn kill(&self, mut moments: Vec<f64>, reported: bool) -> Vec<usize> {
+        let out = free("killed.zarr");
+        moments.sort_by(f64::total_cmp);
+        let (mut killed, mut saved) = (Vec::new(), 0);
+        for moment in moments {
+            let mut run = if out.exists() {
+                fret(&["resume", out.to_str().unwrap()], self.checkpoint)
+            } else {
+                new_run(&self.settings, &out, self.checkpoint)
+            };
+            let before = killed.last().copied().unwrap_or(0);
+            let mut run = run.spawn().unwrap();
+            if reported {
+                wait_for_an_increment(&mut run, &out);
+            }
+            let reached = before as f64 / self.whole.increments() as f64;
+            sleep(self.duration.mul_f64((moment - reached).max(0.0)));
+            if let Some(status) = run.try_wait().unwrap() {
+                assert!(status.success());
+                break;
+            }
+            run.kill().unwrap();
+            run.wait().unwrap();
+            let mut increments = 0;
+            if out.exists() {
+                let store = Store::open(&out).unwrap();
+                increments = store.increments();
+                assert!(increments >= before && store.saved() >= saved);
+                saved = store.saved();
+                check(&store, &self.whole);
+            }
+            killed.push(increments);
+        }
+        if out.exists() {
+            let end = fret(&["resume", out.to_str().unwrap()], "5").output();
+            let end = end.unwrap();
+            let text = String::from_utf8_lossy(&end.stderr);
+            assert!(end.status.success(), "{text}");
+            assert!(files(&out) == self.expected, "killed after {killed:?}");
+        }
+        killed
+    }
+}
+
+fn wait_for_an_increment(run: &mut Child, out: &Path) {
+    let reported = || Store::open(out).is_ok_and(|store| store.increments() > 0);
+    while !reported() && run.try_wait().unwrap().is_none() {
+        sleep(LOOK);
+    }
+}
+
+fn new_run(settings: &[String], out: &Path, checkpoint: &str) -> Command {
+    let mut arguments = vec!["run", SCENE, "-o", out.to_str().unwrap()];
+    for setting in settings {
+        arguments.extend(["--set", setting]);
+    }
+    fret(&arguments, checkpoint)
+}
+
+/// A path of `increments` in each branch.
+fn short(increments: usize) -> Vec<String> {
+    let branches = 0..6;
+    branches
+        .map(|n| format!("path.{n}.increments={increments}"))
+        .collect()
 }
 
 /// Every file of the store and its bytes.
@@ -111,68 +204,31 @@ impl Chance {
 fn killed_runs_are_resumed_to_the_same_bits() {
     let asked_for = std::env::var("FRET_KILLS").ok();
     let kills = asked_for.map_or(KILLS, |n| n.parse().unwrap());
-    let whole = free("undisturbed.zarr");
-    let begun = Instant::now();
-    assert!(new_run(&whole, "5").status().unwrap().success());
-    let duration = begun.elapsed();
-    let expected = files(&whole);
-    let whole = Store::open(&whole).unwrap();
-
+    // A checkpoint after every increment: most kills hit one; and as few as run time allows, so
+    // that a kill costs many increments.
+    let mut often = short(10);
+    often.push("grid.n=32".into());
+    let victims = [
+        Victim::new("often.zarr", often, "0"),
+        Victim::new("seldom.zarr", vec!["grid.n=128".into()], "0.02"),
+    ];
     let mut chance = Chance(7);
-    let (mut done, mut taken_up, mut runs) = (0, 0, 0);
-    while done < kills {
-        // Half of the runs write a checkpoint after every increment: most kills hit one.
-        let checkpoint = if chance.draw() < 0.5 { "0" } else { "0.02" };
-        let out = free("killed.zarr");
+    let (mut killed, mut runs) = (Vec::new(), 0);
+    while killed.len() < kills {
+        let moments = KILLS_PER_RUN.min(kills - killed.len());
+        let moments = (0..moments).map(|_| chance.draw()).collect();
+        killed.extend(victims[runs % 2].kill(moments, runs / 2 % 2 == 1));
         runs += 1;
-        let (mut increments, mut saved) = (0, 0);
-        for _ in 0..KILLS_PER_RUN.min(kills - done) {
-            let mut run = if out.exists() {
-                fret(&["resume", out.to_str().unwrap()], checkpoint)
-            } else {
-                new_run(&out, checkpoint)
-            };
-            let mut run = run.spawn().unwrap();
-            sleep(duration.mul_f64(chance.draw()));
-            if let Some(status) = run.try_wait().unwrap() {
-                assert!(status.success());
-                break;
-            }
-            run.kill().unwrap();
-            run.wait().unwrap();
-            done += 1;
-            if !out.exists() {
-                continue;
-            }
-            let store = Store::open(&out).unwrap();
-            assert!(store.increments() >= increments && store.saved() >= saved);
-            (increments, saved) = (store.increments(), store.saved());
-            check(&store, &whole);
-        }
-        if out.exists() {
-            taken_up += usize::from(increments > 0);
-            let end = fret(&["resume", out.to_str().unwrap()], "5")
-                .output()
-                .unwrap();
-            assert!(
-                end.status.success(),
-                "{}",
-                String::from_utf8_lossy(&end.stderr)
-            );
-            assert!(files(&out) == expected, "{done} kills");
-        }
     }
-    // The kills are no formality: most runs had something to go on from.
-    assert!(
-        4 * taken_up * KILLS_PER_RUN > kills,
-        "{taken_up} of {kills}"
-    );
+    let went_on = killed.iter().filter(|&&increments| increments > 0).count();
+    // The kills are no formality: after most of them there was something to go on from.
+    assert!(2 * went_on > kills, "{went_on} of {kills}: {killed:?}");
     report(
         "kills",
         &format!(
-            "{done} kills in {runs} runs, of which {taken_up} had increments to go on from; no \
-             increment and no field reported as saved was lost, and every run ended with the same \
-             bytes in every file as one that nobody disturbed."
+            "{kills} kills in {runs} runs; after {went_on} of them there were increments to go on \
+             from. No increment and no field reported as saved was lost, and every run ended with \
+             the same bytes in every file as one that nobody disturbed."
         ),
     );
 }
@@ -207,11 +263,11 @@ fn checkpoints(scene: &str, out: &Path, more: &[&str]) -> [f64; 4] {
 #[test]
 fn checkpoints_take_little_of_the_time() {
     let out = free("small.zarr");
-    let short = (0..6).flat_map(|n| ["--set".to_owned(), format!("path.{n}.increments=3")]);
-    let more: Vec<_> = short
-        .chain(["--checkpoint".to_owned(), "0".to_owned()])
-        .collect();
-    let more: Vec<_> = more.iter().map(String::as_str).collect();
+    let short = short(3);
+    let mut more = vec!["--checkpoint", "0"];
+    for setting in &short {
+        more.extend(["--set", setting]);
+    }
     let [_, _, _, count] = checkpoints(SCENE, &out, &more);
     let increments = Store::open(&out).unwrap().increments();
     assert_eq!(count as usize, increments);

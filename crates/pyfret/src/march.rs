@@ -32,11 +32,10 @@ impl March {
 impl March {
     #[new]
     fn new(py: Python<'_>, scene: Scene) -> PyResult<Self> {
-        let march = py
-            .detach(|| core::March::new(&scene.0))
-            .map_err(to_python)?;
+        let stop = Arc::default();
+        let march = interruptible(py, &stop, || core::March::until(&scene.0, &stop))?;
         Ok(Self {
-            inner: Mutex::new(march),
+            inner: Mutex::new(march.map_err(to_python)?),
         })
     }
 

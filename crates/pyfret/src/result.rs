@@ -113,12 +113,12 @@ pub(crate) fn resume(
     checkpoint: f64,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {
-    let interval = interval(checkpoint)?;
+    let (interval, stop) = (interval(checkpoint)?, Arc::default());
     let Some(Resumed {
         march,
         writer,
         increments,
-    }) = py.detach(|| output::resume(store)).map_err(to_python)?
+    }) = interruptible(py, &stop, || output::resume_until(store, &stop))?.map_err(to_python)?
     else {
         return Ok(());
     };

@@ -8,20 +8,24 @@ use rayon::prelude::*;
 use realfft::{ComplexToReal, RealFftPlanner};
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use super::coefficients::ODD;
 use super::layered_frf::Stack;
+use super::rows::unless;
 use super::sampled_frf::SampledFrf;
 use super::{InfluenceCoefficients, Quadrant};
+use crate::error::Error;
 use crate::scene::Grid;
 
-/// The coefficients by inverse transform on a domain `lambda` times as long.
+/// The coefficients by inverse transform on a domain `lambda` times as long. Ends when `stop` is
+/// raised.
 pub(crate) fn inverse_fft(
     stack: &Stack,
     grid: &Grid,
-    lambda: usize,
-    aliases: usize,
-) -> InfluenceCoefficients {
+    (lambda, aliases): (usize, usize),
+    stop: &AtomicBool,
+) -> Result<InfluenceCoefficients, Error> {
     let samples = SampledFrf::new(stack, grid, lambda, aliases);
     let (px, py) = samples.period;
     let (nx, ny) = (grid.nx, grid.ny);
@@ -32,19 +36,25 @@ pub(crate) fn inverse_fft(
     // One line of 6 ny numbers per frequency k_x >= 0.
     let frequencies = px / 2 + 1;
     let mut half_way = vec![0.0; frequencies * 6 * ny];
-    half_way.par_chunks_mut(6 * ny).enumerate().for_each_init(
-        || (along_y.buffers(), vec![[0.0; 6]; py / 2 + 1]),
-        |(buffers, line), (m, out)| {
-            for (n, sample) in line.iter_mut().enumerate() {
-                *sample = samples.at(m, n);
-            }
-            for ((out, odd), c) in out.chunks_mut(ny).zip(ODD).zip(0..) {
-                along_y.sum(buffers, odd.1, |n| line[n][c], out);
-            }
-        },
-    );
+    half_way
+        .par_chunks_mut(6 * ny)
+        .enumerate()
+        .try_for_each_init(
+            || (along_y.buffers(), vec![[0.0; 6]; py / 2 + 1]),
+            |(buffers, line), (m, out)| {
+                unless(stop)?;
+                for (n, sample) in line.iter_mut().enumerate() {
+                    *sample = samples.at(m, n);
+                }
+                for ((out, odd), c) in out.chunks_mut(ny).zip(ODD).zip(0..) {
+                    along_y.sum(buffers, odd.1, |n| line[n][c], out);
+                }
+                Ok(())
+            },
+        )?;
     let norm = 1.0 / (px * py) as f64;
-    let convert = |c: usize| -> Quadrant {
+    let convert = |c: usize| -> Result<Quadrant, Error> {
+        unless(stop)?;
         let mut columns = Array2::zeros((ny, nx));
         let slice: &mut [f64] = columns.as_slice_mut().expect("standard layout");
         slice.par_chunks_mut(nx).enumerate().for_each_init(
@@ -56,16 +66,16 @@ pub(crate) fn inverse_fft(
         // Sines come from i: i^2 for xy, i times the i of the response for xz and yz.
         let sign = if c < 3 { norm } else { -norm };
         let transposed = columns.reversed_axes();
-        transposed.as_standard_layout().mapv(|v| sign * v)
+        Ok(transposed.as_standard_layout().mapv(|v| sign * v))
     };
-    InfluenceCoefficients {
-        xx: convert(0),
-        yy: convert(1),
-        zz: convert(2),
-        xy: convert(3),
-        xz: convert(4),
-        yz: convert(5),
-    }
+    Ok(InfluenceCoefficients {
+        xx: convert(0)?,
+        yy: convert(1)?,
+        zz: convert(2)?,
+        xy: convert(3)?,
+        xz: convert(4)?,
+        yz: convert(5)?,
+    })
 }
 
 /// A planned sum over positive and negative frequencies.

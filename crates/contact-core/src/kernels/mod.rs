@@ -22,6 +22,7 @@ mod layered_frf;
 mod line;
 mod matrix;
 mod radial_table;
+mod rows;
 mod sampled_frf;
 mod stress;
 mod surface;
@@ -42,6 +43,7 @@ pub(crate) use stress::{Stress, refuse_rigid};
 pub use stress::{StressCoefficients, stress_at, stress_coefficients};
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use crate::error::Error;
 use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
@@ -61,21 +63,34 @@ pub fn influence_coefficients(
     settings: &KernelSettings,
     shortcut_equal_layers: bool,
 ) -> Result<InfluenceCoefficients, Error> {
-    let set = KernelSet::All;
-    let coefficients = of_body(body, grid, settings, shortcut_equal_layers, set)?;
+    let (set, stop) = (KernelSet::All, AtomicBool::new(false));
+    let coefficients = of_body(body, grid, settings, shortcut_equal_layers, set, &stop)?;
     Ok(Arc::unwrap_or_clone(coefficients))
 }
 
 /// The coefficients of a pair of bodies, eq. (4) of the paper, those of a set; of bodies of the same
 /// layers they are computed once.
 pub fn pair_coefficients(
-    (body1, body2): (&Body, &Body),
+    bodies: (&Body, &Body),
     grid: &Grid,
     settings: &KernelSettings,
     shortcut_equal_layers: bool,
     set: KernelSet,
 ) -> Result<InfluenceCoefficients, Error> {
-    let of = |body| of_body(body, grid, settings, shortcut_equal_layers, set);
+    let stop = AtomicBool::new(false);
+    pair_coefficients_until(bodies, grid, settings, shortcut_equal_layers, set, &stop)
+}
+
+/// As [`pair_coefficients`]; ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
+pub(crate) fn pair_coefficients_until(
+    (body1, body2): (&Body, &Body),
+    grid: &Grid,
+    settings: &KernelSettings,
+    shortcut_equal_layers: bool,
+    set: KernelSet,
+    stop: &AtomicBool,
+) -> Result<InfluenceCoefficients, Error> {
+    let of = |body| of_body(body, grid, settings, shortcut_equal_layers, set, stop);
     let two = Arc::unwrap_or_clone(of(body2)?);
     if body1.layers(shortcut_equal_layers) == body2.layers(shortcut_equal_layers) {
         return Ok(two.twice());
@@ -89,6 +104,7 @@ fn of_body(
     settings: &KernelSettings,
     shortcut_equal_layers: bool,
     set: KernelSet,
+    stop: &AtomicBool,
 ) -> Result<Arc<InfluenceCoefficients>, Error> {
     body.check("body")?;
     grid.check()?;
@@ -104,10 +120,10 @@ fn of_body(
     let coefficients = match settings.method {
         _ if grid.plane_strain => line::line_coefficients(&stack, grid).only(set),
         KernelMethod::InverseFft { lambda, aliases } if !stack.layers.is_empty() => {
-            inverse_fft::inverse_fft(&stack, grid, lambda, aliases).only(set)
+            inverse_fft::inverse_fft(&stack, grid, (lambda, aliases), stop)?.only(set)
         }
         _ => {
-            let (coefficients, estimate) = surface::surface_coefficients(&stack, grid, set);
+            let (coefficients, estimate) = surface::surface_coefficients(&stack, grid, set, stop)?;
             surface::check(estimate, settings.tolerance)?;
             coefficients
         }

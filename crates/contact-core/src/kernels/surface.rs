@@ -5,14 +5,16 @@
 //! and integrated over each cell by Gauss rules, with parts of the cell where the layer is thin
 //! against it.
 
+use std::sync::atomic::AtomicBool;
+
 use ndarray::Array2;
-use rayon::prelude::*;
 
 use super::cell::Cell;
 use super::coefficients::{ODD, none};
 use super::half_space::{Radial, Six, add_kernel, over_cell, radial};
 use super::layered_frf::{HalfSpace, Stack};
 use super::radial_table::{Hankel, RadialTable};
+use super::rows::each_row;
 use super::{InfluenceCoefficients, KernelSet};
 use crate::error::Error;
 use crate::scene::Grid;
@@ -36,12 +38,13 @@ struct SurfaceKernel<'a> {
 }
 
 /// The coefficients of a stack on a grid, those of a set, and an estimate of their error over
-/// C33(0,0).
+/// C33(0,0). Ends when `stop` is raised.
 pub(crate) fn surface_coefficients(
     stack: &Stack,
     grid: &Grid,
     set: KernelSet,
-) -> (InfluenceCoefficients, f64) {
+    stop: &AtomicBool,
+) -> Result<(InfluenceCoefficients, f64), Error> {
     let r_max = (grid.nx as f64 * grid.dx).hypot(grid.ny as f64 * grid.dy);
     let mut estimate = 0.0;
     let remainder = stack.layers.first().map(|(_, h)| {
@@ -65,7 +68,7 @@ pub(crate) fn surface_coefficients(
         grid,
         set,
     };
-    let coefficients = kernel.fill();
+    let coefficients = kernel.fill(stop)?;
     // An error e/r of the kernel adds e times the integral of 1/r over the cell.
     let one = HalfSpace {
         a: 2.0 * std::f64::consts::PI,
@@ -80,7 +83,7 @@ pub(crate) fn surface_coefficients(
     } else {
         0.0
     };
-    (coefficients, estimate)
+    Ok((coefficients, estimate))
 }
 
 impl SurfaceKernel<'_> {
@@ -134,7 +137,7 @@ impl SurfaceKernel<'_> {
     }
 
     /// All offsets >= 0; where cells are square, one octant is computed and mirrored.
-    fn fill(&self) -> InfluenceCoefficients {
+    fn fill(&self, stop: &AtomicBool) -> Result<InfluenceCoefficients, Error> {
         let Grid { nx, ny, dx, dy, .. } = *self.grid;
         let square = if dx.to_bits() == dy.to_bits() {
             nx.min(ny)
@@ -156,7 +159,7 @@ impl SurfaceKernel<'_> {
                 row[n] = c;
             }
         }
-        rows.par_iter_mut().enumerate().for_each(|(i, row)| {
+        each_row(&mut rows, stop, |i, row| {
             for j in (0..ny).filter(|j| !mirrored(i, *j)) {
                 for ((c, value), odd) in row.iter_mut().zip(self.at(i, j)).zip(ODD) {
                     if let Some(c) = c.get_mut(j) {
@@ -166,7 +169,7 @@ impl SurfaceKernel<'_> {
                     }
                 }
             }
-        });
+        })?;
         drop(rows);
         let [mut xx, mut yy, mut zz, mut xy, mut xz, mut yz] = c;
         for (i, j) in (0..square).flat_map(|i| (i + 1..square).map(move |j| (i, j))) {
@@ -180,14 +183,14 @@ impl SurfaceKernel<'_> {
                 (xz[here], yz[here]) = (yz[there], xz[there]);
             }
         }
-        InfluenceCoefficients {
+        Ok(InfluenceCoefficients {
             xx,
             yy,
             zz,
             xy,
             xz,
             yz,
-        }
+        })
     }
 }
 

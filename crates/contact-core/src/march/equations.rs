@@ -1,7 +1,5 @@
 //! The equations of one increment, as the solvers are given them.
 
-use std::sync::atomic::Ordering;
-
 use super::slip_datum::Following;
 use super::{Carried, March};
 use crate::convolution::Mirror;
@@ -22,6 +20,7 @@ impl March {
         entering: Option<&[Vec<f64>; 2]>,
         kept: bool,
     ) -> Result<(Interface, CoupledInfo), Error> {
+        self.unless_stopped()?;
         let apart;
         let h_init = if kept {
             let far =
@@ -65,16 +64,16 @@ impl March {
         };
         match coupled(&mut response, &problem, &mut datum, &mut now, ws, &params) {
             Ok(info) => Ok((now, info)),
-            Err(_) if self.stop.load(Ordering::Relaxed) => Err(Error::Interrupted {
-                increment: self.state.increments,
-            }),
-            Err(e) => Err(Error::NotConverged {
-                increment: self.state.increments + 1,
-                solver: e.solver,
-                residual: e.residual,
-                tolerance: e.tolerance,
-                iterations: e.iterations,
-            }),
+            Err(e) => {
+                self.unless_stopped()?;
+                Err(Error::NotConverged {
+                    increment: self.state.increments + 1,
+                    solver: e.solver,
+                    residual: e.residual,
+                    tolerance: e.tolerance,
+                    iterations: e.iterations,
+                })
+            }
         }
     }
 

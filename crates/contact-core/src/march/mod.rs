@@ -19,6 +19,8 @@ mod refined;
 mod slip_datum;
 mod solve;
 mod state;
+#[cfg(test)]
+mod tests;
 mod window;
 
 pub use error_bars::{Bar, BranchEnds, ErrorBars, Tractions, coarsest, error_bars, means};
@@ -31,7 +33,7 @@ pub use solve::{BranchSummary, Observer, solve, summarise};
 pub use state::State;
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use self::awake::with_all_awake;
 use self::carried::Carried;
@@ -73,7 +75,8 @@ impl March {
         Self::until(scene, &Arc::default())
     }
 
-    /// As [`Self::new`] and [`Self::stop_on`]: the flag also ends the choice of the increments.
+    /// As [`Self::new`] and [`Self::stop_on`]: the flag also ends the choice of the increments and
+    /// the kernels, [`Error::Interrupted`] after increment 0.
     pub fn until(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         scene.check()?;
         if scene.path.is_open() {
@@ -81,7 +84,7 @@ impl March {
         }
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
-        let whole = Whole::new(scene, &plan)?;
+        let whole = Whole::new(scene, &plan, stop)?;
         let window = whole.window(scene, &plan, Window::first(scene, &plan));
         let cells = window.h_init.len();
         let approach = scene.approach();
@@ -104,7 +107,17 @@ impl March {
     /// Goes on from a state of the same scene; what follows is what would have followed without
     /// the interruption, bit by bit.
     pub fn resume(scene: &Scene, state: State) -> Result<Self, Error> {
-        let mut march = Self::new(scene)?;
+        Self::resume_until(scene, state, &Arc::default())
+    }
+
+    /// As [`Self::resume`] and [`Self::stop_on`]; before the first increment the flag ends it as it
+    /// ends [`Self::until`].
+    pub fn resume_until(
+        scene: &Scene,
+        state: State,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        let mut march = Self::until(scene, stop)?;
         let fits = state.fits(&scene.grid, march.plan.mirror);
         if !fits || state.increments > march.points.len() {
             return Err(Error::invalid(
@@ -124,6 +137,16 @@ impl March {
     /// state is that of the last increment that was finished.
     pub fn stop_on(&mut self, flag: Arc<AtomicBool>) {
         self.stop = flag;
+    }
+
+    /// Fails once the flag is raised.
+    fn unless_stopped(&self) -> Result<(), Error> {
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted {
+                increment: self.state.increments,
+            });
+        }
+        Ok(())
     }
 
     /// The scene.
@@ -168,6 +191,7 @@ impl March {
         let transforms = self.transforms();
         let mut coarse_convolutions = 0.0;
         let (now, info) = loop {
+            self.unless_stopped()?;
             let start = self.start(point, &mut coarse_convolutions);
             let (now, info) = self.solve_from(point, start)?;
             if info.exceeds_friction() {
@@ -176,6 +200,7 @@ impl March {
                     used: info.friction_used,
                 });
             }
+            self.unless_stopped()?;
             let narrow = self.make_room(&now.p, self.window.shape(), 1.0);
             if !narrow && !self.touches_beyond(&now, &info) {
                 break (now, info);

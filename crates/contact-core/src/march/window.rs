@@ -5,6 +5,7 @@
 //! ends with a look at the gap beyond: where cells overlap there, it is solved again on the whole
 //! grid. The window begins around the first guess of the contact and grows with it.
 
+use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 
 use ndarray::Array2;
@@ -16,7 +17,7 @@ use crate::convolution::{
     Tractions, good_size,
 };
 use crate::error::Error;
-use crate::kernels::{InfluenceCoefficients, pair_coefficients};
+use crate::kernels::{InfluenceCoefficients, pair_coefficients_until};
 use crate::scene::{Grid, KernelMethod, LoadPoint, Plan, Preset, Scene};
 use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface, Response};
 
@@ -54,15 +55,16 @@ pub(super) struct Whole {
 }
 
 impl Whole {
-    /// Computes the coefficients that a plan needs.
-    pub(super) fn new(scene: &Scene, plan: &Plan) -> Result<Self, Error> {
+    /// Computes the coefficients that a plan needs; ends when `stop` is raised.
+    pub(super) fn new(scene: &Scene, plan: &Plan, stop: &AtomicBool) -> Result<Self, Error> {
         let settings = &scene.settings;
-        let pair = pair_coefficients(
+        let pair = pair_coefficients_until(
             (&scene.body1, &scene.body2),
             &scene.grid,
             &settings.kernel,
             settings.skip.equal_layers,
             plan.kernels(),
+            stop,
         )?;
         Ok(Self {
             pair: pair.stretched(scene.friction.stretch()),

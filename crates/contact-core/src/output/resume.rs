@@ -1,6 +1,8 @@
 //! Going on with a run that has ended early.
 
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use serde_json::{Map, Value, json};
 
@@ -28,6 +30,14 @@ pub struct Resumed {
 /// if there is no store, if another process writes it, or if its checkpoint is damaged or of
 /// another version; then nothing is changed.
 pub fn resume(path: impl AsRef<Path>) -> Result<Option<Resumed>, Error> {
+    resume_until(path, &Arc::default())
+}
+
+/// As [`resume`]; ends when `stop` is raised ([`Error::Interrupted`]), and nothing is changed then.
+pub fn resume_until(
+    path: impl AsRef<Path>,
+    stop: &Arc<AtomicBool>,
+) -> Result<Option<Resumed>, Error> {
     let store = Store::open(path)?;
     if store.status() == "done" {
         Checkpoints::clear(store.folder());
@@ -41,8 +51,8 @@ pub fn resume(path: impl AsRef<Path>) -> Result<Option<Resumed>, Error> {
     } = Checkpoints::find(store.folder(), text.unwrap_or_default())?;
     let scene = store.scene();
     let march = match state {
-        Some(state) => March::resume(scene, state)?,
-        None => March::new(scene)?,
+        Some(state) => March::resume_until(scene, state, stop)?,
+        None => March::until(scene, stop)?,
     };
     let points = march.points();
     let keeps = |index: usize| {

@@ -15,12 +15,15 @@ use super::reader::Store;
 use super::variable::{Column, Variable};
 use crate::error::Error;
 use crate::march::{Fields, Increment, March, Observer, State};
-use crate::scene::{LoadPoint, Plan, Scene};
+use crate::scene::{Grid, LoadPoint, Plan, Scene};
 
 /// Time between two checkpoints: what a crash may lose.
 const INTERVAL: Duration = Duration::from_secs(5);
 /// Largest part of the time that goes to checkpoints.
 const SHARE: f64 = 0.03;
+/// Cells of a grid from which on a run that is stopped does not wait for the fields of its last
+/// increment, a second and more; they follow from the checkpoint.
+const NO_FIELDS_FROM: usize = 1 << 21;
 /// What a checkpoint is taken to cost before one has been timed.
 const FIRST_COST: Duration = Duration::from_millis(30);
 
@@ -141,14 +144,19 @@ impl Observer for StoreWriter {
         Ok(())
     }
 
-    /// Keeps the fields of the last increment and says how the run ended; a run that ended early
-    /// leaves a checkpoint to go on from.
+    /// Keeps the fields of the last increment (unless the run was stopped on a grid of two million
+    /// cells or more) and says how the run ended; a run that ended early leaves a checkpoint to go on
+    /// from.
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         let Some(open) = &mut self.open else {
             return Ok(());
         };
         let beyond_disk = march.state().increments >= open.on_disk;
-        let last_fields = if beyond_disk && march.state().increments != open.saved_increment {
+        let Grid { nx, ny, .. } = march.scene().grid;
+        let stopped = matches!(failure, Some(Error::Interrupted { .. }));
+        let in_haste = stopped && nx * ny >= NO_FIELDS_FROM;
+        let unsaved = march.state().increments != open.saved_increment;
+        let last_fields = if beyond_disk && unsaved && !in_haste {
             open.save(&march.fields())
         } else {
             Ok(())

@@ -30,20 +30,40 @@ fn lie() -> impl Strategy<Value = Vec<u8>> {
     ];
     let data = prop::collection::vec(any::<u8>(), 0..400);
     (shape, descr, any::<bool>(), 0..4_u8, data).prop_map(|(shape, descr, order, version, data)| {
-        let order = if order { "True" } else { "False" };
-        let mut header =
-            format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, }}");
-        while (header.len() + 11) % 64 != 0 {
-            header.push(' ');
-        }
-        header.push('\n');
-        let mut bytes = b"\x93NUMPY".to_vec();
-        bytes.extend([version, 0]);
-        bytes.extend((header.len() as u16).to_le_bytes());
-        bytes.extend(header.into_bytes());
+        let mut bytes = npy(descr, order, &shape, version);
         bytes.extend(data);
         bytes
     })
+}
+
+/// The beginning of a `.npy` file.
+fn npy(descr: &str, fortran_order: bool, shape: &str, version: u8) -> Vec<u8> {
+    let order = if fortran_order { "True" } else { "False" };
+    let mut header =
+        format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, }}");
+    while (header.len() + 11) % 64 != 0 {
+        header.push(' ');
+    }
+    header.push('\n');
+    let mut bytes = b"\x93NUMPY".to_vec();
+    bytes.extend([version, 0]);
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.into_bytes());
+    bytes
+}
+
+/// Heights kept as Python objects are pickled, which is a program: nobody runs it.
+#[test]
+fn heights_that_are_pickled_are_refused() {
+    let folder = crate::folder();
+    let file = folder.path().join("z.npy");
+    let mut bytes = npy("|O", false, "(2, 2)", 1);
+    bytes.extend(b"\x80\x02cposix\nsystem\nU\x04true\x85R.");
+    fs::write(&file, bytes).unwrap();
+    let error = SurfaceMap::from_file(&file, (1e-4, 1e-4)).map(|_| ());
+    let error = error.unwrap_err();
+    crate::one_sentence(&error);
+    assert!(error.to_string().contains("z.npy"), "{error}");
 }
 
 fn changed(good: Vec<u8>) -> impl Strategy<Value = Vec<u8>> {

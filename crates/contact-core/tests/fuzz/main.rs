@@ -77,7 +77,10 @@ where
         }
     }
     let (inputs, taken) = (inputs.get(), taken.get());
-    assert!(taken < inputs, "all inputs of {name} were taken");
+    assert!(
+        taken > 0 && taken < inputs,
+        "{taken} of {inputs} inputs of {name} were taken"
+    );
     let text = format!(
         "{inputs} inputs in {:.0} s, {taken} taken, {} refused; no panic, no hang, within {} MB.",
         begun.elapsed().as_secs_f64(),

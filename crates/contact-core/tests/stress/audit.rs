@@ -197,12 +197,15 @@ impl Audit {
     }
 
     /// |q| <= mu p everywhere, and equal where a cell slips; no slip in stick cells, and slip against
-    /// q in the others, in the root mean square over the contact.
+    /// q in the others, in the root mean square over the contact. The increment has to report the same.
     fn friction(&self, march: &March, now: &Fields, increment: &Increment, found: &mut Violations) {
         let mu = march.scene().friction.mu;
         let turned = march.turned();
         let p_max = increment.p_max;
         let (mut squares, mut cells) = (0.0, 0.0_f64);
+        // Cells that slip, the squares of their slip and of its part that does not oppose q.
+        let (mut slipping, mut slipped, mut astray) = (0.0, 0.0, 0.0);
+        let mut most = 0.0_f64;
         let at_rest = |n: usize| now.stick.as_slice().is_some_and(|stick| stick[n]);
         for n in 0..now.p.len() {
             let at = |f: &Array2<f64>| f.as_slice().map_or(f64::NAN, |f| f[n]);
@@ -210,6 +213,7 @@ impl Audit {
             let q = [at(&now.q_x), at(&now.q_y)];
             let size = q[0].hypot(q[1]);
             let beyond = (size - bound) / (mu * p_max).max(f64::MIN_POSITIVE);
+            most = most.max(beyond);
             let sticks = at_rest(n);
             if size > bound || !sticks {
                 found.coulomb = found.coulomb.max(beyond.abs() / ROUNDING);
@@ -238,7 +242,11 @@ impl Audit {
             } else {
                 let along = (ds[0] * q[0] + ds[1] * q[1]) / size;
                 let across = (ds[0] * q[1] - ds[1] * q[0]) / size;
-                along.max(0.0).hypot(across)
+                let off = along.max(0.0).hypot(across);
+                slipping += 1.0;
+                slipped += ds[0] * ds[0] + ds[1] * ds[1];
+                astray += off * off;
+                off
             };
             squares += off * off;
             cells += 1.0;
@@ -248,9 +256,24 @@ impl Audit {
         if increment.status == Status::GrossSlip || increment.work.parts > 1 {
             return;
         }
-        found.slip = (squares / cells.max(1.0)).sqrt() / self.misfit.slip;
-        if mu == 0.0 {
-            found.slip = 0.0;
+        if mu == 0.0 || cells == 0.0 {
+            return;
+        }
+        let slip = (squares / cells).sqrt();
+        found.slip = slip / self.misfit.slip;
+        let said = &increment.residuals;
+        let stick = said.stick.powi(2) * (cells - slipping);
+        let direction = said.direction.powi(2) * slipping;
+        let said_slip = mu * self.misfit.yardstick * ((stick + direction) / cells).sqrt();
+        // The differences of displacements may cancel to a thousandth of the tolerance.
+        let known = 1e-3 * self.misfit.slip;
+        found.report = (found.report)
+            .max((said_slip - slip).abs() / known)
+            .max((said.coulomb - most).abs() / ROUNDING)
+            .max(said.balance / ROUNDING);
+        if slipped > 0.0 {
+            let off = (said.angle.sin() - (astray / slipped).sqrt().min(1.0)).abs();
+            found.report = found.report.max(off / (known * (cells / slipped).sqrt()));
         }
     }
 
