@@ -107,7 +107,6 @@ pub(crate) fn continued_pressure<'py>(
 /// The grid, p, q_x, q_y on cells `factor` times finer along each side.
 #[pyfunction]
 #[pyo3(signature = (grid, factor, *, p, q_x, q_y))]
-#[expect(clippy::type_complexity)]
 pub(crate) fn refined<'py>(
     py: Python<'py>,
     grid: Grid,
