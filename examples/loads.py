@@ -119,7 +119,6 @@ def any_path(file: Path, n: int) -> str:
             ax.set_title(f"{100 * worst[-1]:.2f} %", fontsize=9)
         figure.supxlabel(r"$\delta_x$ [µm]")
         figure.supylabel(r"$T_x/(\mu W_{max})$")
-        figure.tight_layout()
         figure.savefig(file)
         plt.close(figure)
     return f"shift within {100 * max(worst):.2f} % of its range"
@@ -153,7 +152,6 @@ def ellipse(file: Path, n: int) -> str:
                 aspect="equal", xlabel="$x/a_x$", title=f"$a_x/a_y$ = {hertz.a_x / hertz.a_y:.1f}"
             )
         axes[0].set_ylabel("$y/a_y$")
-        figure.tight_layout()
         figure.savefig(file)
         plt.close(figure)
     return "contact and stick ellipses drawn over their closed forms"
@@ -206,7 +204,6 @@ def bulk(file: Path, n: int) -> str:
         stress.set_title("McEwen, partial slip")
         error.set(xlabel="$x/a$", ylabel=r"difference of $\sigma_{xx}$ over $p_0$")
         error.set_title(f"difference, {n} cells")
-        figure.tight_layout()
         figure.savefig(file)
         plt.close(figure)
     return (
@@ -230,7 +227,7 @@ def rolling(file: Path, n: int) -> str:
     rolled = result.dataset.rolled.to_numpy()
     creep = np.diff(result.delta_x.to_numpy()) / dx
     with fret.plot.style():
-        figure, (shear, slope) = plt.subplots(1, 2, figsize=(8.8, 3.5))
+        figure, (shear, slope) = plt.subplots(1, 2, figsize=(9.6, 3.5))
         for moment in moments:
             at = result.at(moment)
             x = at.p.x.to_numpy()
@@ -243,11 +240,11 @@ def rolling(file: Path, n: int) -> str:
             q = line.q(x, T=T, mu=MU, middle=middle)
             shear.plot(x / line.a, q / (MU * line.p0), "k--", lw=0.8, label=name)
         shear.set(xlabel="$x/a$", ylabel=r"$q_x/(\mu p_0)$", title="rolling to the right")
-        shear.legend(fontsize=8)
+        shear.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
         slope.plot(rolled[2:] / line.a, creep[1:] / truth)
         slope.axhline(1.0, color="k", ls="--", lw=0.8)
-        slope.set(xlabel="way rolled over $a$", ylabel="creepage over Carter's", ylim=(0, 1.1))
-        figure.tight_layout()
+        slope.set(xlabel="way rolled over $a$", ylabel="creepage over Carter's")
+        slope.set_ylim(bottom=0.0)
         figure.savefig(file)
         plt.close(figure)
     return f"creepage at the end {creep[-1] / truth:.4f} of Carter's"
@@ -256,7 +253,7 @@ def rolling(file: Path, n: int) -> str:
 def friction(file: Path, n: int) -> str:
     """Force against shift under several friction laws, full gross-slip loops."""
     hertz = fret.reference.hertz(R=R, bodies=(CORK, CORK), W=W)
-    far = 3e-6
+    far = 7e-6
     path = fret.LoadPath.start().normal(W, increments=1)
     for delta in (far, -far, far):
         path = path.displace(delta_x=delta, increments=40)
@@ -280,7 +277,6 @@ def friction(file: Path, n: int) -> str:
             ax.set(title=name, xlabel=r"$\delta_x$ [µm]")
             ends.append(float(result.dataset.T_x[-1] / W))
         axes[0].set_ylabel("$T_x/W$")
-        figure.tight_layout()
         figure.savefig(file)
         plt.close(figure)
     return "T_x/W at the end: " + ", ".join(f"{end:.3f}" for end in ends)
@@ -310,7 +306,6 @@ def oblique(file: Path, n: int) -> str:
             ax.set(xlabel="$x/a$", title="entering cells " + ("on" if entering else "off"))
             ax.legend(fontsize=8)
         axes[0].set_ylabel("$q_x/(k\\,p_0)$")
-        figure.tight_layout()
         figure.savefig(file)
         plt.close(figure)
     return f"q within {worst:.1e} of k p, over k p_0"
@@ -319,7 +314,8 @@ def oblique(file: Path, n: int) -> str:
 def radial(file: Path, n: int) -> str:
     """Fretting mode II: a sphere on a rigid plane, W up, down and up again; all is round."""
     a = fret.reference.hertz(R=R, bodies=(STEEL, fret.RIGID), W=W).a
-    path = fret.LoadPath.start().radial([W, 0.5 * W, W], increments=60)
+    path = fret.LoadPath.start().force(W=W, increments=40, spacing=fret.Spacing.EQUAL_RADIUS)
+    path = path.radial([0.5 * W, W], increments=60)
     scene = fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
         body2=fret.Body(fret.RIGID),
@@ -346,7 +342,6 @@ def radial(file: Path, n: int) -> str:
             ax.plot(radius, traction, ".", ms=2, label=name)
         ax.set(xlabel="$r/a$", ylabel=r"$q_r/(\mu p_0)$, inwards on the plane")
         ax.legend()
-        figure.tight_layout()
         figure.savefig(file)
         plt.close(figure)
     return f"shear round about at most {worst / (MU * hertz.p0):.1e} mu p_0"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import zipfile
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -112,14 +114,77 @@ def test_rolling_needs_whole_cells() -> None:
                 scene.replace(path=path).check()
 
 
-def test_measured_surfaces_come_in_metres(tmp_path: Path) -> None:
-    pytest.importorskip("SurfaceTopography")
-    from SurfaceTopography import Topography
+def write_x3p(file: Path, heights: np.ndarray, spacing: float) -> None:
+    """A surface as instruments write it, ISO 25178-72: lengths in metres, x running fastest."""
+    nx, ny = heights.shape
+    axis = "<AxisType>I</AxisType><DataType>D</DataType><Increment>{}</Increment><Offset>0</Offset>"
+    along = axis.format(spacing)
+    main = (
+        '<?xml version="1.0" encoding="UTF-8"?>'
+        '<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2"><Record1>'
+        "<Revision>ISO5436 - 2000</Revision><FeatureType>SUR</FeatureType>"
+        f"<Axes><CX>{along}</CX><CY>{along}</CY>"
+        "<CZ><AxisType>A</AxisType><DataType>D</DataType></CZ></Axes></Record1><Record3>"
+        f"<MatrixDimension><SizeX>{nx}</SizeX><SizeY>{ny}</SizeY><SizeZ>1</SizeZ></MatrixDimension>"
+        "<DataLink><PointDataLink>bindata/data.bin</PointDataLink></DataLink></Record3>"
+        "</p:ISO5436_2>"
+    )
+    with zipfile.ZipFile(file, "w") as x3p:
+        x3p.writestr("main.xml", main)
+        x3p.writestr("bindata/data.bin", heights.T.astype("<f8").tobytes())
 
-    nx, ny = 12, 8
-    heights = np.sin(np.arange(nx * ny)).reshape(nx, ny) * 0.1
-    file = tmp_path / "surface.nc"
-    Topography(heights, (6.0, 4.0), unit="µm").to_netcdf(file)
+
+def write_sdf(file: Path, heights: np.ndarray, spacing: float) -> None:
+    """The same in the format of ISO 25178-71, as text."""
+    nx, ny = heights.shape
+    head = {
+        "ManufacID": "fret",
+        "CreateDate": "010120261200",
+        "ModDate": "010120261200",
+        "NumPoints": nx,
+        "NumProfiles": ny,
+        "Xscale": spacing,
+        "Yscale": spacing,
+        "Zscale": 1.0,
+        "Zresolution": -1,
+        "Compression": 0,
+        "DataType": 7,
+        "CheckType": 0,
+    }
+    lines = ["aISO-1.0", *(f"{name} = {value}" for name, value in head.items()), "*"]
+    lines += [" ".join(f"{h:.17g}" for h in row) for row in heights.T]
+    file.write_text("\n".join([*lines, "*", ""]))
+
+
+@pytest.mark.parametrize("write", [write_x3p, write_sdf])
+def test_measured_surfaces_come_in_metres(
+    tmp_path: Path, write: Callable[[Path, np.ndarray, float], None]
+) -> None:
+    spacing = 5e-7
+    heights = 1e-7 * np.sin(np.arange(12 * 8)).reshape(12, 8)
+    file = tmp_path / f"surface.{write.__name__[-3:]}"
+    write(file, heights, spacing)
     surface = fret.read_surface(file)
-    assert surface.spacing == pytest.approx((5e-7, 5e-7))
-    np.testing.assert_allclose(surface.values, (heights - heights.mean()) * 1e-6, atol=1e-20)
+    assert surface.spacing == pytest.approx((spacing, spacing))
+    np.testing.assert_allclose(surface.values, heights - heights.mean(), atol=1e-20)
+
+
+def test_a_measured_surface_is_pressed(tmp_path: Path) -> None:
+    grid = fret.Grid.centred(extent=2e-5, n=20)
+    x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
+    heights = 3e-8 * np.cos(8e5 * (x + 0.4 * y))
+    write_x3p(tmp_path / "rough.x3p", heights, grid.dx)
+    shape = fret.Sphere(R=5e-4) + fret.read_surface(tmp_path / "rough.x3p")
+    scene = fret.Scene(
+        body1=fret.Body(STEEL, shape=shape),
+        body2=fret.Body(STEEL),
+        mu=MU,
+        grid=grid,
+    )
+    path = fret.LoadPath.start().normal(0.02, increments=2).tangential(2e-3, increments=2)
+    end = fret.solve(scene, path, progress=False).at(-1)
+    # Heights point towards the other body: it touches where they are high.
+    touched = end.contact.to_numpy()
+    under = np.hypot(x, y) < np.hypot(x, y)[touched].max()
+    assert 20 < touched.sum() < 0.8 * under.sum()
+    assert heights[touched].mean() > heights[under & ~touched].mean() + 1e-8

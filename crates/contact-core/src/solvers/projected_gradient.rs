@@ -75,12 +75,15 @@ impl ProjectedGradient {
             let [change_x, change_y] = &self.ahead;
             response.tangential([change_x, change_y], [u_x, u_y]);
             let (mut change_size, mut curvature, mut descent) = (0.0, 0.0, 0.0);
+            // The sum of the change is zero to rounding only: the shift stays out of the energy.
+            let rigid = shift.map(|s| s / stiffness);
             for c in 0..2 {
                 for n in 0..cells {
                     let (change, response) = (self.ahead[c][n], shear.u[c][n]);
                     change_size += change * change;
                     curvature += change * response;
-                    let before = self.u_last[c][n] - no_slip(c, n);
+                    let rigid = problem.arms.in_plane(rigid, n)[c];
+                    let before = self.u_last[c][n] - no_slip(c, n) + rigid;
                     descent += change * (before + 0.5 * response);
                     shear.u[c][n] = self.u_last[c][n] + response;
                 }

@@ -131,7 +131,7 @@ pub fn tangential(
                 add_scaled(now.u[c], 1.0, &change[c]);
             }
         }
-        if before.is_lower(&inside, &now, settled) {
+        if before.is_lower(&inside, &now, info.shift, settled) {
             before.restore(&mut now);
             now.unpack(cells, shear);
             info.shift = ws.descent.run(response, problem, shear, DESCENT);

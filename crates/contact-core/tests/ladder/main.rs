@@ -28,4 +28,5 @@ mod path_order;
 mod rolling;
 mod shapes;
 mod tilt;
+mod together;
 mod torsion;
