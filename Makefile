@@ -58,7 +58,7 @@ deny: $(VENV)/.tools ## licences, bans and sources of the dependencies
 	PATH="$$PATH:$(CURDIR)/$(BIN)" cargo deny --locked check licenses bans sources
 
 memory: ## what runs allocate against what `fret check` announces; the numbers go to docs/reliability.md
-	FRET_MEMORY=512 FRET_MEMORY_REPORT=$(CURDIR)/docs/reliability.md \
+	FRET_MEMORY=1024 FRET_MEMORY_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package contact-core --test memory -- --nocapture
 
 kill: ## a hundred kills of a running solve, and what checkpoints cost; the numbers go to docs/reliability.md

@@ -87,14 +87,18 @@ impl KeptContact {
             let t = (self.gap[n] / self.closing[n].max(f64::MIN_POSITIVE)).min(1.0);
             put(n, [0, 1].map(|c| t * self.motion[c][n]));
         }
-        let mut ways: Vec<Option<Way>> = std::iter::repeat_with(|| None).take(cells).collect();
+        let mut reached = vec![false; cells];
         let at_edge =
             |&n: &usize| outside(n) && self.closing[n] > 0.0 && self.beside(n).any(|m| !outside(m));
         let mut layer: Vec<usize> = (0..cells).filter(at_edge).collect();
+        // Ways go on from those to the last layer alone; a way is as long as the edge has moved.
+        let mut last: Vec<(usize, Way)> = Vec::new();
         while !layer.is_empty() {
-            let found: Vec<Way> = layer.iter().map(|&n| self.way(n, &ways)).collect();
+            let ways = layer.iter().map(|&n| (n, self.way(n, &last)));
+            let mut ways: Vec<(usize, Way)> = ways.collect();
             let mut next = Vec::new();
-            for (&n, way) in layer.iter().zip(found) {
+            for (n, way) in &ways {
+                let n = *n;
                 let [_, x, y] = way.sums();
                 // A cell that enters does so within the increment.
                 let over = way.parts.iter().sum::<f64>().max(1.0);
@@ -102,20 +106,22 @@ impl KeptContact {
                 if way.enters() {
                     next.extend(self.beside(n).filter(|&m| outside(m)));
                 }
-                ways[n] = Some(way);
+                reached[n] = true;
             }
             next.sort_unstable();
             next.dedup();
-            next.retain(|&n| ways[n].is_none() && self.closing[n] > 0.0);
-            layer = next;
+            next.retain(|&n| !reached[n] && self.closing[n] > 0.0);
+            ways.retain(|(_, way)| way.enters());
+            (layer, last) = (next, ways);
         }
         moved
     }
 
-    /// The way to cell n through those beside it that enter.
-    fn way(&self, n: usize, ways: &[Option<Way>]) -> Way {
-        let before = self.beside(n).filter_map(|m| ways[m].as_ref());
-        let before: Vec<&Way> = before.filter(|way| way.enters()).collect();
+    /// The way to cell n through those beside it in the layer before that enter, sorted by cell.
+    fn way(&self, n: usize, layer: &[(usize, Way)]) -> Way {
+        let to = |m: usize| layer.binary_search_by_key(&m, |(cell, _)| *cell).ok();
+        let before = self.beside(n).filter_map(to);
+        let before: Vec<&Way> = before.map(|at| &layer[at].1).collect();
         let cell = [self.closing[n], self.motion[0][n], self.motion[1][n]];
         Way::to(&before, self.gap[n], cell)
     }

@@ -205,7 +205,7 @@ impl Audit {
         let (mut squares, mut cells) = (0.0, 0.0_f64);
         // Cells that slip, the squares of their slip and of its part that does not oppose q.
         let (mut slipping, mut slipped, mut astray) = (0.0, 0.0, 0.0);
-        let mut most = 0.0_f64;
+        let (mut most, mut entered) = (0.0_f64, false);
         let at_rest = |n: usize| now.stick.as_slice().is_some_and(|stick| stick[n]);
         for n in 0..now.p.len() {
             let at = |f: &Array2<f64>| f.as_slice().map_or(f64::NAN, |f| f[n]);
@@ -225,7 +225,9 @@ impl Audit {
                 continue;
             }
             // What a cell moved before it entered the contact is no slip.
-            let ds = if at(&last.p) <= 0.0 {
+            let enters = at(&last.p) <= 0.0;
+            entered |= enters;
+            let ds = if enters {
                 [
                     at(&now.slip_x) - at(&last.slip_x),
                     at(&now.slip_y) - at(&last.slip_y),
@@ -268,9 +270,13 @@ impl Audit {
         // The differences of displacements may cancel to a thousandth of the tolerance.
         let known = 1e-3 * self.misfit.slip;
         found.report = (found.report)
-            .max((said_slip - slip).abs() / known)
             .max((said.coulomb - most).abs() / ROUNDING)
             .max(said.balance / ROUNDING);
+        // The fields do not tell how far a cell moved before it entered.
+        if entered {
+            return;
+        }
+        found.report = found.report.max((said_slip - slip).abs() / known);
         if slipped > 0.0 {
             let off = (said.angle.sin() - (astray / slipped).sqrt().min(1.0)).abs();
             found.report = found.report.max(off / (known * (cells / slipped).sqrt()));
