@@ -140,7 +140,7 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
         (Err(error), _) => return (ended(scene, "", &error), None),
     };
     let twins = if has_twins(seed) {
-        compared(seed, scene, &end, stop)
+        compared(scene, &end, stop)
     } else {
         Ok(Vec::new())
     };
@@ -155,47 +155,25 @@ pub(crate) fn has_twins(seed: u64) -> bool {
     seed.is_multiple_of(2) && seed < SHAPED
 }
 
-/// Twins of a scene: three without the turn of the slip, one of them with it.
-pub(crate) const TWINS: usize = 4;
+/// Twins of a scene.
+pub(crate) const TWINS: usize = 3;
 
 /// The distances of the twins of a scene that take the same path: not those of which an increment
-/// is solved in more pieces. The turn of the slip is followed for two passes and so depends on how
-/// the solvers get to the solution: without it twins are as near as the tolerance makes them, with
-/// it (`turned`) they may differ by as much as it changes.
+/// is solved in more pieces.
 fn compared(
-    seed: u64,
     scene: &Scene,
-    turned: &End,
+    ours: &End,
     stop: &Arc<AtomicBool>,
 ) -> Result<Vec<(&'static str, f64)>, Fate> {
-    let mut scene = scene.clone();
-    scene.settings.solver.turning = false;
-    let misfit = Misfit::of(&scene);
-    let run = |name: &str, scene: &Scene| match audited(scene, stop) {
-        Ok((end, _)) => Ok(end),
-        Err(error) => Err(ended(scene, &format!("{name} twin: "), &error)),
-    };
-    let ours = run("first", &scene)?;
-    let same_path = |a: &End, b: &End| a.pieces().eq(b.pieces());
+    let misfit = Misfit::of(scene);
     let mut distances = Vec::new();
-    let with_turn = seed / 2 % 3;
-    for (k, (name, mut twin, back)) in (0..).zip(twins_of(&scene)) {
-        let theirs = run(name, &twin)?;
-        if same_path(&theirs, &ours) {
-            let off = difference(&ours, &theirs, &*back);
-            distances.push((name, off.over(&misfit, &ours, [0.0; 3])));
-        }
-        if k == with_turn {
-            twin.settings.solver.turning = true;
-            let theirs = run(name, &twin)?;
-            if same_path(&theirs, turned) && same_path(turned, &ours) {
-                let off = difference(turned, &theirs, &*back);
-                let turn = difference(turned, &ours, &|f| {
-                    ([f.p.clone(), f.q_x.clone(), f.q_y.clone()], 1.0)
-                });
-                let turn = [turn.pressure, turn.shear, turn.approach];
-                distances.push(("turning", off.over(&misfit, turned, turn)));
-            }
+    for (name, twin, back) in twins_of(scene) {
+        let theirs = match audited(&twin, stop) {
+            Ok((end, _)) => end,
+            Err(error) => return Err(ended(scene, &format!("{name} twin: "), &error)),
+        };
+        if theirs.pieces().eq(ours.pieces()) {
+            distances.push((name, difference(ours, &theirs, &*back, &misfit)));
         }
     }
     Ok(distances)
@@ -317,30 +295,15 @@ fn twins_of(scene: &Scene) -> Vec<(&'static str, Scene, Back)> {
     twins
 }
 
-/// What two solutions differ by: norms of the tractions \[Pa\], approach \[m\].
-struct Difference {
-    pressure: f64,
-    shear: f64,
-    approach: f64,
-}
-
-fn difference(ours: &End, theirs: &End, back: &dyn Fn(&Fields) -> Mapped) -> Difference {
+/// What a twin differs by over what two solutions within the tolerance may differ by.
+fn difference(ours: &End, theirs: &End, back: &dyn Fn(&Fields) -> Mapped, misfit: &Misfit) -> f64 {
     let ([p, q_x, q_y], length) = back(&theirs.fields);
     let f = &ours.fields;
-    Difference {
-        pressure: norm(&(p - &f.p)),
-        shear: norm(&(q_x - &f.q_x)).hypot(norm(&(q_y - &f.q_y))),
-        approach: (theirs.approach / length - ours.approach).abs(),
-    }
-}
-
-impl Difference {
-    /// Over what two solutions within the tolerance may differ by, and `more` of each.
-    fn over(&self, misfit: &Misfit, ours: &End, more: [f64; 3]) -> f64 {
-        let f = &ours.fields;
-        let shear = misfit.shear(f, ours.increments.len()) + more[1];
-        (self.pressure / (misfit.pressure(f) + more[0]))
-            .max(self.shear / shear.max(f64::MIN_POSITIVE))
-            .max(self.approach / (misfit.approach(f) + more[2]))
-    }
+    let pressure = norm(&(p - &f.p)) / misfit.pressure(f);
+    let allowed = misfit
+        .shear(f, ours.increments.len())
+        .max(f64::MIN_POSITIVE);
+    let shear = norm(&(q_x - &f.q_x)).hypot(norm(&(q_y - &f.q_y))) / allowed;
+    let approach = (theirs.approach / length - ours.approach).abs() / misfit.approach(f);
+    pressure.max(shear).max(approach)
 }
