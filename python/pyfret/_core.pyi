@@ -80,6 +80,7 @@ __all__ = [
     "measure",
     "principal",
     "probe_labels",
+    "refined",
     "resume",
     "rims",
     "solve",
@@ -1644,6 +1645,11 @@ class Conversion:
 
 def continued_pressure(p: ArrayLike, grid: Grid) -> _Array:
     """Pressure [Pa], that at the rim continued from inside; use :meth:`Snapshot.p_continued`."""
+
+def refined(
+    grid: Grid, factor: int, *, p: ArrayLike, q_x: ArrayLike, q_y: ArrayLike
+) -> tuple[Grid, list[_Array]]:
+    """Grid, p, q_x, q_y [Pa] on finer cells; use :func:`pyfret.subsurface.stress`."""
 
 def labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of every variable of a result, scalars and fields."""

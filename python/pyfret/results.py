@@ -132,6 +132,7 @@ class Snapshot:
         y: float | None = None,
         body_number: int = 2,
         bulk: bool = True,
+        refine: int = 1,
     ) -> Stress:
         """Stress below the contact, in the lower body unless `body_number` is 1.
 
@@ -146,6 +147,9 @@ class Snapshot:
             The body.
         bulk : bool
             Whether its bulk stress is part of the stress.
+        refine : int
+            How many times finer the cells are on which tractions are interpolated and stress is
+            given, odd: see :func:`pyfret.subsurface.stress`.
         """
         body, grid = self._body(body_number), self.scene.grid
         sigma_B = self.bulk_stress(body_number) if bulk else 0.0
@@ -157,6 +161,7 @@ class Snapshot:
             y=y,
             body_number=body_number,
             sigma_B=sigma_B,
+            refine=refine,
             **self._tractions(),
         )
 

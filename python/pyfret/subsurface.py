@@ -69,6 +69,7 @@ def stress(
     y: float | None = None,
     body_number: int = 2,
     sigma_B: float = 0.0,
+    refine: int = 1,
 ) -> Stress:
     """Stress in a body under tractions on its surface.
 
@@ -89,12 +90,20 @@ def stress(
         Whether `body` is the upper one, on which the shear acts reversed, or the lower one.
     sigma_B : float
         Bulk stress along x of its substrate [Pa]; coatings are stretched with it.
+    refine : int
+        How many times finer the cells are along each side, odd, on which the tractions are
+        interpolated (p^2 and q/p) and the stress is given (default: 1, as they are). With 3 the
+        error beside the rim of the contact is a third.
 
     Returns
     -------
     Stress
         Of dims (depth, x), (depth, y), (depth) or (depth, x, y).
     """
+    if refine != 1:
+        none = np.zeros((grid.nx, grid.ny))
+        loads = [none if load is None else load for load in (p, q_x, q_y)]
+        grid, (p, q_x, q_y) = _core.refined(grid, refine, p=loads[0], q_x=loads[1], q_y=loads[2])
     below = _subsurface(body, grid, (p, q_x, q_y), body_number, sigma_B)
     return Stress(_sampled(below, body, grid, z, (x, y), displacement=False))
 

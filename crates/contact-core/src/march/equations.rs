@@ -49,7 +49,7 @@ impl March {
             inverse: self.window.inverse.as_mut(),
             stop: Some(&self.stop),
         };
-        let params = params(&self.scene, self.approach);
+        let params = params(&self.scene, self.approach, kept);
         let solver = &self.scene.settings.solver;
         let ws = &mut self.workspace;
         let goes_on = self.datum.goes_on;
@@ -123,7 +123,7 @@ const NORMAL_SHARE: f64 = 0.4;
 const TANGENTIAL_SHARE: f64 = 0.9;
 
 /// The settings of the loops, with lengths in metres.
-fn params(scene: &Scene, approach: f64) -> CoupledParams {
+fn params(scene: &Scene, approach: f64, kept: bool) -> CoupledParams {
     let solver = &scene.settings.solver;
     let gap = solver.tolerance * approach;
     let plain = solver.preset == Preset::Spinu2020;
@@ -147,5 +147,6 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
             max_passes: 12,
         },
         max_alternations: solver.max_alternations,
+        exact: !kept,
     }
 }

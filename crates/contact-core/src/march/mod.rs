@@ -15,6 +15,7 @@ mod kept_contact;
 mod partial_cells;
 mod path_error;
 mod predict;
+mod refined;
 mod slip_datum;
 mod solve;
 mod state;
@@ -27,6 +28,7 @@ pub use fields::Fields;
 pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
 pub use partial_cells::continued_pressure;
 pub use path_error::{choose_increments, estimate_path_error};
+pub use refined::{Refined, refined};
 pub use solve::{BranchSummary, Observer, solve, summarise};
 pub use state::State;
 

@@ -116,7 +116,7 @@ pub fn continued_pressure(p: &Array2<f64>, grid: &Grid) -> Array2<f64> {
 
 /// Where the kept cells are.
 #[derive(Clone, Copy, Debug)]
-struct Lattice {
+pub(super) struct Lattice {
     columns: isize,
     rows: isize,
     mirrored: bool,
@@ -125,7 +125,7 @@ struct Lattice {
 
 /// The level continued to a cell at the border of a zone.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
+pub(super) struct Edge {
     /// The level at the cell's centre and its change from cell to cell along x and y; none where the
     /// cells do not tell.
     level: Option<(f64, [f64; 2])>,
@@ -134,6 +134,11 @@ struct Edge {
 }
 
 impl Edge {
+    /// The level at the cell's centre, where the cells tell it.
+    pub(super) fn level(&self) -> Option<f64> {
+        self.level.map(|(level, _)| level)
+    }
+
     /// The part of the cell that belongs to the zone, 0 to 1, with the border so many cells further
     /// in than the level says; all or nothing where the cells do not tell.
     fn share(&self, further_in: f64) -> f64 {
@@ -147,7 +152,7 @@ impl Edge {
 }
 
 impl Lattice {
-    fn new(grid: &Grid, mirror: Mirror) -> Self {
+    pub(super) fn new(grid: &Grid, mirror: Mirror) -> Self {
         Self {
             columns: grid.nx as isize,
             rows: mirror.rows(grid.ny) as isize,
@@ -162,7 +167,7 @@ impl Lattice {
     /// outer one first, vanishes there like a power of the distance: the first of the two that
     /// `exponents` gives, for these cells and the direction inwards. Where the second one fits better
     /// the cells do not tell.
-    fn edges(
+    pub(super) fn edges(
         self,
         zone: &[bool],
         exponents: impl Fn([usize; 2], [f64; 2]) -> [f64; 2],

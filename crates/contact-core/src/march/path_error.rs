@@ -25,6 +25,8 @@ use crate::scene::{Grid, LoadPath, Scene, Spacing};
 /// Order of the error in the increments: between that of cells that enter one by one and that of
 /// turning slip.
 const ORDER: f64 = 1.5;
+/// Order by which the next number of increments is found; where it is less, another round follows.
+const HOPED: f64 = 2.0;
 /// Cells of a grid that is not made coarser.
 const CELLS: usize = 64 * 64;
 /// Contact cells that a grid must have.
@@ -32,14 +34,14 @@ const CONTACT: usize = 300;
 /// Increments to begin with: of a branch that begins without contact, and of others.
 const FIRST: (usize, usize) = (12, 6);
 /// Part of the tolerance that is aimed at.
-const AIM: f64 = 0.6;
+const AIM: f64 = 0.8;
 /// Part of the tolerance that an estimate may come to.
 const ACCEPTED: f64 = 0.9;
 /// Part of the tolerance that is left to the growth of contact from nothing: what sticks keeps its
 /// error, on fine grids a little more than on the coarse one. Where nothing follows, the shear is
 /// what dissimilar bodies make of the load alone, and its error is measured against that which
 /// friction can bear.
-const INHERITED: f64 = 0.33;
+const INHERITED: f64 = 0.36;
 /// Most that the number of increments of a branch grows by in a round.
 const GROWTH: f64 = 4.0;
 /// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.
@@ -91,7 +93,7 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
                 Spacing::EqualRadius => tolerance * bearable.max(1.0),
             };
             if open[k] && q > allowed {
-                let factor = (q / (AIM * allowed)).powf(1.0 / ORDER).min(GROWTH);
+                let factor = (q / (AIM * allowed)).powf(1.0 / HOPED).min(GROWTH);
                 let count = (branch.count() as f64 * factor).ceil() as usize;
                 branch.increments = Some(count.next_multiple_of(2));
                 more = true;

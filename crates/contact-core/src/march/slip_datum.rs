@@ -11,13 +11,16 @@
 //!
 //! with e_0 and e_1 the directions of the shear where the slip begins and at the end; the part of
 //! that slip across e_1, |ds| ((m.e_1) e_1 - m), is added to u_ref, so that the solver, which holds
-//! the slip against the final shear, finds it there. A cell that starts to slip on the way does so
+//! the slip against the final shear, finds it there. It follows the solution until both agree; when
+//! e_1 turns by a small angle m turns by half of it, which the Newton steps reckon with. A cell that starts to slip on the way does so
 //! where its shear, going on as in the last increment, meets the bound; after a reversal, where slip
 //! has only begun, nothing is known of that. Where no cell sticks, or cells slip by as much as the
 //! shear can move a surface, mu times the approach, bodies slide by as much as they are moved, and the shear
 //! has turned into their direction at the end.
 
-use crate::solvers::{Arms, Interface, SlipDatum, set_pairs, size, sum_cells};
+use rayon::prelude::*;
+
+use crate::solvers::{Arms, CHUNK, Interface, SlipDatum, set_pairs, size};
 
 /// Cosines between e_0 and e_1 between which the turn comes to count: where the shear turns further, the
 /// way there is not known.
@@ -29,6 +32,8 @@ pub(super) struct Datum {
     /// The difference \[m\]: of cells outside the contact their motion before they enter it, of those
     /// in it the turn of their slip.
     pub(super) moved: [Vec<f64>; 2],
+    /// Derivative of the part across e_1 by the angle of e_1, over the slip: one half for small turns.
+    turning: Vec<f64>,
     /// Whether the loads go on as in the last increment.
     pub(super) goes_on: bool,
     displacements: [Vec<f64>; 2],
@@ -39,6 +44,7 @@ impl Datum {
         let pair = || [vec![0.0; cells], vec![0.0; cells]];
         Self {
             moved: pair(),
+            turning: vec![0.0; cells],
             goes_on: false,
             displacements: pair(),
         }
@@ -79,75 +85,93 @@ pub(super) struct Following<'a> {
 }
 
 impl SlipDatum for Following<'_> {
-    fn follow(&mut self, now: &Interface, shift: [f64; 3]) -> f64 {
+    fn follow(&mut self, now: &Interface, shift: [f64; 3], part: f64) -> bool {
         let (Some(q_before), last, arms) = (self.q_before, self.last, self.arms) else {
-            return 0.0;
+            return false;
         };
-        let cells = now.p.len();
-        let sticks = (0..cells).any(|n| now.p[n] > 0.0 && !now.slip[n]);
+        let sticks = (0..now.p.len()).any(|n| now.p[n] > 0.0 && !now.slip[n]);
         let slip = |n: usize| -> [f64; 2] {
             let shift = arms.in_plane(shift, n);
             std::array::from_fn(|c| now.u[c][n] - last.u[c][n] - shift[c])
         };
         let reach = self.reach;
-        let [x, y] = &mut self.datum.moved;
-        set_pairs([x, y], |n, moved| {
-            if last.p[n] <= 0.0 {
-                moved
-            } else if sticks && now.p[n] > 0.0 && now.slip[n] {
-                let slip = slip(n);
-                let slides = size(slip) / reach;
-                let part = (2.0 - 2.0 * slides).clamp(0.0, 1.0);
-                turn(last, q_before, now, slip, n).map(|e| part * e)
+        let turned = |n: usize| -> ([f64; 2], f64) {
+            if !(sticks && now.p[n] > 0.0 && now.slip[n]) {
+                return ([0.0; 2], 0.0);
+            }
+            let slip = slip(n);
+            let slides = (2.0 - 2.0 * size(slip) / reach).clamp(0.0, 1.0);
+            turn(last, q_before, now, slip, n).map_or(([0.0; 2], 0.0), |(across, follows)| {
+                (across.map(|e| slides * e), part * slides * follows)
+            })
+        };
+        let Datum { moved, turning, .. } = &mut *self.datum;
+        let [x, y] = moved;
+        let cells = (
+            x.par_iter_mut().with_min_len(CHUNK),
+            y.par_iter_mut(),
+            turning.par_iter_mut(),
+        );
+        let cells = cells.into_par_iter().enumerate();
+        cells.for_each(|(n, (x, y, turning))| {
+            if last.p[n] > 0.0 {
+                let ([to_x, to_y], follows) = turned(n);
+                *x += part * (to_x - *x);
+                *y += part * (to_y - *y);
+                *turning = follows;
             } else {
-                [0.0; 2]
+                *turning = 0.0;
             }
-        });
-        let Datum {
-            moved,
-            displacements,
-            ..
-        } = &*self.datum;
-        let [contact, squares] = sum_cells(cells, |n| {
-            if now.p[n] <= 0.0 {
-                return [0.0; 2];
-            }
-            let change = |c: usize| last.u[c][n] + moved[c][n] - displacements[c][n];
-            [1.0, change(0).powi(2) + change(1).powi(2)]
         });
         self.datum.add_to(last);
-        (squares / contact).sqrt()
+        true
     }
 
     fn displacements(&self) -> [&[f64]; 2] {
         let [x, y] = &self.datum.displacements;
         [x, y]
     }
+
+    fn turning(&self) -> &[f64] {
+        &self.datum.turning
+    }
 }
 
-/// The part of the slip across the final shear \[m\].
+/// The part of the slip across the final shear \[m\], as far as the way there is known,
+///
+/// ```text
+/// |ds| known(cos a) sin(a/2),   a the angle from e_0 to e_1,
+/// ```
+///
+/// and its derivative by a over |ds|.
 fn turn(
     last: &Interface,
     q_before: &[Vec<f64>; 2],
     now: &Interface,
     slip: [f64; 2],
     n: usize,
-) -> [f64; 2] {
+) -> Option<([f64; 2], f64)> {
     let at = |q: &[Vec<f64>; 2]| [q[0][n], q[1][n]];
     let end = at(&now.q);
     let begin = if last.slip[n] {
-        Some(at(&last.q))
+        at(&last.q)
     } else {
-        met(at(q_before), at(&last.q), size(end))
-    };
-    let Some(begin) = begin else {
-        return [0.0; 2];
+        met(at(q_before), at(&last.q), size(end))?
     };
     let (e_0, e_1) = (unit(begin), unit(end));
-    let known = ((dot(e_0, e_1) - TURN[0]) / (TURN[1] - TURN[0])).clamp(0.0, 1.0);
+    let cos = dot(e_0, e_1).clamp(-1.0, 1.0);
+    let part = (cos - TURN[0]) / (TURN[1] - TURN[0]);
+    let known = part.clamp(0.0, 1.0);
     let m = unit([e_0[0] + e_1[0], e_0[1] + e_1[1]]);
     let along = dot(m, e_1);
-    std::array::from_fn(|c| known * size(slip) * (along * e_1[c] - m[c]))
+    let across = [0, 1].map(|c| known * size(slip) * (along * e_1[c] - m[c]));
+    // sin(a) sin(a/2) = (1 - cos(a)) cos(a/2)
+    let fades = if part == known {
+        (1.0 - cos) * along / (TURN[1] - TURN[0])
+    } else {
+        0.0
+    };
+    Some((across, 0.5 * known * along - fades))
 }
 
 /// Where a shear that goes on from `before` through `last` meets the circle of radius `bound`.

@@ -12,6 +12,7 @@ type Pair = [Vec<f64>; 2];
 pub(crate) struct ContactShear {
     bound: Vec<f64>,
     u_ref: Pair,
+    turning: Vec<f64>,
     arms: Arms,
     q: Pair,
     u: Pair,
@@ -39,6 +40,11 @@ impl ContactShear {
             self.q[c].resize(cells.count(), 0.0);
             self.u[c].resize(cells.count(), 0.0);
         }
+        self.turning.clear();
+        if !problem.turning.is_empty() {
+            self.turning.resize(cells.count(), 0.0);
+            cells.pack(problem.turning, &mut self.turning);
+        }
         self.slip.resize(cells.count(), false);
         self.parts(problem.drive).1.pack(cells, shear);
     }
@@ -48,6 +54,7 @@ impl ContactShear {
         let problem = TangentialProblem {
             bound: &self.bound,
             u_ref: [&self.u_ref[0], &self.u_ref[1]],
+            turning: &self.turning,
             arms: &self.arms,
             drive,
         };

@@ -35,16 +35,20 @@ pub struct IncrementProblem<'a> {
 
 /// The displacements that mean no slip in an increment.
 pub trait SlipDatum {
-    /// Follows the solution as far as it is known, and its shift; how far the displacements of contact
-    /// cells have moved, root mean square \[m\].
-    fn follow(&mut self, now: &Interface, shift: [f64; 3]) -> f64;
+    /// Goes a `part` of the way to where the solution, as far as it is known, and its shift would have
+    /// them; whether they follow at all.
+    fn follow(&mut self, now: &Interface, shift: [f64; 3], part: f64) -> bool;
     /// The displacements \[m\].
     fn displacements(&self) -> [&[f64]; 2];
+    /// The part of a turn of the shear that they take over from the slip, in each cell.
+    fn turning(&self) -> &[f64];
 }
 
-/// Passes in which the displacements that mean no slip follow the solution.
-const FOLLOWED: usize = 2;
-/// Factor of the tolerance of the first solution where they move by more than that; a second follows.
+/// Steps without a smaller misfit, each halving the part of the way that the displacements that mean no
+/// slip follow, after which these stay in a pass, and passes after which they stay for good.
+const STALLED: usize = 5;
+const LOST: usize = 3;
+/// Factor of the tolerances of the first look at a solution that gets a second.
 const LOOSE: f64 = 10.0;
 
 /// Settings of the intermediate loop.
@@ -58,6 +62,23 @@ pub struct CoupledParams {
     pub tangential: TangentialParams,
     /// Most passes.
     pub max_alternations: usize,
+    /// Whether a solution is found with all digits, if need be by a second look at it.
+    pub exact: bool,
+}
+
+impl CoupledParams {
+    /// For a first look: so many times the tolerances, and not all digits.
+    fn loosened(&self, factor: f64) -> Self {
+        let mut loose = Self {
+            exact: false,
+            ..*self
+        };
+        loose.tolerance *= factor;
+        loose.normal.enough *= factor;
+        loose.normal.tolerance *= factor;
+        loose.tangential.tolerance *= factor;
+        loose
+    }
 }
 
 /// What the intermediate loop ended with.
@@ -103,6 +124,8 @@ pub struct CoupledWorkspace {
     change: [Vec<f64>; 2],
     response: [Vec<f64>; 2],
     mixing: Mixing,
+    /// Passes in which the displacements that mean no slip could not be followed to the end.
+    lost: usize,
 }
 
 impl CoupledWorkspace {
@@ -119,6 +142,7 @@ impl CoupledWorkspace {
             change: pair(),
             response: pair(),
             mixing: Mixing::new(cells),
+            lost: 0,
         }
     }
 
@@ -144,11 +168,12 @@ pub fn coupled(
     let coupled = response.op.is_coupled() && friction;
     let mut info = CoupledInfo::default();
     let mut slides = make_admissible(problem, datum.displacements(), now, ws, friction);
+    ws.lost = 0;
     // Where changes on the way are answered with some digits only, the solution is looked at again
     // with the displacements of its tractions.
-    let looks = if response.op.rounds() { 2 } else { 1 };
-    for _ in 0..looks {
-        now.evaluate(response, friction);
+    let first = (params.exact && response.op.rounds()).then(|| params.loosened(LOOSE));
+    for params in first.iter().chain([params]) {
+        now.evaluate(response, friction, params.exact);
         ws.mixing.restart();
         loop {
             info.alternations += 1;
@@ -186,17 +211,13 @@ pub fn coupled(
             if info.exceeds_friction() {
                 return Ok(info);
             }
-            let mut again = false;
             if slides.is_full() {
                 let slip = problem.slip(&ws.bound, datum.displacements());
                 info.shift = incipient_shift(&slip, now, slides.motion);
             } else {
-                again = shear_under(response, problem, datum, now, ws, params, &mut info)?;
+                shear_under(response, problem, datum, now, ws, params, &mut info)?;
             }
             if !coupled {
-                if again {
-                    continue;
-                }
                 break;
             }
 
@@ -207,8 +228,6 @@ pub fn coupled(
                 response.normal_under_shear([change_x, change_y], &mut ws.response[0]);
             } else if ws.mixing.mixes() {
                 ws.response[0].fill(0.0);
-            } else if again {
-                continue;
             } else {
                 break;
             }
@@ -216,7 +235,7 @@ pub fn coupled(
             let check = super::normal::assess(&gap, &now.p, &now.u_z);
             info.approach = check.motion;
             let residual = check.gap.max(check.penetration);
-            if residual <= params.tolerance && !again {
+            if residual <= params.tolerance {
                 break;
             }
             if info.alternations >= params.max_alternations {
@@ -233,8 +252,8 @@ pub fn coupled(
     Ok(info)
 }
 
-/// Shear for known pressure; whether it has to be looked for again, with the displacements that mean
-/// no slip where the solution says.
+/// Shear for known pressure, with the displacements that mean no slip where the solution says: these
+/// follow after each step, as long as the misfit falls.
 fn shear_under(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,
@@ -243,7 +262,7 @@ fn shear_under(
     ws: &mut CoupledWorkspace,
     params: &CoupledParams,
     info: &mut CoupledInfo,
-) -> Result<bool, SolverError> {
+) -> Result<(), SolverError> {
     let solve = match params.tangential.method {
         TangentialMethod::Newton => tangential,
         TangentialMethod::Gradient => shear_gradient,
@@ -252,26 +271,40 @@ fn shear_under(
         let slip = problem.slip(&ws.bound, datum.displacements());
         info.shift = first_shift(&slip, &now.shear());
     }
-    // The guess tells where the slip goes, the first solution tells it better.
-    let followed = info.alternations <= FOLLOWED;
-    let moved = if followed {
-        datum.follow(now, info.shift)
-    } else {
-        0.0
-    };
-    let tolerance = params.tangential.tolerance;
-    let last = FOLLOWED.min(params.max_alternations);
-    let again = info.alternations < last && moved > LOOSE * tolerance;
-    let asked = TangentialParams {
-        tolerance: if again { LOOSE * tolerance } else { tolerance },
-        ..params.tangential
-    };
-    let slip = problem.slip(&ws.bound, datum.displacements());
-    let inner = &mut ws.tangential;
-    let found = solve(response, &slip, &mut now.shear(), inner, &asked)?;
-    info.tangential_iterations += found.passes;
-    info.shift = found.shift;
-    Ok(again)
+    let (mut least, mut stalled, mut part) = (f64::INFINITY, 0, 1.0);
+    let mut steps = 0;
+    loop {
+        let follows = stalled < STALLED && ws.lost < LOST && datum.follow(now, info.shift, part);
+        let slip = TangentialProblem {
+            turning: if follows { datum.turning() } else { &[] },
+            ..problem.slip(&ws.bound, datum.displacements())
+        };
+        let inner = &mut ws.tangential;
+        let found = solve(response, &slip, &mut now.shear(), inner, &params.tangential)?;
+        info.tangential_iterations += found.passes;
+        info.shift = found.shift;
+        if !follows || found.iterations == 0 {
+            return Ok(());
+        }
+        steps += found.iterations;
+        if steps > params.tangential.max_iterations {
+            return Err(SolverError {
+                solver: "tangential",
+                residual: found.misfit,
+                tolerance: params.tangential.tolerance,
+                iterations: steps,
+            });
+        }
+        if found.misfit < least {
+            (least, stalled) = (found.misfit, 0);
+        } else {
+            stalled += 1;
+            part *= 0.5;
+        }
+        if stalled == STALLED {
+            ws.lost += 1;
+        }
+    }
 }
 
 /// Brings the shear within the bound mu p of the present pressure and to the loads asked for.
@@ -368,6 +401,7 @@ impl<'a> IncrementProblem<'a> {
         TangentialProblem {
             bound,
             u_ref,
+            turning: &[],
             arms: self.arms,
             drive: self.tangential,
         }

@@ -145,7 +145,8 @@ impl NewtonStep {
                     let e = [shear.q[0][n] / g, shear.q[1][n] / g];
                     let against = -(slip[0] * e[0] + slip[1] * e[1]);
                     (xx[i], xy[i], yy[i]) = (e[1] * e[1], -e[0] * e[1], e[0] * e[0]);
-                    diagonal[i] = against.max(0.0) / g;
+                    let turning = problem.turning.get(n).copied().unwrap_or(0.0);
+                    diagonal[i] = (1.0 - turning) * against.max(0.0) / g;
                 }
                 scale[i] = 1.0 / (1.0 + diagonal[i] / c_xx).sqrt();
                 (r_x[i], r_y[i]) = (-slip[0], -slip[1]);

@@ -10,6 +10,9 @@ pub struct TangentialProblem<'a> {
     pub bound: &'a [f64],
     /// Displacements that mean no slip, those of the last increment \[m\].
     pub u_ref: [&'a [f64]; 2],
+    /// Where these follow the solution: the part of a turn of the shear in each cell that they take
+    /// over from the slip. Empty where they stay.
+    pub turning: &'a [f64],
     /// Where the cells are.
     pub arms: &'a Arms,
     /// Forces and torsional moment, or the motions of this increment where these are given.
@@ -65,7 +68,7 @@ pub struct TangentialInfo {
     pub shift: [f64; 3],
     /// Root-mean-square misfit \[m\].
     pub misfit: f64,
-    /// Newton steps.
+    /// Newton steps; one, where the displacements that mean no slip are to follow.
     pub iterations: usize,
     /// Conjugate-gradient passes, one convolution each.
     pub passes: usize,

@@ -92,6 +92,7 @@ pub fn tangential(
         shift: first_shift(&inside, &now),
         ..Default::default()
     };
+    let mut fits = 0;
     let (mut least, mut stalled) = (f64::INFINITY, 0);
     loop {
         let released = release(&inside, &mut now, info.shift, settled);
@@ -105,7 +106,7 @@ pub fn tangential(
         }
         stalled = if info.misfit < least { 0 } else { stalled + 1 };
         least = least.min(info.misfit);
-        let ended = stalled == STALLED || info.iterations == params.max_iterations;
+        let ended = stalled == STALLED || info.iterations + fits == params.max_iterations;
         if ended || response.stopped() {
             return Err(SolverError {
                 solver: "tangential",
@@ -114,12 +115,13 @@ pub fn tangential(
                 iterations: info.iterations,
             });
         }
-        info.iterations += 1;
         if solved {
             // The slip cells were judged by another shift.
             info.shift = fitted;
+            fits += 1;
             continue;
         }
+        info.iterations += 1;
         before.keep(&now);
         let target = (params.forcing * info.misfit).max(0.3 * params.tolerance);
         info.passes += step.solve(response, cells, target * root_of_contact, params.max_passes);
@@ -131,7 +133,8 @@ pub fn tangential(
                 add_scaled(now.u[c], 1.0, &change[c]);
             }
         }
-        if before.is_lower(&inside, &now, info.shift, settled) {
+        let follows = !problem.turning.is_empty();
+        if !follows && before.is_lower(&inside, &now, info.shift, settled) {
             before.restore(&mut now);
             now.unpack(cells, shear);
             info.shift = ws.descent.run(response, problem, shear, DESCENT);
@@ -141,6 +144,10 @@ pub fn tangential(
             for c in 0..2 {
                 add_scaled(shear.u[c], 1.0, &step.response_x[c]);
             }
+        }
+        if follows {
+            now.unpack(cells, shear);
+            return Ok(info);
         }
     }
 }
