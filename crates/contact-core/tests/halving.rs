@@ -31,7 +31,7 @@ fn scene(settings: &[&str]) -> Scene {
 fn an_increment_that_does_not_converge_is_solved_in_pieces() {
     let whole = solve(&scene(&[]), &mut ()).unwrap();
     assert!(whole.iter().all(|i| i.work.parts == 1));
-    let tight = scene(&["solver.max_iterations=5"]);
+    let tight = scene(&["skip.digits=false", "solver.max_iterations=5"]);
     let pieces = solve(&tight, &mut ()).unwrap();
     assert_eq!(pieces.len(), 3);
     let mut done = 0.0;
@@ -78,7 +78,11 @@ fn a_run_that_gives_up_keeps_the_last_good_state() {
     assert_eq!(error, Error::Interrupted { increment: 1 });
     assert_eq!(*march.state(), state);
 
-    let error = solve(&scene(&["solver.max_iterations=2"]), &mut ()).unwrap_err();
+    let error = solve(
+        &scene(&["skip.digits=false", "solver.max_iterations=5"]),
+        &mut (),
+    )
+    .unwrap_err();
     assert!(
         matches!(error, Error::NotConverged { increment: 1, .. }),
         "{error}"

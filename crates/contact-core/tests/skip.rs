@@ -240,9 +240,8 @@ fn digits_that_the_tolerance_does_not_need() {
         let without = run(&double, &mut ends[1]);
         run(&exact, &mut ends[2]);
         let work = |run: &[Increment]| run.iter().map(|i| i.work.convolutions).sum::<f64>();
-        // A solution is looked at once more with the displacements of its tractions.
-        eprintln!("WORK {} {} {}", work(&with), work(&without), with.len());
-        assert!(work(&with) < work(&without) + 3.0 * with.len() as f64);
+        // A first look that is loose, and a second with the displacements of its tractions.
+        assert!(work(&with) < work(&without) + 4.0 * with.len() as f64);
         let [with, without, exact] = ends.map(|ends| ends.0);
         for ((with, without), exact) in with.iter().zip(&without).zip(&exact) {
             let off = |of: &(Increment, Fields)| norm(&(&of.1.q_x - &exact.1.q_x));

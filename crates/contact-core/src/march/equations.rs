@@ -48,6 +48,7 @@ impl March {
             op: &mut *self.window.op,
             inverse: self.window.inverse.as_mut(),
             stop: Some(&self.stop),
+            exact: false,
         };
         let params = params(&self.scene, self.approach, kept);
         let solver = &self.scene.settings.solver;

@@ -124,7 +124,7 @@ impl SlipDatum for Following<'_> {
             }
         });
         self.datum.add_to(last);
-        true
+        sticks
     }
 
     fn displacements(&self) -> [&[f64]; 2] {
@@ -166,7 +166,7 @@ fn turn(
     let along = dot(m, e_1);
     let across = [0, 1].map(|c| known * size(slip) * (along * e_1[c] - m[c]));
     // sin(a) sin(a/2) = (1 - cos(a)) cos(a/2)
-    let fades = if part == known {
+    let fades = if (0.0..=1.0).contains(&part) {
         (1.0 - cos) * along / (TURN[1] - TURN[0])
     } else {
         0.0

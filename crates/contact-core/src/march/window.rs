@@ -414,5 +414,6 @@ fn plain(op: &mut dyn SurfaceOperator) -> Response<'_> {
         op,
         inverse: None,
         stop: None,
+        exact: false,
     }
 }

@@ -50,6 +50,10 @@ const STALLED: usize = 5;
 const LOST: usize = 3;
 /// Factor of the tolerances of the first look at a solution that gets a second.
 const LOOSE: f64 = 10.0;
+/// Iterations of a look whose rounding is far below the tolerance.
+const FEW: usize = 20;
+/// Most looks.
+const LOOKS: usize = 5;
 
 /// Settings of the intermediate loop.
 #[derive(Clone, Copy, Debug)]
@@ -105,6 +109,10 @@ impl CoupledInfo {
         exceeds(self.friction_used)
     }
 
+    fn iterations(&self) -> usize {
+        self.normal_iterations + self.tangential_iterations
+    }
+
     /// Adds the work of another solution that this one took.
     pub(crate) fn add_work(&mut self, other: &Self) {
         self.alternations += other.alternations;
@@ -155,8 +163,30 @@ impl CoupledWorkspace {
     }
 }
 
-/// Solves one increment, from a guess in `now` to the solution.
+/// Solves one increment, from a guess in `now` to the solution; with all digits where some are not
+/// enough.
 pub fn coupled(
+    response: &mut Response<'_>,
+    problem: &IncrementProblem<'_>,
+    datum: &mut dyn SlipDatum,
+    now: &mut Interface,
+    ws: &mut CoupledWorkspace,
+    params: &CoupledParams,
+) -> Result<CoupledInfo, SolverError> {
+    let rounds = response.rounds();
+    match look(response, problem, datum, now, ws, params) {
+        Err(_) if rounds && !response.stopped() => {
+            response.exact = true;
+            let solved = look(response, problem, datum, now, ws, params);
+            response.exact = false;
+            solved
+        }
+        ended => ended,
+    }
+}
+
+/// Looks at the solution until nothing is left to do.
+fn look(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,
     datum: &mut dyn SlipDatum,
@@ -170,9 +200,12 @@ pub fn coupled(
     let mut slides = make_admissible(problem, datum.displacements(), now, ws, friction);
     ws.lost = 0;
     // Where changes on the way are answered with some digits only, the solution is looked at again
-    // with the displacements of its tractions.
-    let first = (params.exact && response.op.rounds()).then(|| params.loosened(LOOSE));
-    for params in first.iter().chain([params]) {
+    // with the displacements of its tractions, until a look leaves it almost as it is.
+    let rounds = params.exact && response.rounds();
+    let first = params.loosened(LOOSE);
+    for look in 0..LOOKS {
+        let params = if rounds && look == 0 { &first } else { params };
+        let before = info.iterations();
         now.evaluate(response, friction, params.exact);
         ws.mixing.restart();
         loop {
@@ -248,6 +281,9 @@ pub fn coupled(
             }
             ws.mixing.mix(&now.p, &mut now.u_z);
         }
+        if !rounds || (look > 0 && info.iterations() - before <= FEW) {
+            break;
+        }
     }
     Ok(info)
 }
@@ -272,8 +308,9 @@ fn shear_under(
         info.shift = first_shift(&slip, &now.shear());
     }
     let (mut least, mut stalled, mut part) = (f64::INFINITY, 0, 1.0);
-    let mut steps = 0;
+    let mut step = 0;
     loop {
+        step += 1;
         let follows = stalled < STALLED && ws.lost < LOST && datum.follow(now, info.shift, part);
         let slip = TangentialProblem {
             turning: if follows { datum.turning() } else { &[] },
@@ -286,20 +323,14 @@ fn shear_under(
         if !follows || found.iterations == 0 {
             return Ok(());
         }
-        steps += found.iterations;
-        if steps > params.tangential.max_iterations {
-            return Err(SolverError {
-                solver: "tangential",
-                residual: found.misfit,
-                tolerance: params.tangential.tolerance,
-                iterations: steps,
-            });
-        }
         if found.misfit < least {
             (least, stalled) = (found.misfit, 0);
         } else {
             stalled += 1;
             part *= 0.5;
+        }
+        if step == params.tangential.max_iterations {
+            stalled = STALLED;
         }
         if stalled == STALLED {
             ws.lost += 1;
@@ -359,7 +390,7 @@ fn follow_pressure(
         q_y: Some(&ws.change[1]),
         p: coupled.then_some(&ws.p_before[..]),
     };
-    response.op.respond(
+    response.respond(
         tractions,
         Displacements {
             u_x: Some(u_x),

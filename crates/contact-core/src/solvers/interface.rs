@@ -61,7 +61,7 @@ impl Interface {
         if exact {
             response.op.apply(tractions, displacements);
         } else {
-            response.op.respond(tractions, displacements);
+            response.respond(tractions, displacements);
         }
     }
 }

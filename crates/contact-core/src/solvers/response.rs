@@ -12,6 +12,8 @@ pub struct Response<'a> {
     pub inverse: Option<&'a mut CirculantInverse>,
     /// Raised from outside to end the iterations.
     pub stop: Option<&'a AtomicBool>,
+    /// Whether changes of the tractions are answered with all digits too.
+    pub exact: bool,
 }
 
 impl Response<'_> {
@@ -20,13 +22,27 @@ impl Response<'_> {
         self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
+    /// Whether changes of the tractions are answered with some digits only.
+    pub(crate) fn rounds(&self) -> bool {
+        !self.exact && self.op.rounds()
+    }
+
+    /// The displacements under a change of the tractions.
+    pub(crate) fn respond(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
+        if self.exact {
+            self.op.apply(tractions, displacements);
+        } else {
+            self.op.respond(tractions, displacements);
+        }
+    }
+
     /// u_z under a change of p alone.
     pub(crate) fn normal(&mut self, p: &[f64], u_z: &mut [f64]) {
         let tractions = Tractions {
             p: Some(p),
             ..Tractions::default()
         };
-        self.op.respond(
+        self.respond(
             tractions,
             Displacements {
                 u_z: Some(u_z),
@@ -48,7 +64,7 @@ impl Response<'_> {
             u_y: Some(u_y),
             u_z: None,
         };
-        self.op.respond(tractions, displacements);
+        self.respond(tractions, displacements);
     }
 
     /// u_z under a change of shear alone.
@@ -58,7 +74,7 @@ impl Response<'_> {
             q_y: Some(q[1]),
             p: None,
         };
-        self.op.respond(
+        self.respond(
             tractions,
             Displacements {
                 u_z: Some(u_z),

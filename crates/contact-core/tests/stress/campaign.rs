@@ -158,23 +158,40 @@ pub(crate) fn has_twins(seed: u64) -> bool {
 /// Twins of a scene.
 pub(crate) const TWINS: usize = 3;
 
+/// The name of twins that are alike without the turn of the slip only.
+pub(crate) const UNTURNED: &str = "unturned";
+
 /// The distances of the twins of a scene that take the same path: not those of which an increment
-/// is solved in more pieces.
+/// is solved in more pieces. Where the turn of the slip cannot be followed to the end the solution
+/// depends on how far it was: a pair that differs is compared without it.
 fn compared(
     scene: &Scene,
     ours: &End,
     stop: &Arc<AtomicBool>,
 ) -> Result<Vec<(&'static str, f64)>, Fate> {
     let misfit = Misfit::of(scene);
+    let run = |name: &str, scene: &Scene| match audited(scene, stop) {
+        Ok((end, _)) => Ok(end),
+        Err(error) => Err(ended(scene, &format!("{name} twin: "), &error)),
+    };
+    let unturned = |scene: &Scene| {
+        let mut scene = scene.clone();
+        scene.settings.solver.turning = false;
+        run("unturned", &scene)
+    };
     let mut distances = Vec::new();
     for (name, twin, back) in twins_of(scene) {
-        let theirs = match audited(&twin, stop) {
-            Ok((end, _)) => end,
-            Err(error) => return Err(ended(scene, &format!("{name} twin: "), &error)),
-        };
-        if theirs.pieces().eq(ours.pieces()) {
-            distances.push((name, difference(ours, &theirs, &*back, &misfit)));
+        let theirs = run(name, &twin)?;
+        if !theirs.pieces().eq(ours.pieces()) {
+            continue;
         }
+        let off = difference(ours, &theirs, &*back, &misfit);
+        distances.push(if off <= 1.0 {
+            (name, off)
+        } else {
+            let (ours, theirs) = (unturned(scene)?, unturned(&twin)?);
+            (UNTURNED, difference(&ours, &theirs, &*back, &misfit))
+        });
     }
     Ok(distances)
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::audit::Violations;
-use crate::campaign::{Fate, Outcome, TWINS, has_twins};
+use crate::campaign::{Fate, Outcome, TWINS, UNTURNED, has_twins};
 use crate::draw::SHAPED;
 
 impl Outcome {
@@ -83,17 +83,18 @@ fn write_work(text: &mut String, outcomes: &[Outcome], seconds: f64, threads: us
         "| convolutions per increment | {:.1} |",
         sum(&|o| o.convolutions) / sum(&|o| o.increments as f64)
     );
-    let mut compared = [0, 0];
+    let mut compared = [0, 0, 0];
     for outcome in outcomes.iter().filter(|o| has_twins(o.seed)) {
         if let Fate::Solved(_, twins) = &outcome.fate {
             compared[0] += twins.len();
-            compared[1] += TWINS - twins.len();
+            compared[1] += twins.iter().filter(|(name, _)| *name == UNTURNED).count();
+            compared[2] += TWINS - twins.len();
         }
     }
     let _ = writeln!(
         text,
-        "| twins compared, left out as solved in other pieces | {}, {} |",
-        compared[0], compared[1]
+        "| twins compared, of these without the turn of the slip, left out as solved in other pieces | {}, {}, {} |",
+        compared[0], compared[1], compared[2]
     );
     let slowest = outcomes
         .iter()
