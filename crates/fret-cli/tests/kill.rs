@@ -107,6 +107,11 @@ impl Victim {
             run.kill().unwrap();
             run.wait().unwrap();
             let mut increments = 0;
+            if out.exists() && !out.join(".zmetadata").exists() {
+                // Killed while the store was laid out: nothing had been reported.
+                assert_eq!((before, saved), (0, 0));
+                fs::remove_dir_all(&out).unwrap();
+            }
             if out.exists() {
                 let store = Store::open(&out).unwrap();
                 increments = store.increments();
