@@ -12,8 +12,8 @@
 //! with e_0 and e_1 the directions of the shear where the slip begins and at the end; the part of
 //! that slip across e_1, |ds| ((m.e_1) e_1 - m), is added to u_ref, so that the solver, which holds
 //! the slip against the final shear, finds it there. It follows the solution until both agree; when
-//! e_1 turns by a small angle m turns by half of it, which the Newton steps reckon with. A cell that starts to slip on the way does so
-//! where its shear, going on as in the last increment, meets the bound; after a reversal, where slip
+//! e_1 turns by a small angle m turns by half of it, which the Newton steps reckon with. A cell that
+//! starts to slip on the way does so where its shear, going on as in the last increment, meets the bound; after a reversal, where slip
 //! has only begun, nothing is known of that. Where no cell sticks, or cells slip by as much as the
 //! shear can move a surface, mu times the approach, bodies slide by as much as they are moved, and the shear
 //! has turned into their direction at the end.

@@ -17,8 +17,9 @@ type Pair = [Vec<f64>; 2];
 /// ```
 ///
 /// with B the rigid motions that are free, Pi the projection on the tangent space (stick cells:
-/// both components; slip cells: across q) and D the curvature |ds|/g of the circle. The unknowns are packed contact cells; what goes
-/// through the operator covers the grid.
+/// both components; slip cells: across q) and D the curvature |ds|/g of the circle, less the part of it
+/// by which u_ref turns with q ([`TangentialProblem::turning`]). The unknowns are packed contact cells;
+/// what goes through the operator covers the grid.
 #[derive(Debug)]
 pub(crate) struct NewtonStep {
     tangent: Tangent,
