@@ -38,8 +38,8 @@ impl DcFft {
         Self::until(coefficients, mirror, coupling, single, &stop).expect(NOBODY)
     }
 
-    /// As [`Self::with_single`]; ends when `stop` is raised.
-    pub(crate) fn until(
+    /// As [`Self::with_single`]; ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
+    pub fn until(
         coefficients: &InfluenceCoefficients,
         mirror: Mirror,
         coupling: bool,

@@ -5,6 +5,9 @@
 //! [`Accumulate`]: [`super::Envelope`] and [`super::Largest`] are two, a pair of them is one again;
 //! a fatigue criterion on critical planes is another.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use ndarray::Array2;
 
 use super::{Depth, Line, Section, Side, Slices};
@@ -84,6 +87,7 @@ pub struct Stream<A: Accumulate> {
     accumulate: A,
     kept: Vec<A::Kept>,
     waiting: Vec<(Moment, [Array2<f64>; 3])>,
+    stop: Arc<AtomicBool>,
 }
 
 impl<A: Accumulate> Stream<A> {
@@ -121,7 +125,14 @@ impl<A: Accumulate> Stream<A> {
             accumulate,
             kept,
             waiting: Vec::with_capacity(BATCH),
+            stop: Arc::default(),
         })
+    }
+
+    /// Ends what is computed when `flag` is raised: [`Error::Interrupted`]. What was kept then is of no
+    /// use any more.
+    pub fn stop_on(&mut self, flag: Arc<AtomicBool>) {
+        self.stop = flag;
     }
 
     /// Takes the tractions q_x, q_y, p of a moment, each of shape (nx, ny) \[Pa\].
@@ -165,10 +176,12 @@ impl<A: Accumulate> Stream<A> {
         let bulk: Vec<f64> = self.waiting.iter().map(|(m, _)| m.sigma_B).collect();
         let (body, side, grid) = (&self.body, self.side, &self.grid);
         if let Some(line) = self.line {
-            let section = Section::new(body, side, grid, line, &states)?.with_bulk_stress(&bulk);
+            let section = Section::until(body, side, grid, line, &states, &self.stop)?
+                .with_bulk_stress(&bulk);
             section.pass_stress(&self.depths, &mut self.kept, add)?;
         } else {
-            let slices = Slices::new(body, side, grid, &states)?.with_bulk_stress(&bulk);
+            let slices =
+                Slices::until(body, side, grid, &states, &self.stop)?.with_bulk_stress(&bulk);
             slices.pass_stress(&self.depths, &mut self.kept, add)?;
         }
         self.waiting.clear();

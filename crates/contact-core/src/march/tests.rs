@@ -154,7 +154,7 @@ fn a_raised_flag_ends_an_increment_within_three_convolutions() {
 #[test]
 fn a_flag_raised_in_a_wider_window_leaves_the_state_of_the_narrow_one() {
     let settings = [
-        r#"path=[{ W = 200.0, increments = 1 }, { W = 1000.0, increments = 1 }]"#,
+        "path=[{ W = 200.0, increments = 1 }, { W = 1000.0, increments = 1 }]",
         "grid.n=64",
     ];
     let settings: Vec<_> = settings.iter().map(ToString::to_string).collect();
