@@ -32,6 +32,10 @@ const PAPER: &str = concat!(
 const SHARE: f64 = 3.0;
 /// Kills, unless the environment says how many.
 const KILLS: usize = 8;
+/// Kills at the moment at which a store is laid out, for each of those.
+const KILLS_OF_LAYOUTS: f64 = 0.5;
+/// Time within which a store is laid out and put in its place, more or less.
+const LAYOUT: Duration = Duration::from_millis(1);
 /// Kills in one run at most; then it is let go to its end.
 const KILLS_PER_RUN: usize = 4;
 /// Time between two looks at what a run has reported.
@@ -102,11 +106,6 @@ impl Victim {
             run.kill().unwrap();
             run.wait().unwrap();
             let mut increments = 0;
-            if out.exists() && !out.join(".zmetadata").exists() {
-                // Killed while the store was laid out: nothing had been reported.
-                assert_eq!((before, saved, seen), (0, 0, 0));
-                fs::remove_dir_all(&out).unwrap();
-            }
             if out.exists() {
                 let store = Store::open(&out).unwrap();
                 increments = store.increments();
@@ -254,10 +253,14 @@ impl Chance {
     }
 }
 
+fn kills() -> usize {
+    let asked_for = std::env::var("FRET_KILLS").ok();
+    asked_for.map_or(KILLS, |n| n.parse().unwrap())
+}
+
 #[test]
 fn killed_runs_are_resumed_to_the_same_bits() {
-    let asked_for = std::env::var("FRET_KILLS").ok();
-    let kills = asked_for.map_or(KILLS, |n| n.parse().unwrap());
+    let kills = kills();
     // A checkpoint after every increment: most kills hit one; and as few as run time allows, so
     // that a kill costs many increments.
     let mut often = short(10);
@@ -290,6 +293,81 @@ fn killed_runs_are_resumed_to_the_same_bits() {
             by_time.len(),
             went_on.count(),
             by_progress.len()
+        ),
+    );
+}
+
+/// What a process was killed over, beside the place of its store.
+fn left_beside(out: &Path) -> Vec<PathBuf> {
+    let name = out.file_name().unwrap().to_str().unwrap();
+    let beside = |suffix| out.with_file_name(format!(".{name}.{suffix}"));
+    let both = ["unfinished", "replaced"].map(beside);
+    both.into_iter().filter(|path| path.exists()).collect()
+}
+
+fn title(out: &Path) -> Option<String> {
+    let store = out.exists().then(|| Store::open(out).unwrap());
+    store.map(|store| store.scene().title.clone())
+}
+
+/// Killed as soon as something lies beside the place of the store, which is new every third time and
+/// replaces another one the others: the path holds nothing, the old store or the new one.
+#[test]
+fn a_path_holds_a_store_or_nothing_while_one_is_laid_out() {
+    let out = free("replaced.zarr");
+    for path in left_beside(&out) {
+        fs::remove_dir_all(path).unwrap();
+    }
+    let run = |title: &str, overwrite: bool| {
+        let mut settings = short(1);
+        settings.extend(["grid.n=16".into(), format!("title={title:?}")]);
+        let mut run = new_run(&settings, &out, "0");
+        if overwrite {
+            run.arg("--overwrite");
+        }
+        run
+    };
+    let mut chance = Chance(11);
+    let kills = (KILLS_OF_LAYOUTS * kills() as f64) as usize;
+    let (mut killed, mut between) = (0, 0);
+    for n in 0..kills {
+        if n % 3 == 0 && out.exists() {
+            fs::remove_dir_all(&out).unwrap();
+        }
+        let (old, new) = (title(&out), format!("run {n}"));
+        let before = left_beside(&out);
+        let mut process = run(&new, true).spawn().unwrap();
+        while left_beside(&out) == before && process.try_wait().unwrap().is_none() {
+            std::hint::spin_loop();
+        }
+        let seen = Instant::now();
+        let then = LAYOUT.mul_f64(chance.draw());
+        while seen.elapsed() < then {
+            std::hint::spin_loop();
+        }
+        process.kill().unwrap();
+        process.wait().unwrap();
+        killed += usize::from(!left_beside(&out).is_empty());
+        match (title(&out), old) {
+            // Killed between the two: the next run finds the old store, and refuses to replace it.
+            (None, Some(old)) => {
+                between += 1;
+                assert_eq!(run(&new, false).status().unwrap().code(), Some(2));
+                assert_eq!(title(&out), Some(old));
+            }
+            (found, old) => assert!(found == old || found == Some(new), "{found:?}"),
+        }
+    }
+    assert!(run("the last", true).status().unwrap().success());
+    assert_eq!(title(&out), Some("the last".into()));
+    assert_eq!(left_beside(&out), Vec::<PathBuf>::new());
+    report(
+        "layouts",
+        &format!(
+            "{kills} kills as soon as a store was laid out, two in three to replace another one: {killed} \
+             left something unfinished behind, {between} of them just when the old store was moved \
+             aside. Every path held nothing, the old store or the new one, or the next run put the \
+             old one back; the last run cleared what the others had left."
         ),
     );
 }
