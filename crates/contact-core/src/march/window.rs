@@ -221,6 +221,7 @@ impl Interface {
             u: pair(&self.u),
             u_z: wide(&self.u_z),
             slip: embedded(&self.slip, from, to, mirror, false),
+            rounding: self.rounding,
         }
     }
 }
@@ -393,7 +394,7 @@ impl March {
         self.state.window = self.window.shape();
         let old = embedded(&vec![true; from.0 * from.1], from, to, mirror, false);
         let mut computed = self.state.interface.clone();
-        computed.evaluate(&mut plain(&mut *self.window.op), self.plan.friction, true);
+        computed.evaluate(&mut plain(&mut *self.window.op), self.plan.friction);
         let now = &mut self.state.interface;
         let ([x, y], [new_x, new_y]) = (&mut now.u, computed.u);
         for (now, new) in [(x, new_x), (y, new_y), (&mut now.u_z, computed.u_z)] {
@@ -436,7 +437,7 @@ impl March {
         };
         let mut beyond = (self.whole.grid.lock()).unwrap_or_else(PoisonError::into_inner);
         let beyond = beyond.get_or_insert_with(lay_out);
-        whole.evaluate(&mut plain(&mut *beyond.op), self.plan.friction, true);
+        whole.evaluate(&mut plain(&mut *beyond.op), self.plan.friction);
         let computed = [&whole.u[0], &whole.u[1], &whole.u_z];
         let part = &self.window.grid;
         let (i, j) = ((grid.nx - part.nx) / 2, (grid.ny - part.ny) / 2);
