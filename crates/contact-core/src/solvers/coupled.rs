@@ -8,12 +8,12 @@
 //! displacements to the tractions again.
 
 use super::admissible::admissible;
+use super::interface::ROUNDING;
 use super::limit::{Sliding, exceeds, sliding};
 use super::mixing::Mixing;
 use super::rigid_motion::{Arms, Drive, add};
 use super::shear::first_shift;
 use super::shear_gradient::shear_gradient;
-use super::interface::ROUNDING;
 use super::vector::{add_scaled, largest, set_cells, set_pairs, size};
 use super::{
     Interface, NormalParams, NormalProblem, NormalWorkspace, Response, SolverError,

@@ -92,7 +92,11 @@ impl Interface {
         response.respond(tractions, displacements);
         let [k_x, k_y] = &known.u;
         let mut moved = 0.0;
-        for (u, known) in self.displacements_mut().into_iter().zip([k_x, k_y, &known.u_z]) {
+        for (u, known) in self
+            .displacements_mut()
+            .into_iter()
+            .zip([k_x, k_y, &known.u_z])
+        {
             moved = largest(u.len(), |n| u[n].abs()).max(moved);
             set_cells(u, |n, u| known[n] + u);
         }
