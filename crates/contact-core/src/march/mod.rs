@@ -21,6 +21,7 @@ mod solve;
 mod state;
 #[cfg(test)]
 mod tests;
+mod trial;
 mod window;
 
 pub use error_bars::{Bar, BranchEnds, ErrorBars, Tractions, coarsest, error_bars, means};
