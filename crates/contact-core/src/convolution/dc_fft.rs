@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use super::good_size::good_size;
 use super::{Displacements, Mirror, Spectra, SpectralProduct, SurfaceOperator, Tractions};
 use crate::error::Error;
-use crate::kernels::InfluenceCoefficients;
+use crate::kernels::{InfluenceCoefficients, Quadrant};
 use crate::stop::NOBODY;
 
 /// The DC-FFT operator: exact up to rounding for tractions that are constant on each cell.
@@ -15,9 +15,15 @@ pub struct DcFft {
     shape: (usize, usize),
     product: SpectralProduct<f64>,
     single: Option<SpectralProduct<f32>>,
+    rounding: f64,
     coupled: bool,
     self_coefficients: (f64, f64),
 }
+
+/// What single precision misses at most of a displacement, over the norms (roots of the sums of squares)
+/// of the tractions and of a kernel: transforms spread an error of each number over all of them, so that
+/// where tractions cancel it does not.
+const ROUNDING: f64 = 3e-7;
 
 impl DcFft {
     /// For the coefficients of a pair of bodies. With [`Mirror::Y`] the fields are those of the
@@ -54,11 +60,24 @@ impl DcFft {
         Ok(Self {
             shape: (shape.0, mirror.rows(shape.1)),
             product,
+            rounding: if single.is_some() {
+                ROUNDING * norm(coefficients) * mirror.multiplicity().sqrt()
+            } else {
+                0.0
+            },
             single: single.transpose()?,
             coupled: coupling,
             self_coefficients: coefficients.at_origin(),
         })
     }
+}
+
+/// The largest norm of a kernel, of which the coefficients are a quarter \[m/Pa\].
+fn norm(c: &InfluenceCoefficients) -> f64 {
+    let kernels = [&c.xx, &c.yy, &c.zz, &c.xy, &c.xz, &c.yz];
+    let quarter = |q: &Quadrant| q.iter().map(|k| k * k).sum::<f64>();
+    let largest = kernels.into_iter().map(quarter).fold(0.0, f64::max);
+    2.0 * largest.sqrt()
 }
 
 impl SurfaceOperator for DcFft {
@@ -77,8 +96,8 @@ impl SurfaceOperator for DcFft {
         }
     }
 
-    fn rounds(&self) -> bool {
-        self.single.is_some()
+    fn rounding(&self) -> f64 {
+        self.rounding
     }
 
     fn transforms(&self) -> usize {

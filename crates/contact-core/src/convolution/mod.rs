@@ -68,9 +68,10 @@ pub trait SurfaceOperator: Send + Sync {
         self.apply(tractions, displacements);
     }
 
-    /// Whether [`Self::respond`] errs by more than [`Self::apply`].
-    fn rounds(&self) -> bool {
-        false
+    /// What [`Self::respond`] may miss of a displacement, over the root of the sum of squares of the
+    /// tractions \[m/Pa\]; zero where it has all digits.
+    fn rounding(&self) -> f64 {
+        0.0
     }
 
     /// Two-dimensional transforms done so far; a three-component convolution takes six.

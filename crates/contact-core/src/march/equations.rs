@@ -144,7 +144,6 @@ fn params(scene: &Scene, approach: f64) -> CoupledParams {
             },
             // What the shear misses acts on the gap, however large mu is.
             tolerance: TANGENTIAL_SHARE * scene.friction.scale().min(1.0) * gap,
-            reduction: 0.0,
             max_iterations: solver.max_iterations,
             forcing: 0.2,
             max_passes: 12,

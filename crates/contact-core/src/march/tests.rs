@@ -68,8 +68,8 @@ impl SurfaceOperator for Clocked {
         self.op.respond(tractions, displacements);
     }
 
-    fn rounds(&self) -> bool {
-        self.op.rounds()
+    fn rounding(&self) -> f64 {
+        self.op.rounding()
     }
 
     fn transforms(&self) -> usize {

@@ -8,13 +8,12 @@
 //! displacements to the tractions again.
 
 use super::admissible::admissible;
-use super::interface::ROUNDING;
 use super::limit::{Sliding, exceeds, sliding};
 use super::mixing::Mixing;
 use super::rigid_motion::{Arms, Drive, add};
 use super::shear::first_shift;
 use super::shear_gradient::shear_gradient;
-use super::vector::{add_scaled, largest, set_cells, set_pairs, size};
+use super::vector::{add_scaled, set_cells, set_pairs, size};
 use super::{
     Interface, NormalParams, NormalProblem, NormalWorkspace, Response, SolverError,
     TangentialMethod, TangentialParams, TangentialProblem, TangentialWorkspace, normal, tangential,
@@ -53,11 +52,10 @@ pub trait SlipDatum {
 /// slip follow, after which these stay in a pass, and passes after which they stay for good.
 const STALLED: usize = 5;
 const LOST: usize = 3;
-/// Part of the misfit of the slip conditions that the shear for a pressure leaves: the next pressure
-/// brings back as much.
-const REDUCTION: f64 = 0.02;
 /// Part of the tolerances that rounding may come to; beyond a half of it a solution is not begun.
-const ROUNDED: f64 = 0.1;
+const ROUNDED: f64 = 0.05;
+/// Iterations whose changes add up to what they change together; more go back and forth.
+const STRAIGHT: f64 = 20.0;
 /// Most looks.
 const LOOKS: usize = 5;
 
@@ -105,6 +103,10 @@ impl CoupledInfo {
         exceeds(self.friction_used)
     }
 
+    fn iterations(&self) -> usize {
+        self.normal_iterations + self.tangential_iterations
+    }
+
     /// Adds the work of another solution that this one took.
     pub(crate) fn add_work(&mut self, other: &Self) {
         self.alternations += other.alternations;
@@ -123,7 +125,7 @@ pub struct CoupledWorkspace {
     q_before: [Vec<f64>; 2],
     change: [Vec<f64>; 2],
     response: [Vec<f64>; 2],
-    /// Displacements that the iterations begin with.
+    /// Tractions q_x, q_y, p that the iterations begin with.
     begun: [Vec<f64>; 3],
     mixing: Mixing,
     /// Passes in which the displacements that mean no slip could not be followed to the end.
@@ -168,7 +170,7 @@ pub fn coupled(
     ws: &mut CoupledWorkspace,
     params: &CoupledParams,
 ) -> Result<CoupledInfo, SolverError> {
-    let rounds = response.rounds();
+    let rounds = response.rounding() > 0.0;
     match look(response, problem, datum, now, ws, params) {
         Err(_) if rounds && !response.stopped() => {
             response.exact = true;
@@ -196,6 +198,7 @@ fn look(
     ws.lost = 0;
     for look in 0..LOOKS {
         let known = problem.known.filter(|_| look == 0);
+        let before = info.iterations();
         begin(response, known, now, ws, params, friction);
         ws.mixing.restart();
         loop {
@@ -234,16 +237,11 @@ fn look(
             if info.exceeds_friction() {
                 return Ok(info);
             }
-            let mut misfit = 0.0;
             if slides.is_full() {
                 let slip = problem.slip(&ws.bound, datum.displacements());
                 info.shift = incipient_shift(&slip, now, slides.motion);
             } else {
-                let params = TangentialParams {
-                    reduction: if coupled { REDUCTION } else { 0.0 },
-                    ..params.tangential
-                };
-                misfit = shear_under(response, problem, datum, now, ws, params, &mut info)?;
+                shear_under(response, problem, datum, now, ws, params, &mut info)?;
             }
             if !coupled {
                 break;
@@ -263,8 +261,7 @@ fn look(
             let check = super::normal::assess(&gap, &now.p, &now.u_z);
             info.approach = check.motion;
             let residual = check.gap.max(check.penetration);
-            let solved = residual <= params.tolerance;
-            if solved && misfit <= params.tangential.tolerance {
+            if residual <= params.tolerance {
                 break;
             }
             if info.alternations >= params.max_alternations {
@@ -275,14 +272,11 @@ fn look(
                     iterations: info.alternations,
                 });
             }
-            if !solved {
-                ws.mixing.mix(&now.p, &mut now.u_z);
-            }
+            ws.mixing.mix(&now.p, &mut now.u_z);
         }
-        if !response.rounds() {
-            break;
-        }
-        now.rounding += ROUNDING * moved(&ws.begun, now);
+        let straight = 1.0 + (info.iterations() - before) as f64 / STRAIGHT;
+        let [q_x, q_y, p] = &ws.begun;
+        now.rounding += response.rounding() * straight * now.differs([q_x, q_y, p]);
         if now.rounding <= params.rounding() {
             break;
         }
@@ -299,7 +293,7 @@ fn begin(
     params: &CoupledParams,
     friction: bool,
 ) {
-    let allowed = if response.rounds() {
+    let allowed = if response.rounding() > 0.0 {
         0.5 * params.rounding()
     } else {
         0.0
@@ -313,29 +307,24 @@ fn begin(
     if rounded > allowed {
         now.evaluate(response, friction);
     }
-    for (begun, u) in ws.begun.iter_mut().zip(now.displacements()) {
-        begun.copy_from_slice(u);
+    let tractions = [&now.q[0], &now.q[1], &now.p];
+    for (begun, traction) in ws.begun.iter_mut().zip(tractions) {
+        begun.copy_from_slice(traction);
     }
 }
 
-/// The largest change of a displacement since the iterations began \[m\].
-fn moved(begun: &[Vec<f64>; 3], now: &Interface) -> f64 {
-    let moved = |(begun, u): (&Vec<f64>, &Vec<f64>)| largest(u.len(), |n| (u[n] - begun[n]).abs());
-    let pairs = begun.iter().zip(now.displacements());
-    pairs.map(moved).fold(0.0, f64::max)
-}
-
 /// Shear for known pressure, with the displacements that mean no slip where the solution says: these
-/// follow after each step, as long as the misfit falls. Returns the misfit that is left.
+/// follow after each step, as long as the misfit falls.
 fn shear_under(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,
     datum: &mut dyn SlipDatum,
     now: &mut Interface,
     ws: &mut CoupledWorkspace,
-    mut params: TangentialParams,
+    params: &CoupledParams,
     info: &mut CoupledInfo,
-) -> Result<f64, SolverError> {
+) -> Result<(), SolverError> {
+    let params = &params.tangential;
     let solve = match params.method {
         TangentialMethod::Newton => tangential,
         TangentialMethod::Gradient => shear_gradient,
@@ -354,15 +343,11 @@ fn shear_under(
             ..problem.slip(&ws.bound, datum.displacements())
         };
         let inner = &mut ws.tangential;
-        let found = solve(response, &slip, &mut now.shear(), inner, &params)?;
+        let found = solve(response, &slip, &mut now.shear(), inner, params)?;
         info.tangential_iterations += found.passes;
         info.shift = found.shift;
         if !follows || found.iterations == 0 {
-            return Ok(found.misfit);
-        }
-        if step == 1 {
-            params.tolerance = params.tolerance.max(params.reduction * found.misfit);
-            params.reduction = 0.0;
+            return Ok(());
         }
         if found.misfit < least {
             (least, stalled) = (found.misfit, 0);

@@ -2,12 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::vector::{largest, set_cells};
+use super::vector::{set_cells, sum_cells};
 use super::{Response, Shear};
 use crate::convolution::{Displacements, Tractions};
-
-/// What single precision may miss of the displacements that answer a change, over the largest of them.
-pub(crate) const ROUNDING: f64 = 1e-6;
 
 /// Tractions of an increment and the displacements that belong to them, on the kept cells.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -90,27 +87,26 @@ impl Interface {
         let [u_x, u_y] = &mut self.u;
         let displacements = wanted(response, shear, [u_x, u_y, &mut self.u_z]);
         response.respond(tractions, displacements);
-        let [k_x, k_y] = &known.u;
-        let mut moved = 0.0;
-        for (u, known) in self
-            .displacements_mut()
-            .into_iter()
-            .zip([k_x, k_y, &known.u_z])
-        {
-            moved = largest(u.len(), |n| u[n].abs()).max(moved);
+        let [u_x, u_y] = &mut self.u;
+        let pairs = [u_x, u_y, &mut self.u_z].into_iter();
+        for (u, known) in pairs.zip([&known.u[0], &known.u[1], &known.u_z]) {
             set_cells(u, |n, u| known[n] + u);
         }
-        self.rounding = known.rounding + ROUNDING * moved;
+        let tractions = [&known.q[0][..], &known.q[1], &known.p];
+        self.rounding = known.rounding + response.rounding() * self.differs(tractions);
     }
 
-    /// u_x, u_y, u_z \[m\].
-    pub(super) fn displacements(&self) -> [&Vec<f64>; 3] {
-        [&self.u[0], &self.u[1], &self.u_z]
-    }
-
-    fn displacements_mut(&mut self) -> [&mut Vec<f64>; 3] {
-        let [u_x, u_y] = &mut self.u;
-        [u_x, u_y, &mut self.u_z]
+    /// Root of the sum of squares of what the tractions differ by from q_x, q_y, p \[Pa\].
+    pub(super) fn differs(&self, [q_x, q_y, p]: [&[f64]; 3]) -> f64 {
+        let [squares] = sum_cells(self.p.len(), |n| {
+            let change = [
+                self.q[0][n] - q_x[n],
+                self.q[1][n] - q_y[n],
+                self.p[n] - p[n],
+            ];
+            [change.iter().map(|c| c * c).sum()]
+        });
+        squares.sqrt()
     }
 }
 

@@ -22,9 +22,10 @@ impl Response<'_> {
         self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
-    /// Whether changes of the tractions are answered with some digits only.
-    pub(crate) fn rounds(&self) -> bool {
-        !self.exact && self.op.rounds()
+    /// What the answer to a change of the tractions may miss of a displacement, over the root of the
+    /// sum of squares of the change \[m/Pa\]; zero where it has all digits.
+    pub(crate) fn rounding(&self) -> f64 {
+        if self.exact { 0.0 } else { self.op.rounding() }
     }
 
     /// The displacements under a change of the tractions.

@@ -304,11 +304,12 @@ impl Audit {
             increment.motion.delta_x - shift.delta_x,
             increment.motion.delta_y - shift.delta_y,
         ];
-        let (mut all, mut size) = (0.0, 0.0);
+        let (mut all, mut size, mut so_far) = (0.0, 0.0, 0.0);
         for (n, &p) in now.p.indexed_iter() {
             let gained = now.dissipated[n] - before(|f| &f.dissipated, n);
             all += gained;
             size += gained.abs();
+            so_far += now.dissipated[n].abs();
             // In pieces, each has slips of its own.
             if increment.work.parts > 1 {
                 continue;
@@ -337,8 +338,11 @@ impl Audit {
             } else {
                 mean * against(q) / q[0].hypot(q[1])
             };
-            // The differences of displacements may cancel to a thousandth of the tolerance.
-            let known = 1e-3 * self.misfit.slip * mean + 1e-12 * now.dissipated[n].abs();
+            // The differences of displacements may cancel to a thousandth of the tolerance, and the shear
+            // is at its bound up to rounding.
+            let slipped = ROUNDING * slip[0].hypot(slip[1]);
+            let known =
+                (1e-3 * self.misfit.slip + slipped) * mean + 1e-12 * now.dissipated[n].abs();
             let off = (gained - taken).abs();
             if off > 0.0 {
                 found.dissipation = found.dissipation.max(off / known);
@@ -346,7 +350,7 @@ impl Audit {
         }
         let off = (all * scene.grid.cell_area() - increment.energy.dissipated).abs();
         if off > 0.0 {
-            let known = ROUNDING * size * scene.grid.cell_area();
+            let known = (ROUNDING * size + 1e-12 * so_far) * scene.grid.cell_area();
             found.dissipation = found.dissipation.max(off / known);
         }
     }
