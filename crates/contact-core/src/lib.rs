@@ -29,6 +29,7 @@ pub mod output;
 pub mod reference;
 pub mod scene;
 pub mod solvers;
+mod stop;
 
 pub use error::Error;
 pub use scene::Scene;

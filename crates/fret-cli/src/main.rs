@@ -74,13 +74,16 @@ enum Failure {
     EndedEarly(Error),
     /// The scene or the command line has no meaning.
     BadInput(Error),
+    /// Ctrl-C, and nothing is kept.
+    Stopped,
 }
 
 impl Failure {
     fn report(&self) -> ExitCode {
         let (error, code) = match self {
-            Self::EndedEarly(error) => (error, 1),
-            Self::BadInput(error) => (error, 2),
+            Self::EndedEarly(error) => (error.to_string(), 1),
+            Self::BadInput(error) => (error.to_string(), 2),
+            Self::Stopped => ("stopped, nothing was written".to_owned(), 1),
         };
         say(&format!("fret: {error}"));
         ExitCode::from(code)

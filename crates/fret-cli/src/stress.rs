@@ -1,6 +1,8 @@
 //! `fret stress`.
 
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use contact_core::Error;
@@ -10,7 +12,7 @@ use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volu
 use contact_core::scene::Scene;
 use ndarray::Array2;
 
-use crate::{Failure, print};
+use crate::{Failure, print, say};
 
 /// Options of `fret stress`.
 #[derive(Args)]
@@ -80,11 +82,13 @@ struct Task {
     depths: Vec<Depth>,
     probes: Vec<Probe>,
     loads: Loads,
+    /// Raised by Ctrl-C.
+    stop: Arc<AtomicBool>,
 }
 
 /// Computes the stress below the contact of a result.
 pub(crate) fn stress(options: &Options) -> Result<(), Failure> {
-    let task = Task::new(options).map_err(Failure::BadInput)?;
+    let task = Task::new(options, stop_on_interrupt()).map_err(Failure::BadInput)?;
     let line = match (options.along_x, options.along_y, options.volume) {
         (_, _, true) => None,
         (_, Some(x), _) => Some(Line::AlongY(x)),
@@ -94,12 +98,32 @@ pub(crate) fn stress(options: &Options) -> Result<(), Failure> {
         Some(line) => task.section(options, line),
         None => task.volume(options),
     };
-    print(&lines.map_err(Failure::BadInput)?.join("\n"));
+    let lines = lines.map_err(|error| match error {
+        Error::Interrupted { .. } => Failure::Stopped,
+        error => Failure::BadInput(error),
+    })?;
+    print(&lines.join("\n"));
     Ok(())
 }
 
+/// A flag that the first Ctrl-C raises; the second ends the process at once, and may leave what is
+/// unfinished behind.
+fn stop_on_interrupt() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = stop.clone();
+    let handler = move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(1);
+        }
+    };
+    if let Err(error) = ctrlc::set_handler(handler) {
+        say(&format!("fret: Ctrl-C will end this at once: {error}"));
+    }
+    stop
+}
+
 impl Task {
-    fn new(options: &Options) -> Result<Self, Error> {
+    fn new(options: &Options, stop: Arc<AtomicBool>) -> Result<Self, Error> {
         let store = Store::open(&options.store)?;
         let scene = store.scene().clone();
         let side = if options.body == 1 {
@@ -136,6 +160,7 @@ impl Task {
             scene,
             side,
             depths,
+            stop,
         })
     }
 
@@ -171,7 +196,7 @@ impl Task {
         }
         let store = self.store(options, Some(line))?;
         let states = [self.loads.tractions()];
-        let mut section = Section::new(self.body(), self.side, grid, line, &states)?
+        let mut section = Section::until(self.body(), self.side, grid, line, &states, &self.stop)?
             .with_bulk_stress(&[self.loads.sigma_B]);
         if !options.no_rim {
             section = section.with_rim(&states, &self.loads.stick());
@@ -209,7 +234,7 @@ impl Task {
         sinks.extend(image.as_ref().map(|i| i as &dyn VolumeSink));
         sinks.extend(store.as_ref().map(|s| s as &dyn VolumeSink));
         let states = [self.loads.tractions()];
-        let mut slices = Slices::new(self.body(), self.side, grid, &states)?
+        let mut slices = Slices::until(self.body(), self.side, grid, &states, &self.stop)?
             .with_bulk_stress(&[self.loads.sigma_B]);
         if !options.no_rim {
             slices = slices.with_rim(&states, &self.loads.stick());

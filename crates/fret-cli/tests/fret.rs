@@ -346,6 +346,33 @@ fn an_interrupted_run_ends_cleanly() {
     assert_eq!(saved.last().map(|&n| n as usize), Some(store.increments()));
 }
 
+/// Ctrl-C in the middle of a volume: nothing of it is left.
+#[cfg(unix)]
+#[test]
+fn interrupted_stress_leaves_nothing() {
+    let (store, volume) = (free("stressed.zarr"), free("volume.zarr"));
+    let unfinished = volume.with_file_name(".volume.zarr.unfinished");
+    assert!(run(&store, &["--quiet"]).status.success());
+    let (from, to) = (store.to_str().unwrap(), volume.to_str().unwrap());
+    let mut child = Command::new(env!("CARGO_BIN_EXE_fret"))
+        .args(["stress", from, "-o", to, "--volume", "--depths", "65000"])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    while !unfinished.exists() {
+        assert!(child.try_wait().unwrap().is_none());
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &id]).status();
+    assert!(sent.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(error.contains("stopped, nothing was written"), "{error}");
+    assert!(!volume.exists() && !unfinished.exists());
+}
+
 /// Before the first increment there is nothing to keep: it ends without solving one.
 #[cfg(unix)]
 #[test]

@@ -1,5 +1,8 @@
 //! Stress and energy over a load path.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use contact_core::fields as core;
 use contact_core::fields::{Line, Stream};
 use contact_core::march;
@@ -10,6 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::error::to_python;
+use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, LoadPath};
 use crate::stress::measures;
 use crate::subsurface::{Field, Subsurface, line, side};
@@ -97,23 +101,28 @@ impl Envelope {
         sigma_B: f64,
     ) -> PyResult<()> {
         let tractions = [q_x, q_y, p].map(|f| f.as_array().as_standard_layout().into_owned());
-        let stream = self.stream.as_mut().ok_or_else(finished)?;
+        let mut stream = self.stream.take().ok_or_else(finished)?;
         let moment = core::Moment {
             increment,
             branch,
             sigma_B,
         };
         let stick = stick.as_array().as_standard_layout().into_owned();
-        py.detach(|| stream.push(moment, tractions, stick))
-            .map_err(to_python)
+        let stop = Arc::<AtomicBool>::default();
+        stream.stop_on(stop.clone());
+        interruptible(py, &stop, || stream.push(moment, tractions, stick))?.map_err(to_python)?;
+        self.stream = Some(stream);
+        Ok(())
     }
 
     /// For each name, arrays over (depth, place): max, min, increment of the largest value; lists
     /// over cycles of amplitude and mean; below a line, rows of the largest values at each
     /// increment: increment, value, place along the line, depth, layer.
     fn finish<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let stream = self.stream.take().ok_or_else(finished)?;
-        let (_, kept) = py.detach(|| stream.finish()).map_err(to_python)?;
+        let mut stream = self.stream.take().ok_or_else(finished)?;
+        let stop = Arc::<AtomicBool>::default();
+        stream.stop_on(stop.clone());
+        let (_, kept) = interruptible(py, &stop, || stream.finish())?.map_err(to_python)?;
         let (kept, tops): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
         let largest = core::Largest::over_depths(&tops);
         let result = PyDict::new(py);
@@ -158,7 +167,7 @@ impl Envelope {
 }
 
 fn finished() -> PyErr {
-    PyValueError::new_err("the envelope has been finished")
+    PyValueError::new_err("the envelope has been finished, or was stopped on the way")
 }
 
 /// The loops of a history, one dictionary per cycle.

@@ -1,5 +1,7 @@
 //! The response of a body to tractions on its surface.
 
+use std::sync::Arc;
+
 use contact_core::kernels as core;
 use contact_core::kernels::{Complex64, Stack};
 use ndarray::{Array2, Array3, ArrayView2};
@@ -10,6 +12,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::to_python;
+use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, Settings};
 
 /// One 3 x 3 matrix per wave vector.
@@ -44,10 +47,11 @@ pub(crate) fn influence_coefficients(
 ) -> PyResult<Bound<'_, PyArray4<f64>>> {
     let settings = settings.unwrap_or_default().0;
     let shortcut = settings.skip.equal_layers;
-    let matrix = py.detach(|| {
-        core::influence_coefficients(&body.0, &grid.0, &settings.kernel, shortcut)
+    let stop = Arc::default();
+    let matrix = interruptible(py, &stop, || {
+        core::influence_coefficients_until(&body.0, &grid.0, &settings.kernel, shortcut, &stop)
             .map(|coefficients| coefficients.matrix())
-    });
+    })?;
     Ok(matrix.map_err(to_python)?.into_pyarray(py))
 }
 
@@ -60,10 +64,11 @@ pub(crate) fn stress_coefficients(
     z: f64,
     layer: Option<usize>,
 ) -> PyResult<Bound<'_, PyArray4<f64>>> {
-    let matrix = py.detach(|| {
-        core::stress_coefficients(&body.0, &grid.0, z, layer)
+    let stop = Arc::default();
+    let matrix = interruptible(py, &stop, || {
+        core::stress_coefficients_until(&body.0, &grid.0, z, layer, &stop)
             .map(|coefficients| coefficients.matrix())
-    });
+    })?;
     Ok(matrix.map_err(to_python)?.into_pyarray(py))
 }
 

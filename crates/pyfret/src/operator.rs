@@ -1,15 +1,16 @@
 //! u = C * q for people who build their own models.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use contact_core::convolution::{DcFft, Displacements, Mirror, SurfaceOperator as _, Tractions};
-use contact_core::kernels::influence_coefficients;
+use contact_core::kernels::influence_coefficients_until;
 use ndarray::{Array3, ArrayViewMut2, Axis};
 use numpy::{AllowTypeChange, PyArray3, PyArrayLike2, ToPyArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::to_python;
+use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, Settings};
 
 /// The displacements that tractions cause on a pair of bodies.
@@ -34,20 +35,17 @@ impl SurfaceOperator {
         settings: Option<Settings>,
     ) -> PyResult<Self> {
         let settings = settings.unwrap_or_default().0;
+        let (shortcut, stop) = (settings.skip.equal_layers, Arc::default());
         let of = |body: &Body| {
-            influence_coefficients(
-                &body.0,
-                &grid.0,
-                &settings.kernel,
-                settings.skip.equal_layers,
-            )
+            influence_coefficients_until(&body.0, &grid.0, &settings.kernel, shortcut, &stop)
         };
-        let pair = py
-            .detach(|| Ok(of(&body2)?.pair(&of(&body1)?)))
-            .map_err(to_python)?;
+        let operator = interruptible(py, &stop, || {
+            let pair = of(&body2)?.pair(&of(&body1)?);
+            DcFft::until(&pair, Mirror::None, true, false, &stop)
+        })?;
         Ok(Self {
             shape: (grid.0.nx, grid.0.ny),
-            inner: Mutex::new(DcFft::new(&pair, Mirror::None, true)),
+            inner: Mutex::new(operator.map_err(to_python)?),
         })
     }
 

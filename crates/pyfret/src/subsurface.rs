@@ -1,6 +1,8 @@
 //! Stress and displacement below the surface.
 
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use contact_core::convolution::Tractions;
 use contact_core::fields as core;
@@ -12,6 +14,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::to_python;
+use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 
 /// A field on the grid.
@@ -75,9 +78,9 @@ impl Subsurface {
         self.stick.iter().map(Vec::as_slice).collect()
     }
 
-    fn slices(&self) -> Result<core::Slices, contact_core::Error> {
-        let states = [self.tractions()];
-        let slices = core::Slices::new(&self.body.0, self.side, &self.grid.0, &states)?
+    fn slices(&self, stop: &Arc<AtomicBool>) -> Result<core::Slices, contact_core::Error> {
+        let (body, grid, states) = (&self.body.0, &self.grid.0, [self.tractions()]);
+        let slices = core::Slices::until(body, self.side, grid, &states, stop)?
             .with_bulk_stress(&[self.sigma_B]);
         Ok(if self.rim {
             slices.with_rim(&states, &self.stick())
@@ -148,11 +151,11 @@ impl Subsurface {
         displacement: bool,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let (depths, line) = (Self::depths(&z, &layer)?, line(x, y)?);
-        let found = py.detach(|| {
-            let states = [self.tractions()];
-            let mut section =
-                core::Section::new(&self.body.0, self.side, &self.grid.0, line, &states)?
-                    .with_bulk_stress(&[self.sigma_B]);
+        let stop = Arc::default();
+        let found = interruptible(py, &stop, || {
+            let (body, grid, states) = (&self.body.0, &self.grid.0, [self.tractions()]);
+            let mut section = core::Section::until(body, self.side, grid, line, &states, &stop)?
+                .with_bulk_stress(&[self.sigma_B]);
             if self.rim {
                 section = section.with_rim(&states, &self.stick());
             }
@@ -161,7 +164,7 @@ impl Subsurface {
             } else {
                 section.stress(&depths)
             }
-        });
+        })?;
         Ok(found.map_err(to_python)?.swap_remove(0).into_pyarray(py))
     }
 
@@ -173,15 +176,16 @@ impl Subsurface {
         layer: usize,
         displacement: bool,
     ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
-        let found = py.detach(|| {
-            let slices = self.slices()?;
+        let stop = Arc::default();
+        let found = interruptible(py, &stop, || {
+            let slices = self.slices(&stop)?;
             let depth = Depth { z, layer };
             Ok(if displacement {
                 Vec::from(slices.displacement(depth)?.swap_remove(0))
             } else {
                 Vec::from(slices.stress(depth)?.swap_remove(0))
             })
-        });
+        })?;
         let found = found.map_err(to_python)?;
         Ok(found.into_iter().map(|f| f.into_pyarray(py)).collect())
     }
@@ -195,15 +199,16 @@ impl Subsurface {
             .into_iter()
             .map(|(x, y, z, layer)| (x, y, Depth { z, layer }))
             .collect();
-        let both = py.detach(|| {
-            let states = [self.tractions()];
-            let mut points = core::Points::new(&self.body.0, self.side, &self.grid.0, &states)?
+        let stop = Arc::default();
+        let both = interruptible(py, &stop, || {
+            let (body, grid, states) = (&self.body.0, &self.grid.0, [self.tractions()]);
+            let mut points = core::Points::until(body, self.side, grid, &states, &stop)?
                 .with_bulk_stress(&[self.sigma_B]);
             if self.rim {
                 points = points.with_rim(&states, &self.stick());
             }
             Ok((points.stress(&places)?, points.displacement(&places)?))
-        });
+        })?;
         let (stress, u) = both.map_err(to_python)?;
         let stress = Array2::from_shape_fn((places.len(), 6), |(n, c)| stress[0][n][c]);
         let u = Array2::from_shape_fn((places.len(), 3), |(n, c)| u[0][n][c]);
@@ -223,9 +228,9 @@ impl Subsurface {
         let depths = Self::depths(&z, &layer)?;
         let probes = of.iter().map(|name| core::Probe::named(name, "of"));
         let probes: Vec<_> = probes.collect::<Result<_, _>>().map_err(to_python)?;
-        let (grid, side) = (&self.grid.0, self.side);
+        let (grid, side, stop) = (&self.grid.0, self.side, Arc::default());
         let write = || {
-            let slices = self.slices()?;
+            let slices = self.slices(&stop)?;
             let write =
                 |sink: &dyn VolumeSink| write_volume(&slices, &depths, &probes, &[sink]).map(drop);
             if out
@@ -241,6 +246,6 @@ impl Subsurface {
                 store.finish()
             }
         };
-        py.detach(write).map_err(to_python)
+        interruptible(py, &stop, write)?.map_err(to_python)
     }
 }

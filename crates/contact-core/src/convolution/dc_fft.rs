@@ -1,8 +1,12 @@
 //! Discrete convolution by fast Fourier transforms on a doubled domain.
 
+use std::sync::atomic::AtomicBool;
+
 use super::good_size::good_size;
 use super::{Displacements, Mirror, Spectra, SpectralProduct, SurfaceOperator, Tractions};
+use crate::error::Error;
 use crate::kernels::InfluenceCoefficients;
+use crate::stop::NOBODY;
 
 /// The DC-FFT operator: exact up to rounding for tractions that are constant on each cell.
 ///
@@ -30,16 +34,30 @@ impl DcFft {
         coupling: bool,
         single: bool,
     ) -> Self {
-        let (nx, ny) = coefficients.zz.dim();
-        let period = (good_size(2 * nx - 1), good_size(2 * ny - 1));
-        let spectra = Spectra::of(coefficients, period, coupling);
-        Self {
-            shape: (nx, mirror.rows(ny)),
-            product: SpectralProduct::new((nx, ny), mirror, &spectra, period),
-            single: single.then(|| SpectralProduct::new((nx, ny), mirror, &spectra, period)),
+        let stop = AtomicBool::new(false);
+        Self::until(coefficients, mirror, coupling, single, &stop).expect(NOBODY)
+    }
+
+    /// As [`Self::with_single`]; ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
+    pub fn until(
+        coefficients: &InfluenceCoefficients,
+        mirror: Mirror,
+        coupling: bool,
+        single: bool,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
+        let shape = coefficients.zz.dim();
+        let period = (good_size(2 * shape.0 - 1), good_size(2 * shape.1 - 1));
+        let spectra = Spectra::of(coefficients, period, coupling, stop)?;
+        let product = SpectralProduct::new(shape, mirror, &spectra, period, stop)?;
+        let single = single.then(|| SpectralProduct::new(shape, mirror, &spectra, period, stop));
+        Ok(Self {
+            shape: (shape.0, mirror.rows(shape.1)),
+            product,
+            single: single.transpose()?,
             coupled: coupling,
             self_coefficients: coefficients.at_origin(),
-        }
+        })
     }
 }
 

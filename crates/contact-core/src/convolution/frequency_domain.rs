@@ -5,11 +5,15 @@
 //! grid, multiplied by the response and transformed back, in every iteration. The periodic images
 //! of the load remain in the answer and fade slowly with lambda.
 
+use std::sync::atomic::AtomicBool;
+
 use rayon::prelude::*;
 
 use super::{Displacements, Mirror, Spectra, SpectralProduct, SurfaceOperator, Tractions};
+use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, SampledFrf, Stack};
 use crate::scene::{Body, Grid};
+use crate::stop::{NOBODY, unless};
 
 /// The frequency-domain operator.
 pub struct FrequencyDomain {
@@ -29,6 +33,19 @@ impl FrequencyDomain {
         coupling: bool,
         coefficients: &InfluenceCoefficients,
     ) -> Self {
+        let stop = AtomicBool::new(false);
+        Self::until(bodies, grid, lambda, coupling, coefficients, &stop).expect(NOBODY)
+    }
+
+    /// As [`Self::new`]; ends when `stop` is raised.
+    pub(crate) fn until(
+        bodies: (&Body, &Body),
+        grid: &Grid,
+        lambda: usize,
+        coupling: bool,
+        coefficients: &InfluenceCoefficients,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
         let (stack1, stack2) = (Stack::new(bodies.0), Stack::new(bodies.1));
         let lower = SampledFrf::new(&stack2, grid, lambda, 0);
         let upper = SampledFrf::new(&stack1, grid, lambda, 0);
@@ -36,8 +53,7 @@ impl FrequencyDomain {
         let norm = 1.0 / (px * py) as f64;
         // A kernel odd along n axes has the transform (-i)^n times its spectrum; the coupling of
         // the two bodies subtracts, eq. (4).
-        let at = |index: usize| {
-            let (n, m) = (index / (px / 2 + 1), index % (px / 2 + 1));
+        let at = |n: usize, m: usize| {
             let (two, one) = (lower.at(m, n), upper.at(m, n));
             [
                 norm * (two[0] + one[0]),
@@ -48,8 +64,15 @@ impl FrequencyDomain {
                 -norm * (two[5] - one[5]),
             ]
         };
-        let size = (px / 2 + 1) * (py / 2 + 1);
-        let samples: Vec<[f64; 6]> = (0..size).into_par_iter().map(at).collect();
+        let row = |n: usize| {
+            unless(stop)?;
+            Ok((0..=px / 2).map(|m| at(n, m)).collect())
+        };
+        let rows: Vec<Vec<[f64; 6]>> = (0..=py / 2)
+            .into_par_iter()
+            .map(row)
+            .collect::<Result<_, Error>>()?;
+        let samples = rows.concat();
         // A real field has no part of the highest frequency that is odd along its axis.
         let parity = [
             (false, false),
@@ -77,12 +100,13 @@ impl FrequencyDomain {
             xz: if_coupled(4),
             yz: if_coupled(5),
         };
-        Self {
-            shape: (grid.nx, grid.ny),
-            product: SpectralProduct::new((grid.nx, grid.ny), Mirror::None, &spectra, (px, py)),
+        let shape = (grid.nx, grid.ny);
+        Ok(Self {
+            shape,
+            product: SpectralProduct::new(shape, Mirror::None, &spectra, (px, py), stop)?,
             coupled: coupling,
             self_coefficients: coefficients.at_origin(),
-        }
+        })
     }
 }
 

@@ -1,8 +1,12 @@
 //! The spectra in the order in which the lines use them.
 
+use std::sync::atomic::AtomicBool;
+
 use super::Spectra;
 use super::precision::Precision;
 use super::spectra::Spectrum;
+use crate::error::Error;
+use crate::stop::unless;
 
 /// Frequencies k_x that are worked on together.
 pub(crate) const LANES: usize = 4;
@@ -38,13 +42,20 @@ pub(crate) struct LineKernels<'a, T> {
 
 impl<T: Precision> LineSpectra<T> {
     /// `row` numbers per frequency k_y, divided by `unit`; lines of two frequencies if `mirrored`.
-    pub(crate) fn new(s: &Spectra, row: usize, mirrored: bool, unit: f64) -> Self {
-        let group = |spectra: &[&Spectrum]| Group::new(spectra, row, mirrored, unit);
-        Self {
-            tangential: group(&[&s.xx, &s.yy, &s.xy]),
-            normal: group(&[&s.zz]),
-            coupling: group(&[&s.xz, &s.yz]),
-        }
+    /// Ends when `stop` is raised.
+    pub(crate) fn new(
+        s: &Spectra,
+        row: usize,
+        mirrored: bool,
+        unit: f64,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
+        let group = |spectra: &[&Spectrum]| Group::new(spectra, row, mirrored, unit, stop);
+        Ok(Self {
+            tangential: group(&[&s.xx, &s.yy, &s.xy])?,
+            normal: group(&[&s.zz])?,
+            coupling: group(&[&s.xz, &s.yz])?,
+        })
     }
 
     pub(crate) fn of(&self, line: usize) -> LineKernels<'_, T> {
@@ -57,9 +68,15 @@ impl<T: Precision> LineSpectra<T> {
 }
 
 impl<T: Precision> Group<T> {
-    fn new(spectra: &[&Spectrum], row: usize, mirrored: bool, unit: f64) -> Self {
+    fn new(
+        spectra: &[&Spectrum],
+        row: usize,
+        mirrored: bool,
+        unit: f64,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
         if spectra.iter().any(|s| s.is_empty()) {
-            return Self::default();
+            return Ok(Self::default());
         }
         let blocks = row.div_ceil(LANES);
         let frequencies = spectra[0].len() / row;
@@ -67,6 +84,7 @@ impl<T: Precision> Group<T> {
         let lines = frequencies.div_ceil(each);
         let mut values = Vec::with_capacity(lines * blocks * spectra.len() * each);
         for line in 0..lines {
+            unless(stop)?;
             for block in 0..blocks {
                 for spectrum in spectra {
                     for l in 0..each {
@@ -86,10 +104,10 @@ impl<T: Precision> Group<T> {
                 }
             }
         }
-        Self {
+        Ok(Self {
             per_line: blocks * spectra.len() * each,
             values,
-        }
+        })
     }
 
     fn of(&self, line: usize) -> &[[T; LANES]] {

@@ -5,9 +5,13 @@
 //! since it is made of their coefficients. Masked to the contact it is used for C restricted to
 //! the contact; normal and tangential parts are inverted separately.
 
+use std::sync::atomic::AtomicBool;
+
 use super::good_size::good_size;
 use super::{Displacements, Mirror, Spectra, SpectralProduct, Tractions};
+use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, Quadrant};
+use crate::stop::{NOBODY, unless};
 
 /// Circulant inverse of the normal and of the tangential part of an operator.
 pub struct CirculantInverse {
@@ -24,8 +28,18 @@ impl CirculantInverse {
     /// For the coefficients of a pair of bodies, on the whole grid or its mirrored half, in single
     /// precision if `single`.
     pub fn new(c: &InfluenceCoefficients, mirror: Mirror, single: bool) -> Self {
-        let (nx, ny) = c.zz.dim();
-        let period = (good_size(nx), good_size(ny));
+        Self::until(c, mirror, single, &AtomicBool::new(false)).expect(NOBODY)
+    }
+
+    /// As [`Self::new`]; ends when `stop` is raised.
+    pub(crate) fn until(
+        c: &InfluenceCoefficients,
+        mirror: Mirror,
+        single: bool,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
+        let shape = c.zz.dim();
+        let period = (good_size(shape.0), good_size(shape.1));
         let cut = |q: &Quadrant, odd: bool| cut_at_half(q, period, odd);
         let half = InfluenceCoefficients {
             xx: cut(&c.xx, false),
@@ -35,14 +49,15 @@ impl CirculantInverse {
             xz: Quadrant::zeros((0, 0)),
             yz: Quadrant::zeros((0, 0)),
         };
-        let forward = Spectra::of(&half, period, false);
+        let forward = Spectra::of(&half, period, false, stop)?;
         let inverse = invert(&forward, (period.0 * period.1) as f64);
+        unless(stop)?;
         let product = if single {
-            Product::Single(SpectralProduct::new((nx, ny), mirror, &inverse, period))
+            Product::Single(SpectralProduct::new(shape, mirror, &inverse, period, stop)?)
         } else {
-            Product::Double(SpectralProduct::new((nx, ny), mirror, &inverse, period))
+            Product::Double(SpectralProduct::new(shape, mirror, &inverse, period, stop)?)
         };
-        Self { product }
+        Ok(Self { product })
     }
 
     /// z ~ C_zz^-1 r.

@@ -1,11 +1,15 @@
 //! Real spectra of kernels of definite parity.
 
+use std::sync::atomic::AtomicBool;
+
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use rustfft::num_complex::Complex64;
 
 use super::Half;
+use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, Quadrant};
+use crate::stop::unless;
 
 /// One real spectrum S, k_y-major, shape (period_y/2 + 1, period_x/2 + 1); the transform of the
 /// kernel is (-i)^n S with n the number of axes along which it is odd.
@@ -26,35 +30,45 @@ pub(crate) struct Spectra {
 
 impl Spectra {
     /// Spectra of influence coefficients on a domain of the given periods; without `coupling` the
-    /// normal-tangential ones are left out.
-    pub(crate) fn of(c: &InfluenceCoefficients, period: (usize, usize), coupling: bool) -> Self {
+    /// normal-tangential ones are left out. Ends when `stop` is raised.
+    pub(crate) fn of(
+        c: &InfluenceCoefficients,
+        period: (usize, usize),
+        coupling: bool,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
         use Half::{Even, Odd};
-        let transform = |q: &Quadrant, x, y| transform(q, (x, y), period);
+        let transform = |q: &Quadrant, x, y| transform(q, (x, y), period, stop);
         let if_coupled = |q: &Quadrant, x, y| {
             if coupling {
                 transform(q, x, y)
             } else {
-                Spectrum::new()
+                Ok(Spectrum::new())
             }
         };
-        Self {
-            xx: transform(&c.xx, Even, Even),
-            yy: transform(&c.yy, Even, Even),
-            zz: transform(&c.zz, Even, Even),
-            xy: transform(&c.xy, Odd, Odd),
-            xz: if_coupled(&c.xz, Odd, Even),
-            yz: if_coupled(&c.yz, Even, Odd),
-        }
+        Ok(Self {
+            xx: transform(&c.xx, Even, Even)?,
+            yy: transform(&c.yy, Even, Even)?,
+            zz: transform(&c.zz, Even, Even)?,
+            xy: transform(&c.xy, Odd, Odd)?,
+            xz: if_coupled(&c.xz, Odd, Even)?,
+            yz: if_coupled(&c.yz, Even, Odd)?,
+        })
     }
 }
 
 /// The spectrum of a kernel given on the offsets >= 0, along x and then along y.
-fn transform(quadrant: &Quadrant, half: (Half, Half), period: (usize, usize)) -> Spectrum {
+fn transform(
+    quadrant: &Quadrant,
+    half: (Half, Half),
+    period: (usize, usize),
+    stop: &AtomicBool,
+) -> Result<Spectrum, Error> {
     let (nx, ny) = quadrant.dim();
     if quadrant.is_empty() {
-        return Spectrum::new();
+        return Ok(Spectrum::new());
     }
-    let along_x = by_parity(ny, nx, |j, i| quadrant[(i, j)], half.0, period.0);
+    let along_x = by_parity(ny, nx, |j, i| quadrant[(i, j)], half.0, period.0, stop)?;
     let frequencies_x = period.0 / 2 + 1;
     let along_y = by_parity(
         frequencies_x,
@@ -62,13 +76,14 @@ fn transform(quadrant: &Quadrant, half: (Half, Half), period: (usize, usize)) ->
         |k, j| along_x[j * frequencies_x + k],
         half.1,
         period.1,
-    );
+        stop,
+    )?;
     let frequencies_y = period.1 / 2 + 1;
     let norm = 1.0 / (period.0 * period.1) as f64;
-    (0..frequencies_y)
+    Ok((0..frequencies_y)
         .flat_map(|l| (0..frequencies_x).map(move |k| (k, l)))
         .map(|(k, l)| norm * along_y[k * frequencies_y + l])
-        .collect()
+        .collect())
 }
 
 /// For each of `lines` sequences `f(line, i)`, i < n, continued to i < 0 by their parity: the sums
@@ -79,7 +94,8 @@ fn by_parity(
     f: impl Fn(usize, usize) -> f64 + Sync,
     half: Half,
     period: usize,
-) -> Vec<f64> {
+    stop: &AtomicBool,
+) -> Result<Vec<f64>, Error> {
     let fft = RealFftPlanner::<f64>::new().plan_fft_forward(period);
     let frequencies = period / 2 + 1;
     let mut out = vec![0.0; lines * frequencies];
@@ -91,9 +107,10 @@ fn by_parity(
             scratch,
         )
     };
-    out.par_chunks_mut(frequencies).enumerate().for_each_init(
-        buffers,
-        |(real, spectrum, scratch), (line, out)| {
+    out.par_chunks_mut(frequencies)
+        .enumerate()
+        .try_for_each_init(buffers, |(real, spectrum, scratch), (line, out)| {
+            unless(stop)?;
             real.fill(0.0);
             for i in 0..n {
                 let value = f(line, i);
@@ -117,7 +134,7 @@ fn by_parity(
                     Half::Odd => -v.im,
                 };
             }
-        },
-    );
-    out
+            Ok(())
+        })?;
+    Ok(out)
 }

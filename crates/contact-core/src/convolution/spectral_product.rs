@@ -8,6 +8,7 @@
 
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 use rustfft::num_complex::Complex;
@@ -18,6 +19,7 @@ use super::line_spectra::LineSpectra;
 use super::precision::Precision;
 use super::y_transform::{ROWS, YScratch, YTransform};
 use super::{Displacements, Half, Mirror, Spectra, Tractions};
+use crate::error::Error;
 
 /// Cells below which a second thread costs more than it brings.
 pub(crate) const PARALLEL_FROM: usize = 40 * 40;
@@ -65,13 +67,14 @@ struct Scratch<T> {
 
 impl<T: Precision> SpectralProduct<T> {
     /// For fields of the whole grid of nx x ny cells, or of its mirrored half, and spectra of the
-    /// given periods (even).
+    /// given periods (even). Ends when `stop` is raised.
     pub(crate) fn new(
         (nx, ny): (usize, usize),
         mirror: Mirror,
         spectra: &Spectra,
         period: (usize, usize),
-    ) -> Self {
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
         let mut planner = FftPlanner::new();
         let y = YTransform::new(mirror, period.1, &mut planner);
         let x_forward = planner.plan_fft_forward(period.0);
@@ -99,13 +102,14 @@ impl<T: Precision> SpectralProduct<T> {
         let unit = T::unit(largest);
         // Lines a power of two apart would all meet in one set of the cache.
         let stride = components.len() * width + ROWS;
-        Self {
+        let (row, mirrored) = (period.0 / 2 + 1, mirror != Mirror::None);
+        Ok(Self {
             nx,
             rows,
             mirror,
             period: period.0,
             parts: (0..parts).map(|_| scratch()).collect(),
-            spectra: LineSpectra::new(spectra, period.0 / 2 + 1, mirror != Mirror::None, unit),
+            spectra: LineSpectra::new(spectra, row, mirrored, unit, stop)?,
             unit,
             x_forward,
             x_inverse,
@@ -115,7 +119,7 @@ impl<T: Precision> SpectralProduct<T> {
             stride,
             y,
             transforms: 0,
-        }
+        })
     }
 
     /// Applies the kernels to the tractions.

@@ -1,6 +1,8 @@
 //! Single points, by summation over the loaded cells.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
@@ -12,6 +14,7 @@ use crate::convolution::Tractions;
 use crate::error::Error;
 use crate::kernels::{Cell, DepthKernel, Displacement, Quantity, Stack, refuse_rigid};
 use crate::scene::{Body, Grid};
+use crate::stop::unless;
 
 /// Stress and displacement at single points; each costs one kernel value per loaded cell.
 pub struct Points {
@@ -24,6 +27,7 @@ pub struct Points {
     rim: Option<NearRim>,
     /// By state, for loads on cells and for point loads.
     loads: Vec<[Loads; 2]>,
+    stop: Arc<AtomicBool>,
 }
 
 /// A point: x, y \[m\] and the depth.
@@ -37,6 +41,18 @@ impl Points {
         side: Side,
         grid: &Grid,
         states: &[Tractions<'_>],
+    ) -> Result<Self, Error> {
+        Self::until(body, side, grid, states, &Arc::default())
+    }
+
+    /// As [`Self::new`]; when `stop` is raised, what is asked of it ends with
+    /// [`Error::Interrupted`].
+    pub fn until(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        states: &[Tractions<'_>],
+        stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
         body.check("body")?;
         grid.check()?;
@@ -56,6 +72,7 @@ impl Points {
             bulk: Bulk::default(),
             rim: None,
             loads: loads.collect(),
+            stop: stop.clone(),
         })
     }
 
@@ -176,11 +193,15 @@ impl Points {
         let at = |n: &usize| {
             let (x, y, _) = points[*n];
             let of_state = |loads: &[Loads; 2]| self.sum(&kernel, source, &loads[variant], (x, y));
-            let mut values: Vec<_> = self.loads.iter().map(of_state).collect();
+            let mut values: Vec<_> = self
+                .loads
+                .iter()
+                .map(of_state)
+                .collect::<Result<_, Error>>()?;
             more(&kernel, depth, *n, &mut values);
-            values
+            Ok(values)
         };
-        Ok(group.par_iter().map(at).collect())
+        group.par_iter().map(at).collect()
     }
 
     fn sum<Q: Quantity<N, R>, const N: usize, const R: usize>(
@@ -189,7 +210,7 @@ impl Points {
         source: Source,
         loads: &Loads,
         (x, y): (f64, f64),
-    ) -> [f64; R] {
+    ) -> Result<[f64; R], Error> {
         let Plane { n, d, .. } = self.plane;
         let patch = loads.patch;
         let from = |v: f64, i: usize, start: isize, n: usize, d: f64| {
@@ -198,6 +219,7 @@ impl Points {
         };
         let mut sum = [0.0; R];
         for j in 0..patch.rows {
+            unless(&self.stop)?;
             let rows = [0, 1, 2].map(|component| loads.row(component, j));
             let from_y = from(y, j, patch.start.1, n.1, d.1);
             for i in 0..patch.columns {
@@ -228,6 +250,6 @@ impl Points {
                 *sum *= self.side.sign();
             }
         }
-        sum
+        Ok(sum)
     }
 }

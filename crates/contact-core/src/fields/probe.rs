@@ -135,6 +135,7 @@ impl Slices {
         if stresses().next().is_some() {
             let s = self.stress(depth)?.swap_remove(0);
             for (n, measure) in stresses() {
+                self.unless_stopped()?;
                 let at = |at| (measure.value)(&std::array::from_fn(|c| s[c][at]));
                 f(n, Array2::from_shape_fn(s[0].dim(), at))?;
             }
@@ -149,6 +150,7 @@ impl Slices {
         if displacements().next().is_some() {
             let u = self.displacement(depth)?.swap_remove(0);
             for (n, axis) in displacements() {
+                self.unless_stopped()?;
                 f(n, u[axis].clone())?;
             }
         }

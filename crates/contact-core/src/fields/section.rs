@@ -12,6 +12,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex64;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use super::bulk::Bulk;
 use super::loads::{Loads, Plane, Source, snapped};
@@ -22,6 +23,7 @@ use crate::convolution::{Tractions, good_size};
 use crate::error::Error;
 use crate::kernels::{DepthKernel, Displacement, Quantity, Stack, Stress, refuse_rigid};
 use crate::scene::{Body, Grid};
+use crate::stop::unless;
 
 /// A straight line on the surface, through the middles of cells or anywhere between.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +47,7 @@ pub struct Section {
     states: usize,
     /// For loads on cells and for point loads; the latter may serve all depths asked for.
     rows: [Rows; 2],
+    stop: Arc<AtomicBool>,
 }
 
 /// The transforms of the loads along the line.
@@ -78,6 +81,19 @@ impl Section {
         line: Line,
         states: &[Tractions<'_>],
     ) -> Result<Self, Error> {
+        Self::until(body, side, grid, line, states, &Arc::default())
+    }
+
+    /// As [`Self::new`]; when `stop` is raised, this and what is asked of it later ends with
+    /// [`Error::Interrupted`].
+    pub fn until(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        line: Line,
+        states: &[Tractions<'_>],
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
         body.check("body")?;
         grid.check()?;
         let (exchanged, at) = match line {
@@ -94,7 +110,8 @@ impl Section {
                 format!("a place above the grid, {:e} to {half:e} m", -half),
             ));
         }
-        let rows = Source::ALL.map(|source| Rows::new(&plane, side, at, states, source));
+        let [cells, points] =
+            Source::ALL.map(|source| Rows::new(&plane, side, at, states, source, stop));
         Ok(Self {
             stack: Stack::new(body),
             body: body.clone(),
@@ -105,7 +122,8 @@ impl Section {
             bulk: Bulk::default(),
             rim: None,
             states: states.len(),
-            rows,
+            rows: [cells?, points?],
+            stop: stop.clone(),
         })
     }
 
@@ -153,7 +171,7 @@ impl Section {
     /// line).
     pub fn displacement(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
         self.gather::<3>(depths, |depth| {
-            Ok(self.at(&self.kernel::<Displacement, 5, 3>(depth)?, depth))
+            self.at(&self.kernel::<Displacement, 5, 3>(depth)?, depth)
         })
     }
 
@@ -192,7 +210,7 @@ impl Section {
     /// The stress of all states at one depth, each of shape (6, cells along the line).
     fn stress_at(&self, depth: Depth) -> Result<Vec<Array2<f64>>, Error> {
         let kernel = self.kernel::<Stress, 10, 6>(depth)?;
-        let mut lines = self.at(&kernel, depth);
+        let mut lines = self.at(&kernel, depth)?;
         self.add_rim(&kernel, depth, &mut lines);
         for (state, line) in lines.iter_mut().enumerate() {
             let bulk = self.bulk.stress(&self.body, state, depth.layer);
@@ -237,6 +255,7 @@ impl Section {
         depth: Depth,
     ) -> Result<DepthKernel<Q, N, R>, Error> {
         refuse_rigid(&self.body, depth.layer)?;
+        unless(&self.stop)?;
         let place = self.stack.place(depth.z, Some(depth.layer))?;
         DepthKernel::new(&self.stack, place, self.plane.reach())
     }
@@ -246,10 +265,11 @@ impl Section {
         &self,
         kernel: &DepthKernel<Q, N, R>,
         depth: Depth,
-    ) -> Vec<Array2<f64>> {
+    ) -> Result<Vec<Array2<f64>>, Error> {
         let source = Source::at(depth.z, self.plane.d);
         let rows = &self.rows[source.index()];
-        let own = rows.convolve(kernel, self.plane.d, (self.states, self.plane.n.0));
+        let shape = (self.states, self.plane.n.0);
+        let own = rows.convolve(kernel, self.plane.d, shape, &self.stop)?;
         let exchanged = matches!(self.line, Line::AlongY(_));
         let turn = |own: Array2<f64>| {
             Array2::from_shape_fn(own.dim(), |(row, i)| {
@@ -267,12 +287,19 @@ impl Section {
                 sign * own[(from, i)]
             })
         };
-        own.into_iter().map(turn).collect()
+        Ok(own.into_iter().map(turn).collect())
     }
 }
 
 impl Rows {
-    fn new(plane: &Plane, side: Side, at: f64, states: &[Tractions<'_>], source: Source) -> Self {
+    fn new(
+        plane: &Plane,
+        side: Side,
+        at: f64,
+        states: &[Tractions<'_>],
+        source: Source,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
         let patch = plane.patch(states, source);
         let loads: Vec<Loads> = states
             .iter()
@@ -320,12 +347,15 @@ impl Rows {
             .into_values()
             .collect::<Vec<_>>()
             .into_par_iter()
-            .map(|(offset, rows)| RowPair {
-                distance: offset * plane.d.1,
-                spectra: [0, 1, 2].map(|c| [false, true].map(|odd| transform(&rows, c, odd))),
+            .map(|(offset, rows)| {
+                unless(stop)?;
+                Ok(RowPair {
+                    distance: offset * plane.d.1,
+                    spectra: [0, 1, 2].map(|c| [false, true].map(|odd| transform(&rows, c, odd))),
+                })
             })
-            .collect();
-        Self {
+            .collect::<Result<_, Error>>()?;
+        Ok(Self {
             source,
             start: patch.start.0,
             offsets,
@@ -333,7 +363,7 @@ impl Rows {
             forward,
             inverse,
             pairs,
-        }
+        })
     }
 
     /// The lines of all states, each of shape (R, n).
@@ -342,13 +372,15 @@ impl Rows {
         kernel: &DepthKernel<Q, N, R>,
         d: (f64, f64),
         (states, n): (usize, usize),
-    ) -> Vec<Array2<f64>> {
+        stop: &AtomicBool,
+    ) -> Result<Vec<Array2<f64>>, Error> {
         let frequencies = self.period / 2 + 1;
         // By parity of the kernel along the line, state and component.
         let mut sums = [0, 1].map(|_| vec![Complex64::default(); states * R * frequencies]);
         let mut entries = vec![0.0; 3 * R * self.offsets];
         let mut buffers = Buffers::new(&*self.forward);
         for pair in &self.pairs {
+            unless(stop)?;
             let (even, odd) = needed::<Q, N, R>(pair);
             if even.is_empty() && odd.is_empty() {
                 continue;
@@ -384,7 +416,7 @@ impl Rows {
                 }
             }
         }
-        self.back(&sums, (states, R, n))
+        Ok(self.back(&sums, (states, R, n)))
     }
 
     /// Transforms the sums back; a kernel odd along the line has the transform -i times its sum.

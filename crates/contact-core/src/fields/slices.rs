@@ -10,6 +10,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use super::bulk::Bulk;
 use super::loads::{Patch, Plane, Source};
@@ -20,6 +21,7 @@ use crate::convolution::{Tractions, good_size};
 use crate::error::Error;
 use crate::kernels::{DepthKernel, Displacement, Quantity, Stack, Stress, refuse_rigid};
 use crate::scene::{Body, Grid};
+use crate::stop::unless;
 
 /// Stress and displacement on planes parallel to the surface.
 pub struct Slices {
@@ -33,6 +35,7 @@ pub struct Slices {
     rim: Option<NearRim>,
     /// For loads on cells and for point loads.
     transforms: [Transform; 2],
+    stop: Arc<AtomicBool>,
 }
 
 /// The transforms of the loads, and the plans.
@@ -60,9 +63,23 @@ impl Slices {
         grid: &Grid,
         states: &[Tractions<'_>],
     ) -> Result<Self, Error> {
+        Self::until(body, side, grid, states, &Arc::default())
+    }
+
+    /// As [`Self::new`]; when `stop` is raised, this and what is asked of it later ends with
+    /// [`Error::Interrupted`].
+    pub fn until(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        states: &[Tractions<'_>],
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
         body.check("body")?;
         grid.check()?;
         let plane = Plane::new(grid, false);
+        let [cells, points] =
+            Source::ALL.map(|source| Transform::new(&plane, side, states, source, stop));
         Ok(Self {
             stack: Stack::new(body),
             body: body.clone(),
@@ -72,7 +89,8 @@ impl Slices {
             states: states.len(),
             bulk: Bulk::default(),
             rim: None,
-            transforms: Source::ALL.map(|source| Transform::new(&plane, side, states, source)),
+            transforms: [cells?, points?],
+            stop: stop.clone(),
         })
     }
 
@@ -104,7 +122,7 @@ impl Slices {
     /// Stress of each state at one depth \[Pa\]: xx, yy, zz, xy, xz, yz, each of shape (nx, ny).
     pub fn stress(&self, depth: Depth) -> Result<Vec<[Array2<f64>; 6]>, Error> {
         let kernel = self.kernel::<Stress, 10, 6>(depth)?;
-        let mut planes = self.at(&kernel, depth);
+        let mut planes = self.at(&kernel, depth)?;
         self.add_rim(&kernel, depth, &mut planes);
         for (state, planes) in planes.iter_mut().enumerate() {
             let bulk = self.bulk.stress(&self.body, state, depth.layer);
@@ -117,7 +135,7 @@ impl Slices {
 
     /// Displacement of each state at one depth relative to infinity \[m\].
     pub fn displacement(&self, depth: Depth) -> Result<Vec<[Array2<f64>; 3]>, Error> {
-        Ok(self.at(&self.kernel::<Displacement, 5, 3>(depth)?, depth))
+        self.at(&self.kernel::<Displacement, 5, 3>(depth)?, depth)
     }
 
     /// Hands the stresses of all states at each depth, of shape (6, cells in row-major order), to
@@ -138,6 +156,11 @@ impl Slices {
             f(kept, &stresses);
             Ok(())
         })
+    }
+
+    /// Fails once it has been stopped.
+    pub(super) fn unless_stopped(&self) -> Result<(), Error> {
+        unless(&self.stop)
     }
 
     /// The grid.
@@ -178,6 +201,7 @@ impl Slices {
         depth: Depth,
     ) -> Result<DepthKernel<Q, N, R>, Error> {
         refuse_rigid(&self.body, depth.layer)?;
+        self.unless_stopped()?;
         let place = self.stack.place(depth.z, Some(depth.layer))?;
         DepthKernel::new(&self.stack, place, self.plane.reach())
     }
@@ -186,10 +210,10 @@ impl Slices {
         &self,
         kernel: &DepthKernel<Q, N, R>,
         depth: Depth,
-    ) -> Vec<[Array2<f64>; R]> {
+    ) -> Result<Vec<[Array2<f64>; R]>, Error> {
         let source = Source::at(depth.z, self.plane.d);
         let transform = &self.transforms[source.index()];
-        let mut fields = transform.convolve(kernel, self.plane, self.states);
+        let mut fields = transform.convolve(kernel, self.plane, self.states, &self.stop)?;
         if self.side == Side::Body1 {
             for fields in &mut fields {
                 let of_one_z = fields.iter_mut().enumerate();
@@ -198,12 +222,18 @@ impl Slices {
                 }
             }
         }
-        fields
+        Ok(fields)
     }
 }
 
 impl Transform {
-    fn new(plane: &Plane, side: Side, states: &[Tractions<'_>], source: Source) -> Self {
+    fn new(
+        plane: &Plane,
+        side: Side,
+        states: &[Tractions<'_>],
+        source: Source,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
         let patch = plane.patch(states, source);
         // The patch lies symmetric to the middle along x, not so along y.
         let beyond = patch.start.1 + patch.rows as isize - 1;
@@ -230,10 +260,11 @@ impl Transform {
             .iter()
             .map(|state| {
                 let loads = plane.loads(state, side, source, patch);
-                [0, 1, 2].map(|c| transform.load(|j| loads.row(c, j), patch, &*y_forward))
+                let load = |c: usize| transform.load(|j| loads.row(c, j), patch, &*y_forward, stop);
+                Ok([load(0)?, load(1)?, load(2)?])
             })
-            .collect();
-        transform
+            .collect::<Result<_, Error>>()?;
+        Ok(transform)
     }
 
     fn frequencies(&self) -> usize {
@@ -246,15 +277,17 @@ impl Transform {
         row: impl Fn(usize) -> &'a [f64],
         patch: Patch,
         y_forward: &dyn Fft<f64>,
-    ) -> Vec<Complex64> {
+        stop: &AtomicBool,
+    ) -> Result<Vec<Complex64>, Error> {
         if (0..patch.rows).all(|j| row(j).iter().all(|q| *q == 0.0)) {
-            return Vec::new();
+            return Ok(Vec::new());
         }
         let frequencies = self.frequencies();
         let mut all = vec![Complex64::default(); frequencies * self.period.1];
         let mut real = vec![0.0; self.period.0];
         let mut spectrum = vec![Complex64::default(); frequencies];
         for j in 0..patch.rows {
+            unless(stop)?;
             real.fill(0.0);
             real[..patch.columns].copy_from_slice(row(j));
             self.x_forward
@@ -264,9 +297,12 @@ impl Transform {
                 all[k * self.period.1 + j] = *v;
             }
         }
-        all.par_chunks_mut(self.period.1)
-            .for_each(|line| y_forward.process(line));
-        all
+        all.par_chunks_mut(self.period.1).try_for_each(|line| {
+            unless(stop)?;
+            y_forward.process(line);
+            Ok(())
+        })?;
+        Ok(all)
     }
 
     fn convolve<Q: Quantity<N, R>, const N: usize, const R: usize>(
@@ -274,14 +310,19 @@ impl Transform {
         kernel: &DepthKernel<Q, N, R>,
         plane: Plane,
         states: usize,
-    ) -> Vec<[Array2<f64>; R]> {
-        let half = self.along_x(kernel, plane.d);
-        let lines = self.along_y::<Q, N, R>(&half, plane.n.1, states);
-        (0..states)
-            .map(|state| {
-                std::array::from_fn(|row| self.back_along_x(&lines[state * R + row], plane.n))
-            })
-            .collect()
+        stop: &AtomicBool,
+    ) -> Result<Vec<[Array2<f64>; R]>, Error> {
+        let half = self.along_x(kernel, plane.d, stop)?;
+        let lines = self.along_y::<Q, N, R>(&half, plane.n.1, states, stop)?;
+        let of_state = |state: usize| {
+            let of_row = |row: usize| {
+                unless(stop)?;
+                Ok(self.back_along_x(&lines[state * R + row], plane.n))
+            };
+            let planes: Vec<_> = (0..R).map(of_row).collect::<Result<_, Error>>()?;
+            Ok(planes.try_into().expect("one plane per component"))
+        };
+        (0..states).map(of_state).collect()
     }
 
     /// The kernel's entries transformed along x, each (k_x, offset along y), real numbers by
@@ -290,7 +331,8 @@ impl Transform {
         &self,
         kernel: &DepthKernel<Q, N, R>,
         d: (f64, f64),
-    ) -> Vec<Vec<f64>> {
+        stop: &AtomicBool,
+    ) -> Result<Vec<Vec<f64>>, Error> {
         let (nx, ny) = self.offsets;
         let frequencies = self.frequencies();
         let mut half = vec![vec![0.0; frequencies * ny]; 3 * R];
@@ -298,6 +340,7 @@ impl Transform {
         let mut buffers = Buffers::new(&*self.x_forward);
         let pairs = pairs::<Q, N, R>(|row, column| Q::is_odd(row, column).0);
         for j in 0..ny {
+            unless(stop)?;
             let y = j as f64 * d.1;
             self.source.row(kernel, nx, y, d, |i, response| {
                 for (e, value) in response.as_flattened().iter().enumerate() {
@@ -317,7 +360,7 @@ impl Transform {
                 }
             }
         }
-        half
+        Ok(half)
     }
 
     /// The product with the loads, transformed back along y: for each state and component
@@ -327,7 +370,8 @@ impl Transform {
         half: &[Vec<f64>],
         rows: usize,
         states: usize,
-    ) -> Vec<Vec<Complex64>> {
+        stop: &AtomicBool,
+    ) -> Result<Vec<Vec<Complex64>>, Error> {
         let (frequencies, period) = (self.frequencies(), self.period.1);
         let ny = self.offsets.1;
         let pairs = pairs::<Q, N, R>(|row, column| Q::is_odd(row, column).1);
@@ -336,6 +380,7 @@ impl Transform {
         let mut sums = vec![Complex64::default(); states * R * period];
         let mut scratch = vec![Complex64::default(); self.y_inverse.get_inplace_scratch_len()];
         for k in 0..frequencies {
+            unless(stop)?;
             sums.fill(Complex64::default());
             for pair in &pairs {
                 let of = |e: usize| half[e][k * ny..][..ny].iter().copied();
@@ -361,7 +406,7 @@ impl Transform {
                 }
             }
         }
-        lines
+        Ok(lines)
     }
 
     /// A component on the grid, from (y, k_x).

@@ -5,6 +5,9 @@
 //! [`Accumulate`]: [`super::Envelope`] and [`super::Largest`] are two, a pair of them is one again;
 //! a fatigue criterion on critical planes is another.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use ndarray::Array2;
 
 use super::{Depth, Line, Section, Side, Slices};
@@ -89,6 +92,7 @@ pub struct Stream<A: Accumulate> {
     /// Whether the tractions are taken for those of contacts.
     rim: bool,
     waiting: Vec<Waiting>,
+    stop: Arc<AtomicBool>,
 }
 
 impl<A: Accumulate> Stream<A> {
@@ -127,7 +131,14 @@ impl<A: Accumulate> Stream<A> {
             kept,
             rim: false,
             waiting: Vec::with_capacity(BATCH),
+            stop: Arc::default(),
         })
+    }
+
+    /// Ends what is computed when `flag` is raised: [`Error::Interrupted`]. What was kept then is of no
+    /// use any more.
+    pub fn stop_on(&mut self, flag: Arc<AtomicBool>) {
+        self.stop = flag;
     }
 
     /// Takes the tractions for those of contacts, as [`Section::with_rim`] does.
@@ -186,14 +197,15 @@ impl<A: Accumulate> Stream<A> {
         let stick: Vec<&[bool]> = stick.map(Option::unwrap_or_default).collect();
         let (body, side, grid) = (&self.body, self.side, &self.grid);
         if let Some(line) = self.line {
-            let mut section =
-                Section::new(body, side, grid, line, &states)?.with_bulk_stress(&bulk);
+            let mut section = Section::until(body, side, grid, line, &states, &self.stop)?
+                .with_bulk_stress(&bulk);
             if self.rim {
                 section = section.with_rim(&states, &stick);
             }
             section.pass_stress(&self.depths, &mut self.kept, add)?;
         } else {
-            let mut slices = Slices::new(body, side, grid, &states)?.with_bulk_stress(&bulk);
+            let mut slices =
+                Slices::until(body, side, grid, &states, &self.stop)?.with_bulk_stress(&bulk);
             if self.rim {
                 slices = slices.with_rim(&states, &stick);
             }

@@ -6,6 +6,7 @@
 
 use std::marker::PhantomData;
 use std::ops::Range;
+use std::sync::atomic::AtomicBool;
 
 use ndarray::Array2;
 use rayon::prelude::*;
@@ -16,6 +17,7 @@ use super::depth_frf::{Place, WaveFields};
 use super::layered_frf::{HalfSpace, Stack};
 use super::radial_table::{Hankel, RadialTable};
 use crate::error::Error;
+use crate::stop::unless;
 
 /// Relative error that a cell's Gauss rule may leave, against the response under the load.
 const CUBATURE: f64 = 1e-13;
@@ -184,12 +186,14 @@ fn difference<const R: usize>(
 }
 
 /// The responses to unit traction on cells of the sides `d` at the offsets (i dx, j dy), i and j
-/// below `n`. Where cells are square, exchange of the axes gives one octant from the other.
+/// below `n`. Where cells are square, exchange of the axes gives one octant from the other. Ends when
+/// `stop` is raised.
 pub(crate) fn quadrants<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
     kernel: &DepthKernel<Q, N, R>,
     n: (usize, usize),
     d: (f64, f64),
-) -> [[Quadrant; 3]; R] {
+    stop: &AtomicBool,
+) -> Result<[[Quadrant; 3]; R], Error> {
     let is_square = d.0.to_bits() == d.1.to_bits();
     let square = if is_square { n.0.min(n.1) } else { 0 };
     // Row j holds i >= j of the square and all beyond it.
@@ -197,12 +201,13 @@ pub(crate) fn quadrants<Q: Quantity<N, R> + Sync, const N: usize, const R: usize
     let rows: Vec<Vec<[[f64; 3]; R]>> = (0..n.1)
         .into_par_iter()
         .map(|j| {
+            unless(stop)?;
             let first = if j < square { j } else { 0 };
             let mut row = Vec::with_capacity(n.0 - first.min(n.0));
             kernel.under_row(first..n.0, j as f64 * d.1, d, |_, s| row.push(s));
-            row
+            Ok(row)
         })
-        .collect();
+        .collect::<Result<_, Error>>()?;
     let entry = |row: usize, column: usize| {
         let odd = Q::is_odd(row, column);
         let (row_there, column_there) = Q::exchanged(row, column);
@@ -218,5 +223,7 @@ pub(crate) fn quadrants<Q: Quantity<N, R> + Sync, const N: usize, const R: usize
             }
         })
     };
-    std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column)))
+    Ok(std::array::from_fn(|row| {
+        std::array::from_fn(|column| entry(row, column))
+    }))
 }

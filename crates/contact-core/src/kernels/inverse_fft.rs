@@ -12,11 +12,11 @@ use std::sync::atomic::AtomicBool;
 
 use super::coefficients::ODD;
 use super::layered_frf::Stack;
-use super::rows::unless;
 use super::sampled_frf::SampledFrf;
 use super::{InfluenceCoefficients, Quadrant};
 use crate::error::Error;
 use crate::scene::Grid;
+use crate::stop::unless;
 
 /// The coefficients by inverse transform on a domain `lambda` times as long. Ends when `stop` is
 /// raised.

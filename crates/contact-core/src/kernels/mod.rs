@@ -40,7 +40,7 @@ pub use layered_frf::{RadialResponse, Stack};
 pub use rustfft::num_complex::Complex64;
 pub(crate) use sampled_frf::SampledFrf;
 pub(crate) use stress::{Stress, refuse_rigid};
-pub use stress::{StressCoefficients, stress_at, stress_coefficients};
+pub use stress::{StressCoefficients, stress_at, stress_coefficients, stress_coefficients_until};
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -63,8 +63,20 @@ pub fn influence_coefficients(
     settings: &KernelSettings,
     shortcut_equal_layers: bool,
 ) -> Result<InfluenceCoefficients, Error> {
-    let (set, stop) = (KernelSet::All, AtomicBool::new(false));
-    let coefficients = of_body(body, grid, settings, shortcut_equal_layers, set, &stop)?;
+    let stop = AtomicBool::new(false);
+    influence_coefficients_until(body, grid, settings, shortcut_equal_layers, &stop)
+}
+
+/// As [`influence_coefficients`]; ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
+pub fn influence_coefficients_until(
+    body: &Body,
+    grid: &Grid,
+    settings: &KernelSettings,
+    shortcut_equal_layers: bool,
+    stop: &AtomicBool,
+) -> Result<InfluenceCoefficients, Error> {
+    let set = KernelSet::All;
+    let coefficients = of_body(body, grid, settings, shortcut_equal_layers, set, stop)?;
     Ok(Arc::unwrap_or_clone(coefficients))
 }
 

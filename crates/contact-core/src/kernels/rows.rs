@@ -1,10 +1,11 @@
 //! Rows of coefficients, computed side by side until somebody asks to stop.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
 use crate::error::Error;
+use crate::stop::unless;
 
 /// Does the work on every row; fails once `stop` is raised, with the rows that are begun.
 pub(super) fn each_row<R: Send>(
@@ -19,17 +20,9 @@ pub(super) fn each_row<R: Send>(
     })
 }
 
-/// Fails once `stop` is raised.
-pub(super) fn unless(stop: &AtomicBool) -> Result<(), Error> {
-    if stop.load(Ordering::Relaxed) {
-        return Err(Error::Interrupted { increment: 0 });
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
-    use std::sync::atomic::AtomicUsize;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     use super::*;
 

@@ -12,6 +12,8 @@
 //! yz     J_1 sin(theta)        J_2 sin 2theta
 //! ```
 
+use std::sync::atomic::AtomicBool;
+
 use ndarray::Array4;
 
 use super::Quadrant;
@@ -174,6 +176,17 @@ pub fn stress_coefficients(
     z: f64,
     layer: Option<usize>,
 ) -> Result<StressCoefficients, Error> {
+    stress_coefficients_until(body, grid, z, layer, &AtomicBool::new(false))
+}
+
+/// As [`stress_coefficients`]; ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
+pub fn stress_coefficients_until(
+    body: &Body,
+    grid: &Grid,
+    z: f64,
+    layer: Option<usize>,
+    stop: &AtomicBool,
+) -> Result<StressCoefficients, Error> {
     body.check("body")?;
     let stack = Stack::new(body);
     let place = stack.place(z, layer)?;
@@ -183,7 +196,7 @@ pub fn stress_coefficients(
     Ok(StressCoefficients {
         z,
         layer: place.layer,
-        s: quadrants(&kernel, (grid.nx, grid.ny), (grid.dx, grid.dy)),
+        s: quadrants(&kernel, (grid.nx, grid.ny), (grid.dx, grid.dy), stop)?,
     })
 }
 

@@ -31,10 +31,14 @@ impl March {
         };
         let contact = now.p.iter().filter(|&&p| p > 0.0).count();
         let slipping = now.slip.iter().filter(|&&s| s).count();
-        let energy = self.energies(point, &now, &motion, cell_area);
-        let residuals = self.residuals(point, &now, info, cell_area);
-        let [contact_area, without_slip] =
-            self.contact_and_stick(&now).map(|cells| cells * cell_area);
+        let ((energy, residuals), areas) = rayon::join(
+            || {
+                let energy = self.energies(point, &now, &motion, cell_area);
+                (energy, self.residuals(point, &now, info, cell_area))
+            },
+            || self.contact_and_stick(&now),
+        );
+        let [contact_area, without_slip] = areas.map(|cells| cells * cell_area);
         let stick_area = self
             .grown_to_the_end(without_slip, slipping > 0)
             .min(contact_area);

@@ -43,6 +43,7 @@ impl March {
             arms: &self.window.arms,
             normal,
             tangential,
+            known: carried.is_none().then_some(&self.state.interface),
         };
         let mut response = Response {
             op: &mut *self.window.op,
@@ -50,7 +51,7 @@ impl March {
             stop: Some(&self.stop),
             exact: false,
         };
-        let params = params(&self.scene, self.approach, kept);
+        let params = params(&self.scene, self.approach);
         let solver = &self.scene.settings.solver;
         let ws = &mut self.workspace;
         let goes_on = self.datum.goes_on;
@@ -124,7 +125,7 @@ const NORMAL_SHARE: f64 = 0.4;
 const TANGENTIAL_SHARE: f64 = 0.9;
 
 /// The settings of the loops, with lengths in metres.
-fn params(scene: &Scene, approach: f64, kept: bool) -> CoupledParams {
+fn params(scene: &Scene, approach: f64) -> CoupledParams {
     let solver = &scene.settings.solver;
     let gap = solver.tolerance * approach;
     let plain = solver.preset == Preset::Spinu2020;
@@ -143,11 +144,11 @@ fn params(scene: &Scene, approach: f64, kept: bool) -> CoupledParams {
             },
             // What the shear misses acts on the gap, however large mu is.
             tolerance: TANGENTIAL_SHARE * scene.friction.scale().min(1.0) * gap,
+            reduction: 0.0,
             max_iterations: solver.max_iterations,
             forcing: 0.2,
             max_passes: 12,
         },
         max_alternations: solver.max_alternations,
-        exact: !kept,
     }
 }

@@ -19,11 +19,12 @@ impl March {
             Err(failure @ Error::NotConverged { .. }) => failure,
             done => return done,
         };
-        let before = self.state.clone();
+        let before = self.state().clone();
         let increment = self.in_halves(point, HALVINGS, failure);
         let mut increment = match increment {
             Ok(increment) => increment,
             Err(failure) => {
+                self.unwidened = None;
                 self.put(before);
                 return Err(failure);
             }

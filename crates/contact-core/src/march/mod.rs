@@ -21,6 +21,7 @@ mod solve;
 mod state;
 #[cfg(test)]
 mod tests;
+mod trial;
 mod window;
 
 pub(crate) use continued::Continued;
@@ -60,6 +61,8 @@ pub struct March {
     /// Approach that lengths are measured against \[m\].
     approach: f64,
     state: State,
+    /// The state as the increment found it, once it is in a wider window.
+    unwidened: Option<State>,
     /// The last interface, where the increment does not find it as it was left.
     carried: Option<Carried>,
     /// The displacements that mean no slip in the increment.
@@ -85,7 +88,7 @@ impl March {
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
         let whole = Whole::new(scene, &plan, stop)?;
-        let window = whole.window(scene, &plan, Window::first(scene, &plan));
+        let window = whole.window(scene, &plan, Window::first(scene, &plan), stop)?;
         let cells = window.h_init.len();
         let approach = scene.approach();
         Ok(Self {
@@ -95,6 +98,7 @@ impl March {
             mu: vec![scene.friction.mu; cells],
             approach,
             state: State::unloaded(window.shape(), cells),
+            unwidened: None,
             carried: None,
             datum: Datum::new(cells),
             workspace: CoupledWorkspace::new(cells),
@@ -127,9 +131,9 @@ impl March {
             ));
         }
         if state.window != march.window.shape() {
-            march.widen(state.window);
+            march.widen(state.window)?;
         }
-        march.state = state;
+        (march.state, march.unwidened) = (state, None);
         Ok(march)
     }
 
@@ -164,9 +168,10 @@ impl March {
         &self.points
     }
 
-    /// The state after the last increment: all that the next one depends on.
+    /// The state after the last increment: all that the next one depends on. After one that failed
+    /// on the way it is in the window that this one began with.
     pub fn state(&self) -> &State {
-        &self.state
+        self.unwidened.as_ref().unwrap_or(&self.state)
     }
 
     /// Computes the next increment, in pieces if it does not converge; `None` at the end of the
@@ -178,11 +183,16 @@ impl March {
         let end = &self.scene.path.branches[point.branch].to;
         let state = &self.state;
         let point = point.resolved(end, state.loads.forces(), state.motion.motions());
-        Some(if self.window.h_init.len() < PARALLEL_FROM {
+        self.unwidened = None;
+        let reached = if self.window.h_init.len() < PARALLEL_FROM {
             self.reach(&point)
         } else {
             with_all_awake(|| self.reach(&point))
-        })
+        };
+        if reached.is_ok() {
+            self.unwidened = None;
+        }
+        Some(reached)
     }
 
     /// One increment: predict, solve, account, keep; again in a wider window where it needs one.
@@ -192,7 +202,7 @@ impl March {
         let mut coarse_convolutions = 0.0;
         let (now, info) = loop {
             self.unless_stopped()?;
-            let start = self.start(point, &mut coarse_convolutions);
+            let start = self.start(point, &mut coarse_convolutions)?;
             let (now, info) = self.solve_from(point, start)?;
             if info.exceeds_friction() {
                 return Err(Error::BeyondFriction {
@@ -201,8 +211,8 @@ impl March {
                 });
             }
             self.unless_stopped()?;
-            let narrow = self.make_room(&now.p, self.window.shape(), 1.0);
-            if !narrow && !self.touches_beyond(&now, &info) {
+            let narrow = self.make_room(&now.p, self.window.shape(), 1.0)?;
+            if !narrow && !self.touches_beyond(&now, &info)? {
                 break (now, info);
             }
         };
@@ -212,7 +222,11 @@ impl March {
     }
 
     /// The first guess of the increment, in a window with room for it.
-    fn start(&mut self, point: &LoadPoint, coarse_convolutions: &mut f64) -> Option<Interface> {
+    fn start(
+        &mut self,
+        point: &LoadPoint,
+        coarse_convolutions: &mut f64,
+    ) -> Result<Option<Interface>, Error> {
         let (normal, _) = self.drives(point);
         let pressed = !normal.free[0] || normal.sums[0] > 0.0;
         let touch = (pressed && self.state.loads.W <= 0.0).then(|| {
@@ -223,14 +237,14 @@ impl March {
             start.p
         });
         if let Some(p) = &touch {
-            self.make_room(&self.plan.mirror.fold(p), p.dim(), 1.0);
+            self.make_room(&self.plan.mirror.fold(p), p.dim(), 1.0)?;
         }
         loop {
             self.carry(point);
             self.update_friction();
             self.datum.goes_on = self.state.going_on(point).is_some();
             if !pressed {
-                return None;
+                return Ok(None);
             }
             let start = self.state.predict(
                 point,
@@ -239,8 +253,8 @@ impl March {
                 &normal,
                 self.scene.settings.solver.preset,
             );
-            if !self.make_room(&start.p, self.window.shape(), self.growth(point)) {
-                return Some(start);
+            if !self.make_room(&start.p, self.window.shape(), self.growth(point))? {
+                return Ok(Some(start));
             }
         }
     }

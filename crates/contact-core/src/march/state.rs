@@ -68,7 +68,14 @@ impl State {
             return false;
         }
         let cells = nx * mirror.rows(ny);
-        let Interface { p, q, u, u_z, slip } = &self.interface;
+        let Interface {
+            p,
+            q,
+            u,
+            u_z,
+            slip,
+            rounding: _,
+        } = &self.interface;
         let fields = [p, u_z, &self.slip_length, &self.dissipated, &self.p_before];
         let pairs = [q, u, &self.slip, &self.q_before];
         let fields = fields.into_iter().chain(pairs.into_iter().flatten());

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use super::{March, State};
+use super::{Increment, March, State};
 use crate::convolution::{Displacements, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::scene::Scene;
@@ -86,8 +86,12 @@ impl SurfaceOperator for Clocked {
 }
 
 /// The increment after `state`, the flag being raised in that convolution (0: never): how it ended,
-/// its convolutions, and the state after it.
-fn stopped(scene: &Scene, state: &State, raised_at: usize) -> (Result<(), Error>, usize, State) {
+/// its convolutions, and the march after it.
+fn stopped(
+    scene: &Scene,
+    state: &State,
+    raised_at: usize,
+) -> (Result<Increment, Error>, usize, March) {
     let mut march = March::resume(scene, state.clone()).unwrap();
     let clock = Arc::new(Clock {
         stop: Arc::default(),
@@ -95,14 +99,22 @@ fn stopped(scene: &Scene, state: &State, raised_at: usize) -> (Result<(), Error>
         done: AtomicUsize::new(0),
     });
     march.stop_on(clock.stop.clone());
-    let mut window = march.whole.window(scene, &march.plan, march.window.shape());
-    window.op = Box::new(Clocked {
-        op: window.op,
-        clock: clock.clone(),
-    });
+    let grid = &scene.grid;
+    let clocked = |shape| {
+        let mut window = march.laid_out(shape).unwrap();
+        window.op = Box::new(Clocked {
+            op: window.op,
+            clock: clock.clone(),
+        });
+        window
+    };
+    let window = clocked(march.window.shape());
+    // The window that it may become.
+    let whole = clocked((grid.nx, grid.ny));
     march.window = window;
-    let ended = march.advance().unwrap().map(drop);
-    (ended, clock.done.load(Ordering::Relaxed), march.state)
+    *march.whole.grid.get_mut().unwrap() = Some(whole);
+    let ended = march.advance().unwrap();
+    (ended, clock.done.load(Ordering::Relaxed), march)
 }
 
 #[test]
@@ -114,11 +126,11 @@ fn a_raised_flag_ends_an_increment_within_three_convolutions() {
         for increment in 0..march.points().len() {
             let state = march.state().clone();
             let (ended, convolutions, _) = stopped(&scene, &state, 0);
-            assert_eq!(ended, Ok(()));
+            assert!(ended.is_ok());
             let mut interrupted = 0;
             let moments = (1..=convolutions).step_by(1 + convolutions / TRIALS);
             for raised_at in moments.clone() {
-                let (ended, done, after) = stopped(&scene, &state, raised_at);
+                let (ended, done, march) = stopped(&scene, &state, raised_at);
                 let late = done - raised_at;
                 assert!(
                     late <= LATE,
@@ -126,7 +138,7 @@ fn a_raised_flag_ends_an_increment_within_three_convolutions() {
                 );
                 if ended.is_err() {
                     assert_eq!(ended, Err(Error::Interrupted { increment }));
-                    assert!(after == state);
+                    assert!(*march.state() == state);
                     interrupted += 1;
                 }
             }
@@ -135,5 +147,51 @@ fn a_raised_flag_ends_an_increment_within_three_convolutions() {
             assert!(interrupted + LATE >= tried, "{interrupted} of {tried}");
             march.advance().unwrap().unwrap();
         }
+    }
+}
+
+/// A contact that outgrows its window while it is solved.
+#[test]
+fn a_flag_raised_in_a_wider_window_leaves_the_state_of_the_narrow_one() {
+    let settings = [
+        "path=[{ W = 200.0, increments = 1 }, { W = 1000.0, increments = 1 }]",
+        "grid.n=64",
+    ];
+    let settings: Vec<_> = settings.iter().map(ToString::to_string).collect();
+    let scene = Scene::from_toml_str(COATED, "coated.toml", &settings).unwrap();
+    let mut march = March::new(&scene).unwrap();
+    march.advance().unwrap().unwrap();
+    let narrow = march.state().clone();
+    assert!(march.is_windowed());
+    let whole = march.advance().unwrap().unwrap();
+    assert!(!march.is_windowed());
+
+    let (_, convolutions, _) = stopped(&scene, &narrow, 0);
+    let mut widened = 0;
+    for raised_at in 1..=convolutions {
+        let (ended, _, march) = stopped(&scene, &narrow, raised_at);
+        if ended.is_ok() || march.is_windowed() {
+            continue;
+        }
+        widened += 1;
+        assert!(*march.state() == narrow);
+        // Fields can be had all the same, and the run goes on as if it had not been stopped.
+        assert_eq!(march.fields().p.dim(), (64, 64));
+        let mut again = March::resume(&scene, march.state().clone()).unwrap();
+        assert_eq!(again.advance(), Some(Ok(whole)));
+    }
+    assert!(widened > 0);
+}
+
+/// Coefficients are there; the window of the first increment is not.
+#[test]
+fn a_raised_flag_lays_out_no_window() {
+    let frequency_domain = "kernel.method={ frequency_domain = { lambda = 2 } }".to_owned();
+    for settings in [&[][..], &[frequency_domain]] {
+        let scene = Scene::from_toml_str(COATED, "coated.toml", settings).unwrap();
+        let march = March::new(&scene).unwrap();
+        let stop = AtomicBool::new(true);
+        let window = (march.whole).window(&scene, &march.plan, (32, 32), &stop);
+        assert!(window.is_err_and(|e| e == Error::Interrupted { increment: 0 }));
     }
 }

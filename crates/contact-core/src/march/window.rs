@@ -20,6 +20,7 @@ use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, pair_coefficients_until};
 use crate::scene::{Grid, KernelMethod, LoadPoint, Plan, Preset, Scene};
 use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface, Response};
+use crate::stop::NOBODY;
 
 /// Cells between the contact and the border of the window.
 const ROOM: usize = 4;
@@ -49,7 +50,7 @@ pub(super) struct Whole {
     /// The coefficients on the whole grid.
     pair: InfluenceCoefficients,
     /// The whole grid, for what is beyond the window; there once it has been needed.
-    grid: Mutex<Option<Window>>,
+    pub(super) grid: Mutex<Option<Window>>,
     /// Transforms done in windows that were given up.
     transforms: usize,
 }
@@ -73,8 +74,14 @@ impl Whole {
         })
     }
 
-    /// The nx x ny cells in the middle of the scene's grid.
-    pub(super) fn window(&self, scene: &Scene, plan: &Plan, (nx, ny): (usize, usize)) -> Window {
+    /// The nx x ny cells in the middle of the scene's grid; ends when `stop` is raised.
+    pub(super) fn window(
+        &self,
+        scene: &Scene,
+        plan: &Plan,
+        (nx, ny): (usize, usize),
+        stop: &AtomicBool,
+    ) -> Result<Window, Error> {
         let grid = Grid {
             nx,
             ny,
@@ -89,23 +96,28 @@ impl Whole {
             &cut
         };
         let inverse = match settings.solver.preset {
-            Preset::Fast => Some(CirculantInverse::new(pair, plan.mirror, plan.single)),
+            Preset::Fast => {
+                let inverse = CirculantInverse::until(pair, plan.mirror, plan.single, stop)?;
+                Some(inverse)
+            }
             Preset::Spinu2020 => None,
         };
         let op: Box<dyn SurfaceOperator + Send> = match settings.kernel.method {
-            KernelMethod::FrequencyDomain { lambda } => Box::new(FrequencyDomain::new(
+            KernelMethod::FrequencyDomain { lambda } => Box::new(FrequencyDomain::until(
                 (&scene.body1, &scene.body2),
                 &grid,
                 lambda,
                 plan.coupling,
                 pair,
-            )),
-            _ => Box::new(DcFft::with_single(
+                stop,
+            )?),
+            _ => Box::new(DcFft::until(
                 pair,
                 plan.mirror,
                 plan.coupling,
                 plan.single,
-            )),
+                stop,
+            )?),
         };
         let extent = scene.grid.extent();
         let length = if grid.plane_strain {
@@ -115,7 +127,7 @@ impl Whole {
         };
         let fold = |field: Array2<f64>| plan.mirror.fold(&field);
         let map = scene.friction.map.as_ref();
-        Window {
+        Ok(Window {
             h_init: fold(middle(&scene.h_init(), (nx, ny))),
             arms: Arms {
                 length,
@@ -127,7 +139,7 @@ impl Whole {
             op,
             inverse,
             grid,
-        }
+        })
     }
 }
 
@@ -209,6 +221,7 @@ impl Interface {
             u: pair(&self.u),
             u_z: wide(&self.u_z),
             slip: embedded(&self.slip, from, to, mirror, false),
+            rounding: self.rounding,
         }
     }
 }
@@ -244,10 +257,16 @@ impl March {
     }
 
     /// Makes the window wide enough for a contact of pressure `p`, given on the kept cells of a grid
-    /// around the same middle, that grows by a `factor`; whether it was not.
-    pub(super) fn make_room(&mut self, p: &[f64], (nx, ny): (usize, usize), factor: f64) -> bool {
+    /// around the same middle, that grows by a `factor`; whether it was not. Fails where the run is
+    /// stopped meanwhile.
+    pub(super) fn make_room(
+        &mut self,
+        p: &[f64],
+        (nx, ny): (usize, usize),
+        factor: f64,
+    ) -> Result<bool, Error> {
         if !self.is_windowed() {
-            return false;
+            return Ok(false);
         }
         let rows = self.plan.mirror.rows(ny);
         // Cells from the middle to the far side of one.
@@ -261,11 +280,11 @@ impl March {
         let (now, whole) = (self.window.shape(), &self.scene.grid);
         let narrow = |half: usize, n: usize, whole: usize| n < whole && 2 * (half + ROOM) > n;
         if !narrow(half[0], now.0, whole.nx) && !narrow(half[1], now.1, whole.ny) {
-            return false;
+            return Ok(false);
         }
         let cells = half.map(|half| 2 * ((half as f64 * GROWTH).ceil() as usize + ROOM));
-        self.widen(shape_for(whole, [cells[0].max(now.0), cells[1].max(now.1)]));
-        true
+        self.widen(shape_for(whole, [cells[0].max(now.0), cells[1].max(now.1)]))?;
+        Ok(true)
     }
 
     /// What the contact is expected to grow by in an increment to `point`: a cone's grows like the
@@ -284,17 +303,24 @@ impl March {
     }
 
     /// Whether cells beyond the window overlap in this solution; if so, the window is the whole grid
-    /// from now on.
-    pub(super) fn touches_beyond(&mut self, now: &Interface, info: &CoupledInfo) -> bool {
+    /// from now on. Fails where the run is stopped meanwhile.
+    pub(super) fn touches_beyond(
+        &mut self,
+        now: &Interface,
+        info: &CoupledInfo,
+    ) -> Result<bool, Error> {
         if !self.is_windowed() {
-            return false;
+            return Ok(false);
         }
         let mirror = self.plan.mirror;
-        let (scene, plan, whole) = (&self.scene, &self.plan, &mut self.whole);
-        let mut beyond = (whole.grid.get_mut())
+        let known = (self.whole.grid.get_mut())
             .unwrap_or_else(PoisonError::into_inner)
             .take();
-        let grid = beyond.get_or_insert_with(|| whole.window(scene, plan, shape_of(&scene.grid)));
+        let mut grid = match known {
+            Some(grid) => grid,
+            None => self.laid_out(shape_of(&self.scene.grid))?,
+        };
+        let (scene, plan) = (&self.scene, &self.plan);
         let (from, to) = (self.window.kept(mirror), grid.kept(mirror));
         let wide = |f: &[f64]| embedded(f, from, to, mirror, 0.0);
         let (p, q) = (wide(&now.p), [wide(&now.q[0]), wide(&now.q[1])]);
@@ -317,24 +343,34 @@ impl March {
             let gap = grid.h_init[n] + u_z[n] - grid.arms.across(info.approach, n);
             !inside[n] && gap < -allowed
         });
-        *whole.grid.get_mut().unwrap_or_else(PoisonError::into_inner) = beyond;
+        let whole = &mut self.whole;
+        *whole.grid.get_mut().unwrap_or_else(PoisonError::into_inner) = Some(grid);
         if overlap {
-            self.widen(shape_of(&self.scene.grid));
+            self.widen(shape_of(&self.scene.grid))?;
         }
-        overlap
+        Ok(overlap)
     }
 
-    /// Lays out a wider window and puts the present state into it.
-    pub(super) fn widen(&mut self, shape: (usize, usize)) {
-        self.whole.transforms += self.window.op.transforms();
-        let whole = self
-            .whole
-            .grid
-            .get_mut()
-            .unwrap_or_else(PoisonError::into_inner);
+    /// A window of that shape; fails where the run is stopped meanwhile.
+    pub(super) fn laid_out(&self, shape: (usize, usize)) -> Result<Window, Error> {
+        let window = (self.whole).window(&self.scene, &self.plan, shape, &self.stop);
+        window.or_else(|failure| {
+            self.unless_stopped()?;
+            Err(failure)
+        })
+    }
+
+    /// Lays out a wider window and puts the present state into it; where the run is stopped meanwhile
+    /// nothing is changed.
+    pub(super) fn widen(&mut self, shape: (usize, usize)) -> Result<(), Error> {
+        let whole = (self.whole.grid.get_mut()).unwrap_or_else(PoisonError::into_inner);
         let known = whole.take_if(|whole| whole.shape() == shape);
-        let lay_out = || self.whole.window(&self.scene, &self.plan, shape);
-        self.window = known.unwrap_or_else(lay_out);
+        let wider = match known {
+            Some(window) => window,
+            None => self.laid_out(shape)?,
+        };
+        self.whole.transforms += self.window.op.transforms();
+        self.window = wider;
         let cells = self.window.h_init.len();
         self.carried = None;
         self.mu = vec![self.scene.friction.mu; cells];
@@ -342,9 +378,10 @@ impl March {
         self.workspace = CoupledWorkspace::new(cells);
         let state = std::mem::replace(&mut self.state, State::unloaded((0, 0), 0));
         self.put(state);
+        Ok(())
     }
 
-    /// Takes a state, which may be older than the window.
+    /// Takes a state, which may be older than the window; such a one is kept as it is, too.
     pub(super) fn put(&mut self, state: State) {
         if state.window == self.window.shape() {
             self.state = state;
@@ -357,7 +394,7 @@ impl March {
         self.state.window = self.window.shape();
         let old = embedded(&vec![true; from.0 * from.1], from, to, mirror, false);
         let mut computed = self.state.interface.clone();
-        computed.evaluate(&mut plain(&mut *self.window.op), self.plan.friction, true);
+        computed.evaluate(&mut plain(&mut *self.window.op), self.plan.friction);
         let now = &mut self.state.interface;
         let ([x, y], [new_x, new_y]) = (&mut now.u, computed.u);
         for (now, new) in [(x, new_x), (y, new_y), (&mut now.u_z, computed.u_z)] {
@@ -365,6 +402,7 @@ impl March {
                 now[n] = new[n];
             }
         }
+        self.unwidened.get_or_insert(state);
     }
 
     /// What a field on the whole grid is in the window, on the kept cells.
@@ -391,10 +429,15 @@ impl March {
         }
         let to = (grid.nx, mirror.rows(grid.ny));
         let mut whole = now.embedded(self.window.kept(mirror), to, mirror);
-        let lay_out = || self.whole.window(&self.scene, &self.plan, shape_of(grid));
+        // Asked for what there is, also of a run that has been stopped.
+        let lay_out = || {
+            let (shape, stop) = (shape_of(grid), AtomicBool::new(false));
+            let window = self.whole.window(&self.scene, &self.plan, shape, &stop);
+            window.expect(NOBODY)
+        };
         let mut beyond = (self.whole.grid.lock()).unwrap_or_else(PoisonError::into_inner);
         let beyond = beyond.get_or_insert_with(lay_out);
-        whole.evaluate(&mut plain(&mut *beyond.op), self.plan.friction, true);
+        whole.evaluate(&mut plain(&mut *beyond.op), self.plan.friction);
         let computed = [&whole.u[0], &whole.u[1], &whole.u_z];
         let part = &self.window.grid;
         let (i, j) = ((grid.nx - part.nx) / 2, (grid.ny - part.ny) / 2);

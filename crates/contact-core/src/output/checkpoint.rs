@@ -23,8 +23,8 @@ use crate::error::Error;
 use crate::march::{Increment, State};
 
 /// The first bytes of a state; the number is that of the layout.
-const MAGIC: &[u8] = b"fret checkpoint 1\n";
-const FOLDER: &str = "checkpoint";
+const MAGIC: &[u8] = b"fret checkpoint 2\n";
+pub(super) const FOLDER: &str = "checkpoint";
 const INCREMENTS: &str = "checkpoint/increments";
 const STATES: [&str; 2] = ["checkpoint/state.0", "checkpoint/state.1"];
 /// Bytes of a CRC-32.
@@ -87,6 +87,12 @@ impl Checkpoints {
             pending: Vec::new(),
             older: 0,
         })
+    }
+
+    /// After the store was moved to its place.
+    pub(super) fn moved_to(self, folder: &Arc<Folder>) -> Self {
+        let folder = folder.clone();
+        Self { folder, ..self }
     }
 
     /// The newest checkpoint of a run of the scene that is whole.

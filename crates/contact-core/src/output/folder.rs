@@ -1,5 +1,6 @@
 //! A folder of files that are replaced as a whole.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -13,22 +14,38 @@ use zarrs::storage::{
 
 use crate::error::Error;
 
-/// Where a file is on its way to its place: beside it, under a name that no Zarr library looks at.
+/// Where a file or a folder is before or after it is in its place: beside it, under a name that no Zarr
+/// library looks at.
+pub(super) fn beside(path: &Path, why: &str) -> PathBuf {
+    let mut name = OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    name.push(".");
+    name.push(why);
+    path.with_file_name(name)
+}
+
 fn unfinished(path: &Path) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{name}.unfinished"))
+    beside(path, "unfinished")
 }
 
 /// The folder of a store.
 #[derive(Debug)]
 pub(super) struct Folder {
     root: PathBuf,
+    /// What errors call it.
+    name: PathBuf,
 }
 
 impl Folder {
     pub(super) fn new(root: &Path) -> Arc<Self> {
+        Self::on_its_way(root, root.to_owned())
+    }
+
+    /// A folder that is at `root` and will be at `place`.
+    pub(super) fn on_its_way(place: &Path, root: PathBuf) -> Arc<Self> {
         Arc::new(Self {
-            root: root.to_owned(),
+            root,
+            name: place.to_owned(),
         })
     }
 
@@ -81,7 +98,7 @@ impl Folder {
     /// An error about this folder.
     pub(super) fn error(&self, message: &dyn std::fmt::Display) -> Error {
         Error::File {
-            path: self.root.display().to_string(),
+            path: self.name.display().to_string(),
             message: message.to_string(),
         }
     }

@@ -11,6 +11,7 @@ use std::sync::{Mutex, PoisonError};
 
 use ndarray::Array2;
 
+use super::folder::beside;
 use super::volume::VolumeSink;
 use crate::error::Error;
 use crate::fields::{Depth, Probe, Side};
@@ -54,9 +55,7 @@ impl ImageData {
         };
         let shape = (grid.nx, grid.ny, depths.len());
         let header = header(grid, (first, spacing), shape, probes);
-        let mut name = path.file_name().unwrap_or_default().to_owned();
-        name.push(".unfinished");
-        let unfinished = path.with_file_name(name);
+        let unfinished = beside(path, "unfinished");
         let begin = || {
             let mut file = File::create(&unfinished)?;
             file.write_all(header.as_bytes())?;

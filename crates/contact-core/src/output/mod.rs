@@ -7,7 +7,8 @@
 //! [`StoreWriter`] appends while the run goes on. Every file is replaced as a whole, the
 //! consolidated metadata last: whoever reads it, or is left with it after a crash, sees the store
 //! as it was at one moment. Beside the arrays it keeps a checkpoint of the state, from which
-//! [`resume`] goes on to the same result, bit by bit.
+//! [`resume`] goes on to the same result, bit by bit. Groups are laid out beside their place and take
+//! it at once: a path holds nothing, or a store.
 //!
 //! Stress below the surface goes to a group of its own ([`StressStore`]) or to VTK image data
 //! ([`ImageData`]), volumes plane by plane while they are computed ([`write_volume`]).
@@ -17,6 +18,8 @@ mod checkpoint;
 mod error_bars;
 mod folder;
 mod image_data;
+mod open;
+mod place;
 mod reader;
 mod resume;
 mod stress_store;

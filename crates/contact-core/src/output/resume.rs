@@ -8,8 +8,10 @@ use serde_json::{Map, Value, json};
 
 use super::catalogue::FIELDS;
 use super::checkpoint::{Checkpoints, Found};
+use super::open::Open;
+use super::place::mend;
 use super::reader::Store;
-use super::writer::{Open, StoreWriter};
+use super::writer::StoreWriter;
 use crate::error::Error;
 use crate::march::{Increment, March};
 
@@ -38,6 +40,7 @@ pub fn resume_until(
     path: impl AsRef<Path>,
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<Resumed>, Error> {
+    mend(path.as_ref());
     let store = Store::open(path)?;
     if store.status() == "done" {
         Checkpoints::clear(store.folder());

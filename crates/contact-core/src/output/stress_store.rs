@@ -1,7 +1,7 @@
 //! Stress and displacement below the surface as a Zarr group, over (`depth`, `x`, `y`) or along a line.
 
 use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
@@ -9,15 +9,16 @@ use serde_json::{Map, Value, json};
 use super::SCHEMA;
 use super::catalogue::Kind;
 use super::folder::Folder;
+use super::place::Unfinished;
 use super::variable::{Column, Variable};
 use super::volume::VolumeSink;
 use crate::error::Error;
 use crate::fields::{Depth, Line, Probe, Side};
 use crate::scene::Grid;
 
-/// A group being written: complete once [`Self::finish`] has been called.
+/// A group being written; it is in its place once [`Self::finish`] has been called.
 pub struct StressStore {
-    folder: Arc<Folder>,
+    unfinished: Unfinished,
     attributes: Map<String, Value>,
     coordinates: Vec<Column>,
     variables: Vec<Variable>,
@@ -38,10 +39,10 @@ impl StressStore {
         probes: &[Probe],
     ) -> Result<Self, Error> {
         let path = path.as_ref();
-        let folder = Folder::new(path);
         if path.exists() {
-            return Err(folder.error(&"exists: choose another path"));
+            return Err(Folder::new(path).error(&"exists: choose another path"));
         }
+        let unfinished = Unfinished::begin(path)?;
         let (along_x, along_y) = match line {
             None => (true, true),
             Some(Line::AlongX(_)) => (true, false),
@@ -107,7 +108,7 @@ impl StressStore {
         }
         attributes.insert("coordinates".into(), json!("z layer"));
         Ok(Self {
-            folder,
+            unfinished,
             attributes,
             coordinates,
             variables: probes.iter().map(variable).collect(),
@@ -117,16 +118,17 @@ impl StressStore {
 
     /// Stores a probe on a section, shape (depths, places).
     pub fn put_section(&self, probe: usize, values: &Array2<f64>) -> Result<(), Error> {
-        self.variables[probe].store(&self.folder, &[0, 0], values.iter().copied())
+        let folder = self.unfinished.folder();
+        self.variables[probe].store(folder, &[0, 0], values.iter().copied())
     }
 
-    /// Writes coordinates and metadata: only now is the group there for its readers.
+    /// Writes coordinates and metadata and puts the group in its place.
     pub fn finish(mut self) -> Result<(), Error> {
         let mut documents = Map::new();
         documents.insert(".zgroup".into(), json!({ "zarr_format": 2 }));
         documents.insert(".zattrs".into(), Value::Object(self.attributes.clone()));
         for column in &mut self.coordinates {
-            column.flush(&self.folder)?;
+            column.flush(self.unfinished.folder())?;
         }
         let columns = self.coordinates.iter().map(Column::variable);
         for variable in columns.chain(&self.variables) {
@@ -138,19 +140,22 @@ impl StressStore {
             self.write(key, document)?;
         }
         let all = json!({ "zarr_consolidated_format": 1, "metadata": documents });
-        self.write(".zmetadata", &all)
+        self.write(".zmetadata", &all)?;
+        self.unfinished.finish(false).map(drop)
     }
 
     fn write(&self, key: &str, document: &Value) -> Result<(), Error> {
-        self.folder
+        let folder = self.unfinished.folder();
+        folder
             .write(key, format!("{document:#}").as_bytes())
-            .map_err(|e| self.folder.error(&format!("{key}: {e}")))
+            .map_err(|e| folder.error(&format!("{key}: {e}")))
     }
 }
 
 impl VolumeSink for StressStore {
     fn put(&self, probe: usize, depth: usize, values: &Array2<f64>) -> Result<(), Error> {
         let _one = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
-        self.variables[probe].store(&self.folder, &[depth as u64, 0, 0], values.iter().copied())
+        let (folder, chunk) = (self.unfinished.folder(), [depth as u64, 0, 0]);
+        self.variables[probe].store(folder, &chunk, values.iter().copied())
     }
 }

@@ -3,15 +3,18 @@
 //! The pressure is found for known shear, then the shear for known pressure, until the gap that
 //! the shear leaves behind is within the tolerance. Where the bodies are similar neither changes
 //! the other and one pass is exact. The displacements are carried along: each solver adds the
-//! response to what it changed, and one full convolution at the start ties them to the tractions.
+//! response to what it changed, from those of the last increment on. Where single precision answers,
+//! what it may have missed adds up; before that comes to matter, a full convolution ties the
+//! displacements to the tractions again.
 
 use super::admissible::admissible;
+use super::interface::ROUNDING;
 use super::limit::{Sliding, exceeds, sliding};
 use super::mixing::Mixing;
 use super::rigid_motion::{Arms, Drive, add};
 use super::shear::first_shift;
 use super::shear_gradient::shear_gradient;
-use super::vector::{add_scaled, set_cells, set_pairs, size};
+use super::vector::{add_scaled, largest, set_cells, set_pairs, size};
 use super::{
     Interface, NormalParams, NormalProblem, NormalWorkspace, Response, SolverError,
     TangentialMethod, TangentialParams, TangentialProblem, TangentialWorkspace, normal, tangential,
@@ -31,6 +34,8 @@ pub struct IncrementProblem<'a> {
     pub normal: Drive,
     /// What drives shifts and torsion in this increment.
     pub tangential: Drive,
+    /// Tractions near the solution, and the displacements that belong to them.
+    pub known: Option<&'a Interface>,
 }
 
 /// The displacements that mean no slip in an increment.
@@ -48,10 +53,11 @@ pub trait SlipDatum {
 /// slip follow, after which these stay in a pass, and passes after which they stay for good.
 const STALLED: usize = 5;
 const LOST: usize = 3;
-/// Factor of the tolerances of the first look at a solution that gets a second.
-const LOOSE: f64 = 10.0;
-/// Iterations of a look whose rounding is far below the tolerance.
-const FEW: usize = 20;
+/// Part of the misfit of the slip conditions that the shear for a pressure leaves: the next pressure
+/// brings back as much.
+const REDUCTION: f64 = 0.02;
+/// Part of the tolerances that rounding may come to; beyond a half of it a solution is not begun.
+const ROUNDED: f64 = 0.1;
 /// Most looks.
 const LOOKS: usize = 5;
 
@@ -66,22 +72,12 @@ pub struct CoupledParams {
     pub tangential: TangentialParams,
     /// Most passes.
     pub max_alternations: usize,
-    /// Whether a solution is found with all digits, if need be by a second look at it.
-    pub exact: bool,
 }
 
 impl CoupledParams {
-    /// For a first look: so many times the tolerances, and not all digits.
-    fn loosened(&self, factor: f64) -> Self {
-        let mut loose = Self {
-            exact: false,
-            ..*self
-        };
-        loose.tolerance *= factor;
-        loose.normal.enough *= factor;
-        loose.normal.tolerance *= factor;
-        loose.tangential.tolerance *= factor;
-        loose
+    /// What rounding may add to the displacements \[m\].
+    fn rounding(&self) -> f64 {
+        ROUNDED * self.tolerance.min(self.tangential.tolerance)
     }
 }
 
@@ -109,10 +105,6 @@ impl CoupledInfo {
         exceeds(self.friction_used)
     }
 
-    fn iterations(&self) -> usize {
-        self.normal_iterations + self.tangential_iterations
-    }
-
     /// Adds the work of another solution that this one took.
     pub(crate) fn add_work(&mut self, other: &Self) {
         self.alternations += other.alternations;
@@ -131,6 +123,8 @@ pub struct CoupledWorkspace {
     q_before: [Vec<f64>; 2],
     change: [Vec<f64>; 2],
     response: [Vec<f64>; 2],
+    /// Displacements that the iterations begin with.
+    begun: [Vec<f64>; 3],
     mixing: Mixing,
     /// Passes in which the displacements that mean no slip could not be followed to the end.
     lost: usize,
@@ -149,6 +143,7 @@ impl CoupledWorkspace {
             q_before: pair(),
             change: pair(),
             response: pair(),
+            begun: [field(), field(), field()],
             mixing: Mixing::new(cells),
             lost: 0,
         }
@@ -199,14 +194,9 @@ fn look(
     let mut info = CoupledInfo::default();
     let mut slides = make_admissible(problem, datum.displacements(), now, ws, friction);
     ws.lost = 0;
-    // Where changes on the way are answered with some digits only, the solution is looked at again
-    // with the displacements of its tractions, until a look leaves it almost as it is.
-    let rounds = params.exact && response.rounds();
-    let first = params.loosened(LOOSE);
     for look in 0..LOOKS {
-        let params = if rounds && look == 0 { &first } else { params };
-        let before = info.iterations();
-        now.evaluate(response, friction, params.exact);
+        let known = problem.known.filter(|_| look == 0);
+        begin(response, known, now, ws, params, friction);
         ws.mixing.restart();
         loop {
             info.alternations += 1;
@@ -244,11 +234,16 @@ fn look(
             if info.exceeds_friction() {
                 return Ok(info);
             }
+            let mut misfit = 0.0;
             if slides.is_full() {
                 let slip = problem.slip(&ws.bound, datum.displacements());
                 info.shift = incipient_shift(&slip, now, slides.motion);
             } else {
-                shear_under(response, problem, datum, now, ws, params, &mut info)?;
+                let params = TangentialParams {
+                    reduction: if coupled { REDUCTION } else { 0.0 },
+                    ..params.tangential
+                };
+                misfit = shear_under(response, problem, datum, now, ws, params, &mut info)?;
             }
             if !coupled {
                 break;
@@ -268,7 +263,8 @@ fn look(
             let check = super::normal::assess(&gap, &now.p, &now.u_z);
             info.approach = check.motion;
             let residual = check.gap.max(check.penetration);
-            if residual <= params.tolerance {
+            let solved = residual <= params.tolerance;
+            if solved && misfit <= params.tangential.tolerance {
                 break;
             }
             if info.alternations >= params.max_alternations {
@@ -279,27 +275,68 @@ fn look(
                     iterations: info.alternations,
                 });
             }
-            ws.mixing.mix(&now.p, &mut now.u_z);
+            if !solved {
+                ws.mixing.mix(&now.p, &mut now.u_z);
+            }
         }
-        if !rounds || (look > 0 && info.iterations() - before <= FEW) {
+        if !response.rounds() {
+            break;
+        }
+        now.rounding += ROUNDING * moved(&ws.begun, now);
+        if now.rounding <= params.rounding() {
             break;
         }
     }
     Ok(info)
 }
 
+/// The displacements of the guess: from known ones, unless too many digits have been lost on the way.
+fn begin(
+    response: &mut Response<'_>,
+    known: Option<&Interface>,
+    now: &mut Interface,
+    ws: &mut CoupledWorkspace,
+    params: &CoupledParams,
+    friction: bool,
+) {
+    let allowed = if response.rounds() {
+        0.5 * params.rounding()
+    } else {
+        0.0
+    };
+    let mut rounded = f64::INFINITY;
+    if let Some(known) = known.filter(|known| known.rounding < allowed) {
+        let [q_x, q_y] = &mut ws.change;
+        now.follow(known, response, friction, [q_x, q_y, &mut ws.p_before]);
+        rounded = now.rounding;
+    }
+    if rounded > allowed {
+        now.evaluate(response, friction);
+    }
+    for (begun, u) in ws.begun.iter_mut().zip(now.displacements()) {
+        begun.copy_from_slice(u);
+    }
+}
+
+/// The largest change of a displacement since the iterations began \[m\].
+fn moved(begun: &[Vec<f64>; 3], now: &Interface) -> f64 {
+    let moved = |(begun, u): (&Vec<f64>, &Vec<f64>)| largest(u.len(), |n| (u[n] - begun[n]).abs());
+    let pairs = begun.iter().zip(now.displacements());
+    pairs.map(moved).fold(0.0, f64::max)
+}
+
 /// Shear for known pressure, with the displacements that mean no slip where the solution says: these
-/// follow after each step, as long as the misfit falls.
+/// follow after each step, as long as the misfit falls. Returns the misfit that is left.
 fn shear_under(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,
     datum: &mut dyn SlipDatum,
     now: &mut Interface,
     ws: &mut CoupledWorkspace,
-    params: &CoupledParams,
+    mut params: TangentialParams,
     info: &mut CoupledInfo,
-) -> Result<(), SolverError> {
-    let solve = match params.tangential.method {
+) -> Result<f64, SolverError> {
+    let solve = match params.method {
         TangentialMethod::Newton => tangential,
         TangentialMethod::Gradient => shear_gradient,
     };
@@ -317,11 +354,15 @@ fn shear_under(
             ..problem.slip(&ws.bound, datum.displacements())
         };
         let inner = &mut ws.tangential;
-        let found = solve(response, &slip, &mut now.shear(), inner, &params.tangential)?;
+        let found = solve(response, &slip, &mut now.shear(), inner, &params)?;
         info.tangential_iterations += found.passes;
         info.shift = found.shift;
         if !follows || found.iterations == 0 {
-            return Ok(());
+            return Ok(found.misfit);
+        }
+        if step == 1 {
+            params.tolerance = params.tolerance.max(params.reduction * found.misfit);
+            params.reduction = 0.0;
         }
         if found.misfit < least {
             (least, stalled) = (found.misfit, 0);
@@ -329,7 +370,7 @@ fn shear_under(
             stalled += 1;
             part *= 0.5;
         }
-        if step == params.tangential.max_iterations {
+        if step == params.max_iterations {
             stalled = STALLED;
         }
         if stalled == STALLED {

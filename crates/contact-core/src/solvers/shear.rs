@@ -53,6 +53,8 @@ pub struct TangentialParams {
     pub method: TangentialMethod,
     /// Largest root-mean-square misfit of the slip conditions over the contact \[m\].
     pub tolerance: f64,
+    /// Part of the misfit to begin with that is small enough too.
+    pub reduction: f64,
     /// Most Newton steps.
     pub max_iterations: usize,
     /// Each linear system is solved to this fraction of its first residual.
@@ -66,7 +68,7 @@ pub struct TangentialParams {
 pub struct TangentialInfo {
     /// Rigid motion of this increment: delta_x, delta_y, phi_z times the length \[m\].
     pub shift: [f64; 3],
-    /// Root-mean-square misfit \[m\].
+    /// Root-mean-square misfit \[m\]; where one step was done, the one before it.
     pub misfit: f64,
     /// Newton steps; one, where the displacements that mean no slip are to follow.
     pub iterations: usize,

@@ -74,7 +74,7 @@ pub fn tangential(
     params: &TangentialParams,
 ) -> Result<TangentialInfo, SolverError> {
     let (c_xx, _) = response.op.self_coefficients();
-    let settled = SETTLED * params.tolerance;
+    let (mut tolerance, mut settled) = (params.tolerance, SETTLED * params.tolerance);
     let TangentialWorkspace {
         cells,
         contact,
@@ -98,7 +98,11 @@ pub fn tangential(
         let released = release(&inside, &mut now, info.shift, settled);
         let fitted = step.linearise(&inside, &now, info.shift, c_xx);
         info.misfit = step.residual_norm() / root_of_contact;
-        let solved = !released && info.misfit <= params.tolerance;
+        if info.iterations + fits == 0 {
+            tolerance = tolerance.max(params.reduction * info.misfit);
+            settled = SETTLED * tolerance;
+        }
+        let solved = !released && info.misfit <= tolerance;
         let ahead = |k: usize| (fitted[k] - info.shift[k]).abs();
         if solved && (0..3).all(|k| ahead(k) <= settled) {
             now.unpack(cells, shear);
@@ -111,7 +115,7 @@ pub fn tangential(
             return Err(SolverError {
                 solver: "tangential",
                 residual: info.misfit,
-                tolerance: params.tolerance,
+                tolerance,
                 iterations: info.iterations,
             });
         }
@@ -123,7 +127,7 @@ pub fn tangential(
         }
         info.iterations += 1;
         before.keep(&now);
-        let target = (params.forcing * info.misfit).max(0.3 * params.tolerance);
+        let target = (params.forcing * info.misfit).max(0.3 * tolerance);
         info.passes += step.solve(response, cells, target * root_of_contact, params.max_passes);
         info.shift = step.take(cells, &inside, &mut now);
         mark_slip(&inside, &mut now, info.shift);
