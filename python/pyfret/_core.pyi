@@ -1781,7 +1781,7 @@ class Envelope:
         stick: NDArray[np.bool_],
         sigma_B: float = 0.0,
     ) -> None:
-        """Take the tractions of an increment, the cells that stick, and the bulk stress of the body [Pa]."""
+        """Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa]."""
     def finish(self) -> dict[str, dict[str, _Array]]:
         """Give the extremes of every measure."""
 

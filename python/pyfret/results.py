@@ -148,8 +148,8 @@ class Snapshot:
         bulk : bool
             Whether its bulk stress is part of the stress.
         rim : bool
-            Whether tractions vary within the cells near the rim and the stick zone, for the stress
-            near the surface; without, they are constant on each: see :func:`pyfret.subsurface.stress`.
+            Whether tractions vary within the cells beside the rim and the stick zone, as in
+            :func:`pyfret.subsurface.stress`.
         """
         body, grid = self._body(body_number), self.scene.grid
         sigma_B = self.bulk_stress(body_number) if bulk else 0.0
