@@ -21,7 +21,7 @@ AFTER = 0.2
 #: A second; the machine may be busy with other things [s].
 SOON = 3.0
 
-BODY = fret.Body(STEEL, coatings=[fret.Coating(fret.Elastic(E=4 * STEEL.E, nu=0.3), 0.5)])
+BODY = fret.Body(STEEL, coatings=[fret.Coating(fret.Elastic(E=4 * STEEL.E, nu=0.3), thickness=0.5)])
 
 
 @pytest.fixture(autouse=True)
@@ -54,11 +54,10 @@ def points(_: Path) -> object:
     return fret._core.Subsurface(BODY, grid, p=p).points(places)
 
 
-def volume(out: Path) -> object:
+def volume(out: Path) -> None:
     grid, p = load(1024)
     z = np.linspace(0, 1, 50)
-    fret.subsurface.write_volume(out, BODY, grid, z, p=p, of=["von_mises"])
-    return None
+    fret.subsurface.write_volume(BODY, grid, out, z, p=p)
 
 
 def coefficients(_: Path) -> object:
@@ -74,8 +73,12 @@ def test_ctrl_c_ends_the_call(call: Callable[[Path], object], tmp_path: Path) ->
         raised.append(time.perf_counter())
         os.kill(os.getpid(), signal.SIGINT)
 
-    threading.Timer(AFTER, interrupt).start()
-    with pytest.raises(KeyboardInterrupt):
-        call(tmp_path / "out.zarr")
+    timer = threading.Timer(AFTER, interrupt)
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            call(tmp_path / "out.zarr")
+    finally:
+        timer.cancel()
     assert time.perf_counter() - raised[0] < SOON
     assert list(tmp_path.iterdir()) == []
