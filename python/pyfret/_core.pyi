@@ -80,7 +80,6 @@ __all__ = [
     "measure",
     "principal",
     "probe_labels",
-    "refined",
     "resume",
     "rims",
     "solve",
@@ -1646,11 +1645,6 @@ class Conversion:
 def continued_pressure(p: ArrayLike, grid: Grid) -> _Array:
     """Pressure [Pa], that at the rim continued from inside; use :meth:`Snapshot.p_continued`."""
 
-def refined(
-    grid: Grid, factor: int, *, p: ArrayLike, q_x: ArrayLike, q_y: ArrayLike
-) -> tuple[Grid, list[_Array]]:
-    """Grid, p, q_x, q_y [Pa] on finer cells; use :func:`pyfret.subsurface.stress`."""
-
 def labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of every variable of a result, scalars and fields."""
 
@@ -1727,6 +1721,8 @@ class Subsurface:
         q_y: ArrayLike | None = None,
         body_number: int = 2,
         sigma_B: float = 0.0,
+        rim: bool = False,
+        stick: NDArray[np.bool_] | None = None,
     ) -> Subsurface: ...
     def section(
         self,
@@ -1769,6 +1765,7 @@ class Envelope:
         x: float | None = None,
         y: float | None = None,
         body_number: int = 2,
+        rim: bool = True,
     ) -> Envelope: ...
     @property
     def cycles(self) -> list[tuple[int, int]]:
@@ -1781,9 +1778,10 @@ class Envelope:
         p: ArrayLike,
         q_x: ArrayLike,
         q_y: ArrayLike,
+        stick: NDArray[np.bool_],
         sigma_B: float = 0.0,
     ) -> None:
-        """Take the tractions of an increment, and the bulk stress of the body [Pa]."""
+        """Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa]."""
     def finish(self) -> dict[str, dict[str, _Array]]:
         """Give the extremes of every measure."""
 

@@ -132,7 +132,7 @@ class Snapshot:
         y: float | None = None,
         body_number: int = 2,
         bulk: bool = True,
-        refine: int = 1,
+        rim: bool = True,
     ) -> Stress:
         """Stress below the contact, in the lower body unless `body_number` is 1.
 
@@ -147,9 +147,9 @@ class Snapshot:
             The body.
         bulk : bool
             Whether its bulk stress is part of the stress.
-        refine : int
-            How many times finer the cells are on which tractions are interpolated and stress is
-            given, odd: see :func:`pyfret.subsurface.stress`.
+        rim : bool
+            Whether tractions vary within the cells beside the rim and the stick zone, as in
+            :func:`pyfret.subsurface.stress`.
         """
         body, grid = self._body(body_number), self.scene.grid
         sigma_B = self.bulk_stress(body_number) if bulk else 0.0
@@ -161,7 +161,8 @@ class Snapshot:
             y=y,
             body_number=body_number,
             sigma_B=sigma_B,
-            refine=refine,
+            rim=rim,
+            stick=self.dataset["stick"].values,
             **self._tractions(),
         )
 
@@ -195,6 +196,7 @@ class Snapshot:
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
         bulk: bool = True,
+        rim: bool = True,
     ) -> None:
         """Write stress, displacement in the volume: :func:`pyfret.subsurface.write_volume`."""
         body, grid = self._body(body_number), self.scene.grid
@@ -206,6 +208,8 @@ class Snapshot:
             of=of,
             body_number=body_number,
             sigma_B=self.bulk_stress(body_number) if bulk else 0.0,
+            rim=rim,
+            stick=self.dataset["stick"].values,
             title=repr(self),
             **self._tractions(),
         )

@@ -50,10 +50,21 @@ def _subsurface(
     loads: tuple[ArrayLike | None, ArrayLike | None, ArrayLike | None],
     body_number: int,
     sigma_B: float = 0.0,
+    *,
+    rim: bool = False,
+    stick: ArrayLike | None = None,
 ) -> _core.Subsurface:
     p, q_x, q_y = loads
     return _core.Subsurface(
-        body, grid, p=p, q_x=q_x, q_y=q_y, body_number=body_number, sigma_B=sigma_B
+        body,
+        grid,
+        p=p,
+        q_x=q_x,
+        q_y=q_y,
+        body_number=body_number,
+        sigma_B=sigma_B,
+        rim=rim,
+        stick=None if stick is None else np.asarray(stick, dtype=bool),
     )
 
 
@@ -69,7 +80,8 @@ def stress(
     y: float | None = None,
     body_number: int = 2,
     sigma_B: float = 0.0,
-    refine: int = 1,
+    rim: bool = False,
+    stick: ArrayLike | None = None,
 ) -> Stress:
     """Stress in a body under tractions on its surface.
 
@@ -90,21 +102,20 @@ def stress(
         Whether `body` is the upper one, on which the shear acts reversed, or the lower one.
     sigma_B : float
         Bulk stress along x of its substrate [Pa]; coatings are stretched with it.
-    refine : int
-        How many times finer the cells are along each side, odd, on which the tractions are
-        interpolated (p^2 and q/p) and the stress is given (default: 1, as they are). With 3 the
-        error beside the rim of the contact is a third.
+    rim : bool
+        Whether the tractions are those of a contact (default: no): near the surface, beside the
+        rim and the stick zone, the stress is then that of tractions which vary within the cells
+        and vanish at the rim like a root.
+    stick : array of shape (nx, ny), optional
+        With `rim`, the cells that stick (default: those at the rim slip).
 
     Returns
     -------
     Stress
         Of dims (depth, x), (depth, y), (depth) or (depth, x, y).
     """
-    if refine != 1:
-        none = np.zeros((grid.nx, grid.ny))
-        loads = [none if load is None else load for load in (p, q_x, q_y)]
-        grid, (p, q_x, q_y) = _core.refined(grid, refine, p=loads[0], q_x=loads[1], q_y=loads[2])
-    below = _subsurface(body, grid, (p, q_x, q_y), body_number, sigma_B)
+    loads = (p, q_x, q_y)
+    below = _subsurface(body, grid, loads, body_number, sigma_B, rim=rim, stick=stick)
     return Stress(_sampled(below, body, grid, z, (x, y), displacement=False))
 
 
@@ -170,13 +181,15 @@ def write_volume(
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     sigma_B: float = 0.0,
+    rim: bool = False,
+    stick: ArrayLike | None = None,
     title: str = "",
 ) -> None:
     """Write stress and displacement under the grid, plane by plane while they are computed.
 
     Parameters
     ----------
-    body, grid, z, p, q_x, q_y, body_number, sigma_B
+    body, grid, z, p, q_x, q_y, body_number, sigma_B, rim, stick
         As in :func:`stress`; on an interface the value is that of the upper layer.
     out : path
         A ``.vti`` file (VTK image data for ParaView and PyVista; depths evenly spaced) or a Zarr
@@ -188,7 +201,8 @@ def write_volume(
     """
     depths, layers = _depths(body, z)
     once = [n for n, depth in enumerate(depths) if n == 0 or depth != depths[n - 1]]
-    below = _subsurface(body, grid, (p, q_x, q_y), body_number, sigma_B)
+    loads = (p, q_x, q_y)
+    below = _subsurface(body, grid, loads, body_number, sigma_B, rim=rim, stick=stick)
     z_once, layer_once = [depths[n] for n in once], [layers[n] for n in once]
     below.volume(out, z_once, layer_once, of=list(of), title=title)
 
@@ -203,6 +217,7 @@ def envelope(
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     bulk: bool = True,
+    rim: bool = True,
 ) -> xr.Dataset:
     """Extremes of stress over a load path, none of whose increments is kept.
 
@@ -218,6 +233,8 @@ def envelope(
         Measures, as in :class:`Stress`.
     bulk : bool
         Whether the body's bulk stress is part of the stress.
+    rim : bool
+        Whether tractions vary within the cells, as in :func:`stress`.
 
     Returns
     -------
@@ -243,12 +260,14 @@ def envelope(
         x=x,
         y=y,
         body_number=body_number,
+        rim=rim,
     )
     for snapshot in increments:
         fields = {k: snapshot.dataset[k].values for k in ("p", "q_x", "q_y")}
+        stick = snapshot.dataset["stick"].values.astype(bool)
         number, branch = (int(snapshot.dataset[k]) for k in ("increment", "branch_of_increment"))
         sigma_B = snapshot.bulk_stress(body_number) if bulk else 0.0
-        stream.push(number, branch, sigma_B=sigma_B, **fields)
+        stream.push(number, branch, stick=stick, sigma_B=sigma_B, **fields)
     coords = _coords(scene.grid, depths, layers, x, y)
     along = [name for name, at in (("x", x), ("y", y)) if at is None]
     dims = ("depth", *along)

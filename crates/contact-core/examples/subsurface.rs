@@ -28,7 +28,7 @@ fn main() {
         ["plane"] => {
             let line = Line::AlongX(0.0);
             let section = Section::new(body, Side::Body2, grid, line, &states).unwrap();
-            section.stress(&depths).unwrap();
+            section.with_rim(&states, &[]).stress(&depths).unwrap();
         }
         ["volume", file, ref names @ ..] => {
             let names = if names.is_empty() {
@@ -41,6 +41,7 @@ fn main() {
                 .map(|name| Probe::named(name, "probe").unwrap())
                 .collect();
             let slices = Slices::new(body, Side::Body2, grid, &states).unwrap();
+            let slices = slices.with_rim(&states, &[]);
             let image = ImageData::create(file, grid, Side::Body2, &depths, &of).unwrap();
             write_volume(&slices, &depths, &of, &[&image]).unwrap();
             image.finish().unwrap();

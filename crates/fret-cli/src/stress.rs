@@ -45,6 +45,9 @@ pub(crate) struct Options {
     /// Leave out the bulk stress of the body
     #[arg(long)]
     no_bulk: bool,
+    /// Tractions constant on each cell up to the rim of the contact and the stick zone
+    #[arg(long)]
+    no_rim: bool,
     /// Largest depth in metres; by default 2 a_H
     #[arg(long, value_name = "Z")]
     depth: Option<f64>,
@@ -67,6 +70,7 @@ struct Loads {
     q_x: Array2<f64>,
     q_y: Array2<f64>,
     p: Array2<f64>,
+    stick: Array2<bool>,
     /// Bulk stress of the body in Pa.
     sigma_B: f64,
 }
@@ -192,8 +196,11 @@ impl Task {
         }
         let store = self.store(options, Some(line))?;
         let states = [self.loads.tractions()];
-        let section = Section::until(self.body(), self.side, grid, line, &states, &self.stop)?
+        let mut section = Section::until(self.body(), self.side, grid, line, &states, &self.stop)?
             .with_bulk_stress(&[self.loads.sigma_B]);
+        if !options.no_rim {
+            section = section.with_rim(&states, &self.loads.stick());
+        }
         let (axis, along): (_, Vec<f64>) = match line {
             Line::AlongX(_) => ("x", (0..grid.nx).map(|i| grid.x(i)).collect()),
             Line::AlongY(_) => ("y", (0..grid.ny).map(|j| grid.y(j)).collect()),
@@ -227,8 +234,11 @@ impl Task {
         sinks.extend(image.as_ref().map(|i| i as &dyn VolumeSink));
         sinks.extend(store.as_ref().map(|s| s as &dyn VolumeSink));
         let states = [self.loads.tractions()];
-        let slices = Slices::until(self.body(), self.side, grid, &states, &self.stop)?
+        let mut slices = Slices::until(self.body(), self.side, grid, &states, &self.stop)?
             .with_bulk_stress(&[self.loads.sigma_B]);
+        if !options.no_rim {
+            slices = slices.with_rim(&states, &self.loads.stick());
+        }
         let largest = write_volume(&slices, &self.depths, &self.probes, &sinks)?;
         image.map_or(Ok(()), ImageData::finish)?;
         store.map_or(Ok(()), StressStore::finish)?;
@@ -308,6 +318,7 @@ impl Loads {
             q_x: store.field("q_x", place)?,
             q_y: store.field("q_y", place)?,
             p: store.field("p", place)?,
+            stick: store.field("stick", place)?.mapv(|v| v != 0.0),
         })
     }
 
@@ -317,6 +328,10 @@ impl Loads {
             q_y: self.q_y.as_slice(),
             p: self.p.as_slice(),
         }
+    }
+
+    fn stick(&self) -> [&[bool]; 1] {
+        [self.stick.as_slice().unwrap_or_default()]
     }
 }
 

@@ -7,7 +7,7 @@ use contact_core::fields as core;
 use contact_core::fields::{Line, Stream};
 use contact_core::march;
 use ndarray::{Array1, Array2, Axis};
-use numpy::IntoPyArray;
+use numpy::{IntoPyArray, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -32,7 +32,7 @@ pub(crate) struct Envelope {
 #[pymethods]
 impl Envelope {
     #[new]
-    #[pyo3(signature = (body, grid, path, z, layer, *, of, x = None, y = None, body_number = 2))]
+    #[pyo3(signature = (body, grid, path, z, layer, *, of, x = None, y = None, body_number = 2, rim = true))]
     fn new(
         body: Body,
         grid: Grid,
@@ -43,6 +43,7 @@ impl Envelope {
         x: Option<f64>,
         y: Option<f64>,
         body_number: u8,
+        rim: bool,
     ) -> PyResult<Self> {
         let cycles = core::cycles(&path.0);
         let line = match (x, y) {
@@ -72,8 +73,9 @@ impl Envelope {
         let depths = Subsurface::depths(&z, &layer)?;
         let side = side(body_number)?;
         let stream = Stream::new(&body.0, side, &grid.0, line, depths, accumulate);
+        let stream = stream.map_err(to_python)?;
         Ok(Self {
-            stream: Some(stream.map_err(to_python)?),
+            stream: Some(if rim { stream.with_rim() } else { stream }),
             names: of,
             cycles,
             of_line: line.is_some(),
@@ -85,7 +87,7 @@ impl Envelope {
         self.cycles.clone()
     }
 
-    #[pyo3(signature = (increment, branch, *, p, q_x, q_y, sigma_B = 0.0))]
+    #[pyo3(signature = (increment, branch, *, p, q_x, q_y, stick, sigma_B = 0.0))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn push(
         &mut self,
@@ -95,6 +97,7 @@ impl Envelope {
         p: Field<'_>,
         q_x: Field<'_>,
         q_y: Field<'_>,
+        stick: PyReadonlyArray2<'_, bool>,
         sigma_B: f64,
     ) -> PyResult<()> {
         let tractions = [q_x, q_y, p].map(|f| f.as_array().as_standard_layout().into_owned());
@@ -104,9 +107,10 @@ impl Envelope {
             branch,
             sigma_B,
         };
+        let stick = stick.as_array().as_standard_layout().into_owned();
         let stop = Arc::<AtomicBool>::default();
         stream.stop_on(stop.clone());
-        interruptible(py, &stop, || stream.push(moment, tractions))?.map_err(to_python)?;
+        interruptible(py, &stop, || stream.push(moment, tractions, stick))?.map_err(to_python)?;
         self.stream = Some(stream);
         Ok(())
     }

@@ -39,7 +39,7 @@ mod _core {
         Conversion, influence_coefficients, stress_at, stress_coefficients, surface_frf,
     };
     #[pymodule_export]
-    use crate::march::{March, continued_pressure, labels, refined};
+    use crate::march::{March, continued_pressure, labels};
     #[pymodule_export]
     use crate::operator::SurfaceOperator;
     #[pymodule_export]

@@ -104,30 +104,6 @@ pub(crate) fn continued_pressure<'py>(
     Ok(core::continued_pressure(&p, &grid.0).into_pyarray(py))
 }
 
-/// The grid, p, q_x, q_y on cells `factor` times finer along each side.
-#[pyfunction]
-#[pyo3(signature = (grid, factor, *, p, q_x, q_y))]
-pub(crate) fn refined<'py>(
-    py: Python<'py>,
-    grid: Grid,
-    factor: usize,
-    p: PyArrayLike2<'py, f64, AllowTypeChange>,
-    q_x: PyArrayLike2<'py, f64, AllowTypeChange>,
-    q_y: PyArrayLike2<'py, f64, AllowTypeChange>,
-) -> PyResult<(Grid, [Bound<'py, PyArray2<f64>>; 3])> {
-    let shape = (grid.0.nx, grid.0.ny);
-    let [p, q_x, q_y] = [p, q_x, q_y].map(|field| field.as_array().to_owned());
-    if [&p, &q_x, &q_y].iter().any(|field| field.dim() != shape) {
-        return Err(PyValueError::new_err(format!(
-            "p, q_x, q_y: must be of the grid's shape {shape:?}"
-        )));
-    }
-    let finer = core::refined(&grid.0, factor, &p, [&q_x, &q_y]).map_err(to_python)?;
-    let [q_x, q_y] = finer.q;
-    let fields = [finer.p, q_x, q_y].map(|field| field.into_pyarray(py));
-    Ok((Grid(finer.grid), fields))
-}
-
 /// Units and meaning of every variable of a result, scalars and fields.
 #[pyfunction]
 pub(crate) fn labels() -> HashMap<&'static str, (&'static str, &'static str)> {

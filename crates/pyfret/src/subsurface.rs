@@ -2,13 +2,14 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use contact_core::convolution::Tractions;
 use contact_core::fields as core;
 use contact_core::fields::{Depth, Line, Side};
 use contact_core::output::{ImageData, StressStore, VolumeSink, write_volume};
 use ndarray::Array2;
-use numpy::{AllowTypeChange, IntoPyArray, PyArray2, PyArray3, PyArrayLike2};
+use numpy::{AllowTypeChange, IntoPyArray, PyArray2, PyArray3, PyArrayLike2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -58,6 +59,9 @@ pub(crate) struct Subsurface {
     side: Side,
     sigma_B: f64,
     fields: [Option<Vec<f64>>; 3],
+    /// Whether they are those of a contact, and the cells that stick.
+    rim: bool,
+    stick: Option<Vec<bool>>,
 }
 
 impl Subsurface {
@@ -68,6 +72,21 @@ impl Subsurface {
             q_y: q_y.as_deref(),
             p: p.as_deref(),
         }
+    }
+
+    fn stick(&self) -> Vec<&[bool]> {
+        self.stick.iter().map(Vec::as_slice).collect()
+    }
+
+    fn slices(&self, stop: &Arc<AtomicBool>) -> Result<core::Slices, contact_core::Error> {
+        let (body, grid, states) = (&self.body.0, &self.grid.0, [self.tractions()]);
+        let slices = core::Slices::until(body, self.side, grid, &states, stop)?
+            .with_bulk_stress(&[self.sigma_B]);
+        Ok(if self.rim {
+            slices.with_rim(&states, &self.stick())
+        } else {
+            slices
+        })
     }
 
     pub(crate) fn depths(z: &[f64], layer: &[usize]) -> PyResult<Vec<Depth>> {
@@ -82,7 +101,7 @@ impl Subsurface {
 #[pymethods]
 impl Subsurface {
     #[new]
-    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number = 2, sigma_B = 0.0))]
+    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number = 2, sigma_B = 0.0, rim = false, stick = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -91,6 +110,8 @@ impl Subsurface {
         q_y: Option<Field<'_>>,
         body_number: u8,
         sigma_B: f64,
+        rim: bool,
+        stick: Option<PyReadonlyArray2<'_, bool>>,
     ) -> PyResult<Self> {
         let shape = (grid.0.nx, grid.0.ny);
         let cells = |name: &str, field: Option<Field<'_>>| match field {
@@ -101,7 +122,16 @@ impl Subsurface {
             ))),
             Some(field) => Ok(Some(field.as_array().iter().copied().collect())),
         };
+        let stick = stick.map(|stick| stick.as_array().to_owned());
+        if let Some(stick) = stick.as_ref().filter(|stick| stick.dim() != shape) {
+            return Err(PyValueError::new_err(format!(
+                "stick has the shape {:?}: must be that of the grid, {shape:?}",
+                stick.dim()
+            )));
+        }
         Ok(Self {
+            rim,
+            stick: stick.map(|stick| stick.into_iter().collect()),
             fields: [cells("q_x", q_x)?, cells("q_y", q_y)?, cells("p", p)?],
             side: side(body_number)?,
             sigma_B,
@@ -124,8 +154,11 @@ impl Subsurface {
         let stop = Arc::default();
         let found = interruptible(py, &stop, || {
             let (body, grid, states) = (&self.body.0, &self.grid.0, [self.tractions()]);
-            let section = core::Section::until(body, self.side, grid, line, &states, &stop)?
+            let mut section = core::Section::until(body, self.side, grid, line, &states, &stop)?
                 .with_bulk_stress(&[self.sigma_B]);
+            if self.rim {
+                section = section.with_rim(&states, &self.stick());
+            }
             if displacement {
                 section.displacement(&depths)
             } else {
@@ -145,9 +178,7 @@ impl Subsurface {
     ) -> PyResult<Vec<Bound<'py, PyArray2<f64>>>> {
         let stop = Arc::default();
         let found = interruptible(py, &stop, || {
-            let (body, grid, states) = (&self.body.0, &self.grid.0, [self.tractions()]);
-            let slices = core::Slices::until(body, self.side, grid, &states, &stop)?
-                .with_bulk_stress(&[self.sigma_B]);
+            let slices = self.slices(&stop)?;
             let depth = Depth { z, layer };
             Ok(if displacement {
                 Vec::from(slices.displacement(depth)?.swap_remove(0))
@@ -171,8 +202,11 @@ impl Subsurface {
         let stop = Arc::default();
         let both = interruptible(py, &stop, || {
             let (body, grid, states) = (&self.body.0, &self.grid.0, [self.tractions()]);
-            let points = core::Points::until(body, self.side, grid, &states, &stop)?
+            let mut points = core::Points::until(body, self.side, grid, &states, &stop)?
                 .with_bulk_stress(&[self.sigma_B]);
+            if self.rim {
+                points = points.with_rim(&states, &self.stick());
+            }
             Ok((points.stress(&places)?, points.displacement(&places)?))
         })?;
         let (stress, u) = both.map_err(to_python)?;
@@ -196,9 +230,7 @@ impl Subsurface {
         let probes: Vec<_> = probes.collect::<Result<_, _>>().map_err(to_python)?;
         let (grid, side, stop) = (&self.grid.0, self.side, Arc::default());
         let write = || {
-            let states = [self.tractions()];
-            let slices = core::Slices::until(&self.body.0, side, grid, &states, &stop)?
-                .with_bulk_stress(&[self.sigma_B]);
+            let slices = self.slices(&stop)?;
             let write =
                 |sink: &dyn VolumeSink| write_volume(&slices, &depths, &probes, &[sink]).map(drop);
             if out

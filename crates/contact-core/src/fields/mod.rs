@@ -23,6 +23,7 @@ mod envelope;
 mod largest;
 mod loads;
 mod maximum;
+mod near_rim;
 mod parity;
 mod points;
 mod probe;

@@ -8,10 +8,11 @@ use rayon::prelude::*;
 
 use super::bulk::Bulk;
 use super::loads::{Loads, Plane, Source, snapped};
+use super::near_rim::NearRim;
 use super::{Depth, Side};
 use crate::convolution::Tractions;
 use crate::error::Error;
-use crate::kernels::{Cell, DepthKernel, Displacement, Quantity, Stack, Stress, refuse_rigid};
+use crate::kernels::{Cell, DepthKernel, Displacement, Quantity, Stack, refuse_rigid};
 use crate::scene::{Body, Grid};
 use crate::stop::unless;
 
@@ -23,6 +24,7 @@ pub struct Points {
     side: Side,
     plane: Plane,
     bulk: Bulk,
+    rim: Option<NearRim>,
     /// By state, for loads on cells and for point loads.
     loads: Vec<[Loads; 2]>,
     stop: Arc<AtomicBool>,
@@ -68,6 +70,7 @@ impl Points {
             side,
             plane,
             bulk: Bulk::default(),
+            rim: None,
             loads: loads.collect(),
             stop: stop.clone(),
         })
@@ -81,12 +84,42 @@ impl Points {
         self
     }
 
+    /// Takes the tractions, the same `states`, for those of contacts of which the cells `stick` (for
+    /// states beyond the list: which slip at their rim). Near the surface and near the rim and the
+    /// stick zone the stress is then that of tractions that vary within the cells.
+    #[must_use]
+    pub fn with_rim(mut self, states: &[Tractions<'_>], stick: &[&[bool]]) -> Self {
+        let grid = &self.grid;
+        let (columns, rows) = (0..grid.nx, 0..grid.ny);
+        self.rim = Some(NearRim::new(
+            grid,
+            self.side,
+            states,
+            stick,
+            (columns, rows),
+        ));
+        self
+    }
+
     /// Stress of each state at each point \[Pa\]: xx, yy, zz, xy, xz, yz.
     ///
     /// On the surface the stress jumps at the border of a cell; there it is the mean of both sides,
     /// as far as these are finite.
     pub fn stress(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 6]>>, Error> {
-        let mut all = self.gather::<Stress, 10, 6>(points)?;
+        let mut all = self.gather(points, |kernel, depth, n, values: &mut [[f64; 6]]| {
+            let Some(rim) = &self.rim else { return };
+            let (cell, offset) = NearRim::locate(&self.grid, points[n].0, points[n].1);
+            let near = |(state, _): &(usize, _)| rim.is_near(*state, depth, cell);
+            let mut near = values.iter_mut().enumerate().filter(near).peekable();
+            let Some(parts) = near.peek().and_then(|_| rim.parts(kernel, depth, offset)) else {
+                return;
+            };
+            for (state, stress) in near {
+                for (stress, more) in stress.iter_mut().zip(rim.stress(&parts, state, cell)) {
+                    *stress += more;
+                }
+            }
+        })?;
         for (state, stresses) in all.iter_mut().enumerate() {
             for (stress, (_, _, depth)) in stresses.iter_mut().zip(points) {
                 let bulk = self.bulk.stress(&self.body, state, depth.layer);
@@ -100,12 +133,13 @@ impl Points {
 
     /// Displacement of each state at each point relative to infinity \[m\].
     pub fn displacement(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 3]>>, Error> {
-        self.gather::<Displacement, 5, 3>(points)
+        self.gather(points, |_: &DepthKernel<Displacement, 5, 3>, _, _, _| {})
     }
 
     fn gather<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
         &self,
         points: &[Point],
+        more: impl Fn(&DepthKernel<Q, N, R>, Depth, usize, &mut [[f64; R]]) + Sync,
     ) -> Result<Vec<Vec<[f64; R]>>, Error> {
         // Points at one depth share its kernel.
         let mut by_depth: BTreeMap<(u64, usize), Vec<usize>> = BTreeMap::new();
@@ -123,7 +157,7 @@ impl Points {
             .collect::<Vec<_>>()
             .into_par_iter()
             .map(|group| {
-                let values = self.at_depth::<Q, N, R>(points, &group)?;
+                let values = self.at_depth(points, &group, &more)?;
                 Ok((group, values))
             })
             .collect::<Result<_, Error>>()?;
@@ -138,11 +172,12 @@ impl Points {
         Ok(all)
     }
 
-    /// The values of every state at the points of a group, which share their depth.
+    /// The values of every state at the points of a group, which share their depth; `more` is added.
     fn at_depth<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
         &self,
         points: &[Point],
         group: &[usize],
+        more: &(impl Fn(&DepthKernel<Q, N, R>, Depth, usize, &mut [[f64; R]]) + Sync),
     ) -> Result<Vec<Vec<[f64; R]>>, Error> {
         let depth = points[group[0]].2;
         refuse_rigid(&self.body, depth.layer)?;
@@ -158,7 +193,13 @@ impl Points {
         let at = |n: &usize| {
             let (x, y, _) = points[*n];
             let of_state = |loads: &[Loads; 2]| self.sum(&kernel, source, &loads[variant], (x, y));
-            self.loads.iter().map(of_state).collect()
+            let mut values: Vec<_> = self
+                .loads
+                .iter()
+                .map(of_state)
+                .collect::<Result<_, Error>>()?;
+            more(&kernel, depth, *n, &mut values);
+            Ok(values)
         };
         group.par_iter().map(at).collect()
     }

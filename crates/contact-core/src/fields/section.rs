@@ -6,7 +6,7 @@
 //! of the line share the kernel, whose parity across the line is known; where the loads are
 //! symmetric to the line, half of the entries are not needed at all.
 
-use ndarray::{Array2, Array3};
+use ndarray::{Array2, Array3, ArrayView1};
 use rayon::prelude::*;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex64;
@@ -16,6 +16,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::bulk::Bulk;
 use super::loads::{Loads, Plane, Source, snapped};
+use super::near_rim::NearRim;
 use super::parity::Buffers;
 use super::{Depth, Side};
 use crate::convolution::{Tractions, good_size};
@@ -39,9 +40,10 @@ pub struct Section {
     stack: Stack,
     grid: Grid,
     side: Side,
-    exchanged: bool,
+    line: Line,
     plane: Plane,
     bulk: Bulk,
+    rim: Option<NearRim>,
     states: usize,
     /// For loads on cells and for point loads; the latter may serve all depths asked for.
     rows: [Rows; 2],
@@ -115,9 +117,10 @@ impl Section {
             body: body.clone(),
             grid: *grid,
             side,
-            exchanged,
+            line,
             plane,
             bulk: Bulk::default(),
+            rim: None,
             states: states.len(),
             rows: [cells?, points?],
             stop: stop.clone(),
@@ -132,6 +135,32 @@ impl Section {
         self
     }
 
+    /// Takes the tractions, the same `states`, for those of contacts of which the cells `stick` (for
+    /// states beyond the list: which slip at their rim). Near the surface and near the rim and the
+    /// stick zone the stress is then that of tractions that vary within the cells.
+    #[must_use]
+    pub fn with_rim(mut self, states: &[Tractions<'_>], stick: &[&[bool]]) -> Self {
+        let grid = &self.grid;
+        let (columns, rows) = match self.line {
+            Line::AlongX(y) => {
+                let ((_, j), _) = NearRim::locate(grid, 0.0, y);
+                (0..grid.nx, j..j + 1)
+            }
+            Line::AlongY(x) => {
+                let ((i, _), _) = NearRim::locate(grid, x, 0.0);
+                (i..i + 1, 0..grid.ny)
+            }
+        };
+        self.rim = Some(NearRim::new(
+            grid,
+            self.side,
+            states,
+            stick,
+            (columns, rows),
+        ));
+        self
+    }
+
     /// Stress of each state \[Pa\], shape (6, depths, cells along the line): xx, yy, zz, xy, xz,
     /// yz.
     pub fn stress(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
@@ -141,7 +170,9 @@ impl Section {
     /// Displacement of each state relative to infinity \[m\], shape (3, depths, cells along the
     /// line).
     pub fn displacement(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
-        self.gather::<3>(depths, |depth| self.at::<Displacement, 5, 3>(depth))
+        self.gather::<3>(depths, |depth| {
+            self.at(&self.kernel::<Displacement, 5, 3>(depth)?, depth)
+        })
     }
 
     /// Hands the stresses of all states on each line, of shape (6, cells along the line), to `f`
@@ -178,7 +209,9 @@ impl Section {
 
     /// The stress of all states at one depth, each of shape (6, cells along the line).
     fn stress_at(&self, depth: Depth) -> Result<Vec<Array2<f64>>, Error> {
-        let mut lines = self.at::<Stress, 10, 6>(depth)?;
+        let kernel = self.kernel::<Stress, 10, 6>(depth)?;
+        let mut lines = self.at(&kernel, depth)?;
+        self.add_rim(&kernel, depth, &mut lines);
         for (state, line) in lines.iter_mut().enumerate() {
             let bulk = self.bulk.stress(&self.body, state, depth.layer);
             for (mut row, bulk) in line.rows_mut().into_iter().zip(bulk) {
@@ -188,22 +221,59 @@ impl Section {
         Ok(lines)
     }
 
-    /// The lines of all states at one depth, each of shape (R, cells along the line).
-    fn at<Q: Quantity<N, R>, const N: usize, const R: usize>(
+    /// Adds to the stress lines of all states at a depth what the rim does to them.
+    fn add_rim(
+        &self,
+        kernel: &DepthKernel<Stress, 10, 6>,
+        depth: Depth,
+        lines: &mut [Array2<f64>],
+    ) {
+        let Some(rim) = &self.rim else { return };
+        let (first, offset) = match self.line {
+            Line::AlongX(y) => NearRim::locate(&self.grid, self.grid.x(0), y),
+            Line::AlongY(x) => NearRim::locate(&self.grid, x, self.grid.y(0)),
+        };
+        let Some(parts) = rim.parts(kernel, depth, offset) else {
+            return;
+        };
+        for (state, line) in lines.iter_mut().enumerate() {
+            for (n, mut stress) in line.columns_mut().into_iter().enumerate() {
+                let cell = match self.line {
+                    Line::AlongX(_) => (n, first.1),
+                    Line::AlongY(_) => (first.0, n),
+                };
+                if rim.is_near(state, depth, cell) {
+                    let more = rim.stress(&parts, state, cell);
+                    stress += &ArrayView1::from(&more);
+                }
+            }
+        }
+    }
+
+    fn kernel<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         depth: Depth,
-    ) -> Result<Vec<Array2<f64>>, Error> {
+    ) -> Result<DepthKernel<Q, N, R>, Error> {
         refuse_rigid(&self.body, depth.layer)?;
         unless(&self.stop)?;
         let place = self.stack.place(depth.z, Some(depth.layer))?;
-        let kernel = DepthKernel::<Q, N, R>::new(&self.stack, place, self.plane.reach())?;
+        DepthKernel::new(&self.stack, place, self.plane.reach())
+    }
+
+    /// The lines of all states at one depth, each of shape (R, cells along the line).
+    fn at<Q: Quantity<N, R>, const N: usize, const R: usize>(
+        &self,
+        kernel: &DepthKernel<Q, N, R>,
+        depth: Depth,
+    ) -> Result<Vec<Array2<f64>>, Error> {
         let source = Source::at(depth.z, self.plane.d);
         let rows = &self.rows[source.index()];
         let shape = (self.states, self.plane.n.0);
-        let own = rows.convolve(&kernel, self.plane.d, shape, &self.stop)?;
+        let own = rows.convolve(kernel, self.plane.d, shape, &self.stop)?;
+        let exchanged = matches!(self.line, Line::AlongY(_));
         let turn = |own: Array2<f64>| {
             Array2::from_shape_fn(own.dim(), |(row, i)| {
-                let from = if self.exchanged {
+                let from = if exchanged {
                     Q::exchanged(row, 0).0
                 } else {
                     row

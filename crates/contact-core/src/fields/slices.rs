@@ -14,6 +14,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::bulk::Bulk;
 use super::loads::{Patch, Plane, Source};
+use super::near_rim::NearRim;
 use super::parity::Buffers;
 use super::{Depth, Side};
 use crate::convolution::{Tractions, good_size};
@@ -31,6 +32,7 @@ pub struct Slices {
     plane: Plane,
     states: usize,
     bulk: Bulk,
+    rim: Option<NearRim>,
     /// For loads on cells and for point loads.
     transforms: [Transform; 2],
     stop: Arc<AtomicBool>,
@@ -86,6 +88,7 @@ impl Slices {
             plane,
             states: states.len(),
             bulk: Bulk::default(),
+            rim: None,
             transforms: [cells?, points?],
             stop: stop.clone(),
         })
@@ -99,9 +102,28 @@ impl Slices {
         self
     }
 
+    /// Takes the tractions, the same `states`, for those of contacts of which the cells `stick` (for
+    /// states beyond the list: which slip at their rim). Near the surface and near the rim and the
+    /// stick zone the stress is then that of tractions that vary within the cells.
+    #[must_use]
+    pub fn with_rim(mut self, states: &[Tractions<'_>], stick: &[&[bool]]) -> Self {
+        let grid = &self.grid;
+        let (columns, rows) = (0..grid.nx, 0..grid.ny);
+        self.rim = Some(NearRim::new(
+            grid,
+            self.side,
+            states,
+            stick,
+            (columns, rows),
+        ));
+        self
+    }
+
     /// Stress of each state at one depth \[Pa\]: xx, yy, zz, xy, xz, yz, each of shape (nx, ny).
     pub fn stress(&self, depth: Depth) -> Result<Vec<[Array2<f64>; 6]>, Error> {
-        let mut planes = self.at::<Stress, 10, 6>(depth)?;
+        let kernel = self.kernel::<Stress, 10, 6>(depth)?;
+        let mut planes = self.at(&kernel, depth)?;
+        self.add_rim(&kernel, depth, &mut planes);
         for (state, planes) in planes.iter_mut().enumerate() {
             let bulk = self.bulk.stress(&self.body, state, depth.layer);
             for (plane, bulk) in planes.iter_mut().zip(bulk) {
@@ -113,7 +135,7 @@ impl Slices {
 
     /// Displacement of each state at one depth relative to infinity \[m\].
     pub fn displacement(&self, depth: Depth) -> Result<Vec<[Array2<f64>; 3]>, Error> {
-        self.at::<Displacement, 5, 3>(depth)
+        self.at(&self.kernel::<Displacement, 5, 3>(depth)?, depth)
     }
 
     /// Hands the stresses of all states at each depth, of shape (6, cells in row-major order), to
@@ -146,17 +168,52 @@ impl Slices {
         &self.grid
     }
 
-    fn at<Q: Quantity<N, R>, const N: usize, const R: usize>(
+    /// Adds to the stress of all states at a depth what the rim does to it.
+    fn add_rim(
+        &self,
+        kernel: &DepthKernel<Stress, 10, 6>,
+        depth: Depth,
+        states: &mut [[Array2<f64>; 6]],
+    ) {
+        let Some(rim) = &self.rim else { return };
+        let Some(parts) = rim.parts(kernel, depth, (0.0, 0.0)) else {
+            return;
+        };
+        for (state, planes) in states.iter_mut().enumerate() {
+            let more: Vec<_> = (0..self.grid.cells())
+                .into_par_iter()
+                .filter_map(|n| {
+                    let cell = (n / self.grid.ny, n % self.grid.ny);
+                    rim.is_near(state, depth, cell)
+                        .then(|| (cell, rim.stress(&parts, state, cell)))
+                })
+                .collect();
+            for (cell, stress) in more {
+                for (plane, more) in planes.iter_mut().zip(stress) {
+                    plane[cell] += more;
+                }
+            }
+        }
+    }
+
+    fn kernel<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         depth: Depth,
-    ) -> Result<Vec<[Array2<f64>; R]>, Error> {
+    ) -> Result<DepthKernel<Q, N, R>, Error> {
         refuse_rigid(&self.body, depth.layer)?;
         self.unless_stopped()?;
         let place = self.stack.place(depth.z, Some(depth.layer))?;
-        let kernel = DepthKernel::<Q, N, R>::new(&self.stack, place, self.plane.reach())?;
+        DepthKernel::new(&self.stack, place, self.plane.reach())
+    }
+
+    fn at<Q: Quantity<N, R>, const N: usize, const R: usize>(
+        &self,
+        kernel: &DepthKernel<Q, N, R>,
+        depth: Depth,
+    ) -> Result<Vec<[Array2<f64>; R]>, Error> {
         let source = Source::at(depth.z, self.plane.d);
         let transform = &self.transforms[source.index()];
-        let mut fields = transform.convolve(&kernel, self.plane, self.states, &self.stop)?;
+        let mut fields = transform.convolve(kernel, self.plane, self.states, &self.stop)?;
         if self.side == Side::Body1 {
             for fields in &mut fields {
                 let of_one_z = fields.iter_mut().enumerate();

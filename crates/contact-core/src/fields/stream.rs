@@ -75,6 +75,9 @@ impl<A: Accumulate, B: Accumulate> Accumulate for (A, B) {
     }
 }
 
+/// A moment, its tractions q_x, q_y, p and the cells that stick.
+type Waiting = (Moment, [Array2<f64>; 3], Array2<bool>);
+
 /// The stresses below a line, or on whole planes, over a load path. As an [`Observer`] it takes every increment of a
 /// run; [`Self::push`] takes those of a store.
 pub struct Stream<A: Accumulate> {
@@ -86,7 +89,9 @@ pub struct Stream<A: Accumulate> {
     depths: Vec<Depth>,
     accumulate: A,
     kept: Vec<A::Kept>,
-    waiting: Vec<(Moment, [Array2<f64>; 3])>,
+    /// Whether the tractions are taken for those of contacts.
+    rim: bool,
+    waiting: Vec<Waiting>,
     stop: Arc<AtomicBool>,
 }
 
@@ -124,6 +129,7 @@ impl<A: Accumulate> Stream<A> {
             depths,
             accumulate,
             kept,
+            rim: false,
             waiting: Vec::with_capacity(BATCH),
             stop: Arc::default(),
         })
@@ -135,9 +141,22 @@ impl<A: Accumulate> Stream<A> {
         self.stop = flag;
     }
 
-    /// Takes the tractions q_x, q_y, p of a moment, each of shape (nx, ny) \[Pa\].
-    pub fn push(&mut self, moment: Moment, tractions: [Array2<f64>; 3]) -> Result<(), Error> {
-        self.waiting.push((moment, tractions));
+    /// Takes the tractions for those of contacts, as [`Section::with_rim`] does.
+    #[must_use]
+    pub fn with_rim(mut self) -> Self {
+        self.rim = true;
+        self
+    }
+
+    /// Takes the tractions q_x, q_y, p of a moment \[Pa\] and the cells that stick, each of shape
+    /// (nx, ny).
+    pub fn push(
+        &mut self,
+        moment: Moment,
+        tractions: [Array2<f64>; 3],
+        stick: Array2<bool>,
+    ) -> Result<(), Error> {
+        self.waiting.push((moment, tractions, stick));
         let batch = if self.line.is_some() {
             BATCH
         } else {
@@ -162,26 +181,34 @@ impl<A: Accumulate> Stream<A> {
         let states: Vec<_> = self
             .waiting
             .iter()
-            .map(|(_, [q_x, q_y, p])| Tractions {
+            .map(|(_, [q_x, q_y, p], _)| Tractions {
                 q_x: q_x.as_slice(),
                 q_y: q_y.as_slice(),
                 p: p.as_slice(),
             })
             .collect();
         let add = |kept: &mut A::Kept, stresses: &[Array2<f64>]| {
-            for ((moment, _), stress) in self.waiting.iter().zip(stresses) {
+            for ((moment, ..), stress) in self.waiting.iter().zip(stresses) {
                 self.accumulate.add(kept, *moment, stress);
             }
         };
-        let bulk: Vec<f64> = self.waiting.iter().map(|(m, _)| m.sigma_B).collect();
+        let bulk: Vec<f64> = self.waiting.iter().map(|(m, ..)| m.sigma_B).collect();
+        let stick = self.waiting.iter().map(|(.., stick)| stick.as_slice());
+        let stick: Vec<&[bool]> = stick.map(Option::unwrap_or_default).collect();
         let (body, side, grid) = (&self.body, self.side, &self.grid);
         if let Some(line) = self.line {
-            let section = Section::until(body, side, grid, line, &states, &self.stop)?
+            let mut section = Section::until(body, side, grid, line, &states, &self.stop)?
                 .with_bulk_stress(&bulk);
+            if self.rim {
+                section = section.with_rim(&states, &stick);
+            }
             section.pass_stress(&self.depths, &mut self.kept, add)?;
         } else {
-            let slices =
+            let mut slices =
                 Slices::until(body, side, grid, &states, &self.stop)?.with_bulk_stress(&bulk);
+            if self.rim {
+                slices = slices.with_rim(&states, &stick);
+            }
             slices.pass_stress(&self.depths, &mut self.kept, add)?;
         }
         self.waiting.clear();
@@ -193,6 +220,6 @@ impl<A: Accumulate> Observer for Stream<A> {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         let fields = march.fields();
         let moment = Moment::of(increment, self.side);
-        self.push(moment, [fields.q_x, fields.q_y, fields.p])
+        self.push(moment, [fields.q_x, fields.q_y, fields.p], fields.stick)
     }
 }

@@ -134,9 +134,10 @@ pub(super) struct Edge {
 }
 
 impl Edge {
-    /// The level at the cell's centre, where the cells tell it.
-    pub(super) fn level(&self) -> Option<f64> {
-        self.level.map(|(level, _)| level)
+    /// The level at the cell's centre and its change from cell to cell along x and y, where the
+    /// cells tell them.
+    pub(super) fn level(&self) -> Option<(f64, [f64; 2])> {
+        self.level
     }
 
     /// The part of the cell that belongs to the zone, 0 to 1, with the border so many cells further

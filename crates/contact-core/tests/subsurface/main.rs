@@ -8,6 +8,7 @@ mod elasticity;
 #[path = "../kernel_tables/mod.rs"]
 mod kernel_tables;
 mod sliding_sphere;
+mod solved;
 mod surface;
 mod ways;
 
