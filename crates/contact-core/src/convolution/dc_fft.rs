@@ -23,7 +23,7 @@ pub struct DcFft {
 /// What single precision misses at most of a displacement, over the norms (roots of the sums of squares)
 /// of the tractions and of a kernel: transforms spread an error of each number over all of them, so that
 /// where tractions cancel it does not.
-const ROUNDING: f64 = 3e-7;
+const ROUNDING: f64 = 1e-7;
 
 impl DcFft {
     /// For the coefficients of a pair of bodies. With [`Mirror::Y`] the fields are those of the

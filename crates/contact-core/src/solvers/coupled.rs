@@ -53,7 +53,7 @@ pub trait SlipDatum {
 const STALLED: usize = 5;
 const LOST: usize = 3;
 /// Part of the tolerances that rounding may come to; beyond a half of it a solution is not begun.
-const ROUNDED: f64 = 0.05;
+const ROUNDED: f64 = 0.1;
 /// Iterations whose changes add up to what they change together; more go back and forth.
 const STRAIGHT: f64 = 20.0;
 /// Most looks.
