@@ -54,8 +54,9 @@ const STALLED: usize = 5;
 const LOST: usize = 3;
 /// Part of the tolerances that rounding may come to; beyond a half of it a solution is not begun.
 const ROUNDED: f64 = 0.1;
-/// Iterations whose changes add up to what they change together; more go back and forth.
-const STRAIGHT: f64 = 20.0;
+/// Iterations whose changes are about what they change together; where it takes more, some go back and
+/// forth, and what that has rounded is not known.
+const STRAIGHT: usize = 30;
 /// Most looks.
 const LOOKS: usize = 5;
 
@@ -193,6 +194,7 @@ fn look(
 ) -> Result<CoupledInfo, SolverError> {
     let friction = problem.mu.iter().any(|&mu| mu > 0.0);
     let coupled = response.op.is_coupled() && friction;
+    let rounds = response.rounding() > 0.0;
     let mut info = CoupledInfo::default();
     let mut slides = make_admissible(problem, datum.displacements(), now, ws, friction);
     ws.lost = 0;
@@ -274,10 +276,13 @@ fn look(
             }
             ws.mixing.mix(&now.p, &mut now.u_z);
         }
-        let straight = 1.0 + (info.iterations() - before) as f64 / STRAIGHT;
+        if !rounds {
+            break;
+        }
         let [q_x, q_y, p] = &ws.begun;
-        now.rounding += response.rounding() * straight * now.differs([q_x, q_y, p]);
-        if now.rounding <= params.rounding() {
+        now.rounding += response.rounding() * now.differs([q_x, q_y, p]);
+        let straight = info.iterations() - before <= STRAIGHT;
+        if straight && now.rounding <= params.rounding() {
             break;
         }
     }
