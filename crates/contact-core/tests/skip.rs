@@ -240,8 +240,13 @@ fn digits_that_the_tolerance_does_not_need() {
         let without = run(&double, &mut ends[1]);
         run(&exact, &mut ends[2]);
         let work = |run: &[Increment]| run.iter().map(|i| i.work.convolutions).sum::<f64>();
-        // A first look that is loose, and a second with the displacements of its tractions.
-        assert!(work(&with) < work(&without) + 4.0 * with.len() as f64);
+        // Now and then displacements are computed anew, with a second look at the solution.
+        assert!(
+            work(&with) < work(&without) + 2.0 * with.len() as f64,
+            "{} {}",
+            work(&with),
+            work(&without)
+        );
         let [with, without, exact] = ends.map(|ends| ends.0);
         for ((with, without), exact) in with.iter().zip(&without).zip(&exact) {
             let off = |of: &(Increment, Fields)| norm(&(&of.1.q_x - &exact.1.q_x));
