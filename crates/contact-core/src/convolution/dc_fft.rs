@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use super::good_size::good_size;
 use super::{Displacements, Mirror, Spectra, SpectralProduct, SurfaceOperator, Tractions};
 use crate::error::Error;
-use crate::kernels::{InfluenceCoefficients, Quadrant};
+use crate::kernels::{InfluenceCoefficients, norm};
 use crate::stop::NOBODY;
 
 /// The DC-FFT operator: exact up to rounding for tractions that are constant on each cell.
@@ -61,7 +61,7 @@ impl DcFft {
             shape: (shape.0, mirror.rows(shape.1)),
             product,
             rounding: if single.is_some() {
-                ROUNDING * norm(coefficients) * mirror.multiplicity().sqrt()
+                ROUNDING * largest_norm(coefficients) * mirror.multiplicity().sqrt()
             } else {
                 0.0
             },
@@ -72,12 +72,10 @@ impl DcFft {
     }
 }
 
-/// The largest norm of a kernel, of which the coefficients are a quarter \[m/Pa\].
-fn norm(c: &InfluenceCoefficients) -> f64 {
+/// The largest norm of a kernel \[m/Pa\].
+fn largest_norm(c: &InfluenceCoefficients) -> f64 {
     let kernels = [&c.xx, &c.yy, &c.zz, &c.xy, &c.xz, &c.yz];
-    let quarter = |q: &Quadrant| q.iter().map(|k| k * k).sum::<f64>();
-    let largest = kernels.into_iter().map(quarter).fold(0.0, f64::max);
-    2.0 * largest.sqrt()
+    kernels.into_iter().map(norm).fold(0.0, f64::max)
 }
 
 impl SurfaceOperator for DcFft {

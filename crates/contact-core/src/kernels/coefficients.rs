@@ -48,6 +48,12 @@ pub struct InfluenceCoefficients {
     pub yz: Quadrant,
 }
 
+/// The norm of a kernel on the whole plane, root of the sum of squares, of which these are a quarter
+/// \[m/Pa\].
+pub(crate) fn norm(quarter: &Quadrant) -> f64 {
+    2.0 * quarter.iter().map(|k| k * k).sum::<f64>().sqrt()
+}
+
 impl InfluenceCoefficients {
     /// The coefficients of the pair, eq. (4) of the paper, `self` being body 2: those that keep to
     /// one direction family add, those that couple normal and tangential subtract.

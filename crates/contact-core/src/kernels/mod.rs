@@ -29,6 +29,7 @@ mod surface;
 
 pub use cache::clear_cache;
 pub(crate) use cell::Cell;
+pub(crate) use coefficients::norm;
 pub use coefficients::{InfluenceCoefficients, KernelSet, Quadrant};
 pub use convert::{Conversion, SurfaceFrf, convert};
 pub use depth_frf::FrequencyResponse;

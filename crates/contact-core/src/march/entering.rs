@@ -149,7 +149,7 @@ impl March {
     }
 
     /// Approach and tilts of the last increment, as lengths \[m\].
-    fn approach_before(&self) -> [f64; 3] {
+    pub(super) fn approach_before(&self) -> [f64; 3] {
         let motions = self.state.motion.motions();
         [0, 1, 2].map(|k| motions[k] * self.unit(k))
     }

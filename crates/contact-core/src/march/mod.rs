@@ -200,7 +200,7 @@ impl March {
         let index = self.state.increments + 1;
         let transforms = self.transforms();
         let mut coarse_convolutions = 0.0;
-        let (now, info) = loop {
+        let (now, info, clear) = loop {
             self.unless_stopped()?;
             let start = self.start(point, &mut coarse_convolutions)?;
             let (now, info) = self.solve_from(point, start)?;
@@ -212,13 +212,18 @@ impl March {
             }
             self.unless_stopped()?;
             let narrow = self.make_room(&now.p, self.window.shape(), 1.0)?;
-            if !narrow && !self.touches_beyond(&now, &info)? {
-                break (now, info);
+            if narrow {
+                continue;
+            }
+            if let Some(clear) = self.clear_beyond(&now, &info)? {
+                break (now, info, clear);
             }
         };
         self.check_border(&now, index)?;
         let convolutions = (self.transforms() - transforms) as f64 / 6.0 + coarse_convolutions;
-        self.account(point, now, &info, convolutions)
+        let increment = self.account(point, now, &info, convolutions)?;
+        self.state.clear = clear;
+        Ok(increment)
     }
 
     /// The first guess of the increment, in a window with room for it.
@@ -246,9 +251,14 @@ impl March {
             if !pressed {
                 return Ok(None);
             }
+            let closing = match touch {
+                Some(_) => None,
+                None => self.closing_pressure(&normal),
+            };
             let start = self.state.predict(
                 point,
                 touch.as_ref().map(|p| self.in_window(p)),
+                closing.as_deref(),
                 &self.mu,
                 &normal,
                 self.scene.settings.solver.preset,

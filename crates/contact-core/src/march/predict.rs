@@ -3,7 +3,8 @@
 use ndarray::Array2;
 use rayon::prelude::*;
 
-use super::State;
+use super::window::Window;
+use super::{March, State};
 use crate::scene::{Given, LoadPoint, Loads, Preset};
 use crate::solvers::{CHUNK, Drive, Interface, friction_bound, set_cells, size, sum_cells};
 
@@ -57,6 +58,46 @@ impl Loads {
     }
 }
 
+impl March {
+    /// The pressure that closes the gaps and overlaps which the last increment has left within its
+    /// tolerance, about; none where the shear does not open them. Left alone they would add up, and
+    /// the pressure would have to be solved for in every other increment.
+    pub(super) fn closing_pressure(&mut self, normal: &Drive) -> Option<Vec<f64>> {
+        if !(self.plan.coupling && self.plan.friction) || self.carried.is_some() {
+            return None;
+        }
+        let approach = self.approach_before();
+        let Window {
+            h_init,
+            arms,
+            inverse,
+            ..
+        } = &mut self.window;
+        let inverse = inverse.as_mut()?;
+        let Interface { p, u_z, .. } = &self.state.interface;
+        let overlap = |n: usize| arms.across(approach, n) - u_z[n] - h_init[n];
+        let touches = |n: usize| p[n] > 0.0 || overlap(n) > 0.0;
+        let mut overlaps = vec![0.0; p.len()];
+        set_cells(
+            &mut overlaps,
+            |n, _| {
+                if touches(n) { overlap(n) } else { 0.0 }
+            },
+        );
+        let mut closing = vec![0.0; p.len()];
+        inverse.normal(&overlaps, &mut closing);
+        let rigid = arms.fit_across(normal.free, |n| touches(n).then(|| closing[n]));
+        set_cells(&mut closing, |n, z| {
+            if touches(n) {
+                z - arms.across(rigid, n)
+            } else {
+                0.0
+            }
+        });
+        Some(closing)
+    }
+}
+
 impl State {
     /// The factor by which the change of the loads to a point is that of the last increment, if both
     /// go the same way.
@@ -68,11 +109,13 @@ impl State {
     /// Tractions and slip set to start from: the last increment's, extrapolated while the loads
     /// keep their direction (the paper takes them as they are). At a reversal every cell is taken
     /// to stick: slip needs the load to move on before it sets in again. Bodies that have not touched
-    /// start from the pressure `touch`.
+    /// start from the pressure `touch`, those in contact close what gaps they have left
+    /// ([`March::closing_pressure`]).
     pub(crate) fn predict(
         &self,
         point: &LoadPoint,
         touch: Option<Vec<f64>>,
+        closing: Option<&[f64]>,
         mu: &[f64],
         normal: &Drive,
         preset: Preset,
@@ -81,14 +124,21 @@ impl State {
         if let Some(p) = touch {
             guess.p = p;
         }
+        if let Some(closing) = closing {
+            set_cells(&mut guess.p, |n, p| p + closing[n]);
+        }
         let same_way = self.going_on(point);
         if let (Some(factor), Preset::Fast) = (same_way, preset) {
             let before = &self.p_before;
-            set_cells(&mut guess.p, |n, p| (p + factor * (p - before[n])).max(0.0));
+            let p = &self.interface.p;
+            set_cells(&mut guess.p, |n, closed| {
+                closed + factor * (p[n] - before[n])
+            });
             approach_slip(&mut guess, &self.q_before, mu, factor);
         } else if same_way.is_none() {
             guess.slip.fill(false);
         }
+        set_cells(&mut guess.p, |_, p| p.max(0.0));
         if normal.free[0] {
             let [sum] = sum_cells(guess.p.len(), |n| [guess.p[n]]);
             let factor = normal.sums[0] / sum;

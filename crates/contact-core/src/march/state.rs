@@ -30,6 +30,9 @@ pub struct State {
     pub work: f64,
     /// Area of the cells that did not slip in the last increment \[m^2\].
     pub(crate) without_slip: f64,
+    /// How far the cells beyond the window are at least from overlapping \[m\]; zero where that is not
+    /// known.
+    pub(crate) clear: f64,
     /// Pressure before the last increment \[Pa\].
     pub(crate) p_before: Vec<f64>,
     /// Shear before the last increment \[Pa\].
@@ -54,6 +57,7 @@ impl State {
             dissipated: field(),
             work: 0.0,
             without_slip: 0.0,
+            clear: 0.0,
             p_before: field(),
             q_before: pair(),
             step: Loads::default(),

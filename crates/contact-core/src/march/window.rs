@@ -3,7 +3,8 @@
 //! Tractions act in the contact alone, and displacements of other cells matter only where these might
 //! touch. So an increment is solved in a window around the contact, with room between the two, and
 //! ends with a look at the gap beyond: where cells overlap there, it is solved again on the whole
-//! grid. The window begins around the first guess of the contact and grows with it.
+//! grid. What a look has found clear stays so until the tractions have changed by enough to close it.
+//! The window begins around the first guess of the contact and grows with it.
 
 use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
@@ -17,9 +18,9 @@ use crate::convolution::{
     Tractions, good_size,
 };
 use crate::error::Error;
-use crate::kernels::{InfluenceCoefficients, pair_coefficients_until};
+use crate::kernels::{InfluenceCoefficients, norm, pair_coefficients_until};
 use crate::scene::{Grid, KernelMethod, LoadPoint, Plan, Preset, Scene};
-use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface, Response};
+use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface, Response, sum_cells};
 use crate::stop::NOBODY;
 
 /// Cells between the contact and the border of the window.
@@ -49,6 +50,8 @@ pub(super) struct Window {
 pub(super) struct Whole {
     /// The coefficients on the whole grid.
     pair: InfluenceCoefficients,
+    /// Norms of the kernels of u_z under q_x, q_y and p on the whole plane \[m/Pa\].
+    norms: [f64; 3],
     /// The whole grid, for what is beyond the window; there once it has been needed.
     pub(super) grid: Mutex<Option<Window>>,
     /// Transforms done in windows that were given up.
@@ -67,8 +70,12 @@ impl Whole {
             plan.kernels(),
             stop,
         )?;
+        let pair = pair.stretched(scene.friction.stretch());
+        let shear = plan.friction && plan.coupling;
+        let norms = [(&pair.xz, shear), (&pair.yz, shear), (&pair.zz, true)];
         Ok(Self {
-            pair: pair.stretched(scene.friction.stretch()),
+            norms: norms.map(|(kernel, acts)| if acts { norm(kernel) } else { 0.0 }),
+            pair,
             grid: Mutex::default(),
             transforms: 0,
         })
@@ -302,15 +309,20 @@ impl March {
         }
     }
 
-    /// Whether cells beyond the window overlap in this solution; if so, the window is the whole grid
-    /// from now on. Fails where the run is stopped meanwhile.
-    pub(super) fn touches_beyond(
+    /// How far the cells beyond the window are at least from overlapping in this solution \[m\]; if some
+    /// overlap none, and the window is the whole grid from now on. Fails where the run is stopped
+    /// meanwhile.
+    pub(super) fn clear_beyond(
         &mut self,
         now: &Interface,
         info: &CoupledInfo,
-    ) -> Result<bool, Error> {
+    ) -> Result<Option<f64>, Error> {
         if !self.is_windowed() {
-            return Ok(false);
+            return Ok(Some(0.0));
+        }
+        let left = self.state.clear - self.closes_beyond(now, info);
+        if left > 0.0 {
+            return Ok(Some(left));
         }
         let mirror = self.plan.mirror;
         let known = (self.whole.grid.get_mut())
@@ -339,16 +351,37 @@ impl March {
         );
         let inside = embedded(&vec![true; now.p.len()], from, to, mirror, false);
         let allowed = scene.settings.solver.tolerance * self.approach;
-        let overlap = (0..p.len()).any(|n| {
-            let gap = grid.h_init[n] + u_z[n] - grid.arms.across(info.approach, n);
-            !inside[n] && gap < -allowed
-        });
+        let clear = (0..p.len())
+            .filter(|&n| !inside[n])
+            .map(|n| grid.h_init[n] + u_z[n] - grid.arms.across(info.approach, n) + allowed)
+            .fold(f64::INFINITY, f64::min);
         let whole = &mut self.whole;
         *whole.grid.get_mut().unwrap_or_else(PoisonError::into_inner) = Some(grid);
-        if overlap {
+        if clear < 0.0 {
             self.widen(shape_of(&self.scene.grid))?;
+            return Ok(None);
         }
-        Ok(overlap)
+        Ok(Some(clear))
+    }
+
+    /// What the gap closes by at most beyond the window from the last increment to this solution \[m\]:
+    /// no displacement changes by more than the norm of a kernel times that of the change of traction.
+    fn closes_beyond(&self, now: &Interface, info: &CoupledInfo) -> f64 {
+        let (last, before) = (&self.state.interface, self.approach_before());
+        let squares = sum_cells(now.p.len(), |n| {
+            [
+                now.q[0][n] - last.q[0][n],
+                now.q[1][n] - last.q[1][n],
+                now.p[n] - last.p[n],
+            ]
+            .map(|change| change * change)
+        });
+        let of_tractions: f64 = (self.whole.norms.iter().zip(squares))
+            .map(|(norm, squares)| norm * (self.plan.mirror.multiplicity() * squares).sqrt())
+            .sum();
+        // The arms are at most 1.
+        let rigid: f64 = (0..3).map(|k| (info.approach[k] - before[k]).abs()).sum();
+        of_tractions + rigid
     }
 
     /// A window of that shape; fails where the run is stopped meanwhile.

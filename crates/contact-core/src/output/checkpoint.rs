@@ -23,7 +23,7 @@ use crate::error::Error;
 use crate::march::{Increment, State};
 
 /// The first bytes of a state; the number is that of the layout.
-const MAGIC: &[u8] = b"fret checkpoint 2\n";
+const MAGIC: &[u8] = b"fret checkpoint 3\n";
 pub(super) const FOLDER: &str = "checkpoint";
 const INCREMENTS: &str = "checkpoint/increments";
 const STATES: [&str; 2] = ["checkpoint/state.0", "checkpoint/state.1"];

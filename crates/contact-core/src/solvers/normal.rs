@@ -101,7 +101,7 @@ pub fn normal(
     balance(problem, p);
     if p.iter()
         .zip(&ws.response)
-        .any(|(p, before)| (p - before).abs() > 1e-15 * p)
+        .any(|(p, before)| (p - before).abs() > SUMMED * p)
     {
         add_response_of_change(response, p, u_z, ws);
     }
@@ -178,6 +178,9 @@ pub fn normal(
     }
 }
 
+/// What rounding leaves of the sum of a pressure that has been brought to its load, over the sum.
+const SUMMED: f64 = 1e-13;
+
 /// Rounds of weighting and cutting that bring the pressure to its loads.
 const ROUNDS: usize = 20;
 
@@ -189,10 +192,9 @@ fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
         return;
     }
     if free[0] {
-        let factor = sums[0] / p.iter().sum::<f64>();
-        for p in p.iter_mut() {
-            *p *= factor;
-        }
+        let [sum] = sum_cells(p.len(), |n| [p[n]]);
+        let factor = sums[0] / sum;
+        set_cells(p, |_, p| p * factor);
     }
     if free == [true, false, false] {
         return;
