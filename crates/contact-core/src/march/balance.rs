@@ -6,7 +6,7 @@ use crate::convolution::Mirror;
 use crate::error::Error;
 use crate::scene::{Given, LoadPoint, Loads};
 use crate::solvers::{
-    CoupledInfo, Interface, friction_bound, largest, set_cells, set_pairs, size, sum_cells,
+    CoupledInfo, Interface, both, friction_bound, largest, set_cells, set_pairs, size, sum_cells,
 };
 
 /// What sums in another order may differ by.
@@ -31,7 +31,8 @@ impl March {
         };
         let contact = now.p.iter().filter(|&&p| p > 0.0).count();
         let slipping = now.slip.iter().filter(|&&s| s).count();
-        let ((energy, residuals), areas) = rayon::join(
+        let ((energy, residuals), areas) = both(
+            now.p.len(),
             || {
                 let energy = self.energies(point, &now, &motion, cell_area);
                 (energy, self.residuals(point, &now, info, cell_area))

@@ -5,6 +5,8 @@
 
 use std::ops::Range;
 
+use super::vector::both;
+
 /// Runs of contact cells in the order of the grid.
 #[derive(Debug, Default)]
 pub(crate) struct ContactCells {
@@ -49,6 +51,18 @@ impl ContactCells {
             let length = run.len();
             field[run].copy_from_slice(&packed[at..at + length]);
         }
+    }
+
+    /// [`Self::pack`] for two fields.
+    pub(crate) fn pack_pair(&self, fields: &[Vec<f64>; 2], packed: &mut [Vec<f64>; 2]) {
+        let ([a, b], [to_a, to_b]) = (fields, packed);
+        both(self.count, || self.pack(a, to_a), || self.pack(b, to_b));
+    }
+
+    /// [`Self::unpack`] for two fields.
+    pub(crate) fn unpack_pair(&self, packed: &[Vec<f64>; 2], fields: &mut [Vec<f64>; 2]) {
+        let ([a, b], [to_a, to_b]) = (packed, fields);
+        both(self.count, || self.unpack(a, to_a), || self.unpack(b, to_b));
     }
 
     /// Runs and where each begins in packed order.

@@ -6,7 +6,7 @@ use super::Response;
 use super::contact_cells::ContactCells;
 use super::rigid_motion::{add, inverse, product};
 use super::shear::{Shear, TangentialProblem};
-use super::vector::{CHUNK, add_scaled, dot, set_pairs, sum};
+use super::vector::{CHUNK, add_scaled, set_and_sum, set_pairs, sum, sum_cells};
 
 type Pair = [Vec<f64>; 2];
 
@@ -30,9 +30,9 @@ pub(crate) struct NewtonStep {
     /// Solution \[Pa\].
     x: Pair,
     residual: Pair,
+    residual_norm: f64,
     z: Pair,
     direction: Pair,
-    response_direction: Pair,
     /// C x, and C times what was added to x, \[m\] on the grid.
     pub(crate) response_x: Pair,
     /// Traction and displacement on the grid.
@@ -71,9 +71,9 @@ impl NewtonStep {
             scale: field(),
             x: pair(),
             residual: pair(),
+            residual_norm: 0.0,
             z: pair(),
             direction: pair(),
-            response_direction: pair(),
             response_x: on_grid(),
             traction: on_grid(),
             displacement: on_grid(),
@@ -104,7 +104,6 @@ impl NewtonStep {
             &mut self.residual,
             &mut self.z,
             &mut self.direction,
-            &mut self.response_direction,
         ] {
             for field in pair {
                 field.resize(count, 0.0);
@@ -154,13 +153,14 @@ impl NewtonStep {
             }
         });
         t.inverse_sum = inverse(t.gram(), problem.drive.free);
-        let behind = t.project(&mut self.residual);
+        let (behind, squares) = t.project(&mut self.residual, |_, r| r, |_, [x, y]| x * x + y * y);
+        self.residual_norm = squares.sqrt();
         add(shift, behind.map(|s| -s))
     }
 
     /// Norm of the residual \[m\], root of the sum of squares.
     pub(crate) fn residual_norm(&self) -> f64 {
-        dot_pair(&self.residual, &self.residual).sqrt()
+        self.residual_norm
     }
 
     /// Conjugate gradients until the residual norm is below `target` or `max_passes` are done;
@@ -178,45 +178,50 @@ impl NewtonStep {
         }
         let mut last_product = 0.0;
         for pass in 0..max_passes {
-            if self.residual_norm() <= target || response.stopped() {
+            if self.residual_norm <= target || response.stopped() {
                 return pass;
             }
-            self.precondition(response, contact);
-            let product = dot_pair(&self.residual, &self.z);
+            let product = self.precondition(response, contact);
             let beta = if pass == 0 {
                 0.0
             } else {
                 product / last_product
             };
             last_product = product;
-            for c in 0..2 {
-                for (d, z) in self.direction[c].iter_mut().zip(&self.z[c]) {
-                    *d = z + beta * *d;
-                }
-                contact.unpack(&self.direction[c], &mut self.traction[c]);
-            }
+            let ([d_x, d_y], z) = (&mut self.direction, &self.z);
+            set_pairs([d_x, d_y], |i, [x, y]| {
+                [z[0][i] + beta * x, z[1][i] + beta * y]
+            });
+            contact.unpack_pair(&self.direction, &mut self.traction);
             let [d_x, d_y] = &self.traction;
             let [u_x, u_y] = &mut self.displacement;
             response.tangential([d_x, d_y], [u_x, u_y]);
             // z = Pi (C + D) d; d lies in the tangent space.
-            for c in 0..2 {
-                contact.pack(&self.displacement[c], &mut self.response_direction[c]);
-                let terms = self.z[c].iter_mut().zip(&self.response_direction[c]);
-                for ((z, r), (d, k)) in terms.zip(self.direction[c].iter().zip(&self.diagonal)) {
-                    *z = r + k * d;
-                }
-            }
-            self.tangent.project(&mut self.z);
-            let curvature = dot_pair(&self.direction, &self.z);
+            contact.pack_pair(&self.displacement, &mut self.z);
+            let (d, diagonal) = (&self.direction, &self.diagonal);
+            let (_, curvature) = self.tangent.project(
+                &mut self.z,
+                |i, [x, y]| [x + diagonal[i] * d[0][i], y + diagonal[i] * d[1][i]],
+                |i, [x, y]| x * d[0][i] + y * d[1][i],
+            );
             if !(curvature > 0.0 && product > 0.0) {
                 return pass + 1;
             }
             let step = product / curvature;
-            for c in 0..2 {
-                add_scaled(&mut self.x[c], step, &self.direction[c]);
-                add_scaled(&mut self.response_x[c], step, &self.displacement[c]);
-                add_scaled(&mut self.residual[c], -step, &self.z[c]);
-            }
+            let add_to = |sum: &mut Pair, change: &Pair| {
+                let [x, y] = sum;
+                set_pairs([x, y], |n, [x, y]| {
+                    [x + step * change[0][n], y + step * change[1][n]]
+                });
+            };
+            add_to(&mut self.x, &self.direction);
+            add_to(&mut self.response_x, &self.displacement);
+            let ([r_x, r_y], z) = (&mut self.residual, &self.z);
+            let [squares] = set_and_sum([r_x, r_y], |i, [x, y]| {
+                let r = [x - step * z[0][i], y - step * z[1][i]];
+                (r, [r[0] * r[0] + r[1] * r[1]])
+            });
+            self.residual_norm = squares.sqrt();
         }
         max_passes
     }
@@ -240,25 +245,22 @@ impl NewtonStep {
         }
     }
 
-    /// z = Pi S P S r
-    fn precondition(&mut self, response: &mut Response<'_>, contact: &ContactCells) {
-        for c in 0..2 {
-            let scaled = self.z[c].iter_mut().zip(&self.scale);
-            for ((z, scale), r) in scaled.zip(&self.residual[c]) {
-                *z = scale * r;
-            }
-            contact.unpack(&self.z[c], &mut self.traction[c]);
-        }
+    /// z = Pi S P S r; returns r.z.
+    fn precondition(&mut self, response: &mut Response<'_>, contact: &ContactCells) -> f64 {
+        let (r, scale) = (&self.residual, &self.scale);
+        let [z_x, z_y] = &mut self.z;
+        set_pairs([z_x, z_y], |i, _| [scale[i] * r[0][i], scale[i] * r[1][i]]);
+        contact.unpack_pair(&self.z, &mut self.traction);
         let [s_x, s_y] = &self.traction;
         let [z_x, z_y] = &mut self.displacement;
         response.invert_tangential([s_x, s_y], [z_x, z_y]);
-        for c in 0..2 {
-            contact.pack(&self.displacement[c], &mut self.z[c]);
-            for (z, scale) in self.z[c].iter_mut().zip(&self.scale) {
-                *z *= scale;
-            }
-        }
-        self.tangent.project(&mut self.z);
+        contact.pack_pair(&self.displacement, &mut self.z);
+        let (_, product) = self.tangent.project(
+            &mut self.z,
+            |i, [x, y]| [scale[i] * x, scale[i] * y],
+            |i, [x, y]| r[0][i] * x + r[1][i] * y,
+        );
+        product
     }
 
     /// Adds x and C x to the shear; returns the shift that the equations of the tangent space ask
@@ -276,15 +278,13 @@ impl NewtonStep {
             add_scaled(shear.q[c], 1.0, &self.x[c]);
         }
         let (x, diagonal) = (&self.x, &self.diagonal);
-        let [z_x, z_y] = &mut self.z;
-        set_pairs([z_x, z_y], |i, _| {
+        let sums = self.tangent.sums(|i| {
             let slip = problem.slip(&shear.u, given, i);
             [
                 slip[0] + diagonal[i] * x[0][i],
                 slip[1] + diagonal[i] * x[1][i],
             ]
         });
-        let sums = self.tangent.project_cells(&mut self.z);
         add(given, product(&self.tangent.inverse_sum, sums))
     }
 }
@@ -307,50 +307,49 @@ impl Tangent {
         [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]]
     }
 
-    /// Projects on the tangent space and on B^T v = 0; returns the motion B that is taken out.
-    fn project(&self, v: &mut Pair) -> [f64; 3] {
-        let sums = self.project_cells(v);
+    /// Projects the values made of v on the tangent space and on B^T v = 0; returns the motion B that
+    /// is taken out, and the sum of what `term` makes of the result.
+    fn project(
+        &self,
+        v: &mut Pair,
+        value: impl Fn(usize, [f64; 2]) -> [f64; 2] + Sync,
+        term: impl Fn(usize, [f64; 2]) -> f64 + Sync,
+    ) -> ([f64; 3], f64) {
+        let [v_x, v_y] = v;
+        let sums = set_and_sum([v_x, v_y], |i, v| {
+            let v = self.in_cell(i, value(i, v));
+            (v, self.motion_of(i, v))
+        });
         let shift = product(&self.inverse_sum, sums);
-        let (xx, xy, yy) = (&self.xx[..], &self.xy[..], &self.yy[..]);
-        let n = xx.len();
-        let [v_x, v_y] = v;
-        let (v_x, v_y, xy, yy) = (&mut v_x[..n], &mut v_y[..n], &xy[..n], &yy[..n]);
-        if self.arm_x.is_empty() {
-            for i in 0..n {
-                v_x[i] -= xx[i] * shift[0] + xy[i] * shift[1];
-                v_y[i] -= xy[i] * shift[0] + yy[i] * shift[1];
-            }
-        } else {
-            for i in 0..n {
-                let a = shift[0] - self.arm_y[i] * shift[2];
-                let b = shift[1] + self.arm_x[i] * shift[2];
-                v_x[i] -= xx[i] * a + xy[i] * b;
-                v_y[i] -= xy[i] * a + yy[i] * b;
-            }
-        }
-        shift
+        let [sum] = set_and_sum([v_x, v_y], |i, v| {
+            let rigid = match (self.arm_x.get(i), self.arm_y.get(i)) {
+                (Some(x), Some(y)) => [shift[0] - y * shift[2], shift[1] + x * shift[2]],
+                _ => [shift[0], shift[1]],
+            };
+            let rigid = self.in_cell(i, rigid);
+            let v = [v[0] - rigid[0], v[1] - rigid[1]];
+            (v, [term(i, v)])
+        });
+        (shift, sum)
     }
 
-    /// Projects on the tangent space of each cell; returns B^T v.
-    fn project_cells(&self, v: &mut Pair) -> [f64; 3] {
-        let (xx, xy, yy) = (&self.xx[..], &self.xy[..], &self.yy[..]);
-        let n = xx.len();
-        let [v_x, v_y] = v;
-        let (v_x, v_y, xy, yy) = (&mut v_x[..n], &mut v_y[..n], &xy[..n], &yy[..n]);
-        for i in 0..n {
-            let (a, b) = (v_x[i], v_y[i]);
-            v_x[i] = xx[i] * a + xy[i] * b;
-            v_y[i] = xy[i] * a + yy[i] * b;
-        }
-        let moment = if self.arm_x.is_empty() {
-            0.0
-        } else {
-            dot(&self.arm_x, v_y) - dot(&self.arm_y, v_x)
+    /// B^T Pi v
+    fn sums(&self, v: impl Fn(usize) -> [f64; 2] + Sync) -> [f64; 3] {
+        sum_cells(self.xx.len(), |i| self.motion_of(i, self.in_cell(i, v(i))))
+    }
+
+    /// The part of v in the tangent space of a cell.
+    fn in_cell(&self, i: usize, [a, b]: [f64; 2]) -> [f64; 2] {
+        let (xx, xy, yy) = (self.xx[i], self.xy[i], self.yy[i]);
+        [xx * a + xy * b, xy * a + yy * b]
+    }
+
+    /// B^T v of a cell.
+    fn motion_of(&self, i: usize, [a, b]: [f64; 2]) -> [f64; 3] {
+        let turn = match (self.arm_x.get(i), self.arm_y.get(i)) {
+            (Some(x), Some(y)) => x * b - y * a,
+            _ => 0.0,
         };
-        [sum(v_x), sum(v_y), moment]
+        [a, b, turn]
     }
-}
-
-fn dot_pair(a: &Pair, b: &Pair) -> f64 {
-    dot(&a[0], &b[0]) + dot(&a[1], &b[1])
 }

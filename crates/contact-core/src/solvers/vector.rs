@@ -42,6 +42,19 @@ pub(crate) fn size(v: [f64; 2]) -> f64 {
 /// Cells that one thread sums or changes in one go.
 pub(crate) const CHUNK: usize = 4096;
 
+/// Does two things to so many cells, side by side where these are worth it.
+pub(crate) fn both<A: Send, B: Send>(
+    cells: usize,
+    one: impl FnOnce() -> A + Send,
+    other: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    if cells > CHUNK {
+        rayon::join(one, other)
+    } else {
+        (one(), other())
+    }
+}
+
 /// y += factor * x
 pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     y.iter_mut().zip(x).for_each(|(y, x)| *y += factor * x);
@@ -68,6 +81,49 @@ pub(crate) fn set_pairs(
             [*a, *b] = values(n, [*a, *b]);
         }
     });
+}
+
+/// As [`set_pairs`], and sums of K terms that `values` gives with the new ones. Their order depends on
+/// nothing but the number of cells.
+pub(crate) fn set_and_sum<const K: usize>(
+    [a, b]: [&mut [f64]; 2],
+    values: impl Fn(usize, [f64; 2]) -> ([f64; 2], [f64; K]) + Sync,
+) -> [f64; K] {
+    set_and_sum_from(0, [a, b], &values)
+}
+
+fn set_and_sum_from<const K: usize>(
+    from: usize,
+    [a, b]: [&mut [f64]; 2],
+    values: &(impl Fn(usize, [f64; 2]) -> ([f64; 2], [f64; K]) + Sync),
+) -> [f64; K] {
+    if a.len() > CHUNK {
+        let middle = a.len() / 2;
+        let ((a, a_rest), (b, b_rest)) = (a.split_at_mut(middle), b.split_at_mut(middle));
+        let (mut sums, rest) = rayon::join(
+            || set_and_sum_from(from, [a, b], values),
+            || set_and_sum_from(from + middle, [a_rest, b_rest], values),
+        );
+        (0..K).for_each(|k| sums[k] += rest[k]);
+        return sums;
+    }
+    let mut lanes = [[0.0; K]; 4];
+    let set = |i: usize, a: &mut f64, b: &mut f64, sums: &mut [f64; K]| {
+        let (new, terms) = values(from + i, [*a, *b]);
+        [*a, *b] = new;
+        (0..K).for_each(|k| sums[k] += terms[k]);
+    };
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks_mut::<4>(), b.as_chunks_mut::<4>());
+    let whole = 4 * a.len();
+    for (i, (a, b)) in a.iter_mut().zip(b).enumerate() {
+        for (l, lane) in lanes.iter_mut().enumerate() {
+            set(4 * i + l, &mut a[l], &mut b[l], lane);
+        }
+    }
+    for (i, (a, b)) in a_rest.iter_mut().zip(b_rest).enumerate() {
+        set(whole + i, a, b, &mut lanes[0]);
+    }
+    std::array::from_fn(|k| (lanes[0][k] + lanes[1][k]) + (lanes[2][k] + lanes[3][k]))
 }
 
 /// Sums of K terms per cell, in chunks shared by the threads and in lanes within them. Their order
