@@ -6,7 +6,7 @@ use crate::convolution::Mirror;
 use crate::error::Error;
 use crate::scene::{Given, LoadPoint, Loads};
 use crate::solvers::{
-    CoupledInfo, Interface, both, friction_bound, largest, set_cells, set_pairs, size, sum_cells,
+    CoupledInfo, Interface, both, friction_bound, largest, set_fours, size, sum_cells,
 };
 
 /// What sums in another order may differ by.
@@ -31,7 +31,7 @@ impl March {
         };
         let contact = now.p.iter().filter(|&&p| p > 0.0).count();
         let slipping = now.slip.iter().filter(|&&s| s).count();
-        let ((energy, residuals), areas) = both(
+        let ((energy, (residuals, [p_max, q_max])), areas) = both(
             now.p.len(),
             || {
                 let energy = self.energies(point, &now, &motion, cell_area);
@@ -43,7 +43,6 @@ impl March {
         let stick_area = self
             .grown_to_the_end(without_slip, slipping > 0)
             .min(contact_area);
-        let cells = now.p.len();
         let mut increment = Increment {
             index: last.increments + 1,
             point: *point,
@@ -56,10 +55,8 @@ impl March {
             },
             contact_area,
             stick_area,
-            p_max: largest(cells, |n| now.p[n]),
-            q_max: largest(cells, |n| {
-                size([now.q[0][n], self.window.arms.stretch * now.q[1][n]])
-            }),
+            p_max,
+            q_max,
             energy,
             residuals,
             work: Work {
@@ -177,6 +174,9 @@ impl March {
             .sum();
         let (approach, shift) = self.change(motion);
         let sums = sum_cells(now.p.len(), |n| {
+            if now.p[n] <= 0.0 && last.p[n] <= 0.0 {
+                return [0.0; 6];
+            }
             let p = mean(now.p[n], last.p[n]);
             let du_z = now.u_z[n] - last.u_z[n];
             let shift = self.window.arms.in_plane(shift, n);
@@ -231,14 +231,14 @@ impl March {
         ([d[0], d[1], d[2]], [d[3], d[4], d[5]])
     }
 
-    /// How well the equations hold.
+    /// How well the equations hold; and the largest pressure and shear \[Pa\].
     fn residuals(
         &self,
         point: &LoadPoint,
         now: &Interface,
         info: &CoupledInfo,
         cell_area: f64,
-    ) -> Residuals {
+    ) -> (Residuals, [f64; 2]) {
         let mu = self.scene.friction.scale();
         let cells = now.p.len();
         let before = &self.before().u;
@@ -265,17 +265,21 @@ impl March {
                 [1.0, 0.0, gap(n).powi(2), square(slip), 0.0, 0.0]
             }
         });
-        let p_max = largest(cells, |n| now.p[n]);
-        let excess = |n: usize| size([now.q[0][n], now.q[1][n]]) - bound(n);
+        let stretch = self.window.arms.stretch;
+        let [p_max, q_max, excess, overlap] = largest(cells, |n| {
+            let q = [now.q[0][n], now.q[1][n]];
+            let (stretched, excess) = (size([q[0], stretch * q[1]]), size(q) - bound(n));
+            let overlap = if now.p[n] > 0.0 { 0.0 } else { -gap(n) };
+            [now.p[n], stretched, excess, overlap]
+        });
         let mut r = Residuals {
-            coulomb: largest(cells, excess),
+            coulomb: excess,
             ..Residuals::default()
         };
         let rms = |squares: f64, count: f64| (squares / count.max(1.0)).sqrt();
         if contact > 0.0 {
             r.gap = rms(gap_squares, contact) / self.approach;
-            let overlap = |n: usize| if now.p[n] > 0.0 { 0.0 } else { -gap(n) };
-            r.penetration = largest(cells, overlap) / self.approach;
+            r.penetration = overlap / self.approach;
         }
         if slipped > 0.0 {
             r.angle = (direction / slipped).sqrt().min(1.0).asin();
@@ -288,7 +292,7 @@ impl March {
             r.coulomb /= mu * p_max;
         }
         r.balance = self.missing_loads(point, now, mu, cell_area);
-        r
+        (r, [p_max, q_max])
     }
 
     /// Largest error of the balances of the loads that are given: across the plane over W, in it
@@ -344,29 +348,30 @@ impl March {
             let entered = |c: usize| if before.p[n] > 0.0 { 0.0 } else { moved[c][n] };
             std::array::from_fn(|c| now.u[c][n] - before.u[c][n] - entered(c) - shift[c])
         };
-        set_cells(&mut state.dissipated, |n, dissipated| {
-            let held = held(slip(n), moved, now, before, n);
-            dissipated + friction_takes(mu[n], now, before, held, n)
-        });
-        let slips = |n: usize| now.p[n] > 0.0 && now.slip[n];
-        let [slip_x, slip_y] = &mut state.slip;
-        set_pairs([slip_x, slip_y], |n, total| {
-            if slips(n) {
-                let slip = slip(n);
-                [total[0] + slip[0], total[1] + slip[1]]
-            } else {
-                total
-            }
-        });
         let stretch = self.window.arms.stretch;
-        set_cells(&mut state.slip_length, |n, length| {
-            if slips(n) {
+        let [slip_x, slip_y] = &mut state.slip;
+        let histories = [
+            slip_x,
+            slip_y,
+            &mut state.slip_length,
+            &mut state.dissipated,
+        ];
+        set_fours(
+            histories.map(|f| &mut f[..]),
+            |n, [x, y, length, dissipated]| {
+                if now.p[n] <= 0.0 && before.p[n] <= 0.0 {
+                    return [x, y, length, dissipated];
+                }
                 let slip = slip(n);
-                length + size([slip[0], slip[1] / stretch])
-            } else {
-                length
-            }
-        });
+                let held = held(slip, moved, now, before, n);
+                let dissipated = dissipated + friction_takes(mu[n], now, before, held, n);
+                if !(now.p[n] > 0.0 && now.slip[n]) {
+                    return [x, y, length, dissipated];
+                }
+                let way = size([slip[0], slip[1] / stretch]);
+                [x + slip[0], y + slip[1], length + way, dissipated]
+            },
+        );
         state.step = point.loads.since(&state.loads, state.motion.motions());
         state.p_before = last.p;
         state.q_before = last.q;

@@ -59,10 +59,6 @@ impl Datum {
                 None => self.moved[c].fill(0.0),
             }
         }
-        self.add_to(last);
-    }
-
-    fn add_to(&mut self, last: &Interface) {
         let moved = &self.moved;
         let [x, y] = &mut self.displacements;
         set_pairs([x, y], |n, _| {
@@ -105,25 +101,35 @@ impl SlipDatum for Following<'_> {
                 (across.map(|e| slides * e), part * slides * follows)
             })
         };
-        let Datum { moved, turning, .. } = &mut *self.datum;
-        let [x, y] = moved;
-        let cells = (
-            x.par_iter_mut().with_min_len(CHUNK),
-            y.par_iter_mut(),
-            turning.par_iter_mut(),
+        let Datum {
+            moved,
+            turning,
+            displacements,
+            ..
+        } = &mut *self.datum;
+        let ([x, y], [u_x, u_y]) = (moved, displacements);
+        let chunks = (
+            x.par_chunks_mut(CHUNK),
+            y.par_chunks_mut(CHUNK),
+            turning.par_chunks_mut(CHUNK),
+            u_x.par_chunks_mut(CHUNK),
+            u_y.par_chunks_mut(CHUNK),
         );
-        let cells = cells.into_par_iter().enumerate();
-        cells.for_each(|(n, (x, y, turning))| {
-            if last.p[n] > 0.0 {
-                let ([to_x, to_y], follows) = turned(n);
-                *x += part * (to_x - *x);
-                *y += part * (to_y - *y);
-                *turning = follows;
-            } else {
-                *turning = 0.0;
+        let chunks = chunks.into_par_iter().enumerate();
+        chunks.for_each(|(chunk, (x, y, turning, u_x, u_y))| {
+            for i in 0..x.len() {
+                let n = chunk * CHUNK + i;
+                if last.p[n] <= 0.0 {
+                    turning[i] = 0.0;
+                    continue;
+                }
+                let (to, follows) = turned(n);
+                x[i] += part * (to[0] - x[i]);
+                y[i] += part * (to[1] - y[i]);
+                (u_x[i], u_y[i]) = (last.u[0][n] + x[i], last.u[1][n] + y[i]);
+                turning[i] = follows;
             }
         });
-        self.datum.add_to(last);
         sticks
     }
 

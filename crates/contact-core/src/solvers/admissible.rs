@@ -1,10 +1,8 @@
 //! The shear that friction admits: |q| <= g in each cell, and the sums that the loads ask for.
 
-use rayon::prelude::*;
-
 use super::rigid_motion::{add, inverse, product};
 use super::shear::TangentialProblem;
-use super::vector::{CHUNK, dot, set_cells, set_pairs, size, sum_cells};
+use super::vector::{set_and_sum, set_cells, set_pairs, size, sum_cells};
 
 /// Rounds of clipping and balancing before the stick cells are taken to be too few.
 const ROUNDS: usize = 8;
@@ -29,67 +27,65 @@ pub(crate) fn admissible(
         mark_circle(problem, q, slip);
     }
     let [change_x, change_y] = change;
-    set_pairs([change_x, change_y], |n, before| {
-        [q[0][n] - before[0], q[1][n] - before[1]]
+    let [squares] = set_and_sum([change_x, change_y], |n, before| {
+        let change = [q[0][n] - before[0], q[1][n] - before[1]];
+        (change, [change[0] * change[0] + change[1] * change[1]])
     });
-    change.iter().map(|c| dot(c, c)).sum::<f64>().sqrt()
+    squares.sqrt()
 }
 
 /// Cuts the shear to the bound and lets the stick cells share the missing loads, by the smallest
-/// change; whether that ended with both conditions met.
+/// change; whether that ended with both conditions met. Cells outside the contact carry nothing;
+/// those without shear do not slip.
 fn share_force(
     problem: &TangentialProblem<'_>,
     q: &mut [&mut [f64]; 2],
     slip: &mut [bool],
 ) -> bool {
+    let (bound, arms) = (problem.bound, problem.arms);
+    set_cells(slip, |n, slips| {
+        slips && bound[n] > 0.0 && q[0][n] * q[0][n] + q[1][n] * q[1][n] > 0.0
+    });
     let enough = rounding(problem);
+    let mut share = [0.0; 3];
     for _ in 0..ROUNDS {
-        cut_all(problem.bound, q, slip);
-        let missing = missing(problem, problem.sums(q));
+        let [q_x, q_y] = q;
+        let sums = set_and_sum([q_x, q_y], |n, q| {
+            let g = bound[n];
+            if g <= 0.0 {
+                return ([0.0; 2], [0.0; 7]);
+            }
+            let given = if slip[n] {
+                [0.0; 2]
+            } else {
+                arms.in_plane(share, n)
+            };
+            let q = [q[0] + given[0], q[1] + given[1]];
+            let square = q[0] * q[0] + q[1] * q[1];
+            let factor = if slip[n] || square > g * g {
+                g / square.sqrt()
+            } else {
+                1.0
+            };
+            let q = q.map(|q| factor * q);
+            let [a, b, moment] = arms.sums_in_plane(q, n);
+            let (x, y) = (arms.turn_x(n), arms.y[n]);
+            let [count, x, y, r2] = if slip[n] {
+                [0.0; 4]
+            } else {
+                [1.0, x, y, x * x + y * y]
+            };
+            (q, [a, b, moment, count, x, y, r2])
+        });
+        let [a, b, moment, count, x, y, r2] = sums;
+        let missing = missing(problem, [a, b, moment]);
         if missing.iter().all(|m| m.abs() <= enough) {
             return true;
         }
-        let sticks = |n: usize| problem.bound[n] > 0.0 && !slip[n];
-        let share = spread(problem, missing, sticks);
-        let [q_x, q_y] = q;
-        set_pairs([q_x, q_y], |n, q| {
-            let share = problem.arms.in_plane(share, n);
-            if sticks(n) {
-                [q[0] + share[0], q[1] + share[1]]
-            } else {
-                q
-            }
-        });
+        let gram = [[count, 0.0, -y], [0.0, count, x], [-y, x, r2]];
+        share = product(&inverse(gram, problem.drive.free), missing);
     }
     false
-}
-
-/// Slip cells and cells beyond the bound go to the circle, cells outside the contact to zero.
-fn cut_all(bound: &[f64], q: &mut [&mut [f64]; 2], slip: &mut [bool]) {
-    let [q_x, q_y] = q;
-    let cells = (bound.par_chunks(CHUNK))
-        .zip(q_x.par_chunks_mut(CHUNK))
-        .zip(q_y.par_chunks_mut(CHUNK))
-        .zip(slip.par_chunks_mut(CHUNK));
-    cells.for_each(|(((bound, q_x), q_y), slip)| {
-        for n in 0..bound.len() {
-            let g = bound[n];
-            if g <= 0.0 {
-                (q_x[n], q_y[n], slip[n]) = (0.0, 0.0, false);
-                continue;
-            }
-            let square = q_x[n] * q_x[n] + q_y[n] * q_y[n];
-            if slip[n] || square > g * g {
-                if square > 0.0 {
-                    let factor = g / square.sqrt();
-                    q_x[n] *= factor;
-                    q_y[n] *= factor;
-                } else {
-                    slip[n] = false;
-                }
-            }
-        }
-    });
 }
 
 /// The loads that the sums lack; zero for motions that are given.
@@ -104,25 +100,6 @@ fn missing(problem: &TangentialProblem<'_>, sums: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// The m with which tractions B m on the cells inside have the sums asked for.
-fn spread(
-    problem: &TangentialProblem<'_>,
-    asked: [f64; 3],
-    inside: impl Fn(usize) -> bool + Sync,
-) -> [f64; 3] {
-    let arms = problem.arms;
-    let [count, x, y, r2] = sum_cells(problem.bound.len(), |n| {
-        let (x, y) = (arms.turn_x(n), arms.y[n]);
-        if inside(n) {
-            [1.0, x, y, x * x + y * y]
-        } else {
-            [0.0; 4]
-        }
-    });
-    let gram = [[count, 0.0, -y], [0.0, count, x], [-y, x, r2]];
-    product(&inverse(gram, problem.drive.free), asked)
-}
-
 /// b^T S b for the modes b of a cell at (x, y), S the symmetric matrix (xx, xy, yy): its entries
 /// xx, xy, yy, xr, yr, rr.
 fn modes(x: f64, y: f64, [xx, xy, yy]: [f64; 3]) -> [f64; 6] {
@@ -133,7 +110,10 @@ fn modes(x: f64, y: f64, [xx, xy, yy]: [f64; 3]) -> [f64; 6] {
 /// What rounding may leave of the sums: a part of all that friction can carry, or of the loads
 /// where the bound is infinite.
 fn rounding(problem: &TangentialProblem<'_>) -> f64 {
-    let carried: f64 = problem.bound.iter().filter(|g| g.is_finite()).sum();
+    let [carried] = sum_cells(problem.bound.len(), |n| {
+        let g = problem.bound[n];
+        [if g.is_finite() { g } else { 0.0 }]
+    });
     let asked = problem.drive.sums.iter().map(|s| s.abs()).sum::<f64>();
     1e-13 * carried.max(asked)
 }

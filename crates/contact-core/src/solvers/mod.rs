@@ -35,7 +35,7 @@ pub use response::Response;
 pub use rigid_motion::{Arms, Drive};
 pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
 pub use tangential::{TangentialWorkspace, tangential};
-pub(crate) use vector::{CHUNK, both, largest, set_cells, set_pairs, size, sum_cells};
+pub(crate) use vector::{CHUNK, both, largest, set_cells, set_fours, set_pairs, size, sum_cells};
 
 /// A solver that stopped before its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

@@ -257,12 +257,8 @@ pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> Nor
             [0.0; 2]
         }
     });
-    let penetration = largest(
-        p.len(),
-        |n| {
-            if p[n] > 0.0 { 0.0 } else { -gap_at(n, motion) }
-        },
-    );
+    let overlap = |n: usize| if p[n] > 0.0 { 0.0 } else { -gap_at(n, motion) };
+    let [penetration] = largest(p.len(), |n| [overlap(n)]);
     let gap = (squares / contact.max(1.0)).sqrt();
     NormalInfo {
         motion,

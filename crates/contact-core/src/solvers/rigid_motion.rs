@@ -35,11 +35,17 @@ impl Arms {
 
     /// B m in the plane at cell n \[m\].
     pub(crate) fn in_plane(&self, m: [f64; 3], n: usize) -> [f64; 2] {
+        if m[2] == 0.0 {
+            return [m[0], m[1]];
+        }
         [m[0] - self.y[n] * m[2], m[1] + self.turn_x(n) * m[2]]
     }
 
     /// B m across the plane at cell n \[m\].
     pub(crate) fn across(&self, m: [f64; 3], n: usize) -> f64 {
+        if m[1] == 0.0 && m[2] == 0.0 {
+            return m[0];
+        }
         m[0] + self.y[n] * m[1] - self.x[n] * m[2]
     }
 

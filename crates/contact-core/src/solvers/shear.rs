@@ -1,7 +1,6 @@
 //! What the tangential solvers are given, work on and end with.
 
 use super::rigid_motion::{Arms, Drive, add};
-use super::vector::sum_cells;
 
 /// What is given: the friction bound, the reference of the slip, what drives the shift.
 #[derive(Clone, Copy, Debug)]
@@ -27,13 +26,6 @@ impl TangentialProblem<'_> {
             u[0][n] - self.u_ref[0][n] - rigid[0],
             u[1][n] - self.u_ref[1][n] - rigid[1],
         ]
-    }
-
-    /// Sums of the shear over the cells \[Pa\]: forces, and the moment about z over the length.
-    pub(crate) fn sums(&self, q: &[&mut [f64]; 2]) -> [f64; 3] {
-        sum_cells(self.bound.len(), |n| {
-            self.arms.sums_in_plane([q[0][n], q[1][n]], n)
-        })
     }
 }
 

@@ -83,6 +83,26 @@ pub(crate) fn set_pairs(
     });
 }
 
+/// Sets every cell of four fields to their `values(n, old)`.
+pub(crate) fn set_fours(
+    [a, b, c, d]: [&mut [f64]; 4],
+    values: impl Fn(usize, [f64; 4]) -> [f64; 4] + Sync,
+) {
+    let chunks = (
+        a.par_chunks_mut(CHUNK),
+        b.par_chunks_mut(CHUNK),
+        c.par_chunks_mut(CHUNK),
+        d.par_chunks_mut(CHUNK),
+    );
+    let chunks = chunks.into_par_iter().enumerate();
+    chunks.for_each(|(chunk, (a, b, c, d))| {
+        for i in 0..a.len() {
+            let old = [a[i], b[i], c[i], d[i]];
+            [a[i], b[i], c[i], d[i]] = values(chunk * CHUNK + i, old);
+        }
+    });
+}
+
 /// As [`set_pairs`], and sums of K terms that `values` gives with the new ones. Their order depends on
 /// nothing but the number of cells.
 pub(crate) fn set_and_sum<const K: usize>(
@@ -165,19 +185,26 @@ fn sums_of<const K: usize>(
     total
 }
 
-/// Largest of `value(n)` and zero.
-pub(crate) fn largest(cells: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
-    largest_of(0..cells, &value)
+/// Largest of each of K `values(n)`, and zero.
+pub(crate) fn largest<const K: usize>(
+    cells: usize,
+    values: impl Fn(usize) -> [f64; K] + Sync,
+) -> [f64; K] {
+    largest_of(0..cells, &values)
 }
 
-fn largest_of(cells: Range<usize>, value: &(impl Fn(usize) -> f64 + Sync)) -> f64 {
+fn largest_of<const K: usize>(
+    cells: Range<usize>,
+    values: &(impl Fn(usize) -> [f64; K] + Sync),
+) -> [f64; K] {
+    let larger = |a: [f64; K], b: [f64; K]| std::array::from_fn(|k| f64::max(a[k], b[k]));
     if cells.len() > CHUNK {
         let middle = cells.start + cells.len() / 2;
         let (a, b) = rayon::join(
-            || largest_of(cells.start..middle, value),
-            || largest_of(middle..cells.end, value),
+            || largest_of(cells.start..middle, values),
+            || largest_of(middle..cells.end, values),
         );
-        return f64::max(a, b);
+        return larger(a, b);
     }
-    cells.map(value).fold(0.0, f64::max)
+    cells.map(values).fold([0.0; K], larger)
 }
