@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use contact_core::march::{March, choose_increments};
-use contact_core::scene::{LoadPath, Scene};
+use contact_core::scene::{LoadPath, Scene, Spacing};
 use ndarray::Array2;
 use splitmix::Draw;
 
@@ -119,4 +119,17 @@ fn the_estimated_error_of_the_path_is_honest() {
     println!("{honest} of {scenes} within {HONEST:?}, {met} within their tolerance");
     assert!(10 * met >= 9 * scenes, "{met} of {scenes}");
     assert!(10 * honest >= 9 * scenes, "{honest} of {scenes}");
+}
+
+/// In a contact that grows under its load alone, slip cells were released and slipped again, in every
+/// Newton step.
+#[test]
+fn a_slip_set_that_goes_in_circles_is_solved() {
+    let mut scene = scene(17);
+    let branches = scene.path.branches.iter_mut();
+    for (branch, n) in branches.zip([82, 8, 10, 8, 8]) {
+        branch.increments = Some(n);
+    }
+    scene.path.branches[0].spacing = Spacing::EqualRadius;
+    assert_eq!(ends(&scene, &scene.path).len(), 5);
 }

@@ -22,7 +22,7 @@ use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 use super::path_error::path_errors;
-use super::{BranchSummary, Fields, Increment, March, Observer, choose_increments, summarise};
+use super::{BranchSummary, Increment, March, Observer, choose_increments, summarise};
 use crate::error::Error;
 use crate::scene::{Grid, SaveFields, Scene};
 
@@ -126,8 +126,7 @@ impl<'a> BranchEnds<'a> {
 impl Observer for BranchEnds<'_> {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
         if increment.point.ends_branch {
-            let Fields { p, q_x, q_y, .. } = march.fields();
-            self.tractions.push([p, q_x, q_y]);
+            self.tractions.push(march.tractions());
         }
         self.watcher.on_increment(march, increment)
     }

@@ -2,6 +2,7 @@
 
 use ndarray::Array2;
 
+use super::error_bars::Tractions;
 use super::{March, Motion};
 use crate::convolution::Half;
 
@@ -55,6 +56,12 @@ impl March {
         let q = &self.state.interface.q;
         let q_y = self.on_grid(&q[1], Half::Odd) * self.window.arms.stretch;
         [self.on_grid(&q[0], Half::Even), q_y]
+    }
+
+    /// p, `q_x`, `q_y` after the last increment on the whole grid \[Pa\], shape (nx, ny).
+    pub fn tractions(&self) -> Tractions {
+        let [q_x, q_y] = self.shear();
+        [self.on_grid(&self.state.interface.p, Half::Even), q_x, q_y]
     }
 
     /// The fields after the last increment on the whole grid.

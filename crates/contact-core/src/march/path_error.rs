@@ -39,7 +39,7 @@ const INHERITED: f64 = 0.36;
 /// Most that the number of increments of a branch grows by in a round.
 const GROWTH: f64 = 4.0;
 /// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.
-pub(super) const SOLVED: f64 = 4e-4;
+pub(super) const SOLVED: f64 = 1e-3;
 /// Rounds of choosing.
 const ROUNDS: usize = 8;
 /// Most increments of a path that are chosen.

@@ -10,7 +10,7 @@ use ndarray::Array2;
 
 use super::error_bars::{Tractions, numbers};
 use super::path_error::{ORDER, PathError, SOLVED};
-use super::{BranchSummary, Fields, Increment, March, State, summarise};
+use super::{BranchSummary, Increment, March, State, summarise};
 use crate::error::Error;
 use crate::scene::{Branch, Grid, LoadPath, Scene};
 
@@ -139,13 +139,13 @@ impl Run {
             let increment = of_trial(increment)?;
             increments.push(increment);
             if increment.point.ends_branch {
-                let Fields { p, q_x, q_y, .. } = self.march.fields();
+                let tractions = self.march.tractions();
                 self.ends
                     .extend(summarise(&increments).pop().map(|summary| End {
                         branch: unjudged(&path.branches[increment.point.branch]),
                         state: self.march.state().clone(),
                         summary,
-                        tractions: [p, q_x, q_y],
+                        tractions,
                     }));
                 increments.clear();
             }

@@ -14,7 +14,8 @@
 //! conjugate gradients preconditioned with S P S, P the inverse of the operator and
 //! S = (1 + diag/C_xx(0,0))^(-1/2). Then q returns to the circle, stick cells beyond it start to
 //! slip, and slip cells whose slip would go along q stick again. A step that raises the energy is
-//! taken back and projected gradients, which cannot, go on from there.
+//! taken back and projected gradients, which cannot, go on from there; so they do where the slip set
+//! goes in circles.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -62,7 +63,9 @@ const SETTLED: f64 = 0.1;
 /// Passes of projected gradients after a Newton step that would have raised the energy.
 const DESCENT: usize = 30;
 
-/// Newton steps without a smaller misfit after which the slip set is taken to go in circles.
+/// Newton steps without a smaller misfit after which the slip set is taken to go in circles, and
+/// projected gradients go on; and after which nothing is hoped for.
+const CIRCLES: usize = 10;
 const STALLED: usize = 100;
 
 /// Solves for the shear. On entry it must be admissible: within the bound and balanced.
@@ -134,7 +137,8 @@ pub fn tangential(
             }
         }
         let follows = !problem.turning.is_empty();
-        if !follows && before.is_lower(&inside, &now, info.shift, settled) {
+        let circles = stalled > 0 && stalled.is_multiple_of(CIRCLES);
+        if !follows && (circles || before.is_lower(&inside, &now, info.shift, settled)) {
             before.restore(&mut now);
             now.unpack(cells, shear);
             info.shift = ws.descent.run(response, problem, shear, DESCENT);
