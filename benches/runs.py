@@ -25,15 +25,40 @@ def ratio(value: float) -> tuple[str, ...]:
     return ("--set", f"body2.coatings.0.E.E_substrate={value:g}")
 
 
+def tolerance(value: float) -> tuple[str, ...]:
+    """The solver's tolerance."""
+    return ("--set", f"solver.tolerance={value:g}")
+
+
+def short(value: float) -> str:
+    """A power of ten as one writes it."""
+    return f"{value:.0e}".replace("e-0", "e-")
+
+
+SMALL = "scenes/coated_small.toml"
+#: Similar bodies of nu = 0: the increments within a branch do not matter.
+ALIKE = (
+    *ratio(1.0),
+    *(s for body in ("body1", "body2", "body2.coatings.0") for s in ("--set", f"{body}.nu=0.0")),
+)
 RUNS: tuple[tuple[str, tuple[str, ...]], ...] = (
-    ("small, 64 x 64, 200 increments", ("scenes/coated_small.toml",)),
+    ("small, 64 x 64, 200 increments, tolerance 1e-6", (SMALL,)),
+    ("the same, tolerance 1e-5", (SMALL, *tolerance(1e-5))),
     *(
-        (f"paper, 256 x 256, 1000 increments, E1/E2 = {value:g}", (PAPER, *ratio(value)))
-        for value in (0.5, 1.0, 2.0, 4.0)
+        (
+            f"paper, 256 x 256, 1000 increments, E1/E2 = {value:g}, tolerance {short(within)}",
+            (PAPER, *ratio(value), *tolerance(within)),
+        )
+        for within in (2e-5, 1e-5, 1e-6)
+        for value in (0.5, 2.0, 4.0)
     ),
     (
-        "paper, 256 x 256, E1/E2 = 1, only the increments that count (`skip.path`)",
-        (PAPER, *ratio(1.0), "--set", "skip.path=true"),
+        "paper, 256 x 256, 1000 increments, E1/E2 = 1, tolerance 1e-5",
+        (PAPER, *ratio(1.0), *tolerance(1e-5)),
+    ),
+    (
+        "paper, 256 x 256, E1/E2 = 1, nu = 0, `skip.path` (6 increments), tolerance 1e-5",
+        (PAPER, *ALIKE, *tolerance(1e-5), "--set", "skip.path=true"),
     ),
 )
 

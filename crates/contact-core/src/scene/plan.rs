@@ -191,7 +191,7 @@ fn far(scene: &Scene) -> Result<&'static str, &'static str> {
     if scene.path.branches.iter().any(|b| b.to.rolled != 0.0) {
         return Err("the bodies roll over the grid");
     }
-    Ok("a window goes with the contact; every increment looks beyond it")
+    Ok("a window goes with the contact; what is beyond it is seen to stay clear")
 }
 
 /// Whether a field is its own mirror image under y -> -y, up to rounding.
