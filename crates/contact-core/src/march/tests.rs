@@ -1,4 +1,5 @@
-//! A flag that is raised at any moment of an increment: how much is still computed.
+//! A flag that is raised at any moment of an increment: how much is still computed. What is known of
+//! the cells beyond the window without a look.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -7,6 +8,7 @@ use super::{Increment, March, State};
 use crate::convolution::{Displacements, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::scene::Scene;
+use crate::solvers::CoupledInfo;
 
 /// A coated contact with friction that turns back after partial slip.
 const COATED: &str = r#"
@@ -194,4 +196,34 @@ fn a_raised_flag_lays_out_no_window() {
         let window = (march.whole).window(&scene, &march.plan, (32, 32), &stop);
         assert!(window.is_err_and(|e| e == Error::Interrupted { increment: 0 }));
     }
+}
+
+/// The gap beyond the window is never smaller than what is known of it, and mostly it is not looked at.
+#[test]
+fn cells_beyond_the_window_are_as_far_as_they_are_known_to_be() {
+    let more = ["grid.n=96", "grid.extent.a_H=5.0", "path.0.increments=8"];
+    let more = more
+        .into_iter()
+        .chain(["path.1.increments=12", "path.2.increments=12"]);
+    let settings: Vec<String> = more.map(str::to_owned).collect();
+    let scene = Scene::from_toml_str(COATED, "coated", &settings).unwrap();
+    let mut march = March::new(&scene).unwrap();
+    let (mut increments, mut not_looked) = (0, 0);
+    while let Some(increment) = march.advance() {
+        increment.unwrap();
+        assert!(march.is_windowed());
+        let known = std::mem::replace(&mut march.state.clear, 0.0);
+        let now = march.state.interface.clone();
+        let info = CoupledInfo {
+            approach: march.approach_before(),
+            ..CoupledInfo::default()
+        };
+        // With nothing known there is a look.
+        let seen = march.clear_beyond(&now, &info).unwrap().unwrap();
+        assert!(0.0 < known && known <= seen, "{known:e} {seen:e}");
+        not_looked += usize::from(known < seen);
+        increments += 1;
+        march.state.clear = known;
+    }
+    assert!(2 * not_looked > increments, "{not_looked} of {increments}");
 }

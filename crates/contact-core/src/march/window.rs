@@ -309,9 +309,9 @@ impl March {
         }
     }
 
-    /// How far the cells beyond the window are at least from overlapping in this solution \[m\]; if some
-    /// overlap none, and the window is the whole grid from now on. Fails where the run is stopped
-    /// meanwhile.
+    /// How far the cells beyond the window are at least from overlapping in this solution \[m\]; `None`
+    /// where some do overlap, and the window is the whole grid from now on. Fails where the run is
+    /// stopped meanwhile.
     pub(super) fn clear_beyond(
         &mut self,
         now: &Interface,
