@@ -71,6 +71,7 @@ impl March {
                 .map(|n| before(n) - gap(&kept.u_z, info.approach, n))
                 .collect(),
             rows: self.plan.mirror.rows(self.window.grid.ny),
+            mirror: self.plan.mirror,
         }
     }
 

@@ -51,7 +51,12 @@ impl March {
             stop: Some(&self.stop),
             exact: false,
         };
-        let params = params(&self.scene, self.approach);
+        let grows = kept || entering.is_some();
+        let params = params(
+            &self.scene,
+            self.approach,
+            if grows { GROWTH_SHARE } else { 1.0 },
+        );
         let solver = &self.scene.settings.solver;
         let ws = &mut self.workspace;
         let goes_on = self.datum.goes_on;
@@ -124,10 +129,14 @@ const NORMAL_SHARE: f64 = 0.4;
 /// Share of the tolerance that the tangential solver iterates to; nothing moves after it.
 const TANGENTIAL_SHARE: f64 = 0.9;
 
-/// The settings of the loops, with lengths in metres.
-fn params(scene: &Scene, approach: f64) -> CoupledParams {
+/// Share of the tolerance that increments in which cells enter are solved to: what sticks keeps what
+/// they miss.
+const GROWTH_SHARE: f64 = 0.5;
+
+/// The settings of the loops, with lengths in metres, for a share of the tolerance.
+fn params(scene: &Scene, approach: f64, share: f64) -> CoupledParams {
     let solver = &scene.settings.solver;
-    let gap = solver.tolerance * approach;
+    let gap = share * solver.tolerance * approach;
     let plain = solver.preset == Preset::Spinu2020;
     CoupledParams {
         tolerance: gap,

@@ -2,21 +2,31 @@
 //!
 //! With the contact kept, in p and in q, the gap over a cell outside closes by c in the increment
 //! and the cell moves by m relative to the rigid shift. Both depend on how far the cell is from the
-//! edge of the contact, and the edge comes nearer: when it has passed k cells, a cell closes and
-//! moves as the one k cells nearer to the old edge does. So cell j outside the old edge enters after
-//! j parts t_1 ... t_j of the increment, and has moved by M_j:
+//! edge of the contact, and the edge comes nearer: what closes the gap by dg moves the cell by
+//! (m/c) dg, with the m/c of the cells between it and the edge through whose gaps its own goes. When
+//! it enters, a cell of gap g has moved by
 //!
 //! ```text
-//! gap_j = t_1 c_j + t_2 c_{j-1} + ... + t_j c_1
-//! M_j   = t_1 m_j + t_2 m_{j-1} + ... + t_j m_1
+//! M = int_0^g (m/c) dg
 //! ```
 //!
-//! t_1 ... t_{j-1} are known from the cells before it. With fine cells this is the convolution with
-//! the motion of the edge: gap = 1/da int c dx. Where gap and motion are alike (proportional loads
-//! on similar bodies of nu = 0) M_j = m/c gap_j, which is exact, in increments of any size.
+//! At a distance d from the edge of a growing contact c and m are series in d^(1/2) that begin with
+//! this power, and the gap goes like d^(3/2): m/c is a series in g^(1/3). Its first terms are fitted to
+//! the cells around, so that the steps that the grid makes of the edge leave little in M. A cell at
+//! the edge, whose own m/c tells of these steps, moves by that until the first cell beside it enters;
+//! in small increments that is all its way. Where gap and motion are alike (proportional loads on
+//! similar bodies of nu = 0) m/c is the same everywhere, and M exact in increments of any size.
 
-/// A cell is taken to enter at the latest so much beyond the end of the increment.
-const LATEST: f64 = 2.0;
+use crate::convolution::Mirror;
+use crate::solvers::{inverse, product, set_pairs, size};
+
+/// How far the cells around reach that m/c is fitted to, in cells.
+const AROUND: isize = 4;
+/// Cells whose gap is less than so many times what it closes by tell of the way through the gap.
+const NEAR: f64 = 1.5;
+
+/// Regularisation of the terms that are not constant, which few cells need not tell apart.
+const RIDGE: f64 = 1e-6;
 
 /// An increment with the contact kept to its old cells.
 pub(super) struct KeptContact {
@@ -28,115 +38,225 @@ pub(super) struct KeptContact {
     pub(super) motion: [Vec<f64>; 2],
     /// Cells along y.
     pub(super) rows: usize,
+    pub(super) mirror: Mirror,
 }
 
-/// How the edge of the contact comes to a cell, one cell after the other.
-struct Way {
-    /// Parts t of the increment that it takes.
-    parts: Vec<f64>,
-    /// Closing and motion, under the kept contact, of the cells on the way, the first first, and of the
-    /// cell itself \[m\].
-    cells: Vec<[f64; 3]>,
-}
-
-impl Way {
-    /// The way to a cell: through those `before` it, on the mean where these are several.
-    fn to(before: &[&Self], gap: f64, cell: [f64; 3]) -> Self {
-        let passed = before.iter().map(|way| way.parts.len()).min().unwrap_or(0);
-        let mean = |of: &dyn Fn(&Self) -> f64| {
-            before.iter().map(|way| of(way)).sum::<f64>() / before.len() as f64
-        };
-        let mut way = Self {
-            parts: (0..passed).map(|i| mean(&|way| way.parts[i])).collect(),
-            cells: (0..passed)
-                .map(|i| [0, 1, 2].map(|k| mean(&|way| way.cells[i][k])))
-                .chain([cell])
-                .collect(),
-        };
-        let [closed, ..] = way.sums();
-        let part = (gap - closed) / way.cells[0][0];
-        way.parts.push(part.clamp(0.0, LATEST));
-        way
-    }
-
-    /// Closing and motion over all parts \[m\].
-    fn sums(&self) -> [f64; 3] {
-        let steps = self.parts.iter().zip(self.cells.iter().rev());
-        steps.fold([0.0; 3], |sums, (t, cell)| {
-            [0, 1, 2].map(|k| sums[k] + t * cell[k])
-        })
-    }
-
-    /// Whether the cell enters within the increment.
-    fn enters(&self) -> bool {
-        self.parts.iter().sum::<f64>() <= 1.0
-    }
+/// A cell near another one.
+struct Neighbour {
+    cell: usize,
+    /// Columns and rows to it.
+    off: [f64; 2],
+    /// What its motion along y counts as: it may be a mirror image.
+    sign: f64,
 }
 
 impl KeptContact {
-    /// The motion of each cell outside before its entry \[m\]. A cell that no other leads to goes with
-    /// t = gap/c.
-    pub(super) fn moved(&self, outside: impl Fn(usize) -> bool) -> [Vec<f64>; 2] {
+    /// The motion of each cell outside before its entry \[m\]; of one that does not enter, that of the
+    /// whole increment.
+    pub(super) fn moved(&self, outside: impl Fn(usize) -> bool + Sync) -> [Vec<f64>; 2] {
         let cells = self.gap.len();
+        let near = |n: usize| outside(n) && self.gap[n] < NEAR * self.closing[n];
+        let root = |n: usize| near(n).then(|| self.gap[n].cbrt());
+        let roots: Vec<Option<f64>> = (0..cells).map(root).collect();
         let mut moved = [vec![0.0; cells], vec![0.0; cells]];
-        let mut put = |n: usize, m: [f64; 2]| {
-            moved[0][n] = m[0];
-            moved[1][n] = m[1];
-        };
-        for n in (0..cells).filter(|&n| outside(n)) {
-            let t = (self.gap[n] / self.closing[n].max(f64::MIN_POSITIVE)).min(1.0);
-            put(n, [0, 1].map(|c| t * self.motion[c][n]));
-        }
-        let mut reached = vec![false; cells];
-        let at_edge =
-            |&n: &usize| outside(n) && self.closing[n] > 0.0 && self.beside(n).any(|m| !outside(m));
-        let mut layer: Vec<usize> = (0..cells).filter(at_edge).collect();
-        // Ways go on from those to the last layer alone; a way is as long as the edge has moved.
-        let mut last: Vec<(usize, Way)> = Vec::new();
-        while !layer.is_empty() {
-            let ways = layer.iter().map(|&n| (n, self.way(n, &last)));
-            let mut ways: Vec<(usize, Way)> = ways.collect();
-            let mut next = Vec::new();
-            for (n, way) in &ways {
-                let n = *n;
-                let [_, x, y] = way.sums();
-                // A cell that enters does so within the increment.
-                let over = way.parts.iter().sum::<f64>().max(1.0);
-                put(n, [x / over, y / over]);
-                if way.enters() {
-                    next.extend(self.beside(n).filter(|&m| outside(m)));
-                }
-                reached[n] = true;
+        let [x, y] = &mut moved;
+        set_pairs([x, y], |n, _| {
+            let (gap, closing, motion) = (self.gap[n], self.closing[n], self.motion_of(n));
+            if !outside(n) {
+                [0.0; 2]
+            } else if gap < closing {
+                let alone = self.alone(n, &outside);
+                let mean = self.mean_ratio(n, &roots);
+                [0, 1].map(|c| alone * motion[c] + (gap - alone * closing) * mean[c])
+            } else {
+                motion
             }
-            next.sort_unstable();
-            next.dedup();
-            next.retain(|&n| !reached[n] && self.closing[n] > 0.0);
-            ways.retain(|(_, way)| way.enters());
-            (layer, last) = (next, ways);
-        }
+        });
         moved
     }
 
-    /// The way to cell n through those beside it in the layer before that enter, sorted by cell.
-    fn way(&self, n: usize, layer: &[(usize, Way)]) -> Way {
-        let to = |m: usize| layer.binary_search_by_key(&m, |(cell, _)| *cell).ok();
-        let before = self.beside(n).filter_map(to);
-        let before: Vec<&Way> = before.map(|at| &layer[at].1).collect();
-        let cell = [self.closing[n], self.motion[0][n], self.motion[1][n]];
-        Way::to(&before, self.gap[n], cell)
+    fn motion_of(&self, n: usize) -> [f64; 2] {
+        [self.motion[0][n], self.motion[1][n]]
     }
 
-    /// The cells beside cell n.
-    fn beside(&self, n: usize) -> impl Iterator<Item = usize> {
-        let (rows, cells) = (self.rows, self.gap.len());
-        let j = n % rows;
-        [
-            n.checked_sub(rows),
-            (n + rows < cells).then_some(n + rows),
-            (j > 0).then(|| n - 1),
-            (j + 1 < rows).then(|| n + 1),
-        ]
-        .into_iter()
-        .flatten()
+    /// The part of the increment for which a cell at the edge moves before one beside it enters, or
+    /// it itself; zero elsewhere.
+    fn alone(&self, n: usize, outside: impl Fn(usize) -> bool) -> f64 {
+        let mut at_edge = false;
+        let mut alone = self.gap[n] / self.closing[n];
+        for beside in self.around(n, 1) {
+            let m = beside.cell;
+            if !outside(m) {
+                at_edge |= beside.off.contains(&0.0);
+            } else if self.closing[m] > 0.0 {
+                alone = alone.min(self.gap[m] / self.closing[m]);
+            }
+        }
+        if at_edge { alone } else { 0.0 }
+    }
+
+    /// The mean of m/c over the gaps up to that of cell n, which the cube `roots` are of: from
+    ///
+    /// ```text
+    /// m/c = A + B u + C u^2 + D s,   u = (g/g_n)^(1/3), s the way along the edge,
+    /// ```
+    ///
+    /// by least squares of m over the cells around, nearer ones with more weight.
+    fn mean_ratio(&self, n: usize, roots: &[Option<f64>]) -> [f64; 2] {
+        let mut gram = [[0.0; 4]; 4];
+        let mut right = [[0.0; 4]; 2];
+        let along = self.along_edge(n);
+        let own = roots[n].filter(|own| *own > 0.0);
+        for near in self.around(n, AROUND) {
+            let m = near.cell;
+            let Some(root) = roots[m] else { continue };
+            let u = own.map_or(1.0, |own| root / own);
+            let [x, y] = near.off;
+            let terms = [1.0, u, u * u, along[0] * x + along[1] * y];
+            let weight = 1.0 - (x * x + y * y) / (AROUND as f64 + 0.5).powi(2);
+            let closing = self.closing[m] / self.closing[n];
+            let motion = [self.motion[0][m], near.sign * self.motion[1][m]];
+            let motion = motion.map(|m| m / self.closing[n]);
+            for (i, term) in terms.into_iter().enumerate() {
+                let weighted = weight * closing * term;
+                for (entry, other) in gram[i].iter_mut().zip(terms) {
+                    *entry += weighted * closing * other;
+                }
+                for (right, motion) in right.iter_mut().zip(motion) {
+                    right[i] += weighted * motion;
+                }
+            }
+        }
+        for (i, row) in gram.iter_mut().enumerate().skip(1) {
+            row[i] *= 1.0 + RIDGE;
+        }
+        let inverse = inverse(gram, [true; 4]);
+        right.map(|right| {
+            let [a, b, c, _] = product(&inverse, right);
+            a + 3.0 / 4.0 * b + 3.0 / 5.0 * c
+        })
+    }
+
+    /// The direction along the edge at a cell outside, in which the gap does not change.
+    fn along_edge(&self, n: usize) -> [f64; 2] {
+        let mut slope = [0.0; 2];
+        for beside in self.around(n, 1) {
+            // Goes with the distance from the edge.
+            let level = self.gap[beside.cell].cbrt().powi(2);
+            for c in 0..2 {
+                slope[c] += beside.off[c] * level;
+            }
+        }
+        let steep = size(slope).max(f64::MIN_POSITIVE);
+        [-slope[1] / steep, slope[0] / steep]
+    }
+
+    /// The cells not further from cell n than `reach` and half a cell, in columns and rows.
+    fn around(&self, n: usize, reach: isize) -> impl Iterator<Item = Neighbour> {
+        let rows = self.rows as isize;
+        let columns = self.gap.len() as isize / rows;
+        let (i, j) = (n as isize / rows, n as isize % rows);
+        let within = (reach * reach + reach) as f64 + 0.25;
+        let square = (-reach..=reach).flat_map(move |x| (-reach..=reach).map(move |y| (x, y)));
+        square.filter_map(move |(x, y)| {
+            let off = [x as f64, y as f64];
+            let (j, sign) = match self.mirror {
+                Mirror::Y if j + y < 0 => (-1 - (j + y), -1.0),
+                _ => (j + y, 1.0),
+            };
+            let inside = (0..columns).contains(&(i + x)) && (0..rows).contains(&j);
+            let near = off[0] * off[0] + off[1] * off[1] < within;
+            (inside && near).then(|| Neighbour {
+                cell: ((i + x) * rows + j) as usize,
+                off,
+                sign,
+            })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::KeptContact;
+    use crate::convolution::Mirror;
+
+    /// A round contact in the middle of a grid, or its half y > 0: gap d^(3/2), closing d^(1/2), and
+    /// radial motion that is `ratio(d^(1/2))` times the closing.
+    fn round(ratio: impl Fn(f64) -> f64, mirror: Mirror) -> (KeptContact, Vec<[f64; 2]>) {
+        let n = 64;
+        let rows = mirror.rows(n);
+        let middle = (n as f64 - 1.0) / 2.0;
+        let place = |k: usize| {
+            let (i, j) = (k / rows, k % rows + n - rows);
+            [i as f64 - middle, j as f64 - middle]
+        };
+        let places: Vec<[f64; 2]> = (0..n * rows).map(place).collect();
+        let beyond = |[x, y]: &[f64; 2]| (x.hypot(*y) - 20.0).max(0.0);
+        let closing: Vec<f64> = places.iter().map(|at| 4.0 * beyond(at).sqrt()).collect();
+        let motion = |c: usize| {
+            let of = |at: &[f64; 2]| {
+                let d = beyond(at);
+                at[c] / at[0].hypot(at[1]) * 4.0 * d.sqrt() * ratio(d.sqrt())
+            };
+            places.iter().map(of).collect()
+        };
+        let contact = KeptContact {
+            gap: places.iter().map(|at| beyond(at).powf(1.5)).collect(),
+            motion: [motion(0), motion(1)],
+            closing,
+            rows,
+            mirror,
+        };
+        (contact, places)
+    }
+
+    #[test]
+    fn cells_move_by_the_integral_of_the_ratio_over_their_gap() {
+        let (contact, places) = round(|r| 0.3 - 0.05 * r + 0.003 * r * r, Mirror::None);
+        let moved = contact.moved(|n| contact.gap[n] > 0.0);
+        for (n, at) in places.iter().enumerate() {
+            let d = at[0].hypot(at[1]) - 20.0;
+            if !(1.5..3.5).contains(&d) {
+                continue;
+            }
+            let mean = 0.3 - 3.0 / 4.0 * 0.05 * d.sqrt() + 3.0 / 5.0 * 0.003 * d;
+            let exact = mean * contact.gap[n];
+            for c in 0..2 {
+                let off = moved[c][n] - exact * at[c] / at[0].hypot(at[1]);
+                assert!(
+                    off.abs() < 0.01 * exact,
+                    "{at:?}: off by {off:e} of {exact:e}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_ratio_that_is_the_same_everywhere_is_that_of_all_ways() {
+        let (mut contact, _) = round(|_| 0.0, Mirror::None);
+        contact.motion =
+            [0.2, -0.1].map(|ratio| contact.closing.iter().map(|c| ratio * c).collect());
+        let moved = contact.moved(|n| contact.gap[n] > 0.0);
+        for n in (0..contact.gap.len()).filter(|&n| contact.gap[n] < contact.closing[n]) {
+            let gap = contact.gap[n];
+            let off = (moved[0][n] - 0.2 * gap).hypot(moved[1][n] + 0.1 * gap);
+            assert!(off < 1e-12 * gap, "off by {off:e} of {gap:e}");
+        }
+    }
+
+    #[test]
+    fn the_half_of_a_mirrored_contact_moves_as_in_the_whole() {
+        let ratio = |r: f64| 0.3 - 0.05 * r;
+        let (whole, places) = round(ratio, Mirror::None);
+        let (half, kept) = round(ratio, Mirror::Y);
+        let in_whole = whole.moved(|n| whole.gap[n] > 0.0);
+        let in_half = half.moved(|n| half.gap[n] > 0.0);
+        let twin = |at: &[f64; 2]| places.iter().position(|p| p == at).unwrap();
+        for (n, at) in kept.iter().enumerate() {
+            for c in 0..2 {
+                let off = (in_half[c][n] - in_whole[c][twin(at)]).abs();
+                assert!(off < 1e-11, "{at:?}: off by {off:e}");
+            }
+        }
     }
 }

@@ -31,11 +31,15 @@ const FIRST: (usize, usize) = (12, 6);
 const AIM: f64 = 0.9;
 /// Part of the tolerance that an estimate may come to.
 const ACCEPTED: f64 = 0.9;
-/// Part of the tolerance that is left to the growth of contact from nothing: what sticks keeps its
-/// error, on fine grids a little more than on the coarse one. Where nothing follows, the shear is
-/// what dissimilar bodies make of the load alone, and its error is measured against that which
-/// friction can bear.
-const INHERITED: f64 = 0.36;
+/// Part of the tolerance that is left to the growth of contact from nothing, over the part that the
+/// shear has by then of the largest, which is what dissimilar bodies make of the load alone. Where
+/// nothing follows, the error is measured against the shear that friction can bear.
+const GROWN: f64 = 6.0;
+/// The least and the most part that is.
+const INHERITED: (f64, f64) = (0.36, 0.9);
+/// Part of its error that the end of a branch has at least kept, with more increments of this branch,
+/// where the error is that of the growth: what sticks keeps it.
+const KEPT: f64 = 0.8;
 /// Most that the number of increments of a branch grows by in a round.
 const GROWTH: f64 = 4.0;
 /// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.
@@ -78,17 +82,26 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
     // What was chosen for a branch so far, and the error with it.
     let mut before: Vec<Option<(usize, f64)>> = vec![None; last + 1];
     let mut until = last;
+    let mut most_inherited = INHERITED.1;
     for _ in 0..ROUNDS {
         let mut part = chosen.path.clone();
         part.branches.truncate(until + 1);
         let errors = trial.errors(&part)?;
+        let kept = |k: usize| before[k].is_some_and(|(_, error)| errors[k].q > KEPT * error);
+        let uniform = |k: usize| chosen.path.branches[k].spacing == Spacing::Uniform;
+        let over = |k: usize| open[k] && errors[k].q > ACCEPTED * tolerance;
+        if (0..errors.len()).any(|k| uniform(k) && over(k) && kept(k)) {
+            most_inherited = INHERITED.0;
+        }
         let mut first = None;
         for (k, error) in errors.iter().enumerate() {
             let branch = &mut chosen.path.branches[k];
             branch.path_error = Some(error.q);
             let allowed = match branch.spacing {
                 Spacing::Uniform => ACCEPTED * tolerance,
-                Spacing::EqualRadius if k < last => INHERITED * tolerance,
+                Spacing::EqualRadius if k < last => {
+                    (GROWN * error.reached).clamp(INHERITED.0, most_inherited) * tolerance
+                }
                 Spacing::EqualRadius => tolerance * error.bearable.max(1.0),
             };
             if open[k] && error.q > allowed {
@@ -99,6 +112,10 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
                 let more = (count as f64 * factor).ceil() as usize;
                 branch.increments = Some(more.next_multiple_of(2));
                 first = first.or(Some(k));
+                if branch.spacing == Spacing::EqualRadius {
+                    // What follows starts with its error.
+                    break;
+                }
             }
         }
         until = match first {
@@ -132,6 +149,8 @@ pub(super) struct PathError {
     pub(super) p: f64,
     /// In the numbers of the branch, each in its unit.
     pub(super) numbers: [f64; 8],
+    /// The shear there over the largest of the path (L2).
+    pub(super) reached: f64,
     /// The shear that friction can bear there over the largest of the path (L2).
     pub(super) bearable: f64,
 }

@@ -98,6 +98,7 @@ impl Trial {
                     q: off(1).hypot(off(2)) / q,
                     p: off(0) / p,
                     numbers: std::array::from_fn(|n| (f[n] - m[n]).abs()),
+                    reached: many.q() / q,
                     bearable: self.mu * many.p() / q,
                 }
             })

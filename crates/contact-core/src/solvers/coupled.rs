@@ -52,6 +52,10 @@ pub trait SlipDatum {
 /// slip follow, after which these stay in a pass, and passes after which they stay for good.
 const STALLED: usize = 5;
 const LOST: usize = 3;
+/// The first pass ends with a step that begins with less than this part of its first misfit, where
+/// that is more than so many times the tolerance.
+const NEARER: f64 = 0.5;
+const FAR: f64 = 3.0;
 /// Part of the tolerances that rounding may come to; beyond a half of it a solution is not begun.
 const ROUNDED: f64 = 0.1;
 /// Iterations whose changes are about what they change together; where it takes more, some go back and
@@ -239,12 +243,13 @@ fn look(
             if info.exceeds_friction() {
                 return Ok(info);
             }
-            if slides.is_full() {
+            let settled = if slides.is_full() {
                 let slip = problem.slip(&ws.bound, datum.displacements());
                 info.shift = incipient_shift(&slip, now, slides.motion);
+                true
             } else {
-                shear_under(response, problem, datum, now, ws, params, &mut info)?;
-            }
+                shear_under(response, problem, datum, now, ws, params, &mut info)?
+            };
             if !coupled {
                 break;
             }
@@ -263,7 +268,7 @@ fn look(
             let check = super::normal::assess(&gap, &now.p, &now.u_z);
             info.approach = check.motion;
             let residual = check.gap.max(check.penetration);
-            if residual <= params.tolerance {
+            if residual <= params.tolerance && settled {
                 break;
             }
             if info.alternations >= params.max_alternations {
@@ -319,7 +324,8 @@ fn begin(
 }
 
 /// Shear for known pressure, with the displacements that mean no slip where the solution says: these
-/// follow after each step, as long as the misfit falls.
+/// follow after each step, as long as the misfit falls. Whether it is settled: far from the solution the
+/// first pass ends early, since it moves the pressure, which moves the shear again.
 fn shear_under(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,
@@ -328,8 +334,9 @@ fn shear_under(
     ws: &mut CoupledWorkspace,
     params: &CoupledParams,
     info: &mut CoupledInfo,
-) -> Result<(), SolverError> {
+) -> Result<bool, SolverError> {
     let params = &params.tangential;
+    let ends_early = info.alternations == 1 && response.op.is_coupled();
     let solve = match params.method {
         TangentialMethod::Newton => tangential,
         TangentialMethod::Gradient => shear_gradient,
@@ -339,7 +346,7 @@ fn shear_under(
         info.shift = first_shift(&slip, &now.shear());
     }
     let (mut least, mut stalled, mut part) = (f64::INFINITY, 0, 1.0);
-    let mut step = 0;
+    let (mut step, mut first) = (0, None);
     loop {
         step += 1;
         let follows = stalled < STALLED && ws.lost < LOST && datum.follow(now, info.shift, part);
@@ -352,7 +359,11 @@ fn shear_under(
         info.tangential_iterations += found.passes;
         info.shift = found.shift;
         if !follows || found.iterations == 0 {
-            return Ok(());
+            return Ok(true);
+        }
+        let nearer = found.misfit <= NEARER * *first.get_or_insert(found.misfit);
+        if ends_early && nearer && found.misfit > FAR * params.tolerance {
+            return Ok(false);
         }
         if found.misfit < least {
             (least, stalled) = (found.misfit, 0);

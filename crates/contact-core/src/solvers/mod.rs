@@ -33,6 +33,7 @@ pub use interface::Interface;
 pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub use response::Response;
 pub use rigid_motion::{Arms, Drive};
+pub(crate) use rigid_motion::{inverse, product};
 pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
 pub use tangential::{TangentialWorkspace, tangential};
 pub(crate) use vector::{CHUNK, both, largest, set_cells, set_fours, set_pairs, size, sum_cells};

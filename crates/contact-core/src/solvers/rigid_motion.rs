@@ -149,30 +149,30 @@ pub struct Drive {
 /// Part of a diagonal entry below which what elimination leaves of it is rounding.
 const PIVOT: f64 = 1e-13;
 
-/// Inverse of a symmetric positive semidefinite matrix on the motions that are free and that it
+/// Inverse of a symmetric positive semidefinite matrix on the unknowns that are free and that it
 /// determines, zero on the others.
-pub(crate) fn inverse(matrix: [[f64; 3]; 3], free: [bool; 3]) -> [[f64; 3]; 3] {
+pub(crate) fn inverse<const N: usize>(matrix: [[f64; N]; N], free: [bool; N]) -> [[f64; N]; N] {
     let mut a = matrix;
-    let mut kept = [false; 3];
-    for k in 0..3 {
+    let mut kept = [false; N];
+    for k in 0..N {
         let pivot = a[k][k];
         if !free[k] || pivot <= PIVOT * matrix[k][k] {
             continue;
         }
         kept[k] = true;
-        for j in 0..3 {
+        for j in 0..N {
             a[k][j] /= if j == k { pivot * pivot } else { pivot };
         }
-        for i in (0..3).filter(|&i| i != k) {
+        for i in (0..N).filter(|&i| i != k) {
             let factor = a[i][k];
-            for j in (0..3).filter(|&j| j != k) {
+            for j in (0..N).filter(|&j| j != k) {
                 a[i][j] -= factor * a[k][j];
             }
             a[i][k] = -factor / pivot;
         }
     }
-    for k in 0..3 {
-        for l in 0..3 {
+    for k in 0..N {
+        for l in 0..N {
             if !(kept[k] && kept[l]) {
                 a[k][l] = 0.0;
             }
@@ -182,8 +182,8 @@ pub(crate) fn inverse(matrix: [[f64; 3]; 3], free: [bool; 3]) -> [[f64; 3]; 3] {
 }
 
 /// Matrix times vector.
-pub(crate) fn product(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| (0..3).map(|l| matrix[k][l] * v[l]).sum())
+pub(crate) fn product<const N: usize>(matrix: &[[f64; N]; N], v: [f64; N]) -> [f64; N] {
+    std::array::from_fn(|k| (0..N).map(|l| matrix[k][l] * v[l]).sum())
 }
 
 /// a + b

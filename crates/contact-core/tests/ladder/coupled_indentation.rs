@@ -20,7 +20,7 @@ fn stick_radius_pressure_and_approach_of_every_pair() {
             material,
             Elastic::RIGID,
             mu,
-            (2.2, 96),
+            (2.2, 128),
             indentation(increments),
         );
         let (hertz, d) = (hertz_of(&scene), cell(&scene));

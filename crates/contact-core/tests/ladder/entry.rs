@@ -2,10 +2,8 @@
 //!
 //! The increment is solved once more from where it started, with every cell outside the contact
 //! lowered out of reach. That tells how fast the gap over a cell closes and how fast the cell moves,
-//! so many cells away from the edge. The edge comes nearer cell by cell: a cell entered when the
-//! closings from one stage to the next had closed its gap.
+//! for every gap around; a cell has moved as the cells of smaller gap do while its gap closed.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use contact_core::convolution::Mirror;
@@ -91,109 +89,138 @@ pub(crate) fn entry(march: &March, last: &Last, increment: &Increment, allowed: 
         &free.u_x - &last.fields.u_x - shift[0],
         &free.u_y - &last.fields.u_y - shift[1],
     ];
-    let stages = stages(&outside, &before, &closing);
-    for (n, _) in outside.indexed_iter().filter(|(_, outside)| **outside) {
-        let closes = closing[n].max(f64::MIN_POSITIVE);
-        let weights = stages.get(&n).cloned().unwrap_or_else(|| {
-            let alone = (before[n] / closes).min(1.0);
-            vec![(n, alone)]
-        });
-        let mut furthest = 0.0_f64;
-        for (m, weight) in &weights {
-            for c in 0..2 {
-                moved[c][n] += weight * all[c][*m];
-            }
-            furthest = furthest.max(all[0][*m].hypot(all[1][*m]) / closing[*m]);
-        }
-        // Gaps within the tolerance at both ends, and displacements within it, at every stage.
-        let stages = weights.len() as f64;
-        let when = 2.0 * stages * allowed * furthest;
-        let most = all[0][n].hypot(all[1][n]);
-        doubt[n] = when.min(most) + 2.0 * stages * scene.friction.mu.min(1.0) * allowed;
+    let way = Way {
+        outside,
+        before,
+        closing,
+        motion: all,
+    };
+    for (n, _) in way.outside.indexed_iter().filter(|(_, outside)| **outside) {
+        let furthest = way.to(n, |c, part| moved[c][n] += part);
+        // Gaps within the tolerance at both ends, and displacements within it.
+        let when = 2.0 * allowed * furthest;
+        let most = way.motion[0][n].hypot(way.motion[1][n]);
+        doubt[n] = 4.0 * (when.min(most) + scene.friction.mu.min(1.0) * allowed);
     }
     Entry(Some((moved, doubt)))
 }
 
 type Cell = (usize, usize);
 
-/// The parts of the increment for which a cell moves as other cells, and at last itself, do under
-/// the kept contact: those whose distance from the old edge it has from the moving one.
-fn stages(
-    outside: &Array2<bool>,
-    gap: &Array2<f64>,
-    closing: &Array2<f64>,
-) -> BTreeMap<Cell, Vec<(Cell, f64)>> {
-    let (nx, ny) = outside.dim();
-    let beside = |(i, j): Cell| {
-        let all = [
-            (i.wrapping_sub(1), j),
-            (i + 1, j),
-            (i, j.wrapping_sub(1)),
-            (i, j + 1),
-        ];
-        all.into_iter().filter(move |&(i, j)| i < nx && j < ny)
-    };
-    // Per cell the durations of its stages, in order, and the chains of cells that lead to it with
-    // their weights.
-    let mut durations: BTreeMap<Cell, Vec<f64>> = BTreeMap::new();
-    let mut chains: BTreeMap<Cell, Vec<Vec<(Cell, f64)>>> = BTreeMap::new();
-    let mut ring: BTreeSet<Cell> = outside
-        .indexed_iter()
-        .filter(|&(n, outside_n)| *outside_n && closing[n] > 0.0 && beside(n).any(|m| !outside[m]))
-        .map(|(n, _)| n)
-        .collect();
-    while !ring.is_empty() {
-        let mut found = Vec::new();
-        for &n in &ring {
-            let leads = |m: &Cell| {
-                durations
-                    .get(m)
-                    .is_some_and(|t| t.iter().sum::<f64>() <= 1.0)
-            };
-            let leading: Vec<Cell> = beside(n).filter(leads).collect();
-            let length = leading
-                .iter()
-                .map(|m| durations[m].len())
-                .min()
-                .unwrap_or(0);
-            let weight = 1.0 / leading.len().max(1) as f64;
-            let mut t: Vec<f64> = (0..length)
-                .map(|k| leading.iter().map(|m| weight * durations[m][k]).sum())
-                .collect();
-            let mut chain: Vec<Vec<(Cell, f64)>> = (0..length)
-                .map(|k| {
-                    let of = leading.iter().flat_map(|m| &chains[m][k]);
-                    of.map(|(cell, part)| (*cell, weight * part)).collect()
-                })
-                .collect();
-            chain.push(vec![(n, 1.0)]);
-            let rate = |place: &[(Cell, f64)]| -> f64 {
-                place.iter().map(|(m, part)| part * closing[*m]).sum()
-            };
-            let closed: f64 = (0..length).map(|k| t[k] * rate(&chain[length - k])).sum();
-            t.push(((gap[n] - closed) / rate(&chain[0])).clamp(0.0, 2.0));
-            found.push((n, t, chain));
+/// The increment with the contact kept: gap before, what it closes by, and motion.
+struct Way {
+    outside: Array2<bool>,
+    before: Array2<f64>,
+    closing: Array2<f64>,
+    motion: [Array2<f64>; 2],
+}
+
+impl Way {
+    /// Adds up the motion of a cell before its entry; returns the largest motion per closing about
+    /// there.
+    fn to(&self, n: Cell, mut add: impl FnMut(usize, f64)) -> f64 {
+        let (gap, closes) = (self.before[n], self.closing[n]);
+        if gap >= closes {
+            (0..2).for_each(|c| add(c, self.motion[c][n]));
+            return self.motion[0][n].hypot(self.motion[1][n]) / closes.abs();
         }
-        ring.clear();
-        for (n, t, chain) in found {
-            if t.iter().sum::<f64>() <= 1.0 {
-                ring.extend(beside(n).filter(|&m| outside[m] && closing[m] > 0.0));
-            }
-            durations.insert(n, t);
-            chains.insert(n, chain);
+        // Nothing changes for a cell at the edge until the first entry next to it.
+        let mut alone = 0.0;
+        let touches = self.within(n, 1.1).any(|(m, _)| !self.outside[m]);
+        if touches {
+            let enters = |m: Cell| {
+                let enters = self.outside[m] && self.closing[m] > 0.0;
+                enters.then(|| self.before[m] / self.closing[m])
+            };
+            let times = self.within(n, 1.5).filter_map(|(m, _)| enters(m));
+            alone = times.fold(gap / closes, f64::min);
         }
-        ring.retain(|n| !durations.contains_key(n));
+        // After that as the motions m of the cells around go with their closings c,
+        // m = c (A + B u + C u^2 + D s), by Householder's reflections instead of normal equations.
+        let tells = |m: Cell| self.outside[m] && self.before[m] < 1.5 * self.closing[m];
+        let around: Vec<(Cell, [f64; 2])> =
+            self.within(n, 4.5).filter(|(m, _)| tells(*m)).collect();
+        let mut slope = [0.0; 2];
+        for (m, off) in self.within(n, 1.5) {
+            (0..2).for_each(|c| slope[c] += off[c] * self.before[m].powf(2.0 / 3.0));
+        }
+        let steep = slope[0].hypot(slope[1]).max(f64::MIN_POSITIVE);
+        let mut rows: Vec<[f64; 6]> = Vec::new();
+        let mut squares = [0.0; 4];
+        let mut furthest = 0.0_f64;
+        for (m, off) in around {
+            let u = if gap > 0.0 {
+                (self.before[m] / gap).cbrt()
+            } else {
+                1.0
+            };
+            let s = (off[1] * slope[0] - off[0] * slope[1]) / steep;
+            let weight = (1.0 - (off[0] * off[0] + off[1] * off[1]) / 20.25).sqrt();
+            let terms = [1.0, u, u * u, s].map(|term| weight * self.closing[m] / closes * term);
+            (0..4).for_each(|k| squares[k] += terms[k] * terms[k]);
+            let motion = [0, 1].map(|c| weight * self.motion[c][m] / closes);
+            rows.push([terms[0], terms[1], terms[2], terms[3], motion[0], motion[1]]);
+            furthest = furthest.max(self.motion[0][m].hypot(self.motion[1][m]) / self.closing[m]);
+        }
+        for k in 1..4 {
+            let mut row = [0.0; 6];
+            row[k] = (1e-6 * squares[k]).sqrt();
+            rows.push(row);
+        }
+        let fit = least_squares(rows);
+        for c in 0..2 {
+            let mean = fit[c][0] + 0.75 * fit[c][1] + 0.6 * fit[c][2];
+            add(c, alone * self.motion[c][n] + (gap - alone * closes) * mean);
+        }
+        furthest
     }
-    durations
-        .into_iter()
-        .map(|(n, t)| {
-            let chain = &chains[&n];
-            // A cell that enters does so within the increment.
-            let over = t.iter().sum::<f64>().max(1.0);
-            let stages = t.iter().zip(chain.iter().rev());
-            let weights = stages
-                .flat_map(|(t, place)| place.iter().map(move |(m, part)| (*m, t * part / over)));
-            (n, weights.collect())
+
+    /// The cells nearer to n than `reach`, and the way to them.
+    fn within(&self, (i, j): Cell, reach: f64) -> impl Iterator<Item = (Cell, [f64; 2])> {
+        let (nx, ny) = self.outside.dim();
+        let steps = reach as usize;
+        let columns = i.saturating_sub(steps)..(i + steps + 1).min(nx);
+        let rows = j.saturating_sub(steps)..(j + steps + 1).min(ny);
+        let all = columns.flat_map(move |k| rows.clone().map(move |l| (k, l)));
+        all.filter_map(move |(k, l)| {
+            let off = [k as f64 - i as f64, l as f64 - j as f64];
+            (off[0].hypot(off[1]) < reach).then_some(((k, l), off))
         })
-        .collect()
+    }
+}
+
+/// Four unknowns for two right-hand sides, the last two columns.
+fn least_squares(mut rows: Vec<[f64; 6]>) -> [[f64; 4]; 2] {
+    for k in 0..4 {
+        let size = rows[k..]
+            .iter()
+            .map(|row| row[k] * row[k])
+            .sum::<f64>()
+            .sqrt();
+        let mut mirror: Vec<f64> = rows[k..].iter().map(|row| row[k]).collect();
+        mirror[0] += size.copysign(mirror[0]);
+        let square: f64 = mirror.iter().map(|v| v * v).sum();
+        for c in k..6 {
+            let along: f64 = mirror
+                .iter()
+                .zip(&rows[k..])
+                .map(|(v, row)| v * row[c])
+                .sum();
+            for (v, row) in mirror.iter().zip(&mut rows[k..]) {
+                row[c] -= 2.0 * along / square.max(f64::MIN_POSITIVE) * v;
+            }
+        }
+    }
+    [4, 5].map(|right| {
+        let mut x = [0.0; 4];
+        for k in (0..4).rev() {
+            let known: f64 = (k + 1..4).map(|l| rows[k][l] * x[l]).sum();
+            x[k] = if rows[k][k].abs() > 0.0 {
+                (rows[k][right] - known) / rows[k][k]
+            } else {
+                0.0
+            };
+        }
+        x
+    })
 }
