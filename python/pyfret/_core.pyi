@@ -1048,8 +1048,9 @@ class Settings:
     preset : Preset, optional
         Which algorithms (default ``Preset.FAST``).
     tolerance : float, optional
-        Relative tolerance of the solution (default 1e-6): gap error in the contact over the Hertz
-        approach, tangential misfit over mu times it, change of the tractions in the last pass.
+        Relative tolerance of the solution (default 1e-6, where increments are chosen 1/250 of
+        ``path_tolerance`` if that is more): gap error in the contact over the Hertz approach,
+        tangential misfit over mu times it, change of the tractions in the last pass.
     entering : bool, optional
         Reckon the slip of cells that come into contact from their entry (default True): one more
         solution in increments in which the contact grows, and far fewer increments.
@@ -1093,8 +1094,8 @@ class Settings:
     def preset(self) -> Preset:
         """Which algorithms."""
     @property
-    def tolerance(self) -> float:
-        """Relative tolerance of the solution."""
+    def tolerance(self) -> float | None:
+        """Relative tolerance of the solution; None: the default."""
     @property
     def entering(self) -> bool:
         """Whether slip is reckoned from the entry of a cell into the contact."""

@@ -94,7 +94,7 @@ impl March {
             mu.max(1.0) * ((stick + direction) / contact.max(1) as f64).sqrt()
         };
         let worst = r.gap.max(r.penetration).max(slips);
-        let tolerance = self.scene.settings.solver.tolerance;
+        let tolerance = self.scene.tolerance();
         if worst <= tolerance * (1.0 + ROUNDING) {
             return Ok(());
         }

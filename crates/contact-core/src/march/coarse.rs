@@ -47,7 +47,7 @@ pub(super) fn coarse_start(
     let mut coarse = scene.clone();
     coarse.grid = Grid::from_spacing((nx / 2, ny / 2), (2.0 * dx, 2.0 * dy)).ok()?;
     coarse.friction.mu = 0.0;
-    coarse.settings.solver.tolerance = TOLERANCE.max(scene.settings.solver.tolerance);
+    coarse.settings.solver.tolerance = Some(TOLERANCE.max(scene.tolerance()));
     coarse.settings.save = SaveFields::Branches;
     let mut to = Loads {
         T_x: 0.0,

@@ -136,7 +136,7 @@ const GROWTH_SHARE: f64 = 0.5;
 /// The settings of the loops, with lengths in metres, for a share of the tolerance.
 fn params(scene: &Scene, approach: f64, share: f64) -> CoupledParams {
     let solver = &scene.settings.solver;
-    let gap = share * solver.tolerance * approach;
+    let gap = share * scene.tolerance() * approach;
     let plain = solver.preset == Preset::Spinu2020;
     CoupledParams {
         tolerance: gap,

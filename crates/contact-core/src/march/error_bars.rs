@@ -175,7 +175,7 @@ pub fn error_bars(
                 .collect();
         }
     }
-    let tolerance = scene.settings.solver.tolerance;
+    let tolerance = scene.tolerance();
     let cell = if scene.grid.plane_strain {
         scene.grid.dx
     } else {

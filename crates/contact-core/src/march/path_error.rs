@@ -66,6 +66,7 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
         .map(|b| b.increments.is_none())
         .collect();
     let mut chosen = scene.clone();
+    chosen.settings.solver.tolerance = Some(scene.tolerance());
     begin(&mut chosen.path, scene.friction.mu > 0.0);
     if scene.friction.mu == 0.0 {
         // Pressure depends on the loads alone.

@@ -37,7 +37,7 @@ impl Trial {
         }
         let mut trial = scene.clone();
         let solver = &mut trial.settings.solver;
-        solver.tolerance = solver.path_tolerance * SOLVED;
+        solver.tolerance = Some(solver.path_tolerance * SOLVED);
         let rolls = scene.path.branches.iter().any(|b| b.to.rolled != 0.0);
         while let Some(grid) = grids.pop() {
             if rolls && !grids.is_empty() {

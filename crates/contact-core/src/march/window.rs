@@ -350,7 +350,7 @@ impl March {
             },
         );
         let inside = embedded(&vec![true; now.p.len()], from, to, mirror, false);
-        let allowed = scene.settings.solver.tolerance * self.approach;
+        let allowed = scene.tolerance() * self.approach;
         let clear = (0..p.len())
             .filter(|&n| !inside[n])
             .map(|n| grid.h_init[n] + u_z[n] - grid.arms.across(info.approach, n) + allowed)

@@ -36,6 +36,7 @@ pub use settings::{
 pub use shape::{Rough, Shape};
 pub use surface_map::SurfaceMap;
 
+use self::settings::{PATH_PART, TOLERANCE};
 use crate::error::Error;
 use crate::reference::{Hertz, contact_modulus, hertz, hertz_ellipse, line_contact};
 
@@ -192,6 +193,18 @@ impl Scene {
             },
             |hertz| hertz.delta_z,
         )
+    }
+
+    /// Relative tolerance of the solution: that of the settings, or 1e-6, or where increments are chosen
+    /// 1/250 of the tolerance on the path if that is more.
+    pub fn tolerance(&self) -> f64 {
+        let solver = &self.settings.solver;
+        let default = if self.path.is_open() && self.friction.mu > 0.0 {
+            (PATH_PART * solver.path_tolerance).max(TOLERANCE)
+        } else {
+            TOLERANCE
+        };
+        solver.tolerance.unwrap_or(default)
     }
 
     /// Gap between the undeformed surfaces, h_init \[m\], shape (nx, ny).

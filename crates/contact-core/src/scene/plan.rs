@@ -162,7 +162,7 @@ fn digits(scene: &Scene) -> Result<&'static str, &'static str> {
         Err("the preset is plain")
     } else if in_frequency_domain(scene) {
         Err("the frequency-domain operator has double precision alone")
-    } else if solver.tolerance < SINGLE {
+    } else if scene.tolerance() < SINGLE {
         Err("the tolerance is finer than 1e-6")
     } else {
         Ok("the tolerance is 1e-6 or more")

@@ -15,6 +15,11 @@ pub struct Settings {
     pub save: SaveFields,
 }
 
+/// Tolerance of the solution, and where the increments are chosen its part of the tolerance on the
+/// path, which is the larger error.
+pub(super) const TOLERANCE: f64 = 1e-6;
+pub(super) const PATH_PART: f64 = 4e-3;
+
 /// Highest order of an alias sum; its work grows with the square.
 const MOST_ALIASES: usize = 32;
 
@@ -63,10 +68,11 @@ pub enum KernelMethod {
 pub struct SolverSettings {
     /// Which algorithms (default: [`Preset::Fast`]).
     pub preset: Preset,
-    /// Relative tolerance of the solution (default 1e-6): root-mean-square gap error in the
-    /// contact and deepest overlap outside over the Hertz approach, tangential misfit over mu
-    /// times the Hertz approach.
-    pub tolerance: f64,
+    /// Relative tolerance of the solution (default: that of
+    /// [`Scene::tolerance`](super::Scene::tolerance)): root-mean-square gap error in the contact and
+    /// deepest overlap outside over the Hertz approach, tangential misfit over mu times the Hertz
+    /// approach.
+    pub tolerance: Option<f64>,
     /// Reckon the slip of cells that come into contact from their entry (default true): one more
     /// solution in increments in which the contact grows, and far fewer increments. The preset
     /// [`Preset::Spinu2020`] does without.
@@ -87,7 +93,7 @@ impl Default for SolverSettings {
     fn default() -> Self {
         Self {
             preset: Preset::Fast,
-            tolerance: 1e-6,
+            tolerance: None,
             entering: true,
             turning: true,
             path_tolerance: 5e-3,
@@ -173,7 +179,10 @@ impl Settings {
         }
         for (key, value) in [
             ("kernel.tolerance", self.kernel.tolerance),
-            ("solver.tolerance", self.solver.tolerance),
+            (
+                "solver.tolerance",
+                self.solver.tolerance.unwrap_or(TOLERANCE),
+            ),
             ("solver.path_tolerance", self.solver.path_tolerance),
         ] {
             if !(value > 0.0 && value < 1.0) {

@@ -38,8 +38,8 @@ impl Audit {
             mu: scene.friction.mu,
             h_init: scene.h_init(),
             cell_area: scene.grid.cell_area(),
-            relative: scene.settings.solver.tolerance,
-            tolerance: scene.settings.solver.tolerance * hertz_of(scene).delta_z,
+            relative: scene.tolerance(),
+            tolerance: scene.tolerance() * hertz_of(scene).delta_z,
             last: Last {
                 fields: unloaded(scene),
                 motion: Motion::default(),

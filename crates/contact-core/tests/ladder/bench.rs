@@ -90,7 +90,7 @@ pub(crate) fn run(scene: &Scene, mut watch: impl FnMut(&March, &Increment)) -> V
     let mut increments = Vec::new();
     let mut dissipated = Array2::<f64>::zeros((scene.grid.nx, scene.grid.ny));
     let (mut q_max, mut work) = (0.0_f64, 0.0);
-    let tolerance = scene.settings.solver.tolerance;
+    let tolerance = scene.tolerance();
     while let Some(increment) = march.advance() {
         let increment = increment.expect("a solution");
         let at = increment.index;

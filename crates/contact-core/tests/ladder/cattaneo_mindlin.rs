@@ -107,7 +107,7 @@ fn isotropic_shear_follows_the_closed_form_round_the_loop() {
 fn one_increment_per_reversal_is_exact() {
     let last_shear = |increments: usize| -> (Array2<f64>, f64) {
         let mut scene = scene(CORK, 96, increments);
-        scene.settings.solver.tolerance = 1e-9;
+        scene.settings.solver.tolerance = Some(1e-9);
         let mut kept = None;
         run(&scene, |march, increment| {
             kept = Some((march.fields().q_x, increment.motion.delta_x));

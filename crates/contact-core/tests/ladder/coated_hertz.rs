@@ -101,7 +101,7 @@ fn the_grid_converges_to_the_integral_equation() {
         let path = LoadPath::start().normal(W, 1);
         let scene = sphere_on_flat(Elastic::RIGID, STEEL, 0.0, (2.0, n), path);
         let mut scene = coated(scene, layer.material, layer.thickness);
-        scene.settings.solver.tolerance = 1e-8;
+        scene.settings.solver.tolerance = Some(1e-8);
         run(&scene, |_, _| {})[0].motion.delta_z / truth.delta_z - 1.0
     };
     let (coarse, fine) = (error(32), error(128));

@@ -79,7 +79,7 @@ fn the_mean_bound_is_exact_under_constant_pressure() {
             .normal(W, 1)
             .tangential(&[part * MU * W, -part * MU * W, part * MU * W], increments);
         let mut scene = similar(path);
-        scene.settings.solver.tolerance = TIGHT;
+        scene.settings.solver.tolerance = Some(TIGHT);
         let mut sums = [0.0; 2];
         for i in run(&scene, |_, _| ()).iter().filter(|i| i.point.branch > 1) {
             sums[0] += i.energy.dissipated;

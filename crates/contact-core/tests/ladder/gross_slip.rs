@@ -141,7 +141,7 @@ fn contact_is_lost_and_found_again() {
             .to(press(if given { -0.5 } else { 0.0 }), 3)
             .to(press(1.0), 3);
         let mut scene = sphere_on_flat(STEEL, CORK, MU, (3.4, 40), path);
-        scene.settings.solver.tolerance = 1e-7;
+        scene.settings.solver.tolerance = Some(1e-7);
         let increments = run(&scene, |_, _| ());
         let (first, parted, again) = (&increments[2], &increments[5], &increments[8]);
         assert_eq!(parted.status, Status::NoContact);

@@ -47,7 +47,7 @@ fn the_path_does_not_matter() {
     let run_in = |increments: usize| {
         let path = LoadPath::start().normal(W, increments);
         let mut scene = sphere_on_flat(STEEL, STEEL, 0.0, (2.4, 64), path);
-        scene.settings.solver.tolerance = 1e-9;
+        scene.settings.solver.tolerance = Some(1e-9);
         let mut p = None;
         run(&scene, |march, _| p = Some(march.fields().p));
         p.expect("an increment")

@@ -149,7 +149,7 @@ proptest! {
     /// Lengths, moduli and loads scaled together: the same contact.
     #[test]
     fn scaled_twins_are_alike(mut scene in scene(), length in -3..4i32, modulus in -3..4i32) {
-        scene.settings.solver.tolerance = TIGHT;
+        scene.settings.solver.tolerance = Some(TIGHT);
         let (length, modulus) = (3f64.powi(length), 7f64.powi(modulus));
         let force = modulus * length * length;
         let mut twin = scene.clone();
@@ -180,7 +180,7 @@ proptest! {
     /// exchanged.
     #[test]
     fn mirrored_turned_and_exchanged_twins_are_alike(mut scene in scene()) {
-        scene.settings.solver.tolerance = TIGHT;
+        scene.settings.solver.tolerance = Some(TIGHT);
         let (ours, motion) = end(&scene);
 
         let mut mirrored = scene.clone();
@@ -221,7 +221,7 @@ fn radial_fretting_of_dissimilar_bodies_is_round() {
     let upper = Elastic { E: 70e9, nu: 0.1 };
     let lower = Elastic { E: 300e9, nu: 0.45 };
     let mut scene = crate::bench::sphere_on_flat(upper, lower, 0.15, (2.4, 49), path);
-    scene.settings.solver.tolerance = 1e-9;
+    scene.settings.solver.tolerance = Some(1e-9);
     // An odd grid, so that nothing of the symmetry is put in by solving half of it.
     let mut kept = Vec::new();
     run(&scene, |march, i| {
@@ -278,7 +278,7 @@ pub(crate) fn twin() -> Scene {
         .to(loads(W, 0.15 * W, 0.05 * W), 3)
         .to(loads(0.8 * W, 0.02 * W, -0.16 * W), 3);
     let mut settings = Settings::default();
-    settings.solver.tolerance = TIGHT;
+    settings.solver.tolerance = Some(TIGHT);
     Scene {
         title: "twin".into(),
         body1,

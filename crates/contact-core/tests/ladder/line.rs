@@ -186,7 +186,7 @@ fn a_bulk_stress_out_of_phase_keeps_the_energy() {
         path = path.to(move |to| (to.T_x, to.sigma_B) = (x * T, s * sigma), 4);
     }
     scene.path = path;
-    scene.settings.solver.tolerance = 1e-8;
+    scene.settings.solver.tolerance = Some(1e-8);
     let all = audited(&scene);
     // Back at the same loads after a cycle: the loop has closed.
     let (one, two) = (&all[3 + 3].0, &all[3 + 19].0);
@@ -319,7 +319,7 @@ fn a_coated_body_rolls_into_a_steady_state() {
         thickness: 0.4 * line.a,
     }];
     // Creep per increment is a small difference of shifts.
-    scene.settings.solver.tolerance = 1e-9;
+    scene.settings.solver.tolerance = Some(1e-9);
     let way = 480;
     let rolled = way as f64 * scene.grid.dx;
     scene.path = LoadPath::start()

@@ -18,7 +18,7 @@ fn misfit(increments: usize, entering: bool) -> f64 {
     };
     let path = LoadPath::start().to(to, increments);
     let mut scene = sphere_on_flat(CORK, CORK, MU, (2.4, 64), path);
-    scene.settings.solver.tolerance = 1e-9;
+    scene.settings.solver.tolerance = Some(1e-9);
     scene.settings.solver.entering = entering;
     let mut worst = 0.0_f64;
     run(&scene, |march, increment| {

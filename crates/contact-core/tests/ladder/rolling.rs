@@ -69,7 +69,7 @@ fn a_tilted_sphere_rolls_beside_the_middle() {
     let way = 12;
     let a = hertz_of(&scene).a;
     let (aside, rolled) = (0.2 * a, way as f64 * scene.grid.dx);
-    scene.settings.solver.tolerance = 1e-8;
+    scene.settings.solver.tolerance = Some(1e-8);
     scene.path = LoadPath::start()
         .normal(W, 2)
         .to(|to| to.T_x = 0.15 * W, 2)

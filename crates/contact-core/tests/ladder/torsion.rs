@@ -93,7 +93,7 @@ fn torque_given_is_rotation_given() {
     let M_z = 0.8 * lubkin.M_limit();
     let (mut by_moment, _) = scene(pressed().torsion(&[M_z, -M_z], 9));
     by_moment.grid = contact_core::scene::Grid::centred(2.2 * lubkin.hertz.a, 48).expect("a grid");
-    by_moment.settings.solver.tolerance = 1e-8;
+    by_moment.settings.solver.tolerance = Some(1e-8);
     let moments = run(&by_moment, |_, _| ());
     let mut by_rotation = by_moment.clone();
     by_rotation.path = pressed();

@@ -135,7 +135,7 @@ fn sphere(seed: u64) -> Drawn {
         scene.settings.skip.mirror = false;
     }
     if rng.f64() < 0.1 {
-        scene.settings.solver.tolerance = 1e-4;
+        scene.settings.solver.tolerance = Some(1e-4);
     }
     Drawn { scene, intent }
 }

@@ -32,7 +32,7 @@ pub(crate) struct Misfit {
 impl Misfit {
     pub(crate) fn of(scene: &Scene) -> Self {
         let yardstick = scene.approach();
-        let gap = scene.settings.solver.tolerance * yardstick;
+        let gap = scene.tolerance() * yardstick;
         let mu = scene.friction.mu;
         let stacks: Vec<_> = [&scene.body1, &scene.body2]
             .into_iter()

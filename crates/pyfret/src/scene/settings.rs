@@ -228,7 +228,7 @@ impl Settings {
             Some(Preset::Fast) => core::Preset::Fast,
             Some(Preset::Spinu2020) => core::Preset::Spinu2020,
         };
-        solver.tolerance = tolerance.unwrap_or(solver.tolerance);
+        solver.tolerance = tolerance.or(solver.tolerance);
         solver.entering = entering.unwrap_or(solver.entering);
         solver.turning = turning.unwrap_or(solver.turning);
         solver.path_tolerance = path_tolerance.unwrap_or(solver.path_tolerance);
@@ -252,7 +252,7 @@ impl Settings {
     }
 
     #[getter]
-    fn tolerance(&self) -> f64 {
+    fn tolerance(&self) -> Option<f64> {
         self.0.solver.tolerance
     }
 

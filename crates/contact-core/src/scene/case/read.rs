@@ -371,7 +371,7 @@ fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
                 "preset",
                 &[("fast", Preset::Fast), ("spinu2020", Preset::Spinu2020)],
             )?,
-            tolerance: section.number_or("tolerance", default.tolerance, &[])?,
+            tolerance: section.number_if("tolerance", &[])?.or(default.tolerance),
             entering: section.flag_or("entering", default.entering)?,
             turning: section.flag_or("turning", default.turning)?,
             path_tolerance: section.number_or("path_tolerance", default.path_tolerance, &[])?,

@@ -156,9 +156,12 @@ impl<'a> Section<'a> {
         default: f64,
         measures: &[Measure],
     ) -> Result<f64, Fault> {
-        self.get(name).map_or(Ok(default), |value| {
-            measure::number(&self.path(name), value, measures)
-        })
+        Ok(self.number_if(name, measures)?.unwrap_or(default))
+    }
+
+    pub(super) fn number_if(&self, name: &str, measures: &[Measure]) -> Result<Option<f64>, Fault> {
+        let number = |value| measure::number(&self.path(name), value, measures);
+        self.get(name).map(number).transpose()
     }
 
     /// A whole number of at least `least`.

@@ -284,7 +284,7 @@ fn a_scene_written_reads_back_equal() {
     };
     scene.settings.kernel.tolerance = 1e-7;
     scene.settings.solver.preset = Preset::Spinu2020;
-    scene.settings.solver.tolerance = 1.0 / 3.0;
+    scene.settings.solver.tolerance = Some(1.0 / 3.0);
     scene.settings.skip.mirror = false;
     scene.settings.save = SaveFields::Indices(vec![3, 5]);
     assert_eq!(read(&scene), scene);

@@ -74,7 +74,9 @@ impl Scene {
             Preset::Spinu2020 => "spinu2020",
         };
         line(format_args!("\n[solver]\npreset = \"{preset}\""));
-        line(format_args!("tolerance = {:?}", solver.tolerance));
+        if let Some(tolerance) = solver.tolerance {
+            line(format_args!("tolerance = {tolerance:?}"));
+        }
         line(format_args!("entering = {}", solver.entering));
         line(format_args!("turning = {}", solver.turning));
         line(format_args!("path_tolerance = {:?}", solver.path_tolerance));
