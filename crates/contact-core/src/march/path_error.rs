@@ -22,8 +22,8 @@ use crate::scene::{LoadPath, Scene, Spacing};
 /// Order of the error in the increments: between that of cells that enter one by one and that of
 /// turning slip.
 pub(super) const ORDER: f64 = 1.5;
-/// Orders that a branch may show from one round to the next; the second is hoped for before two rounds
-/// tell.
+/// Orders that a branch may show from one round to the next. Before two rounds tell, the first is
+/// expected of the growth of contact, the second of other branches.
 const ORDERS: (f64, f64) = (1.25, 2.0);
 /// Increments to begin with: of a branch that begins without contact, and of others.
 const FIRST: (usize, usize) = (12, 6);
@@ -43,7 +43,7 @@ const KEPT: f64 = 0.8;
 /// Most that the number of increments of a branch grows by in a round.
 const GROWTH: f64 = 4.0;
 /// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.
-pub(super) const SOLVED: f64 = 1e-3;
+pub(super) const SOLVED: f64 = 2e-3;
 /// Rounds of choosing.
 const ROUNDS: usize = 8;
 /// Most increments of a path that are chosen.
@@ -107,7 +107,11 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
             };
             if open[k] && error.q > allowed {
                 let count = branch.count();
-                let order = before[k].map_or(ORDERS.1, |before| order(before, (count, error.q)));
+                let hoped = match branch.spacing {
+                    Spacing::Uniform => ORDERS.1,
+                    Spacing::EqualRadius => ORDERS.0,
+                };
+                let order = before[k].map_or(hoped, |before| order(before, (count, error.q)));
                 before[k] = Some((count, error.q));
                 let factor = (error.q / (AIM * allowed)).powf(1.0 / order).min(GROWTH);
                 let more = (count as f64 * factor).ceil() as usize;

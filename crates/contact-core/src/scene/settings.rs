@@ -18,7 +18,7 @@ pub struct Settings {
 /// Tolerance of the solution, and where the increments are chosen its part of the tolerance on the
 /// path, which is the larger error.
 pub(super) const TOLERANCE: f64 = 1e-6;
-pub(super) const PATH_PART: f64 = 4e-3;
+pub(super) const PATH_PART: f64 = 5e-3;
 
 /// Highest order of an alias sum; its work grows with the square.
 const MOST_ALIASES: usize = 32;
