@@ -25,8 +25,9 @@ pub(super) const ORDER: f64 = 1.5;
 /// Orders that a branch may show from one round to the next. Before two rounds tell, the first is
 /// expected of the growth of contact, the second of other branches.
 const ORDERS: (f64, f64) = (1.25, 2.0);
-/// Increments to begin with: of a branch that begins without contact, and of others.
-const FIRST: (usize, usize) = (12, 6);
+/// Increments to begin with: of a branch that begins without contact, of one with which the path ends
+/// too, whose slip rings are of interest, and of others.
+const FIRST: (usize, usize, usize) = (12, 28, 6);
 /// Part of the tolerance that is aimed at.
 const AIM: f64 = 0.9;
 /// Part of the tolerance that an estimate may come to.
@@ -197,15 +198,17 @@ pub(super) fn path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Vec<P
 /// radii.
 fn begin(path: &mut LoadPath, friction: bool) {
     let mut touches = false;
-    for branch in &mut path.branches {
+    let last = path.branches.len() - 1;
+    for (k, branch) in path.branches.iter_mut().enumerate() {
         if branch.increments.is_none() {
             if !touches {
                 branch.spacing = Spacing::EqualRadius;
             }
             branch.increments = Some(match (friction, touches) {
                 (false, _) => 1,
-                (true, false) => FIRST.0,
-                (true, true) => FIRST.1,
+                (true, false) if k < last => FIRST.0,
+                (true, false) => FIRST.1,
+                (true, true) => FIRST.2,
             });
         }
         touches = branch.to.W > 0.0 || branch.to.given.delta_z.is_some_and(|d| d > 0.0);

@@ -257,6 +257,18 @@ impl LoadPath {
         self.branches.iter().map(Branch::count).sum()
     }
 
+    /// Whether nothing but normal forces and tilting moments, or their motions, act.
+    pub(crate) fn only_presses(&self) -> bool {
+        self.branches.iter().all(|Branch { to, .. }| {
+            let shears = to.forces()[3..].iter().any(|f| *f != 0.0);
+            let moves = to.given.motions()[3..].iter().flatten().any(|m| *m != 0.0);
+            let strains = [to.sigma_B, to.sigma_B1, to.rolled]
+                .iter()
+                .any(|s| *s != 0.0);
+            !(shears || moves || strains)
+        })
+    }
+
     /// Whether the increments of a branch are yet to be chosen.
     pub fn is_open(&self) -> bool {
         self.branches.iter().any(|b| b.increments.is_none())

@@ -196,11 +196,12 @@ impl Scene {
     }
 
     /// Relative tolerance of the solution: that of the settings, or 1e-6, or where increments are chosen
-    /// 1/200 of the tolerance on the path if that is more.
+    /// 1/200 of the tolerance on the path (1/500 of a path that only presses) if that is more.
     pub fn tolerance(&self) -> f64 {
         let solver = &self.settings.solver;
         let default = if self.path.is_open() && self.friction.mu > 0.0 {
-            (PATH_PART * solver.path_tolerance).max(TOLERANCE)
+            let part = PATH_PART[usize::from(!self.path.only_presses())];
+            (part * solver.path_tolerance).max(TOLERANCE)
         } else {
             TOLERANCE
         };

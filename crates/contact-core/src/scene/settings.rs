@@ -16,9 +16,10 @@ pub struct Settings {
 }
 
 /// Tolerance of the solution, and where the increments are chosen its part of the tolerance on the
-/// path, which is the larger error.
+/// path, which is the larger error: of one that only presses the bodies together, where slip is
+/// about the rim alone, and of others.
 pub(super) const TOLERANCE: f64 = 1e-6;
-pub(super) const PATH_PART: f64 = 5e-3;
+pub(super) const PATH_PART: [f64; 2] = [2e-3, 5e-3];
 
 /// Highest order of an alias sum; its work grows with the square.
 const MOST_ALIASES: usize = 32;
