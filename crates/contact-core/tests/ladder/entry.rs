@@ -100,7 +100,7 @@ pub(crate) fn entry(march: &March, last: &Last, increment: &Increment, allowed: 
         // Gaps within the tolerance at both ends, and displacements within it.
         let when = 2.0 * allowed * furthest;
         let most = way.motion[0][n].hypot(way.motion[1][n]);
-        doubt[n] = 4.0 * (when.min(most) + scene.friction.mu.min(1.0) * allowed);
+        doubt[n] = when.min(most) + 2.0 * scene.friction.mu.min(1.0) * allowed;
     }
     Entry(Some((moved, doubt)))
 }
