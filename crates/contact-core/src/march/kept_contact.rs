@@ -24,7 +24,6 @@ use crate::solvers::{inverse, product, set_pairs, size};
 const AROUND: isize = 4;
 /// Cells whose gap is less than so many times what it closes by tell of the way through the gap.
 const NEAR: f64 = 1.5;
-
 /// Regularisation of the terms that are not constant, which few cells need not tell apart.
 const RIDGE: f64 = 1e-6;
 

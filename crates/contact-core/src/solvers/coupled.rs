@@ -335,8 +335,9 @@ fn shear_under(
     params: &CoupledParams,
     info: &mut CoupledInfo,
 ) -> Result<bool, SolverError> {
+    let first_of_more = info.alternations == 1 && params.max_alternations > 1;
+    let ends_early = first_of_more && response.op.is_coupled();
     let params = &params.tangential;
-    let ends_early = info.alternations == 1 && response.op.is_coupled();
     let solve = match params.method {
         TangentialMethod::Newton => tangential,
         TangentialMethod::Gradient => shear_gradient,
