@@ -8,17 +8,9 @@
 
 use rustfft::num_complex::Complex;
 
+use super::complexes::{Complexes, Unit};
 use super::line_spectra::{LANES, LineKernels};
 use super::precision::Precision;
-
-/// A power of i.
-#[derive(Clone, Copy, Debug)]
-enum Unit {
-    One,
-    MinusOne,
-    I,
-    MinusI,
-}
 
 /// Groups of kernels.
 #[derive(Clone, Copy)]
@@ -142,11 +134,7 @@ fn split<T: Precision, const N: usize, const MIRRORED: bool>(
     if !MIRRORED {
         return [x, y];
     }
-    let each = |f: &dyn Fn(T, T) -> T| Complexes {
-        re: std::array::from_fn(|i| f(x.re[i], y.re[i])),
-        im: std::array::from_fn(|i| f(x.im[i], y.im[i])),
-    };
-    [each(&|x, y| x + y), each(&|x, y| x - y)]
+    [x.plus(&y), x.minus(&y)]
 }
 
 #[inline]
@@ -155,88 +143,5 @@ fn lanes<T: Precision, const N: usize>(block: &[T; LANES], first: usize) -> [T; 
         std::array::from_fn(|i| block[i])
     } else {
         std::array::from_fn(|i| block[first + i])
-    }
-}
-
-/// N complex numbers, real and imaginary parts apart.
-#[derive(Clone, Copy)]
-struct Complexes<T, const N: usize> {
-    re: [T; N],
-    im: [T; N],
-}
-
-impl<T: Precision, const N: usize> Complexes<T, N> {
-    #[inline]
-    fn zero() -> Self {
-        Self {
-            re: [T::zero(); N],
-            im: [T::zero(); N],
-        }
-    }
-
-    #[inline]
-    fn load(z: &[Complex<T>]) -> Self {
-        let z: &[Complex<T>; N] = z.try_into().expect("N numbers");
-        Self {
-            re: std::array::from_fn(|i| z[i].re),
-            im: std::array::from_fn(|i| z[i].im),
-        }
-    }
-
-    /// Conjugates, in reverse order.
-    #[inline]
-    fn load_mirrored(z: &[Complex<T>]) -> Self {
-        let z: &[Complex<T>; N] = z.try_into().expect("N numbers");
-        Self {
-            re: std::array::from_fn(|i| z[N - 1 - i].re),
-            im: std::array::from_fn(|i| -z[N - 1 - i].im),
-        }
-    }
-
-    #[inline]
-    fn store(&self, z: &mut [Complex<T>]) {
-        let z: &mut [Complex<T>; N] = z.try_into().expect("N numbers");
-        for i in 0..N {
-            z[i] = Complex::new(self.re[i], self.im[i]);
-        }
-    }
-
-    #[inline]
-    fn store_mirrored(&self, z: &mut [Complex<T>]) {
-        let z: &mut [Complex<T>; N] = z.try_into().expect("N numbers");
-        for i in 0..N {
-            z[N - 1 - i] = Complex::new(self.re[i], -self.im[i]);
-        }
-    }
-
-    /// self += unit * spectrum * z
-    #[inline]
-    fn add(&mut self, spectrum: &[T; N], unit: Unit, z: &Self) {
-        match unit {
-            Unit::One => {
-                for i in 0..N {
-                    self.re[i] += spectrum[i] * z.re[i];
-                    self.im[i] += spectrum[i] * z.im[i];
-                }
-            }
-            Unit::MinusOne => {
-                for i in 0..N {
-                    self.re[i] -= spectrum[i] * z.re[i];
-                    self.im[i] -= spectrum[i] * z.im[i];
-                }
-            }
-            Unit::I => {
-                for i in 0..N {
-                    self.re[i] -= spectrum[i] * z.im[i];
-                    self.im[i] += spectrum[i] * z.re[i];
-                }
-            }
-            Unit::MinusI => {
-                for i in 0..N {
-                    self.re[i] += spectrum[i] * z.im[i];
-                    self.im[i] -= spectrum[i] * z.re[i];
-                }
-            }
-        }
     }
 }

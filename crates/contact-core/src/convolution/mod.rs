@@ -4,6 +4,7 @@
 //! discrete convolution with transforms on a doubled domain (S. Liu, Q. Wang, G. Liu, Wear 243
 //! (2000) 101-111); [`Direct`] sums cell by cell and exists to check the others.
 
+mod complexes;
 mod dc_fft;
 mod direct;
 mod frequency_domain;

@@ -50,6 +50,8 @@ pub(crate) struct SpectralProduct<T: Precision> {
     by_line: Vec<Complex<T>>,
     stride: usize,
     parts: Vec<Scratch<T>>,
+    /// Largest absolute value in each block of rows.
+    largest: Vec<f64>,
     /// Two-dimensional transforms done.
     pub(crate) transforms: usize,
 }
@@ -109,6 +111,7 @@ impl<T: Precision> SpectralProduct<T> {
             mirror,
             period: period.0,
             parts: (0..parts).map(|_| scratch()).collect(),
+            largest: vec![0.0; nx.div_ceil(ROWS)],
             spectra: LineSpectra::new(spectra, row, mirrored, unit, stop)?,
             unit,
             x_forward,
@@ -140,28 +143,31 @@ impl<T: Precision> SpectralProduct<T> {
             assert!(self.components.contains(&c), "component {c} has no kernels");
         }
         self.transforms += input.iter().flatten().count() + output.iter().flatten().count();
-        let loaded = self.loaded_blocks(input);
-        let unit = T::unit(|| {
-            let fields = input.into_iter().flatten().flatten();
-            fields.fold(0.0, |m: f64, v| m.max(v.abs()))
-        });
+        let (loaded, largest) = self.survey(input);
+        let unit = T::unit(|| largest);
         self.rows_forward(input, 1.0 / unit, &loaded);
         self.lines(input.map(|f| f.is_some()), wanted, &loaded);
         self.rows_inverse(unit * self.unit, &mut output);
     }
 
-    /// The blocks of rows outside which nothing acts.
-    fn loaded_blocks(&self, input: [Option<&[f64]>; 3]) -> Range<usize> {
+    /// The blocks of rows outside which nothing acts, and the largest absolute value.
+    fn survey(&mut self, input: [Option<&[f64]>; 3]) -> (Range<usize>, f64) {
         let block = ROWS * self.rows;
-        let (mut first, mut last) = (self.nx.div_ceil(ROWS), 0);
-        for field in input.into_iter().flatten() {
-            let acts = |b: &[f64]| b.iter().any(|&v| v != 0.0);
-            first = first.min(field.chunks(block).position(acts).unwrap_or(first));
-            let blocks = field.chunks(block);
-            let count = blocks.len();
-            last = last.max(count - blocks.rev().position(acts).unwrap_or(count));
-        }
-        first.min(last)..last
+        let work = |(b, largest): (usize, &mut [f64]), _: &mut Scratch<T>| {
+            let cells = |field: &'_ [f64]| {
+                let end = field.len().min((b + 1) * block);
+                largest_of(&field[b * block..end])
+            };
+            let fields = input.into_iter().flatten();
+            largest[0] = f64::from_bits(fields.map(cells).max().unwrap_or(0));
+        };
+        share(&mut self.parts, &mut self.largest, 1, work);
+        let acts = |&largest: &f64| largest != 0.0;
+        let first = self.largest.iter().position(acts).unwrap_or(0);
+        let last = self.largest.iter().rposition(acts).map_or(0, |b| b + 1);
+        let loaded = first..last;
+        let bits = self.largest[loaded.clone()].iter().map(|v| v.to_bits());
+        (loaded, f64::from_bits(bits.max().unwrap_or(0)))
     }
 
     /// Along y, from the rows of the fields to blocks of rows by line.
@@ -269,6 +275,13 @@ impl<T: Precision> SpectralProduct<T> {
             }
         });
     }
+}
+
+/// The largest absolute value by its bits, which are in the order of the values; what is not a number
+/// comes last.
+fn largest_of(field: &[f64]) -> u64 {
+    let size = |v: &f64| v.abs().to_bits();
+    field.iter().map(size).max().unwrap_or(0)
 }
 
 /// A constant size spares the call that a copy of any size is.

@@ -14,6 +14,8 @@ use std::sync::Arc;
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
+use super::complexes::Complexes;
+use super::line_spectra::LANES;
 use super::precision::Precision;
 use super::{Half, Mirror};
 
@@ -89,10 +91,6 @@ impl<T: Precision> YTransform<T> {
     ) {
         let n = self.length;
         s.pair[..n].fill(Complex::default());
-        let both = |j: usize| {
-            let second = rows[1].get(j).copied().unwrap_or(0.0);
-            Complex::new(T::of(rows[0][j] * scale), T::of(second * scale))
-        };
         match self.mirror {
             Mirror::None if rows[1].is_empty() => {
                 (s.pair.iter_mut().zip(rows[0])).for_each(|(v, a)| v.re = T::of(a * scale));
@@ -104,14 +102,21 @@ impl<T: Precision> YTransform<T> {
                 });
             }
             Mirror::Y => {
-                let m = rows[0].len();
+                // Even cells forwards, odd ones backwards from the end; no second row counts as zero.
+                let (two, scale_2) = match rows[1] {
+                    [] => (rows[0], 0.0),
+                    two => (two, scale),
+                };
+                let ((one, last_1), (two, last_2)) = (rows[0].as_chunks(), two.as_chunks());
+                let both = |a: f64, b: f64| Complex::new(T::of(a * scale), T::of(b * scale_2));
                 let sign = T::of(half.sign());
-                for j in 0..m / 2 {
-                    s.pair[j] = both(2 * j);
-                    s.pair[n - 1 - j] = both(2 * j + 1) * sign;
+                let (low, high) = s.pair[..n].split_at_mut(n / 2);
+                let places = low.iter_mut().zip(high.iter_mut().rev());
+                for (([a, c], [b, d]), (even, odd)) in one.iter().zip(two).zip(places) {
+                    (*even, *odd) = (both(*a, *b), both(*c, *d) * sign);
                 }
-                if m % 2 == 1 {
-                    s.pair[m / 2] = both(m - 1);
+                for (a, b) in last_1.iter().zip(last_2) {
+                    s.pair[one.len()] = both(*a, *b);
                 }
             }
         }
@@ -136,9 +141,10 @@ impl<T: Precision> YTransform<T> {
             }
             Mirror::Y => {
                 self.to_cosines(s, half);
-                for (c, line) in s.cosines.chunks_exact(2).zip(lines) {
-                    line[0] = Complex::new(c[0].re, c[1].re);
-                    line[1] = Complex::new(c[0].im, c[1].im);
+                for ([a, b], line) in s.cosines.as_chunks().0.iter().zip(lines) {
+                    if let Some(rows) = line.first_chunk_mut() {
+                        *rows = [Complex::new(a.re, b.re), Complex::new(a.im, b.im)];
+                    }
                 }
             }
         }
@@ -167,9 +173,10 @@ impl<T: Precision> YTransform<T> {
                 }
             }
             Mirror::Y => {
-                for (c, line) in s.cosines.chunks_exact_mut(2).zip(lines) {
-                    c[0] = Complex::new(line[0].re, line[1].re);
-                    c[1] = Complex::new(line[0].im, line[1].im);
+                for (c, line) in s.cosines.as_chunks_mut().0.iter_mut().zip(lines) {
+                    if let Some([a, b]) = line.first_chunk() {
+                        *c = [Complex::new(a.re, b.re), Complex::new(a.im, b.im)];
+                    }
                 }
                 self.take_cosines(s, half);
             }
@@ -185,57 +192,97 @@ impl<T: Precision> YTransform<T> {
                 (second.iter_mut().zip(&s.pair)).for_each(|(f, v)| *f = scale * v.im.wide());
             }
             Mirror::Y => {
-                let odd_cells = scale * half.sign();
-                let spread = |row: &mut [f64], part: &dyn Fn(Complex<T>) -> T| {
-                    for (j, cells) in row.chunks_mut(2).enumerate() {
-                        cells[0] = scale * part(s.pair[j]).wide();
-                        if let Some(f) = cells.get_mut(1) {
-                            *f = odd_cells * part(s.pair[n - 1 - j]).wide();
-                        }
-                    }
-                };
-                spread(first, &|v| v.re);
-                spread(second, &|v| v.im);
+                let scales = [scale, scale * half.sign()];
+                spread(&s.pair[..n], first, scales, |v| v.re);
+                spread(&s.pair[..n], second, scales, |v| v.im);
             }
         }
     }
 
     /// C(k) = 2 sum f_j cos(pi k (j + 1/2)/n); an odd field has its sine sums, those of
     /// (-1)^j f_j read backwards, with the factor -i of the spectrum of q_y.
+    #[inline(never)]
     fn to_cosines(&self, s: &mut YScratch<T>, half: Half) {
         let n = self.length;
-        for (k, w) in self.twiddle.iter().enumerate() {
-            let a = w * s.pair[k];
-            let b = w.conj() * s.pair[n - k];
-            let (low, high) = (a + b, times_i(a - b));
-            match half {
-                Half::Even => {
-                    s.cosines[k] = low;
-                    s.cosines[n - k] = high;
-                }
-                Half::Odd => {
-                    s.cosines[n - k] = -low;
-                    s.cosines[k] = -high;
-                }
-            }
+        let whole = self.twiddle.len() / LANES * LANES;
+        for k in (0..whole).step_by(LANES) {
+            self.cosines_at::<LANES>(s, half, k);
+        }
+        for k in whole..self.twiddle.len() {
+            self.cosines_at::<1>(s, half, k);
         }
         // The zero frequency of the sines and the last one of the cosines carry nothing.
         s.cosines[if half == Half::Even { n } else { 0 }] = Complex::default();
         s.cosines[n + 1] = Complex::default();
     }
 
+    /// The frequencies k to k + N - 1 and n less these.
+    #[inline]
+    fn cosines_at<const N: usize>(&self, s: &mut YScratch<T>, half: Half, k: usize) {
+        let (here, there) = (k..k + N, self.length + 1 - k - N..=self.length - k);
+        let w = Complexes::<T, N>::load(&self.twiddle[here.clone()]);
+        let a = Complexes::load(&s.pair[here.clone()]).times(&w);
+        let b = Complexes::load_mirrored(&s.pair[there.clone()])
+            .times(&w)
+            .conjugate();
+        let (low, high) = (a.plus(&b), a.minus(&b).times_i());
+        let (low, high) = match half {
+            Half::Even => (low, high),
+            Half::Odd => (high.negative(), low.negative()),
+        };
+        low.store(&mut s.cosines[here]);
+        high.conjugate().store_mirrored(&mut s.cosines[there]);
+    }
+
     /// The other way.
+    #[inline(never)]
     fn take_cosines(&self, s: &mut YScratch<T>, half: Half) {
         let n = self.length;
         s.cosines[if half == Half::Even { n } else { 0 }] = Complex::default();
-        for (k, w) in self.twiddle.iter().enumerate() {
-            let (low, high) = match half {
-                Half::Even => (s.cosines[k], s.cosines[n - k]),
-                Half::Odd => (-s.cosines[n - k], -s.cosines[k]),
-            };
-            s.pair[k] = (low - times_i(high)) * w.conj();
-            s.pair[n - k] = (low + times_i(high)) * w;
+        let whole = self.twiddle.len() / LANES * LANES;
+        for k in (0..whole).step_by(LANES) {
+            self.pair_at::<LANES>(s, half, k);
         }
+        for k in whole..self.twiddle.len() {
+            self.pair_at::<1>(s, half, k);
+        }
+    }
+
+    /// The frequencies k to k + N - 1 and n less these.
+    #[inline]
+    fn pair_at<const N: usize>(&self, s: &mut YScratch<T>, half: Half, k: usize) {
+        let (here, there) = (k..k + N, self.length + 1 - k - N..=self.length - k);
+        let w = Complexes::<T, N>::load(&self.twiddle[here.clone()]);
+        let a = Complexes::load(&s.cosines[here.clone()]);
+        let b = Complexes::load_mirrored(&s.cosines[there.clone()]).conjugate();
+        let (low, high) = match half {
+            Half::Even => (a, b),
+            Half::Odd => (b.negative(), a.negative()),
+        };
+        let high = high.times_i();
+        let (less, more) = (low.minus(&high), low.plus(&high));
+        less.times(&w.conjugate()).store(&mut s.pair[here]);
+        let more = more.times(&w).conjugate();
+        more.store_mirrored(&mut s.pair[there]);
+    }
+}
+
+/// The cells of a row from its even ones, forwards, and its odd ones, backwards from the end, times
+/// their scales.
+#[inline]
+fn spread<T: Precision>(
+    pair: &[Complex<T>],
+    row: &mut [f64],
+    scales: [f64; 2],
+    part: impl Fn(&Complex<T>) -> T,
+) {
+    let (low, high) = pair.split_at(pair.len() / 2);
+    let (cells, last) = row.as_chunks_mut::<2>();
+    for (j, cell) in last.iter_mut().enumerate() {
+        *cell = scales[0] * part(&pair[cells.len() + j]).wide();
+    }
+    for (cells, (even, odd)) in cells.iter_mut().zip(low.iter().zip(high.iter().rev())) {
+        *cells = [scales[0] * part(even).wide(), scales[1] * part(odd).wide()];
     }
 }
 
