@@ -61,7 +61,7 @@ impl TangentialWorkspace {
 const SETTLED: f64 = 0.1;
 
 /// Passes of projected gradients after a Newton step that would have raised the energy.
-const DESCENT: usize = 30;
+const DESCENT: usize = 10;
 
 /// Newton steps without a smaller misfit after which the slip set is taken to go in circles, and
 /// projected gradients go on; and after which nothing is hoped for.
