@@ -53,12 +53,10 @@ impl Datum {
     /// Begins with the last displacements, of cells outside the contact with what these move before
     /// they enter it, where that matters.
     pub(super) fn reset(&mut self, last: &Interface, entering: Option<&[Vec<f64>; 2]>) {
-        for c in 0..2 {
-            match entering {
-                Some(entering) => self.moved[c].copy_from_slice(&entering[c]),
-                None => self.moved[c].fill(0.0),
-            }
-        }
+        let [x, y] = &mut self.moved;
+        set_pairs([x, y], |n, _| {
+            entering.map_or([0.0; 2], |entering| [entering[0][n], entering[1][n]])
+        });
         let moved = &self.moved;
         let [x, y] = &mut self.displacements;
         set_pairs([x, y], |n, _| {

@@ -2,7 +2,7 @@
 
 use super::rigid_motion::{add, inverse, product};
 use super::shear::TangentialProblem;
-use super::vector::{set_and_sum, set_cells, set_pairs, size, sum_cells};
+use super::vector::{copy_to, set_and_sum, set_cells, set_pairs, size, sum_cells};
 
 /// Rounds of clipping and balancing before the stick cells are taken to be too few.
 const ROUNDS: usize = 8;
@@ -19,8 +19,7 @@ pub(crate) fn admissible(
     change: &mut [Vec<f64>; 2],
 ) -> f64 {
     for c in 0..2 {
-        change[c].clear();
-        change[c].extend_from_slice(q[c]);
+        copy_to(q[c], &mut change[c]);
     }
     if !share_force(problem, q, slip) {
         project(problem, q, &mut [0.0; 3]);

@@ -5,7 +5,12 @@
 
 use std::ops::Range;
 
-use super::vector::both;
+use rayon::prelude::*;
+
+use super::vector::{CHUNK, both};
+
+/// Cells that are looked at together: most often all of them lie in the contact, or none.
+const STRIDE: usize = 16;
 
 /// Runs of contact cells in the order of the grid.
 #[derive(Debug, Default)]
@@ -19,18 +24,32 @@ impl ContactCells {
     pub(crate) fn find(&mut self, cells: usize, inside: impl Fn(usize) -> bool) {
         self.runs.clear();
         self.count = 0;
-        let mut start = None;
-        for n in 0..=cells {
-            match (n < cells && inside(n), start) {
-                (true, None) => start = Some(n),
-                (false, Some(from)) => {
-                    self.runs.push(from..n);
-                    self.count += n - from;
-                    start = None;
+        let mut run = None;
+        for first in (0..cells).step_by(STRIDE) {
+            let stride = first..cells.min(first + STRIDE);
+            let found = stride.clone().filter(|&n| inside(n)).count();
+            if found == if run.is_some() { stride.len() } else { 0 } {
+                continue;
+            }
+            for n in stride {
+                match (inside(n), run) {
+                    (true, None) => run = Some(n),
+                    (false, Some(from)) => {
+                        self.end(from..n);
+                        run = None;
+                    }
+                    _ => {}
                 }
-                _ => {}
             }
         }
+        if let Some(from) = run {
+            self.end(from..cells);
+        }
+    }
+
+    fn end(&mut self, run: Range<usize>) {
+        self.count += run.len();
+        self.runs.push(run);
     }
 
     /// Number of contact cells.
@@ -50,6 +69,21 @@ impl ContactCells {
         for (run, at) in self.runs() {
             let length = run.len();
             field[run].copy_from_slice(&packed[at..at + length]);
+        }
+    }
+
+    /// [`Self::pack`] for many fields, which take the length of the contact; what is empty stays so.
+    pub(crate) fn pack_all<const N: usize>(&self, fields: [(&[f64], &mut Vec<f64>); N]) {
+        let pack = |(field, packed): (&[f64], &mut Vec<f64>)| {
+            packed.resize(if field.is_empty() { 0 } else { self.count }, 0.0);
+            if !field.is_empty() {
+                self.pack(field, packed);
+            }
+        };
+        if self.count > CHUNK {
+            fields.into_par_iter().for_each(pack);
+        } else {
+            fields.into_iter().for_each(pack);
         }
     }
 

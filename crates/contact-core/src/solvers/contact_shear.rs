@@ -3,7 +3,7 @@
 use super::contact_cells::ContactCells;
 use super::rigid_motion::{Arms, Drive};
 use super::shear::{Shear, TangentialProblem};
-use super::vector::sum_cells;
+use super::vector::{copy, copy_to, sum_cells};
 
 type Pair = [Vec<f64>; 2];
 
@@ -28,25 +28,22 @@ impl ContactShear {
         shear: &Shear<'_>,
     ) {
         (self.arms.length, self.arms.stretch) = (problem.arms.length, problem.arms.stretch);
-        let grid = [problem.bound, &problem.arms.x, &problem.arms.y];
-        let packed = [&mut self.bound, &mut self.arms.x, &mut self.arms.y];
-        for (packed, grid) in packed.into_iter().zip(grid) {
-            packed.resize(cells.count(), 0.0);
-            cells.pack(grid, packed);
-        }
-        for c in 0..2 {
-            self.u_ref[c].resize(cells.count(), 0.0);
-            cells.pack(problem.u_ref[c], &mut self.u_ref[c]);
-            self.q[c].resize(cells.count(), 0.0);
-            self.u[c].resize(cells.count(), 0.0);
-        }
-        self.turning.clear();
-        if !problem.turning.is_empty() {
-            self.turning.resize(cells.count(), 0.0);
-            cells.pack(problem.turning, &mut self.turning);
-        }
+        let ([u_ref_x, u_ref_y], [q_x, q_y], [u_x, u_y]) =
+            (&mut self.u_ref, &mut self.q, &mut self.u);
+        cells.pack_all([
+            (problem.bound, &mut self.bound),
+            (problem.turning, &mut self.turning),
+            (&problem.arms.x, &mut self.arms.x),
+            (&problem.arms.y, &mut self.arms.y),
+            (problem.u_ref[0], u_ref_x),
+            (problem.u_ref[1], u_ref_y),
+            (shear.q[0], q_x),
+            (shear.q[1], q_y),
+            (shear.u[0], u_x),
+            (shear.u[1], u_y),
+        ]);
         self.slip.resize(cells.count(), false);
-        self.parts(problem.drive).1.pack(cells, shear);
+        cells.pack(shear.slip, &mut self.slip);
     }
 
     /// The problem and the shear as the solver sees them.
@@ -104,8 +101,7 @@ impl Before {
         let pairs = [(&mut self.q, &shear.q), (&mut self.u, &shear.u)];
         for (kept, now) in pairs {
             for c in 0..2 {
-                kept[c].clear();
-                kept[c].extend_from_slice(now[c]);
+                copy_to(now[c], &mut kept[c]);
             }
         }
     }
@@ -113,7 +109,7 @@ impl Before {
     /// Goes back to it, displacements excepted.
     pub(crate) fn restore(&self, shear: &mut Shear<'_>) {
         for c in 0..2 {
-            shear.q[c].copy_from_slice(&self.q[c]);
+            copy(&self.q[c], shear.q[c]);
         }
     }
 

@@ -13,7 +13,7 @@ use super::mixing::Mixing;
 use super::rigid_motion::{Arms, Drive, add};
 use super::shear::first_shift;
 use super::shear_gradient::shear_gradient;
-use super::vector::{add_scaled, set_cells, set_pairs, size};
+use super::vector::{add_scaled, copy, set_cells, set_pairs, size};
 use super::{
     Interface, NormalParams, NormalProblem, NormalWorkspace, Response, SolverError,
     TangentialMethod, TangentialParams, TangentialProblem, TangentialWorkspace, normal, tangential,
@@ -211,7 +211,7 @@ fn look(
             info.alternations += 1;
 
             // Pressure for known shear.
-            ws.p_before.copy_from_slice(&now.p);
+            copy(&now.p, &mut ws.p_before);
             let gap = NormalProblem {
                 h_init: problem.h_init,
                 arms: problem.arms,
@@ -233,7 +233,7 @@ fn look(
 
             // Shear for known pressure: the bound moves with the pressure.
             for c in 0..2 {
-                ws.q_before[c].copy_from_slice(&now.q[c]);
+                copy(&now.q[c], &mut ws.q_before[c]);
             }
             if found.iterations > 0 {
                 slides = make_admissible(problem, datum.displacements(), now, ws, friction);
@@ -319,7 +319,7 @@ fn begin(
     }
     let tractions = [&now.q[0], &now.q[1], &now.p];
     for (begun, traction) in ws.begun.iter_mut().zip(tractions) {
-        begun.copy_from_slice(traction);
+        copy(traction, begun);
     }
 }
 
@@ -392,9 +392,9 @@ fn make_admissible(
     if !friction {
         return Sliding::default();
     }
-    for ((bound, &mu), &p) in ws.bound.iter_mut().zip(problem.mu).zip(&now.p) {
-        *bound = friction_bound(mu, p);
-    }
+    set_cells(&mut ws.bound, |n, _| {
+        friction_bound(problem.mu[n], now.p[n])
+    });
     let slip = problem.slip(&ws.bound, u_ref);
     let slides = sliding(&slip);
     if slides.is_full() {

@@ -9,6 +9,8 @@
 
 use std::collections::VecDeque;
 
+use super::vector::{set_cells, set_pairs, sum_cells};
+
 /// Passes that are combined.
 const DEPTH: usize = 8;
 /// A pass that leaves more than this part of the misfit is slow.
@@ -61,7 +63,7 @@ impl Mixing {
 
     /// Begins anew with the next increment.
     pub(crate) fn restart(&mut self) {
-        self.ahead.fill(0.0);
+        set_cells(&mut self.ahead, |_, _| 0.0);
         self.changes.clear();
         self.size = f64::INFINITY;
         self.slow_passes = 0;
@@ -89,26 +91,26 @@ impl Mixing {
             let oldest = oldest.unwrap_or_else(|| [vec![0.0; cells], vec![0.0; cells]]);
             self.changes.push_back(oldest);
         }
-        let mut newest = self.changes.back_mut();
-        for n in 0..cells {
-            let misfit = change[n] - self.ahead[n];
-            u_z[n] += misfit;
-            if let Some([of_misfit, of_s]) = &mut newest {
-                of_misfit[n] = misfit - self.misfit[n];
-                of_s[n] = self.step[n];
-            }
-            self.misfit[n] = misfit;
-            self.ahead[n] = 0.0;
+        if let Some([of_misfit, of_s]) = self.changes.back_mut() {
+            let (ahead, last, step) = (&self.ahead, &self.misfit, &self.step);
+            set_pairs([of_misfit, of_s], |n, _| {
+                [change[n] - ahead[n] - last[n], step[n]]
+            });
         }
+        let ahead = &self.ahead;
+        set_pairs([&mut self.misfit, u_z], |n, [_, u_z]| {
+            let misfit = change[n] - ahead[n];
+            [misfit, u_z + misfit]
+        });
+        set_cells(&mut self.ahead, |_, _| 0.0);
     }
 
     /// Takes the next s, for the contact of the pressure `p`, into `u_z`.
     pub(crate) fn mix(&mut self, p: &[f64], u_z: &mut [f64]) {
         let on_contact = |a: &[f64], b: &[f64]| -> f64 {
-            (0..p.len())
-                .filter(|&n| p[n] > 0.0)
-                .map(|n| a[n] * b[n])
-                .sum()
+            let inside = |n: usize| if p[n] > 0.0 { a[n] * b[n] } else { 0.0 };
+            let [sum] = sum_cells(p.len(), |n| [inside(n)]);
+            sum
         };
         let size = on_contact(&self.misfit, &self.misfit).sqrt();
         if !self.mixes() {
@@ -124,9 +126,8 @@ impl Mixing {
             self.changes.clear();
         }
         let damping = self.damping;
-        for (step, misfit) in self.step.iter_mut().zip(&self.misfit) {
-            *step = damping * misfit;
-        }
+        let misfit = &self.misfit;
+        set_cells(&mut self.step, |n, _| damping * misfit[n]);
         let count = self.changes.len();
         let mut gram = [[0.0; DEPTH]; DEPTH];
         let mut right = [0.0; DEPTH];
@@ -138,14 +139,15 @@ impl Mixing {
         }
         let weights = least_squares(gram, right, count);
         for (weight, [of_misfit, of_s]) in weights.iter().zip(&self.changes) {
-            for n in 0..p.len() {
-                self.step[n] -= weight * (of_s[n] + damping * of_misfit[n]);
-            }
+            set_cells(&mut self.step, |n, step| {
+                step - weight * (of_s[n] + damping * of_misfit[n])
+            });
         }
-        for n in 0..p.len() {
-            self.ahead[n] = self.step[n] - self.misfit[n];
-            u_z[n] += self.ahead[n];
-        }
+        let step = &self.step;
+        set_pairs([&mut self.ahead, u_z], |n, [_, u_z]| {
+            let ahead = step[n] - misfit[n];
+            [ahead, u_z + ahead]
+        });
     }
 }
 

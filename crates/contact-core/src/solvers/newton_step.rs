@@ -109,9 +109,8 @@ impl NewtonStep {
                 field.resize(count, 0.0);
             }
         }
-        for field in &mut self.traction {
-            field.fill(0.0);
-        }
+        let [t_x, t_y] = &mut self.traction;
+        set_pairs([t_x, t_y], |_, _| [0.0; 2]);
     }
 
     /// Tangent space, curvature and residual at the present shear and slip; x starts from zero.
@@ -172,9 +171,8 @@ impl NewtonStep {
         target: f64,
         max_passes: usize,
     ) -> usize {
-        for c in 0..2 {
-            self.x[c].fill(0.0);
-            self.response_x[c].fill(0.0);
+        for [a, b] in [&mut self.x, &mut self.response_x] {
+            set_pairs([a, b], |_, _| [0.0; 2]);
         }
         let mut last_product = 0.0;
         for pass in 0..max_passes {

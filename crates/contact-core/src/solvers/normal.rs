@@ -14,7 +14,7 @@
 //! iteration costs one convolution, and a second one only when cells leave.
 
 use super::rigid_motion::{Arms, Drive, add};
-use super::vector::{add_scaled, dot, largest, set_cells, sum_cells};
+use super::vector::{add_scaled, copy, dot, largest, set_cells, sum_cells};
 use super::{Response, SolverError};
 
 /// What is given: the gap and what drives the approach and the tilts.
@@ -97,12 +97,11 @@ pub fn normal(
     ws: &mut NormalWorkspace,
     params: &NormalParams,
 ) -> Result<NormalInfo, SolverError> {
-    ws.response.copy_from_slice(p);
+    copy(p, &mut ws.response);
     balance(problem, p);
-    if p.iter()
-        .zip(&ws.response)
-        .any(|(p, before)| (p - before).abs() > SUMMED * p)
-    {
+    let off = |n: usize| (p[n] - ws.response[n]).abs() - SUMMED * p[n];
+    let [moved] = largest(p.len(), |n| [off(n)]);
+    if moved > 0.0 {
         add_response_of_change(response, p, u_z, ws);
     }
     let mut last_product = 0.0;
@@ -141,7 +140,7 @@ pub fn normal(
         iterations += 1;
         if solved {
             // The contact was too small for the moments when it was balanced last.
-            ws.response.copy_from_slice(p);
+            copy(p, &mut ws.response);
             balance(problem, p);
             add_response_of_change(response, p, u_z, ws);
             continue;
@@ -161,17 +160,13 @@ pub fn normal(
         }
         last_product = product;
         let step = slope / curvature;
-        if p.iter()
-            .zip(&ws.direction)
-            .all(|(p, d)| p + step * d >= 0.0)
-        {
+        let [pulled] = largest(p.len(), |n| [-(p[n] + step * ws.direction[n])]);
+        if pulled <= 0.0 {
             add_scaled(p, step, &ws.direction);
             add_scaled(u_z, step, &ws.response);
         } else {
-            ws.response.copy_from_slice(p);
-            p.iter_mut()
-                .zip(&ws.direction)
-                .for_each(|(p, d)| *p = (*p + step * d).max(0.0));
+            copy(p, &mut ws.response);
+            set_cells(p, |n, p| (p + step * ws.direction[n]).max(0.0));
             balance(problem, p);
             add_response_of_change(response, p, u_z, ws);
         }

@@ -10,6 +10,12 @@ const LANES: usize = 8;
 
 /// a . b
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    if a.len() > CHUNK {
+        let middle = a.len() / 2;
+        let ((a, a_rest), (b, b_rest)) = (a.split_at(middle), b.split_at(middle));
+        let (first, rest) = rayon::join(|| dot(a, b), || dot(a_rest, b_rest));
+        return first + rest;
+    }
     let (a, a_rest) = a.as_chunks::<LANES>();
     let (b, b_rest) = b.as_chunks::<LANES>();
     let mut sums = [0.0; LANES];
@@ -57,7 +63,20 @@ pub(crate) fn both<A: Send, B: Send>(
 
 /// y += factor * x
 pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
-    y.iter_mut().zip(x).for_each(|(y, x)| *y += factor * x);
+    let chunks = y.par_chunks_mut(CHUNK).zip(x.par_chunks(CHUNK));
+    chunks.for_each(|(y, x)| y.iter_mut().zip(x).for_each(|(y, x)| *y += factor * x));
+}
+
+/// Copies a field, in chunks shared by the threads.
+pub(crate) fn copy<T: Copy + Send + Sync>(from: &[T], to: &mut [T]) {
+    let chunks = to.par_chunks_mut(CHUNK).zip(from.par_chunks(CHUNK));
+    chunks.for_each(|(to, from)| to.copy_from_slice(from));
+}
+
+/// Copies a field to one that takes its length.
+pub(crate) fn copy_to<T: Copy + Send + Sync + Default>(from: &[T], to: &mut Vec<T>) {
+    to.resize(from.len(), T::default());
+    copy(from, to);
 }
 
 /// Sets every cell to its `value(n, old)`, in chunks shared by the threads.
