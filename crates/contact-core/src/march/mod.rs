@@ -91,9 +91,11 @@ impl March {
         let window = whole.window(scene, &plan, Window::first(scene, &plan), stop)?;
         let cells = window.h_init.len();
         let approach = scene.approach();
+        let mut solved = scene.clone();
+        solved.settings.solver.tolerance = Some(scene.tolerance());
         Ok(Self {
             points: plan.points(scene),
-            scene: scene.clone(),
+            scene: solved,
             plan,
             mu: vec![scene.friction.mu; cells],
             approach,
@@ -153,7 +155,7 @@ impl March {
         Ok(())
     }
 
-    /// The scene.
+    /// The scene, with the increments and the tolerance that it is solved with.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
