@@ -2,7 +2,7 @@
 //! prime and elongated, whole and halved by symmetry, with any part of the tractions.
 
 use contact_core::convolution::{
-    DcFft, Direct, Displacements, Half, Mirror, SurfaceOperator, Tractions,
+    CirculantInverse, DcFft, Direct, Displacements, Half, Mirror, SurfaceOperator, Tractions,
 };
 use contact_core::kernels::InfluenceCoefficients;
 use ndarray::Array2;
@@ -118,6 +118,35 @@ fn the_mirrored_half_equals_the_whole() {
         for k in 0..3 {
             let truth = Array2::from_shape_vec((nx, ny), truth[k].clone()).unwrap();
             let error = largest_difference(&Mirror::Y.fold(&truth), &found[k]);
+            assert!(error < ROUNDING, "{nx} x {ny}, component {k}: {error:e}");
+        }
+    }
+}
+
+/// Nothing pads the rows of the inverse: an odd number of them fills its whole length.
+#[test]
+fn the_mirrored_inverse_equals_the_whole() {
+    let halves = [Half::Even, Half::Odd];
+    for (nx, ny) in [(16, 16), (9, 18), (12, 54), (23, 20)] {
+        let c = coefficients(nx, ny);
+        let mut random = noise(9);
+        let half: [Vec<f64>; 2] =
+            std::array::from_fn(|_| (0..nx * ny / 2).map(|_| random()).collect());
+        let whole: [Vec<f64>; 2] = std::array::from_fn(|k| {
+            let whole = Mirror::Y.unfold(&half[k], nx, ny, halves[k]);
+            whole.into_raw_vec_and_offset().0
+        });
+        let inverse = |mirror: Mirror, r: &[Vec<f64>; 2]| {
+            let mut z = r.clone();
+            let [z_x, z_y] = &mut z;
+            CirculantInverse::new(&c, mirror, false).tangential([&r[0], &r[1]], [z_x, z_y]);
+            z
+        };
+        let (truth, found) = (inverse(Mirror::None, &whole), inverse(Mirror::Y, &half));
+        for k in 0..2 {
+            let largest = truth[k].iter().fold(0.0, |m: f64, z| m.max(z.abs()));
+            let truth = Array2::from_shape_vec((nx, ny), truth[k].clone()).unwrap();
+            let error = largest_difference(&Mirror::Y.fold(&truth), &found[k]) / largest;
             assert!(error < ROUNDING, "{nx} x {ny}, component {k}: {error:e}");
         }
     }
