@@ -50,8 +50,8 @@ pub(crate) struct SpectralProduct<T: Precision> {
     by_line: Vec<Complex<T>>,
     stride: usize,
     parts: Vec<Scratch<T>>,
-    /// Largest absolute value in each block of rows.
-    largest: Vec<f64>,
+    /// Largest absolute value in each block of rows, by its bits.
+    largest: Vec<u64>,
     /// Two-dimensional transforms done.
     pub(crate) transforms: usize,
 }
@@ -111,7 +111,7 @@ impl<T: Precision> SpectralProduct<T> {
             mirror,
             period: period.0,
             parts: (0..parts).map(|_| scratch()).collect(),
-            largest: vec![0.0; nx.div_ceil(ROWS)],
+            largest: vec![0; nx.div_ceil(ROWS)],
             spectra: LineSpectra::new(spectra, row, mirrored, unit, stop)?,
             unit,
             x_forward,
@@ -153,21 +153,17 @@ impl<T: Precision> SpectralProduct<T> {
     /// The blocks of rows outside which nothing acts, and the largest absolute value.
     fn survey(&mut self, input: [Option<&[f64]>; 3]) -> (Range<usize>, f64) {
         let block = ROWS * self.rows;
-        let work = |(b, largest): (usize, &mut [f64]), _: &mut Scratch<T>| {
-            let cells = |field: &'_ [f64]| {
-                let end = field.len().min((b + 1) * block);
-                largest_of(&field[b * block..end])
-            };
+        let work = |(b, largest): (usize, &mut [u64]), _: &mut Scratch<T>| {
             let fields = input.into_iter().flatten();
-            largest[0] = f64::from_bits(fields.map(cells).max().unwrap_or(0));
+            let blocks = fields.filter_map(|field| field.chunks(block).nth(b));
+            largest[0] = blocks.map(largest_of).max().unwrap_or(0);
         };
         share(&mut self.parts, &mut self.largest, 1, work);
-        let acts = |&largest: &f64| largest != 0.0;
+        let acts = |&largest: &u64| largest != 0;
         let first = self.largest.iter().position(acts).unwrap_or(0);
         let last = self.largest.iter().rposition(acts).map_or(0, |b| b + 1);
-        let loaded = first..last;
-        let bits = self.largest[loaded.clone()].iter().map(|v| v.to_bits());
-        (loaded, f64::from_bits(bits.max().unwrap_or(0)))
+        let largest = self.largest.iter().max().copied().unwrap_or(0);
+        (first..last, f64::from_bits(largest))
     }
 
     /// Along y, from the rows of the fields to blocks of rows by line.

@@ -201,7 +201,6 @@ impl<T: Precision> YTransform<T> {
 
     /// C(k) = 2 sum f_j cos(pi k (j + 1/2)/n); an odd field has its sine sums, those of
     /// (-1)^j f_j read backwards, with the factor -i of the spectrum of q_y.
-    #[inline(never)]
     fn to_cosines(&self, s: &mut YScratch<T>, half: Half) {
         let n = self.length;
         let whole = self.twiddle.len() / LANES * LANES;
@@ -235,7 +234,6 @@ impl<T: Precision> YTransform<T> {
     }
 
     /// The other way.
-    #[inline(never)]
     fn take_cosines(&self, s: &mut YScratch<T>, half: Half) {
         let n = self.length;
         s.cosines[if half == Half::Even { n } else { 0 }] = Complex::default();

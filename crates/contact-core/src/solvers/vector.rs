@@ -68,7 +68,11 @@ pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
 }
 
 /// Copies a field, in chunks shared by the threads.
+///
+/// # Panics
+/// If the lengths differ.
 pub(crate) fn copy<T: Copy + Send + Sync>(from: &[T], to: &mut [T]) {
+    assert_eq!(from.len(), to.len(), "a copy has the length of the field");
     let chunks = to.par_chunks_mut(CHUNK).zip(from.par_chunks(CHUNK));
     chunks.for_each(|(to, from)| to.copy_from_slice(from));
 }
