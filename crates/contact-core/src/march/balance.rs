@@ -5,9 +5,7 @@ use super::{Energy, Increment, March, Motion, Residuals, State, Status, Work};
 use crate::convolution::Mirror;
 use crate::error::Error;
 use crate::scene::{Given, LoadPoint, Loads};
-use crate::solvers::{
-    CoupledInfo, Interface, both, friction_bound, largest, set_fours, size, sum_cells,
-};
+use crate::solvers::{CoupledInfo, Interface, both, friction_bound, set, size, sums, survey};
 
 /// What sums in another order may differ by.
 const ROUNDING: f64 = 1e-9;
@@ -127,14 +125,10 @@ impl March {
 
     /// The loads of the increment: those given, and for given motions what the tractions come to.
     fn transmitted(&self, point: &LoadPoint, now: &Interface, cell_area: f64) -> Loads {
-        let cells = now.p.len();
+        let arms = &self.window.arms;
         let sums = [
-            sum_cells(cells, |n| self.window.arms.sums_across(now.p[n], n)),
-            sum_cells(cells, |n| {
-                self.window
-                    .arms
-                    .sums_in_plane([now.q[0][n], now.q[1][n]], n)
-            }),
+            sums([&now.p[..]], |n, [p]| arms.sums_across(p, n)),
+            sums([&now.q[0][..], &now.q[1]], |n, q| arms.sums_in_plane(q, n)),
         ];
         let mirrored = self.plan.mirror != Mirror::None;
         let (forces, given) = (point.loads.forces(), point.loads.given);
@@ -173,11 +167,11 @@ impl March {
             .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
             .sum();
         let (approach, shift) = self.change(motion);
-        let sums = sum_cells(now.p.len(), |n| {
-            if now.p[n] <= 0.0 && last.p[n] <= 0.0 {
+        let sums = sums([&now.p[..], &last.p], |n, [p, p_before]| {
+            if p <= 0.0 && p_before <= 0.0 {
                 return [0.0; 6];
             }
-            let p = mean(now.p[n], last.p[n]);
+            let p = mean(p, p_before);
             let du_z = now.u_z[n] - last.u_z[n];
             let shift = self.window.arms.in_plane(shift, n);
             let stretch = self.stretch_at(n);
@@ -240,38 +234,47 @@ impl March {
         cell_area: f64,
     ) -> (Residuals, [f64; 2]) {
         let mu = self.scene.friction.scale();
-        let cells = now.p.len();
         let before = &self.before().u;
-        let gap = |n: usize| {
-            now.u_z[n] + self.window.h_init[n] - self.window.arms.across(info.approach, n)
-        };
-        let bound = |n: usize| friction_bound(self.mu[n], now.p[n]);
-        let [contact, slipping, gap_squares, stick, direction, slipped] = sum_cells(cells, |n| {
-            if now.p[n] <= 0.0 {
-                return [0.0; 6];
+        let arms = &self.window.arms;
+        let [moved_x, moved_y] = &self.datum.moved;
+        let tractions = [&now.p[..], &now.q[0], &now.q[1], &self.mu];
+        let moved = [
+            &now.u[0][..],
+            &now.u[1],
+            &before[0],
+            &before[1],
+            moved_x,
+            moved_y,
+        ];
+        let heights = [&now.u_z[..], &self.window.h_init];
+        let fields = ((tractions, moved), (heights, &now.slip[..]));
+        let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
+        let (sums, largest) = survey(fields, |n, ((tractions, moved), ([u_z, h], slips))| {
+            let ([p, q_x, q_y, mu], [u_x, u_y, x, y, moved_x, moved_y]) = (tractions, moved);
+            let (gap, bound) = (
+                u_z + h - arms.across(info.approach, n),
+                friction_bound(mu, p),
+            );
+            let (stretched, excess) = (size([q_x, arms.stretch * q_y]), size([q_x, q_y]) - bound);
+            if p <= 0.0 {
+                return ([0.0; 6], [p, stretched, excess, -gap]);
             }
-            let shift = self.window.arms.in_plane(info.shift, n);
-            let slip: [f64; 2] = std::array::from_fn(|c| {
-                now.u[c][n] - before[c][n] - shift[c] - self.datum.moved[c][n]
-            });
-            let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
-            if now.slip[n] {
-                let bound = bound(n).max(f64::MIN_POSITIVE);
-                let e = [now.q[0][n], now.q[1][n]].map(|q| q / bound);
-                let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
-                let off = [slip[0] - along * e[0], slip[1] - along * e[1]];
-                [1.0, 1.0, gap(n).powi(2), 0.0, square(off), square(slip)]
-            } else {
-                [1.0, 0.0, gap(n).powi(2), square(slip), 0.0, 0.0]
+            let largest = [p, stretched, excess, 0.0];
+            let shift = arms.in_plane(info.shift, n);
+            let slip = [u_x - x - shift[0] - moved_x, u_y - y - shift[1] - moved_y];
+            if !slips {
+                return ([1.0, 0.0, gap * gap, square(slip), 0.0, 0.0], largest);
             }
+            let e = [q_x, q_y].map(|q| q / bound.max(f64::MIN_POSITIVE));
+            let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
+            let off = [slip[0] - along * e[0], slip[1] - along * e[1]];
+            (
+                [1.0, 1.0, gap * gap, 0.0, square(off), square(slip)],
+                largest,
+            )
         });
-        let stretch = self.window.arms.stretch;
-        let [p_max, q_max, excess, overlap] = largest(cells, |n| {
-            let q = [now.q[0][n], now.q[1][n]];
-            let (stretched, excess) = (size([q[0], stretch * q[1]]), size(q) - bound(n));
-            let overlap = if now.p[n] > 0.0 { 0.0 } else { -gap(n) };
-            [now.p[n], stretched, excess, overlap]
-        });
+        let [contact, slipping, gap_squares, stick, direction, slipped] = sums;
+        let [p_max, q_max, excess, overlap] = largest;
         let mut r = Residuals {
             coulomb: excess,
             ..Residuals::default()
@@ -356,10 +359,11 @@ impl March {
             &mut state.slip_length,
             &mut state.dissipated,
         ];
-        set_fours(
+        set(
+            [&now.p[..], &before.p],
             histories.map(|f| &mut f[..]),
-            |n, [x, y, length, dissipated]| {
-                if now.p[n] <= 0.0 && before.p[n] <= 0.0 {
+            |n, [p, p_before], [x, y, length, dissipated]| {
+                if p <= 0.0 && p_before <= 0.0 {
                     return [x, y, length, dissipated];
                 }
                 let slip = slip(n);

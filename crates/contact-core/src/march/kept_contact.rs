@@ -18,7 +18,7 @@
 //! similar bodies of nu = 0) m/c is the same everywhere, and M exact in increments of any size.
 
 use crate::convolution::Mirror;
-use crate::solvers::{inverse, product, set_pairs, size};
+use crate::solvers::{inverse, product, set, size};
 
 /// How far the cells around reach that m/c is fitted to, in cells.
 const AROUND: isize = 4;
@@ -59,8 +59,10 @@ impl KeptContact {
         let roots: Vec<Option<f64>> = (0..cells).map(root).collect();
         let mut moved = [vec![0.0; cells], vec![0.0; cells]];
         let [x, y] = &mut moved;
-        set_pairs([x, y], |n, _| {
-            let (gap, closing, motion) = (self.gap[n], self.closing[n], self.motion_of(n));
+        let [motion_x, motion_y] = &self.motion;
+        let from = [&self.gap[..], &self.closing, motion_x, motion_y];
+        set(from, [x, y], |n, [gap, closing, x, y], _| {
+            let motion = [x, y];
             if !outside(n) {
                 [0.0; 2]
             } else if gap < closing {
@@ -72,10 +74,6 @@ impl KeptContact {
             }
         });
         moved
-    }
-
-    fn motion_of(&self, n: usize) -> [f64; 2] {
-        [self.motion[0][n], self.motion[1][n]]
     }
 
     /// The part of the increment for which a cell at the edge moves before one beside it enters, or

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::window::Window;
 use super::{March, State};
 use crate::scene::{Given, LoadPoint, Loads, Preset};
-use crate::solvers::{CHUNK, Drive, Interface, friction_bound, set_cells, size, sum_cells};
+use crate::solvers::{CHUNK, Drive, Interface, friction_bound, set, size, sweep};
 
 impl Loads {
     /// The change from `before` and `motions` to here, of what is given.
@@ -75,24 +75,22 @@ impl March {
         } = &mut self.window;
         let inverse = inverse.as_mut()?;
         let Interface { p, u_z, .. } = &self.state.interface;
-        let overlap = |n: usize| arms.across(approach, n) - u_z[n] - h_init[n];
-        let touches = |n: usize| p[n] > 0.0 || overlap(n) > 0.0;
-        let mut overlaps = vec![0.0; p.len()];
-        set_cells(
-            &mut overlaps,
-            |n, _| {
-                if touches(n) { overlap(n) } else { 0.0 }
-            },
-        );
+        let fields = [&p[..], u_z, h_init];
+        // The overlap, and one in cells that touch, zero elsewhere.
+        let touching = |n: usize, [p, u_z, h]: [f64; 3]| {
+            let overlap = arms.across(approach, n) - u_z - h;
+            let touches = p > 0.0 || overlap > 0.0;
+            [overlap, 1.0].map(|v| if touches { v } else { 0.0 })
+        };
+        let (mut overlaps, mut touches) = (vec![0.0; p.len()], vec![0.0; p.len()]);
+        let to = [&mut overlaps[..], &mut touches];
+        set(fields, to, |n, cell, _| touching(n, cell));
         let mut closing = vec![0.0; p.len()];
         inverse.normal(&overlaps, &mut closing);
-        let rigid = arms.fit_across(normal.free, |n| touches(n).then(|| closing[n]));
-        set_cells(&mut closing, |n, z| {
-            if touches(n) {
-                z - arms.across(rigid, n)
-            } else {
-                0.0
-            }
+        let fields = [&touches[..], &closing];
+        let rigid = arms.fit_across(normal.free, fields, |_, [touches, z]| (touches, z));
+        set([&touches[..]], [&mut closing], |n, [touches], [z]| {
+            [touches * (z - arms.across(rigid, n))]
         });
         Some(closing)
     }
@@ -125,24 +123,24 @@ impl State {
             guess.p = p;
         }
         if let Some(closing) = closing {
-            set_cells(&mut guess.p, |n, p| p + closing[n]);
+            set([closing], [&mut guess.p], |_, [closing], [p]| [p + closing]);
         }
         let same_way = self.going_on(point);
         if let (Some(factor), Preset::Fast) = (same_way, preset) {
-            let before = &self.p_before;
-            let p = &self.interface.p;
-            set_cells(&mut guess.p, |n, closed| {
-                closed + factor * (p[n] - before[n])
+            let from = [&self.interface.p[..], &self.p_before];
+            set(from, [&mut guess.p], |_, [p, before], [closed]| {
+                [closed + factor * (p - before)]
             });
             approach_slip(&mut guess, &self.q_before, mu, factor);
         } else if same_way.is_none() {
             guess.slip.fill(false);
         }
-        set_cells(&mut guess.p, |_, p| p.max(0.0));
+        let [sum] = sweep([], [&mut guess.p], |_, [], [p]| {
+            ([p.max(0.0)], [p.max(0.0)])
+        });
         if normal.free[0] {
-            let [sum] = sum_cells(guess.p.len(), |n| [guess.p[n]]);
             let factor = normal.sums[0] / sum;
-            set_cells(&mut guess.p, |_, p| p * factor);
+            set([], [&mut guess.p], |_, [], [p]| [p * factor]);
         }
         guess
     }

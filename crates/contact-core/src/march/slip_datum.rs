@@ -20,7 +20,7 @@
 
 use rayon::prelude::*;
 
-use crate::solvers::{Arms, CHUNK, Interface, SlipDatum, set_pairs, size};
+use crate::solvers::{Arms, CHUNK, Interface, SlipDatum, set, size};
 
 /// Cosines between e_0 and e_1 between which the turn comes to count: where the shear turns further, the
 /// way there is not known.
@@ -54,14 +54,13 @@ impl Datum {
     /// they enter it, where that matters.
     pub(super) fn reset(&mut self, last: &Interface, entering: Option<&[Vec<f64>; 2]>) {
         let [x, y] = &mut self.moved;
-        set_pairs([x, y], |n, _| {
-            entering.map_or([0.0; 2], |entering| [entering[0][n], entering[1][n]])
-        });
-        let moved = &self.moved;
+        match entering {
+            Some([to_x, to_y]) => set([&to_x[..], to_y], [x, y], |_, to, _| to),
+            None => set([], [x, y], |_, [], _| [0.0; 2]),
+        }
+        let from = [&last.u[0][..], &last.u[1], x, y];
         let [x, y] = &mut self.displacements;
-        set_pairs([x, y], |n, _| {
-            [last.u[0][n] + moved[0][n], last.u[1][n] + moved[1][n]]
-        });
+        set(from, [x, y], |_, [u_x, u_y, x, y], _| [u_x + x, u_y + y]);
     }
 }
 

@@ -20,7 +20,7 @@ use crate::convolution::{
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, norm, pair_coefficients_until};
 use crate::scene::{Grid, KernelMethod, LoadPoint, Plan, Preset, Scene};
-use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface, Response, sum_cells};
+use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface, Response, sums};
 use crate::stop::NOBODY;
 
 /// Cells between the contact and the border of the window.
@@ -368,13 +368,8 @@ impl March {
     /// no displacement changes by more than the norm of a kernel times that of the change of traction.
     fn closes_beyond(&self, now: &Interface, info: &CoupledInfo) -> f64 {
         let (last, before) = (&self.state.interface, self.approach_before());
-        let squares = sum_cells(now.p.len(), |n| {
-            [
-                now.q[0][n] - last.q[0][n],
-                now.q[1][n] - last.q[1][n],
-                now.p[n] - last.p[n],
-            ]
-            .map(|change| change * change)
+        let squares = sums((now.tractions(), last.tractions()), |_, (now, last)| {
+            std::array::from_fn::<f64, 3, _>(|k| (now[k] - last[k]).powi(2))
         });
         let of_tractions: f64 = (self.whole.norms.iter().zip(squares))
             .map(|(norm, squares)| norm * (self.plan.mirror.multiplicity() * squares).sqrt())

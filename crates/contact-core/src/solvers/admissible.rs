@@ -2,7 +2,8 @@
 
 use super::rigid_motion::{add, inverse, product};
 use super::shear::TangentialProblem;
-use super::vector::{copy_to, set_and_sum, set_cells, set_pairs, size, sum_cells};
+use super::sweep::{set, sums, sweep};
+use super::vector::{set_cells, size};
 
 /// Rounds of clipping and balancing before the stick cells are taken to be too few.
 const ROUNDS: usize = 8;
@@ -18,16 +19,17 @@ pub(crate) fn admissible(
     slip: &mut [bool],
     change: &mut [Vec<f64>; 2],
 ) -> f64 {
-    for c in 0..2 {
-        copy_to(q[c], &mut change[c]);
+    for field in change.iter_mut() {
+        field.resize(problem.bound.len(), 0.0);
     }
+    let [change_x, change_y] = change;
+    set([&*q[0], &*q[1]], [change_x, change_y], |_, q, _| q);
     if !share_force(problem, q, slip) {
         project(problem, q, &mut [0.0; 3]);
         mark_circle(problem, q, slip);
     }
-    let [change_x, change_y] = change;
-    let [squares] = set_and_sum([change_x, change_y], |n, before| {
-        let change = [q[0][n] - before[0], q[1][n] - before[1]];
+    let [squares] = sweep([&*q[0], &*q[1]], [change_x, change_y], |_, q, before| {
+        let change = [q[0] - before[0], q[1] - before[1]];
         (change, [change[0] * change[0] + change[1] * change[1]])
     });
     squares.sqrt()
@@ -47,35 +49,36 @@ fn share_force(
     });
     let enough = rounding(problem);
     let mut share = [0.0; 3];
+    // The new shear of a cell, and one where it sticks.
+    let cut = |g: f64, slips: bool, shared: [f64; 2], q: [f64; 2]| {
+        let given = if slips { [0.0; 2] } else { shared };
+        let q = [q[0] + given[0], q[1] + given[1]];
+        let square = q[0] * q[0] + q[1] * q[1];
+        let beyond = slips || square > g * g;
+        let factor = if beyond { g / square.sqrt() } else { 1.0 };
+        let inside = g > 0.0;
+        let q = q.map(|q| if inside { factor * q } else { 0.0 });
+        (q, f64::from(u8::from(inside && !slips)))
+    };
     for _ in 0..ROUNDS {
         let [q_x, q_y] = q;
-        let sums = set_and_sum([q_x, q_y], |n, q| {
-            let g = bound[n];
-            if g <= 0.0 {
-                return ([0.0; 2], [0.0; 7]);
-            }
-            let given = if slip[n] {
-                [0.0; 2]
-            } else {
-                arms.in_plane(share, n)
-            };
-            let q = [q[0] + given[0], q[1] + given[1]];
-            let square = q[0] * q[0] + q[1] * q[1];
-            let factor = if slip[n] || square > g * g {
-                g / square.sqrt()
-            } else {
-                1.0
-            };
-            let q = q.map(|q| factor * q);
-            let [a, b, moment] = arms.sums_in_plane(q, n);
-            let (x, y) = (arms.turn_x(n), arms.y[n]);
-            let [count, x, y, r2] = if slip[n] {
-                [0.0; 4]
-            } else {
-                [1.0, x, y, x * x + y * y]
-            };
-            (q, [a, b, moment, count, x, y, r2])
-        });
+        let from = ([bound], &*slip);
+        let sums = if problem.drive.free[2] {
+            let from = (from, [&arms.x[..], &arms.y]);
+            sweep(from, [q_x, q_y], |n, (([g], slips), [x, y]), q| {
+                let (q, sticks) = cut(g, slips, arms.in_plane(share, n), q);
+                let x = arms.stretch * x;
+                let moment = x * q[1] - y * q[0];
+                let (x, y, r2) = (sticks * x, sticks * y, sticks * (x * x + y * y));
+                (q, [q[0], q[1], moment, sticks, x, y, r2])
+            })
+        } else {
+            let [a, b, count] = sweep(from, [q_x, q_y], |_, ([g], slips), q| {
+                let (q, sticks) = cut(g, slips, [share[0], share[1]], q);
+                (q, [q[0], q[1], sticks])
+            });
+            [a, b, 0.0, count, 0.0, 0.0, 0.0]
+        };
         let [a, b, moment, count, x, y, r2] = sums;
         let missing = missing(problem, [a, b, moment]);
         if missing.iter().all(|m| m.abs() <= enough) {
@@ -109,10 +112,8 @@ fn modes(x: f64, y: f64, [xx, xy, yy]: [f64; 3]) -> [f64; 6] {
 /// What rounding may leave of the sums: a part of all that friction can carry, or of the loads
 /// where the bound is infinite.
 fn rounding(problem: &TangentialProblem<'_>) -> f64 {
-    let [carried] = sum_cells(problem.bound.len(), |n| {
-        let g = problem.bound[n];
-        [if g.is_finite() { g } else { 0.0 }]
-    });
+    let finite = |g: f64| if g.is_finite() { g } else { 0.0 };
+    let [carried] = sums([problem.bound], |_, [g]| [finite(g)]);
     let asked = problem.drive.sums.iter().map(|s| s.abs()).sum::<f64>();
     1e-13 * carried.max(asked)
 }
@@ -152,9 +153,9 @@ pub(crate) fn project(
     }
     *shift = trial;
     let [q_x, q_y] = q;
-    set_pairs([q_x, q_y], |n, q| {
+    set([problem.bound], [q_x, q_y], |n, [g], q| {
         let v = cut_from(problem, q, trial, n);
-        let factor = cut(size(v), problem.bound[n]);
+        let factor = cut(size(v), g);
         [factor * v[0], factor * v[1]]
     });
 }
@@ -201,12 +202,12 @@ struct Excess {
 }
 
 fn excess(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], shift: [f64; 3]) -> Excess {
-    let sums = sum_cells(problem.bound.len(), |n| {
-        let g = problem.bound[n];
+    let [q_x, q_y] = q;
+    let sums = sums([problem.bound, q_x, q_y], |n, [g, q_x, q_y]| {
         if g <= 0.0 {
             return [0.0; 15];
         }
-        let v = cut_from(problem, [q[0][n], q[1][n]], shift, n);
+        let v = cut_from(problem, [q_x, q_y], shift, n);
         let length = size(v);
         let cut = cut(length, g);
         // Cells beyond the circle give way only across their direction.

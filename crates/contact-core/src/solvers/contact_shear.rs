@@ -3,7 +3,8 @@
 use super::contact_cells::ContactCells;
 use super::rigid_motion::{Arms, Drive};
 use super::shear::{Shear, TangentialProblem};
-use super::vector::{copy, copy_to, sum_cells};
+use super::sweep::sums;
+use super::vector::{copy, copy_to};
 
 type Pair = [Vec<f64>; 2];
 
@@ -125,16 +126,21 @@ impl Before {
         tolerance: f64,
     ) -> bool {
         let given = problem.drive.given;
-        let [rise, moved, work] = sum_cells(problem.bound.len(), |n| {
+        let ([q_x, q_y], [u_x, u_y]) = (&shear.q, &shear.u);
+        let [ref_x, ref_y] = problem.u_ref;
+        let ([p_x, p_y], [v_x, v_y]) = (&self.q, &self.u);
+        let (now, before) = ([&**q_x, q_y, u_x, u_y], [&p_x[..], p_y, v_x, v_y]);
+        let fields = ((now, before), [ref_x, ref_y]);
+        let [rise, moved, work] = sums(fields, |n, ((now, before), u_ref)| {
             let given = problem.arms.in_plane(given, n);
             let shift = problem.arms.in_plane(shift, n);
             let (mut rise, mut moved, mut work) = (0.0, 0.0, 0.0);
             for c in 0..2 {
-                let change = shear.q[c][n] - self.q[c][n];
-                let mean = 0.5 * (shear.u[c][n] + self.u[c][n]) - problem.u_ref[c][n];
+                let change = now[c] - before[c];
+                let mean = 0.5 * (now[2 + c] + before[2 + c]) - u_ref[c];
                 rise += change * (mean - shift[c]);
                 moved += change.abs();
-                work += (shear.q[c][n] * (mean - given[c])).abs();
+                work += (now[c] * (mean - given[c])).abs();
             }
             [rise, moved, work]
         });

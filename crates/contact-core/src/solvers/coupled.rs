@@ -13,7 +13,8 @@ use super::mixing::Mixing;
 use super::rigid_motion::{Arms, Drive, add};
 use super::shear::first_shift;
 use super::shear_gradient::shear_gradient;
-use super::vector::{add_scaled, copy, set_cells, set_pairs, size};
+use super::sweep::set;
+use super::vector::{copy, size};
 use super::{
     Interface, NormalParams, NormalProblem, NormalWorkspace, Response, SolverError,
     TangentialMethod, TangentialParams, TangentialProblem, TangentialWorkspace, normal, tangential,
@@ -159,8 +160,9 @@ impl CoupledWorkspace {
     fn change_of_shear(&mut self, now: &Interface) {
         let [change_x, change_y] = &mut self.change;
         let before = &self.q_before;
-        set_pairs([change_x, change_y], |n, _| {
-            [now.q[0][n] - before[0][n], now.q[1][n] - before[1][n]]
+        let from = [&now.q[0][..], &now.q[1], &before[0], &before[1]];
+        set(from, [change_x, change_y], |_, [q_x, q_y, x, y], _| {
+            [q_x - x, q_y - y]
         });
     }
 }
@@ -317,8 +319,7 @@ fn begin(
     if rounded > allowed {
         now.evaluate(response, friction);
     }
-    let tractions = [&now.q[0], &now.q[1], &now.p];
-    for (begun, traction) in ws.begun.iter_mut().zip(tractions) {
+    for (begun, traction) in ws.begun.iter_mut().zip(now.tractions()) {
         copy(traction, begun);
     }
 }
@@ -392,8 +393,8 @@ fn make_admissible(
     if !friction {
         return Sliding::default();
     }
-    set_cells(&mut ws.bound, |n, _| {
-        friction_bound(problem.mu[n], now.p[n])
+    set([problem.mu, &now.p], [&mut ws.bound], |_, [mu, p], _| {
+        [friction_bound(mu, p)]
     });
     let slip = problem.slip(&ws.bound, u_ref);
     let slides = sliding(&slip);
@@ -426,7 +427,9 @@ fn follow_pressure(
     coupled: bool,
 ) {
     ws.change_of_shear(now);
-    set_cells(&mut ws.p_before, |n, before| now.p[n] - before);
+    set([&now.p[..]], [&mut ws.p_before], |_, [p], [before]| {
+        [p - before]
+    });
     let [u_x, u_y] = &mut ws.response;
     let tractions = Tractions {
         q_x: Some(&ws.change[0]),
@@ -441,9 +444,10 @@ fn follow_pressure(
             u_z: None,
         },
     );
-    for c in 0..2 {
-        add_scaled(&mut now.u[c], 1.0, &ws.response[c]);
-    }
+    let ([of_x, of_y], [u_x, u_y]) = (&ws.response, &mut now.u);
+    set([&of_x[..], of_y], [u_x, u_y], |_, of, u| {
+        [u[0] + of[0], u[1] + of[1]]
+    });
 }
 
 /// The smallest motion of the kind `sliding` at which every contact cell slips.

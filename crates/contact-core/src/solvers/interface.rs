@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::vector::{set_cells, sum_cells};
+use super::sweep::{set, sums, sweep};
 use super::{Response, Shear};
 use crate::convolution::{Displacements, Tractions};
 
@@ -35,6 +35,11 @@ impl Interface {
             slip: vec![false; cells],
             rounding: 0.0,
         }
+    }
+
+    /// q_x, q_y, p \[Pa\].
+    pub(crate) fn tractions(&self) -> [&[f64]; 3] {
+        [&self.q[0], &self.q[1], &self.p]
     }
 
     /// What the tangential solvers work on.
@@ -71,8 +76,11 @@ impl Interface {
     ) {
         let [q_x, q_y, p] = change;
         let difference = |to: &mut [f64], now: &[f64], known: &[f64]| {
-            set_cells(to, |n, _| now[n] - known[n]);
-            to.iter().any(|&change| change != 0.0)
+            let [squares] = sweep([now, known], [to], |_, [now, known], _| {
+                let change = now - known;
+                ([change], [change * change])
+            });
+            squares != 0.0
         };
         let changes = [
             shear && difference(q_x, &self.q[0], &known.q[0]),
@@ -90,21 +98,16 @@ impl Interface {
         let [u_x, u_y] = &mut self.u;
         let pairs = [u_x, u_y, &mut self.u_z].into_iter();
         for (u, known) in pairs.zip([&known.u[0], &known.u[1], &known.u_z]) {
-            set_cells(u, |n, u| known[n] + u);
+            set([&known[..]], [u], |_, [known], [u]| [known + u]);
         }
-        let tractions = [&known.q[0][..], &known.q[1], &known.p];
-        self.rounding = known.rounding + response.rounding() * self.differs(tractions);
+        self.rounding = known.rounding + response.rounding() * self.differs(known.tractions());
     }
 
     /// Root of the sum of squares of what the tractions differ by from q_x, q_y, p \[Pa\].
-    pub(super) fn differs(&self, [q_x, q_y, p]: [&[f64]; 3]) -> f64 {
-        let [squares] = sum_cells(self.p.len(), |n| {
-            let change = [
-                self.q[0][n] - q_x[n],
-                self.q[1][n] - q_y[n],
-                self.p[n] - p[n],
-            ];
-            [change.iter().map(|c| c * c).sum()]
+    pub(super) fn differs(&self, tractions: [&[f64]; 3]) -> f64 {
+        let [squares] = sums((self.tractions(), tractions), |_, (now, other)| {
+            let change: [f64; 3] = std::array::from_fn(|k| now[k] - other[k]);
+            [change[0] * change[0] + change[1] * change[1] + change[2] * change[2]]
         });
         squares.sqrt()
     }

@@ -9,7 +9,7 @@
 
 use std::collections::VecDeque;
 
-use super::vector::{set_cells, set_pairs, sum_cells};
+use super::sweep::{set, sums};
 
 /// Passes that are combined.
 const DEPTH: usize = 8;
@@ -63,7 +63,7 @@ impl Mixing {
 
     /// Begins anew with the next increment.
     pub(crate) fn restart(&mut self) {
-        set_cells(&mut self.ahead, |_, _| 0.0);
+        set([], [&mut self.ahead], |_, [], _| [0.0]);
         self.changes.clear();
         self.size = f64::INFINITY;
         self.slow_passes = 0;
@@ -93,23 +93,25 @@ impl Mixing {
         }
         if let Some([of_misfit, of_s]) = self.changes.back_mut() {
             let (ahead, last, step) = (&self.ahead, &self.misfit, &self.step);
-            set_pairs([of_misfit, of_s], |n, _| {
-                [change[n] - ahead[n] - last[n], step[n]]
-            });
+            let from = [change, ahead, last, step];
+            set(
+                from,
+                [of_misfit, of_s],
+                |_, [change, ahead, last, step], _| [change - ahead - last, step],
+            );
         }
-        let ahead = &self.ahead;
-        set_pairs([&mut self.misfit, u_z], |n, [_, u_z]| {
-            let misfit = change[n] - ahead[n];
-            [misfit, u_z + misfit]
+        let to = [&mut self.misfit[..], u_z, &mut self.ahead];
+        set([change], to, |_, [change], [_, u_z, ahead]| {
+            let misfit = change - ahead;
+            [misfit, u_z + misfit, 0.0]
         });
-        set_cells(&mut self.ahead, |_, _| 0.0);
     }
 
     /// Takes the next s, for the contact of the pressure `p`, into `u_z`.
     pub(crate) fn mix(&mut self, p: &[f64], u_z: &mut [f64]) {
         let on_contact = |a: &[f64], b: &[f64]| -> f64 {
-            let inside = |n: usize| if p[n] > 0.0 { a[n] * b[n] } else { 0.0 };
-            let [sum] = sum_cells(p.len(), |n| [inside(n)]);
+            let inside = |p: f64, product: f64| if p > 0.0 { product } else { 0.0 };
+            let [sum] = sums([p, a, b], |_, [p, a, b]| [inside(p, a * b)]);
             sum
         };
         let size = on_contact(&self.misfit, &self.misfit).sqrt();
@@ -127,7 +129,9 @@ impl Mixing {
         }
         let damping = self.damping;
         let misfit = &self.misfit;
-        set_cells(&mut self.step, |n, _| damping * misfit[n]);
+        set([&misfit[..]], [&mut self.step], |_, [misfit], _| {
+            [damping * misfit]
+        });
         let count = self.changes.len();
         let mut gram = [[0.0; DEPTH]; DEPTH];
         let mut right = [0.0; DEPTH];
@@ -139,15 +143,20 @@ impl Mixing {
         }
         let weights = least_squares(gram, right, count);
         for (weight, [of_misfit, of_s]) in weights.iter().zip(&self.changes) {
-            set_cells(&mut self.step, |n, step| {
-                step - weight * (of_s[n] + damping * of_misfit[n])
+            let from = [&of_s[..], of_misfit];
+            set(from, [&mut self.step], |_, [s, misfit], [step]| {
+                [step - weight * (s + damping * misfit)]
             });
         }
-        let step = &self.step;
-        set_pairs([&mut self.ahead, u_z], |n, [_, u_z]| {
-            let ahead = step[n] - misfit[n];
-            [ahead, u_z + ahead]
-        });
+        let from = [&self.step[..], misfit];
+        set(
+            from,
+            [&mut self.ahead, u_z],
+            |_, [step, misfit], [_, u_z]| {
+                let ahead = step - misfit;
+                [ahead, u_z + ahead]
+            },
+        );
     }
 }
 

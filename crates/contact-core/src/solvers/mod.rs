@@ -22,6 +22,7 @@ mod response;
 mod rigid_motion;
 mod shear;
 mod shear_gradient;
+mod sweep;
 mod tangential;
 mod vector;
 
@@ -35,8 +36,9 @@ pub use response::Response;
 pub use rigid_motion::{Arms, Drive};
 pub(crate) use rigid_motion::{inverse, product};
 pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
+pub(crate) use sweep::{set, sums, survey, sweep};
 pub use tangential::{TangentialWorkspace, tangential};
-pub(crate) use vector::{CHUNK, both, largest, set_cells, set_fours, set_pairs, size, sum_cells};
+pub(crate) use vector::{CHUNK, both, size};
 
 /// A solver that stopped before its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

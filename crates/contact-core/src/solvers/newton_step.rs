@@ -1,12 +1,10 @@
 //! One Newton step of the tangential problem: the linear system on the tangent space.
 
-use rayon::prelude::*;
-
 use super::Response;
 use super::contact_cells::ContactCells;
 use super::rigid_motion::{add, inverse, product};
 use super::shear::{Shear, TangentialProblem};
-use super::vector::{CHUNK, add_scaled, set_and_sum, set_pairs, sum, sum_cells};
+use super::sweep::{set, sums, sweep};
 
 type Pair = [Vec<f64>; 2];
 
@@ -40,17 +38,22 @@ pub(crate) struct NewtonStep {
     displacement: Pair,
 }
 
-/// The projection on the tangent space and on sums of zero.
+/// The tangent space: the projection Pi on it and on sums of zero.
 #[derive(Debug)]
 struct Tangent {
-    xx: Vec<f64>,
-    xy: Vec<f64>,
-    yy: Vec<f64>,
-    /// Inverse of B^T Pi B, Pi the projection on the tangent space of each cell.
-    inverse_sum: [[f64; 3]; 3],
+    /// Direction across the shear of slip cells, along which alone it may change; zero in stick cells.
+    across: Pair,
     /// Lever arms of the contact cells; empty where the rotation is not free.
-    arm_x: Vec<f64>,
-    arm_y: Vec<f64>,
+    arms: Pair,
+    /// Inverse of B^T Pi B.
+    inverse_sum: [[f64; 3]; 3],
+}
+
+/// The same of one cell.
+#[derive(Clone, Copy)]
+struct Admitted {
+    across: [f64; 2],
+    arm: [f64; 2],
 }
 
 impl NewtonStep {
@@ -60,12 +63,9 @@ impl NewtonStep {
         let on_grid = || [vec![0.0; cells], vec![0.0; cells]];
         Self {
             tangent: Tangent {
-                xx: field(),
-                xy: field(),
-                yy: field(),
+                across: pair(),
+                arms: pair(),
                 inverse_sum: [[0.0; 3]; 3],
-                arm_x: field(),
-                arm_y: field(),
             },
             diagonal: field(),
             scale: field(),
@@ -83,23 +83,11 @@ impl NewtonStep {
     /// Makes room for the contact cells.
     pub(crate) fn set_contact(&mut self, problem: &TangentialProblem<'_>) {
         let count = problem.bound.len();
-        let t = &mut self.tangent;
-        for field in [
-            &mut t.xx,
-            &mut t.xy,
-            &mut t.yy,
-            &mut self.diagonal,
-            &mut self.scale,
-        ] {
+        for field in [&mut self.diagonal, &mut self.scale] {
             field.resize(count, 0.0);
         }
-        t.arm_x.clear();
-        t.arm_y.clear();
-        if problem.drive.free[2] {
-            t.arm_x.extend((0..count).map(|i| problem.arms.turn_x(i)));
-            t.arm_y.extend_from_slice(&problem.arms.y);
-        }
         for pair in [
+            &mut self.tangent.across,
             &mut self.x,
             &mut self.residual,
             &mut self.z,
@@ -109,8 +97,14 @@ impl NewtonStep {
                 field.resize(count, 0.0);
             }
         }
-        let [t_x, t_y] = &mut self.traction;
-        set_pairs([t_x, t_y], |_, _| [0.0; 2]);
+        let [arm_x, arm_y] = &mut self.tangent.arms;
+        arm_x.clear();
+        arm_y.clear();
+        if problem.drive.free[2] {
+            arm_x.extend((0..count).map(|i| problem.arms.turn_x(i)));
+            arm_y.extend_from_slice(&problem.arms.y);
+        }
+        clear(&mut self.traction);
     }
 
     /// Tangent space, curvature and residual at the present shear and slip; x starts from zero.
@@ -123,36 +117,53 @@ impl NewtonStep {
         c_xx: f64,
     ) -> [f64; 3] {
         let t = &mut self.tangent;
-        let [residual_x, residual_y] = &mut self.residual;
-        let chunks = (
-            t.xx.par_chunks_mut(CHUNK),
-            t.xy.par_chunks_mut(CHUNK),
-            t.yy.par_chunks_mut(CHUNK),
-            self.diagonal.par_chunks_mut(CHUNK),
-            self.scale.par_chunks_mut(CHUNK),
-            residual_x.par_chunks_mut(CHUNK),
-            residual_y.par_chunks_mut(CHUNK),
-        );
-        let chunks = chunks.into_par_iter().enumerate();
-        chunks.for_each(|(chunk, (xx, xy, yy, diagonal, scale, r_x, r_y))| {
-            for i in 0..xx.len() {
-                let n = chunk * CHUNK + i;
-                let slip = problem.slip(&shear.u, shift, n);
-                (xx[i], xy[i], yy[i], diagonal[i]) = (1.0, 0.0, 1.0, 0.0);
-                if shear.slip[n] {
-                    let g = problem.bound[n];
-                    let e = [shear.q[0][n] / g, shear.q[1][n] / g];
-                    let against = -(slip[0] * e[0] + slip[1] * e[1]);
-                    (xx[i], xy[i], yy[i]) = (e[1] * e[1], -e[0] * e[1], e[0] * e[0]);
-                    let turning = problem.turning.get(n).copied().unwrap_or(0.0);
-                    diagonal[i] = (1.0 - turning) * against.max(0.0) / g;
-                }
-                scale[i] = 1.0 / (1.0 + diagonal[i] / c_xx).sqrt();
-                (r_x[i], r_y[i]) = (-slip[0], -slip[1]);
-            }
+        // Where the displacements that mean no slip stay, any field stands in for the turning.
+        let turns = !problem.turning.is_empty();
+        let turning = if turns {
+            problem.turning
+        } else {
+            problem.bound
+        };
+        let [u_x, u_y] = &shear.u;
+        let ([ref_x, ref_y], [q_x, q_y]) = (problem.u_ref, &shear.q);
+        let from = [u_x, u_y, ref_x, ref_y, q_x, q_y, problem.bound, turning];
+        let [t_x, t_y] = &mut t.across;
+        let [r_x, r_y] = &mut self.residual;
+        let to = [
+            &mut t_x[..],
+            t_y,
+            &mut self.diagonal,
+            &mut self.scale,
+            r_x,
+            r_y,
+        ];
+        set((from, &*shear.slip), to, |n, (cell, slips), _| {
+            let [u_x, u_y, ref_x, ref_y, q_x, q_y, g, turning] = cell;
+            let rigid = problem.arms.in_plane(shift, n);
+            let slip = [u_x - ref_x - rigid[0], u_y - ref_y - rigid[1]];
+            let e = if slips { [q_x / g, q_y / g] } else { [0.0; 2] };
+            let against = -(slip[0] * e[0] + slip[1] * e[1]);
+            let kept = if turns { 1.0 - turning } else { 1.0 };
+            let curvature = if slips {
+                kept * against.max(0.0) / g
+            } else {
+                0.0
+            };
+            let scale = 1.0 / (1.0 + curvature / c_xx).sqrt();
+            [-e[1], e[0], curvature, scale, -slip[0], -slip[1]]
         });
         t.inverse_sum = inverse(t.gram(), problem.drive.free);
-        let (behind, squares) = t.project(&mut self.residual, |_, r| r, |_, [x, y]| x * x + y * y);
+        let [r_x, r_y] = &mut self.residual;
+        let sums = sweep(t.fields(), [r_x, r_y], |_, of_cell, r| {
+            let cell = Admitted::of(of_cell);
+            let r = cell.project(r);
+            (r, cell.motion_of(r))
+        });
+        let behind = product(&t.inverse_sum, sums);
+        let [squares] = sweep(t.fields(), [r_x, r_y], |_, of_cell, r| {
+            let r = Admitted::of(of_cell).without(behind, r);
+            (r, [r[0] * r[0] + r[1] * r[1]])
+        });
         self.residual_norm = squares.sqrt();
         add(shift, behind.map(|s| -s))
     }
@@ -171,57 +182,100 @@ impl NewtonStep {
         target: f64,
         max_passes: usize,
     ) -> usize {
-        for [a, b] in [&mut self.x, &mut self.response_x] {
-            set_pairs([a, b], |_, _| [0.0; 2]);
-        }
+        clear(&mut self.x);
+        clear(&mut self.response_x);
         let mut last_product = 0.0;
         for pass in 0..max_passes {
             if self.residual_norm <= target || response.stopped() {
                 return pass;
             }
-            let product = self.precondition(response, contact);
+            let (rigid, product) = self.precondition(response, contact);
             let beta = if pass == 0 {
                 0.0
             } else {
                 product / last_product
             };
             last_product = product;
-            let ([d_x, d_y], z) = (&mut self.direction, &self.z);
-            set_pairs([d_x, d_y], |i, [x, y]| {
-                [z[0][i] + beta * x, z[1][i] + beta * y]
-            });
+            self.turn(rigid, beta);
             contact.unpack_pair(&self.direction, &mut self.traction);
             let [d_x, d_y] = &self.traction;
             let [u_x, u_y] = &mut self.displacement;
             response.tangential([d_x, d_y], [u_x, u_y]);
-            // z = Pi (C + D) d; d lies in the tangent space.
-            contact.pack_pair(&self.displacement, &mut self.z);
-            let (d, diagonal) = (&self.direction, &self.diagonal);
-            let (_, curvature) = self.tangent.project(
-                &mut self.z,
-                |i, [x, y]| [x + diagonal[i] * d[0][i], y + diagonal[i] * d[1][i]],
-                |i, [x, y]| x * d[0][i] + y * d[1][i],
-            );
+            let (rigid, curvature) = self.curve(contact);
             if !(curvature > 0.0 && product > 0.0) {
                 return pass + 1;
             }
-            let step = product / curvature;
-            let add_to = |sum: &mut Pair, change: &Pair| {
-                let [x, y] = sum;
-                set_pairs([x, y], |n, [x, y]| {
-                    [x + step * change[0][n], y + step * change[1][n]]
-                });
-            };
-            add_to(&mut self.x, &self.direction);
-            add_to(&mut self.response_x, &self.displacement);
-            let ([r_x, r_y], z) = (&mut self.residual, &self.z);
-            let [squares] = set_and_sum([r_x, r_y], |i, [x, y]| {
-                let r = [x - step * z[0][i], y - step * z[1][i]];
-                (r, [r[0] * r[0] + r[1] * r[1]])
-            });
-            self.residual_norm = squares.sqrt();
+            self.advance(rigid, product / curvature);
         }
         max_passes
+    }
+
+    /// z = Pi S P S r up to a rigid motion, which is returned, and r.z. With that motion taken out r.z is
+    /// the same, since B^T r = 0.
+    fn precondition(
+        &mut self,
+        response: &mut Response<'_>,
+        contact: &ContactCells,
+    ) -> ([f64; 3], f64) {
+        let ([r_x, r_y], [z_x, z_y]) = (&self.residual, &mut self.z);
+        set(
+            [&self.scale[..], r_x, r_y],
+            [z_x, z_y],
+            |_, [s, x, y], _| [s * x, s * y],
+        );
+        contact.unpack_pair(&self.z, &mut self.traction);
+        let [s_x, s_y] = &self.traction;
+        let [z_x, z_y] = &mut self.displacement;
+        response.invert_tangential([s_x, s_y], [z_x, z_y]);
+        contact.pack_pair(&self.displacement, &mut self.z);
+        let from = [&self.scale[..], r_x, r_y];
+        let value = |z: [f64; 2], [s, x, y]: [f64; 3]| (z.map(|z| s * z), [x, y]);
+        self.tangent.project(&mut self.z, from, value)
+    }
+
+    /// d = z - Pi B rigid + beta d
+    fn turn(&mut self, rigid: [f64; 3], beta: f64) {
+        let ([z_x, z_y], [d_x, d_y]) = (&self.z, &mut self.direction);
+        let from = (self.tangent.fields(), [&z_x[..], z_y]);
+        set(from, [d_x, d_y], |_, (of_cell, z), d| {
+            let z = Admitted::of(of_cell).without(rigid, z);
+            [z[0] + beta * d[0], z[1] + beta * d[1]]
+        });
+    }
+
+    /// z = Pi (C + D) d up to a rigid motion, which is returned, and d.z. With that motion taken out d.z
+    /// is the same, since B^T d = 0.
+    fn curve(&mut self, contact: &ContactCells) -> ([f64; 3], f64) {
+        contact.pack_pair(&self.displacement, &mut self.z);
+        let [d_x, d_y] = &self.direction;
+        let from = [&self.diagonal[..], d_x, d_y];
+        let value = |u: [f64; 2], [d, x, y]: [f64; 3]| ([u[0] + d * x, u[1] + d * y], [x, y]);
+        self.tangent.project(&mut self.z, from, value)
+    }
+
+    /// x += step d,  r -= step (z - Pi B rigid)
+    fn advance(&mut self, rigid: [f64; 3], step: f64) {
+        let ([x, y], [r_x, r_y]) = (&mut self.x, &mut self.residual);
+        let ([d_x, d_y], [z_x, z_y]) = (&self.direction, &self.z);
+        let from = (self.tangent.fields(), [&d_x[..], d_y, z_x, z_y]);
+        let to = [&mut x[..], y, r_x, r_y];
+        let [squares] = sweep(from, to, |_, (of_cell, from), [x, y, r_x, r_y]| {
+            let [d_x, d_y, z_x, z_y] = from;
+            let z = Admitted::of(of_cell).without(rigid, [z_x, z_y]);
+            let r = [r_x - step * z[0], r_y - step * z[1]];
+            let squares = r[0] * r[0] + r[1] * r[1];
+            ([x + step * d_x, y + step * d_y, r[0], r[1]], [squares])
+        });
+        self.residual_norm = squares.sqrt();
+        self.add_response(step);
+    }
+
+    /// Adds so many times the last displacement to what x causes.
+    fn add_response(&mut self, factor: f64) {
+        let ([u_x, u_y], [x, y]) = (&self.displacement, &mut self.response_x);
+        set([&u_x[..], u_y], [x, y], |_, u, x| {
+            [x[0] + factor * u[0], x[1] + factor * u[1]]
+        });
     }
 
     /// C times a change of the contact cells, in place; it is added to what x causes.
@@ -231,34 +285,12 @@ impl NewtonStep {
         contact: &ContactCells,
         change: &mut Pair,
     ) {
-        for c in 0..2 {
-            contact.unpack(&change[c], &mut self.traction[c]);
-        }
+        contact.unpack_pair(change, &mut self.traction);
         let [q_x, q_y] = &self.traction;
         let [u_x, u_y] = &mut self.displacement;
         response.tangential([q_x, q_y], [u_x, u_y]);
-        for c in 0..2 {
-            contact.pack(&self.displacement[c], &mut change[c]);
-            add_scaled(&mut self.response_x[c], 1.0, &self.displacement[c]);
-        }
-    }
-
-    /// z = Pi S P S r; returns r.z.
-    fn precondition(&mut self, response: &mut Response<'_>, contact: &ContactCells) -> f64 {
-        let (r, scale) = (&self.residual, &self.scale);
-        let [z_x, z_y] = &mut self.z;
-        set_pairs([z_x, z_y], |i, _| [scale[i] * r[0][i], scale[i] * r[1][i]]);
-        contact.unpack_pair(&self.z, &mut self.traction);
-        let [s_x, s_y] = &self.traction;
-        let [z_x, z_y] = &mut self.displacement;
-        response.invert_tangential([s_x, s_y], [z_x, z_y]);
-        contact.pack_pair(&self.displacement, &mut self.z);
-        let (_, product) = self.tangent.project(
-            &mut self.z,
-            |i, [x, y]| [scale[i] * x, scale[i] * y],
-            |i, [x, y]| r[0][i] * x + r[1][i] * y,
-        );
-        product
+        contact.pack_pair(&self.displacement, change);
+        self.add_response(1.0);
     }
 
     /// Adds x and C x to the shear; returns the shift that the equations of the tangent space ask
@@ -270,84 +302,106 @@ impl NewtonStep {
         shear: &mut Shear<'_>,
     ) -> [f64; 3] {
         let given = problem.drive.given;
-        for c in 0..2 {
-            contact.pack(&self.response_x[c], &mut self.z[c]);
-            add_scaled(shear.u[c], 1.0, &self.z[c]);
-            add_scaled(shear.q[c], 1.0, &self.x[c]);
-        }
-        let (x, diagonal) = (&self.x, &self.diagonal);
-        let sums = self.tangent.sums(|i| {
-            let slip = problem.slip(&shear.u, given, i);
-            [
-                slip[0] + diagonal[i] * x[0][i],
-                slip[1] + diagonal[i] * x[1][i],
-            ]
+        contact.pack_pair(&self.response_x, &mut self.z);
+        let ([x, y], [z_x, z_y]) = (&self.x, &self.z);
+        let [ref_x, ref_y] = problem.u_ref;
+        let from = [&x[..], y, z_x, z_y, ref_x, ref_y, &self.diagonal];
+        let ([q_x, q_y], [u_x, u_y]) = (&mut shear.q, &mut shear.u);
+        let from = (self.tangent.fields(), from);
+        let sums = sweep(from, [q_x, q_y, u_x, u_y], |n, (of_cell, from), old| {
+            let [x, y, z_x, z_y, ref_x, ref_y, diagonal] = from;
+            let [q_x, q_y, u_x, u_y] = old;
+            let u = [u_x + z_x, u_y + z_y];
+            let rigid = problem.arms.in_plane(given, n);
+            let slip = [u[0] - ref_x - rigid[0], u[1] - ref_y - rigid[1]];
+            let cell = Admitted::of(of_cell);
+            let turned = cell.project([slip[0] + diagonal * x, slip[1] + diagonal * y]);
+            ([q_x + x, q_y + y, u[0], u[1]], cell.motion_of(turned))
         });
         add(given, product(&self.tangent.inverse_sum, sums))
     }
 }
 
 impl Tangent {
+    /// Directions and lever arms. Where the rotation is not free any field does for the arms:
+    /// [`Self::inverse_sum`] has no part of it.
+    fn fields(&self) -> [&[f64]; 4] {
+        let [t_x, t_y] = &self.across;
+        let [a_x, a_y] = if self.arms[0].is_empty() {
+            &self.across
+        } else {
+            &self.arms
+        };
+        [t_x, t_y, a_x, a_y]
+    }
+
     /// B^T Pi B
     fn gram(&self) -> [[f64; 3]; 3] {
-        let (xx, xy, yy) = (sum(&self.xx), sum(&self.xy), sum(&self.yy));
-        let (mut xr, mut yr, mut rr) = (0.0, 0.0, 0.0);
-        for (i, (x, y)) in self.arm_x.iter().zip(&self.arm_y).enumerate() {
-            // The rotation moves the cell by (-y, x); Pi leaves r of it.
-            let r = [
-                self.xy[i] * x - self.xx[i] * y,
-                self.yy[i] * x - self.xy[i] * y,
-            ];
-            xr += r[0];
-            yr += r[1];
-            rr += x * r[1] - y * r[0];
-        }
+        let [xx, xy, yy, xr, yr, rr] = sums(self.fields(), |_, of_cell| {
+            let cell = Admitted::of(of_cell);
+            let [x, y] = cell.arm;
+            let (of_x, of_y) = (cell.project([1.0, 0.0]), cell.project([0.0, 1.0]));
+            let turn = cell.project([-y, x]);
+            let of_turn = x * turn[1] - y * turn[0];
+            [of_x[0], of_x[1], of_y[1], turn[0], turn[1], of_turn]
+        });
         [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]]
     }
 
-    /// Projects the values made of v on the tangent space and on B^T v = 0; returns the motion B that
-    /// is taken out, and the sum of what `term` makes of the result.
+    /// Projects the `value(v, from)` on the tangent space of each cell, into v; returns the motion m for
+    /// which v - Pi B m has sums of zero, and the sum of v times what the values come with.
     fn project(
         &self,
         v: &mut Pair,
-        value: impl Fn(usize, [f64; 2]) -> [f64; 2] + Sync,
-        term: impl Fn(usize, [f64; 2]) -> f64 + Sync,
+        from: [&[f64]; 3],
+        value: impl Fn([f64; 2], [f64; 3]) -> ([f64; 2], [f64; 2]) + Sync,
     ) -> ([f64; 3], f64) {
         let [v_x, v_y] = v;
-        let sums = set_and_sum([v_x, v_y], |i, v| {
-            let v = self.in_cell(i, value(i, v));
-            (v, self.motion_of(i, v))
+        let from = (self.fields(), from);
+        let [x, y, turn, along] = sweep(from, [v_x, v_y], |_, (of_cell, from), v| {
+            let cell = Admitted::of(of_cell);
+            let (v, with) = value(v, from);
+            let v = cell.project(v);
+            let [x, y, turn] = cell.motion_of(v);
+            (v, [x, y, turn, v[0] * with[0] + v[1] * with[1]])
         });
-        let shift = product(&self.inverse_sum, sums);
-        let [sum] = set_and_sum([v_x, v_y], |i, v| {
-            let rigid = match (self.arm_x.get(i), self.arm_y.get(i)) {
-                (Some(x), Some(y)) => [shift[0] - y * shift[2], shift[1] + x * shift[2]],
-                _ => [shift[0], shift[1]],
-            };
-            let rigid = self.in_cell(i, rigid);
-            let v = [v[0] - rigid[0], v[1] - rigid[1]];
-            (v, [term(i, v)])
-        });
-        (shift, sum)
+        (product(&self.inverse_sum, [x, y, turn]), along)
+    }
+}
+
+impl Admitted {
+    fn of([t_x, t_y, a_x, a_y]: [f64; 4]) -> Self {
+        Self {
+            across: [t_x, t_y],
+            arm: [a_x, a_y],
+        }
     }
 
-    /// B^T Pi v
-    fn sums(&self, v: impl Fn(usize) -> [f64; 2] + Sync) -> [f64; 3] {
-        sum_cells(self.xx.len(), |i| self.motion_of(i, self.in_cell(i, v(i))))
+    /// Pi v. With 1 - e_x^2 in place of t_x^2, where few cells stick, rounding would hide what slip cells
+    /// whose shear is turned a little aside give way by.
+    fn project(self, v: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.across;
+        let along = x * v[0] + y * v[1];
+        let sticks = x == 0.0 && y == 0.0;
+        if sticks { v } else { [along * x, along * y] }
     }
 
-    /// The part of v in the tangent space of a cell.
-    fn in_cell(&self, i: usize, [a, b]: [f64; 2]) -> [f64; 2] {
-        let (xx, xy, yy) = (self.xx[i], self.xy[i], self.yy[i]);
-        [xx * a + xy * b, xy * a + yy * b]
+    /// B^T v
+    fn motion_of(self, [a, b]: [f64; 2]) -> [f64; 3] {
+        let [x, y] = self.arm;
+        [a, b, x * b - y * a]
     }
 
-    /// B^T v of a cell.
-    fn motion_of(&self, i: usize, [a, b]: [f64; 2]) -> [f64; 3] {
-        let turn = match (self.arm_x.get(i), self.arm_y.get(i)) {
-            (Some(x), Some(y)) => x * b - y * a,
-            _ => 0.0,
-        };
-        [a, b, turn]
+    /// v - Pi B m
+    fn without(self, m: [f64; 3], v: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.arm;
+        let rigid = self.project([m[0] - y * m[2], m[1] + x * m[2]]);
+        [v[0] - rigid[0], v[1] - rigid[1]]
     }
+}
+
+/// Both fields become zero.
+fn clear(pair: &mut Pair) {
+    let [x, y] = pair;
+    set([], [x, y], |_, [], _| [0.0; 2]);
 }

@@ -14,7 +14,8 @@
 //! iteration costs one convolution, and a second one only when cells leave.
 
 use super::rigid_motion::{Arms, Drive, add};
-use super::vector::{add_scaled, copy, dot, largest, set_cells, sum_cells};
+use super::sweep::{largest, set, sums, survey, sweep};
+use super::vector::{add_scaled, copy};
 use super::{Response, SolverError};
 
 /// What is given: the gap and what drives the approach and the tilts.
@@ -59,8 +60,8 @@ pub struct NormalWorkspace {
     residual: Vec<f64>,
     last_residual: Vec<f64>,
     z: Vec<f64>,
-    /// Cells whose pressure the direction may change.
-    free: Vec<bool>,
+    /// One in cells whose pressure the direction may change, zero elsewhere.
+    free: Vec<f64>,
     direction: Vec<f64>,
     response: Vec<f64>,
 }
@@ -73,7 +74,7 @@ impl NormalWorkspace {
             residual: field(),
             last_residual: field(),
             z: field(),
-            free: vec![false; cells],
+            free: field(),
             direction: field(),
             response: field(),
         }
@@ -99,8 +100,8 @@ pub fn normal(
 ) -> Result<NormalInfo, SolverError> {
     copy(p, &mut ws.response);
     balance(problem, p);
-    let off = |n: usize| (p[n] - ws.response[n]).abs() - SUMMED * p[n];
-    let [moved] = largest(p.len(), |n| [off(n)]);
+    let off = |p: f64, before: f64| (p - before).abs() - SUMMED * p;
+    let [moved] = largest([&*p, &ws.response], |_, [p, before]| [off(p, before)]);
     if moved > 0.0 {
         add_response_of_change(response, p, u_z, ws);
     }
@@ -160,13 +161,18 @@ pub fn normal(
         }
         last_product = product;
         let step = slope / curvature;
-        let [pulled] = largest(p.len(), |n| [-(p[n] + step * ws.direction[n])]);
+        let [pulled] = largest([&*p, &ws.direction], |_, [p, d]| [-(p + step * d)]);
         if pulled <= 0.0 {
-            add_scaled(p, step, &ws.direction);
-            add_scaled(u_z, step, &ws.response);
+            let changes = [&ws.direction[..], &ws.response];
+            set(changes, [p, u_z], |_, [d, u], [p, u_z]| {
+                [p + step * d, u_z + step * u]
+            });
         } else {
-            copy(p, &mut ws.response);
-            set_cells(p, |n, p| (p + step * ws.direction[n]).max(0.0));
+            set(
+                [&ws.direction[..]],
+                [p, &mut ws.response],
+                |_, [d], [p, _]| [(p + step * d).max(0.0), p],
+            );
             balance(problem, p);
             add_response_of_change(response, p, u_z, ws);
         }
@@ -182,14 +188,16 @@ const ROUNDS: usize = 20;
 /// Scales p to the force asked for, or weights it with a rigid motion, p (1 + B m), to the force
 /// and the moments.
 fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
-    let Drive { free, sums, .. } = problem.drive;
+    let Drive {
+        free, sums: asked, ..
+    } = problem.drive;
     if free == [false; 3] {
         return;
     }
     if free[0] {
-        let [sum] = sum_cells(p.len(), |n| [p[n]]);
-        let factor = sums[0] / sum;
-        set_cells(p, |_, p| p * factor);
+        let [sum] = sums([&*p], |_, [p]| [p]);
+        let factor = asked[0] / sum;
+        set([], [p], |_, [], [p]| [p * factor]);
     }
     if free == [true, false, false] {
         return;
@@ -200,7 +208,7 @@ fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
         if missing.iter().all(|m| m.abs() <= enough) {
             return;
         }
-        let m = problem.arms.spread_across(free, |n| p[n], missing);
+        let m = problem.arms.spread_across(free, p, missing);
         for n in 0..p.len() {
             p[n] *= (1.0 + problem.arms.across(m, n)).max(0.0);
         }
@@ -209,9 +217,10 @@ fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
 
 /// The loads that the pressure lacks; zero for motions that are given.
 fn missing(problem: &NormalProblem<'_>, p: &[f64]) -> [f64; 3] {
-    let now = sum_cells(p.len(), |n| problem.arms.sums_across(p[n], n));
-    let Drive { free, sums, .. } = problem.drive;
-    std::array::from_fn(|k| if free[k] { sums[k] - now[k] } else { 0.0 })
+    let now = sums([p], |n, [p]| problem.arms.sums_across(p, n));
+    let drive = problem.drive;
+    let missing = |k: usize| drive.sums[k] - now[k];
+    std::array::from_fn(|k| if drive.free[k] { missing(k) } else { 0.0 })
 }
 
 /// Part of the load that may be missing at the end; rounding leaves far less.
@@ -233,7 +242,8 @@ fn add_response_of_change(
     u_z: &mut [f64],
     ws: &mut NormalWorkspace,
 ) {
-    set_cells(&mut ws.z, |n, _| p[n] - ws.response[n]);
+    let from = [p, &ws.response];
+    set(from, [&mut ws.z], |_, [p, before], _| [p - before]);
     response.normal(&ws.z, &mut ws.response);
     add_scaled(u_z, 1.0, &ws.response);
 }
@@ -241,19 +251,20 @@ fn add_response_of_change(
 /// The motion (what fits h_init + u_z best over the contact) and what the equations miss.
 pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> NormalInfo {
     let Drive { free, given, .. } = problem.drive;
-    let gap_at = |n: usize, motion| u_z[n] + problem.h_init[n] - problem.arms.across(motion, n);
-    let fitted = |n: usize| (p[n] > 0.0).then(|| gap_at(n, given));
-    let motion = add(given, problem.arms.fit_across(free, fitted));
-    let [squares, contact] = sum_cells(p.len(), |n| {
-        let gap = gap_at(n, motion);
-        if p[n] > 0.0 {
-            [gap * gap, 1.0]
+    let fields = [p, u_z, problem.h_init];
+    let fitted = |n: usize, [p, u_z, h]: [f64; 3]| {
+        let touches = f64::from(u8::from(p > 0.0));
+        (touches, u_z + h - problem.arms.across(given, n))
+    };
+    let motion = add(given, problem.arms.fit_across(free, fields, fitted));
+    let ([squares, contact], [penetration]) = survey(fields, |n, [p, u_z, h]| {
+        let gap = u_z + h - problem.arms.across(motion, n);
+        if p > 0.0 {
+            ([gap * gap, 1.0], [0.0])
         } else {
-            [0.0; 2]
+            ([0.0; 2], [-gap])
         }
     });
-    let overlap = |n: usize| if p[n] > 0.0 { 0.0 } else { -gap_at(n, motion) };
-    let [penetration] = largest(p.len(), |n| [overlap(n)]);
     let gap = (squares / contact.max(1.0)).sqrt();
     NormalInfo {
         motion,
@@ -285,67 +296,53 @@ fn descend(
         preconditioned,
         last_product,
     } = towards;
-    let cells = p.len();
-    std::mem::swap(&mut ws.residual, &mut ws.last_residual);
-    set_cells(&mut ws.residual, |n, _| {
-        let gap = u_z[n] + problem.h_init[n] - problem.arms.across(motion, n);
-        if p[n] > 0.0 || gap < 0.0 { -gap } else { 0.0 }
-    });
-    response.invert_normal(&ws.residual, &mut ws.z, preconditioned);
-    let enters = |n: usize| ws.residual[n] > 0.0;
+    let NormalWorkspace {
+        residual,
+        last_residual,
+        z,
+        free,
+        direction,
+        ..
+    } = ws;
     let arms = problem.arms;
-    let of_all = fit(problem, &ws.z, |n| p[n] > 0.0 || enters(n));
+    std::mem::swap(residual, last_residual);
+    let from = [p, u_z, problem.h_init];
+    set(from, [residual], |n, [p, u_z, h], _| {
+        let gap = u_z + h - arms.across(motion, n);
+        [if p > 0.0 || gap < 0.0 { -gap } else { 0.0 }]
+    });
+    response.invert_normal(residual, z, preconditioned);
+    let from = [p, residual, z];
+    let touches = |_: usize, [p, r, z]: [f64; 3]| (f64::from(u8::from(p > 0.0 || r > 0.0)), z);
+    let of_all = arms.fit_across(problem.drive.free, from, touches);
     // A cell without pressure that the direction would pull at stays out.
-    set_cells(&mut ws.free, |n, _| {
-        p[n] > 0.0 || (enters(n) && ws.z[n] > arms.across(of_all, n))
+    set(from, [free], |n, [p, r, z], _| {
+        let changes = p > 0.0 || (r > 0.0 && z > arms.across(of_all, n));
+        [f64::from(u8::from(changes))]
     });
-    let of_free = fit(problem, &ws.z, |n| ws.free[n]);
-    set_cells(&mut ws.z, |n, z| {
-        if ws.free[n] {
-            z - arms.across(of_free, n)
-        } else {
-            z
-        }
-    });
-    let [product, fresh] = sum_cells(cells, |n| {
-        if ws.free[n] {
-            let change = ws.residual[n] - ws.last_residual[n];
-            [ws.residual[n] * ws.z[n], change * ws.z[n]]
-        } else {
-            [0.0; 2]
-        }
+    let weighted = |_: usize, [free, value]: [f64; 2]| (free, value);
+    let fit = |field: &[f64]| arms.fit_across(problem.drive.free, [free, field], weighted);
+    let (of_free, drift) = (fit(z), fit(direction));
+    let from = [&free[..], residual, last_residual];
+    let [product, fresh] = sweep(from, [z], |n, [free, now, last], [z]| {
+        let z = free * (z - arms.across(of_free, n));
+        ([z], [now * z, (now - last) * z])
     });
     let beta = if last_product > 0.0 {
         (fresh / last_product).max(0.0)
     } else {
         0.0
     };
-    let drift = fit(problem, &ws.direction, |n| ws.free[n]);
-    set_cells(&mut ws.direction, |n, d| {
-        if ws.free[n] {
-            ws.z[n] + beta * (d - arms.across(drift, n))
-        } else {
-            0.0
-        }
+    set([&free[..], z], [direction], |n, [free, z], [d]| {
+        [z + beta * free * (d - arms.across(drift, n))]
     });
     product
-}
-
-/// The free motion that fits a field best over the cells inside.
-fn fit(
-    problem: &NormalProblem<'_>,
-    field: &[f64],
-    inside: impl Fn(usize) -> bool + Sync,
-) -> [f64; 3] {
-    let value = |n: usize| inside(n).then(|| field[n]);
-    problem.arms.fit_across(problem.drive.free, value)
 }
 
 /// Slope and curvature of the energy along the direction; its response goes to the workspace.
 fn line(response: &mut Response<'_>, ws: &mut NormalWorkspace) -> (f64, f64) {
     response.normal(&ws.direction, &mut ws.response);
-    (
-        dot(&ws.residual, &ws.direction),
-        dot(&ws.direction, &ws.response),
-    )
+    let fields = [&ws.residual[..], &ws.direction, &ws.response];
+    let [slope, curvature] = sums(fields, |_, [r, d, u]| [r * d, d * u]);
+    (slope, curvature)
 }

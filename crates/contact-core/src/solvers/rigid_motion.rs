@@ -10,7 +10,7 @@
 //! and the sums of B^T times the traction are its forces and moments. Rotations are multiplied by
 //! the length that x and y are divided by, so that every m is a length and every sum a traction.
 
-use super::vector::sum_cells;
+use super::sweep::{Fields, sums};
 
 /// Lever arms: where the cells are.
 #[derive(Clone, Debug, Default)]
@@ -59,76 +59,74 @@ impl Arms {
         [p, self.y[n] * p, -self.x[n] * p]
     }
 
-    /// The motion within `free` that fits a field best over the cells of the plane for which
-    /// `value` says it.
-    pub(crate) fn fit_in_plane(
+    /// The motion within `free` that fits best in the plane what `weighted` makes, a weight and a value,
+    /// of the cells of some fields.
+    pub(crate) fn fit_in_plane<F: Fields>(
         &self,
         free: [bool; 3],
-        value: impl Fn(usize) -> Option<[f64; 2]> + Sync,
+        fields: F,
+        weighted: impl Fn(usize, F::Cell) -> (f64, [f64; 2]) + Sync,
     ) -> [f64; 3] {
-        let cells = self.x.len();
         if !free[2] {
-            let [count, a, b] =
-                sum_cells(cells, |n| value(n).map_or([0.0; 3], |v| [1.0, v[0], v[1]]));
+            let [count, a, b] = sums(fields, |n, cell| {
+                let (w, [a, b]) = weighted(n, cell);
+                [w, w * a, w * b]
+            });
             let plane = [[count, 0.0, 0.0], [0.0, count, 0.0], [0.0; 3]];
             return product(&inverse(plane, free), [a, b, 0.0]);
         }
-        let [count, x, y, r2, a, b, moment] = sum_cells(cells, |n| {
-            value(n).map_or([0.0; 7], |v| {
-                let (x, y) = (self.turn_x(n), self.y[n]);
-                [1.0, x, y, x * x + y * y, v[0], v[1], x * v[1] - y * v[0]]
-            })
+        let fields = (fields, [&self.x[..], &self.y]);
+        let [count, x, y, r2, a, b, moment] = sums(fields, |n, (cell, [x, y])| {
+            let (w, [a, b]) = weighted(n, cell);
+            let (x, a, b) = (self.stretch * x, w * a, w * b);
+            [w, w * x, w * y, w * (x * x + y * y), a, b, x * b - y * a]
         });
         let plane = [[count, 0.0, -y], [0.0, count, x], [-y, x, r2]];
         product(&inverse(plane, free), [a, b, moment])
     }
 
-    /// The same across the plane.
-    pub(crate) fn fit_across(
+    /// The motion within `free` that fits best across the plane what `weighted` makes, a weight and a
+    /// value, of the cells of some fields.
+    pub(crate) fn fit_across<F: Fields>(
         &self,
         free: [bool; 3],
-        value: impl Fn(usize) -> Option<f64> + Sync,
+        fields: F,
+        weighted: impl Fn(usize, F::Cell) -> (f64, f64) + Sync,
     ) -> [f64; 3] {
         if free == [true, false, false] {
-            let [count, v] = sum_cells(self.x.len(), |n| value(n).map_or([0.0; 2], |v| [1.0, v]));
+            let [count, v] = sums(fields, |n, cell| {
+                let (weight, v) = weighted(n, cell);
+                [weight, weight * v]
+            });
             let matrix = [[count, 0.0, 0.0], [0.0; 3], [0.0; 3]];
             return product(&inverse(matrix, free), [v, 0.0, 0.0]);
         }
-        let weighted = |n: usize| value(n).map_or((0.0, 0.0), |v| (1.0, v));
-        self.solve_across(free, weighted, None)
+        self.solve_across(free, fields, weighted, None)
     }
 
     /// The motion m within `free` with which the weights times B m have the sums asked for.
     pub(crate) fn spread_across(
         &self,
         free: [bool; 3],
-        weight: impl Fn(usize) -> f64 + Sync,
+        weights: &[f64],
         asked: [f64; 3],
     ) -> [f64; 3] {
-        self.solve_across(free, |n| (weight(n), 0.0), Some(asked))
+        self.solve_across(free, [weights], |_, [weight]| (weight, 0.0), Some(asked))
     }
 
     /// Normal equations of weights and values; `asked` stands for the sums of the values.
-    fn solve_across(
+    fn solve_across<F: Fields>(
         &self,
         free: [bool; 3],
-        weighted: impl Fn(usize) -> (f64, f64) + Sync,
+        fields: F,
+        weighted: impl Fn(usize, F::Cell) -> (f64, f64) + Sync,
         asked: Option<[f64; 3]>,
     ) -> [f64; 3] {
-        let [w, x, y, xx, xy, yy, v, vx, vy] = sum_cells(self.x.len(), |n| {
-            let (w, v) = weighted(n);
-            let (x, y, v) = (self.x[n], self.y[n], w * v);
-            [
-                w,
-                w * x,
-                w * y,
-                w * x * x,
-                w * x * y,
-                w * y * y,
-                v,
-                v * x,
-                v * y,
-            ]
+        let fields = (fields, [&self.x[..], &self.y]);
+        let [w, x, y, xx, xy, yy, v, vx, vy] = sums(fields, |n, (cell, [x, y])| {
+            let (w, v) = weighted(n, cell);
+            let (wx, wy, v) = (w * x, w * y, w * v);
+            [w, wx, wy, wx * x, wx * y, wy * y, v, v * x, v * y]
         });
         let matrix = [[w, y, -x], [y, yy, -xy], [-x, -xy, xx]];
         product(&inverse(matrix, free), asked.unwrap_or([v, vy, -vx]))
@@ -228,8 +226,9 @@ mod tests {
             stretch: 0.8,
         };
         let m = [0.3, -0.2, 0.7];
-        let plane = arms.fit_in_plane([true; 3], |n| Some(arms.in_plane(m, n)));
-        let across = arms.fit_across([true; 3], |n| Some(arms.across(m, n)));
+        let plane = arms.fit_in_plane([true; 3], [], |n, []| (1.0, arms.in_plane(m, n)));
+        let moved: Vec<f64> = (0..4).map(|n| arms.across(m, n)).collect();
+        let across = arms.fit_across([true; 3], [&moved[..]], |_, [v]| (1.0, v));
         for k in 0..3 {
             assert!((plane[k] - m[k]).abs() < 1e-14 && (across[k] - m[k]).abs() < 1e-14);
         }

@@ -82,9 +82,14 @@ pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) ->
     let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slip[n];
     let any_sticks = (0..cells).any(sticks);
     let given = problem.drive.given;
-    let slip = |n: usize| {
-        let counts = problem.bound[n] > 0.0 && (sticks(n) || !any_sticks);
-        counts.then(|| problem.slip(&shear.u, given, n))
+    let ([u_x, u_y], [ref_x, ref_y]) = (&shear.u, problem.u_ref);
+    let fields = ([u_x, u_y, ref_x, ref_y, problem.bound], &*shear.slip);
+    let slip = |n: usize, ([u_x, u_y, ref_x, ref_y, bound], slips): ([f64; 5], bool)| {
+        let counts = bound > 0.0 && !(slips && any_sticks);
+        let rigid = problem.arms.in_plane(given, n);
+        let slip = [u_x - ref_x - rigid[0], u_y - ref_y - rigid[1]];
+        (f64::from(u8::from(counts)), slip)
     };
-    add(given, problem.arms.fit_in_plane(problem.drive.free, slip))
+    let fitted = problem.arms.fit_in_plane(problem.drive.free, fields, slip);
+    add(given, fitted)
 }

@@ -26,7 +26,8 @@ use super::newton_step::NewtonStep;
 use super::projected_gradient::ProjectedGradient;
 use super::shear::{Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift};
 use super::shear_gradient::GradientBuffers;
-use super::vector::{add_scaled, set_cells, size};
+use super::sweep::set;
+use super::vector::{set_cells, size};
 use super::{Response, SolverError};
 
 /// Buffers of the tangential solver.
@@ -132,9 +133,10 @@ pub fn tangential(
         mark_slip(&inside, &mut now, info.shift);
         if admissible(&inside, &mut now.q, now.slip, change) > settled / c_xx {
             step.respond(response, cells, change);
-            for c in 0..2 {
-                add_scaled(now.u[c], 1.0, &change[c]);
-            }
+            let ([of_x, of_y], [u_x, u_y]) = (&*change, &mut now.u);
+            set([&of_x[..], of_y], [u_x, u_y], |_, of, u| {
+                [u[0] + of[0], u[1] + of[1]]
+            });
         }
         let follows = !problem.turning.is_empty();
         let circles = stalled > 0 && stalled.is_multiple_of(CIRCLES);
@@ -145,9 +147,10 @@ pub fn tangential(
             info.passes += DESCENT;
             now.pack(cells, shear);
         } else {
-            for c in 0..2 {
-                add_scaled(shear.u[c], 1.0, &step.response_x[c]);
-            }
+            let ([of_x, of_y], [u_x, u_y]) = (&step.response_x, &mut shear.u);
+            set([&of_x[..], of_y], [u_x, u_y], |_, of, u| {
+                [u[0] + of[0], u[1] + of[1]]
+            });
         }
         if follows {
             now.unpack(cells, shear);
