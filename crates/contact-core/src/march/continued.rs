@@ -176,7 +176,7 @@ impl Border {
         let contact: Vec<bool> = p.iter().map(|&p| p > 0.0).collect();
         let edges = Lattice::new(grid, Mirror::None).edges(
             &contact,
-            |_, _| [0.5; 2],
+            |_, _| (0.5, None),
             |n, _| p[(n / grid.ny, n % grid.ny)],
         );
         Self::new(&p.mapv(|p| p.max(0.0).powi(2)), &edges)
@@ -288,7 +288,7 @@ impl StickZone {
         // Where the zone grows the shear goes like the power 3/2: that needs nothing.
         let mut edges = Lattice::new(grid, Mirror::None).edges(
             stick,
-            |_, _| [0.5, 1.5],
+            |_, _| (0.5, Some(1.5)),
             |n, _| short((n / grid.ny, n % grid.ny)),
         );
         edges.retain(|(n, _)| p[(n / grid.ny, n % grid.ny)] > 0.0);

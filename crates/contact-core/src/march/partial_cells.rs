@@ -59,7 +59,7 @@ impl March {
             |[_, rim], inwards| {
                 let q_n = now.q[0][rim] * inwards[0] + now.q[1][rim] * inwards[1];
                 let e = (beta * q_n / now.p[rim]).atan() / std::f64::consts::PI;
-                [0.5 + e, 0.5 + e]
+                (0.5 + e, None)
             },
             |n, _| now.p[n],
         );
@@ -76,7 +76,7 @@ impl March {
         let q = |n: usize| [now.q[0][n], now.q[1][n]];
         let mut border = lattice.edges(
             &stick,
-            |_, _| [SHRINKS, GROWS],
+            |_, _| (SHRINKS, Some(GROWS)),
             |n, [outside, outermost]| {
                 let e = q(if contact[outside] { outside } else { outermost });
                 let along = (q(n)[0] * e[0] + q(n)[1] * e[1]) / size(e).max(f64::MIN_POSITIVE);
@@ -104,7 +104,7 @@ pub fn continued_pressure(p: &Array2<f64>, grid: &Grid) -> Array2<f64> {
     let lattice = Lattice::new(grid, Mirror::None);
     let contact: Vec<bool> = p.iter().map(|&p| p > 0.0).collect();
     let mut continued: Vec<f64> = p.iter().copied().collect();
-    let rim = lattice.edges(&contact, |_, _| [0.5; 2], |n, _| continued[n]);
+    let rim = lattice.edges(&contact, |_, _| (0.5, None), |n, _| continued[n]);
     for (n, edge) in rim {
         if let Some((level, _)) = edge.level {
             continued[n] = level.max(0.0).sqrt();
@@ -166,12 +166,12 @@ impl Lattice {
     ///
     /// `value` of a cell in the zone, given the two on the line on either side of the border, the
     /// outer one first, vanishes there like a power of the distance: the first of the two that
-    /// `exponents` gives, for these cells and the direction inwards. Where the second one fits better
-    /// the cells do not tell.
+    /// `exponents` gives, for these cells and the direction inwards. Where there is a second one that
+    /// fits better the cells do not tell.
     pub(super) fn edges(
         self,
         zone: &[bool],
-        exponents: impl Fn([usize; 2], [f64; 2]) -> [f64; 2],
+        exponents: impl Fn([usize; 2], [f64; 2]) -> (f64, Option<f64>),
         value: impl Fn(usize, [usize; 2]) -> f64,
     ) -> Vec<(usize, Edge)> {
         (0..zone.len())
@@ -202,7 +202,7 @@ impl Lattice {
         self,
         n: usize,
         zone: &[bool],
-        exponents: &impl Fn([usize; 2], [f64; 2]) -> [f64; 2],
+        exponents: &impl Fn([usize; 2], [f64; 2]) -> (f64, Option<f64>),
         value: &impl Fn(usize, [usize; 2]) -> f64,
     ) -> Option<(f64, [f64; 2])> {
         let in_zone = |m: &usize| zone[*m];
@@ -216,12 +216,12 @@ impl Lattice {
             .map_while(|k| step(k).filter(in_zone))
             .collect();
         let d = inwards.map(|k| k as f64);
-        let [exponent, other] = exponents(sides, d.map(|k| k / d[0].hypot(d[1])));
-        let raised = |m: usize, exponent: f64| value(m, sides).max(0.0).powf(1.0 / exponent);
+        let (exponent, other) = exponents(sides, d.map(|k| k / d[0].hypot(d[1])));
+        let values: Vec<f64> = line.iter().map(|&m| value(m, sides)).collect();
         let levels =
-            |exponent: f64| -> Vec<f64> { line.iter().map(|&m| raised(m, exponent)).collect() };
+            |exponent: f64| -> Vec<f64> { values.iter().map(|&v| raised(v, exponent)).collect() };
         let here = levels(exponent);
-        if straightness(&levels(other)) < straightness(&here) {
+        if other.is_some_and(|other| straightness(&levels(other)) < straightness(&here)) {
             return None;
         }
         let parabola = Parabola::through(&here)?;
@@ -233,7 +233,7 @@ impl Lattice {
         let usable = place.abs() <= FARTHEST && parabola.slope(outermost) > 0.0 && slope > 0.0;
         let third = usable.then(|| line.get(1))?;
         let gradient = third.map_or([0.0; 2], |&m| {
-            self.gradient(m, zone, |m| raised(m, exponent))
+            self.gradient(m, zone, |m| raised(value(m, sides), exponent))
         });
         let along = gradient[0] * d[0] + gradient[1] * d[1];
         let gradient = if along > 0.0 {
@@ -294,6 +294,16 @@ impl Lattice {
         let j = if j < 0 && self.mirrored { -1 - j } else { j };
         let on_grid = (0..self.columns).contains(&i) && (0..self.rows).contains(&j);
         on_grid.then(|| (i * self.rows + j) as usize)
+    }
+}
+
+/// The level of a value that grows with this power of the distance.
+fn raised(value: f64, exponent: f64) -> f64 {
+    let value = value.max(0.0);
+    if exponent == SHRINKS {
+        value * value
+    } else {
+        value.powf(1.0 / exponent)
     }
 }
 
@@ -373,7 +383,7 @@ mod tests {
         let zone: Vec<bool> = f.iter().map(|&f| f > 0.0).collect();
         let lattice = Lattice::new(&grid, mirror);
         let whole = zone.iter().filter(|&&inside| inside).count() as f64;
-        let edges = lattice.edges(&zone, |_, _| [1.0; 2], |n, _| f[n]);
+        let edges = lattice.edges(&zone, |_, _| (1.0, None), |n, _| f[n]);
         let partial: f64 = edges
             .iter()
             .map(|(n, edge)| edge.share(0.0) - f64::from(u8::from(zone[*n])))
