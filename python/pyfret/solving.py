@@ -52,8 +52,8 @@ def solve(
         increment. The ends of branches have theirs too, unless that costs more than 3 % of the
         run.
     error : bool
-        Whether to run the path once more on two coarser grids and with fewer increments, for
-        :meth:`Result.error_bars`.
+        Whether to run the path again on coarser and finer grids and with fewer increments, some
+        times as long, for :meth:`Result.error_bars`.
     progress : bool
         Whether to draw a progress bar on a terminal or in a notebook.
 

@@ -1,6 +1,6 @@
 //! Error bars: is the error of cells, increments and solver together what it is said to be?
 //!
-//! Random scenes, each against three times the cells each way and four times the increments. A few in
+//! Random scenes, each against five times the cells each way and four times the increments. A few in
 //! the test; `FRET_ERROR_BARS=50` for as many (`make error-bars`).
 
 #![allow(clippy::print_stdout, reason = "a report for people")]
@@ -21,10 +21,10 @@ use splitmix::Draw;
 const HONEST: (f64, f64) = (0.2, 1.5);
 /// Cells each way and of the reference, and increments of the reference over those of the scene.
 const CELLS: usize = 48;
-const FINE: usize = 3 * CELLS;
+const FINE: usize = 5 * CELLS;
 const FINER: usize = 4;
 /// Seeds differ from those of the path's errors, and from those that the orders were chosen on.
-const FIRST_SEED: u64 = 1000;
+const FIRST_SEED: u64 = 3000;
 
 /// A sphere on a half-space, coated or not, fretted, twisted or neither.
 fn drawn(seed: u64) -> String {
@@ -178,10 +178,13 @@ fn report(scenes: usize, lines: &[String]) -> std::io::Result<()> {
          {FINE} x {FINE} cells\nand {FINER} times the increments. Ratios are true error over estimated error, all parts \
          together; of the\nfields the largest over the branches of a scene, of the numbers those of every branch.\n\n\
          ```text\n{}\n```\n\n\
-         The fields are off in a known way, and their bars are right in every scene or nearly. Numbers like the contact\n\
-         radius, the shift or the stick ratio are off by what the place of a border within the cells makes of them:\n\
-         of either sign, from grid to grid by chance. Of such an error a bar can say the size, not more: were it\n\
-         normally distributed and its scale known exactly, three in four would lie between 0.2 and 1.5.\n",
+         Where the rim and the border of the stick zone lie within the cells puts numbers off to either side, from\n\
+         grid to grid by chance. Coarser grids tell the scale of such errors; of an error of exactly known scale, were\n\
+         it normally distributed, three in four would lie between 0.2 and 1.5. So the path is solved in at most 8\n\
+         increments a branch on the grid and on one of three times its cells each way (twice from 171 cells on, none\n\
+         beyond 256, where such numbers have the scale only): there the rim lies where it lies in the run, and the\n\
+         error has its sign. The shift and the dissipated energy are left with what so few increments do to them,\n\
+         which is told less well.\n",
         lines.join("\n")
     );
     std::fs::write(path, text)
@@ -200,22 +203,29 @@ fn error_bars_are_honest() {
         honest_fields[k] = honest;
         lines.push(line);
     }
-    let mut below = [0, 0];
+    let (mut honest_numbers, mut numbers) = (0, 0);
     for (name, ..) in NUMBERS {
         let of = found.iter().flat_map(|(_, numbers)| numbers);
         let ratios: Vec<f64> = of.filter(|(of, _)| *of == name).map(|(_, r)| *r).collect();
         if ratios.is_empty() {
             continue;
         }
-        lines.push(told(name, &ratios).1);
-        below[0] += ratios.iter().filter(|&&r| r <= HONEST.1).count();
-        below[1] += ratios.len();
+        let (honest, line) = told(name, &ratios);
+        lines.push(line);
+        honest_numbers += honest;
+        numbers += ratios.len();
     }
+    lines.push(format!(
+        "all numbers     {honest_numbers:3} of {numbers:3} within {HONEST:?}"
+    ));
     println!("{}", lines.join("\n"));
     report(scenes, &lines).expect("a report");
     for honest in honest_fields {
         assert!(10 * honest >= 9 * scenes, "{honest} of {scenes}");
     }
-    // The numbers are off by chance; most of them by no more than their bars.
-    assert!(4 * below[0] >= 3 * below[1], "{below:?}");
+    // Few scenes may hold more of the odd numbers.
+    let tenths = if scenes < 50 { 8 } else { 9 };
+    let honest = honest_numbers + honest_fields.iter().sum::<usize>();
+    let cases = numbers + 2 * scenes;
+    assert!(10 * honest >= tenths * cases, "{honest} of {cases}");
 }

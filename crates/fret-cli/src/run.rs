@@ -26,8 +26,8 @@ pub(crate) struct Options {
     /// Replace a result store that exists
     #[arg(long)]
     overwrite: bool,
-    /// Run the path once more on two coarser grids and with fewer increments, and give every headline
-    /// number with the error that cells, increments and solver leave
+    /// Run the path again on coarser and finer grids and with fewer increments, for some times as
+    /// long, and give every headline number with the error that cells, increments and solver leave
     #[arg(long)]
     error: bool,
     #[command(flatten)]

@@ -7,13 +7,18 @@
 //! error = |f - c_i|/(r_i^m - 1)
 //! ```
 //!
-//! but the place of the rim within the cells makes errors go up and down from grid to grid, as much as
-//! they fall where the rim is well found: the root of the mean square over the grids is the error.
-//! The tractions are compared as fields, their means over the cells of the first coarser grid.
+//! but the place of the rim within the cells makes errors of numbers go up and down from grid to grid, as
+//! much as they fall where the rim is well found: the root of the mean square over the grids is the scale
+//! of the error. A finer grid tells the error itself (`finer`), up to what it leaves on that scale. The
+//! tractions are compared as fields, their means over the cells of the first coarser grid.
 //!
 //! **Increments.** The change from fewer or to more of them (`path_error`), of every number.
 //!
 //! **Solver.** Its tolerance.
+//!
+//! Errors of cells and of increments whose signs are known add up or cancel, though neither is known
+//! exactly: the square of the error is that of their sum by three parts, and that of what they are
+//! without signs by one.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -21,6 +26,7 @@ use std::sync::atomic::AtomicBool;
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
+use super::finer::Finer;
 use super::path_error::path_errors;
 use super::{BranchSummary, Increment, March, Observer, choose_increments, summarise};
 use crate::error::Error;
@@ -33,6 +39,8 @@ const PARTS: [f64; 2] = [0.5, 0.375];
 const NUMBERS: f64 = 1.5;
 /// Order m of the tractions, which are off in the cells of the rim.
 const FIELDS: f64 = 1.0;
+/// Part of the square of the error of a number that is reckoned without signs.
+const UNSIGNED: f64 = 0.25;
 /// How well the border of a stick zone is found at least, in cells: of one that grows whole cells tell.
 const BORDER: f64 = 0.1;
 /// Fewest cells each way of a coarser grid.
@@ -41,7 +49,8 @@ const FEWEST: usize = 8;
 /// The estimated error of a number and its parts, >= 0, in the unit of the number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Bar {
-    /// All: the root of the sum of the squares.
+    /// All: the root of the sum of the squares. Of a number whose error a finer grid tells, a quarter of
+    /// that sum, and three of the square of cells and increments together, with their signs.
     pub total: f64,
     /// What the cells leave.
     pub cells: f64,
@@ -140,9 +149,10 @@ impl Observer for BranchEnds<'_> {
     }
 }
 
-/// Solves the scene again on two coarser grids, at less than half of the work, and along the path with
-/// fewer increments, and gives the errors of the branches of `increments`, which ended with these
-/// tractions. Ends when `stop` is raised.
+/// Solves the scene again on two coarser grids, along the path with fewer increments, and in few
+/// increments on a finer grid, at some times the work of the run, and gives the errors of the branches of
+/// `increments`, which ended with these tractions. Where a finer grid would have more than 512 x 512
+/// cells the coarser ones alone tell the scale of errors. Ends when `stop` is raised.
 pub fn error_bars(
     scene: &Scene,
     increments: &[Increment],
@@ -175,6 +185,7 @@ pub fn error_bars(
                 .collect();
         }
     }
+    let finer = Finer::solve(scene, stop)?;
     let tolerance = scene.tolerance();
     let cell = if scene.grid.plane_strain {
         scene.grid.dx
@@ -183,19 +194,37 @@ pub fn error_bars(
     };
     let branches = fine.iter().zip(squares).zip(fields).zip(along_path);
     Ok(branches
-        .map(|(((fine, mut squares), [p, q]), path)| {
+        .enumerate()
+        .map(|(branch, (((fine, mut squares), [p, q]), path))| {
             let value = numbers(fine);
+            // What the finer grid leaves of an error.
+            let left = finer.as_ref().map_or(0.0, |f| f.ratio.powf(-NUMBERS));
+            let of_finer = finer
+                .as_ref()
+                .map(|finer| finer.off[branch].map(|off| off / (1.0 - left)));
+            if let Some(off) = of_finer {
+                for (square, off) in squares.iter_mut().zip(off) {
+                    *square = (left * left) * *square + PARTS.len() as f64 * off * off;
+                }
+            }
             // A ring along the border of the stick zone over the area of the contact.
             let ring = 2.0 * BORDER * cell / fine.contact_radius * fine.stick_ratio.sqrt();
             if fine.stick_ratio < 1.0 && fine.contact_radius > 0.0 {
                 squares[1] += PARTS.len() as f64 * ring * ring;
             }
             let bar = |n: usize| {
-                Bar::new(
-                    (squares[n] / PARTS.len() as f64).sqrt(),
-                    path.numbers[n],
-                    tolerance * value[n].abs(),
-                )
+                let (of_path, solver) = (path.numbers[n], tolerance * value[n].abs());
+                let cells = (squares[n] / PARTS.len() as f64).sqrt();
+                let bar = Bar::new(cells, of_path.abs(), solver);
+                let with_signs = |off: f64| {
+                    let square = (off + of_path).powi(2);
+                    let total = (1.0 - UNSIGNED) * square + UNSIGNED * bar.total.powi(2);
+                    Bar {
+                        total: total.sqrt(),
+                        ..bar
+                    }
+                };
+                of_finer.map_or(bar, |off| with_signs(off[n]))
             };
             ErrorBars {
                 branch: fine.branch,

@@ -10,6 +10,7 @@ mod entering;
 mod equations;
 mod error_bars;
 mod fields;
+mod finer;
 mod halving;
 mod increment;
 mod kept_contact;

@@ -153,7 +153,8 @@ pub(super) struct PathError {
     pub(super) q: f64,
     /// In the pressure: L2 norm, over the largest of the path.
     pub(super) p: f64,
-    /// In the numbers of the branch, each in its unit.
+    /// In the numbers of the branch, each in its unit, with its sign: what they are more than with many
+    /// increments.
     pub(super) numbers: [f64; 8],
     /// The shear there over the largest of the path (L2).
     pub(super) reached: f64,

@@ -97,7 +97,7 @@ impl Trial {
                 PathError {
                     q: off(1).hypot(off(2)) / q,
                     p: off(0) / p,
-                    numbers: std::array::from_fn(|n| (f[n] - m[n]).abs()),
+                    numbers: std::array::from_fn(|n| f[n] - m[n]),
                     reached: many.q() / q,
                     bearable: self.mu * many.p() / q,
                 }
