@@ -336,10 +336,11 @@ class Result:
     def error_bars(self) -> xr.Dataset:
         """Estimated errors of the numbers at the end of every branch: dims (branch, part).
 
-        Parts are ``total``, and what makes it: ``cells``, told by runs on two coarser grids and,
-        of numbers, up to 256 x 256 cells by one on a finer grid, ``path``, told by a run with fewer increments, and ``solver``, its tolerance. ``p`` and
-        ``q`` are the tractions as fields: L2 norms over the largest of the path. The runs are
-        those of ``solve(..., error=True)`` and ``fret run --error``.
+        Parts are ``total``, and what makes it: ``cells``, told by runs on two coarser grids and, of
+        numbers on up to 256 x 256 cells, by one on a finer grid, ``path``, told by a run with fewer
+        increments, and ``solver``, its tolerance. ``p`` and ``q`` are the tractions as fields: L2
+        norms over the largest of the path. The runs are those of ``solve(..., error=True)`` and
+        ``fret run --error``.
         """
         bars = self.dataset.attrs.get("error_bars")
         if not bars:

@@ -15,7 +15,7 @@ use std::sync::Arc;
 use cap::Cap;
 use contact_core::Scene;
 use contact_core::kernels::clear_cache;
-use contact_core::march::{BranchEnds, error_bars, solve};
+use contact_core::march::{BranchEnds, error_bars, finest, solve};
 use contact_core::output::StoreWriter;
 use contact_core::scene::Plan;
 
@@ -77,7 +77,9 @@ fn a_run_takes_no_more_memory_than_announced() {
                 .chain([grid])
                 .collect();
             let scene = Scene::from_toml_str(COATED, "coated.toml", &settings).unwrap();
-            let announced = Plan::new(&scene).memory(&scene);
+            let memory = |scene: &Scene| Plan::new(scene).memory(scene);
+            let finest = finest(&scene).filter(|_| bars);
+            let announced = memory(&scene) + finest.as_ref().map_or(0.0, memory);
             scenes.push((announced, scene, bars, format!("`{}`", settings.join(" "))));
         }
     }

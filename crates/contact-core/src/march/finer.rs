@@ -34,20 +34,12 @@ impl Finer {
     /// Of a scene whose increments are chosen. None where a finer grid is too large, or does not come to
     /// its end; fails only once `stop` is raised.
     pub(super) fn solve(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Option<Self>, Error> {
-        let mut few = scene.clone();
-        few.settings.save = SaveFields::Branches;
-        few.settings.solver.tolerance = Some(scene.tolerance().max(TOLERANCE));
-        for branch in &mut few.path.branches {
-            branch.increments = Some(branch.count().min(INCREMENTS));
-        }
-        let grids = TIMES.map(|times| (times, refined(&scene.grid, times)));
-        let small = |(_, grid): &(usize, Grid)| grid.nx * grid.ny <= MOST;
-        let Some((times, grid)) = grids.into_iter().find(small) else {
+        let Some(fine) = finest(scene) else {
             return Ok(None);
         };
-        let fine = Scene {
-            grid,
-            ..few.clone()
+        let few = Scene {
+            grid: scene.grid,
+            ..fine.clone()
         };
         let solved = |scene: &Scene| -> Result<_, Error> {
             let increments = March::until(scene, stop)?.run(Vec::new(), &mut ())?;
@@ -59,16 +51,33 @@ impl Finer {
         match solved(&few).and_then(|ours| Ok((ours, solved(&fine)?))) {
             Err(error @ Error::Interrupted { .. }) => Err(error),
             Err(_) => Ok(None),
-            Ok((ours, fine)) => {
-                let pairs = ours.iter().zip(&fine);
+            Ok((ours, theirs)) => {
+                let pairs = ours.iter().zip(&theirs);
                 let off = pairs.map(|(f, g)| std::array::from_fn(|n| f[n] - g[n]));
                 Ok(Some(Self {
-                    ratio: times as f64,
+                    ratio: scene.grid.dx / fine.grid.dx,
                     off: off.collect(),
                 }))
             }
         }
     }
+}
+
+/// The scene in few increments on the finer grid that tells the errors of the cells, if there is one. Error
+/// bars take its memory besides that of the run.
+pub fn finest(scene: &Scene) -> Option<Scene> {
+    let grids = TIMES.map(|times| refined(&scene.grid, times));
+    let grid = grids.into_iter().find(|grid| grid.nx * grid.ny <= MOST)?;
+    let mut fine = Scene {
+        grid,
+        ..scene.clone()
+    };
+    fine.settings.save = SaveFields::Branches;
+    fine.settings.solver.tolerance = Some(scene.tolerance().max(TOLERANCE));
+    for branch in &mut fine.path.branches {
+        branch.increments = Some(branch.count().min(INCREMENTS));
+    }
+    Some(fine)
 }
 
 /// The grid of so many times the cells each way; a strip keeps its one row.

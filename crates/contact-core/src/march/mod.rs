@@ -28,6 +28,7 @@ mod window;
 pub(crate) use continued::Continued;
 pub use error_bars::{Bar, BranchEnds, ErrorBars, Tractions, coarsest, error_bars, means};
 pub use fields::Fields;
+pub use finer::finest;
 pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
 pub use partial_cells::continued_pressure;
 pub use path_error::{choose_increments, estimate_path_error};
