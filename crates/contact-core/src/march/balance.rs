@@ -4,7 +4,7 @@ use super::carried::Carried;
 use super::{Energy, Increment, March, Motion, Residuals, State, Status, Work};
 use crate::convolution::Mirror;
 use crate::error::Error;
-use crate::scene::{Given, LoadPoint, Loads};
+use crate::scene::{Given, LoadPoint, Loads, Preset};
 use crate::solvers::{CoupledInfo, Interface, both, friction_bound, set, size, sums, survey};
 
 /// What sums in another order may differ by.
@@ -66,6 +66,8 @@ impl March {
             },
         };
         self.check_residuals(&increment, (contact, slipping))?;
+        let slides = increment.status == Status::GrossSlip;
+        self.note_missed(&now, info.shift, slides);
         self.keep(point, now, motion, increment.energy.work);
         self.state.without_slip = without_slip;
         if self.state.work != 0.0 {
@@ -234,23 +236,15 @@ impl March {
         cell_area: f64,
     ) -> (Residuals, [f64; 2]) {
         let mu = self.scene.friction.scale();
-        let before = &self.before().u;
         let arms = &self.window.arms;
-        let [moved_x, moved_y] = &self.datum.moved;
+        let [datum_x, datum_y] = &self.datum.displacements;
         let tractions = [&now.p[..], &now.q[0], &now.q[1], &self.mu];
-        let moved = [
-            &now.u[0][..],
-            &now.u[1],
-            &before[0],
-            &before[1],
-            moved_x,
-            moved_y,
-        ];
+        let moved = [&now.u[0][..], &now.u[1], datum_x, datum_y];
         let heights = [&now.u_z[..], &self.window.h_init];
         let fields = ((tractions, moved), (heights, &now.slip[..]));
         let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
         let (sums, largest) = survey(fields, |n, ((tractions, moved), ([u_z, h], slips))| {
-            let ([p, q_x, q_y, mu], [u_x, u_y, x, y, moved_x, moved_y]) = (tractions, moved);
+            let ([p, q_x, q_y, mu], [u_x, u_y, x, y]) = (tractions, moved);
             let (gap, bound) = (
                 u_z + h - arms.across(info.approach, n),
                 friction_bound(mu, p),
@@ -261,13 +255,11 @@ impl March {
             }
             let largest = [p, stretched, excess, 0.0];
             let shift = arms.in_plane(info.shift, n);
-            let slip = [u_x - x - shift[0] - moved_x, u_y - y - shift[1] - moved_y];
+            let slip = [u_x - x - shift[0], u_y - y - shift[1]];
             if !slips {
                 return ([1.0, 0.0, gap * gap, square(slip), 0.0, 0.0], largest);
             }
-            let e = [q_x, q_y].map(|q| q / bound.max(f64::MIN_POSITIVE));
-            let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
-            let off = [slip[0] - along * e[0], slip[1] - along * e[1]];
+            let off = not_opposite(slip, [q_x, q_y], bound);
             (
                 [1.0, 1.0, gap * gap, 0.0, square(off), square(slip)],
                 largest,
@@ -337,6 +329,31 @@ impl March {
         (radius + 0.5 * (radius - last)).powi(2)
     }
 
+    /// Notes the slip that should not be, for the next increment to make good; a body that slides may
+    /// have any shift beyond the incipient one.
+    fn note_missed(&mut self, now: &Interface, shift: [f64; 3], slides: bool) {
+        let fast = self.scene.settings.solver.preset == Preset::Fast;
+        let (arms, mu) = (&self.window.arms, &self.mu);
+        let [datum_x, datum_y] = &self.datum.displacements;
+        let [x, y] = &mut self.state.missed;
+        let tractions = [&now.p[..], &now.q[0], &now.q[1], mu];
+        let moved = [&now.u[0][..], &now.u[1], datum_x, datum_y];
+        let fields = ((tractions, moved), &now.slip[..]);
+        set(fields, [x, y], |n, ((tractions, moved), slips), _| {
+            let ([p, q_x, q_y, mu], [u_x, u_y, x, y]) = (tractions, moved);
+            if !fast || slides || p <= 0.0 {
+                return [0.0; 2];
+            }
+            let shift = arms.in_plane(shift, n);
+            let slip = [u_x - x - shift[0], u_y - y - shift[1]];
+            if slips {
+                not_opposite(slip, [q_x, q_y], friction_bound(mu, p))
+            } else {
+                slip
+            }
+        });
+    }
+
     /// Makes the increment the present state.
     fn keep(&mut self, point: &LoadPoint, now: Interface, motion: Motion, work: f64) {
         let (_, shift) = self.change(&motion);
@@ -384,6 +401,13 @@ impl March {
         state.work += work;
         state.increments += 1;
     }
+}
+
+/// The part of a slip that is not opposite to the shear `q`, which is at the `bound`.
+fn not_opposite(slip: [f64; 2], q: [f64; 2], bound: f64) -> [f64; 2] {
+    let e = q.map(|q| q / bound.max(f64::MIN_POSITIVE));
+    let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
+    [slip[0] - along * e[0], slip[1] - along * e[1]]
 }
 
 /// The slip that is held against the final shear \[m\]: without its turn on the way.

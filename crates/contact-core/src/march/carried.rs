@@ -14,6 +14,8 @@ pub(super) struct Carried {
     /// Tractions and displacements of the material that is now in each cell; the displacements
     /// less the stretch.
     interface: Interface,
+    /// What its slip missed \[m\].
+    missed: [Vec<f64>; 2],
     /// Cells that the contact rolls on along x.
     cells: isize,
     /// Strain d(eps_x), d(eps_y) of body 2 less that of body 1 in the increment.
@@ -23,6 +25,10 @@ pub(super) struct Carried {
 impl Carried {
     pub(super) fn interface(&self) -> &Interface {
         &self.interface
+    }
+
+    pub(super) fn missed(&self) -> &[Vec<f64>; 2] {
+        &self.missed
     }
 }
 
@@ -59,8 +65,10 @@ impl March {
             interface.u[0][n] -= stretch[0];
             interface.u[1][n] -= stretch[1];
         }
+        let missed = pair(&self.state.missed);
         self.carried = Some(Carried {
             interface,
+            missed,
             cells,
             strain,
         });

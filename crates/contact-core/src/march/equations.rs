@@ -51,20 +51,22 @@ impl March {
             stop: Some(&self.stop),
             exact: false,
         };
-        let grows = kept || entering.is_some();
-        let params = params(
-            &self.scene,
-            self.approach,
-            if grows { GROWTH_SHARE } else { 1.0 },
-        );
+        let share = match entering {
+            _ if kept => KEPT_SHARE,
+            Some(_) => ENTERED_SHARE,
+            None => 1.0,
+        };
+        let params = params(&self.scene, self.approach, share);
         let solver = &self.scene.settings.solver;
         let ws = &mut self.workspace;
         let goes_on = self.datum.goes_on;
-        self.datum.reset(before, entering);
+        let missed = carried.map_or(&self.state.missed, Carried::missed);
+        self.datum.reset(before, missed, entering);
         let turns = !kept && goes_on && solver.turning && solver.preset == Preset::Fast;
         let mut datum = Following {
             datum: &mut self.datum,
             last: before,
+            missed,
             q_before: turns.then_some(&self.state.q_before),
             arms: &self.window.arms,
             reach: self.scene.friction.scale() * self.approach,
@@ -129,9 +131,10 @@ const NORMAL_SHARE: f64 = 0.4;
 /// Share of the tolerance that the tangential solver iterates to; nothing moves after it.
 const TANGENTIAL_SHARE: f64 = 0.9;
 
-/// Share of the tolerance that increments in which cells enter are solved to: what sticks keeps what
-/// they miss.
-const GROWTH_SHARE: f64 = 0.5;
+/// Shares of the tolerance that increments in which cells enter are solved to, on the old cells alone
+/// and with the new ones: where these stick they keep what is missed.
+const KEPT_SHARE: f64 = 0.5;
+const ENTERED_SHARE: f64 = 0.25;
 
 /// The settings of the loops, with lengths in metres, for a share of the tolerance.
 fn params(scene: &Scene, approach: f64, share: f64) -> CoupledParams {

@@ -51,6 +51,16 @@ impl March {
         ]
     }
 
+    /// The slip that the last increment should not have and the solver left within its tolerance, along
+    /// x and y \[m\]; the next increment makes it good.
+    pub fn missed(&self) -> [Array2<f64>; 2] {
+        let [x, y] = &self.state.missed;
+        [
+            self.on_grid(x, Half::Even),
+            self.on_grid(y, Half::Odd) / self.window.arms.stretch,
+        ]
+    }
+
     /// The shear tractions q_x, q_y after the last increment on the whole grid \[Pa\], shape (nx, ny).
     pub fn shear(&self) -> [Array2<f64>; 2] {
         let q = &self.state.interface.q;

@@ -1,8 +1,9 @@
-//! Increments that do not converge are retried in halves.
+//! Increments that do not converge are retried, from the last tractions as they are, then in halves.
 //!
-//! Half of the way is an easier problem: the last state is nearer to the solution. It is also a
-//! finer path, so that the answer differs from that of one piece as that of twice the increments
-//! would. [`Work::parts`](super::Work::parts) says in how many pieces an increment was solved.
+//! A guess that goes too far may lead astray: where it is left out the answer is the same. Half of the
+//! way is an easier problem: the last state is nearer to the solution. It is also a finer path, so that
+//! the answer differs from that of one piece as that of twice the increments would.
+//! [`Work::parts`](super::Work::parts) says in how many pieces an increment was solved.
 
 use super::{Energy, Increment, March, Residuals, Work};
 use crate::error::Error;
@@ -12,7 +13,7 @@ use crate::scene::LoadPoint;
 const HALVINGS: u32 = 5;
 
 impl March {
-    /// The increment to `point`, whole or in pieces; after an error the state is as before.
+    /// The increment to `point`, whole if that can be, or in pieces; after an error the state is as before.
     pub(super) fn reach(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let transforms = self.transforms();
         let failure = match self.increment(point) {
@@ -20,8 +21,16 @@ impl March {
             done => return done,
         };
         let before = self.state().clone();
-        let increment = self.in_halves(point, HALVINGS, failure);
-        let mut increment = match increment {
+        let mut ended = Err(failure);
+        if self.extrapolates {
+            self.extrapolates = false;
+            ended = self.increment(point);
+            self.extrapolates = true;
+        }
+        if let Err(failure @ Error::NotConverged { .. }) = ended {
+            ended = self.in_halves(point, HALVINGS, failure);
+        }
+        let mut increment = match ended {
             Ok(increment) => increment,
             Err(failure) => {
                 self.unwidened = None;

@@ -101,7 +101,8 @@ pub struct Residuals {
     pub penetration: f64,
     /// Largest |q| - mu p over mu p_max; zero or below if Coulomb's law holds everywhere.
     pub coulomb: f64,
-    /// Root-mean-square slip in stick cells over mu times the Hertz approach.
+    /// Root-mean-square distance of stick cells from where they should be, from what earlier increments
+    /// have missed too, over mu times the Hertz approach.
     pub stick: f64,
     /// Root-mean-square part of the slip that is not opposite to q, over mu times the approach.
     pub direction: f64,

@@ -46,7 +46,7 @@ use self::slip_datum::Datum;
 use self::window::{Whole, Window};
 use crate::convolution::PARALLEL_FROM;
 use crate::error::Error;
-use crate::scene::{History, LoadPoint, Plan, Scene};
+use crate::scene::{History, LoadPoint, Plan, Preset, Scene};
 use crate::solvers::{CoupledInfo, CoupledWorkspace, Interface};
 
 /// A load path being run through.
@@ -67,6 +67,8 @@ pub struct March {
     unwidened: Option<State>,
     /// The last interface, where the increment does not find it as it was left.
     carried: Option<Carried>,
+    /// Whether the first guess of an increment goes on as the last one went.
+    extrapolates: bool,
     /// The displacements that mean no slip in the increment.
     datum: Datum,
     workspace: CoupledWorkspace,
@@ -104,6 +106,7 @@ impl March {
             state: State::unloaded(window.shape(), cells),
             unwidened: None,
             carried: None,
+            extrapolates: scene.settings.solver.preset == Preset::Fast,
             datum: Datum::new(cells),
             workspace: CoupledWorkspace::new(cells),
             whole,
@@ -265,7 +268,7 @@ impl March {
                 closing.as_deref(),
                 &self.mu,
                 &normal,
-                self.scene.settings.solver.preset,
+                self.extrapolates,
             );
             if !self.make_room(&start.p, self.window.shape(), self.growth(point))? {
                 return Ok(Some(start));
@@ -289,7 +292,7 @@ impl March {
             shift: tangential.given,
             ..CoupledInfo::default()
         };
-        self.datum.reset(&apart, None);
+        self.datum.reset(&apart, &apart.q, None);
         Ok((apart, info))
     }
 

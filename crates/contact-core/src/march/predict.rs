@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::window::Window;
 use super::{March, State};
-use crate::scene::{Given, LoadPoint, Loads, Preset};
+use crate::scene::{Given, LoadPoint, Loads};
 use crate::solvers::{CHUNK, Drive, Interface, friction_bound, set, size, sweep};
 
 impl Loads {
@@ -116,7 +116,7 @@ impl State {
         closing: Option<&[f64]>,
         mu: &[f64],
         normal: &Drive,
-        preset: Preset,
+        extrapolates: bool,
     ) -> Interface {
         let mut guess = self.interface.clone();
         if let Some(p) = touch {
@@ -126,7 +126,7 @@ impl State {
             set([closing], [&mut guess.p], |_, [closing], [p]| [p + closing]);
         }
         let same_way = self.going_on(point);
-        if let (Some(factor), Preset::Fast) = (same_way, preset) {
+        if let Some(factor) = same_way.filter(|_| extrapolates) {
             let from = [&self.interface.p[..], &self.p_before];
             set(from, [&mut guess.p], |_, [p, before], [closed]| {
                 [closed + factor * (p - before)]
@@ -147,9 +147,8 @@ impl State {
 }
 
 /// Extrapolates the shear. The shear of a stick cell nears its bound as the root of the distance
-/// to the moving slip front (Cattaneo: g - q ~ (c^2 - r^2)^(1/2)), smoothed over a cell: a power
-/// in between of what is left of the way to the bound is extrapolated; a cell for which nothing is
-/// left starts to slip.
+/// to the moving slip front (Cattaneo: g - q ~ (c^2 - r^2)^(1/2)): the square of what is left of the way
+/// to the bound is extrapolated; a cell for which nothing is left starts to slip.
 fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64], factor: f64) {
     let Interface { p, q, slip, .. } = guess;
     let [q_x, q_y] = q;
@@ -173,10 +172,10 @@ fn approach_slip(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64], fa
             if !slip[i] && inside > 0.0 && inside.is_finite() && moved > 0.0 {
                 let along = (q[0] * change[0] + q[1] * change[1]) / moved;
                 let left = (along * along + inside).sqrt() - along;
-                let power = |left: f64| left * left.sqrt();
-                let next = power(left) + factor * (power(left) - power(left + moved));
-                slip[i] = next <= 0.0;
-                part = (left - next.max(0.0).cbrt().powi(2)) / moved;
+                let before = left + moved;
+                let square = left * left + factor * (left * left - before * before);
+                slip[i] = square <= 0.0;
+                part = (left - square.max(0.0).sqrt()) / moved;
             }
             q_x[i] += part * change[0];
             q_y[i] += part * change[1];

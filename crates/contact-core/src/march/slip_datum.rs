@@ -36,7 +36,8 @@ pub(super) struct Datum {
     turning: Vec<f64>,
     /// Whether the loads go on as in the last increment.
     pub(super) goes_on: bool,
-    displacements: [Vec<f64>; 2],
+    /// The displacements \[m\].
+    pub(super) displacements: [Vec<f64>; 2],
 }
 
 impl Datum {
@@ -50,17 +51,24 @@ impl Datum {
         }
     }
 
-    /// Begins with the last displacements, of cells outside the contact with what these move before
-    /// they enter it, where that matters.
-    pub(super) fn reset(&mut self, last: &Interface, entering: Option<&[Vec<f64>; 2]>) {
+    /// Begins with the last displacements less what they `missed`, of cells outside the contact with what
+    /// these move before they enter it, where that matters.
+    pub(super) fn reset(
+        &mut self,
+        last: &Interface,
+        missed: &[Vec<f64>; 2],
+        entering: Option<&[Vec<f64>; 2]>,
+    ) {
         let [x, y] = &mut self.moved;
         match entering {
             Some([to_x, to_y]) => set([&to_x[..], to_y], [x, y], |_, to, _| to),
             None => set([], [x, y], |_, [], _| [0.0; 2]),
         }
-        let from = [&last.u[0][..], &last.u[1], x, y];
+        let from = [&last.u[0][..], &last.u[1], &missed[0], &missed[1], x, y];
         let [x, y] = &mut self.displacements;
-        set(from, [x, y], |_, [u_x, u_y, x, y], _| [u_x + x, u_y + y]);
+        set(from, [x, y], |_, [u_x, u_y, off_x, off_y, x, y], _| {
+            [u_x - off_x + x, u_y - off_y + y]
+        });
     }
 }
 
@@ -69,6 +77,8 @@ pub(super) struct Following<'a> {
     pub(super) datum: &'a mut Datum,
     /// The interface that the increment starts from.
     pub(super) last: &'a Interface,
+    /// What its slip missed \[m\].
+    pub(super) missed: &'a [Vec<f64>; 2],
     /// The shear an increment earlier, if slip is to follow the turn of the shear and the loads go on as
     /// in that increment.
     pub(super) q_before: Option<&'a [Vec<f64>; 2]>,
@@ -79,7 +89,8 @@ pub(super) struct Following<'a> {
 
 impl SlipDatum for Following<'_> {
     fn follow(&mut self, now: &Interface, shift: [f64; 3], part: f64) -> bool {
-        let (Some(q_before), last, arms) = (self.q_before, self.last, self.arms) else {
+        let (missed, last, arms) = (self.missed, self.last, self.arms);
+        let Some(q_before) = self.q_before else {
             return false;
         };
         let sticks = (0..now.p.len()).any(|n| now.p[n] > 0.0 && !now.slip[n]);
@@ -123,7 +134,8 @@ impl SlipDatum for Following<'_> {
                 let (to, follows) = turned(n);
                 x[i] += part * (to[0] - x[i]);
                 y[i] += part * (to[1] - y[i]);
-                (u_x[i], u_y[i]) = (last.u[0][n] + x[i], last.u[1][n] + y[i]);
+                u_x[i] = last.u[0][n] - missed[0][n] + x[i];
+                u_y[i] = last.u[1][n] - missed[1][n] + y[i];
                 turning[i] = follows;
             }
         });

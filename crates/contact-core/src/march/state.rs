@@ -37,6 +37,9 @@ pub struct State {
     pub(crate) p_before: Vec<f64>,
     /// Shear before the last increment \[Pa\].
     pub(crate) q_before: [Vec<f64>; 2],
+    /// Slip that the last increment should not have, and the solver left within its tolerance \[m\]: the
+    /// next one makes it good.
+    pub(crate) missed: [Vec<f64>; 2],
     /// Change of the loads in the last increment.
     pub(crate) step: Loads,
 }
@@ -60,6 +63,7 @@ impl State {
             clear: 0.0,
             p_before: field(),
             q_before: pair(),
+            missed: pair(),
             step: Loads::default(),
         }
     }
@@ -81,7 +85,7 @@ impl State {
             rounding: _,
         } = &self.interface;
         let fields = [p, u_z, &self.slip_length, &self.dissipated, &self.p_before];
-        let pairs = [q, u, &self.slip, &self.q_before];
+        let pairs = [q, u, &self.slip, &self.q_before, &self.missed];
         let fields = fields.into_iter().chain(pairs.into_iter().flatten());
         fields.into_iter().all(|f| f.len() == cells) && slip.len() == cells
     }

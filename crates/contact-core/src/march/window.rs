@@ -245,6 +245,7 @@ impl State {
             dissipated: wide(&self.dissipated),
             p_before: wide(&self.p_before),
             q_before: pair(&self.q_before),
+            missed: pair(&self.missed),
             ..*self
         }
     }

@@ -225,7 +225,7 @@ pub const SCALARS: &[Scalar] = &[
     real(
         "residual_stick",
         "1",
-        "root-mean-square slip in stick cells over mu approach",
+        "root-mean-square distance of stick cells from where they stick over mu approach",
         |i| i.residuals.stick,
     ),
     real(

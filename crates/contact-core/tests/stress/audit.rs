@@ -78,6 +78,8 @@ pub(crate) struct Audit {
     op: DcFft,
     /// Nothing before the first increment, when all is zero but the gap.
     last: Option<(Fields, Motion, Loads)>,
+    /// What the slip of that increment missed \[m\].
+    missed: [Array2<f64>; 2],
     work: f64,
 }
 
@@ -96,6 +98,7 @@ impl Audit {
             h_init: scene.h_init(),
             misfit: Misfit::of(scene),
             last: None,
+            missed: [(); 2].map(|()| Array2::zeros((scene.grid.nx, scene.grid.ny))),
             work: 0.0,
         }
     }
@@ -133,6 +136,7 @@ impl Audit {
         self.energy(march, &now, increment, &mut found);
         self.monotone(march, &now, increment, &mut found);
         self.last = Some((now, increment.motion, increment.point.loads));
+        self.missed = march.missed();
         found
     }
 
@@ -198,15 +202,16 @@ impl Audit {
     }
 
     /// |q| <= mu p everywhere, and equal where a cell slips; no slip in stick cells, and slip against
-    /// q in the others, in the root mean square over the contact. The increment has to report the same.
+    /// q in the others, in the root mean square over the contact, what the last increment missed made
+    /// good. The increment has to report the same, and to say where it missed it.
     fn friction(&self, march: &March, now: &Fields, increment: &Increment, found: &mut Violations) {
         let mu = march.scene().friction.mu;
-        let turned = march.turned();
+        let (turned, missed) = (march.turned(), march.missed());
         let p_max = increment.p_max;
         let (mut squares, mut cells) = (0.0, 0.0_f64);
         // Cells that slip, the squares of their slip and of its part that does not oppose q.
         let (mut slipping, mut slipped, mut astray) = (0.0, 0.0, 0.0);
-        let (mut most, mut entered) = (0.0_f64, false);
+        let (mut most, mut entered, mut untold) = (0.0_f64, false, 0.0_f64);
         let at_rest = |n: usize| now.stick.as_slice().is_some_and(|stick| stick[n]);
         for n in 0..now.p.len() {
             let at = |f: &Array2<f64>| f.as_slice().map_or(f64::NAN, |f| f[n]);
@@ -222,7 +227,9 @@ impl Audit {
             let Some((last, motion, _)) = &self.last else {
                 continue;
             };
+            let misses = missed.each_ref().map(at);
             if bound <= 0.0 {
+                untold = untold.max(misses[0].hypot(misses[1]));
                 continue;
             }
             // What a cell moved before it entered the contact is no slip.
@@ -239,8 +246,11 @@ impl Audit {
                     at(&now.u_y) - at(&last.u_y) - (increment.motion.delta_y - motion.delta_y),
                 ]
             };
-            let ds = [0, 1].map(|c| ds[c] - turned[c].as_slice().map_or(f64::NAN, |e| e[n]));
-            let off = if sticks {
+            let ds = [0, 1].map(|c| ds[c] + at(&self.missed[c]) - at(&turned[c]));
+            let off = if enters && sticks {
+                // The fields do not tell how far a cell moved before it entered.
+                misses[0].hypot(misses[1])
+            } else if sticks {
                 ds[0].hypot(ds[1])
             } else {
                 let along = (ds[0] * q[0] + ds[1] * q[1]) / size;
@@ -251,6 +261,9 @@ impl Audit {
                 astray += off * off;
                 off
             };
+            if !enters {
+                untold = untold.max((off - misses[0].hypot(misses[1])).abs());
+            }
             squares += off * off;
             cells += 1.0;
         }
@@ -273,7 +286,7 @@ impl Audit {
         found.report = (found.report)
             .max((said.coulomb - most).abs() / ROUNDING)
             .max(said.balance / ROUNDING);
-        // The fields do not tell how far a cell moved before it entered.
+        found.report = found.report.max(untold / known);
         if entered {
             return;
         }
