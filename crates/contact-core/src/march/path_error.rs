@@ -22,9 +22,11 @@ use crate::scene::{LoadPath, Scene, Spacing};
 /// Order of the error in the increments: between that of cells that enter one by one and that of
 /// turning slip.
 pub(super) const ORDER: f64 = 1.5;
-/// Orders that a branch may show from one round to the next. Before two rounds tell, the first is
-/// expected of the growth of contact, the second of other branches.
+/// Orders that a branch may show from one round to the next.
 const ORDERS: (f64, f64) = (1.25, 2.0);
+/// The order that is expected before two rounds tell, but of the growth of contact and of what is nearly
+/// enough, where it is the least.
+const EXPECTED: f64 = 1.6;
 /// Increments to begin with: of a branch that begins without contact, of one with which the path ends
 /// too, whose slip rings are of interest, and of others.
 const FIRST: (usize, usize, usize) = (12, 28, 6);
@@ -43,8 +45,12 @@ const INHERITED: (f64, f64) = (0.36, 0.9);
 const KEPT: f64 = 0.8;
 /// Most that the number of increments of a branch grows by in a round.
 const GROWTH: f64 = 4.0;
+/// Times the error aimed at from which a branch gets its increments without another round.
+const NEAR: f64 = 2.0;
+/// Times the error of a growth of contact from nothing that an error has that is not inherited from it.
+const OWN: f64 = 2.0;
 /// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.
-pub(super) const SOLVED: f64 = 2e-3;
+pub(super) const SOLVED: f64 = 4e-3;
 /// Rounds of choosing.
 const ROUNDS: usize = 8;
 /// Most increments of a path that are chosen.
@@ -95,7 +101,8 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
         if (0..errors.len()).any(|k| uniform(k) && over(k) && kept(k)) {
             most_inherited = INHERITED.0;
         }
-        let mut first = None;
+        // The first branch to look at again, and the error of a growth of contact that is still too large.
+        let (mut first, mut inherited) = (None, 0.0);
         for (k, error) in errors.iter().enumerate() {
             let branch = &mut chosen.path.branches[k];
             branch.path_error = Some(error.q);
@@ -106,21 +113,27 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
                 }
                 Spacing::EqualRadius => tolerance * error.bearable.max(1.0),
             };
-            if open[k] && error.q > allowed {
+            if open[k] && error.q > allowed.max(OWN * inherited) {
                 let count = branch.count();
-                let hoped = match branch.spacing {
-                    Spacing::Uniform => ORDERS.1,
-                    Spacing::EqualRadius => ORDERS.0,
+                let grows = branch.spacing == Spacing::EqualRadius;
+                let excess = error.q / (AIM * allowed);
+                let near = !grows && excess <= NEAR;
+                let order = match before[k] {
+                    Some(before) => order(before, (count, error.q)),
+                    None if grows || near => ORDERS.0,
+                    None => EXPECTED,
                 };
-                let order = before[k].map_or(hoped, |before| order(before, (count, error.q)));
                 before[k] = Some((count, error.q));
-                let factor = (error.q / (AIM * allowed)).powf(1.0 / order).min(GROWTH);
-                let more = (count as f64 * factor).ceil() as usize;
-                branch.increments = Some(more.next_multiple_of(2));
-                first = first.or(Some(k));
-                if branch.spacing == Spacing::EqualRadius {
-                    // What follows starts with its error.
-                    break;
+                let factor = excess.powf(1.0 / order).min(GROWTH);
+                let more = ((count as f64 * factor).ceil() as usize).next_multiple_of(2);
+                branch.increments = Some(more);
+                if near {
+                    branch.path_error = Some(error.q * (count as f64 / more as f64).powf(order));
+                } else {
+                    first = first.or(Some(k));
+                }
+                if grows {
+                    inherited = error.q;
                 }
             }
         }
