@@ -17,6 +17,7 @@ mod kept_contact;
 mod partial_cells;
 mod path_error;
 mod predict;
+mod residuals;
 mod slip_datum;
 mod solve;
 mod state;
