@@ -1,7 +1,8 @@
 //! Increments chosen for an error of the path: is the error what it is said to be?
 //!
 //! Random coated scenes, each as it is run by default against a path of eight times the increments that
-//! were chosen, solved to a tolerance of 1e-6. A few in the test; `FRET_PATH_ERRORS=50` for as many (`make path-errors`).
+//! were chosen, solved to a tolerance of 1e-6. A few in the test; `FRET_PATH_ERRORS=50` for as many
+//! (`make path-errors`).
 
 #![allow(clippy::print_stdout, reason = "a report for people")]
 

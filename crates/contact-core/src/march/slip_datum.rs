@@ -17,6 +17,11 @@
 //! has only begun, nothing is known of that. Where no cell sticks, or cells slip by as much as the
 //! shear can move a surface, mu times the approach, bodies slide by as much as they are moved, and the shear
 //! has turned into their direction at the end.
+//!
+//! Where the solver left slip e that should not be, within its tolerance (in stick cells all of it, in
+//! slip cells the part not opposite to the shear), the next increment makes it good: u_ref = u - e, with u
+//! the last displacements. In a stick cell that is u_ref + d(delta) of the last increment, whatever the
+//! solver missed of it, so that nothing adds up along the path.
 
 use rayon::prelude::*;
 
