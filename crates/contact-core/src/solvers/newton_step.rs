@@ -8,6 +8,11 @@ use super::sweep::{set, sums, sweep};
 
 type Pair = [Vec<f64>; 2];
 
+/// The curvature from which a cell is taken to be on its own, and the eigenvalue at which the guess of the
+/// inverse is right, over C_xx(0,0).
+const ALONE: f64 = 24.0;
+const RIGHT: f64 = 2.0;
+
 /// The linear system
 ///
 /// ```text
@@ -18,13 +23,23 @@ type Pair = [Vec<f64>; 2];
 /// both components; slip cells: across q) and D the curvature |ds|/g of the circle, less the part of it
 /// by which u_ref turns with q ([`TangentialProblem::turning`]). The unknowns are packed contact cells;
 /// what goes through the operator covers the grid.
+///
+/// With P the inverse of C, and c an eigenvalue of C, the guess of the inverse is S P S + A,
+///
+/// ```text
+/// 1/(c + D) ~ s^2 / c + (1 - s^2)/(c_0 + max(D, d)),    s^2 = max(0, (1 - D/d)/(1 + D/c_0))
+/// ```
+///
+/// with equality for c = c_0. At the rim D has no bound, and there a cell must not hear of the others
+/// through P: the little that it would move too far is D times as much in the residual.
 #[derive(Debug)]
 pub(crate) struct NewtonStep {
     tangent: Tangent,
     /// D \[m/Pa\].
     diagonal: Vec<f64>,
-    /// S = (1 + D/C_xx(0,0))^(-1/2).
+    /// S \[1\] and A \[Pa/m\] of the guess S P S + A of (C + D)^-1.
     scale: Vec<f64>,
+    alone: Vec<f64>,
     /// Solution \[Pa\].
     x: Pair,
     residual: Pair,
@@ -38,14 +53,22 @@ pub(crate) struct NewtonStep {
     displacement: Pair,
 }
 
-/// The tangent space: the projection Pi on it and on sums of zero.
+/// The tangent space: the projection Pi on it, and what is left of tractions whose sums are to be zero
+/// and of displacements up to a rigid motion.
+///
+/// Where the curvature D is large a cell hardly gives way: a motion taken out of all cells alike would
+/// be far more than it can follow. It counts with the weight w = 1/(1 + D/C_xx(0,0)): tractions t become
+/// t - w Pi B m with B^T t = 0, displacements v become v - Pi B m with B^T w v = 0, and their products are
+/// what they were.
 #[derive(Debug)]
 struct Tangent {
     /// Direction across the shear of slip cells, along which alone it may change; zero in stick cells.
     across: Pair,
     /// Lever arms of the contact cells; empty where the rotation is not free.
     arms: Pair,
-    /// Inverse of B^T Pi B.
+    /// w
+    weight: Vec<f64>,
+    /// Inverse of B^T w Pi B.
     inverse_sum: [[f64; 3]; 3],
 }
 
@@ -54,6 +77,7 @@ struct Tangent {
 struct Admitted {
     across: [f64; 2],
     arm: [f64; 2],
+    weight: f64,
 }
 
 impl NewtonStep {
@@ -65,10 +89,12 @@ impl NewtonStep {
             tangent: Tangent {
                 across: pair(),
                 arms: pair(),
+                weight: field(),
                 inverse_sum: [[0.0; 3]; 3],
             },
             diagonal: field(),
             scale: field(),
+            alone: field(),
             x: pair(),
             residual: pair(),
             residual_norm: 0.0,
@@ -83,7 +109,13 @@ impl NewtonStep {
     /// Makes room for the contact cells.
     pub(crate) fn set_contact(&mut self, problem: &TangentialProblem<'_>) {
         let count = problem.bound.len();
-        for field in [&mut self.diagonal, &mut self.scale] {
+        let of_cells = [
+            &mut self.diagonal,
+            &mut self.scale,
+            &mut self.alone,
+            &mut self.tangent.weight,
+        ];
+        for field in of_cells {
             field.resize(count, 0.0);
         }
         for pair in [
@@ -132,8 +164,10 @@ impl NewtonStep {
         let to = [
             &mut t_x[..],
             t_y,
+            &mut t.weight,
             &mut self.diagonal,
             &mut self.scale,
+            &mut self.alone,
             r_x,
             r_y,
         ];
@@ -149,15 +183,19 @@ impl NewtonStep {
             } else {
                 0.0
             };
-            let scale = 1.0 / (1.0 + curvature / c_xx).sqrt();
-            [-e[1], e[0], curvature, scale, -slip[0], -slip[1]]
+            let weight = 1.0 / (1.0 + curvature / c_xx);
+            let (right, limit) = (RIGHT * c_xx, ALONE * c_xx);
+            let shared = ((1.0 - curvature / limit) / (1.0 + curvature / right)).max(0.0);
+            let alone = (1.0 - shared) / (right + curvature.max(limit));
+            let (scale, r) = (shared.sqrt(), [-slip[0], -slip[1]]);
+            [-e[1], e[0], weight, curvature, scale, alone, r[0], r[1]]
         });
         t.inverse_sum = inverse(t.gram(), problem.drive.free);
         let [r_x, r_y] = &mut self.residual;
         let sums = sweep(t.fields(), [r_x, r_y], |_, of_cell, r| {
             let cell = Admitted::of(of_cell);
             let r = cell.project(r);
-            (r, cell.motion_of(r))
+            (r, cell.weighted_motion_of(r))
         });
         let behind = product(&t.inverse_sum, sums);
         let [squares] = sweep(t.fields(), [r_x, r_y], |_, of_cell, r| {
@@ -210,8 +248,8 @@ impl NewtonStep {
         max_passes
     }
 
-    /// z = Pi S P S r up to a rigid motion, which is returned, and r.z. With that motion taken out r.z is
-    /// the same, since B^T r = 0.
+    /// z = Pi (S P S + A) r up to a rigid motion, which is returned, and r.z. With that motion taken out
+    /// r.z is the same, since B^T w r = 0.
     fn precondition(
         &mut self,
         response: &mut Response<'_>,
@@ -228,17 +266,19 @@ impl NewtonStep {
         let [z_x, z_y] = &mut self.displacement;
         response.invert_tangential([s_x, s_y], [z_x, z_y]);
         contact.pack_pair(&self.displacement, &mut self.z);
-        let from = [&self.scale[..], r_x, r_y];
-        let value = |z: [f64; 2], [s, x, y]: [f64; 3]| (z.map(|z| s * z), [x, y]);
-        self.tangent.project(&mut self.z, from, value)
+        let from = [&self.scale[..], &self.alone, r_x, r_y];
+        let value =
+            |z: [f64; 2], [s, a, x, y]: [f64; 4]| ([s * z[0] + a * x, s * z[1] + a * y], [x, y]);
+        (self.tangent).project(&mut self.z, Admitted::motion_of, from, value)
     }
 
-    /// d = z - Pi B rigid + beta d
+    /// d = z - w Pi B rigid + beta d
     fn turn(&mut self, rigid: [f64; 3], beta: f64) {
         let ([z_x, z_y], [d_x, d_y]) = (&self.z, &mut self.direction);
         let from = (self.tangent.fields(), [&z_x[..], z_y]);
         set(from, [d_x, d_y], |_, (of_cell, z), d| {
-            let z = Admitted::of(of_cell).without(rigid, z);
+            let cell = Admitted::of(of_cell);
+            let z = cell.without(rigid.map(|m| cell.weight * m), z);
             [z[0] + beta * d[0], z[1] + beta * d[1]]
         });
     }
@@ -250,7 +290,7 @@ impl NewtonStep {
         let [d_x, d_y] = &self.direction;
         let from = [&self.diagonal[..], d_x, d_y];
         let value = |u: [f64; 2], [d, x, y]: [f64; 3]| ([u[0] + d * x, u[1] + d * y], [x, y]);
-        self.tangent.project(&mut self.z, from, value)
+        (self.tangent).project(&mut self.z, Admitted::weighted_motion_of, from, value)
     }
 
     /// x += step d,  r -= step (z - Pi B rigid)
@@ -316,7 +356,10 @@ impl NewtonStep {
             let slip = [u[0] - ref_x - rigid[0], u[1] - ref_y - rigid[1]];
             let cell = Admitted::of(of_cell);
             let turned = cell.project([slip[0] + diagonal * x, slip[1] + diagonal * y]);
-            ([q_x + x, q_y + y, u[0], u[1]], cell.motion_of(turned))
+            (
+                [q_x + x, q_y + y, u[0], u[1]],
+                cell.weighted_motion_of(turned),
+            )
         });
         add(given, product(&self.tangent.inverse_sum, sums))
     }
@@ -325,17 +368,17 @@ impl NewtonStep {
 impl Tangent {
     /// Directions and lever arms. Where the rotation is not free any field does for the arms:
     /// [`Self::inverse_sum`] has no part of it.
-    fn fields(&self) -> [&[f64]; 4] {
+    fn fields(&self) -> [&[f64]; 5] {
         let [t_x, t_y] = &self.across;
         let [a_x, a_y] = if self.arms[0].is_empty() {
             &self.across
         } else {
             &self.arms
         };
-        [t_x, t_y, a_x, a_y]
+        [t_x, t_y, a_x, a_y, &self.weight]
     }
 
-    /// B^T Pi B
+    /// B^T w Pi B
     fn gram(&self) -> [[f64; 3]; 3] {
         let [xx, xy, yy, xr, yr, rr] = sums(self.fields(), |_, of_cell| {
             let cell = Admitted::of(of_cell);
@@ -343,18 +386,20 @@ impl Tangent {
             let (of_x, of_y) = (cell.project([1.0, 0.0]), cell.project([0.0, 1.0]));
             let turn = cell.project([-y, x]);
             let of_turn = x * turn[1] - y * turn[0];
-            [of_x[0], of_x[1], of_y[1], turn[0], turn[1], of_turn]
+            [of_x[0], of_x[1], of_y[1], turn[0], turn[1], of_turn].map(|of| cell.weight * of)
         });
         [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]]
     }
 
-    /// Projects the `value(v, from)` on the tangent space of each cell, into v; returns the motion m for
-    /// which v - Pi B m has sums of zero, and the sum of v times what the values come with.
-    fn project(
+    /// Projects the `value(v, from)` on the tangent space of each cell, into v; returns the motion m
+    /// to be taken out for which the sums of what `sums` makes of a cell's v are zero, and the sum of v
+    /// times what the values come with.
+    fn project<const N: usize>(
         &self,
         v: &mut Pair,
-        from: [&[f64]; 3],
-        value: impl Fn([f64; 2], [f64; 3]) -> ([f64; 2], [f64; 2]) + Sync,
+        sums: impl Fn(Admitted, [f64; 2]) -> [f64; 3] + Sync,
+        from: [&[f64]; N],
+        value: impl Fn([f64; 2], [f64; N]) -> ([f64; 2], [f64; 2]) + Sync,
     ) -> ([f64; 3], f64) {
         let [v_x, v_y] = v;
         let from = (self.fields(), from);
@@ -362,7 +407,7 @@ impl Tangent {
             let cell = Admitted::of(of_cell);
             let (v, with) = value(v, from);
             let v = cell.project(v);
-            let [x, y, turn] = cell.motion_of(v);
+            let [x, y, turn] = sums(cell, v);
             (v, [x, y, turn, v[0] * with[0] + v[1] * with[1]])
         });
         (product(&self.inverse_sum, [x, y, turn]), along)
@@ -370,10 +415,11 @@ impl Tangent {
 }
 
 impl Admitted {
-    fn of([t_x, t_y, a_x, a_y]: [f64; 4]) -> Self {
+    fn of([t_x, t_y, a_x, a_y, weight]: [f64; 5]) -> Self {
         Self {
             across: [t_x, t_y],
             arm: [a_x, a_y],
+            weight,
         }
     }
 
@@ -390,6 +436,11 @@ impl Admitted {
     fn motion_of(self, [a, b]: [f64; 2]) -> [f64; 3] {
         let [x, y] = self.arm;
         [a, b, x * b - y * a]
+    }
+
+    /// B^T w v
+    fn weighted_motion_of(self, v: [f64; 2]) -> [f64; 3] {
+        self.motion_of(v).map(|m| self.weight * m)
     }
 
     /// v - Pi B m

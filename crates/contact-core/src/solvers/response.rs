@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::sweep::set;
 use crate::convolution::{CirculantInverse, Displacements, SurfaceOperator, Tractions};
 
 /// The surface operator and, where there is one, its approximate inverse.
@@ -92,11 +93,12 @@ impl Response<'_> {
         }
     }
 
-    /// z ~ C_tt^-1 r, up to a factor.
+    /// z ~ C_tt^-1 r; without a preconditioner r / C_xx(0,0).
     pub(crate) fn invert_tangential(&mut self, r: [&[f64]; 2], z: [&mut [f64]; 2]) {
+        let (c_xx, _) = self.op.self_coefficients();
         match &mut self.inverse {
             Some(inverse) => inverse.tangential(r, z),
-            None => z.into_iter().zip(r).for_each(|(z, r)| z.copy_from_slice(r)),
+            None => set(r, z, |_, r, _| r.map(|r| r / c_xx)),
         }
     }
 }

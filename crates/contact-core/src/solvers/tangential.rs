@@ -11,11 +11,10 @@
 //! A semi-smooth Newton method: on stick cells both components are free; on slip cells q = g e and
 //! only the motion along the circle is, where the constraint adds the diagonal |ds|/g. Each step is
 //! a linear system on that tangent space with the force constraint projected out, solved by
-//! conjugate gradients preconditioned with S P S, P the inverse of the operator and
-//! S = (1 + diag/C_xx(0,0))^(-1/2). Then q returns to the circle, stick cells beyond it start to
-//! slip, and slip cells whose slip would go along q stick again. A step that raises the energy is
-//! taken back and projected gradients, which cannot, go on from there; so they do where the slip set
-//! goes in circles.
+//! conjugate gradients preconditioned with a guess of the inverse (`newton_step`). Then q returns
+//! to the circle, stick cells beyond it start to slip, and slip cells whose slip would go along q
+//! stick again. A step that raises the energy is taken back and projected gradients, which cannot, go
+//! on from there; so they do where the slip set goes in circles.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
