@@ -1,4 +1,4 @@
-"""Whole runs of the command ``fret``, start-up and files included, and grids of many cells."""
+"""Whole runs of ``fret``, start-up and files included, solutions alone, and grids of many cells."""
 
 from __future__ import annotations
 
@@ -41,6 +41,11 @@ ALIKE = (
     *ratio(1.0),
     *(s for body in ("body1", "body2", "body2.coatings.0") for s in ("--set", f"{body}.nu=0.0")),
 )
+#: Similar bodies, an increment per reversal.
+REVERSALS = (
+    *ratio(1.0),
+    *(s for branch in range(6) for s in ("--set", f"path.{branch}.increments=1")),
+)
 RUNS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("small, 64 x 64, 200 increments, tolerance 1e-6", (SMALL,)),
     ("the same, tolerance 1e-5", (SMALL, *tolerance(1e-5))),
@@ -60,7 +65,13 @@ RUNS: tuple[tuple[str, tuple[str, ...]], ...] = (
         "paper, 256 x 256, E1/E2 = 1, nu = 0, `skip.path` (6 increments), tolerance 1e-5",
         (PAPER, *ALIKE, *tolerance(1e-5), "--set", "skip.path=true"),
     ),
+    (
+        "paper, 256 x 256, E1/E2 = 1, an increment per branch (6), tolerance 1e-6",
+        (PAPER, *REVERSALS),
+    ),
 )
+#: Of these also the solution alone.
+ALONE = 2
 
 
 def command_line(*, quick: bool) -> Iterator[Row]:
@@ -79,6 +90,9 @@ def command_line(*, quick: bool) -> Iterator[Row]:
                 )
                 times.append(time.perf_counter() - begun)
         yield {"run": name, "seconds": min(times), "repetitions": len(times)}
+    for name, arguments in () if quick else RUNS[-ALONE:]:
+        for row in run_python(product(), "run_loop.py", list(arguments)):
+            yield row | {"run": f"{name}: the solution alone"}
 
 
 def large(sizes: Sequence[int]) -> Iterator[Row]:
