@@ -8,9 +8,7 @@ use super::sweep::{set, sums, sweep};
 
 type Pair = [Vec<f64>; 2];
 
-/// The curvature from which a cell is taken to be on its own, and the eigenvalue at which the guess of the
-/// inverse is right, over C_xx(0,0).
-const ALONE: f64 = 24.0;
+/// The eigenvalue at which the guess of the inverse is right, over C_xx(0,0).
 const RIGHT: f64 = 2.0;
 
 /// The linear system
@@ -30,8 +28,10 @@ const RIGHT: f64 = 2.0;
 /// 1/(c + D) ~ s^2 / c + (1 - s^2)/(c_0 + max(D, d)),    s^2 = max(0, (1 - D/d)/(1 + D/c_0))
 /// ```
 ///
-/// with equality for c = c_0. At the rim D has no bound, and there a cell must not hear of the others
-/// through P: the little that it would move too far is D times as much in the residual.
+/// with equality for c = c_0, and d about the geometric mean of the eigenvalues of the shortest and the
+/// longest waves, C_xx(0,0) times the root of the cells across the contact. At the rim D has no bound, and
+/// there a cell must not hear of the others through P: the little that it would move too far is D times as
+/// much in the residual.
 #[derive(Debug)]
 pub(crate) struct NewtonStep {
     tangent: Tangent,
@@ -149,6 +149,9 @@ impl NewtonStep {
         c_xx: f64,
     ) -> [f64; 3] {
         let t = &mut self.tangent;
+        let right = RIGHT * c_xx;
+        // The root of the contact cells is about the number across.
+        let limit = 2.0 * c_xx * (problem.bound.len() as f64).powf(0.25);
         // Where the displacements that mean no slip stay, any field stands in for the turning.
         let turns = !problem.turning.is_empty();
         let turning = if turns {
@@ -184,7 +187,6 @@ impl NewtonStep {
                 0.0
             };
             let weight = 1.0 / (1.0 + curvature / c_xx);
-            let (right, limit) = (RIGHT * c_xx, ALONE * c_xx);
             let shared = ((1.0 - curvature / limit) / (1.0 + curvature / right)).max(0.0);
             let alone = (1.0 - shared) / (right + curvature.max(limit));
             let (scale, r) = (shared.sqrt(), [-slip[0], -slip[1]]);
