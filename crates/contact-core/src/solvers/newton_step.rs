@@ -8,7 +8,7 @@ use super::sweep::{set, sums, sweep};
 
 type Pair = [Vec<f64>; 2];
 
-/// The eigenvalue at which the guess of the inverse is right, over C_xx(0,0).
+/// The eigenvalue c_0 at which the guess of the inverse is right, over C_xx(0,0).
 const RIGHT: f64 = 2.0;
 
 /// The linear system
@@ -28,10 +28,10 @@ const RIGHT: f64 = 2.0;
 /// 1/(c + D) ~ s^2 / c + (1 - s^2)/(c_0 + max(D, d)),    s^2 = max(0, (1 - D/d)/(1 + D/c_0))
 /// ```
 ///
-/// with equality for c = c_0, and d about the geometric mean of the eigenvalues of the shortest and the
-/// longest waves, C_xx(0,0) times the root of the cells across the contact. At the rim D has no bound, and
-/// there a cell must not hear of the others through P: the little that it would move too far is D times as
-/// much in the residual.
+/// with equality for c = c_0 = 2 C_xx(0,0), and d = 2 C_xx(0,0) times the root of the cells across the
+/// contact, about the geometric mean of the eigenvalues of the shortest and the longest waves; both factors
+/// are those that took the fewest passes. At the rim D has no bound, and there a cell must not hear of the
+/// others through P: the little that it would move too far is D times as much in the residual.
 #[derive(Debug)]
 pub(crate) struct NewtonStep {
     tangent: Tangent,
