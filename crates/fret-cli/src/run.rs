@@ -82,14 +82,15 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
 }
 
 impl Manner {
-    /// Settles the number of threads, before the first use of the pool.
+    /// Settles the number of threads, before the first use of the pool. This one is among them: to
+    /// hand an increment to another and wait for it takes longer than a small one is worked on.
     pub(crate) fn use_threads(&self) {
-        if let Some(threads) = self.threads {
-            // The pool has no other user in this process, so it cannot have been built before.
-            let _ = rayon::ThreadPoolBuilder::new()
-                .num_threads(threads.into())
-                .build_global();
-        }
+        // The pool has no other user in this process, so it cannot have been built before. Zero
+        // means one thread per core.
+        let _ = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads.unwrap_or(0).into())
+            .use_current_thread()
+            .build_global();
     }
 
     /// Watches a run of the scene into the store `out` that has done `increments` already, and

@@ -22,7 +22,7 @@ use super::{Displacements, Half, Mirror, Spectra, Tractions};
 use crate::error::Error;
 
 /// Cells below which a second thread costs more than it brings.
-pub(crate) const PARALLEL_FROM: usize = 40 * 40;
+pub(crate) const PARALLEL_FROM: usize = 48 * 48;
 /// Parts of the work per thread: a thread that is held up leaves the rest to the others.
 const PARTS_PER_THREAD: usize = 4;
 /// Behaviour of the components x, y, z of tractions and displacements under y -> -y.

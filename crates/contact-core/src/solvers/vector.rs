@@ -2,6 +2,8 @@
 
 use rayon::prelude::*;
 
+use crate::convolution::PARALLEL_FROM;
+
 /// Numbers summed side by side, so that the sum runs at the speed of memory. Their order depends
 /// on nothing but the length.
 const LANES: usize = 8;
@@ -44,7 +46,7 @@ pub(crate) fn size(v: [f64; 2]) -> f64 {
 }
 
 /// Cells that one thread sums or changes in one go.
-pub(crate) const CHUNK: usize = 4096;
+pub(crate) const CHUNK: usize = PARALLEL_FROM;
 
 /// Does two things to so many cells, side by side where these are worth it.
 pub(crate) fn both<A: Send, B: Send>(
