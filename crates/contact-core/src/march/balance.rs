@@ -26,18 +26,17 @@ impl March {
         };
         let contact = now.p.iter().filter(|&&p| p > 0.0).count();
         let slipping = now.slip.iter().filter(|&&s| s).count();
-        let ((energy, (residuals, [p_max, q_max])), areas) = both(
+        let ((energy, (residuals, [p_max, q_max])), zones) = both(
             now.p.len(),
             || {
                 let energy = self.energies(point, &now, &motion, cell_area);
                 (energy, self.residuals(point, &now, info, cell_area))
             },
-            || self.contact_and_stick(&now),
+            || self.zones(&now),
         );
-        let [contact_area, without_slip] = areas.map(|cells| cells * cell_area);
-        let stick_area = self
-            .grown_to_the_end(without_slip, slipping > 0)
-            .min(contact_area);
+        let [contact_area, without_slip] = [zones.contact, zones.stick].map(|n| n * cell_area);
+        let grown = self.grown_to_the_end(without_slip, slipping > 0);
+        let stick_area = (without_slip + zones.behind * (grown - without_slip)).min(contact_area);
         let mut increment = Increment {
             index: last.increments + 1,
             point: *point,

@@ -10,7 +10,7 @@
 use ndarray::{Array2, Axis, Zip};
 use std::ops::Range;
 
-use super::partial_cells::{Edge, Lattice};
+use super::partial_cells::{Edge, Lattice, POWER, ROOT, SHRINKS, shortfalls};
 use crate::convolution::{Mirror, Tractions};
 use crate::scene::Grid;
 
@@ -174,12 +174,11 @@ impl Border {
     /// p^2 \[Pa^2\].
     fn of_contact(grid: &Grid, p: &Array2<f64>) -> Self {
         let contact: Vec<bool> = p.iter().map(|&p| p > 0.0).collect();
-        let edges = Lattice::new(grid, Mirror::None).edges(
-            &contact,
-            |_, _| (0.5, None),
-            |n, _| p[(n / grid.ny, n % grid.ny)],
-        );
-        Self::new(&p.mapv(|p| p.max(0.0).powi(2)), &edges)
+        let level = p.mapv(|p| p.max(0.0).powi(2));
+        let edges = Lattice::new(grid, Mirror::None).edges(&contact, [ROOT], |_| {
+            |n: usize| [level[(n / grid.ny, n % grid.ny)]]
+        });
+        Self::new(&level, &edges)
     }
 
     /// With the levels of the cells at the border that these tell.
@@ -195,7 +194,11 @@ impl Border {
         };
         let planes: Vec<Option<Plane>> = edges
             .iter()
-            .map(|(n, edge)| edge.level().filter(|plane| agrees(place(*n), *plane)))
+            .map(|(n, edge)| {
+                edge.level
+                    .map(|level| (level.middle, level.gradient))
+                    .filter(|plane| agrees(place(*n), *plane))
+            })
             .collect();
         // From the planes of those cells around one of which this is true.
         let from_around = |cell: (usize, usize), of: &dyn Fn((usize, usize), Plane) -> bool| {
@@ -286,12 +289,13 @@ impl StickZone {
             }
         });
         // Where the zone grows the shear goes like the power 3/2: that needs nothing.
-        let mut edges = Lattice::new(grid, Mirror::None).edges(
-            stick,
-            |_, _| (0.5, Some(1.5)),
-            |n, _| short((n / grid.ny, n % grid.ny)),
-        );
+        let mut edges = Lattice::new(grid, Mirror::None).edges(stick, [ROOT, POWER], |_| {
+            |n: usize| shortfalls(short((n / grid.ny, n % grid.ny)))
+        });
         edges.retain(|(n, _)| p[(n / grid.ny, n % grid.ny)] > 0.0);
+        for (_, edge) in &mut edges {
+            edge.level = edge.level.filter(|level| level.law == SHRINKS);
+        }
         let border = Border::new(&level, &edges);
         let mut near = Array2::from_elem(shape, false);
         for cell in border.told.iter().flat_map(|cell| around(*cell, shape)) {
