@@ -5,6 +5,9 @@
 //! stresses that change meanwhile stretch the surface of body 2 by d(eps) more than that of body 1
 //! (`scene::bulk_stress`). Both enter the slip, eq. (7), through the displacement that means none:
 //! since u = u(2) - u(1), that of the material before, less d(eps_x) x and d(eps_y) y.
+//!
+//! A rotation d(phi_z) that is given moves the material on its way from x + s to x by d(phi_z) (x + s/2)
+//! along y, the motions of the bodies by d(phi_z) x: what they leave out is as if stretched besides.
 
 use super::{Interface, March};
 use crate::scene::{LoadPoint, Loads};
@@ -20,6 +23,8 @@ pub(super) struct Carried {
     cells: isize,
     /// Strain d(eps_x), d(eps_y) of body 2 less that of body 1 in the increment.
     strain: [f64; 2],
+    /// What a given rotation moves the rolling material along y besides \[m\].
+    turned: f64,
 }
 
 impl Carried {
@@ -43,6 +48,11 @@ impl March {
             sigma_B1: now.sigma_B1 - before.sigma_B1,
             ..Loads::default()
         });
+        let spin = now
+            .given
+            .phi_z
+            .map_or(0.0, |to| to - self.state.motion.phi_z);
+        let turned = 0.5 * spin * cells as f64 * self.scene.grid.dx;
         self.carried = None;
         if cells == 0 && strain.iter().all(|e| *e == 0.0) {
             return;
@@ -61,7 +71,7 @@ impl March {
             rounding: last.rounding,
         };
         for n in 0..last.p.len() {
-            let stretch = self.stretched(strain, n);
+            let stretch = self.stretched(strain, turned, n);
             interface.u[0][n] -= stretch[0];
             interface.u[1][n] -= stretch[1];
         }
@@ -71,6 +81,7 @@ impl March {
             missed,
             cells,
             strain,
+            turned,
         });
     }
 
@@ -93,10 +104,15 @@ impl March {
         self.source(n, self.carried.as_ref().map_or(0, |c| c.cells))
     }
 
+    /// Whether the contact rolls on to other cells in the increment.
+    pub(super) fn rolls_on(&self) -> bool {
+        self.carried.as_ref().is_some_and(|c| c.cells != 0)
+    }
+
     /// How far the stretch moves body 2 against body 1 in cell n in the increment \[m\].
     pub(super) fn stretch_at(&self, n: usize) -> [f64; 2] {
         let carried = self.carried.as_ref();
-        carried.map_or([0.0; 2], |carried| self.stretched(carried.strain, n))
+        carried.map_or([0.0; 2], |c| self.stretched(c.strain, c.turned, n))
     }
 
     /// How much wider the undeformed gap over the material in cell n is than before \[m\].
@@ -124,11 +140,11 @@ impl March {
             ([slip_x, slip_y], slip_length, dissipated);
     }
 
-    fn stretched(&self, strain: [f64; 2], n: usize) -> [f64; 2] {
+    fn stretched(&self, strain: [f64; 2], turned: f64, n: usize) -> [f64; 2] {
         let (arms, length) = (&self.window.arms, self.window.arms.length);
         [
             strain[0] * length * arms.x[n],
-            strain[1] * length * arms.y[n] * arms.stretch,
+            (strain[1] * length * arms.y[n] - turned) * arms.stretch,
         ]
     }
 

@@ -1,4 +1,4 @@
-//! Cells that come into contact within an increment.
+//! Cells that come into contact within an increment, because it grows or because it rolls on.
 //!
 //! Such a cell has moved freely before it stuck: its slip is reckoned from its entry, not from the
 //! start of the increment. Solved with the contact kept to the old cells first, the increment tells
@@ -58,7 +58,7 @@ impl March {
         let gap = |u_z: &[f64], approach: [f64; 3], n: usize| {
             u_z[n] + self.window.h_init[n] - self.window.arms.across(approach, n)
         };
-        let before = |n: usize| gap(&last.u_z, approach, n).max(0.0);
+        let before = |n: usize| (gap(&last.u_z, approach, n) - self.gap_rolled(n)).max(0.0);
         let motion = |c: usize| {
             let shift = |n: usize| self.window.arms.in_plane(info.shift, n)[c];
             let motion = |n: usize| kept.u[c][n] - last.u[c][n] - shift(n);
@@ -130,7 +130,7 @@ impl March {
         }
     }
 
-    /// Whether contact grows in the increment and it matters how a cell moved before.
+    /// Whether contact grows or rolls on in the increment and it matters how a cell moved before.
     fn lets_cells_enter(&self, (normal, tangential): &(Drive, Drive)) -> bool {
         let solver = &self.scene.settings.solver;
         let Interface { p, q, .. } = &self.state.interface;
@@ -146,7 +146,8 @@ impl March {
                 .chain(&tangential.given)
                 .any(|&t| t != 0.0)
             || q.iter().flatten().any(|&q| q != 0.0);
-        solver.entering && solver.preset == Preset::Fast && self.plan.friction && grows && sheared
+        let enters = grows || self.rolls_on();
+        solver.entering && solver.preset == Preset::Fast && self.plan.friction && enters && sheared
     }
 
     /// Approach and tilts of the last increment, as lengths \[m\].

@@ -25,7 +25,7 @@ impl March {
         let h_init = if kept {
             let far =
                 1e3 * (self.approach + self.window.h_init.iter().fold(0.0, |m, h| h.abs().max(m)));
-            let p = &self.state.interface.p;
+            let p = &self.before().p;
             let cells = self.window.h_init.iter().zip(p);
             apart = cells
                 .map(|(h, &p)| if p > 0.0 { *h } else { h + far })

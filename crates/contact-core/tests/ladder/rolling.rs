@@ -9,11 +9,12 @@ use crate::bench::{CORK, W, close, hertz_of, run, sphere_on_flat};
 /// Cells over 2.4 contact radii.
 const N: usize = 36;
 
-/// A sphere of `material` on a flat of the same that rolls over four contact radii, without slip.
+/// A sphere of `material` on a flat of the same that rolls over twelve contact radii, without slip: after
+/// four of them the forces are a twentieth short of the steady ones.
 fn rolled(material: Elastic, change: impl Fn(&mut Loads, f64)) -> (Scene, Increment) {
     let mut scene = sphere_on_flat(material, material, 0.3, (2.4, N), LoadPath::start());
     scene.friction = Friction::coulomb(f64::INFINITY);
-    let way = (4 * N) * 10 / 24;
+    let way = (12 * N) * 10 / 24;
     let rolled = way as f64 * scene.grid.dx;
     scene.path = LoadPath::start().normal(W, 1).to(
         |to| {
@@ -47,10 +48,9 @@ fn creepage_and_spin_are_kalkers() {
             to.given.delta_y = Some(0.0);
             to.given.phi_z = Some(creepage / a * way);
         });
-        // The leading edge is known to half a cell, and the traction grows from there.
-        let cell = 2.4 / N as f64;
+        // The traction grows from the leading edge, where the cells enter: the grid leaves 3 per mille.
         let near = |what: &str, found: f64, truth: f64| {
-            close(what, found / truth, 1.0, cell + 0.005 / truth);
+            close(what, found / truth, 1.0, 0.003 + 0.005 / truth);
         };
         near("C11", along.point.loads.T_x / unit, C11);
         near("C22", across.point.loads.T_y / unit, C22);
