@@ -4,13 +4,14 @@
 //! with which the shear falls short of its bound inside a stick zone that shrinks. The squares can
 //! be interpolated: p^2, and with it q/p; near the stick zone (m p - |q|)^2, m being |q|/p where
 //! cells slip. Between the middles of the cells they are taken bilinear, at the borders as
-//! `partial_cells` continues them from inside. Where these do not tell the border (a punch with a
+//! `lattice` continues them from inside. Where these do not tell the border (a punch with a
 //! sharp edge, a contact of few cells) the tractions stay as they are.
 
 use ndarray::{Array2, Axis, Zip};
 use std::ops::Range;
 
-use super::partial_cells::{Edge, Lattice, POWER, ROOT, SHRINKS, shortfalls};
+use super::lattice::{Edge, Lattice, POWER, Power, ROOT};
+use super::partial_cells::{SHRINKS, STICK};
 use crate::convolution::{Mirror, Tractions};
 use crate::scene::Grid;
 
@@ -176,7 +177,7 @@ impl Border {
         let contact: Vec<bool> = p.iter().map(|&p| p > 0.0).collect();
         let level = p.mapv(|p| p.max(0.0).powi(2));
         let edges = Lattice::new(grid, Mirror::None).edges(&contact, [ROOT], |_| {
-            |n: usize| [level[(n / grid.ny, n % grid.ny)]]
+            ([Power::Two], |n: usize| p[(n / grid.ny, n % grid.ny)])
         });
         Self::new(&level, &edges)
     }
@@ -290,7 +291,7 @@ impl StickZone {
         });
         // Where the zone grows the shear goes like the power 3/2: that needs nothing.
         let mut edges = Lattice::new(grid, Mirror::None).edges(stick, [ROOT, POWER], |_| {
-            |n: usize| shortfalls(short((n / grid.ny, n % grid.ny)))
+            (STICK, |n: usize| short((n / grid.ny, n % grid.ny)))
         });
         edges.retain(|(n, _)| p[(n / grid.ny, n % grid.ny)] > 0.0);
         for (_, edge) in &mut edges {

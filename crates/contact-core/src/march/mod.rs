@@ -14,6 +14,8 @@ mod finer;
 mod halving;
 mod increment;
 mod kept_contact;
+mod lattice;
+mod parabola;
 mod partial_cells;
 mod path_error;
 mod predict;
