@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 import pyfret as fret
-from validation import elements, kernels, pages, paper, rows, work_precision
+from validation import elements, kernels, pages, paper, path_order, rows, work_precision
 from validation.runner import run
 from validation.truths import TRUTHS
 
 #: Pages that are no truths.
-OTHERS = ("rows", "kernels", "elements", "paper", "work_precision")
+OTHERS = ("path_order", "rows", "kernels", "elements", "paper", "work_precision")
 #: Cells a side of the paper's runs, and of a quick look.
 CELLS, WORK_CELLS, QUICK_CELLS = 256, 64, 32
 
@@ -39,6 +39,9 @@ def main() -> None:
             lines.append(pages.front_row(outcome))
             ratios += outcome.grids.honesty()
             print(lines[-1], flush=True)
+    if options.only is None or "path_order" in options.only:
+        lines.append(path_order.write(out, quick=options.quick))
+        print(lines[-1], flush=True)
     if options.only is None or "rows" in options.only:
         lines.append(rows.write(out, n=QUICK_CELLS * 2 if options.quick else rows.CELLS))
         print(lines[-1], flush=True)
@@ -82,7 +85,8 @@ def front(
         f"Every page is written by `make validation` from runs of pyfret {fret.__version__}; all "
         f"of them took {seconds:.0f} s. Errors are ours less the truth, over the truth; those of "
         "fields are L2 norms over the cells. The order is that of the error in the number of "
-        "cells a side; the run time is that of one run and of that on half as many cells, for "
+        "cells a side, over several places of the rim within the cells where these matter; the "
+        "run time is that of one run and of that on half as many cells, for "
         "its error bars.",
         "\n".join(
             [

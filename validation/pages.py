@@ -27,8 +27,8 @@ def percent(error: float) -> str:
     return f"{100 * error:+.2g} %"
 
 
-def table(ladder: Ladder, counted: str) -> str:
-    """Errors of every number at every size, the order, and the run time."""
+def table(ladder: Ladder, counted: str, *, orders: bool = True) -> str:
+    """Errors of every number at every size, the orders, and the run time."""
     names = ladder.names()
     rows = [
         "| " + " | ".join([counted, *names, "run time"]) + " |",
@@ -37,9 +37,10 @@ def table(ladder: Ladder, counted: str) -> str:
     for n, (size, seconds) in enumerate(zip(ladder.sizes, ladder.seconds, strict=True)):
         errors = [percent(ladder.errors(name)[n]) for name in names]
         rows.append("| " + " | ".join([str(size), *errors, f"{seconds:.2f} s"]) + " |")
-    orders = [ladder.order(name) for name in names]
-    shown = ["" if math.isnan(order) else f"{order:.1f}" for order in orders]
-    rows.append("| " + " | ".join(["observed order", *shown, ""]) + " |")
+    if orders:
+        found = [ladder.order(name) for name in names]
+        shown = ["" if math.isnan(order) else f"{order:.1f}" for order in found]
+        rows.append("| " + " | ".join(["observed order", *shown, ""]) + " |")
     return "\n".join(rows)
 
 
@@ -96,7 +97,7 @@ def write(outcome: Outcome, folder: Path) -> None:
         f"On {outcome.grids.sizes[-1]} cells a side:",
         "\n".join(numbers),
         "## Error against the grid",
-        table(outcome.grids, "cells a side"),
+        table(outcome.grids, "cells a side", orders=outcome.placed is None),
     ]
     if outcome.increments is not None:
         parts += ["## Error against the increments", table(outcome.increments, "increments")]
@@ -104,7 +105,8 @@ def write(outcome: Outcome, folder: Path) -> None:
         parts += [
             "## Error over the places of the rim within the cells",
             f"Root mean square over {PLACES} grids whose cells differ by up to a tenth: single "
-            "runs go up and down by where the rim lies in its cells.",
+            "runs go up and down by where the rim lies in its cells, so that only these tell an "
+            "order.",
             table(outcome.placed, "cells a side"),
         ]
     parts += [f"![errors]({truth.name}_error.png)"]
@@ -127,7 +129,7 @@ def front_row(outcome: Outcome) -> str:
     """The line of a truth on the front page."""
     name, error = outcome.worst
     grids = outcome.grids
-    order = grids.order(name)
+    order = outcome.ordered.order(name)
     shown = "" if math.isnan(order) else f"{order:.1f}"
     truth = outcome.truth
     return (

@@ -42,7 +42,7 @@ class Ladder:
 
     def order(self, name: str) -> float:
         """Order that a number converges with."""
-        return order(self.sizes, self.errors(name))
+        return order(self.sizes, self.errors(name)) if name in self.names() else float("nan")
 
 
 @dataclass(frozen=True)
@@ -61,6 +61,11 @@ class Outcome:
         """The number with the largest error on the finest grid, and that error."""
         name = max(self.grids.names(), key=lambda name: abs(self.grids.errors(name)[-1]))
         return name, self.grids.errors(name)[-1]
+
+    @property
+    def ordered(self) -> Ladder:
+        """The ladder that tells orders: of all places of the rim if there is one."""
+        return self.grids if self.placed is None else self.placed
 
 
 def climb(
@@ -93,7 +98,7 @@ def run(truth: Truth, *, quick: bool = False) -> Outcome:
         increments, _ = climb(truth, truth.path, truth.increments[part], error=False)
     placed = None
     if truth.placed is not None:
-        placed = over_places(truth, truth.placed, (32, *truth.grids)[part])
+        placed = over_places(truth, truth.placed, truth.placed_grids[part])
     return Outcome(truth, finest, grids, increments, placed)
 
 

@@ -42,13 +42,13 @@ def stretched(place: int) -> float:
     return 2.3 * (1 + 0.0137 * place)
 
 
-def cylinder(path: fret.LoadPath, *, n: int) -> fret.Scene:
-    """A steel cylinder on a steel flat, plane strain."""
+def cylinder(path: fret.LoadPath, *, n: int, extent: float = 2.4) -> fret.Scene:
+    """A steel cylinder on a steel flat, plane strain, on a strip of `extent` half-widths."""
     return fret.Scene(
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=R)),
         body2=fret.Body(STEEL),
         mu=MU,
-        grid=fret.Grid.strip(extent=2.4 * line().a, n=n),
+        grid=fret.Grid.strip(extent=extent * line().a, n=n),
         path=path,
     )
 

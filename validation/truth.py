@@ -79,7 +79,9 @@ class Truth:
         Their numbers.
     placed : callable, optional
         The scene on a grid of so many cells a side, the rim of the contact at one of
-        :data:`PLACES` places within the cells.
+        :data:`PLACES` places within the cells: of errors that depend on that.
+    placed_grids : tuple of int
+        Cells a side of these.
     remark : str
         What explains the errors; Markdown.
     has_error_bars : bool
@@ -96,6 +98,7 @@ class Truth:
     path: Callable[[int], fret.Scene] | None = None
     increments: tuple[int, ...] = field(default=())
     placed: Callable[[int, int], fret.Scene] | None = None
+    placed_grids: tuple[int, ...] = (32, 64, 128, 256)
     remark: str = ""
     has_error_bars: bool = True
 

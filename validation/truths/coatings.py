@@ -95,7 +95,7 @@ def page(ratio: float, h: float) -> Truth:
 
 LAYER = fret.Elastic(E=1e9, nu=0.3)
 #: Thickness of the layer [m] and the contact radius on it over that thickness.
-THICKNESS, WIDE = 2e-6, 60.0
+THICKNESS, WIDE = 2e-6, 1000.0
 #: Modulus of a layer that cannot spread sideways [Pa].
 M = 2 * LAYER.G * (1 - LAYER.nu) / (1 - 2 * LAYER.nu)
 THIN_W = np.pi * M * (WIDE * THICKNESS) ** 4 / (4 * THICKNESS * R)
@@ -143,7 +143,7 @@ PAGES = (
             "$p = (M/h)(\\delta_z - r^2/2R)$, $M = 2G(1-\\nu)/(1-2\\nu)$, $W = \\pi M "
             "a^4/(4hR)$: the "
             "limit of a layer much thinner than the contact (K. L. Johnson, Contact Mechanics, "
-            "sec. 5.8), here $a = 60\\,h$."
+            "sec. 5.8), here $a = 1000\\,h$."
         ),
         scene=thin,
         known=thin_known,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import pyfret as fret
-from validation.scenes import LINE_W, MU, STEEL, R, cylinder, line
+from validation.scenes import LINE_W, MU, STEEL, R, cylinder, line, stretched
 from validation.truth import Known, Truth, l2
 
 if TYPE_CHECKING:
@@ -24,6 +24,12 @@ HALF = LINE.stick_half_width(T=T, mu=MU)
 def pressed() -> fret.LoadPath:
     """The cylinder pressed on."""
     return fret.LoadPath.start().normal(LINE_W, increments=1)
+
+
+def stretched_in_phase(n: int, extent: float = 2.4) -> fret.Scene:
+    """The tangential force and the bulk stress together."""
+    path = pressed().force(T_x=T, sigma_B=SHIFTED, increments=10)
+    return cylinder(path, n=n, extent=extent)
 
 
 def q_bulk(x: Array) -> Array:
@@ -64,15 +70,17 @@ def bulk_drawn(figure: Figure, result: fret.Result) -> None:
 
 
 #: Way rolled over the half-width.
-WAY = 4.0
+WAY = 6.0
 
 
-def rolling(n: int) -> fret.Scene:
+def rolling(n: int, extent: float = 2.4) -> fret.Scene:
     """Rolling by a cell an increment."""
-    dx = 2.4 * LINE.a / n
+    dx = extent * LINE.a / n
     steps = round(WAY * LINE.a / dx)
     path = pressed().tangential(T, increments=1).force(rolled=steps * dx, increments=steps)
-    return cylinder(path, n=n)
+    scene = cylinder(path, n=n, extent=extent)
+    # What increments leave of slip shows in the border of the stick zone after a thousand of them.
+    return scene.replace(settings=fret.Settings(tolerance=1e-9))
 
 
 def rolling_known(result: fret.Result) -> dict[str, Known]:
@@ -121,10 +129,12 @@ PAGES = (
             "Int. J. "
             "Mech. Sci. 29 (1987) 355)."
         ),
-        scene=lambda n: cylinder(pressed().force(T_x=T, sigma_B=SHIFTED, increments=10), n=n),
+        scene=stretched_in_phase,
         known=bulk_known,
         draw=bulk_drawn,
         grids=(64, 128, 256, 512),
+        placed=lambda n, place: stretched_in_phase(n, stretched(place)),
+        placed_grids=(64, 128, 256, 512),
     ),
     Truth(
         name="carter",
@@ -139,6 +149,7 @@ PAGES = (
         draw=rolling_drawn,
         has_error_bars=False,
         grids=(64, 128, 256, 512),
+        placed=lambda n, place: rolling(n, stretched(place)),
         remark=f"After a way of {WAY:g} half-widths the transient is nearly over.",
     ),
 )

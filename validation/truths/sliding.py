@@ -150,12 +150,12 @@ LUBKIN = fret.reference.Lubkin(TWISTED, bodies=(STEEL, STEEL), mu=MU)
 RADII = (0.9, 0.5, 0.1)
 
 
-def twisted(n: int) -> fret.Scene:
+def twisted(n: int, extent: float = 2.4) -> fret.Scene:
     """Torsion up to three stick radii."""
     path = pressed()
     for part in RADII:
         path = path.torsion(float(LUBKIN.M_z(part * TWISTED.a)), increments=1)
-    return sphere(STEEL, STEEL, path, n=n)
+    return sphere(STEEL, STEEL, path, n=n, extent=extent)
 
 
 def twisted_known(result: fret.Result) -> dict[str, Known]:
@@ -323,6 +323,7 @@ PAGES = (
         scene=twisted,
         known=twisted_known,
         draw=twisted_drawn,
+        placed=lambda n, place: twisted(n, stretched(place)),
     ),
     Truth(
         name="any_path",

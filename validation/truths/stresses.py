@@ -63,9 +63,9 @@ NAMES = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
 
 
 def slid(n: int) -> fret.Scene:
-    """Pressed, and moved along x until everything slips."""
+    """Pressed, and moved along x far beyond the shift at which everything slips."""
     path = fret.LoadPath.start().normal(W, increments=1)
-    shift = 3 * CATTANEO.shift_limit
+    shift = 300 * CATTANEO.shift_limit
     return sphere(STEEL, STEEL, path.displace(delta_x=shift, increments=4), n=n, extent=2.4)
 
 
@@ -182,8 +182,8 @@ PAGES = (
         draw=slid_drawn,
         has_error_bars=False,
         remark=(
-            "Where all cells slip the shear is not quite along $x$: slip has a small part across, "
-            "$u_y$ of the shear itself, and that turns the shear. Hamilton's has none of it."
+            "Moved a long way: what the shear itself moves the surface across, which Hamilton's "
+            "leaves out, then turns the slip by a hundredth of a degree only."
         ),
     ),
     Truth(
