@@ -140,3 +140,30 @@ fn another_program_in_extended_precision_finds_the_same_contact() {
         compare(&scene, &truth);
     }
 }
+
+/// A layer a thousand times thinner than the contact, on a rigid base: p = (M/h)(delta_z - r^2/(2 R)),
+/// W = pi M a^4/(4 h R), M = 2 G (1 - nu)/(1 - 2 nu) (K. L. Johnson, Contact Mechanics, sec. 5.8). The
+/// pressure ends like the distance from the rim, and the rim is known within its cell.
+#[test]
+fn a_layer_thinner_than_the_cells() {
+    let layer = Elastic { E: 1e9, nu: 0.3 };
+    let (h, a): (f64, f64) = (2e-6, 2e-3);
+    let M = 2.0 * layer.G() * (1.0 - layer.nu) / (1.0 - 2.0 * layer.nu);
+    let force = std::f64::consts::PI * M * a.powi(4) / (4.0 * h * R);
+    for n in [48, 64, 90] {
+        let path = LoadPath::start().normal(force, 1);
+        let mut scene = sphere_on_flat(Elastic::RIGID, STEEL, 0.0, (2.4, n), path);
+        scene.body2 = Body::homogeneous(Elastic::RIGID, Shape::Flat);
+        scene = coated(scene, layer, h);
+        scene.grid = Grid::centred(2.4 * a, n).expect("a grid");
+        let increment = run(&scene, |_, _| {}).remove(0);
+        let d = scene.grid.dx / a;
+        close("a", increment.contact_radius() / a, 1.0, RIM * d);
+        close(
+            "delta_z",
+            increment.motion.delta_z * 2.0 * R / (a * a),
+            1.0,
+            1e-3,
+        );
+    }
+}

@@ -5,7 +5,7 @@ use contact_core::scene::{Elastic, LoadPath};
 
 use crate::audit::Audit;
 use crate::bench::{
-    CORK, STEEL, W, WHOLE_CELLS, cell, close, hertz_of, indentation, norm, run, sphere_on_flat,
+    CORK, RIM, STEEL, W, WHOLE_CELLS, cell, close, hertz_of, indentation, norm, run, sphere_on_flat,
 };
 
 /// Error of c/a times the number of increments of equal radius. A stick zone that missed half of the
@@ -77,6 +77,24 @@ fn more_increments_lead_to_the_self_similar_stick_radius() {
     let half = 0.5 * truth / 10.0;
     assert!(coarse.abs() < half / 4.0, "{coarse} of {half}");
     assert!(fine.abs() < WHOLE_CELLS * d, "{fine}, cells of {d}");
+}
+
+#[test]
+fn a_growing_stick_zone_is_known_within_the_cells() {
+    // An increment is as long as a cell.
+    let (n, extent) = (110, 2.2);
+    for (material, mu) in [(STEEL, 0.2), (CORK, 0.5)] {
+        let path = indentation(n / 2);
+        let scene = sphere_on_flat(material, Elastic::RIGID, mu, (extent, n), path);
+        let truth = coupled_indentation(dundurs_beta(material, Elastic::RIGID), mu);
+        // Once the stick zone has thirty cells and more for the five that tell its border.
+        for increment in &run(&scene, |_, _| {})[3 * n / 8..] {
+            let ratio = (increment.stick_area / increment.contact_area).sqrt();
+            let a = increment.contact_radius() / scene.grid.dx;
+            // Twice what a border that shrinks is off by.
+            close("c/a", ratio, truth.stick_ratio, 2.0 * RIM / a);
+        }
+    }
 }
 
 #[test]
