@@ -42,7 +42,7 @@ class Ladder:
 
     def order(self, name: str) -> float:
         """Order that a number converges with."""
-        return order(self.sizes, self.errors(name)) if name in self.names() else float("nan")
+        return order(self.sizes, self.errors(name))
 
 
 @dataclass(frozen=True)

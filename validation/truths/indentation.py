@@ -96,9 +96,8 @@ def thin_ring(pair: str) -> str:
         return ""
     return (
         f" Here the slip ring is {cells:.1f} cells wide on 256 cells a side, and narrower on less: "
-        "the power that the pressure grows with from the rim is that of a rim that slips, the "
-        "cells see one that sticks, and c and a are off by about a tenth of a cell on all these "
-        "grids."
+        "the cells that tell the rim lie in the stick zone, and c is off by up to a third of a "
+        "cell, a by up to a tenth on all these grids."
     )
 
 

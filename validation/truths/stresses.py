@@ -182,8 +182,8 @@ PAGES = (
         draw=slid_drawn,
         has_error_bars=False,
         remark=(
-            "Moved a long way: what the shear itself moves the surface across, which Hamilton's "
-            "leaves out, then turns the slip by a hundredth of a degree only."
+            "Moved a long way: at first slip has a small part across, $u_y$ of the shear itself, "
+            "which Hamilton's leaves out; once that no longer changes the shear is along $x$."
         ),
     ),
     Truth(

@@ -7,7 +7,9 @@
 //! since u = u(2) - u(1), that of the material before, less d(eps_x) x and d(eps_y) y.
 //!
 //! A rotation d(phi_z) that is given moves the material on its way from x + s to x by d(phi_z) (x + s/2)
-//! along y, the motions of the bodies by d(phi_z) x: what they leave out is as if stretched besides.
+//! along y, the motions of the bodies by d(phi_z) x: what they leave out is as if stretched besides. Of a
+//! rotation that follows from M_z it is left out: with the shift along y given too, an error of first order
+//! in s; where that is free it takes it up.
 
 use super::{Interface, March};
 use crate::scene::{LoadPoint, Loads};

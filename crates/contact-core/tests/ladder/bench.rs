@@ -20,7 +20,7 @@ pub(crate) const CORK: Elastic = Elastic { E: 210e9, nu: 0.0 };
 /// Error of the radius of a contact or a stick zone, in cells: the pressure or the shear a few cells
 /// inside, which tells the rim, is off by as much as if the rim were off by a hundredth of a cell.
 pub(crate) const RIM: f64 = 0.05;
-/// The same where cells a few rows inside do not tell the rim (a stick zone that grows, two borders
+/// The same where cells a few rows inside do not tell the rim (a stick zone that grows by cells, two borders
 /// within a few cells): the radius of whole cells scatters by this.
 pub(crate) const WHOLE_CELLS: f64 = 0.25;
 /// Error of a field in the L2 norm, relative, over the cell size in contact radii: 2.8 times the
