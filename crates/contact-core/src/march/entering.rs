@@ -11,6 +11,8 @@
 //! the solution has yet to tell.
 
 use super::kept_contact::KeptContact;
+use super::neighbours::Neighbours;
+use super::view::REACH;
 use super::{Interface, March};
 use crate::error::Error;
 use crate::scene::{LoadPoint, Preset};
@@ -70,8 +72,7 @@ impl March {
             closing: cells
                 .map(|n| before(n) - gap(&kept.u_z, info.approach, n))
                 .collect(),
-            rows: self.plan.mirror.rows(self.window.grid.ny),
-            mirror: self.plan.mirror,
+            cells: Neighbours::new(&self.window.grid, self.plan.mirror, REACH),
         }
     }
 

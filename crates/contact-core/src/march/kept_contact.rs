@@ -10,22 +10,19 @@
 //! M = int_0^g (m/c) dg
 //! ```
 //!
-//! At a distance d from the edge of a growing contact c and m are series in d^(1/2) that begin with
-//! this power, and the gap goes like d^(3/2): m/c is a series in g^(1/3). Its first terms are fitted to
-//! the cells around, so that the steps that the grid makes of the edge leave little in M. A cell at
-//! the edge, whose own m/c tells of these steps, moves by that until the first cell beside it enters;
-//! in small increments that is all its way. Where gap and motion are alike (proportional loads on
-//! similar bodies of nu = 0) m/c is the same everywhere, and M exact in increments of any size.
+//! Near the contact, where the edge moves in steps of cells, this is the sum over the entries of the cells
+//! between ([`entry_order`](super::entry_order)). Farther off it is summed from cell to cell outwards. Where
+//! gap and motion are alike (proportional loads on similar bodies of nu = 0) m/c is the same everywhere, and
+//! M exact in increments of any size.
 
-use crate::convolution::Mirror;
-use crate::solvers::{inverse, product, set, size};
+use rayon::prelude::*;
 
-/// How far the cells around reach that m/c is fitted to, in cells.
-const AROUND: isize = 4;
-/// Cells whose gap is less than so many times what it closes by tell of the way through the gap.
-const NEAR: f64 = 1.5;
-/// Regularisation of the terms that are not constant, which few cells need not tell apart.
-const RIDGE: f64 = 1e-6;
+use super::entry_order;
+use super::neighbours::Neighbours;
+use super::view::View;
+
+/// Fewest cells that are worth a task of their own.
+pub(super) const TASK: usize = 256;
 
 /// An increment with the contact kept to its old cells.
 pub(super) struct KeptContact {
@@ -35,140 +32,81 @@ pub(super) struct KeptContact {
     pub(super) closing: Vec<f64>,
     /// Motion relative to the rigid shift \[m\].
     pub(super) motion: [Vec<f64>; 2],
-    /// Cells along y.
-    pub(super) rows: usize,
-    pub(super) mirror: Mirror,
-}
-
-/// A cell near another one.
-struct Neighbour {
-    cell: usize,
-    /// Columns and rows to it.
-    off: [f64; 2],
-    /// What its motion along y counts as: it may be a mirror image.
-    sign: f64,
+    pub(super) cells: Neighbours,
 }
 
 impl KeptContact {
     /// The motion of each cell outside before its entry \[m\]; of one that does not enter, that of the
     /// whole increment.
     pub(super) fn moved(&self, outside: impl Fn(usize) -> bool + Sync) -> [Vec<f64>; 2] {
-        let cells = self.gap.len();
-        let near = |n: usize| outside(n) && self.gap[n] < NEAR * self.closing[n];
-        let root = |n: usize| near(n).then(|| self.gap[n].cbrt());
-        let roots: Vec<Option<f64>> = (0..cells).map(root).collect();
-        let mut moved = [vec![0.0; cells], vec![0.0; cells]];
-        let [x, y] = &mut moved;
-        let [motion_x, motion_y] = &self.motion;
-        let from = [&self.gap[..], &self.closing, motion_x, motion_y];
-        set(from, [x, y], |n, [gap, closing, x, y], _| {
-            let motion = [x, y];
-            if !outside(n) {
-                [0.0; 2]
-            } else if gap < closing {
-                let alone = self.alone(n, &outside);
-                let mean = self.mean_ratio(n, &roots);
-                [0, 1].map(|c| alone * motion[c] + (gap - alone * closing) * mean[c])
-            } else {
-                motion
-            }
-        });
-        moved
-    }
-
-    /// The part of the increment for which a cell at the edge moves before one beside it enters, or
-    /// it itself; zero elsewhere.
-    fn alone(&self, n: usize, outside: impl Fn(usize) -> bool) -> f64 {
-        let mut at_edge = false;
-        let mut alone = self.gap[n] / self.closing[n];
-        for beside in self.around(n, 1) {
-            let m = beside.cell;
-            if !outside(m) {
-                at_edge |= beside.off.contains(&0.0);
-            } else if self.closing[m] > 0.0 {
-                alone = alone.min(self.gap[m] / self.closing[m]);
-            }
+        let enters = |n: &usize| outside(*n) && self.gap[*n] < self.closing[*n];
+        let entering: Vec<usize> = (0..self.gap.len()).filter(enters).collect();
+        let views = self.views(&entering, &outside);
+        let (near, mut far): (Vec<usize>, Vec<usize>) =
+            entering.into_iter().partition(|&n| views[n].is_some());
+        let mut known = vec![None; self.gap.len()];
+        for (&n, by) in near.iter().zip(entry_order::moved(self, &views, &near)) {
+            known[n] = Some(by);
         }
-        if at_edge { alone } else { 0.0 }
-    }
-
-    /// The mean of m/c over the gaps up to that of cell n, which the cube `roots` are of: from
-    ///
-    /// ```text
-    /// m/c = A + B u + C u^2 + D s,   u = (g/g_n)^(1/3), s the way along the edge,
-    /// ```
-    ///
-    /// by least squares of m over the cells around, nearer ones with more weight.
-    fn mean_ratio(&self, n: usize, roots: &[Option<f64>]) -> [f64; 2] {
-        let mut gram = [[0.0; 4]; 4];
-        let mut right = [[0.0; 4]; 2];
-        let along = self.along_edge(n);
-        let own = roots[n].filter(|own| *own > 0.0);
-        for near in self.around(n, AROUND) {
-            let m = near.cell;
-            let Some(root) = roots[m] else { continue };
-            let u = own.map_or(1.0, |own| root / own);
-            let [x, y] = near.off;
-            let terms = [1.0, u, u * u, along[0] * x + along[1] * y];
-            let weight = 1.0 - (x * x + y * y) / (AROUND as f64 + 0.5).powi(2);
-            let closing = self.closing[m] / self.closing[n];
-            let motion = [self.motion[0][m], near.sign * self.motion[1][m]];
-            let motion = motion.map(|m| m / self.closing[n]);
-            for (i, term) in terms.into_iter().enumerate() {
-                let weighted = weight * closing * term;
-                for (entry, other) in gram[i].iter_mut().zip(terms) {
-                    *entry += weighted * closing * other;
-                }
-                for (right, motion) in right.iter_mut().zip(motion) {
-                    right[i] += weighted * motion;
-                }
-            }
+        far.sort_by(|&n, &m| self.gap[n].total_cmp(&self.gap[m]));
+        for n in far {
+            known[n] = Some(self.moved_farther_off(n, &known));
         }
-        for (i, row) in gram.iter_mut().enumerate().skip(1) {
-            row[i] *= 1.0 + RIDGE;
-        }
-        let inverse = inverse(gram, [true; 4]);
-        right.map(|right| {
-            let [a, b, c, _] = product(&inverse, right);
-            a + 3.0 / 4.0 * b + 3.0 / 5.0 * c
-        })
-    }
-
-    /// The direction along the edge at a cell outside, in which the gap does not change.
-    fn along_edge(&self, n: usize) -> [f64; 2] {
-        let mut slope = [0.0; 2];
-        for beside in self.around(n, 1) {
-            // Goes with the distance from the edge.
-            let level = self.gap[beside.cell].cbrt().powi(2);
-            for c in 0..2 {
-                slope[c] += beside.off[c] * level;
-            }
-        }
-        let steep = size(slope).max(f64::MIN_POSITIVE);
-        [-slope[1] / steep, slope[0] / steep]
-    }
-
-    /// The cells not further from cell n than `reach` and half a cell, in columns and rows.
-    fn around(&self, n: usize, reach: isize) -> impl Iterator<Item = Neighbour> {
-        let rows = self.rows as isize;
-        let columns = self.gap.len() as isize / rows;
-        let (i, j) = (n as isize / rows, n as isize % rows);
-        let within = (reach * reach + reach) as f64 + 0.25;
-        let square = (-reach..=reach).flat_map(move |x| (-reach..=reach).map(move |y| (x, y)));
-        square.filter_map(move |(x, y)| {
-            let off = [x as f64, y as f64];
-            let (j, sign) = match self.mirror {
-                Mirror::Y if j + y < 0 => (-1 - (j + y), -1.0),
-                _ => (j + y, 1.0),
+        let moved = |c: usize| {
+            let by = |n: usize| match known[n] {
+                Some(by) => by[c],
+                None if outside(n) => self.motion[c][n],
+                None => 0.0,
             };
-            let inside = (0..columns).contains(&(i + x)) && (0..rows).contains(&j);
-            let near = off[0] * off[0] + off[1] * off[1] < within;
-            (inside && near).then(|| Neighbour {
-                cell: ((i + x) * rows + j) as usize,
-                off,
-                sign,
-            })
-        })
+            (0..known.len()).map(by).collect()
+        };
+        [moved(0), moved(1)]
+    }
+
+    /// M of cell n from those of the cells beside it that enter before: M + the mean of both m/c times
+    /// what the gaps differ by, where the gap is steep with more weight.
+    fn moved_farther_off(&self, n: usize, known: &[Option<[f64; 2]>]) -> [f64; 2] {
+        let ratio = |n: usize| [0, 1].map(|c| self.motion[c][n] / self.closing[n]);
+        let (own, gap) = (ratio(n), self.gap[n]);
+        let (mut sum, mut weights) = ([0.0; 2], 0.0);
+        for near in self.cells.of(n, 1) {
+            let (m, [x, y]) = (near.cell, near.off);
+            let Some(by) = known[m].filter(|_| self.gap[m] < gap) else {
+                continue;
+            };
+            let (rise, other) = (gap - self.gap[m], ratio(m));
+            let weight = rise * rise / (x * x + y * y);
+            for (c, sign) in [1.0, near.sign].into_iter().enumerate() {
+                let mean = 0.5 * (own[c] + sign * other[c]);
+                sum[c] += weight * (sign * by[c] + mean * rise);
+            }
+            weights += weight;
+        }
+        if weights > 0.0 {
+            sum.map(|sum| sum / weights)
+        } else {
+            own.map(|own| own * gap)
+        }
+    }
+
+    /// What those that enter and the cells outside around them see of the contact, if they see it.
+    fn views(
+        &self,
+        entering: &[usize],
+        outside: impl Fn(usize) -> bool + Sync,
+    ) -> Vec<Option<View>> {
+        let mut around = vec![false; self.gap.len()];
+        for &n in entering {
+            for near in self.cells.of(n, entry_order::AROUND) {
+                around[near.cell] = outside(near.cell) && self.closing[near.cell] > 0.0;
+            }
+        }
+        let view = |n: usize| {
+            let view = || View::of(n, &self.cells, |m| !outside(m));
+            around[n].then(view).flatten()
+        };
+        let cells = 0..around.len();
+        cells.into_par_iter().with_min_len(TASK).map(view).collect()
     }
 }
 
@@ -176,6 +114,12 @@ impl KeptContact {
 mod tests {
     use super::KeptContact;
     use crate::convolution::Mirror;
+    use crate::march::neighbours::Neighbours;
+    use crate::march::view::REACH;
+    use crate::scene::Grid;
+
+    /// Closes the gaps up to this distance in one increment.
+    const CLOSING: f64 = 10.0;
 
     /// A round contact in the middle of a grid, or its half y > 0: gap d^(3/2), closing d^(1/2), and
     /// radial motion that is `ratio(d^(1/2))` times the closing.
@@ -189,11 +133,14 @@ mod tests {
         };
         let places: Vec<[f64; 2]> = (0..n * rows).map(place).collect();
         let beyond = |[x, y]: &[f64; 2]| (x.hypot(*y) - 20.0).max(0.0);
-        let closing: Vec<f64> = places.iter().map(|at| 4.0 * beyond(at).sqrt()).collect();
+        let closing: Vec<f64> = places
+            .iter()
+            .map(|at| CLOSING * beyond(at).sqrt())
+            .collect();
         let motion = |c: usize| {
             let of = |at: &[f64; 2]| {
                 let d = beyond(at);
-                at[c] / at[0].hypot(at[1]) * 4.0 * d.sqrt() * ratio(d.sqrt())
+                at[c] / at[0].hypot(at[1]) * CLOSING * d.sqrt() * ratio(d.sqrt())
             };
             places.iter().map(of).collect()
         };
@@ -201,8 +148,7 @@ mod tests {
             gap: places.iter().map(|at| beyond(at).powf(1.5)).collect(),
             motion: [motion(0), motion(1)],
             closing,
-            rows,
-            mirror,
+            cells: Neighbours::new(&Grid::centred(1.0, n).unwrap(), mirror, REACH),
         };
         (contact, places)
     }
@@ -211,21 +157,21 @@ mod tests {
     fn cells_move_by_the_integral_of_the_ratio_over_their_gap() {
         let (contact, places) = round(|r| 0.3 - 0.05 * r + 0.003 * r * r, Mirror::None);
         let moved = contact.moved(|n| contact.gap[n] > 0.0);
+        let mut worst: f64 = 0.0;
         for (n, at) in places.iter().enumerate() {
             let d = at[0].hypot(at[1]) - 20.0;
-            if !(1.5..3.5).contains(&d) {
+            if !(1.5..9.5).contains(&d) {
                 continue;
             }
             let mean = 0.3 - 3.0 / 4.0 * 0.05 * d.sqrt() + 3.0 / 5.0 * 0.003 * d;
             let exact = mean * contact.gap[n];
             for c in 0..2 {
                 let off = moved[c][n] - exact * at[c] / at[0].hypot(at[1]);
-                assert!(
-                    off.abs() < 0.01 * exact,
-                    "{at:?}: off by {off:e} of {exact:e}"
-                );
+                worst = worst.max(off.abs() / exact);
             }
         }
+        // The steps that the cells make of the edge, of which these rates know nothing.
+        assert!(worst < 0.011, "off by {worst} of the motion");
     }
 
     #[test]
@@ -237,7 +183,7 @@ mod tests {
         for n in (0..contact.gap.len()).filter(|&n| contact.gap[n] < contact.closing[n]) {
             let gap = contact.gap[n];
             let off = (moved[0][n] - 0.2 * gap).hypot(moved[1][n] + 0.1 * gap);
-            assert!(off < 1e-12 * gap, "off by {off:e} of {gap:e}");
+            assert!(off < 1e-10 * gap, "off by {off:e} of {gap:e}");
         }
     }
 

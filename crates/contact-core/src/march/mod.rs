@@ -7,6 +7,7 @@ mod carried;
 mod coarse;
 mod continued;
 mod entering;
+mod entry_order;
 mod equations;
 mod error_bars;
 mod fields;
@@ -15,6 +16,8 @@ mod halving;
 mod increment;
 mod kept_contact;
 mod lattice;
+mod least_squares;
+mod neighbours;
 mod parabola;
 mod partial_cells;
 mod path_error;
@@ -26,6 +29,7 @@ mod state;
 #[cfg(test)]
 mod tests;
 mod trial;
+mod view;
 mod window;
 
 pub(crate) use continued::Continued;

@@ -1,8 +1,9 @@
 //! What cells move before they enter the contact, found without the march's own account of it.
 //!
 //! The increment is solved once more from where it started, with every cell outside the contact
-//! lowered out of reach. That tells how fast the gap over a cell closes and how fast the cell moves,
-//! for every gap around; a cell has moved as the cells of smaller gap do while its gap closed.
+//! lowered out of reach. That tells how fast the gap over a cell closes and how fast the cell moves.
+//! All cells go on together until the next one enters, and then at the rates that belong to what they
+//! see of the contact.
 
 use std::sync::Arc;
 
@@ -94,18 +95,28 @@ pub(crate) fn entry(march: &March, last: &Last, increment: &Increment, allowed: 
         before,
         closing,
         motion: all,
+        cell: match (scene.grid.dx, scene.grid.dy) {
+            (dx, _) if scene.grid.plane_strain => [1.0, scene.grid.dy / dx],
+            (dx, dy) => [(dx / dy).sqrt(), (dy / dx).sqrt()],
+        },
+        flat: scene.grid.plane_strain,
     };
+    let by = way.moved();
     for (n, _) in way.outside.indexed_iter().filter(|(_, outside)| **outside) {
-        let furthest = way.to(n, |c, part| moved[c][n] += part);
+        (0..2).for_each(|c| moved[c][n] = by[n][c]);
         // Gaps within the tolerance at both ends, and displacements within it.
-        let when = 2.0 * allowed * furthest;
+        let about = way
+            .within(n, 5.5)
+            .filter(|(m, _)| way.closing[*m] > 0.0 && way.outside[*m]);
+        let ratios = about.map(|(m, _)| way.motion[0][m].hypot(way.motion[1][m]) / way.closing[m]);
+        let when = 2.0 * allowed * ratios.fold(0.0, f64::max);
         let most = way.motion[0][n].hypot(way.motion[1][n]);
         doubt[n] = when.min(most) + 2.0 * scene.friction.mu.min(1.0) * allowed;
     }
     Entry(Some((moved, doubt)))
 }
 
-type Cell = (usize, usize);
+type Place = (usize, usize);
 
 /// The increment with the contact kept: gap before, what it closes by, and motion.
 struct Way {
@@ -113,70 +124,198 @@ struct Way {
     before: Array2<f64>,
     closing: Array2<f64>,
     motion: [Array2<f64>; 2],
+    /// Its sides in lengths of a cell.
+    cell: [f64; 2],
+    flat: bool,
+}
+
+/// A cell that enters.
+struct Cell {
+    at: Place,
+    gap: f64,
+    rates: [f64; 3],
+    /// k_1, k_2, k_3 of the closing; A, B, C, D of x, of y, and E.
+    law: ([f64; 3], [f64; 9]),
+    sight: [f64; 3],
+    moved: [f64; 2],
+    inside: bool,
 }
 
 impl Way {
-    /// Adds up the motion of a cell before its entry; returns the largest motion per closing about
-    /// there.
-    fn to(&self, n: Cell, mut add: impl FnMut(usize, f64)) -> f64 {
-        let (gap, closes) = (self.before[n], self.closing[n]);
-        if gap >= closes {
-            (0..2).for_each(|c| add(c, self.motion[c][n]));
-            return self.motion[0][n].hypot(self.motion[1][n]) / closes.abs();
+    /// How far each cell has moved when it enters.
+    fn moved(&self) -> Array2<[f64; 2]> {
+        let mut moved = Array2::from_elem(self.outside.dim(), [0.0; 2]);
+        let mut all: Vec<Place> = Vec::new();
+        for (n, _) in self.outside.indexed_iter().filter(|(_, outside)| **outside) {
+            moved[n] = [self.motion[0][n], self.motion[1][n]];
+            if self.before[n] < self.closing[n] {
+                all.push(n);
+            }
         }
-        // Nothing changes for a cell at the edge until the first entry next to it.
-        let mut alone = 0.0;
-        let touches = self.within(n, 1.1).any(|(m, _)| !self.outside[m]);
-        if touches {
-            let enters = |m: Cell| {
-                let enters = self.outside[m] && self.closing[m] > 0.0;
-                enters.then(|| self.before[m] / self.closing[m])
+        let sights = Array2::from_shape_fn(self.outside.dim(), |n| self.sight(n));
+        let (near, mut far): (Vec<Place>, Vec<Place>) =
+            all.into_iter().partition(|n| sights[*n].is_some());
+        let mut known = self.outside.mapv(|_| false);
+        let cell = |&at: &Place| Cell {
+            at,
+            gap: self.before[at],
+            rates: [self.closing[at], self.motion[0][at], self.motion[1][at]],
+            law: self.law(at, &sights),
+            sight: sights[at].expect("a cell near the contact"),
+            moved: [0.0; 2],
+            inside: false,
+        };
+        let mut cells: Vec<Cell> = near.iter().map(cell).collect();
+        for _ in 0..cells.len() {
+            let time = |cell: &Cell| cell.gap.max(0.0) / cell.rates[0];
+            let open = (0..cells.len()).filter(|k| !cells[*k].inside);
+            let next = open.min_by(|k, l| time(&cells[*k]).total_cmp(&time(&cells[*l])));
+            let (next, step) = next.map(|k| (k, time(&cells[k]))).expect("a cell to enter");
+            for cell in cells.iter_mut().filter(|cell| !cell.inside) {
+                cell.gap -= step * cell.rates[0];
+                (0..2).for_each(|c| cell.moved[c] += step * cell.rates[c + 1]);
+            }
+            cells[next].inside = true;
+            let at = cells[next].at;
+            for cell in cells.iter_mut().filter(|cell| !cell.inside) {
+                let off = [
+                    at.0 as f64 - cell.at.0 as f64,
+                    at.1 as f64 - cell.at.1 as f64,
+                ];
+                if off[0] * off[0] + off[1] * off[1] > 72.5 {
+                    continue;
+                }
+                let seen = self.seen(off);
+                (0..3).for_each(|k| cell.sight[k] += seen[k]);
+                let (s, e) = self.root_and_side(cell.sight);
+                let (k, l) = &cell.law;
+                let closing = s * (k[0] + s * (k[1] + s * k[2]));
+                let closing = closing.max(1e-3 * self.closing[cell.at]);
+                let ratio = |c: usize| {
+                    let of = &l[4 * c..];
+                    of[0] + of[1] / s + of[2] * s + l[8] * e[c] / s
+                };
+                cell.rates = [closing, closing * ratio(0), closing * ratio(1)];
+            }
+        }
+        for cell in &cells {
+            (moved[cell.at], known[cell.at]) = (cell.moved, true);
+        }
+        // Those that see no contact: like the cells that enter before them, and what is between.
+        far.sort_by(|n, m| self.before[*n].total_cmp(&self.before[*m]));
+        for n in far {
+            let (mut sum, mut weights) = ([0.0; 2], 0.0);
+            for (m, off) in self.within(n, 1.5) {
+                let rise = self.before[n] - self.before[m];
+                if known[m] && rise > 0.0 {
+                    let [x, y] = self.way(off);
+                    let weight = rise * rise / (x * x + y * y);
+                    weights += weight;
+                    for c in 0..2 {
+                        let ratio = |n: Place| self.motion[c][n] / self.closing[n];
+                        let way = 0.5 * (ratio(n) + ratio(m)) * rise;
+                        sum[c] += weight * (moved[m][c] + way);
+                    }
+                }
+            }
+            let alone = |c: usize| self.motion[c][n] / self.closing[n] * self.before[n];
+            moved[n] = [0, 1].map(|c| {
+                if weights > 0.0 {
+                    sum[c] / weights
+                } else {
+                    alone(c)
+                }
+            });
+            known[n] = true;
+        }
+        moved
+    }
+
+    /// Columns and rows in lengths of a cell.
+    fn way(&self, off: [f64; 2]) -> [f64; 2] {
+        [off[0] * self.cell[0], off[1] * self.cell[1]]
+    }
+
+    /// What a cell of contact so far off counts, and times the direction to it.
+    fn seen(&self, off: [f64; 2]) -> [f64; 3] {
+        let off = self.way(off);
+        let r = off[0].hypot(off[1]);
+        let counts = r.powf(if self.flat { -1.25 } else { -2.25 });
+        [counts, counts * off[0] / r, counts * off[1] / r]
+    }
+
+    /// What a cell sees, with half of the plane beyond eight and a half cells.
+    fn sight(&self, n: Place) -> Option<[f64; 3]> {
+        if !self.outside[n] {
+            return None;
+        }
+        let side = if self.flat { 1.0 } else { std::f64::consts::PI };
+        let beyond = side * 4.0 * 8.5_f64.powf(-0.25);
+        let mut sight = [beyond, 0.0, 0.0];
+        for (m, off) in self.within(n, 72.5_f64.sqrt()) {
+            if !self.outside[m] {
+                let seen = self.seen(off);
+                (0..3).for_each(|k| sight[k] += seen[k]);
+            }
+        }
+        (sight[0] > 1.03 * beyond).then_some(sight)
+    }
+
+    /// Root of the distance of a straight edge that is seen as much, and the side that the contact is on.
+    fn root_and_side(&self, sight: [f64; 3]) -> (f64, [f64; 2]) {
+        let edge = if self.flat {
+            4.0
+        } else {
+            10.799_631_181_215_187
+        };
+        let size = sight[1].hypot(sight[2]).max(f64::MIN_POSITIVE);
+        (
+            (edge / sight[0]).powi(2),
+            [sight[1] / size, sight[2] / size],
+        )
+    }
+
+    /// Rates of the cells around as functions of what they see, by Householder's reflections instead of
+    /// normal equations.
+    fn law(&self, n: Place, sights: &Array2<Option<[f64; 3]>>) -> ([f64; 3], [f64; 9]) {
+        let closes = self.closing[n];
+        let (own, side) = self.root_and_side(sights[n].expect("a cell near the contact"));
+        let mut closings: Vec<Vec<f64>> = Vec::new();
+        let mut motions: Vec<Vec<f64>> = Vec::new();
+        for (m, off) in self.within(n, 5.5) {
+            let Some(sight) = sights[m].filter(|_| self.closing[m] > 0.0) else {
+                continue;
             };
-            let times = self.within(n, 1.5).filter_map(|(m, _)| enters(m));
-            alone = times.fold(gap / closes, f64::min);
+            let (s, e) = self.root_and_side(sight);
+            let [x, y] = self.way(off);
+            let way = y * side[0] - x * side[1];
+            let weight = (1.0 - (off[0] * off[0] + off[1] * off[1]) / 30.25).sqrt();
+            let closing = weight * self.closing[m] / closes;
+            let terms = [s, s * s, s.powi(3), s * way].map(|term| weight * term);
+            closings.push([&terms[..], &[closing]].concat());
+            let terms = [1.0, 1.0 / s, s, way].map(|term| closing * term);
+            for c in 0..2 {
+                let mut row = vec![0.0; 10];
+                row[4 * c..4 * c + 4].copy_from_slice(&terms);
+                row[8] = closing * e[c] / s;
+                row[9] = weight * self.motion[c][m] / closes;
+                motions.push(row);
+            }
         }
-        // After that as the motions m of the cells around go with their closings c,
-        // m = c (A + B u + C u^2 + D s), by Householder's reflections instead of normal equations.
-        let tells = |m: Cell| self.outside[m] && self.before[m] < 1.5 * self.closing[m];
-        let around: Vec<(Cell, [f64; 2])> =
-            self.within(n, 4.5).filter(|(m, _)| tells(*m)).collect();
-        let mut slope = [0.0; 2];
-        for (m, off) in self.within(n, 1.5) {
-            (0..2).for_each(|c| slope[c] += off[c] * self.before[m].powf(2.0 / 3.0));
-        }
-        let steep = slope[0].hypot(slope[1]).max(f64::MIN_POSITIVE);
-        let mut rows: Vec<[f64; 6]> = Vec::new();
-        let mut squares = [0.0; 4];
-        let mut furthest = 0.0_f64;
-        for (m, off) in around {
-            let u = if gap > 0.0 {
-                (self.before[m] / gap).cbrt()
-            } else {
-                1.0
-            };
-            let s = (off[1] * slope[0] - off[0] * slope[1]) / steep;
-            let weight = (1.0 - (off[0] * off[0] + off[1] * off[1]) / 20.25).sqrt();
-            let terms = [1.0, u, u * u, s].map(|term| weight * self.closing[m] / closes * term);
-            (0..4).for_each(|k| squares[k] += terms[k] * terms[k]);
-            let motion = [0, 1].map(|c| weight * self.motion[c][m] / closes);
-            rows.push([terms[0], terms[1], terms[2], terms[3], motion[0], motion[1]]);
-            furthest = furthest.max(self.motion[0][m].hypot(self.motion[1][m]) / self.closing[m]);
-        }
-        for k in 1..4 {
-            let mut row = [0.0; 6];
-            row[k] = (1e-6 * squares[k]).sqrt();
-            rows.push(row);
-        }
-        let fit = least_squares(rows);
-        for c in 0..2 {
-            let mean = fit[c][0] + 0.75 * fit[c][1] + 0.6 * fit[c][2];
-            add(c, alone * self.motion[c][n] + (gap - alone * closes) * mean);
-        }
-        furthest
+        ridge(&mut closings, &[1, 2, 3]);
+        ridge(&mut motions, &[1, 2, 3, 5, 6, 7, 8]);
+        let [k_1, k_2, k_3, _] = least_squares(closings);
+        let told = own * (k_1 + own * (k_2 + own * k_3));
+        let closing = if told > 0.0 {
+            [k_1, k_2, k_3].map(|k| k * closes / told)
+        } else {
+            [closes / own, 0.0, 0.0]
+        };
+        (closing, least_squares(motions))
     }
 
     /// The cells nearer to n than `reach`, and the way to them.
-    fn within(&self, (i, j): Cell, reach: f64) -> impl Iterator<Item = (Cell, [f64; 2])> {
+    fn within(&self, (i, j): Place, reach: f64) -> impl Iterator<Item = (Place, [f64; 2])> {
         let (nx, ny) = self.outside.dim();
         let steps = reach as usize;
         let columns = i.saturating_sub(steps)..(i + steps + 1).min(nx);
@@ -189,9 +328,19 @@ impl Way {
     }
 }
 
-/// Four unknowns for two right-hand sides, the last two columns.
-fn least_squares(mut rows: Vec<[f64; 6]>) -> [[f64; 4]; 2] {
-    for k in 0..4 {
+/// Rows that keep these unknowns small, a thousandth of what there is of them.
+fn ridge(rows: &mut Vec<Vec<f64>>, unknowns: &[usize]) {
+    for &k in unknowns {
+        let square: f64 = rows.iter().map(|row| row[k] * row[k]).sum();
+        let mut row = vec![0.0; rows[0].len()];
+        row[k] = (1e-6 * square).sqrt();
+        rows.push(row);
+    }
+}
+
+/// The N unknowns of rows that end with the right-hand side.
+fn least_squares<const N: usize>(mut rows: Vec<Vec<f64>>) -> [f64; N] {
+    for k in 0..N {
         let size = rows[k..]
             .iter()
             .map(|row| row[k] * row[k])
@@ -200,7 +349,7 @@ fn least_squares(mut rows: Vec<[f64; 6]>) -> [[f64; 4]; 2] {
         let mut mirror: Vec<f64> = rows[k..].iter().map(|row| row[k]).collect();
         mirror[0] += size.copysign(mirror[0]);
         let square: f64 = mirror.iter().map(|v| v * v).sum();
-        for c in k..6 {
+        for c in k..=N {
             let along: f64 = mirror
                 .iter()
                 .zip(&rows[k..])
@@ -211,16 +360,12 @@ fn least_squares(mut rows: Vec<[f64; 6]>) -> [[f64; 4]; 2] {
             }
         }
     }
-    [4, 5].map(|right| {
-        let mut x = [0.0; 4];
-        for k in (0..4).rev() {
-            let known: f64 = (k + 1..4).map(|l| rows[k][l] * x[l]).sum();
-            x[k] = if rows[k][k].abs() > 0.0 {
-                (rows[k][right] - known) / rows[k][k]
-            } else {
-                0.0
-            };
+    let mut x = [0.0; N];
+    for k in (0..N).rev() {
+        let known: f64 = (k + 1..N).map(|l| rows[k][l] * x[l]).sum();
+        if rows[k][k].abs() > 0.0 {
+            x[k] = (rows[k][N] - known) / rows[k][k];
         }
-        x
-    })
+    }
+    x
 }
