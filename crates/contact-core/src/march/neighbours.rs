@@ -19,6 +19,8 @@ pub(super) struct Neighbours {
 struct Way {
     columns: isize,
     rows: isize,
+    /// What it adds to the number of a cell, mirror images apart.
+    step: isize,
     off: [f64; 2],
     direction: [f64; 2],
     weight: f64,
@@ -75,6 +77,7 @@ impl Neighbours {
         } else {
             grid.cell_area().sqrt()
         };
+        let kept_rows = mirror.rows(grid.ny) as isize;
         let square = (-reach..=reach).flat_map(|x| (-reach..=reach).map(move |y| (x, y)));
         let way = |(columns, rows): (isize, isize)| {
             let off = [
@@ -85,6 +88,7 @@ impl Neighbours {
             Way {
                 columns,
                 rows,
+                step: columns * kept_rows + rows,
                 off,
                 direction: off.map(|off| off / r),
                 weight: match (columns, rows) {
@@ -99,7 +103,7 @@ impl Neighbours {
         Self {
             flat: grid.plane_strain,
             columns: grid.nx as isize,
-            rows: mirror.rows(grid.ny) as isize,
+            rows: kept_rows,
             mirror,
             ways,
         }
@@ -108,16 +112,17 @@ impl Neighbours {
     /// Cell n and those not further from it than `reach` cells and a half.
     pub(super) fn of(&self, n: usize, reach: isize) -> impl Iterator<Item = Neighbour> {
         let (i, j) = (n as isize / self.rows, n as isize % self.rows);
-        let within = move |way: &&Way| way.is_within(reach);
-        self.ways.iter().take_while(within).filter_map(move |way| {
-            let (column, row) = (i + way.columns, j + way.rows);
-            let (row, sign) = match self.mirror {
-                Mirror::Y if row < 0 => (-1 - row, -1.0),
-                _ => (row, 1.0),
+        let clear = |k: isize, of: isize| (reach..of - reach).contains(&k);
+        let clear = clear(i, self.columns) && clear(j, self.rows);
+        let near = self.ways.iter().take_while(move |way| way.is_within(reach));
+        near.filter_map(move |way| {
+            let (cell, sign) = if clear {
+                ((n as isize + way.step) as usize, 1.0)
+            } else {
+                self.kept(i + way.columns, j + way.rows)?
             };
-            let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
-            inside.then(|| Neighbour {
-                cell: (column * self.rows + row) as usize,
+            Some(Neighbour {
+                cell,
                 off: way.off,
                 square: way.square(),
                 direction: way.direction,
@@ -125,5 +130,16 @@ impl Neighbours {
                 sign,
             })
         })
+    }
+
+    /// The kept cell in a column and row, or that it is the image of, and the sign of its components
+    /// along y.
+    fn kept(&self, column: isize, row: isize) -> Option<(usize, f64)> {
+        let (row, sign) = match self.mirror {
+            Mirror::Y if row < 0 => (-1 - row, -1.0),
+            _ => (row, 1.0),
+        };
+        let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
+        inside.then_some(((column * self.rows + row) as usize, sign))
     }
 }

@@ -29,7 +29,7 @@ const ORDERS: (f64, f64) = (1.25, 2.0);
 const EXPECTED: f64 = 1.6;
 /// Increments to begin with: of a branch that begins without contact, of one with which the path ends
 /// too, whose slip rings are of interest, and of others.
-const FIRST: (usize, usize, usize) = (12, 28, 6);
+const FIRST: (usize, usize, usize) = (12, 56, 6);
 /// Part of the tolerance that is aimed at.
 const AIM: f64 = 0.9;
 /// Part of the tolerance that an estimate may come to.

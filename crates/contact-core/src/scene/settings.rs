@@ -19,7 +19,7 @@ pub struct Settings {
 /// path, which is the larger error: of one that only presses the bodies together, where slip is
 /// about the rim alone, and of others.
 pub(super) const TOLERANCE: f64 = 1e-6;
-pub(super) const PATH_PART: [f64; 2] = [2e-3, 1e-2];
+pub(super) const PATH_PART: [f64; 2] = [4e-4, 1e-2];
 
 /// Highest order of an alias sum; its work grows with the square.
 const MOST_ALIASES: usize = 32;
