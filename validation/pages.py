@@ -118,9 +118,11 @@ def write(outcome: Outcome, folder: Path) -> None:
 
 
 def shrink(folder: Path) -> None:
-    """Save the figures of a folder in few colours: a third of their size."""
+    """Save the new figures of a folder in few colours: a third of their size."""
     for file in folder.glob("*.png"):
         with Image.open(file) as image:
+            if image.mode == "P":
+                continue
             few = image.convert("RGB").quantize(COLOURS)
         few.save(file, optimize=True)
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 #: Increments of a branch, and those of the limit.
 COUNTS, LIMIT = (5, 10, 20, 40), 320
 #: Cells a side of scenes that are pushed, and of those that are pressed.
-PUSHED, PRESSED = 64, 128
+PUSHED, PRESSED = 64, 256
 #: Otherwise what the solver leaves would be in the errors.
 SETTINGS = fret.Settings(tolerance=1e-8)
 
@@ -78,6 +78,12 @@ SCENES: dict[str, tuple[Callable[[int, int], fret.Scene], int]] = {
 }
 
 
+def means(q: Array) -> Array:
+    """Means over 2 x 2 cells."""
+    components, nx, ny = q.shape
+    return q.reshape(components, nx // 2, 2, ny // 2, 2).mean((2, 4))
+
+
 def shear(scene: fret.Scene) -> Array:
     """Shear at the end, both components [Pa]."""
     at = fret.solve(scene, progress=False).at(-1)
@@ -89,8 +95,8 @@ def write(folder: Path, *, quick: bool = False) -> str:
     started = time.perf_counter()
     counts = COUNTS[:2] if quick else COUNTS
     table = [
-        "| scene | cells a side | " + " | ".join(map(str, counts)) + " | order |",
-        "|---" * (len(counts) + 3) + "|",
+        "| scene | cells a side | " + " | ".join(map(str, counts)) + " | order | of means |",
+        "|---" * (len(counts) + 4) + "|",
     ]
     orders = {}
     with fret.plot.style():
@@ -98,12 +104,24 @@ def write(folder: Path, *, quick: bool = False) -> str:
         for name, (scene, n) in SCENES.items():
             cells = n // 4 if quick else n
             limit = shear(scene(LIMIT // 4 if quick else LIMIT, cells))
-            off = [shear(scene(k, cells)) - limit for k in counts]
-            errors = [float(np.linalg.norm(q) / np.linalg.norm(limit)) for q in off]
-            orders[name] = order(counts, errors)
-            shown = " | ".join(percent(error) for error in errors)
-            table.append(f"| {name} | {cells} | {shown} | {orders[name]:.1f} |")
-            ax.loglog(counts, errors, "o-", label=name)
+            found = [shear(scene(k, cells)) for k in counts]
+            errors, of_means = (
+                [
+                    float(np.linalg.norm(part(q - limit)) / np.linalg.norm(part(limit)))
+                    for q in found
+                ]
+                for part in (np.asarray, means)
+            )
+            orders[name] = order(counts, of_means)
+            shown = " | ".join(
+                f"{percent(error)}, {percent(mean)}"
+                for error, mean in zip(errors, of_means, strict=True)
+            )
+            table.append(
+                f"| {name} | {cells} | {shown} | {order(counts, errors):.1f} | {orders[name]:.1f} |"
+            )
+            (line,) = ax.loglog(counts, of_means, "o-", label=name)
+            ax.loglog(counts, errors, ".", ms=3, color=line.get_color())
         for power, dash in ((1, ":"), (2, "--")):
             slope = [0.15 * (counts[0] / k) ** power for k in counts]
             ax.loglog(counts, slope, dash, color="0.6", lw=0.9, label=f"order {power}")
@@ -115,21 +133,21 @@ def write(folder: Path, *, quick: bool = False) -> str:
         plt.close(figure)
     parts = [
         "# Error along the path",
-        f"Shear at the end, L2 norm, against {LIMIT} increments of a branch on the same cells.",
+        f"Shear at the end, L2 norm, against {LIMIT} increments of a branch on the same cells: of "
+        "the cells and, second and with lines in the figure, of means over 2 x 2 cells.",
         "\n".join(table),
         "![errors](path_order.png)",
         "Where the contact stays the error falls with nearly the second power of the increments. "
-        "Where it grows, cells come in: as long as an increment is of several cells, the error "
-        "falls with a power of about 1.5; increments shorter than that see cells come in one by "
-        "one, and what is left is the grid's, most where all the shear is what cells moved before "
-        "they came in (a coating that sticks, where q is small).",
+        "Where it grows, cells come in one after another, and what each has moved by then is not "
+        "known exactly: a scatter from cell to cell that falls more slowly than the rest and is "
+        "most of the error where an increment is of one or two cells. Means over 2 x 2 cells have "
+        "less of it.",
         f"Spheres of R = {R} m under {W:g} N.",
         "[All pages](README.md)",
     ]
     (folder / "path_order.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
-    first = next(iter(orders))
     seconds = time.perf_counter() - started
     return (
-        f"| [Error along the path](path_order.md) | {PUSHED}, {PRESSED} | q against the "
-        f"increments, {first} | | {orders[first]:.1f} | {seconds:.0f} s |"
+        f"| [Error along the path](path_order.md) | {PUSHED}, {PRESSED} | means of q against the "
+        f"increments, least order | | {min(orders.values()):.1f} | {seconds:.0f} s |"
     )
