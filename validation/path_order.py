@@ -81,7 +81,8 @@ SCENES: dict[str, tuple[Callable[[int, int], fret.Scene], int]] = {
 def means(q: Array) -> Array:
     """Means over 2 x 2 cells."""
     components, nx, ny = q.shape
-    return q.reshape(components, nx // 2, 2, ny // 2, 2).mean((2, 4))
+    parts = q.reshape(components, nx // 2, 2, ny // 2, 2)
+    return np.asarray(parts.mean((2, 4)))
 
 
 def shear(scene: fret.Scene) -> Array:
