@@ -9,9 +9,9 @@
 //! ```
 //!
 //! with coefficients from least squares over the cells around; both also change along the edge. A cell
-//! enters when its gap has closed; what it has moved by then is the sum over the stages. So an increment of
-//! several cells moves them as many increments of one cell each would. Where gap and motion are alike m/c = A
-//! everywhere, and the motion exact.
+//! enters when its gap has closed; what it has moved by then is the sum over the stages: nearly what
+//! increments of one cell each would make of it. Where gap and motion are alike m/c = A everywhere, and
+//! the motion exact.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
