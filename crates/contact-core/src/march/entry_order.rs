@@ -225,7 +225,7 @@ mod tests {
             gap: vec![1.0; n],
             closing: vec![-1.0; n],
             motion: [vec![0.0; n], vec![0.0; n]],
-            cells: Neighbours::new(&grid, Mirror::None, REACH),
+            cells,
         };
         for (k, &cell) in outside.iter().enumerate() {
             kept.gap[cell] = gap(k);

@@ -302,13 +302,25 @@ impl Lattice {
         self.kept(i + columns, j + rows)
     }
 
+    /// What a cell so many columns and rows further has more in its number, mirror images apart.
+    pub(super) fn step(self, columns: isize, rows: isize) -> isize {
+        columns * self.rows + rows
+    }
+
+    /// Whether a kept cell has so many columns and rows around it.
+    pub(super) fn is_clear(self, n: usize, reach: isize) -> bool {
+        let (i, j) = self.place(n);
+        let inside = |k: isize, of: isize| (reach..of - reach).contains(&k);
+        inside(i, self.columns) && inside(j, self.rows)
+    }
+
     /// Column and row of a kept cell.
-    fn place(self, n: usize) -> (isize, isize) {
+    pub(super) fn place(self, n: usize) -> (isize, isize) {
         (n as isize / self.rows, n as isize % self.rows)
     }
 
     /// The kept cell that stands for the one in a column and row.
-    fn kept(self, i: isize, j: isize) -> Option<usize> {
+    pub(super) fn kept(self, i: isize, j: isize) -> Option<usize> {
         // The kept half lies at y > 0.
         let j = if j < 0 && self.mirrored { -1 - j } else { j };
         let on_grid = (0..self.columns).contains(&i) && (0..self.rows).contains(&j);

@@ -1,16 +1,15 @@
 //! The cells around a cell of the kept rows, mirror images included.
 
+use super::lattice::Lattice;
 use crate::convolution::Mirror;
 use crate::scene::Grid;
 use crate::solvers::size;
 
-/// Where the kept cells are, and the ways to the cells around one.
+/// The ways to the cells around a kept one.
 pub(super) struct Neighbours {
+    lattice: Lattice,
     /// Whether the cells are strips of plane strain.
     pub(super) flat: bool,
-    columns: isize,
-    rows: isize,
-    mirror: Mirror,
     /// Nearer ones first.
     ways: Vec<Way>,
 }
@@ -77,7 +76,7 @@ impl Neighbours {
         } else {
             grid.cell_area().sqrt()
         };
-        let kept_rows = mirror.rows(grid.ny) as isize;
+        let lattice = Lattice::new(grid, mirror);
         let square = (-reach..=reach).flat_map(|x| (-reach..=reach).map(move |y| (x, y)));
         let way = |(columns, rows): (isize, isize)| {
             let off = [
@@ -88,7 +87,7 @@ impl Neighbours {
             Way {
                 columns,
                 rows,
-                step: columns * kept_rows + rows,
+                step: lattice.step(columns, rows),
                 off,
                 direction: off.map(|off| off / r),
                 weight: match (columns, rows) {
@@ -101,25 +100,23 @@ impl Neighbours {
         let mut ways: Vec<Way> = square.map(way).filter(|way| way.is_within(reach)).collect();
         ways.sort_by_key(Way::square);
         Self {
+            lattice,
             flat: grid.plane_strain,
-            columns: grid.nx as isize,
-            rows: kept_rows,
-            mirror,
             ways,
         }
     }
 
     /// Cell n and those not further from it than `reach` cells and a half.
     pub(super) fn of(&self, n: usize, reach: isize) -> impl Iterator<Item = Neighbour> {
-        let (i, j) = (n as isize / self.rows, n as isize % self.rows);
-        let clear = |k: isize, of: isize| (reach..of - reach).contains(&k);
-        let clear = clear(i, self.columns) && clear(j, self.rows);
+        let (i, j) = self.lattice.place(n);
+        let clear = self.lattice.is_clear(n, reach);
         let near = self.ways.iter().take_while(move |way| way.is_within(reach));
         near.filter_map(move |way| {
-            let (cell, sign) = if clear {
-                ((n as isize + way.step) as usize, 1.0)
+            let row = j + way.rows;
+            let cell = if clear {
+                (n as isize + way.step) as usize
             } else {
-                self.kept(i + way.columns, j + way.rows)?
+                self.lattice.kept(i + way.columns, row)?
             };
             Some(Neighbour {
                 cell,
@@ -127,19 +124,8 @@ impl Neighbours {
                 square: way.square(),
                 direction: way.direction,
                 weight: way.weight,
-                sign,
+                sign: if row < 0 { -1.0 } else { 1.0 },
             })
         })
-    }
-
-    /// The kept cell in a column and row, or that it is the image of, and the sign of its components
-    /// along y.
-    fn kept(&self, column: isize, row: isize) -> Option<(usize, f64)> {
-        let (row, sign) = match self.mirror {
-            Mirror::Y if row < 0 => (-1 - row, -1.0),
-            _ => (row, 1.0),
-        };
-        let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
-        inside.then_some(((column * self.rows + row) as usize, sign))
     }
 }

@@ -21,11 +21,11 @@ const FLAT_EDGE: f64 = 4.0;
 /// ```
 ///
 /// over the cells m of the contact within its reach, with half of the plane beyond added to S; lengths in
-/// those of a cell, (dx dy)^(1/2) or dx in plane strain. In plane strain the power is -5/4. A straight edge of a continuum at the distance d
-/// has an S that goes with d^(-1/4). What a kept contact makes of the gaps and motions of cells outside is
-/// nearly a function of the d that their S stands for, whatever steps the edge makes between the cells. The
-/// power, the reach and the onset are by trial, on a sphere that is pressed on a harder coating; the
-/// inverse cube of r tells less.
+/// those of a cell, (dx dy)^(1/2) or dx in plane strain, where the power is -5/4. A straight edge of a
+/// continuum at the distance d has an S that goes with d^(-1/4). What a kept contact makes of the gaps and
+/// motions of cells outside is nearly a function of the d that their S stands for, whatever steps the edge
+/// makes between the cells. The power, the reach and the onset are by trial, on a sphere that is pressed on
+/// a harder coating; the inverse cube of r tells less.
 #[derive(Clone, Copy)]
 pub(super) struct View {
     sum: f64,
