@@ -11,6 +11,7 @@
 //! rotation that follows from M_z it is left out: with the shift along y given too, an error of first order
 //! in s; where that is free it takes it up.
 
+use super::slip_datum::Before;
 use super::{Interface, March};
 use crate::scene::{LoadPoint, Loads};
 
@@ -21,6 +22,9 @@ pub(super) struct Carried {
     interface: Interface,
     /// What its slip missed \[m\].
     missed: [Vec<f64>; 2],
+    /// Pressure and shear of that material an increment earlier, if the contact rolled on as far in that.
+    p_before: Vec<f64>,
+    q_before: [Vec<f64>; 2],
     /// Cells that the contact rolls on along x.
     cells: isize,
     /// Strain d(eps_x), d(eps_y) of body 2 less that of body 1 in the increment.
@@ -32,6 +36,13 @@ pub(super) struct Carried {
 impl Carried {
     pub(super) fn interface(&self) -> &Interface {
         &self.interface
+    }
+
+    pub(super) fn before(&self) -> Before<'_> {
+        Before {
+            p: &self.p_before,
+            q: &self.q_before,
+        }
     }
 
     pub(super) fn missed(&self) -> &[Vec<f64>; 2] {
@@ -78,9 +89,14 @@ impl March {
             interface.u[1][n] -= stretch[1];
         }
         let missed = pair(&self.state.missed);
+        let earlier = |field: &Vec<f64>| self.rolled(field, 2 * cells);
+        let p_before = earlier(&self.state.p_before);
+        let q_before = self.state.q_before.each_ref().map(earlier);
         self.carried = Some(Carried {
             interface,
             missed,
+            p_before,
+            q_before,
             cells,
             strain,
             turned,

@@ -12,6 +12,7 @@
 
 use super::kept_contact::KeptContact;
 use super::neighbours::Neighbours;
+use super::screened::Screened;
 use super::view::REACH;
 use super::{Interface, March};
 use crate::error::Error;
@@ -56,6 +57,7 @@ impl March {
     /// What an increment with the contact kept to its old cells has done.
     fn kept_contact(&self, kept: &Interface, info: &CoupledInfo) -> KeptContact {
         let (last, approach) = (self.before(), self.approach_before());
+        let kernel = self.whole.normal_kernel();
         let cells = 0..self.window.h_init.len();
         let gap = |u_z: &[f64], approach: [f64; 3], n: usize| {
             u_z[n] + self.window.h_init[n] - self.window.arms.across(approach, n)
@@ -72,7 +74,8 @@ impl March {
             closing: cells
                 .map(|n| before(n) - gap(&kept.u_z, info.approach, n))
                 .collect(),
-            cells: Neighbours::new(&self.window.grid, self.plan.mirror, REACH),
+            cells: Neighbours::new(&self.window.grid, self.plan.mirror, REACH, kernel),
+            screened: Screened::new(&self.window.grid, kernel),
         }
     }
 

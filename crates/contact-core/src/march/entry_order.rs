@@ -1,17 +1,24 @@
 //! Cells near the contact enter it one after another.
 //!
 //! The contact kept to its old cells tells at what rates c and m the gaps of cells outside close and the
-//! cells move, as functions of what they see of the contact ([`View`]). As a cell enters, those beyond see
-//! more contact and go on at the rates that belong to that:
+//! cells move. A cell n that enters closes no more: the pressure on it that holds it back holds back the
+//! others too,
 //!
 //! ```text
-//! c = k_1 s + k_2 s^2 + k_3 s^3,   m/c = A + B/s + C s + E e/s,   s = d^(1/2)
+//! c_m - S_mn/S_nn c_n,
 //! ```
 //!
-//! with coefficients from least squares over the cells around; both also change along the edge. A cell
-//! enters when its gap has closed; what it has moved by then is the sum over the stages: nearly what
-//! increments of one cell each would make of it. Where gap and motion are alike m/c = A everywhere, and
-//! the motion exact.
+//! S the response of the cells outside to each other while the contact is held ([`Screened`]). What the cells
+//! move while their gaps close depends on what they see of the contact ([`View`]),
+//!
+//! ```text
+//! m/c = A + B/s + C s + D s^2 + E e/s,   s = d^(1/2),
+//! ```
+//!
+//! with coefficients from least squares over the cells around; it also changes along the edge. As a cell
+//! enters, those beyond see more contact. A cell enters when its gap has closed; what it has moved by then is
+//! the sum over the stages: nearly what increments of one cell each would make of it. Where gap and motion
+//! are alike m/c = A everywhere, and the motion exact.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -20,43 +27,33 @@ use rayon::prelude::*;
 
 use super::kept_contact::{KeptContact, TASK};
 use super::least_squares::{LeastSquares, RIDGE};
+use super::neighbours::Neighbour;
 use super::view::{REACH, View};
 
 /// How far the cells around reach that the rates are fitted to, in cells.
-pub(super) const AROUND: isize = 5;
+pub(super) const AROUND: isize = 7;
 /// Least rate at which a gap closes, over that with the contact kept.
 const SLOWEST: f64 = 1e-3;
 
-/// Rates of a cell over the increment \[m\].
-#[derive(Clone, Copy)]
-struct Rates {
-    closing: f64,
-    motion: [f64; 2],
-}
+/// Cells that enter within such a part of the increment do so at once, as twins in a symmetric scene.
+const AT_ONCE: f64 = 1e-4;
 
-/// How the rates of a cell depend on what it sees.
+/// How the motion of a cell over its closing depends on what it sees.
 struct Law {
-    /// k_1 to k_3
-    closing: [f64; 3],
-    least: f64,
-    /// A, B, C for each component.
-    ratio: [[f64; 3]; 2],
+    /// A, B, C, D for each component.
+    ratio: [[f64; 4]; 2],
     /// E
     toward: f64,
 }
 
 impl Law {
-    fn rates(&self, view: &View) -> Rates {
+    /// m/c
+    fn ratio(&self, view: &View) -> [f64; 2] {
         let (s, e) = (view.root(), view.toward());
-        let closing = polynomial(self.closing, s).max(self.least);
-        let ratio = |n: usize| {
-            let [a, b, c] = self.ratio[n];
-            a + (b + self.toward * e[n]) / s + c * s
-        };
-        Rates {
-            closing,
-            motion: [closing * ratio(0), closing * ratio(1)],
-        }
+        std::array::from_fn(|n| {
+            let [a, b, c, d] = self.ratio[n];
+            a + (b + self.toward * e[n]) / s + (c + d * s) * s
+        })
     }
 }
 
@@ -65,28 +62,46 @@ struct Entering {
     cell: usize,
     view: View,
     law: Law,
-    rates: Rates,
+    /// How far the gap would close in the increment \[m\], and at least.
+    closing: f64,
+    slowest: f64,
+    /// What the cell would move \[m\].
+    motion: [f64; 2],
     /// What is left of its gap \[m\].
     gap: f64,
     moved: [f64; 2],
     /// The part of the increment that has passed.
     time: f64,
-    inside: bool,
+    stage: Stage,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    Outside,
+    Enters,
+    Inside,
 }
 
 impl Entering {
     /// When it enters if nothing else does.
     fn entry(&self) -> f64 {
-        self.time + (self.gap / self.rates.closing).max(0.0)
+        self.time + (self.gap / self.closing).max(0.0)
     }
 
     fn go_on_until(&mut self, time: f64) {
         let passed = time - self.time;
-        self.gap -= passed * self.rates.closing;
-        for (moved, rate) in self.moved.iter_mut().zip(self.rates.motion) {
+        self.gap -= passed * self.closing;
+        for (moved, rate) in self.moved.iter_mut().zip(self.motion) {
             *moved += passed * rate;
         }
         self.time = time;
+    }
+
+    /// Sees one more cell of contact, which holds its closing back by so much.
+    fn sees(&mut self, near: &Neighbour, held_back: f64) {
+        self.view.add(near);
+        self.closing = (self.closing - held_back).max(self.slowest);
+        self.motion = self.law.ratio(&self.view).map(|ratio| ratio * self.closing);
     }
 }
 
@@ -97,54 +112,137 @@ pub(super) fn moved(
     views: &[Option<View>],
     cells: &[usize],
 ) -> Vec<[f64; 2]> {
-    let enter = |&cell: &usize| {
+    let start = |&cell: &usize| {
         let view = views[cell].expect("a cell that enters is seen from");
         Entering {
             cell,
             view,
             law: law(contact, views, cell, &view),
-            rates: Rates {
-                closing: contact.closing[cell],
-                motion: [0, 1].map(|c| contact.motion[c][cell]),
-            },
+            closing: contact.closing[cell],
+            slowest: SLOWEST * contact.closing[cell],
+            motion: [0, 1].map(|c| contact.motion[c][cell]),
             gap: contact.gap[cell],
             moved: [0.0; 2],
             time: 0.0,
-            inside: false,
+            stage: Stage::Outside,
         }
     };
-    let enter = cells.par_iter().with_min_len(TASK).map(enter);
-    let mut entering: Vec<Entering> = enter.collect();
+    let entering = cells.par_iter().with_min_len(TASK).map(start);
+    let mut entering: Vec<Entering> = entering.collect();
     let mut places = vec![None; views.len()];
     for (k, &cell) in cells.iter().enumerate() {
         places[cell] = Some(k);
     }
-    // Times are not negative: their bits have their order.
-    let when = |cell: &Entering, k: usize| Reverse((cell.entry().to_bits(), k));
-    let queue = entering.iter().enumerate();
-    let mut queue: BinaryHeap<_> = queue.map(|(k, cell)| when(cell, k)).collect();
-    while let Some(Reverse((time, k))) = queue.pop() {
-        let next = &mut entering[k];
-        // Cells that entered meanwhile have slowed it down.
-        if next.entry().to_bits() > time {
-            queue.push(when(next, k));
-            continue;
+    let mut queue = Queue::new(&entering);
+    let (mut together, mut held_back) = (Vec::new(), Vec::new());
+    while let Some(next) = queue.next(&entering, f64::INFINITY) {
+        let time = entering[next].entry();
+        together.clear();
+        together.push(next);
+        while let Some(twin) = queue.next(&entering, time + AT_ONCE) {
+            together.push(twin);
         }
-        let time = next.entry();
-        next.go_on_until(time);
-        next.inside = true;
-        for near in contact.cells.of(next.cell, REACH) {
-            let Some(beside) = places[near.cell].map(|k| &mut entering[k]) else {
-                continue;
-            };
-            if !beside.inside {
-                beside.go_on_until(time.max(beside.time));
-                beside.view.add(&near.back());
-                beside.rates = beside.law.rates(&beside.view);
-            }
+        for &k in &together {
+            let cell = &mut entering[k];
+            cell.go_on_until(cell.entry());
+            cell.stage = Stage::Enters;
+        }
+        hold_back(contact, &entering, &places, &together, &mut held_back);
+        for &k in &together {
+            entering[k].stage = Stage::Inside;
+        }
+        for (k, near, by) in held_back.drain(..) {
+            entering[k].go_on_until(time);
+            entering[k].sees(&near, by);
+            queue.put(k, entering[k].entry());
         }
     }
     entering.iter().map(|cell| cell.moved).collect()
+}
+
+/// The cells that are to enter, by when.
+struct Queue {
+    cells: BinaryHeap<Reverse<(u64, usize)>>,
+    /// The earliest that each is there for; nothing once it has left. Times are not negative: their bits
+    /// have their order.
+    due: Vec<u64>,
+}
+
+impl Queue {
+    fn new(entering: &[Entering]) -> Self {
+        let mut queue = Self {
+            cells: BinaryHeap::with_capacity(entering.len()),
+            due: vec![u64::MAX; entering.len()],
+        };
+        for (k, cell) in entering.iter().enumerate() {
+            queue.put(k, cell.entry());
+        }
+        queue
+    }
+
+    /// Where it is there for later than `time`, it is now for that.
+    fn put(&mut self, k: usize, time: f64) {
+        if time.to_bits() < self.due[k] {
+            self.due[k] = time.to_bits();
+            self.cells.push(Reverse((time.to_bits(), k)));
+        }
+    }
+
+    /// Takes out the cell that enters next, if it does so until `time`.
+    fn next(&mut self, entering: &[Entering], time: f64) -> Option<usize> {
+        while let Some(&Reverse((due, k))) = self.cells.peek() {
+            if f64::from_bits(due) > time {
+                return None;
+            }
+            self.cells.pop();
+            if due != self.due[k] {
+                continue;
+            }
+            // Cells that entered meanwhile may have slowed it down.
+            let entry = entering[k].entry();
+            self.due[k] = 0;
+            if entry.to_bits() <= due {
+                return Some(k);
+            }
+            self.due[k] = u64::MAX;
+            self.put(k, entry);
+        }
+        None
+    }
+}
+
+/// What cells that enter `together` hold back the others around: the pressure on each is as its closing, so
+/// much that all of them close no more.
+fn hold_back(
+    contact: &KeptContact,
+    entering: &[Entering],
+    places: &[Option<usize>],
+    together: &[usize],
+    held_back: &mut Vec<(usize, Neighbour, f64)>,
+) {
+    for &k in together {
+        let next = &entering[k];
+        let root = next.view.root();
+        let own = contact.screened.own(root);
+        let around = |stage: Stage| {
+            contact.cells.of(next.cell, REACH).filter_map(move |near| {
+                let k = places[near.cell].filter(|&k| entering[k].stage == stage)?;
+                let response = match near.square {
+                    0 => own,
+                    _ => (contact.screened).between(&near, [entering[k].view.root(), root]),
+                };
+                Some((k, near, response))
+            })
+        };
+        let with = around(Stage::Enters).map(|(k, _, response)| response * entering[k].closing);
+        // Pressure may lift what is beside it, as on a thin soft layer: at most half of what a cell responds
+        // with is taken off for that.
+        let closing = with.sum::<f64>().max(0.5 * own * next.closing);
+        let pressure = next.closing * next.closing / closing;
+        held_back.extend(
+            around(Stage::Outside).map(|(k, near, response)| (k, near.back(), pressure * response)),
+        );
+    }
 }
 
 /// The law of a cell, by least squares over those around that tell, nearer ones with more weight.
@@ -152,9 +250,8 @@ fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> 
     let unit = contact.closing[n];
     let [e_x, e_y] = view.toward();
     let along = [-e_y, e_x];
-    let mut closings = LeastSquares::<4, 1>::new();
     // Of the motion and of e/s, both times the closing.
-    let mut ratios = LeastSquares::<4, 4>::new();
+    let mut ratios = LeastSquares::<5, 4>::new();
     let (mut motion_e, mut e_e) = (0.0, 0.0);
     for near in contact.cells.of(n, AROUND) {
         let (m, [x, y]) = (near.cell, near.off);
@@ -162,11 +259,10 @@ fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> 
         let (s, way) = (view.root(), along[0] * x + along[1] * y);
         let weight = near.nearness(AROUND);
         let closing = contact.closing[m] / unit;
-        closings.add(weight, [s, s * s, s * s * s, s * way], [closing]);
         let [e_x, e_y] = view.toward().map(|e| closing * e / s);
         let [x, y] = [0, 1].map(|c| contact.motion[c][m] / unit);
         let values = [x, near.sign * y, e_x, near.sign * e_y];
-        let terms = [1.0, 1.0 / s, s, way].map(|term| closing * term);
+        let terms = [1.0, 1.0 / s, s, s * s, s * way].map(|term| closing * term);
         ratios.add(weight, terms, values);
         motion_e += weight * (values[0] * values[2] + values[1] * values[3]);
         e_e += weight * (values[2] * values[2] + values[3] * values[3]);
@@ -176,71 +272,80 @@ fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> 
     let left =
         |x: usize, all: f64| all - ratios.told(&factors[x], 2) - ratios.told(&factors[x + 1], 3);
     let toward = left(0, motion_e) / left(2, e_e * (1.0 + RIDGE)).max(f64::MIN_POSITIVE);
-    let ratio = |c: usize| [0, 1, 2].map(|k| factors[c][k] - toward * factors[c + 2][k]);
-    let [[k_1, k_2, k_3, _]] = closings.factors();
-    let told = polynomial([k_1, k_2, k_3], view.root());
+    let ratio = |c: usize| [0, 1, 2, 3].map(|k| factors[c][k] - toward * factors[c + 2][k]);
     Law {
-        // The cell's own rate is known.
-        closing: if told > 0.0 {
-            [k_1, k_2, k_3].map(|k| k * unit / told)
-        } else {
-            [unit / view.root(), 0.0, 0.0]
-        },
-        least: SLOWEST * unit,
         ratio: [ratio(0), ratio(1)],
         toward,
     }
 }
 
-/// k_1 s + k_2 s^2 + k_3 s^3
-fn polynomial(k: [f64; 3], s: f64) -> f64 {
-    s * (k[0] + s * (k[1] + s * k[2]))
-}
-
 #[cfg(test)]
 mod tests {
+    use ndarray::{Array2, Axis};
+
     use crate::convolution::Mirror;
     use crate::march::kept_contact::KeptContact;
     use crate::march::neighbours::Neighbours;
+    use crate::march::screened::Screened;
+    use crate::march::screened::tests::{half_space, of_all};
     use crate::march::view::{REACH, View};
+    use crate::reference::linear_system::solve;
     use crate::scene::Grid;
 
-    /// Once a cell has entered, those beyond close and move like the cells that were one nearer to the contact.
+    /// Strips, the first of them in contact, and those that enter.
+    const STRIPS: usize = 60;
+    const CONTACT: usize = 40;
+    const ENTER: usize = 5;
+
+    /// Each stage solved for itself, with as many strips in contact as have entered by then.
     #[test]
     fn cells_in_a_row_enter_one_after_another() {
-        let (n, contact) = (40, 20);
-        let grid = Grid::strip(1.0, n, 1.0).unwrap();
-        let cells = Neighbours::new(&grid, Mirror::None, REACH);
-        let rates = |cell: usize| {
-            let view = View::of(cell, &cells, |m| m < contact);
-            let s = view.map_or(f64::INFINITY, |view| view.root());
-            let closing = 2.0 * s + 0.3 * s * s;
-            (closing, closing * (0.2 + 0.05 / s - 0.01 * s))
+        let grid = Grid::strip(1.0, STRIPS, 1.0).unwrap();
+        let kernel = half_space(&grid);
+        let all = of_all(&grid, &kernel);
+        let cells = Neighbours::new(&grid, Mirror::None, REACH, &kernel);
+        let rates = |contact: usize, cell: usize| {
+            let (held, others) = all.view().split_at(Axis(0), contact);
+            let (inside, _) = held.split_at(Axis(1), contact);
+            let (to, _) = others.split_at(Axis(1), contact);
+            let p = solve(&inside.to_owned(), &Array2::ones((contact, 1)));
+            let lifted = to.dot(&p)[(cell - contact, 0)];
+            let s =
+                View::of(cell, &cells, |m| m < contact).map_or(f64::INFINITY, |view| view.root());
+            [1.0 - lifted, (1.0 - lifted) * (0.2 + 0.05 / s - 0.01 * s)]
         };
-        let seen = |cell: &usize| View::of(*cell, &cells, |m| m < contact).is_some();
-        let outside: Vec<usize> = (contact..n).filter(seen).collect();
-        let rates: Vec<(f64, f64)> = outside.iter().map(|&cell| rates(cell)).collect();
-        let gap = |k: usize| 0.4 * (k as f64 + 0.7).powf(1.5);
-        let mut kept = KeptContact {
-            gap: vec![1.0; n],
-            closing: vec![-1.0; n],
-            motion: [vec![0.0; n], vec![0.0; n]],
-            cells,
-        };
-        for (k, &cell) in outside.iter().enumerate() {
-            kept.gap[cell] = gap(k);
-            (kept.closing[cell], kept.motion[0][cell]) = rates[k];
-        }
-        let moved = kept.moved(|cell| cell >= contact);
-        for k in 0..3 {
-            let (mut left, mut way): (Vec<f64>, f64) = ((0..=k).map(gap).collect(), 0.0);
-            for entered in 0..=k {
-                let time = left[entered] / rates[0].0;
-                (entered..=k).for_each(|other| left[other] -= time * rates[other - entered].0);
-                way += time * rates[k - entered].1;
+        let gap = |k: usize| 0.02 * (k as f64 + 0.7).powf(1.5);
+        let mut moved = [[0.0; 2]; ENTER];
+        let mut time = 0.0;
+        for entered in 0..ENTER {
+            let rates: Vec<[f64; 2]> = (entered..ENTER)
+                .map(|k| rates(CONTACT + entered, CONTACT + k))
+                .collect();
+            let passes = (gap(entered) - moved[entered][0]) / rates[0][0];
+            time += passes;
+            for (moved, rates) in moved[entered..].iter_mut().zip(rates) {
+                (0..2).for_each(|c| moved[c] += passes * rates[c]);
             }
-            let off = moved[0][outside[k]] - way;
-            assert!(off.abs() < 1e-3 * way, "{k}: off by {off:e} of {way:e}");
+        }
+        let first: Vec<[f64; 2]> = (CONTACT..STRIPS).map(|cell| rates(CONTACT, cell)).collect();
+        let field = |inside: f64, of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            let outside = |n: usize| n.checked_sub(CONTACT).map_or(inside, of);
+            (0..STRIPS).map(outside).collect()
+        };
+        let kept = KeptContact {
+            gap: field(0.0, &|k| if k < ENTER { gap(k) } else { 10.0 }),
+            closing: field(-1.0, &|k| 1.01 * time * first[k][0]),
+            motion: [
+                field(0.0, &|k| 1.01 * time * first[k][1]),
+                vec![0.0; STRIPS],
+            ],
+            cells,
+            screened: Screened::new(&grid, &kernel),
+        };
+        let found = kept.moved(|cell| cell >= CONTACT);
+        for (k, [_, way]) in moved.iter().enumerate() {
+            let off = (found[0][CONTACT + k] - way).abs() / way;
+            assert!(off < 0.01, "{k}: off by {off:e} of the way");
         }
     }
 }

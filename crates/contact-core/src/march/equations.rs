@@ -1,6 +1,6 @@
 //! The equations of one increment, as the solvers are given them.
 
-use super::slip_datum::Following;
+use super::slip_datum::{Before, Following};
 use super::{Carried, March};
 use crate::convolution::Mirror;
 use crate::error::Error;
@@ -67,7 +67,13 @@ impl March {
             datum: &mut self.datum,
             last: before,
             missed,
-            q_before: turns.then_some(&self.state.q_before),
+            before: turns.then(|| match carried {
+                Some(carried) => carried.before(),
+                None => Before {
+                    p: &self.state.p_before,
+                    q: &self.state.q_before,
+                },
+            }),
             arms: &self.window.arms,
             reach: self.scene.friction.scale() * self.approach,
         };

@@ -19,6 +19,7 @@ use rayon::prelude::*;
 
 use super::entry_order;
 use super::neighbours::Neighbours;
+use super::screened::Screened;
 use super::view::View;
 
 /// Fewest cells that are worth a task of their own.
@@ -33,6 +34,7 @@ pub(super) struct KeptContact {
     /// Motion relative to the rigid shift \[m\].
     pub(super) motion: [Vec<f64>; 2],
     pub(super) cells: Neighbours,
+    pub(super) screened: Screened,
 }
 
 impl KeptContact {
@@ -115,6 +117,8 @@ mod tests {
     use super::KeptContact;
     use crate::convolution::Mirror;
     use crate::march::neighbours::Neighbours;
+    use crate::march::screened::Screened;
+    use crate::march::screened::tests::half_space;
     use crate::march::view::REACH;
     use crate::scene::Grid;
 
@@ -144,11 +148,14 @@ mod tests {
             };
             places.iter().map(of).collect()
         };
+        let grid = Grid::centred(1.0, n).unwrap();
+        let kernel = half_space(&grid);
         let contact = KeptContact {
             gap: places.iter().map(|at| beyond(at).powf(1.5)).collect(),
             motion: [motion(0), motion(1)],
             closing,
-            cells: Neighbours::new(&Grid::centred(1.0, n).unwrap(), mirror, REACH),
+            cells: Neighbours::new(&grid, mirror, REACH, &kernel),
+            screened: Screened::new(&grid, &kernel),
         };
         (contact, places)
     }
@@ -171,7 +178,7 @@ mod tests {
             }
         }
         // The steps that the cells make of the edge, of which these rates know nothing.
-        assert!(worst < 0.011, "off by {worst} of the motion");
+        assert!(worst < 0.013, "off by {worst} of the motion");
     }
 
     #[test]
@@ -183,7 +190,7 @@ mod tests {
         for n in (0..contact.gap.len()).filter(|&n| contact.gap[n] < contact.closing[n]) {
             let gap = contact.gap[n];
             let off = (moved[0][n] - 0.2 * gap).hypot(moved[1][n] + 0.1 * gap);
-            assert!(off < 1e-11 * gap, "off by {off:e} of {gap:e}");
+            assert!(off < 1e-10 * gap, "off by {off:e} of {gap:e}");
         }
     }
 
@@ -199,7 +206,7 @@ mod tests {
             let twin = places.iter().position(|place| same(place, at)).unwrap();
             for c in 0..2 {
                 let off = (in_half[c][n] - in_whole[c][twin]).abs();
-                assert!(off < 1e-11, "{at:?}: off by {off:e}");
+                assert!(off < 1e-10, "{at:?}: off by {off:e}");
             }
         }
     }

@@ -23,6 +23,7 @@ mod partial_cells;
 mod path_error;
 mod predict;
 mod residuals;
+mod screened;
 mod slip_datum;
 mod solve;
 mod state;

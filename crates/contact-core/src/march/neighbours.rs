@@ -2,6 +2,7 @@
 
 use super::lattice::Lattice;
 use crate::convolution::Mirror;
+use crate::kernels::Quadrant;
 use crate::scene::Grid;
 use crate::solvers::size;
 
@@ -23,6 +24,7 @@ struct Way {
     off: [f64; 2],
     direction: [f64; 2],
     weight: f64,
+    response: f64,
 }
 
 impl Way {
@@ -47,6 +49,8 @@ pub(super) struct Neighbour {
     pub(super) direction: [f64; 2],
     /// How much it counts in a [`View`](super::view::View).
     pub(super) weight: f64,
+    /// The response u_z of one to pressure on the other, over that to its own.
+    pub(super) response: f64,
     /// What its components along y count as: it may be a mirror image.
     pub(super) sign: f64,
 }
@@ -62,6 +66,11 @@ impl Neighbour {
         }
     }
 
+    /// In lengths of a cell.
+    pub(super) fn distance(&self) -> f64 {
+        size(self.off)
+    }
+
     /// One, and falling to nothing beyond the reach.
     pub(super) fn nearness(&self, reach: isize) -> f64 {
         1.0 - self.square as f64 / (reach as f64 + 0.5).powi(2)
@@ -69,8 +78,8 @@ impl Neighbour {
 }
 
 impl Neighbours {
-    /// Those of the kept cells of a grid, as far as `reach` cells and a half.
-    pub(super) fn new(grid: &Grid, mirror: Mirror, reach: isize) -> Self {
+    /// Those of the kept cells of a grid, as far as `reach` cells and a half, where C_zz is `kernel` \[m/Pa\].
+    pub(super) fn new(grid: &Grid, mirror: Mirror, reach: isize, kernel: &Quadrant) -> Self {
         let unit = if grid.plane_strain {
             grid.dx
         } else {
@@ -84,6 +93,7 @@ impl Neighbours {
                 rows as f64 * grid.dy / unit,
             ];
             let r = size(off).max(f64::MIN_POSITIVE);
+            let quadrant = (columns.unsigned_abs(), rows.unsigned_abs());
             Way {
                 columns,
                 rows,
@@ -95,6 +105,7 @@ impl Neighbours {
                     _ if grid.plane_strain => r.powf(-1.25),
                     _ => r.powf(-2.25),
                 },
+                response: kernel.get(quadrant).map_or(0.0, |c| c / kernel[(0, 0)]),
             }
         };
         let mut ways: Vec<Way> = square.map(way).filter(|way| way.is_within(reach)).collect();
@@ -124,6 +135,7 @@ impl Neighbours {
                 square: way.square(),
                 direction: way.direction,
                 weight: way.weight,
+                response: way.response,
                 sign: if row < 0 { -1.0 } else { 1.0 },
             })
         })

@@ -6,17 +6,22 @@
 //! direction turns within the increment:
 //!
 //! ```text
-//! ds = -lambda m,   m = (e_0 + e_1)/|e_0 + e_1|
+//! ds = -lambda m,   m = (w e_0 + e_1)/|w e_0 + e_1|
 //! ```
 //!
 //! with e_0 and e_1 the directions of the shear where the slip begins and at the end; the part of
 //! that slip across e_1, |ds| ((m.e_1) e_1 - m), is added to u_ref, so that the solver, which holds
 //! the slip against the final shear, finds it there. It follows the solution until both agree; when
-//! e_1 turns by a small angle m turns by half of it, which the Newton steps reckon with. A cell that
-//! starts to slip on the way does so where its shear, going on as in the last increment, meets the bound; after a reversal, where slip
-//! has only begun, nothing is known of that. Where no cell sticks, or cells slip by as much as the
-//! shear can move a surface, mu times the approach, bodies slide by as much as they are moved, and the shear
-//! has turned into their direction at the end.
+//! e_1 turns by a small angle m turns by 1/(1 + w) of it, which the Newton steps reckon with. A cell that
+//! starts to slip on the way does so where its shear, going on as in the last increment, meets the bound;
+//! after a reversal, where slip has only begun, nothing is known of that. Its slip grows with the 3/2
+//! power of the time since, so that the mean of a direction that turns evenly has w = 2/3. In cells that
+//! slip all the time w would be 1 if they did so evenly. But then what is wrong in e_0 comes back in e_1
+//! with the other sign, and never dies away; with a little less it does, and most of what slips does so
+//! faster and faster, which asks for less too. Of a cell that entered the contact in the last increment e_0
+//! is mostly what is wrong in its motion before: it has w = 0. Where no cell sticks, or cells slip by as
+//! much as the shear can move a surface, mu times the approach, bodies slide by as much as they are moved,
+//! and the shear has turned into their direction at the end.
 //!
 //! Where the solver left slip e that should not be, within its tolerance (in stick cells all of it, in
 //! slip cells the part not opposite to the shear), the next increment makes it good: u_ref = u - e, with u
@@ -30,6 +35,9 @@ use crate::solvers::{Arms, CHUNK, Interface, SlipDatum, set, size};
 /// Cosines between e_0 and e_1 between which the turn comes to count: where the shear turns further, the
 /// way there is not known.
 const TURN: [f64; 2] = [0.5, 0.7];
+/// w of a cell that slips all the time, and of one that starts to slip.
+const GOES_ON: f64 = 0.8;
+const STARTS: f64 = 2.0 / 3.0;
 
 /// What the displacements that mean no slip differ by from the last ones.
 #[derive(Debug)]
@@ -84,18 +92,27 @@ pub(super) struct Following<'a> {
     pub(super) last: &'a Interface,
     /// What its slip missed \[m\].
     pub(super) missed: &'a [Vec<f64>; 2],
-    /// The shear an increment earlier, if slip is to follow the turn of the shear and the loads go on as
+    /// The interface an increment earlier, if slip is to follow the turn of the shear and the loads go on as
     /// in that increment.
-    pub(super) q_before: Option<&'a [Vec<f64>; 2]>,
+    pub(super) before: Option<Before<'a>>,
     pub(super) arms: &'a Arms,
     /// What the shear may move a surface by before the bodies slide, about \[m\].
     pub(super) reach: f64,
 }
 
+/// Where the last increment started.
+#[derive(Clone, Copy)]
+pub(super) struct Before<'a> {
+    /// Pressure \[Pa\].
+    pub(super) p: &'a [f64],
+    /// Shear \[Pa\].
+    pub(super) q: &'a [Vec<f64>; 2],
+}
+
 impl SlipDatum for Following<'_> {
     fn follow(&mut self, now: &Interface, shift: [f64; 3], part: f64) -> bool {
         let (missed, last, arms) = (self.missed, self.last, self.arms);
-        let Some(q_before) = self.q_before else {
+        let Some(before) = self.before else {
             return false;
         };
         let sticks = (0..now.p.len()).any(|n| now.p[n] > 0.0 && !now.slip[n]);
@@ -110,7 +127,7 @@ impl SlipDatum for Following<'_> {
             }
             let slip = slip(n);
             let slides = (2.0 - 2.0 * size(slip) / reach).clamp(0.0, 1.0);
-            turn(last, q_before, now, slip, n).map_or(([0.0; 2], 0.0), |(across, follows)| {
+            turn(last, &before, now, slip, n).map_or(([0.0; 2], 0.0), |(across, follows)| {
                 (across.map(|e| slides * e), part * slides * follows)
             })
         };
@@ -160,38 +177,39 @@ impl SlipDatum for Following<'_> {
 /// The part of the slip across the final shear \[m\], as far as the way there is known,
 ///
 /// ```text
-/// |ds| known(cos a) sin(a/2),   a the angle from e_0 to e_1,
+/// |ds| known(cos a) w sin(a)/|w e_0 + e_1|,   a the angle from e_0 to e_1,
 /// ```
 ///
 /// and its derivative by a over |ds|.
 fn turn(
     last: &Interface,
-    q_before: &[Vec<f64>; 2],
+    before: &Before<'_>,
     now: &Interface,
     slip: [f64; 2],
     n: usize,
 ) -> Option<([f64; 2], f64)> {
     let at = |q: &[Vec<f64>; 2]| [q[0][n], q[1][n]];
     let end = at(&now.q);
-    let begin = if last.slip[n] {
-        at(&last.q)
-    } else {
-        met(at(q_before), at(&last.q), size(end))?
+    let (begin, w) = match last.slip[n] {
+        true if before.p[n] <= 0.0 => return None,
+        true => (at(&last.q), GOES_ON),
+        false => (met(at(before.q), at(&last.q), size(end))?, STARTS),
     };
     let (e_0, e_1) = (unit(begin), unit(end));
     let cos = dot(e_0, e_1).clamp(-1.0, 1.0);
     let part = (cos - TURN[0]) / (TURN[1] - TURN[0]);
     let known = part.clamp(0.0, 1.0);
-    let m = unit([e_0[0] + e_1[0], e_0[1] + e_1[1]]);
+    let mean = [0, 1].map(|c| w * e_0[c] + e_1[c]);
+    let (length, m) = (size(mean), unit(mean));
     let along = dot(m, e_1);
     let across = [0, 1].map(|c| known * size(slip) * (along * e_1[c] - m[c]));
-    // sin(a) sin(a/2) = (1 - cos(a)) cos(a/2)
     let fades = if (0.0..=1.0).contains(&part) {
-        (1.0 - cos) * along / (TURN[1] - TURN[0])
+        w * (1.0 - cos * cos) / (length * (TURN[1] - TURN[0]))
     } else {
         0.0
     };
-    Some((across, 0.5 * known * along - fades))
+    let follows = known * along * w * (w + cos) / (length * length) - fades;
+    Some((across, follows))
 }
 
 /// Where a shear that goes on from `before` through `last` meets the circle of radius `bound`.

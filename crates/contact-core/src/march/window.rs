@@ -18,7 +18,7 @@ use crate::convolution::{
     Tractions, good_size,
 };
 use crate::error::Error;
-use crate::kernels::{InfluenceCoefficients, norm, pair_coefficients_until};
+use crate::kernels::{InfluenceCoefficients, Quadrant, norm, pair_coefficients_until};
 use crate::scene::{Grid, KernelMethod, LoadPoint, Plan, Preset, Scene};
 use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface, Response, sums};
 use crate::stop::NOBODY;
@@ -79,6 +79,11 @@ impl Whole {
             grid: Mutex::default(),
             transforms: 0,
         })
+    }
+
+    /// C_zz \[m/Pa\].
+    pub(super) fn normal_kernel(&self) -> &Quadrant {
+        &self.pair.zz
     }
 
     /// The nx x ny cells in the middle of the scene's grid; ends when `stop` is raised.

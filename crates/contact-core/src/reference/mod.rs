@@ -22,7 +22,7 @@ mod hertz;
 mod hertz_ellipse;
 mod layered_response;
 mod line_contact;
-mod linear_system;
+pub(crate) mod linear_system;
 mod lubkin;
 mod mindlin_shear;
 mod quadrature;

@@ -2,14 +2,15 @@
 //!
 //! The increment is solved once more from where it started, with every cell outside the contact
 //! lowered out of reach. That tells how fast the gap over a cell closes and how fast the cell moves.
-//! All cells go on together until the next one enters, and then at the rates that belong to what they
-//! see of the contact.
+//! All cells go on together until the next one enters, which holds the gaps of the others back. What they
+//! move while these close belongs to what they see of the contact.
 
 use std::sync::Arc;
 
 use contact_core::convolution::Mirror;
+use contact_core::kernels::influence_coefficients;
 use contact_core::march::{Increment, March};
-use contact_core::scene::{LoadPath, Shape, SurfaceMap};
+use contact_core::scene::{LoadPath, Scene, Shape, SurfaceMap};
 use ndarray::Array2;
 
 use crate::audit::Last;
@@ -100,6 +101,7 @@ pub(crate) fn entry(march: &March, last: &Last, increment: &Increment, allowed: 
             (dx, dy) => [(dx / dy).sqrt(), (dy / dx).sqrt()],
         },
         flat: scene.grid.plane_strain,
+        response: response(scene),
     };
     let by = way.moved();
     for (n, _) in way.outside.indexed_iter().filter(|(_, outside)| **outside) {
@@ -118,6 +120,15 @@ pub(crate) fn entry(march: &March, last: &Last, increment: &Increment, allowed: 
 
 type Place = (usize, usize);
 
+/// u_z under pressure on a cell so many columns and rows away, over that under its own.
+fn response(scene: &Scene) -> Array2<f64> {
+    let (kernel, equal) = (&scene.settings.kernel, scene.settings.skip.equal_layers);
+    let of = |body| influence_coefficients(body, &scene.grid, kernel, equal).expect("coefficients");
+    let zz = of(&scene.body1).zz + of(&scene.body2).zz;
+    let own = zz[(0, 0)];
+    zz / own
+}
+
 /// The increment with the contact kept: gap before, what it closes by, and motion.
 struct Way {
     outside: Array2<bool>,
@@ -127,6 +138,7 @@ struct Way {
     /// Its sides in lengths of a cell.
     cell: [f64; 2],
     flat: bool,
+    response: Array2<f64>,
 }
 
 /// A cell that enters.
@@ -134,8 +146,8 @@ struct Cell {
     at: Place,
     gap: f64,
     rates: [f64; 3],
-    /// k_1, k_2, k_3 of the closing; A, B, C, D of x, of y, and E.
-    law: ([f64; 3], [f64; 9]),
+    /// A, B, C, D and the change along the edge of x, of y, and E.
+    law: [f64; 11],
     sight: [f64; 3],
     moved: [f64; 2],
     inside: bool,
@@ -153,7 +165,7 @@ impl Way {
             }
         }
         let sights = Array2::from_shape_fn(self.outside.dim(), |n| self.sight(n));
-        let (near, mut far): (Vec<Place>, Vec<Place>) =
+        let (near, far): (Vec<Place>, Vec<Place>) =
             all.into_iter().partition(|n| sights[*n].is_some());
         let mut known = self.outside.mapv(|_| false);
         let cell = |&at: &Place| Cell {
@@ -166,42 +178,80 @@ impl Way {
             inside: false,
         };
         let mut cells: Vec<Cell> = near.iter().map(cell).collect();
-        for _ in 0..cells.len() {
+        while cells.iter().any(|cell| !cell.inside) {
             let time = |cell: &Cell| cell.gap.max(0.0) / cell.rates[0];
-            let open = (0..cells.len()).filter(|k| !cells[*k].inside);
-            let next = open.min_by(|k, l| time(&cells[*k]).total_cmp(&time(&cells[*l])));
-            let (next, step) = next.map(|k| (k, time(&cells[k]))).expect("a cell to enter");
-            for cell in cells.iter_mut().filter(|cell| !cell.inside) {
-                cell.gap -= step * cell.rates[0];
-                (0..2).for_each(|c| cell.moved[c] += step * cell.rates[c + 1]);
+            let open: Vec<usize> = (0..cells.len()).filter(|k| !cells[*k].inside).collect();
+            let step = open
+                .iter()
+                .map(|k| time(&cells[*k]))
+                .fold(f64::INFINITY, f64::min);
+            // Twins enter at once, and each holds the other back.
+            let enter = |k: &&usize| time(&cells[**k]) <= step + 1e-4;
+            let next: Vec<usize> = open.iter().filter(enter).copied().collect();
+            for &k in &open {
+                cells[k].gap -= step * cells[k].rates[0];
+                (0..2).for_each(|c| cells[k].moved[c] += step * cells[k].rates[c + 1]);
             }
-            cells[next].inside = true;
-            let at = cells[next].at;
-            for cell in cells.iter_mut().filter(|cell| !cell.inside) {
+            let held = |k: usize, by: usize| {
+                let (cell, other) = (&cells[k], &cells[by]);
                 let off = [
-                    at.0 as f64 - cell.at.0 as f64,
-                    at.1 as f64 - cell.at.1 as f64,
+                    other.at.0 as f64 - cell.at.0 as f64,
+                    other.at.1 as f64 - cell.at.1 as f64,
                 ];
-                if off[0] * off[0] + off[1] * off[1] > 72.5 {
-                    continue;
+                let (here, _) = self.root_and_side(cell.sight);
+                let (there, _) = self.root_and_side(other.sight);
+                let near = off[0] * off[0] + off[1] * off[1] < 72.5;
+                near.then(|| (off, self.screened(off, here, there)))
+            };
+            let pressure = |k: usize| {
+                let of = |by: &usize| held(*by, k).map(|(_, s)| s * cells[*by].rates[0]);
+                let (here, _) = self.root_and_side(cells[k].sight);
+                let alone = self.screened([0.0, 0.0], here, here) * cells[k].rates[0];
+                let all: f64 = next.iter().filter_map(of).sum();
+                cells[k].rates[0].powi(2) / all.max(0.5 * alone)
+            };
+            let pressures: Vec<f64> = next.iter().map(|k| pressure(*k)).collect();
+            let mut after: Vec<(usize, f64, [f64; 3])> = Vec::new();
+            for &k in open.iter().filter(|k| !next.contains(k)) {
+                let (mut rate, mut sight) = (cells[k].rates[0], cells[k].sight);
+                let mut sees = false;
+                for (&by, pressure) in next.iter().zip(&pressures) {
+                    if let Some((off, s)) = held(k, by) {
+                        rate = (rate - pressure * s).max(1e-3 * self.closing[cells[k].at]);
+                        let seen = self.seen(off);
+                        (0..3).for_each(|k| sight[k] += seen[k]);
+                        sees = true;
+                    }
                 }
-                let seen = self.seen(off);
-                (0..3).for_each(|k| cell.sight[k] += seen[k]);
-                let (s, e) = self.root_and_side(cell.sight);
-                let (k, l) = &cell.law;
-                let closing = s * (k[0] + s * (k[1] + s * k[2]));
-                let closing = closing.max(1e-3 * self.closing[cell.at]);
+                if sees {
+                    after.push((k, rate, sight));
+                }
+            }
+            for (k, closing, sight) in after {
+                let (s, e) = self.root_and_side(sight);
+                let law = &cells[k].law;
                 let ratio = |c: usize| {
-                    let of = &l[4 * c..];
-                    of[0] + of[1] / s + of[2] * s + l[8] * e[c] / s
+                    let of = &law[5 * c..];
+                    of[0] + of[1] / s + of[2] * s + of[3] * s * s + law[10] * e[c] / s
                 };
-                cell.rates = [closing, closing * ratio(0), closing * ratio(1)];
+                cells[k].rates = [closing, closing * ratio(0), closing * ratio(1)];
+                cells[k].sight = sight;
+            }
+            for k in next {
+                let rest = cells[k].gap.max(0.0) / cells[k].rates[0];
+                (0..2).for_each(|c| cells[k].moved[c] += rest * cells[k].rates[c + 1]);
+                cells[k].inside = true;
             }
         }
         for cell in &cells {
             (moved[cell.at], known[cell.at]) = (cell.moved, true);
         }
-        // Those that see no contact: like the cells that enter before them, and what is between.
+        self.farther(&mut moved, &mut known, far);
+        moved
+    }
+
+    /// Those that see no contact: like the cells that enter before them, and what is between.
+    fn farther(&self, moved: &mut Array2<[f64; 2]>, known: &mut Array2<bool>, mut far: Vec<Place>) {
         far.sort_by(|n, m| self.before[*n].total_cmp(&self.before[*m]));
         for n in far {
             let (mut sum, mut weights) = ([0.0; 2], 0.0);
@@ -228,7 +278,6 @@ impl Way {
             });
             known[n] = true;
         }
-        moved
     }
 
     /// Columns and rows in lengths of a cell.
@@ -242,6 +291,36 @@ impl Way {
         let r = off[0].hypot(off[1]);
         let counts = r.powf(if self.flat { -1.25 } else { -2.25 });
         [counts, counts * off[0] / r, counts * off[1] / r]
+    }
+
+    /// u_z of a cell under pressure on another one so far off, both outside a contact that is held and so
+    /// near as the squares of these roots; over that of a cell to its own with nothing held.
+    fn screened(&self, off: [f64; 2], one: f64, other: f64) -> f64 {
+        let [one, other] = [one, other].map(|root| root.max(0.35_f64.sqrt()));
+        let kernel = |i: f64, j: f64| self.response[(i.abs() as usize, j.abs() as usize)];
+        let free = kernel(off[0], off[1]);
+        if self.flat {
+            // The image stands as far off as both together.
+            let away = (one + other).powi(2);
+            let last = self.response.nrows() as f64 - 1.0;
+            let (from, to) = (away.floor().min(last), (away.floor() + 1.0).min(last));
+            let part = if to > from {
+                (away / from).ln() / (to / from).ln()
+            } else {
+                0.0
+            };
+            return free - kernel(from, 0.0) - part * (kernel(to, 0.0) - kernel(from, 0.0));
+        }
+        let [x, y] = self.way(off);
+        let r = x.hypot(y);
+        if r > 0.0 {
+            return free * (2.0 * one * other).atan2(r) / std::f64::consts::FRAC_PI_2;
+        }
+        // The integral of 1/r over a cell, from its corners.
+        let [a, b] = self.cell;
+        let diagonal = a.hypot(b);
+        let potential = 2.0 * (a * ((b + diagonal) / a).ln() + b * ((a + diagonal) / b).ln());
+        free - 1.0 / (std::f64::consts::PI * potential * one * other)
     }
 
     /// What a cell sees, with half of the plane beyond eight and a half cells.
@@ -277,41 +356,30 @@ impl Way {
 
     /// Rates of the cells around as functions of what they see, by Householder's reflections instead of
     /// normal equations.
-    fn law(&self, n: Place, sights: &Array2<Option<[f64; 3]>>) -> ([f64; 3], [f64; 9]) {
+    fn law(&self, n: Place, sights: &Array2<Option<[f64; 3]>>) -> [f64; 11] {
         let closes = self.closing[n];
-        let (own, side) = self.root_and_side(sights[n].expect("a cell near the contact"));
-        let mut closings: Vec<Vec<f64>> = Vec::new();
+        let (_, side) = self.root_and_side(sights[n].expect("a cell near the contact"));
         let mut motions: Vec<Vec<f64>> = Vec::new();
-        for (m, off) in self.within(n, 5.5) {
+        for (m, off) in self.within(n, 7.5) {
             let Some(sight) = sights[m].filter(|_| self.closing[m] > 0.0) else {
                 continue;
             };
             let (s, e) = self.root_and_side(sight);
             let [x, y] = self.way(off);
             let way = y * side[0] - x * side[1];
-            let weight = (1.0 - (off[0] * off[0] + off[1] * off[1]) / 30.25).sqrt();
+            let weight = (1.0 - (off[0] * off[0] + off[1] * off[1]) / 56.25).sqrt();
             let closing = weight * self.closing[m] / closes;
-            let terms = [s, s * s, s.powi(3), s * way].map(|term| weight * term);
-            closings.push([&terms[..], &[closing]].concat());
-            let terms = [1.0, 1.0 / s, s, way].map(|term| closing * term);
+            let terms = [1.0, 1.0 / s, s, s * s, s * way].map(|term| closing * term);
             for c in 0..2 {
-                let mut row = vec![0.0; 10];
-                row[4 * c..4 * c + 4].copy_from_slice(&terms);
-                row[8] = closing * e[c] / s;
-                row[9] = weight * self.motion[c][m] / closes;
+                let mut row = vec![0.0; 12];
+                row[5 * c..5 * c + 5].copy_from_slice(&terms);
+                row[10] = closing * e[c] / s;
+                row[11] = weight * self.motion[c][m] / closes;
                 motions.push(row);
             }
         }
-        ridge(&mut closings, &[1, 2, 3]);
-        ridge(&mut motions, &[1, 2, 3, 5, 6, 7, 8]);
-        let [k_1, k_2, k_3, _] = least_squares(closings);
-        let told = own * (k_1 + own * (k_2 + own * k_3));
-        let closing = if told > 0.0 {
-            [k_1, k_2, k_3].map(|k| k * closes / told)
-        } else {
-            [closes / own, 0.0, 0.0]
-        };
-        (closing, least_squares(motions))
+        ridge(&mut motions, &[1, 2, 3, 4, 6, 7, 8, 9, 10]);
+        least_squares(motions)
     }
 
     /// The cells nearer to n than `reach`, and the way to them.
