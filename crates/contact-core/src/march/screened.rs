@@ -8,6 +8,8 @@ use crate::scene::Grid;
 
 /// d of a cell with contact all around: no other sees more of it.
 const NEAREST: f64 = 0.35;
+/// Least S_nn/C_nn, for cells far longer than wide; of square ones it is 0.74 at `NEAREST`.
+const LEAST: f64 = 0.5;
 
 /// The response u_z of a cell m under pressure on a cell n, both outside, over that of a cell to its own
 /// where no contact is held:
@@ -47,11 +49,12 @@ impl Screened {
     /// S_nn/C_nn of a cell with d^(1/2) = `root`.
     pub(super) fn own(&self, root: f64) -> f64 {
         let d = (root * root).max(NEAREST);
-        if self.along.is_empty() {
-            1.0 - self.own / d
+        let image = if self.along.is_empty() {
+            self.own / d
         } else {
-            1.0 - self.along(4.0 * d)
-        }
+            self.along(4.0 * d)
+        };
+        (1.0 - image).max(LEAST)
     }
 
     /// S_mn/C_nn of two cells with these d^(1/2).
