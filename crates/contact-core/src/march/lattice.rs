@@ -144,25 +144,47 @@ impl Lattice {
         skipped: [usize; K],
         laws: impl Fn(Line) -> ([Power; K], V),
     ) -> Vec<(usize, Edge)> {
-        (0..zone.len())
-            .filter(|&n| self.at_border(n, zone))
-            .map(|n| {
-                let inside = zone[n];
-                let level = self.level(n, zone, skipped, &laws);
-                (n, Edge { level, inside })
-            })
-            .collect()
+        let level = |n: usize| {
+            let inside = zone[n];
+            let level = self.level(n, zone, skipped, &laws);
+            (n, Edge { level, inside })
+        };
+        self.border(zone).into_iter().map(level).collect()
+    }
+
+    /// The cells that have neighbours of the other kind, in order.
+    fn border(self, zone: &[bool]) -> Vec<usize> {
+        let (columns, rows) = (self.columns as usize, self.rows as usize);
+        let near = |i: usize| zone[i * rows..(i + 1) * rows].windows(3);
+        let (mut border, mut within) = (Vec::new(), Vec::new());
+        for i in 0..columns {
+            let (first, last) = (i * rows, (i + 1) * rows - 1);
+            let outermost = i == 0 || i + 1 == columns || rows < 3;
+            if outermost {
+                border.extend((first..=last).filter(|&n| self.at_border(n, zone)));
+                continue;
+            }
+            // A column at once, but for its ends.
+            within.clear();
+            let around = near(i - 1).zip(near(i)).zip(near(i + 1));
+            within.extend(around.map(|((a, b), c)| {
+                let own = b[1];
+                let others = [a[0], a[1], a[2], b[0], b[2], c[0], c[1], c[2]];
+                let differ = others.map(|other| u8::from(other != own));
+                differ.into_iter().sum::<u8>() > 0
+            }));
+            border.extend(self.at_border(first, zone).then_some(first));
+            let found = (first + 1..)
+                .zip(&within)
+                .filter(|(_, at_border)| **at_border);
+            border.extend(found.map(|(n, _)| n));
+            border.extend(self.at_border(last, zone).then_some(last));
+        }
+        border
     }
 
     /// Whether a cell has neighbours of the other kind.
     fn at_border(self, n: usize, zone: &[bool]) -> bool {
-        let rows = self.rows as usize;
-        let (i, j) = (n / rows, n % rows);
-        if i > 0 && i + 1 < self.columns as usize && j > 0 && j + 1 < rows {
-            let same =
-                |m: usize| zone[m - 1] == zone[n] && zone[m] == zone[n] && zone[m + 1] == zone[n];
-            return !(same(n - rows) && same(n) && same(n + rows));
-        }
         self.around(n, 1)
             .any(|(_, m)| m.is_some_and(|m| zone[m]) != zone[n])
     }
@@ -255,10 +277,22 @@ impl Lattice {
 
     /// The direction, out of eight, that leads most squarely into the zone.
     fn inwards(self, n: usize, zone: &[bool]) -> Option<[isize; 2]> {
+        const REACH: isize = 2;
         let mut to = [0, 0];
-        for (d, m) in self.around(n, 2) {
-            if m.is_some_and(|m| zone[m]) {
-                to = [to[0] + d[0], to[1] + d[1]];
+        let mut add = |[columns, rows]: [isize; 2], inside: bool| {
+            to[0] += columns * isize::from(inside);
+            to[1] += rows * isize::from(inside);
+        };
+        if self.is_clear(n, REACH) {
+            for columns in -REACH..=REACH {
+                let first = n.strict_add_signed(self.step(columns, -REACH));
+                for (rows, &inside) in (-REACH..=REACH).zip(&zone[first..]) {
+                    add([columns, rows], inside);
+                }
+            }
+        } else {
+            for (d, m) in self.around(n, REACH) {
+                add(d, m.is_some_and(|m| zone[m]));
             }
         }
         // The tangent of 22.5 degrees is 0.414.

@@ -125,7 +125,10 @@ pub fn tangential(
             continue;
         }
         info.iterations += 1;
-        before.keep(&now);
+        let follows = !problem.turning.is_empty();
+        if !follows {
+            before.keep(&now);
+        }
         let target = (params.forcing * info.misfit).max(0.3 * params.tolerance);
         info.passes += step.solve(response, cells, target * root_of_contact, params.max_passes);
         info.shift = step.take(cells, &inside, &mut now);
@@ -137,7 +140,6 @@ pub fn tangential(
                 [u[0] + of[0], u[1] + of[1]]
             });
         }
-        let follows = !problem.turning.is_empty();
         let circles = stalled > 0 && stalled.is_multiple_of(CIRCLES);
         if !follows && (circles || before.is_lower(&inside, &now, info.shift, settled)) {
             before.restore(&mut now);
