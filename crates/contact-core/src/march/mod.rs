@@ -23,6 +23,7 @@ mod partial_cells;
 mod path_error;
 mod predict;
 mod residuals;
+mod room;
 mod screened;
 mod slip_datum;
 mod solve;
@@ -146,7 +147,7 @@ impl March {
             ));
         }
         if state.window != march.window.shape() {
-            march.widen(state.window)?;
+            march.move_into(state.window)?;
         }
         (march.state, march.unwidened) = (state, None);
         Ok(march)
@@ -215,6 +216,7 @@ impl March {
         let index = self.state.increments + 1;
         let transforms = self.transforms();
         let mut coarse_convolutions = 0.0;
+        self.give_up_room(point)?;
         let (now, info, clear) = loop {
             self.unless_stopped()?;
             let start = self.start(point, &mut coarse_convolutions)?;
@@ -226,7 +228,7 @@ impl March {
                 });
             }
             self.unless_stopped()?;
-            let narrow = self.make_room(&now.p, self.window.shape(), 1.0)?;
+            let narrow = self.make_room(&now.p, self.window.shape(), point, false)?;
             if narrow {
                 continue;
             }
@@ -257,7 +259,7 @@ impl March {
             start.p
         });
         if let Some(p) = &touch {
-            self.make_room(&self.plan.mirror.fold(p), p.dim(), 1.0)?;
+            self.make_room(&self.plan.mirror.fold(p), p.dim(), point, false)?;
         }
         loop {
             self.carry(point);
@@ -278,7 +280,7 @@ impl March {
                 &normal,
                 self.extrapolates,
             );
-            if !self.make_room(&start.p, self.window.shape(), self.growth(point))? {
+            if !self.make_room(&start.p, self.window.shape(), point, true)? {
                 return Ok(Some(start));
             }
         }
@@ -306,6 +308,11 @@ impl March {
 
     /// The friction coefficient of each cell after what it has been through.
     fn update_friction(&mut self) {
+        let friction = &self.scene.friction;
+        let changes = friction.kinetic.is_some() || friction.history.is_some();
+        if !changes && self.window.friction_map.is_empty() {
+            return;
+        }
         for n in 0..self.mu.len() {
             let (friction, state) = (&self.scene.friction, &self.state);
             let slipped = self.before().slip[n];

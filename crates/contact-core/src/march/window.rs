@@ -4,7 +4,7 @@
 //! touch. So an increment is solved in a window around the contact, with room between the two, and
 //! ends with a look at the gap beyond: where cells overlap there, it is solved again on the whole
 //! grid. What a look has found clear stays so until the tractions have changed by enough to close it.
-//! The window begins around the first guess of the contact and grows with it.
+//! The window begins around the first guess of the contact and grows with it (`room`).
 
 use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
@@ -15,22 +15,13 @@ use super::slip_datum::Datum;
 use super::{March, State};
 use crate::convolution::{
     CirculantInverse, DcFft, Displacements, FrequencyDomain, Half, Mirror, SurfaceOperator,
-    Tractions, good_size,
+    Tractions,
 };
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, Quadrant, norm, pair_coefficients_until};
-use crate::scene::{Grid, KernelMethod, LoadPoint, Plan, Preset, Scene};
+use crate::scene::{Grid, KernelMethod, Plan, Preset, Scene};
 use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface, Response, sums};
 use crate::stop::NOBODY;
-
-/// Cells between the contact and the border of the window.
-const ROOM: usize = 4;
-/// What a window is made longer than the contact that asks for it.
-const GROWTH: f64 = 1.08;
-/// Part of the grid's length from which a window is not worth it.
-const WHOLE: f64 = 0.9;
-/// The least cells along an axis of a window.
-const LEAST: usize = 32;
 
 /// Cells in the middle of the grid, and what the solvers need to know of them.
 pub(super) struct Window {
@@ -156,15 +147,6 @@ impl Whole {
 }
 
 impl Window {
-    /// The shape of the window to begin with: the whole grid where cells have to be kept everywhere.
-    pub(super) fn first(scene: &Scene, plan: &Plan) -> (usize, usize) {
-        if plan.window {
-            shape_for(&scene.grid, [LEAST, LEAST])
-        } else {
-            shape_of(&scene.grid)
-        }
-    }
-
     /// Cells along x and along y.
     pub(super) fn shape(&self) -> (usize, usize) {
         shape_of(&self.grid)
@@ -176,23 +158,8 @@ impl Window {
     }
 }
 
-fn shape_of(grid: &Grid) -> (usize, usize) {
+pub(super) fn shape_of(grid: &Grid) -> (usize, usize) {
     (grid.nx, grid.ny)
-}
-
-/// The shape of a window in which so many cells along x and y fit, the longest that transforms take
-/// no longer for.
-fn shape_for(grid: &Grid, cells: [usize; 2]) -> (usize, usize) {
-    let along = |whole: usize, cells: usize| {
-        let longest = good_size(2 * cells) / 2;
-        let even = longest - (whole - longest.min(whole)) % 2;
-        if even as f64 >= WHOLE * whole as f64 {
-            whole
-        } else {
-            even
-        }
-    };
-    (along(grid.nx, cells[0]), along(grid.ny, cells[1]))
 }
 
 /// The nx x ny entries in the middle of a field.
@@ -201,25 +168,30 @@ fn middle(field: &Array2<f64>, (nx, ny): (usize, usize)) -> Array2<f64> {
     Array2::from_shape_fn((nx, ny), |(a, b)| field[(i + a, j + b)])
 }
 
-/// A field of kept cells on more cells around the same middle, `elsewhere` on the new ones.
-fn embedded<T: Copy>(
+/// A field of kept cells on more cells around the same middle, `elsewhere` on the new ones; or on fewer.
+pub(super) fn embedded<T: Copy>(
     field: &[T],
     from: (usize, usize),
     to: (usize, usize),
     mirror: Mirror,
     elsewhere: T,
 ) -> Vec<T> {
-    let i = (to.0 - from.0) / 2;
-    let j = match mirror {
-        Mirror::None => (to.1 - from.1) / 2,
+    // Where the one begins in the other.
+    let begins =
+        |from: usize, to: usize| (to.saturating_sub(from) / 2, from.saturating_sub(to) / 2);
+    let (i, i_from) = begins(from.0, to.0);
+    let (j, j_from) = match mirror {
+        Mirror::None => begins(from.1, to.1),
         // The half begins in the middle.
-        Mirror::Y => 0,
+        Mirror::Y => (0, 0),
     };
-    let mut wide = vec![elsewhere; to.0 * to.1];
-    for (row, values) in field.chunks(from.1).enumerate() {
-        wide[(i + row) * to.1 + j..][..from.1].copy_from_slice(values);
+    let (columns, rows) = (from.0.min(to.0), from.1.min(to.1));
+    let mut embedded = vec![elsewhere; to.0 * to.1];
+    for column in 0..columns {
+        let values = &field[(i_from + column) * from.1 + j_from..][..rows];
+        embedded[(i + column) * to.1 + j..][..rows].copy_from_slice(values);
     }
-    wide
+    embedded
 }
 
 impl Interface {
@@ -267,52 +239,6 @@ impl March {
         let beyond = (self.whole.grid.lock()).unwrap_or_else(PoisonError::into_inner);
         let beyond = beyond.as_ref().map_or(0, |grid| grid.op.transforms());
         self.whole.transforms + self.window.op.transforms() + beyond
-    }
-
-    /// Makes the window wide enough for a contact of pressure `p`, given on the kept cells of a grid
-    /// around the same middle, that grows by a `factor`; whether it was not. Fails where the run is
-    /// stopped meanwhile.
-    pub(super) fn make_room(
-        &mut self,
-        p: &[f64],
-        (nx, ny): (usize, usize),
-        factor: f64,
-    ) -> Result<bool, Error> {
-        if !self.is_windowed() {
-            return Ok(false);
-        }
-        let rows = self.plan.mirror.rows(ny);
-        // Cells from the middle to the far side of one.
-        let reach = |i: usize, n: usize| (2 * i + 1).abs_diff(n).div_ceil(2) + 1;
-        let mut half = [0; 2];
-        for (n, _) in p.iter().enumerate().filter(|(_, p)| **p > 0.0) {
-            half[0] = half[0].max(reach(n / rows, nx));
-            half[1] = half[1].max(reach(n % rows + ny - rows, ny));
-        }
-        let half = half.map(|half| (half as f64 * factor).ceil() as usize);
-        let (now, whole) = (self.window.shape(), &self.scene.grid);
-        let narrow = |half: usize, n: usize, whole: usize| n < whole && 2 * (half + ROOM) > n;
-        if !narrow(half[0], now.0, whole.nx) && !narrow(half[1], now.1, whole.ny) {
-            return Ok(false);
-        }
-        let cells = half.map(|half| 2 * ((half as f64 * GROWTH).ceil() as usize + ROOM));
-        self.widen(shape_for(whole, [cells[0].max(now.0), cells[1].max(now.1)]))?;
-        Ok(true)
-    }
-
-    /// What the contact is expected to grow by in an increment to `point`: a cone's grows like the
-    /// root of the force, a sphere's like the root of the approach.
-    pub(super) fn growth(&self, point: &LoadPoint) -> f64 {
-        let (last, now) = (&self.state.loads, &point.loads);
-        let (from, to) = match now.given.delta_z {
-            Some(delta_z) => (self.state.motion.delta_z, delta_z),
-            None => (last.W, now.W),
-        };
-        if from > 0.0 && to > from {
-            (to / from).sqrt()
-        } else {
-            1.0
-        }
     }
 
     /// How far the cells beyond the window are at least from overlapping in this solution \[m\]; `None`
@@ -364,7 +290,7 @@ impl March {
         let whole = &mut self.whole;
         *whole.grid.get_mut().unwrap_or_else(PoisonError::into_inner) = Some(grid);
         if clear < 0.0 {
-            self.widen(shape_of(&self.scene.grid))?;
+            self.move_into(shape_of(&self.scene.grid))?;
             return Ok(None);
         }
         Ok(Some(clear))
@@ -394,17 +320,21 @@ impl March {
         })
     }
 
-    /// Lays out a wider window and puts the present state into it; where the run is stopped meanwhile
-    /// nothing is changed.
-    pub(super) fn widen(&mut self, shape: (usize, usize)) -> Result<(), Error> {
+    /// Lays out a wider window, or a narrower one, and puts the present state into it; where the run is
+    /// stopped meanwhile nothing is changed.
+    pub(super) fn move_into(&mut self, shape: (usize, usize)) -> Result<(), Error> {
         let whole = (self.whole.grid.get_mut()).unwrap_or_else(PoisonError::into_inner);
         let known = whole.take_if(|whole| whole.shape() == shape);
-        let wider = match known {
+        let next = match known {
             Some(window) => window,
             None => self.laid_out(shape)?,
         };
-        self.whole.transforms += self.window.op.transforms();
-        self.window = wider;
+        let last = std::mem::replace(&mut self.window, next);
+        if last.grid == self.scene.grid {
+            *(self.whole.grid.get_mut()).unwrap_or_else(PoisonError::into_inner) = Some(last);
+        } else {
+            self.whole.transforms += last.op.transforms();
+        }
         let cells = self.window.h_init.len();
         self.carried = None;
         self.mu = vec![self.scene.friction.mu; cells];
@@ -427,6 +357,10 @@ impl March {
         self.state = state.embedded(from, to, mirror);
         self.state.window = self.window.shape();
         let old = embedded(&vec![true; from.0 * from.1], from, to, mirror, false);
+        self.unwidened.get_or_insert(state);
+        if !old.contains(&false) {
+            return;
+        }
         let mut computed = self.state.interface.clone();
         computed.evaluate(&mut plain(&mut *self.window.op), self.plan.friction);
         let now = &mut self.state.interface;
@@ -436,7 +370,6 @@ impl March {
                 now[n] = new[n];
             }
         }
-        self.unwidened.get_or_insert(state);
     }
 
     /// What a field on the whole grid is in the window, on the kept cells.
