@@ -195,7 +195,7 @@ pub(super) fn embedded<T: Copy>(
 }
 
 impl Interface {
-    /// The same in a wider window; the displacements are not those of the new cells.
+    /// The same in another window; in a wider one the displacements are not those of the new cells.
     fn embedded(&self, from: (usize, usize), to: (usize, usize), mirror: Mirror) -> Self {
         let wide = |f: &Vec<f64>| embedded(f, from, to, mirror, 0.0);
         let pair = |f: &[Vec<f64>; 2]| [wide(&f[0]), wide(&f[1])];
@@ -211,7 +211,7 @@ impl Interface {
 }
 
 impl State {
-    /// The same in a wider window; the displacements are not those of the new cells.
+    /// The same in another window; in a wider one the displacements are not those of the new cells.
     fn embedded(&self, from: (usize, usize), to: (usize, usize), mirror: Mirror) -> Self {
         let wide = |f: &Vec<f64>| embedded(f, from, to, mirror, 0.0);
         let pair = |f: &[Vec<f64>; 2]| [wide(&f[0]), wide(&f[1])];
@@ -242,8 +242,8 @@ impl March {
     }
 
     /// How far the cells beyond the window are at least from overlapping in this solution \[m\]; `None`
-    /// where some do overlap, and the window is the whole grid from now on. Fails where the run is
-    /// stopped meanwhile.
+    /// where some do overlap, and the window is the whole grid now. Fails where the run is stopped
+    /// meanwhile.
     pub(super) fn clear_beyond(
         &mut self,
         now: &Interface,
