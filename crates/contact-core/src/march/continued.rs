@@ -4,13 +4,14 @@
 //! with which the shear falls short of its bound inside a stick zone that shrinks. The squares can
 //! be interpolated: p^2, and with it q/p; near the stick zone (m p - |q|)^2, m being |q|/p where
 //! cells slip. Between the middles of the cells they are taken bilinear, at the borders as
-//! `lattice` continues them from inside. Where these do not tell the border (a punch with a
+//! `level` continues them from inside. Where these do not tell the border (a punch with a
 //! sharp edge, a contact of few cells) the tractions stay as they are.
 
 use ndarray::{Array2, Axis, Zip};
 use std::ops::Range;
 
-use super::lattice::{Edge, Lattice, POWER, Power, ROOT};
+use super::lattice::Lattice;
+use super::level::{Edge, POWER, Power, ROOT};
 use super::partial_cells::{SHRINKS, STICK};
 use crate::convolution::{Mirror, Tractions};
 use crate::scene::Grid;

@@ -17,6 +17,7 @@ mod increment;
 mod kept_contact;
 mod lattice;
 mod least_squares;
+mod level;
 mod neighbours;
 mod parabola;
 mod partial_cells;

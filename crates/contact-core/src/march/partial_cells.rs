@@ -16,12 +16,13 @@
 //! it is at the end, if an increment is about as long as a cell. If it is longer whole cells count, with
 //! what the zone has grown since the middle of the increment (`balance`).
 //!
-//! How a level is continued to the border: `lattice`.
+//! How a level is continued to the border: `level`.
 
 use ndarray::Array2;
 
 use super::March;
-use super::lattice::{Edge, Lattice, Level, Line, POWER, Power, ROOT};
+use super::lattice::Lattice;
+use super::level::{Edge, Level, Line, POWER, Power, ROOT};
 use crate::convolution::Mirror;
 use crate::reference::dundurs_beta;
 use crate::scene::Grid;
