@@ -10,6 +10,7 @@
 //! cell enters at theta = h_init/delta_z of the increment, and its motion is -theta d(delta), which
 //! the solution has yet to tell.
 
+use super::equations::Contact;
 use super::kept_contact::KeptContact;
 use super::neighbours::Neighbours;
 use super::screened::Screened;
@@ -36,22 +37,43 @@ impl March {
     ) -> Result<Solution, Error> {
         let drives = self.drives(point);
         if !self.lets_cells_enter(&drives) {
-            return self.solve_pressed(start, drives, None, false);
+            return self.solve_pressed(start, drives, Contact::Free);
         }
         if self.state.interface.p.iter().all(|&p| p <= 0.0) {
             return self.solve_first_contact(start, drives);
         }
-        let mut kept = self.before().clone();
-        if drives.0.free[0] {
-            let factor = drives.0.sums[0] / kept.p.iter().sum::<f64>();
-            kept.p.iter_mut().for_each(|p| *p *= factor);
-        }
-        let (kept, info) = self.solve_pressed(kept, drives, None, true)?;
+        let kept = self.on_old_cells(&start, &drives.0);
+        let (kept, info) = self.solve_pressed(kept, drives, Contact::Kept)?;
         let p = &self.before().p;
         let moved = self.kept_contact(&kept, &info).moved(|n| p[n] <= 0.0);
-        let (now, mut found) = self.solve_pressed(start, drives, Some(&moved), false)?;
+        // The new cells are all that is missing, unless the old ones alone were not to be had.
+        let solved = !info.exceeds_friction() && kept.p.iter().any(|&p| p > 0.0);
+        let start = if solved { kept.clone() } else { start };
+        let entered = Contact::Entered {
+            moved: &moved,
+            kept: solved.then_some(&kept),
+        };
+        let (now, mut found) = self.solve_pressed(start, drives, entered)?;
         found.add_work(&info);
         Ok((now, found))
+    }
+
+    /// The first guess on the old cells alone: pressure as predicted, scaled to the load, shear as it was.
+    fn on_old_cells(&self, start: &Interface, normal: &Drive) -> Interface {
+        let mut kept = self.before().clone();
+        let old = kept.p.iter().map(|&p| p > 0.0);
+        let predicted: Vec<_> = old
+            .zip(&start.p)
+            .map(|(old, &p)| if old { p } else { 0.0 })
+            .collect();
+        if predicted.iter().any(|&p| p > 0.0) {
+            kept.p = predicted;
+        }
+        if normal.free[0] {
+            let factor = normal.sums[0] / kept.p.iter().sum::<f64>();
+            kept.p.iter_mut().for_each(|p| *p *= factor);
+        }
+        kept
     }
 
     /// What an increment with the contact kept to its old cells has done.
@@ -107,8 +129,11 @@ impl March {
                 };
                 (0..self.window.h_init.len()).map(moved).collect()
             };
-            let entering = [moved(0), moved(1)];
-            let (now, mut info) = self.solve_pressed(start, drives, Some(&entering), false)?;
+            let entered = Contact::Entered {
+                moved: &[moved(0), moved(1)],
+                kept: None,
+            };
+            let (now, mut info) = self.solve_pressed(start, drives, entered)?;
             info.add_work(&work);
             work = info;
             let misfit: [f64; 3] = std::array::from_fn(|k| info.shift[k] - assumed[k]);

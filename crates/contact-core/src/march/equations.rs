@@ -10,17 +10,35 @@ use crate::solvers::{
     TangentialMethod, TangentialParams, coupled,
 };
 
+/// The cells that may touch at the end of an increment.
+#[derive(Clone, Copy)]
+pub(super) enum Contact<'a> {
+    /// All, wherever they come from.
+    Free,
+    /// Those of the last contact alone.
+    Kept,
+    /// All; those outside the last contact enter it after a motion \[m\].
+    Entered {
+        moved: &'a [Vec<f64>; 2],
+        /// The solution on the cells of the last contact.
+        kept: Option<&'a Interface>,
+    },
+}
+
 impl March {
-    /// Solves the increment from a start, with cells outside the contact `entering` after that motion
-    /// \[m\]; on the cells of the last contact alone if it is `kept`.
+    /// Solves the increment from a start.
     pub(super) fn solve_pressed(
         &mut self,
         mut now: Interface,
         (normal, tangential): (Drive, Drive),
-        entering: Option<&[Vec<f64>; 2]>,
-        kept: bool,
+        contact: Contact<'_>,
     ) -> Result<(Interface, CoupledInfo), Error> {
         self.unless_stopped()?;
+        let (entering, nearby) = match contact {
+            Contact::Entered { moved, kept } => (Some(moved), kept),
+            Contact::Free | Contact::Kept => (None, None),
+        };
+        let kept = matches!(contact, Contact::Kept);
         let apart;
         let h_init = if kept {
             let far =
@@ -37,13 +55,14 @@ impl March {
         // As March::before, for the sake of the workspace borrowed beside it.
         let carried = self.carried.as_ref();
         let before = carried.map_or(&self.state.interface, Carried::interface);
+        let last = carried.is_none().then_some(&self.state.interface);
         let problem = IncrementProblem {
             h_init,
             mu: &self.mu,
             arms: &self.window.arms,
             normal,
             tangential,
-            known: carried.is_none().then_some(&self.state.interface),
+            known: nearby.or(last),
         };
         let mut response = Response {
             op: &mut *self.window.op,
@@ -51,10 +70,10 @@ impl March {
             stop: Some(&self.stop),
             exact: false,
         };
-        let share = match entering {
-            _ if kept => KEPT_SHARE,
-            Some(_) => ENTERED_SHARE,
-            None => 1.0,
+        let share = match contact {
+            Contact::Free => 1.0,
+            Contact::Kept => KEPT_SHARE,
+            Contact::Entered { .. } => ENTERED_SHARE,
         };
         let params = params(&self.scene, self.approach, share);
         let solver = &self.scene.settings.solver;
