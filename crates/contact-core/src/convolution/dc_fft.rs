@@ -16,6 +16,7 @@ pub struct DcFft {
     product: SpectralProduct<f64>,
     single: Option<SpectralProduct<f32>>,
     rounding: f64,
+    norm: f64,
     coupled: bool,
     self_coefficients: (f64, f64),
 }
@@ -65,6 +66,7 @@ impl DcFft {
             } else {
                 0.0
             },
+            norm: norm_of_shear(coefficients) * mirror.multiplicity().sqrt(),
             single: single.transpose()?,
             coupled: coupling,
             self_coefficients: coefficients.at_origin(),
@@ -76,6 +78,12 @@ impl DcFft {
 fn largest_norm(c: &InfluenceCoefficients) -> f64 {
     let kernels = [&c.xx, &c.yy, &c.zz, &c.xy, &c.xz, &c.yz];
     kernels.into_iter().map(norm).fold(0.0, f64::max)
+}
+
+/// The largest norm of what a cell under shear does in the plane \[m/Pa\].
+fn norm_of_shear(c: &InfluenceCoefficients) -> f64 {
+    let across = norm(&c.xy);
+    norm(&c.xx).hypot(across).max(norm(&c.yy).hypot(across))
 }
 
 impl SurfaceOperator for DcFft {
@@ -96,6 +104,10 @@ impl SurfaceOperator for DcFft {
 
     fn rounding(&self) -> f64 {
         self.rounding
+    }
+
+    fn norm(&self) -> f64 {
+        self.norm
     }
 
     fn transforms(&self) -> usize {

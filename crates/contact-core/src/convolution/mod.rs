@@ -75,6 +75,12 @@ pub trait SurfaceOperator: Send + Sync {
         0.0
     }
 
+    /// What shear moves the surfaces by in their plane at most, root of the sum of squares, over the sum of
+    /// the sizes of its components \[m/Pa\]; infinite where that is not known.
+    fn norm(&self) -> f64 {
+        f64::INFINITY
+    }
+
     /// Two-dimensional transforms done so far; a three-component convolution takes six.
     fn transforms(&self) -> usize;
 

@@ -81,6 +81,7 @@ impl March {
             slip: (0..last.slip.len())
                 .map(|n| self.source(n, cells).is_some_and(|n| last.slip[n]))
                 .collect(),
+            owed: last.owed.map(|field| roll(field)),
             rounding: last.rounding,
         };
         for n in 0..last.p.len() {

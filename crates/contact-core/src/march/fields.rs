@@ -15,7 +15,8 @@ pub struct Fields {
     pub q_x: Array2<f64>,
     /// Shear traction on body 2 along y \[Pa\].
     pub q_y: Array2<f64>,
-    /// Relative surface displacement u(2) - u(1) along x \[m\].
+    /// Relative surface displacement u(2) - u(1) along x \[m\], that of the tractions within the tolerance of
+    /// the slip (root mean square over the contact).
     pub u_x: Array2<f64>,
     /// Relative surface displacement along y \[m\].
     pub u_y: Array2<f64>,

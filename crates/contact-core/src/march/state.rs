@@ -82,11 +82,13 @@ impl State {
             u,
             u_z,
             slip,
+            owed,
             rounding: _,
         } = &self.interface;
         let fields = [p, u_z, &self.slip_length, &self.dissipated, &self.p_before];
         let pairs = [q, u, &self.slip, &self.q_before, &self.missed];
         let fields = fields.into_iter().chain(pairs.into_iter().flatten());
-        fields.into_iter().all(|f| f.len() == cells) && slip.len() == cells
+        let owes = owed.q.iter().all(|f| f.len() == cells) || !owed.owes();
+        fields.into_iter().all(|f| f.len() == cells) && slip.len() == cells && owes
     }
 }

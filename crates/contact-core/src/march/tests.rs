@@ -1,5 +1,5 @@
 //! A flag that is raised at any moment of an increment: how much is still computed. What is known of
-//! the cells beyond the window without a look.
+//! the cells beyond the window without a look. What displacements owe.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -72,6 +72,10 @@ impl SurfaceOperator for Clocked {
 
     fn rounding(&self) -> f64 {
         self.op.rounding()
+    }
+
+    fn norm(&self) -> f64 {
+        self.op.norm()
     }
 
     fn transforms(&self) -> usize {
@@ -225,4 +229,68 @@ fn cells_beyond_the_window_are_as_far_as_they_are_known_to_be() {
         march.state.clear = known;
     }
     assert!(2 * not_looked > increments, "{not_looked} of {increments}");
+}
+
+/// Displacements answer to the shear but for what is owed, and this moves the surfaces by no more than it
+/// says; nothing adds up along the path.
+#[test]
+fn displacements_are_those_of_the_shear_less_what_is_owed() {
+    let more = ["grid.n=64", "solver.tolerance=1e-5", "path.0.increments=10"];
+    let more = more
+        .into_iter()
+        .chain(["path.1.increments=40", "path.2.increments=80"]);
+    let settings: Vec<String> = more.map(str::to_owned).collect();
+    let scene = Scene::from_toml_str(COATED, "coated", &settings).unwrap();
+    let mut march = March::new(&scene).unwrap();
+    let allowed = 0.6 * 0.9 * 0.3 * scene.tolerance() * march.approach;
+    let mut owing = 0;
+    while let Some(increment) = march.advance() {
+        increment.unwrap();
+        let now = march.state.interface.clone();
+        let cells = now.p.len();
+        let answer = |march: &mut March, q: [&[f64]; 2], p: Option<&[f64]>| {
+            let mut u = [vec![0.0; cells], vec![0.0; cells], vec![0.0; cells]];
+            let [u_x, u_y, u_z] = &mut u;
+            let tractions = Tractions {
+                q_x: Some(q[0]),
+                q_y: Some(q[1]),
+                p,
+            };
+            let displacements = Displacements {
+                u_x: Some(u_x),
+                u_y: Some(u_y),
+                u_z: Some(u_z),
+            };
+            march.window.op.apply(tractions, displacements);
+            u
+        };
+        let mut answered = [vec![0.0; cells], vec![0.0; cells]];
+        now.answered(answered.each_mut().map(|q| &mut q[..]));
+        let u = answer(&mut march, [&answered[0], &answered[1]], Some(&now.p));
+        let rounded = 0.1 * scene.tolerance() * march.approach;
+        for (kept, u) in [&now.u[0], &now.u[1], &now.u_z].into_iter().zip(&u) {
+            let off = kept.iter().zip(u).map(|(a, b)| (a - b).abs());
+            let off = off.fold(0.0, f64::max);
+            assert!(off <= rounded, "{off:e} {rounded:e}");
+        }
+
+        if !now.owed.owes() {
+            continue;
+        }
+        let [owed_x, owed_y] = &now.owed.q;
+        let u = answer(&mut march, [owed_x, owed_y], None);
+        let (mut squares, mut contact) = (0.0, 0.0);
+        for n in (0..cells).filter(|&n| now.p[n] > 0.0) {
+            squares += u[0][n].powi(2) + u[1][n].powi(2);
+            contact += 1.0;
+        }
+        let moved = (squares / contact).sqrt();
+        let says = now.owed.moves;
+        assert!(
+            moved <= says && says <= allowed,
+            "{moved:e} {says:e} {allowed:e}"
+        );
+        owing += 1;
+    }
+    assert!(owing > 20, "{owing}");
 }

@@ -205,6 +205,7 @@ impl Interface {
             u: pair(&self.u),
             u_z: wide(&self.u_z),
             slip: embedded(&self.slip, from, to, mirror, false),
+            owed: self.owed.map(wide),
             rounding: self.rounding,
         }
     }

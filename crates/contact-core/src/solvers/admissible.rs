@@ -11,28 +11,15 @@ const ROUNDS: usize = 8;
 /// Makes the shear admissible without asking for its response: slip cells and cells beyond the
 /// bound go to the circle |q| = g, cells outside the contact to zero, and stick cells share the
 /// force that is missing. Where they cannot carry it, the nearest admissible shear is taken.
-///
-/// The change of q goes to `change`; returns the root of its sum of squares \[Pa\].
 pub(crate) fn admissible(
     problem: &TangentialProblem<'_>,
     q: &mut [&mut [f64]; 2],
     slip: &mut [bool],
-    change: &mut [Vec<f64>; 2],
-) -> f64 {
-    for field in change.iter_mut() {
-        field.resize(problem.bound.len(), 0.0);
-    }
-    let [change_x, change_y] = change;
-    set([&*q[0], &*q[1]], [change_x, change_y], |_, q, _| q);
+) {
     if !share_force(problem, q, slip) {
         project(problem, q, &mut [0.0; 3]);
         mark_circle(problem, q, slip);
     }
-    let [squares] = sweep([&*q[0], &*q[1]], [change_x, change_y], |_, q, before| {
-        let change = [q[0] - before[0], q[1] - before[1]];
-        (change, [change[0] * change[0] + change[1] * change[1]])
-    });
-    squares.sqrt()
 }
 
 /// Cuts the shear to the bound and lets the stick cells share the missing loads, by the smallest

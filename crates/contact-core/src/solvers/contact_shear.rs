@@ -1,6 +1,7 @@
 //! The tangential problem on the contact cells alone, packed.
 
 use super::contact_cells::ContactCells;
+use super::owed::Owed;
 use super::rigid_motion::{Arms, Drive};
 use super::shear::{Shear, TangentialProblem};
 use super::sweep::sums;
@@ -18,6 +19,7 @@ pub(crate) struct ContactShear {
     q: Pair,
     u: Pair,
     slip: Vec<bool>,
+    owed: Owed,
 }
 
 impl ContactShear {
@@ -31,6 +33,7 @@ impl ContactShear {
         (self.arms.length, self.arms.stretch) = (problem.arms.length, problem.arms.stretch);
         let ([u_ref_x, u_ref_y], [q_x, q_y], [u_x, u_y]) =
             (&mut self.u_ref, &mut self.q, &mut self.u);
+        let [owed_x, owed_y] = &mut self.owed.q;
         cells.pack_all([
             (problem.bound, &mut self.bound),
             (problem.turning, &mut self.turning),
@@ -42,7 +45,10 @@ impl ContactShear {
             (shear.q[1], q_y),
             (shear.u[0], u_x),
             (shear.u[1], u_y),
+            (&shear.owed.q[0], owed_x),
+            (&shear.owed.q[1], owed_y),
         ]);
+        self.owed.moves = shear.owed.moves;
         self.slip.resize(cells.count(), false);
         cells.pack(shear.slip, &mut self.slip);
     }
@@ -62,6 +68,7 @@ impl ContactShear {
             q: [q_x, q_y],
             u: [u_x, u_y],
             slip: &mut self.slip,
+            owed: &mut self.owed,
         };
         (problem, shear)
     }
@@ -77,12 +84,21 @@ impl Shear<'_> {
         cells.pack(grid.slip, self.slip);
     }
 
-    /// Puts shear and slip set back; the displacements of the grid have followed all along.
+    /// Puts shear, slip set and what is owed back; the displacements of the grid have followed all along.
     pub(crate) fn unpack(&self, cells: &ContactCells, grid: &mut Shear<'_>) {
         for c in 0..2 {
             cells.unpack(self.q[c], grid.q[c]);
         }
         cells.unpack(self.slip, grid.slip);
+        if self.owed.owes() {
+            let on_grid = grid.owed.extend(grid.q[0].len());
+            for (packed, field) in self.owed.q.iter().zip(on_grid) {
+                cells.unpack(packed, field);
+            }
+            grid.owed.moves = self.owed.moves;
+        } else {
+            grid.owed.settle();
+        }
     }
 }
 

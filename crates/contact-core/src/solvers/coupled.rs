@@ -128,6 +128,7 @@ pub struct CoupledWorkspace {
     tangential: TangentialWorkspace,
     bound: Vec<f64>,
     p_before: Vec<f64>,
+    /// The shear that u_z answers to.
     q_before: [Vec<f64>; 2],
     change: [Vec<f64>; 2],
     response: [Vec<f64>; 2],
@@ -158,12 +159,17 @@ impl CoupledWorkspace {
     }
 
     fn change_of_shear(&mut self, now: &Interface) {
-        let [change_x, change_y] = &mut self.change;
-        let before = &self.q_before;
+        let ([change_x, change_y], before) = (&mut self.change, &self.q_before);
         let from = [&now.q[0][..], &now.q[1], &before[0], &before[1]];
         set(from, [change_x, change_y], |_, [q_x, q_y, x, y], _| {
             [q_x - x, q_y - y]
         });
+        if now.owed.owes() {
+            let [x, y] = &now.owed.q;
+            set([&x[..], y], [change_x, change_y], |_, owed, change| {
+                [change[0] - owed[0], change[1] - owed[1]]
+            });
+        }
     }
 }
 
@@ -234,9 +240,7 @@ fn look(
             }
 
             // Shear for known pressure: the bound moves with the pressure.
-            for c in 0..2 {
-                copy(&now.q[c], &mut ws.q_before[c]);
-            }
+            now.answered(ws.q_before.each_mut().map(|q| &mut q[..]));
             if found.iterations > 0 {
                 slides = make_admissible(problem, datum.displacements(), now, ws, friction);
                 follow_pressure(response, now, ws, coupled);
@@ -409,7 +413,7 @@ fn make_admissible(
         }
     } else {
         let [q_x, q_y] = &mut now.q;
-        admissible(&slip, &mut [q_x, q_y], &mut now.slip, &mut ws.change);
+        admissible(&slip, &mut [q_x, q_y], &mut now.slip);
     }
     slides
 }
@@ -419,13 +423,14 @@ pub(crate) fn friction_bound(mu: f64, p: f64) -> f64 {
     if p > 0.0 { mu * p } else { 0.0 }
 }
 
-/// u_t after the pressure changed from `p_before` and the shear from `q_before`.
+/// u_t after the pressure changed from `p_before` and the shear that is answered from `q_before`.
 fn follow_pressure(
     response: &mut Response<'_>,
     now: &mut Interface,
     ws: &mut CoupledWorkspace,
     coupled: bool,
 ) {
+    now.owed.settle();
     ws.change_of_shear(now);
     set([&now.p[..]], [&mut ws.p_before], |_, [p], [before]| {
         [p - before]

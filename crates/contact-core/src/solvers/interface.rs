@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::owed::Owed;
 use super::sweep::{set, sums, sweep};
+use super::vector::copy;
 use super::{Response, Shear};
 use crate::convolution::{Displacements, Tractions};
 
@@ -19,6 +21,8 @@ pub struct Interface {
     pub u_z: Vec<f64>,
     /// Contact cells that slip.
     pub slip: Vec<bool>,
+    /// What of the shear the displacements leave out.
+    pub(crate) owed: Owed,
     /// What answers with some digits only may have added to the displacements \[m\].
     pub(crate) rounding: f64,
 }
@@ -33,6 +37,7 @@ impl Interface {
             u: [field(), field()],
             u_z: field(),
             slip: vec![false; cells],
+            owed: Owed::default(),
             rounding: 0.0,
         }
     }
@@ -49,6 +54,22 @@ impl Interface {
             q: [q_x, q_y],
             u: [u_x, u_y],
             slip: &mut self.slip,
+            owed: &mut self.owed,
+        }
+    }
+
+    /// The shear that the displacements answer to.
+    pub(crate) fn answered(&self, to: [&mut [f64]; 2]) {
+        let ([q_x, q_y], [owed_x, owed_y]) = (&self.q, &self.owed.q);
+        if self.owed.owes() {
+            let from = [&q_x[..], q_y, owed_x, owed_y];
+            set(from, to, |_, [x, y, owed_x, owed_y], _| {
+                [x - owed_x, y - owed_y]
+            });
+        } else {
+            let [x, y] = to;
+            copy(q_x, x);
+            copy(q_y, y);
         }
     }
 
@@ -62,11 +83,12 @@ impl Interface {
         let [u_x, u_y] = &mut self.u;
         let displacements = wanted(response, shear, [u_x, u_y, &mut self.u_z]);
         response.op.apply(tractions, displacements);
+        self.owed.settle();
         self.rounding = 0.0;
     }
 
     /// Computes the displacements from `known` ones of tractions nearby, and the answer to what these
-    /// differ by; `change` is a buffer.
+    /// differ by and to what they owe; `change` is a buffer.
     pub(super) fn follow(
         &mut self,
         known: &Self,
@@ -75,17 +97,21 @@ impl Interface {
         change: [&mut [f64]; 3],
     ) {
         let [q_x, q_y, p] = change;
-        let difference = |to: &mut [f64], now: &[f64], known: &[f64]| {
-            let [squares] = sweep([now, known], [to], |_, [now, known], _| {
+        let difference = |to: &mut [f64], now: &[f64], known: &[f64], owed: &[f64]| {
+            let [squares] = sweep([now, known], [&mut *to], |_, [now, known], _| {
                 let change = now - known;
                 ([change], [change * change])
             });
-            squares != 0.0
+            if !owed.is_empty() {
+                set([owed], [to], |_, [owed], [change]| [change + owed]);
+            }
+            squares != 0.0 || !owed.is_empty()
         };
+        let [owed_x, owed_y] = &known.owed.q;
         let changes = [
-            shear && difference(q_x, &self.q[0], &known.q[0]),
-            shear && difference(q_y, &self.q[1], &known.q[1]),
-            difference(p, &self.p, &known.p),
+            shear && difference(q_x, &self.q[0], &known.q[0], owed_x),
+            shear && difference(q_y, &self.q[1], &known.q[1], owed_y),
+            difference(p, &self.p, &known.p, &[]),
         ];
         let tractions = Tractions {
             q_x: changes[0].then_some(&*q_x),
@@ -100,6 +126,7 @@ impl Interface {
         for (u, known) in pairs.zip([&known.u[0], &known.u[1], &known.u_z]) {
             set([&known[..]], [u], |_, [known], [u]| [known + u]);
         }
+        self.owed.settle();
         self.rounding = known.rounding + response.rounding() * self.differs(known.tractions());
     }
 

@@ -17,6 +17,7 @@ mod limit;
 mod mixing;
 mod newton_step;
 mod normal;
+mod owed;
 mod projected_gradient;
 mod response;
 mod rigid_motion;

@@ -47,7 +47,7 @@ pub(crate) struct NewtonStep {
     z: Pair,
     direction: Pair,
     /// C x, and C times what was added to x, \[m\] on the grid.
-    pub(crate) response_x: Pair,
+    response_x: Pair,
     /// Traction and displacement on the grid.
     traction: Pair,
     displacement: Pair,
@@ -222,8 +222,7 @@ impl NewtonStep {
         target: f64,
         max_passes: usize,
     ) -> usize {
-        clear(&mut self.x);
-        clear(&mut self.response_x);
+        self.restart();
         let mut last_product = 0.0;
         for pass in 0..max_passes {
             if self.residual_norm <= target || response.stopped() {
@@ -320,19 +319,38 @@ impl NewtonStep {
         });
     }
 
-    /// C times a change of the contact cells, in place; it is added to what x causes.
-    pub(crate) fn respond(
+    /// Adds C times what is owed to the displacements and to what x causes.
+    pub(crate) fn answer(
         &mut self,
         response: &mut Response<'_>,
         contact: &ContactCells,
-        change: &mut Pair,
+        shear: &mut Shear<'_>,
     ) {
-        contact.unpack_pair(change, &mut self.traction);
+        contact.unpack_pair(&shear.owed.q, &mut self.traction);
         let [q_x, q_y] = &self.traction;
         let [u_x, u_y] = &mut self.displacement;
         response.tangential([q_x, q_y], [u_x, u_y]);
-        contact.pack_pair(&self.displacement, change);
+        contact.pack_pair(&self.displacement, &mut self.z);
+        let ([z_x, z_y], [u_x, u_y]) = (&self.z, &mut shear.u);
+        set([&z_x[..], z_y], [u_x, u_y], |_, z, u| {
+            [u[0] + z[0], u[1] + z[1]]
+        });
+        shear.owed.settle();
         self.add_response(1.0);
+    }
+
+    /// Adds C x and what has been answered since to the displacements of the grid.
+    pub(crate) fn follow_on_grid(&self, grid: &mut Shear<'_>) {
+        let ([of_x, of_y], [u_x, u_y]) = (&self.response_x, &mut grid.u);
+        set([&of_x[..], of_y], [u_x, u_y], |_, of, u| {
+            [u[0] + of[0], u[1] + of[1]]
+        });
+    }
+
+    /// Begins anew: x = 0.
+    pub(crate) fn restart(&mut self) {
+        clear(&mut self.x);
+        clear(&mut self.response_x);
     }
 
     /// Adds x and C x to the shear; returns the shift that the equations of the tangent space ask

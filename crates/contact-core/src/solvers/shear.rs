@@ -1,5 +1,6 @@
 //! What the tangential solvers are given, work on and end with.
 
+use super::owed::Owed;
 use super::rigid_motion::{Arms, Drive, add};
 
 /// What is given: the friction bound, the reference of the slip, what drives the shift.
@@ -70,10 +71,12 @@ pub struct TangentialInfo {
 pub struct Shear<'a> {
     /// q_x, q_y \[Pa\]; on entry a guess.
     pub q: [&'a mut [f64]; 2],
-    /// Total u_x, u_y \[m\], belonging to q on entry and on exit.
+    /// Total u_x, u_y \[m\], belonging to q on entry and on exit, but for what is owed.
     pub u: [&'a mut [f64]; 2],
     /// Contact cells that slip; on entry a guess.
     pub slip: &'a mut [bool],
+    /// What of q the displacements leave out.
+    pub(crate) owed: &'a mut Owed,
 }
 
 /// The shift that fits the stick cells best, or all contact cells where none sticks.

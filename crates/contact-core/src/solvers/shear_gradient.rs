@@ -120,7 +120,7 @@ pub(crate) fn shear_gradient(
             }
             shear.slip[n] = g > 0.0 && size([shear.q[0][n], shear.q[1][n]]) > g;
         }
-        admissible(problem, &mut shear.q, shear.slip, &mut ws.change);
+        admissible(problem, &mut shear.q, shear.slip);
         for c in 0..2 {
             let terms = ws.change[c].iter_mut().zip(shear.q[c].iter());
             for ((change, q), before) in terms.zip(&ws.q_before[c]) {

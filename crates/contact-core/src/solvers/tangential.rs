@@ -25,7 +25,6 @@ use super::newton_step::NewtonStep;
 use super::projected_gradient::ProjectedGradient;
 use super::shear::{Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift};
 use super::shear_gradient::GradientBuffers;
-use super::sweep::set;
 use super::vector::{set_cells, size};
 use super::{Response, SolverError};
 
@@ -36,7 +35,6 @@ pub struct TangentialWorkspace {
     contact: ContactShear,
     before: Before,
     step: NewtonStep,
-    change: [Vec<f64>; 2],
     pub(crate) descent: ProjectedGradient,
     pub(crate) gradient: GradientBuffers,
 }
@@ -49,7 +47,6 @@ impl TangentialWorkspace {
             contact: ContactShear::default(),
             before: Before::default(),
             step: NewtonStep::new(cells),
-            change: [Vec::new(), Vec::new()],
             descent: ProjectedGradient::default(),
             gradient: GradientBuffers::default(),
         }
@@ -59,6 +56,13 @@ impl TangentialWorkspace {
 /// A slip set counts as settled when no slip cell moves along its shear by more than this part of
 /// the tolerance, and a change of q is negligible when it moves no cell by more than that.
 const SETTLED: f64 = 0.1;
+
+/// Part of the tolerance that the last conjugate gradients aim at: what the circles bend adds to it.
+const AIM: f64 = 0.4;
+
+/// Part of the tolerance that shear may move the surfaces by and yet be owed; only where the displacements
+/// that mean no slip follow, since other steps may be taken back.
+const LEFT: f64 = 0.6;
 
 /// Passes of projected gradients after a Newton step that would have raised the energy.
 const DESCENT: usize = 10;
@@ -83,7 +87,6 @@ pub fn tangential(
         contact,
         before,
         step,
-        change,
         ..
     } = ws;
     cells.find(problem.bound.len(), |n| problem.bound[n] > 0.0);
@@ -95,6 +98,7 @@ pub fn tangential(
         shift: first_shift(&inside, &now),
         ..Default::default()
     };
+    let follows = !problem.turning.is_empty();
     let mut fits = 0;
     let (mut least, mut stalled) = (f64::INFINITY, 0);
     loop {
@@ -102,6 +106,14 @@ pub fn tangential(
         let fitted = step.linearise(&inside, &now, info.shift, c_xx);
         info.misfit = step.residual_norm() / root_of_contact;
         let solved = !released && info.misfit <= params.tolerance;
+        if now.owed.owes()
+            && (!follows || solved && info.misfit + now.owed.moves > params.tolerance)
+        {
+            step.restart();
+            step.answer(response, cells, &mut now);
+            step.follow_on_grid(shear);
+            continue;
+        }
         let ahead = |k: usize| (fitted[k] - info.shift[k]).abs();
         if solved && (0..3).all(|k| ahead(k) <= settled) {
             now.unpack(cells, shear);
@@ -125,20 +137,26 @@ pub fn tangential(
             continue;
         }
         info.iterations += 1;
-        let follows = !problem.turning.is_empty();
         if !follows {
             before.keep(&now);
         }
-        let target = (params.forcing * info.misfit).max(0.3 * params.tolerance);
+        let target = (params.forcing * info.misfit).max(AIM * params.tolerance);
         info.passes += step.solve(response, cells, target * root_of_contact, params.max_passes);
         info.shift = step.take(cells, &inside, &mut now);
         mark_slip(&inside, &mut now, info.shift);
-        if admissible(&inside, &mut now.q, now.slip, change) > settled / c_xx {
-            step.respond(response, cells, change);
-            let ([of_x, of_y], [u_x, u_y]) = (&*change, &mut now.u);
-            set([&of_x[..], of_y], [u_x, u_y], |_, of, u| {
-                [u[0] + of[0], u[1] + of[1]]
-            });
+        now.owed.take(now.q.each_ref().map(|q| &**q));
+        admissible(&inside, &mut now.q, now.slip);
+        let norm = response.op.norm() / root_of_contact;
+        let changed = now.owed.put(now.q.each_ref().map(|q| &**q), norm);
+        let negligible = if follows {
+            now.owed.moves <= LEFT * params.tolerance
+        } else {
+            changed <= settled / c_xx
+        };
+        if !negligible {
+            step.answer(response, cells, &mut now);
+        } else if !follows {
+            now.owed.settle();
         }
         let circles = stalled > 0 && stalled.is_multiple_of(CIRCLES);
         if !follows && (circles || before.is_lower(&inside, &now, info.shift, settled)) {
@@ -148,10 +166,7 @@ pub fn tangential(
             info.passes += DESCENT;
             now.pack(cells, shear);
         } else {
-            let ([of_x, of_y], [u_x, u_y]) = (&step.response_x, &mut shear.u);
-            set([&of_x[..], of_y], [u_x, u_y], |_, of, u| {
-                [u[0] + of[0], u[1] + of[1]]
-            });
+            step.follow_on_grid(shear);
         }
         if follows {
             now.unpack(cells, shear);
@@ -162,7 +177,7 @@ pub fn tangential(
 
 /// Stick cells beyond the bound start to slip; slip cells whose slip goes along q stick.
 fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
-    let Shear { q, u, slip } = shear;
+    let Shear { q, u, slip, .. } = shear;
     set_cells(slip, |n, slips| {
         let q = [q[0][n], q[1][n]];
         if slips {
@@ -180,7 +195,7 @@ fn release(
     shift: [f64; 3],
     tolerance: f64,
 ) -> bool {
-    let Shear { q, u, slip } = shear;
+    let Shear { q, u, slip, .. } = shear;
     let released = AtomicBool::new(false);
     set_cells(slip, |n, slips| {
         let along = |slip| power([q[0][n], q[1][n]], slip) > tolerance * problem.bound[n];

@@ -140,7 +140,8 @@ impl Audit {
         found
     }
 
-    /// The displacements are those of the tractions, everywhere.
+    /// The displacements are those of the tractions: everywhere, but in the plane of the contact, where the
+    /// shear may owe some, in the root mean square.
     fn response(&mut self, march: &March, now: &Fields) -> f64 {
         let cells = now.p.len();
         let friction = march.plan().friction;
@@ -157,17 +158,28 @@ impl Audit {
                 u_z: Some(&mut u_z),
             },
         );
-        let off = |of: &Array2<f64>, u: &[f64]| {
-            let off = of.iter().zip(u).map(|(of, u)| (of - u).abs());
-            off.fold(0.0, f64::max)
-        };
-        let along = off(&now.u_x, &u_x).max(off(&now.u_y, &u_y));
+        let touches = |n: usize| now.contact.as_slice().is_some_and(|c| c[n]);
+        // In the contact the shear may owe them what the tolerance of the slip says, root mean square.
+        let (mut squares, mut beyond) = (0.0, 0.0_f64);
+        for (of, u) in [(&now.u_x, &u_x), (&now.u_y, &u_y)] {
+            for (n, (of, u)) in of.iter().zip(u).enumerate() {
+                let off = of - u;
+                if touches(n) {
+                    squares += off * off;
+                } else {
+                    beyond = beyond.max(off.abs());
+                }
+            }
+        }
+        let within = squares.sqrt() / Misfit::root_of_cells(now);
         let along = if friction {
-            along / self.misfit.slip
+            within.max(beyond) / self.misfit.slip
         } else {
             0.0
         };
-        along.max(off(&now.u_z, &u_z) / self.misfit.gap)
+        let off = now.u_z.iter().zip(&u_z).map(|(of, u)| (of - u).abs());
+        let off = off.fold(0.0, f64::max);
+        along.max(off / self.misfit.gap)
     }
 
     /// p >= 0, no gap under pressure, no overlap without, as the tolerance says: the first in the

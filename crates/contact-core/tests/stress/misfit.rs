@@ -64,7 +64,7 @@ impl Misfit {
         }
     }
 
-    fn root_of_cells(fields: &Fields) -> f64 {
+    pub(crate) fn root_of_cells(fields: &Fields) -> f64 {
         let cells = fields.contact.iter().filter(|c| **c).count();
         (cells.max(1) as f64).sqrt()
     }
