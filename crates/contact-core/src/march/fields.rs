@@ -62,6 +62,22 @@ impl March {
         ]
     }
 
+    /// What of the shear, along x and y \[Pa\], the displacements after the last increment leave out: the
+    /// next increment answers it. It moves the surfaces by less than the tolerance of the slip, root mean
+    /// square over the contact.
+    pub fn owed(&self) -> [Array2<f64>; 2] {
+        let owed = &self.state.interface.owed;
+        if !owed.owes() {
+            let shape = (self.scene.grid.nx, self.scene.grid.ny);
+            return [Array2::zeros(shape), Array2::zeros(shape)];
+        }
+        let [x, y] = &owed.q;
+        [
+            self.on_grid(x, Half::Even),
+            self.on_grid(y, Half::Odd) * self.window.arms.stretch,
+        ]
+    }
+
     /// The shear tractions q_x, q_y after the last increment on the whole grid \[Pa\], shape (nx, ny).
     pub fn shear(&self) -> [Array2<f64>; 2] {
         let q = &self.state.interface.q;

@@ -3,8 +3,8 @@
 //! When a Newton step ends, slip cells return to the circle and stick cells share the force that this
 //! takes. Towards the end what that moves the surfaces by is far within the tolerance, but to know it takes
 //! a whole convolution. It is left to the next one, of this increment or of the first guess of the next,
-//! so that nothing adds up along the path; until then its bound counts as a misfit of the slip. What it does to the gap is less by the coupling, and
-//! not counted.
+//! so that nothing adds up along the path; until then its bound counts as a misfit of the slip. What it
+//! does to the gap is less by the coupling, and not counted.
 
 use serde::{Deserialize, Serialize};
 

@@ -140,46 +140,54 @@ impl Audit {
         found
     }
 
-    /// The displacements are those of the tractions: everywhere, but in the plane of the contact, where the
-    /// shear may owe some, in the root mean square.
+    /// The displacements are those of the tractions less the shear that is owed, everywhere; and what is
+    /// owed moves the contact by no more than the tolerance of the slip, root mean square.
     fn response(&mut self, march: &March, now: &Fields) -> f64 {
-        let cells = now.p.len();
+        let owed = march.owed();
+        let answered = [&now.q_x - &owed[0], &now.q_y - &owed[1]];
         let friction = march.plan().friction;
-        let [mut u_x, mut u_y, mut u_z] = [(); 3].map(|()| vec![0.0; cells]);
+        let u = self.answer(&answered, friction, Some(&now.p));
+        let off = |of: &Array2<f64>, u: &[f64]| {
+            let off = of.iter().zip(u).map(|(of, u)| (of - u).abs());
+            off.fold(0.0, f64::max)
+        };
+        let across = off(&now.u_z, &u[2]) / self.misfit.gap;
+        if !friction {
+            return across;
+        }
+        let along = off(&now.u_x, &u[0]).max(off(&now.u_y, &u[1]));
+        let [x, y, _] = self.answer(&owed, friction, None);
+        let moved = now.contact.iter().zip(x.iter().zip(&y));
+        let squares: f64 = moved
+            .filter(|(touches, _)| **touches)
+            .map(|(_, (x, y))| x * x + y * y)
+            .sum();
+        let moved = squares.sqrt() / Misfit::root_of_cells(now);
+        across.max(along.max(moved) / self.misfit.slip)
+    }
+
+    /// u_x, u_y, u_z under tractions \[m\].
+    fn answer(
+        &mut self,
+        q: &[Array2<f64>; 2],
+        friction: bool,
+        p: Option<&Array2<f64>>,
+    ) -> [Vec<f64>; 3] {
+        let mut u = [(); 3].map(|()| vec![0.0; q[0].len()]);
+        let [u_x, u_y, u_z] = &mut u;
         self.op.respond(
             Tractions {
-                q_x: now.q_x.as_slice().filter(|_| friction),
-                q_y: now.q_y.as_slice().filter(|_| friction),
-                p: now.p.as_slice(),
+                q_x: q[0].as_slice().filter(|_| friction),
+                q_y: q[1].as_slice().filter(|_| friction),
+                p: p.and_then(|p| p.as_slice()),
             },
             Displacements {
                 u_x: friction.then_some(&mut u_x[..]),
                 u_y: friction.then_some(&mut u_y[..]),
-                u_z: Some(&mut u_z),
+                u_z: Some(&mut u_z[..]),
             },
         );
-        let touches = |n: usize| now.contact.as_slice().is_some_and(|c| c[n]);
-        // In the contact the shear may owe them what the tolerance of the slip says, root mean square.
-        let (mut squares, mut beyond) = (0.0, 0.0_f64);
-        for (of, u) in [(&now.u_x, &u_x), (&now.u_y, &u_y)] {
-            for (n, (of, u)) in of.iter().zip(u).enumerate() {
-                let off = of - u;
-                if touches(n) {
-                    squares += off * off;
-                } else {
-                    beyond = beyond.max(off.abs());
-                }
-            }
-        }
-        let within = squares.sqrt() / Misfit::root_of_cells(now);
-        let along = if friction {
-            within.max(beyond) / self.misfit.slip
-        } else {
-            0.0
-        };
-        let off = now.u_z.iter().zip(&u_z).map(|(of, u)| (of - u).abs());
-        let off = off.fold(0.0, f64::max);
-        along.max(off / self.misfit.gap)
+        u
     }
 
     /// p >= 0, no gap under pressure, no overlap without, as the tolerance says: the first in the
