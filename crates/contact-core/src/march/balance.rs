@@ -32,11 +32,18 @@ impl March {
                 let energy = self.energies(point, &now, &motion, cell_area);
                 (energy, self.residuals(point, &now, info, cell_area))
             },
-            || self.zones(&now),
+            || {
+                let (_, shift) = self.change(&motion);
+                self.zones(&now, |n| {
+                    let slip = self.slip(&now, shift, n);
+                    size(held(slip, &self.datum.moved, &now, self.before(), n))
+                })
+            },
         );
         let [contact_area, without_slip] = [zones.contact, zones.stick].map(|n| n * cell_area);
-        let grown = self.grown_to_the_end(without_slip, slipping > 0);
-        let stick_area = (without_slip + zones.behind * (grown - without_slip)).min(contact_area);
+        let stick_area = self
+            .grown_to_the_end(without_slip, slipping > 0)
+            .min(contact_area);
         let mut increment = Increment {
             index: last.increments + 1,
             point: *point,
@@ -140,13 +147,12 @@ impl March {
             }
             let p = mean(p, p_before);
             let du_z = now.u_z[n] - last.u_z[n];
-            let shift = self.window.arms.in_plane(shift, n);
             let stretch = self.stretch_at(n);
             let wider = self.gap_rolled(n);
             let entered = self.entered_at(n);
             let mut elastic = p * du_z;
             let (mut trapezoidal, mut of_bulk) = (0.0, 0.0);
-            let slip = [0, 1].map(|c| now.u[c][n] - last.u[c][n] - entered[c] - shift[c]);
+            let slip = self.slip(now, shift, n);
             let mut opening = -p * (du_z + wider - self.window.arms.across(approach, n));
             for c in 0..2 {
                 let q = mean(now.q[c][n], last.q[c][n]);
@@ -183,6 +189,13 @@ impl March {
             opening: opening * cell_area,
             quadrature: quadrature * cell_area,
         }
+    }
+
+    /// The slip of a cell in the increment \[m\].
+    fn slip(&self, now: &Interface, shift: [f64; 3], n: usize) -> [f64; 2] {
+        let (last, entered) = (self.before(), self.entered_at(n));
+        let shift = self.window.arms.in_plane(shift, n);
+        [0, 1].map(|c| now.u[c][n] - last.u[c][n] - entered[c] - shift[c])
     }
 
     /// Motions across and in the plane from the present state, rotations times the length \[m\].

@@ -11,7 +11,7 @@ use ndarray::{Array2, Axis, Zip};
 use std::ops::Range;
 
 use super::lattice::Lattice;
-use super::level::{Edge, POWER, Power, ROOT};
+use super::level::{Edge, Power, Told};
 use super::partial_cells::{SHRINKS, STICK};
 use crate::convolution::{Mirror, Tractions};
 use crate::scene::Grid;
@@ -177,7 +177,7 @@ impl Border {
     fn of_contact(grid: &Grid, p: &Array2<f64>) -> Self {
         let contact: Vec<bool> = p.iter().map(|&p| p > 0.0).collect();
         let level = p.mapv(|p| p.max(0.0).powi(2));
-        let edges = Lattice::new(grid, Mirror::None).edges(&contact, [ROOT], |_| {
+        let edges = Lattice::new(grid, Mirror::None).edges(&contact, [Told::ROOT], |_| {
             ([Power::Two], |n: usize| p[(n / grid.ny, n % grid.ny)])
         });
         Self::new(&level, &edges)
@@ -291,9 +291,10 @@ impl StickZone {
             }
         });
         // Where the zone grows the shear goes like the power 3/2: that needs nothing.
-        let mut edges = Lattice::new(grid, Mirror::None).edges(stick, [ROOT, POWER], |_| {
-            (STICK, |n: usize| short((n / grid.ny, n % grid.ny)))
-        });
+        let mut edges =
+            Lattice::new(grid, Mirror::None).edges(stick, [Told::ROOT, Told::LINEAR], |_| {
+                (STICK, |n: usize| short((n / grid.ny, n % grid.ny)))
+            });
         edges.retain(|(n, _)| p[(n / grid.ny, n % grid.ny)] > 0.0);
         for (_, edge) in &mut edges {
             edge.level = edge.level.filter(|level| level.law == SHRINKS);

@@ -3,7 +3,7 @@
 //! A root is not told by the outermost cells: that one shows a border that is off by up to a tenth of a
 //! cell, the second by a thirtieth, those further in by less than a hundredth. So f is continued outwards
 //! from these: along that line of cells, out of eight, that meets the border most squarely, by the parabola
-//! through the next cells. A higher power is told by all. Where the continued f is zero runs the border, a
+//! through the next cells. A linear law is told by all, slip by those next to its border. Where the continued f is zero runs the border, a
 //! straight line within a cell.
 
 use super::lattice::Lattice;
@@ -12,10 +12,6 @@ use super::parabola::Parabola;
 /// Farthest that the border may lie from the middle between the outermost cell of the zone and its
 /// neighbour outside, in cells along the line: beyond, f is no such level (a punch with a sharp edge).
 const FARTHEST: f64 = 1.5;
-/// How much further out than the true border the level of a root vanishes with constant tractions, in
-/// cells: the mean over places and directions of the border within the cells, of Hertz contacts and of
-/// their stick zones.
-const SPREAD: f64 = 0.012;
 /// Most cells of a line that tell the level.
 const ALONG: usize = 7;
 /// Cells of a zone on a line that tell its border, each as it comes. In a zone of more the error that
@@ -23,11 +19,42 @@ const ALONG: usize = 7;
 /// (k/L)^4 of its length L, are least together with every (L/24)^(3/5)-th cell. Worth it where the two
 /// ends of a line are all there is; along a closed border such errors have either sign.
 const CLOSE: f64 = 24.0;
-/// Outermost cells that a root of the distance is told without, and a higher power.
-pub(super) const ROOT: usize = 2;
-pub(super) const POWER: usize = 0;
 /// A level that bends by less of its rise needs no other law.
 const STRAIGHT: f64 = 0.1;
+
+/// Which cells tell a level.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Told {
+    /// Outermost cells that do not.
+    skipped: usize,
+    /// Most cells of a line, with these.
+    most: usize,
+    /// How much further out than the true border the level vanishes with constant tractions, in cells: the
+    /// mean over places and directions of the border within the cells.
+    spread: f64,
+}
+
+impl Told {
+    /// Of a root of the distance; the spread is that of Hertz contacts and of their stick zones.
+    pub(super) const ROOT: Self = Self {
+        skipped: 2,
+        most: ALONG,
+        spread: 0.012,
+    };
+    /// Of a linear law, or a root that is only looked for.
+    pub(super) const LINEAR: Self = Self {
+        skipped: 0,
+        most: ALONG,
+        spread: 0.0,
+    };
+    /// Of slip, which changes over the width of a slip ring: the cells next to its border. The spread is
+    /// that of the slip of Hertz contacts that are pushed.
+    pub(super) const SLIP: Self = Self {
+        skipped: 0,
+        most: 3,
+        spread: 0.024,
+    };
+}
 
 /// The power of a value that makes a level.
 #[derive(Clone, Copy, Debug)]
@@ -100,6 +127,17 @@ pub(super) struct Edge {
 }
 
 impl Edge {
+    /// The same border, told of what lies on its other side; whether the cell is there.
+    pub(super) fn other_side(self, inside: bool) -> Self {
+        let level = self.level.map(|level| Level {
+            spread: -level.spread,
+            middle: -level.middle,
+            gradient: level.gradient.map(|g| -g),
+            ..level
+        });
+        Self { level, inside }
+    }
+
     /// The part of the cell that belongs to the zone, 0 to 1; all or nothing where the cells do not
     /// tell.
     pub(super) fn share(&self) -> f64 {
@@ -117,20 +155,29 @@ impl Lattice {
     /// Every cell at the border of a zone, in it or next to it, in order.
     ///
     /// `laws` of a line of cells gives K powers and the value of a cell on it: the value to one of
-    /// them vanishes linearly at the border, the straightest counts, and so many outermost cells as
-    /// are `skipped` by it do not tell.
+    /// them vanishes linearly at the border, the straightest counts, as its cells tell it.
     pub(super) fn edges<const K: usize, V: Fn(usize) -> f64>(
         self,
         zone: &[bool],
-        skipped: [usize; K],
+        told: [Told; K],
         laws: impl Fn(Line) -> ([Power; K], V),
     ) -> Vec<(usize, Edge)> {
-        let level = |n: usize| {
-            let inside = zone[n];
-            let level = self.level(n, zone, skipped, &laws);
-            (n, Edge { level, inside })
-        };
-        self.border(zone).into_iter().map(level).collect()
+        let edge = |n: usize| (n, self.edge(n, zone, told, &laws));
+        self.border(zone).into_iter().map(edge).collect()
+    }
+
+    /// One of these cells.
+    pub(super) fn edge<const K: usize, V: Fn(usize) -> f64>(
+        self,
+        n: usize,
+        zone: &[bool],
+        told: [Told; K],
+        laws: &impl Fn(Line) -> ([Power; K], V),
+    ) -> Edge {
+        Edge {
+            level: self.level(n, zone, told, laws),
+            inside: zone[n],
+        }
     }
 
     /// The straightest level at the centre of a cell, continued from inside.
@@ -138,7 +185,7 @@ impl Lattice {
         self,
         n: usize,
         zone: &[bool],
-        skipped: [usize; K],
+        told: [Told; K],
         laws: &impl Fn(Line) -> ([Power; K], V),
     ) -> Option<Level> {
         let in_zone = |m: &usize| zone[*m];
@@ -186,9 +233,14 @@ impl Lattice {
                 (law, along) = (other, others);
             }
         }
-        let parabola = Parabola::through(&along[..line.count], skipped[law])?;
+        let Told {
+            skipped,
+            most,
+            spread,
+        } = told[law];
+        let parabola = Parabola::through(&along[..line.count.min(most)], skipped)?;
         // The outermost cell, and this one, on the parabola.
-        let outermost = -(skipped[law] as f64);
+        let outermost = -(skipped as f64);
         let place = 0.5 - stride * parabola.at(outermost) / parabola.slope(outermost);
         let here = outermost - first as f64 / stride;
         let slope = parabola.slope(here) / stride;
@@ -209,11 +261,7 @@ impl Lattice {
         Some(Level {
             line,
             law,
-            spread: if skipped[law] == ROOT {
-                SPREAD / stride
-            } else {
-                0.0
-            },
+            spread: spread / stride,
             middle: parabola.at(here),
             gradient,
         })
@@ -270,7 +318,7 @@ mod tests {
         let zone: Vec<bool> = f.iter().map(|&f| f > 0.0).collect();
         let lattice = Lattice::new(&grid, mirror);
         let whole = zone.iter().filter(|&&inside| inside).count() as f64;
-        let edges = lattice.edges(&zone, [ROOT], |_| ([Power::One], |n: usize| f[n]));
+        let edges = lattice.edges(&zone, [Told::ROOT], |_| ([Power::One], |n: usize| f[n]));
         let partial: f64 = edges
             .iter()
             .map(|(n, edge)| {

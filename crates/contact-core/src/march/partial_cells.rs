@@ -11,10 +11,13 @@
 //!
 //! with Dundurs' beta and the shear q_n towards the inside on body 2 (a rim that slides on dissimilar
 //! bodies; Comninou, J. Appl. Mech. 43 (1976) 631). Of the laws that may hold the one counts whose level is
-//! the straightest. Where a stick zone grows, cells stick with the shear that they slipped with, and each
-//! increment adds a root of the distance from where the border then is: together the power 3/2 from where
-//! it is at the end, if an increment is about as long as a cell. If it is longer whole cells count, with
-//! what the zone has grown since the middle of the increment (`balance`).
+//! the straightest.
+//!
+//! Where a stick zone grows, cells stick with the shear that they slipped with, and how they fall short of
+//! their bound tells where the border was in every increment. There the slip s of the increment tells it,
+//! which goes like d^(3/2) from the border outwards, f = s^(2/3): the border in the middle of the increment,
+//! to second order, since what slips in all of it are the cells outside that. What the zone has grown since
+//! is in `balance`.
 //!
 //! How a level is continued to the border: `level`.
 
@@ -22,7 +25,7 @@ use ndarray::Array2;
 
 use super::March;
 use super::lattice::Lattice;
-use super::level::{Edge, Level, Line, POWER, Power, ROOT};
+use super::level::{Edge, Level, Line, Power, Told};
 use crate::convolution::Mirror;
 use crate::reference::dundurs_beta;
 use crate::scene::Grid;
@@ -30,9 +33,8 @@ use crate::solvers::{Interface, friction_bound, size};
 
 /// The laws of a stick zone's border, by the power of mu p - q . t that vanishes linearly.
 pub(super) const STICK: [Power; 2] = [Power::Two, Power::TwoThirds];
-/// Of these that of a zone that shrinks and that of one that grows.
+/// Of these that of a zone that shrinks; the other is that of one that grows.
 pub(super) const SHRINKS: usize = 0;
-const GROWS: usize = 1;
 
 /// Areas, in kept cells.
 #[derive(Clone, Copy, Debug)]
@@ -40,14 +42,11 @@ pub(super) struct Zones {
     pub(super) contact: f64,
     /// The stick zone.
     pub(super) stick: f64,
-    /// Part of the border of the stick zone that lies where it was in the middle of the increment, if
-    /// the zone grows.
-    pub(super) behind: f64,
 }
 
 impl March {
-    /// Areas of the contact and of the stick zone.
-    pub(super) fn zones(&self, now: &Interface) -> Zones {
+    /// Areas of the contact and of the stick zone, given the slip of a cell in the increment \[m\].
+    pub(super) fn zones(&self, now: &Interface, slip: impl Fn(usize) -> f64) -> Zones {
         let lattice = Lattice::new(&self.window.grid, self.plan.mirror);
         let beta = dundurs_beta(self.scene.body1.outermost(), self.scene.body2.outermost());
         let contact: Vec<bool> = now.p.iter().map(|&p| p > 0.0).collect();
@@ -56,7 +55,7 @@ impl March {
             .zip(&now.slip)
             .map(|(&c, &s)| c && !s)
             .collect();
-        let rim = lattice.edges(&contact, [ROOT, POWER], |line| {
+        let rim = lattice.edges(&contact, [Told::ROOT, Told::LINEAR], |line| {
             let at = line.outermost();
             let q_n = now.q[0][at] * line.inwards[0] + now.q[1][at] * line.inwards[1];
             let e = (beta * q_n / now.p[at]).atan() / std::f64::consts::PI;
@@ -77,39 +76,52 @@ impl March {
             return Zones {
                 contact: contact_area,
                 stick: contact_area,
-                behind: 0.0,
             };
         }
-        let slipping = |line: &Line| {
-            let outside = contact[line.outside];
-            let n = if outside {
+        // What the shear of a cell falls short of its bound along that of a cell that slips.
+        let shortfall = |at: &Interface, n: usize, slipping: usize| {
+            let q = [now.q[0][slipping], now.q[1][slipping]];
+            let [x, y] = q.map(|q_k| q_k / size(q).max(f64::MIN_POSITIVE));
+            friction_bound(self.mu[n], at.p[n]) - (at.q[0][n] * x + at.q[1][n] * y)
+        };
+        let slips: Vec<bool> = now
+            .p
+            .iter()
+            .zip(&now.slip)
+            .map(|(&p, &s)| p > 0.0 && s)
+            .collect();
+        let beside = |line: &Line| {
+            if slips[line.outside] {
                 line.outside
             } else {
                 line.outermost()
-            };
-            let q = [now.q[0][n], now.q[1][n]];
-            q.map(|q_k| q_k / size(q).max(f64::MIN_POSITIVE))
+            }
         };
-        let shortfall = |at: &Interface, n: usize, [x, y]: [f64; 2]| {
-            friction_bound(self.mu[n], at.p[n]) - (at.q[0][n] * x + at.q[1][n] * y)
-        };
-        let mut border = lattice.edges(&stick, [ROOT, POWER], |line| {
-            let along = slipping(&line);
-            (STICK, move |n| shortfall(now, n, along))
+        let mut border = lattice.edges(&stick, [Told::ROOT, Told::LINEAR], |line| {
+            let slipping = beside(&line);
+            (STICK, move |n| shortfall(now, n, slipping))
         });
-        // The zone grows where the shear falls further behind its bound; cells that have come to stick
-        // in one increment, two deep, know nothing of the others.
+        // The zone grows where a cell has come to stick, or falls further behind its bound.
         let before = self.before();
-        let grows = |line: &Line| {
-            let along = slipping(line);
-            line.cells().get(1).is_some_and(|&n| {
-                let stuck = !before.slip[n] && before.p[n] > 0.0;
-                stuck && shortfall(now, n, along) > shortfall(before, n, along)
-            })
+        let grew = |stuck: usize, slipping: usize| {
+            let short = |at| shortfall(at, stuck, slipping);
+            before.p[stuck] > 0.0 && (before.slip[stuck] || short(now) > short(before))
         };
-        for (_, edge) in &mut border {
-            let told = |level: &Level| level.law == SHRINKS || grows(&level.line);
-            edge.level = edge.level.filter(told);
+        for (n, edge) in &mut border {
+            edge.level = edge.level.filter(|level| level.law == SHRINKS);
+            let line = edge.level.map(|level| level.line);
+            if line.is_some_and(|line| !grew(line.outermost(), beside(&line))) {
+                continue;
+            }
+            edge.level = None;
+            let laws = |_| ([Power::TwoThirds], &slip);
+            let by_slip = lattice.edge(*n, &slips, [Told::SLIP], &laws);
+            let grown = by_slip.level.is_some_and(|Level { line, .. }| {
+                stick[line.outside] && grew(line.outside, line.outermost())
+            });
+            if grown {
+                *edge = by_slip.other_side(stick[*n]);
+            }
         }
         for (n, edge) in &mut border {
             if let Ok(at) = rim.binary_search_by_key(n, |(n, _)| *n)
@@ -118,13 +130,9 @@ impl March {
                 *edge = rim[at].1;
             }
         }
-        let at_end =
-            |(_, edge): &&(usize, Edge)| edge.level.is_some_and(|level| level.law == GROWS);
-        let at_end = border.iter().filter(at_end).count();
         Zones {
             contact: contact_area,
             stick: area(&stick, &border),
-            behind: 1.0 - at_end as f64 / border.len().max(1) as f64,
         }
     }
 }
@@ -139,7 +147,7 @@ pub fn continued_pressure(p: &Array2<f64>, grid: &Grid) -> Array2<f64> {
     let lattice = Lattice::new(grid, Mirror::None);
     let contact: Vec<bool> = p.iter().map(|&p| p > 0.0).collect();
     let mut continued: Vec<f64> = p.iter().copied().collect();
-    let rim = lattice.edges(&contact, [ROOT], |_| {
+    let rim = lattice.edges(&contact, [Told::ROOT], |_| {
         ([Power::Two], |n: usize| continued[n])
     });
     for (n, edge) in rim {
