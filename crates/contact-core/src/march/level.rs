@@ -96,6 +96,11 @@ impl Line {
         self.cells[0]
     }
 
+    /// Leaves no more than the first cells to tell the level.
+    pub(super) fn shorten(&mut self, count: usize) {
+        self.count = self.count.min(count);
+    }
+
     /// The first cells of the zone, outermost first.
     pub(super) fn cells(&self) -> &[usize] {
         &self.cells[..self.count]
@@ -160,7 +165,7 @@ impl Lattice {
         self,
         zone: &[bool],
         told: [Told; K],
-        laws: impl Fn(Line) -> ([Power; K], V),
+        laws: impl Fn(&mut Line) -> ([Power; K], V),
     ) -> Vec<(usize, Edge)> {
         let edge = |n: usize| (n, self.edge(n, zone, told, &laws));
         self.border(zone).into_iter().map(edge).collect()
@@ -172,7 +177,7 @@ impl Lattice {
         n: usize,
         zone: &[bool],
         told: [Told; K],
-        laws: &impl Fn(Line) -> ([Power; K], V),
+        laws: &impl Fn(&mut Line) -> ([Power; K], V),
     ) -> Edge {
         Edge {
             level: self.level(n, zone, told, laws),
@@ -186,7 +191,7 @@ impl Lattice {
         n: usize,
         zone: &[bool],
         told: [Told; K],
-        laws: &impl Fn(Line) -> ([Power; K], V),
+        laws: &impl Fn(&mut Line) -> ([Power; K], V),
     ) -> Option<Level> {
         let in_zone = |m: &usize| zone[*m];
         let inwards = self.inwards(n, zone)?;
@@ -215,7 +220,7 @@ impl Lattice {
             line.cells[line.count] = m;
             line.count += 1;
         }
-        let (powers, value) = laws(line);
+        let (powers, value) = laws(&mut line);
         let mut values = [0.0; ALONG];
         for (value_k, &m) in values.iter_mut().zip(line.cells()) {
             *value_k = value(m);

@@ -36,6 +36,12 @@ pub(super) const STICK: [Power; 2] = [Power::Two, Power::TwoThirds];
 /// Of these that of a zone that shrinks; the other is that of one that grows.
 pub(super) const SHRINKS: usize = 0;
 
+/// Cells across a slip ring on dissimilar bodies up to which they tell its rim no better than with those
+/// that stick, whose pressure follows another law. In wider ones all do but the innermost, next to
+/// where that law begins, and no fewer than leave two after those that no root is told by.
+const RING: usize = 3;
+const FEWEST: usize = 4;
+
 /// Areas, in kept cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Zones {
@@ -57,6 +63,10 @@ impl March {
             .collect();
         let rim = lattice.edges(&contact, [Told::ROOT, Told::LINEAR], |line| {
             let at = line.outermost();
+            let ring = line.cells().iter().take_while(|&&n| now.slip[n]).count();
+            if beta != 0.0 && ring > RING {
+                line.shorten((ring - 1).max(FEWEST));
+            }
             let q_n = now.q[0][at] * line.inwards[0] + now.q[1][at] * line.inwards[1];
             let e = (beta * q_n / now.p[at]).atan() / std::f64::consts::PI;
             let power = if e == 0.0 {
@@ -98,14 +108,16 @@ impl March {
             }
         };
         let mut border = lattice.edges(&stick, [Told::ROOT, Told::LINEAR], |line| {
-            let slipping = beside(&line);
+            let slipping = beside(line);
             (STICK, move |n| shortfall(now, n, slipping))
         });
-        // The zone grows where a cell has come to stick, or falls further behind its bound.
+        // The zone grows where a cell has come to stick, but for a reversal, or falls further behind its
+        // bound.
         let before = self.before();
         let grew = |stuck: usize, slipping: usize| {
             let short = |at| shortfall(at, stuck, slipping);
-            before.p[stuck] > 0.0 && (before.slip[stuck] || short(now) > short(before))
+            let rests = before.slip[stuck] && self.datum.goes_on;
+            before.p[stuck] > 0.0 && (rests || short(now) > short(before))
         };
         for (n, edge) in &mut border {
             edge.level = edge.level.filter(|level| level.law == SHRINKS);
@@ -114,7 +126,7 @@ impl March {
                 continue;
             }
             edge.level = None;
-            let laws = |_| ([Power::TwoThirds], &slip);
+            let laws = |_: &mut Line| ([Power::TwoThirds], &slip);
             let by_slip = lattice.edge(*n, &slips, [Told::SLIP], &laws);
             let grown = by_slip.level.is_some_and(|Level { line, .. }| {
                 stick[line.outside] && grew(line.outside, line.outermost())
