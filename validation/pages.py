@@ -9,9 +9,10 @@ import matplotlib.pyplot as plt
 from PIL import Image
 
 import pyfret as fret
-from validation.truth import PLACES
+from validation.truth import LEFT_BY_CELLS
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from validation.runner import Ladder, Outcome
@@ -27,8 +28,8 @@ def percent(error: float) -> str:
     return f"{100 * error:+.2g} %"
 
 
-def table(ladder: Ladder, counted: str, *, orders: bool = True) -> str:
-    """Errors of every number at every size, the orders, and the run time."""
+def table(ladder: Ladder, counted: str, order: Callable[[str], float] | None) -> str:
+    """Errors of every number at every size, its order, and the run time."""
     names = ladder.names()
     rows = [
         "| " + " | ".join([counted, *names, "run time"]) + " |",
@@ -37,8 +38,8 @@ def table(ladder: Ladder, counted: str, *, orders: bool = True) -> str:
     for n, (size, seconds) in enumerate(zip(ladder.sizes, ladder.seconds, strict=True)):
         errors = [percent(ladder.errors(name)[n]) for name in names]
         rows.append("| " + " | ".join([str(size), *errors, f"{seconds:.2f} s"]) + " |")
-    if orders:
-        found = [ladder.order(name) for name in names]
+    if order is not None:
+        found = [order(name) for name in names]
         shown = ["" if math.isnan(order) else f"{order:.1f}" for order in found]
         rows.append("| " + " | ".join(["observed order", *shown, ""]) + " |")
     return "\n".join(rows)
@@ -50,7 +51,7 @@ def convergence(outcome: Outcome, file: Path) -> None:
     if outcome.increments is not None:
         ladders.append((outcome.increments, "increments"))
     if outcome.placed is not None:
-        ladders.append((outcome.placed, f"cells a side, mean of {PLACES} places"))
+        ladders.append((outcome.placed, f"cells a side, mean of {outcome.truth.places} places"))
     with fret.plot.style():
         figure, row = plt.subplots(
             1, len(ladders), figsize=(1.6 + 3.8 * len(ladders), 3.2), squeeze=False
@@ -97,17 +98,25 @@ def write(outcome: Outcome, folder: Path) -> None:
         f"On {outcome.grids.sizes[-1]} cells a side:",
         "\n".join(numbers),
         "## Error against the grid",
-        table(outcome.grids, "cells a side", orders=outcome.placed is None),
+        table(
+            outcome.grids, "cells a side", outcome.grids.order if outcome.placed is None else None
+        ),
     ]
     if outcome.increments is not None:
-        parts += ["## Error against the increments", table(outcome.increments, "increments")]
+        steps = outcome.increments
+        parts += [
+            "## Error against the increments",
+            table(steps, "increments", steps.order_along_path),
+            f"The order is that of errors {LEFT_BY_CELLS} times what is left with the most "
+            "increments, which is of the cells; none where there are fewer than two of these.",
+        ]
     if outcome.placed is not None:
         parts += [
             "## Error over the places of the rim within the cells",
-            f"Root mean square over {PLACES} grids whose cells differ by up to a tenth: single "
-            "runs go up and down by where the rim lies in its cells, so that only these tell an "
-            "order.",
-            table(outcome.placed, "cells a side"),
+            f"Root mean square over {truth.places} grids whose cells differ by up to a tenth: "
+            "single runs go up and down by where the rim lies in its cells, so that only these "
+            "tell an order.",
+            table(outcome.placed, "cells a side", outcome.placed.order),
         ]
     parts += [f"![errors]({truth.name}_error.png)"]
     if truth.remark:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import pyfret as fret
-from validation.truth import PLACES, Known, Truth, order, root_mean_square
+from validation.truth import LEFT_BY_CELLS, Known, Truth, order, root_mean_square
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -43,6 +43,11 @@ class Ladder:
     def order(self, name: str) -> float:
         """Order that a number converges with."""
         return order(self.sizes, self.errors(name))
+
+    def order_along_path(self, name: str) -> float:
+        """Order in the increments, of the errors that are not those of the cells."""
+        errors = self.errors(name)
+        return order(self.sizes, errors, above=max(LEFT_BY_CELLS * abs(errors[-1]), 1e-13))
 
 
 @dataclass(frozen=True)
@@ -109,7 +114,7 @@ def over_places(
     seconds, known = [], []
     for size in sizes:
         started = time.perf_counter()
-        runs = [fret.solve(scene(size, k), progress=False) for k in range(PLACES)]
-        seconds.append((time.perf_counter() - started) / PLACES)
+        runs = [fret.solve(scene(size, k), progress=False) for k in range(truth.places)]
+        seconds.append((time.perf_counter() - started) / truth.places)
         known.append(root_mean_square([truth.known(run) for run in runs]))
     return Ladder(sizes, seconds, known, [{} for _ in sizes])

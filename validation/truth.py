@@ -18,7 +18,10 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 
-#: Places of the rim within the cells that errors are averaged over.
+#: An order along the path is that of errors so many times what is left with the most increments,
+#: which the cells leave.
+LEFT_BY_CELLS = 3
+#: Places of the rim within the cells that errors are averaged over, if a truth says nothing else.
 PLACES = 8
 
 
@@ -78,10 +81,12 @@ class Truth:
     increments : tuple of int
         Their numbers.
     placed : callable, optional
-        The scene on a grid of so many cells a side, the rim of the contact at one of
-        :data:`PLACES` places within the cells: of errors that depend on that.
+        The scene on a grid of so many cells a side, the rim of the contact at one of several
+        places within the cells: of errors that depend on that.
     placed_grids : tuple of int
         Cells a side of these.
+    places : int
+        How many places.
     remark : str
         What explains the errors; Markdown.
     has_error_bars : bool
@@ -99,13 +104,17 @@ class Truth:
     increments: tuple[int, ...] = field(default=())
     placed: Callable[[int, int], fret.Scene] | None = None
     placed_grids: tuple[int, ...] = (32, 64, 128, 256)
+    places: int = PLACES
     remark: str = ""
     has_error_bars: bool = True
 
 
-def order(sizes: tuple[int, ...], errors: list[float]) -> float:
-    """Order that the errors fall with in the number of cells or increments, by least squares."""
-    known = [(n, abs(e)) for n, e in zip(sizes, errors, strict=True) if abs(e) > 1e-13]
+def order(sizes: tuple[int, ...], errors: list[float], *, above: float = 1e-13) -> float:
+    """Order that the errors fall with in the number of cells or increments, by least squares.
+
+    Of those larger than `above`; not a number if these are fewer than two.
+    """
+    known = [(n, abs(e)) for n, e in zip(sizes, errors, strict=True) if abs(e) > above]
     if len(known) < 2:
         return float("nan")
     n, e = np.log(np.array(known)).T

@@ -9,7 +9,7 @@ import numpy as np
 
 import pyfret as fret
 from validation.scenes import CORK, STEEL, R, W, hertz, sphere, stretched
-from validation.truth import Known, Truth
+from validation.truth import PLACES, Known, Truth
 from validation.truths.bodies import distance
 
 if TYPE_CHECKING:
@@ -89,20 +89,31 @@ def drawn(figure: Figure, result: fret.Result, *, pair: str) -> None:
     tractions.legend()
 
 
+#: Cells of a slip ring that tell neither its border nor the rim.
+THIN = 4
+
+
+def slip_ring(pair: str) -> float:
+    """Width of the slip ring at the end, in cells of 256 a side."""
+    return (1 - closed_form(pair)[0].stick_ratio) * 256 / 2.2
+
+
 def thin_ring(pair: str) -> str:
     """What a slip ring of few cells does to the radii."""
-    cells = (1 - closed_form(pair)[0].stick_ratio) * 256 / 2.2
-    if cells > 3:
+    if slip_ring(pair) > THIN:
         return ""
     return (
-        f" Here the slip ring is {cells:.1f} cells wide on 256 cells a side, and narrower on less: "
-        "the cells that tell the rim lie in the stick zone, and c is off by up to a third of a "
-        "cell, a by up to a tenth on all these grids."
+        f" Here the slip ring is {slip_ring(pair):.1f} cells wide on 256 cells a side: the cells "
+        "that tell the rim lie in the stick zone, where the pressure follows another law, and a "
+        "is off by up to an eighth of a cell until the ring is five cells wide."
     )
 
 
 def page(pair: str) -> Truth:
     """The page of a pair."""
+    thin = slip_ring(pair) < THIN
+    # Where only fine grids tell, an increment is as long as four cells.
+    coarser = 8 if thin else 2
     return Truth(
         name="coupled_indentation_" + pair.replace(" = ", "").replace(", ", "_").replace(".", ""),
         title=f"Coupled indentation, {pair}, on a rigid plane",
@@ -116,14 +127,15 @@ def page(pair: str) -> Truth:
         known=partial(known, pair=pair),
         draw=partial(drawn, pair=pair),
         grids=(64, 128, 256),
-        path=lambda k: pressed(128, k, pair=pair),
-        increments=(10, 20, 40, 80),
-        placed=lambda n, place: pressed(n, n // 2, pair=pair, extent=stretched(place)),
-        placed_grids=(64, 96, 128, 192),
+        path=lambda k: pressed(256, k, pair=pair),
+        increments=(20, 40, 80, 160) if thin else (5, 10, 20, 40, 80),
+        placed=lambda n, place: pressed(n, n // coarser, pair=pair, extent=stretched(place)),
+        placed_grids=(192, 384, 768) if thin else (64, 96, 128, 192),
+        places=2 if thin else PLACES,
         remark=(
-            "On the ladder of grids the increments grow with the cells, so that an increment stays "
-            "as long as a cell: then the border of the stick zone is known to a part of a cell, in "
-            "longer increments to whole cells. p has a cone on the axis and is continued to it "
+            "On the ladders of grids the increments grow with the cells, so that an increment "
+            f"stays as long as {'one cell, and four' if thin else 'a cell'}. p has a cone on the "
+            "axis and is continued to it "
             f"from {TIP[0]} to {TIP[1]} cells away; the cell next to it is below p(0) by an error "
             "of first order." + thin_ring(pair)
         ),
