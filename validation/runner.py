@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
 import pyfret as fret
@@ -45,9 +46,11 @@ class Ladder:
         return order(self.sizes, self.errors(name))
 
     def order_along_path(self, name: str) -> float:
-        """Order in the increments, of the errors that are not those of the cells."""
+        """Order in the increments, as long as the error is not that of the cells."""
         errors = self.errors(name)
-        return order(self.sizes, errors, above=max(LEFT_BY_CELLS * abs(errors[-1]), 1e-13))
+        left = LEFT_BY_CELLS * abs(errors[-1])
+        of_path = list(takewhile(lambda error: abs(error) > left, errors))
+        return order(self.sizes[: len(of_path)], of_path)
 
 
 @dataclass(frozen=True)
@@ -74,17 +77,16 @@ class Outcome:
 
 
 def climb(
-    truth: Truth, scene: Callable[[int], fret.Scene], sizes: tuple[int, ...], *, error: bool
+    truth: Truth, scene: Callable[[int], fret.Scene], sizes: tuple[int, ...]
 ) -> tuple[Ladder, fret.Result]:
-    """Solve the scene at every size, with error bars or not; the ladder, and the last result."""
+    """Solve the scene at every size, with error bars; the ladder, and the last result."""
     seconds, known, bars = [], [], []
     for size in sizes:
         started = time.perf_counter()
-        result = fret.solve(scene(size), progress=False, error=error and truth.has_error_bars)
+        result = fret.solve(scene(size), progress=False, error=truth.has_error_bars)
         seconds.append(time.perf_counter() - started)
         known.append(truth.known(result))
-        has_bars = error and truth.has_error_bars
-        bars.append(error_bars(result, known[-1]) if has_bars else {})
+        bars.append(error_bars(result, known[-1]) if truth.has_error_bars else {})
     return Ladder(sizes, seconds, known, bars), result
 
 
@@ -97,24 +99,29 @@ def error_bars(result: fret.Result, known: dict[str, Known]) -> dict[str, float]
 def run(truth: Truth, *, quick: bool = False) -> Outcome:
     """Solve a truth; `quick` on its two coarsest grids and with its two smallest numbers."""
     part = slice(2) if quick else slice(None)
-    grids, finest = climb(truth, truth.scene, truth.grids[part], error=True)
+    grids, finest = climb(truth, truth.scene, truth.grids[part])
     increments = None
     if truth.path is not None:
-        increments, _ = climb(truth, truth.path, truth.increments[part], error=False)
+        sizes = truth.increments[part]
+        increments = over_places(truth, truth.path, sizes, truth.path_places)
     placed = None
     if truth.placed is not None:
-        placed = over_places(truth, truth.placed, truth.placed_grids[part])
+        placed = over_places(truth, truth.placed, truth.placed_grids[part], truth.places)
     return Outcome(truth, finest, grids, increments, placed)
 
 
 def over_places(
-    truth: Truth, scene: Callable[[int, int], fret.Scene], sizes: tuple[int, ...]
+    truth: Truth,
+    scene: Callable[[int, int], fret.Scene],
+    sizes: tuple[int, ...],
+    places: int,
 ) -> Ladder:
     """Solve the scene at every size with the rim at several places within the cells."""
     seconds, known = [], []
     for size in sizes:
         started = time.perf_counter()
-        runs = [fret.solve(scene(size, k), progress=False) for k in range(truth.places)]
-        seconds.append((time.perf_counter() - started) / truth.places)
-        known.append(root_mean_square([truth.known(run) for run in runs]))
+        runs = [fret.solve(scene(size, k), progress=False) for k in range(places)]
+        seconds.append((time.perf_counter() - started) / places)
+        numbers = [truth.known(run) for run in runs]
+        known.append(numbers[0] if places == 1 else root_mean_square(numbers))
     return Ladder(sizes, seconds, known, [{} for _ in sizes])

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 #: An order along the path is that of errors so many times what is left with the most increments,
 #: which the cells leave.
-LEFT_BY_CELLS = 3
+LEFT_BY_CELLS = 2
 #: Places of the rim within the cells that errors are averaged over, if a truth says nothing else.
 PLACES = 8
 
@@ -77,9 +77,11 @@ class Truth:
     grids : tuple of int
         Cells a side.
     path : callable, optional
-        The scene with so many increments, where these matter.
+        The scene with so many increments, where these matter, the rim at one of several places.
     increments : tuple of int
         Their numbers.
+    path_places : int
+        How many places.
     placed : callable, optional
         The scene on a grid of so many cells a side, the rim of the contact at one of several
         places within the cells: of errors that depend on that.
@@ -100,8 +102,9 @@ class Truth:
     known: Callable[[fret.Result], dict[str, Known]]
     draw: Callable[[Figure, fret.Result], None]
     grids: tuple[int, ...] = (64, 128, 256)
-    path: Callable[[int], fret.Scene] | None = None
+    path: Callable[[int, int], fret.Scene] | None = None
     increments: tuple[int, ...] = field(default=())
+    path_places: int = 1
     placed: Callable[[int, int], fret.Scene] | None = None
     placed_grids: tuple[int, ...] = (32, 64, 128, 256)
     places: int = PLACES
@@ -109,12 +112,9 @@ class Truth:
     has_error_bars: bool = True
 
 
-def order(sizes: tuple[int, ...], errors: list[float], *, above: float = 1e-13) -> float:
-    """Order that the errors fall with in the number of cells or increments, by least squares.
-
-    Of those larger than `above`; not a number if these are fewer than two.
-    """
-    known = [(n, abs(e)) for n, e in zip(sizes, errors, strict=True) if abs(e) > above]
+def order(sizes: tuple[int, ...], errors: list[float]) -> float:
+    """Order that the errors fall with in the number of cells or increments, by least squares."""
+    known = [(n, abs(e)) for n, e in zip(sizes, errors, strict=True) if abs(e) > 1e-13]
     if len(known) < 2:
         return float("nan")
     n, e = np.log(np.array(known)).T

@@ -41,7 +41,7 @@ const NUMBERS: f64 = 1.5;
 const FIELDS: f64 = 1.0;
 /// Part of the square of the error of a number that is reckoned without signs.
 const UNSIGNED: f64 = 0.25;
-/// How well the border of a stick zone is found at least, in cells: of one that grows whole cells tell.
+/// How well the border of a stick zone is found at least, in cells: so well where the slip ring is narrow.
 const BORDER: f64 = 0.1;
 /// Fewest cells each way of a coarser grid.
 const FEWEST: usize = 8;
