@@ -3,8 +3,9 @@
 //! A root is not told by the outermost cells: that one shows a border that is off by up to a tenth of a
 //! cell, the second by a thirtieth, those further in by less than a hundredth. So f is continued outwards
 //! from these: along that line of cells, out of eight, that meets the border most squarely, by the parabola
-//! through the next cells. A linear law is told by all, slip by those next to its border. Where the continued f is zero runs the border, a
-//! straight line within a cell.
+//! through the next cells, on one that is no parabola by those before its middle. A linear law is told by
+//! all, slip by those next to its border. Where the continued f is zero runs the border, a straight line
+//! within a cell.
 
 use super::lattice::Lattice;
 use super::parabola::Parabola;
@@ -29,6 +30,8 @@ pub(super) struct Told {
     skipped: usize,
     /// Most cells of a line, with these.
     most: usize,
+    /// Whether, where it is no parabola, only what lies before the middle of a line tells it.
+    before_middle: bool,
     /// How much further out than the true border the level vanishes with constant tractions, in cells: the
     /// mean over places and directions of the border within the cells.
     spread: f64,
@@ -39,12 +42,14 @@ impl Told {
     pub(super) const ROOT: Self = Self {
         skipped: 2,
         most: ALONG,
+        before_middle: false,
         spread: 0.012,
     };
     /// Of a linear law, or a root that is only looked for.
     pub(super) const LINEAR: Self = Self {
         skipped: 0,
         most: ALONG,
+        before_middle: false,
         spread: 0.0,
     };
     /// Of slip, which changes over the width of a slip ring: the cells next to its border. The spread is
@@ -52,8 +57,18 @@ impl Told {
     pub(super) const SLIP: Self = Self {
         skipped: 0,
         most: 3,
+        before_middle: false,
         spread: 0.024,
     };
+
+    /// The same where a level need not go on beyond the middle of a line: what shear falls short of its
+    /// bound has a cone in the middle of a contact that is twisted.
+    pub(super) const fn before_the_middle(self) -> Self {
+        Self {
+            before_middle: true,
+            ..self
+        }
+    }
 }
 
 /// The power of a value that makes a level.
@@ -216,6 +231,8 @@ impl Lattice {
         } else {
             1.0
         };
+        // Cells before the middle of the line.
+        let half = cells.clone().take(2 * ALONG).count().div_ceil(2);
         for m in cells.step_by(stride as usize).take(ALONG) {
             line.cells[line.count] = m;
             line.count += 1;
@@ -226,7 +243,12 @@ impl Lattice {
             *value_k = value(m);
         }
         let levels = |law: usize| values.map(|value| powers[law].of(value));
-        let bends = |levels: &[f64; ALONG]| bend(&levels[1..line.count]);
+        let checked = if told[0].before_middle {
+            line.count.min(half)
+        } else {
+            line.count
+        };
+        let bends = |levels: &[f64; ALONG]| bend(&levels[1..checked]);
         let (mut law, mut along) = (0, levels(0));
         for other in 1..K {
             let straight = bends(&along);
@@ -239,11 +261,21 @@ impl Lattice {
             }
         }
         let Told {
-            skipped,
+            mut skipped,
             most,
+            before_middle,
             spread,
         } = told[law];
-        let parabola = Parabola::through(&along[..line.count.min(most)], skipped)?;
+        let mut tell = &along[..line.count.min(most)];
+        // The cell whose gradient tells the direction of the border.
+        let mut sloping = 2;
+        if before_middle && !Parabola::holds(tell, skipped) {
+            tell = &tell[..tell.len().min(half)];
+            skipped = skipped.min((tell.len() - 1) / 3);
+            // That in the middle has none.
+            sloping = sloping.min(tell.len().saturating_sub(2));
+        }
+        let parabola = Parabola::through(tell, skipped)?;
         // The outermost cell, and this one, on the parabola.
         let outermost = -(skipped as f64);
         let place = 0.5 - stride * parabola.at(outermost) / parabola.slope(outermost);
@@ -253,8 +285,8 @@ impl Lattice {
         if !usable {
             return None;
         }
-        let third = line.cells().get(2);
-        let gradient = third.map_or([0.0; 2], |&m| {
+        let sloping = line.cells().get(sloping);
+        let gradient = sloping.map_or([0.0; 2], |&m| {
             self.gradient(m, zone, |m| powers[law].of(value(m)))
         });
         let along = gradient[0] * d[0] + gradient[1] * d[1];

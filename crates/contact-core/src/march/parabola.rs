@@ -5,6 +5,8 @@
 /// a reversal).
 const FIRST_BEND: f64 = 0.4;
 const BEND: f64 = 0.15;
+/// How much a cubic may move the border, in cells, where the parabola holds.
+const MOVED: f64 = 0.2;
 
 /// f = c_0 + c_1 s + c_2 s^2 along a line, s in cells from the first one that is not skipped.
 #[derive(Clone, Copy)]
@@ -29,8 +31,12 @@ impl Parabola {
             };
             (bend - before).abs() <= most * (y_2 - y_1).abs()
         });
-        // Cells on the line before a bend that is too sharp.
-        let cells = smooth.count() + 2 - before;
+        // Cells on the line before a bend that is too sharp; small zones bend, but like a parabola.
+        let cells = if Self::holds(levels, skipped) {
+            levels.len() - skipped
+        } else {
+            smooth.count() + 2 - before
+        };
         Some(match (cells, used) {
             // About the middle sample, with the orthogonal polynomials 1, s, s^2 - 2.
             (5.., &[a, b, c, d, e, ..]) => {
@@ -45,6 +51,19 @@ impl Parabola {
             (_, &[a, ..]) => Self([a, y_2 - y_1, 0.0]),
             (_, []) => return None,
         })
+    }
+
+    /// Whether the cubic through five cells that are not skipped vanishes near where the parabola does, about
+    /// half a cell outside.
+    pub(super) fn holds(levels: &[f64], skipped: usize) -> bool {
+        let Some(&[a, b, _, d, e, ..]) = levels.get(skipped..) else {
+            return false;
+        };
+        // About the middle sample; the orthogonal polynomial 5/6 (s^3 - 3.4 s).
+        let c_3 = (2.0 * (b - d) + e - a) / 10.0;
+        let s = -2.5 - skipped as f64;
+        let cubic = c_3 * 5.0 / 6.0 * s * (s * s - 3.4);
+        cubic.abs() <= MOVED * (b - a)
     }
 
     pub(super) fn at(self, s: f64) -> f64 {

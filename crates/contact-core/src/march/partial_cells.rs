@@ -107,7 +107,8 @@ impl March {
                 line.outermost()
             }
         };
-        let mut border = lattice.edges(&stick, [Told::ROOT, Told::LINEAR], |line| {
+        let told = [Told::ROOT, Told::LINEAR].map(Told::before_the_middle);
+        let mut border = lattice.edges(&stick, told, |line| {
             let slipping = beside(line);
             (STICK, move |n| shortfall(now, n, slipping))
         });

@@ -73,6 +73,21 @@ fn the_rows_of_lubkin() {
 }
 
 #[test]
+fn small_stick_zones_keep_their_radius() {
+    // Five to eleven cells: before the middle of a line the level is no parabola.
+    for n in [128, 160, 256] {
+        let lubkin = scene(pressed()).1;
+        let c = 0.1 * lubkin.hertz.a;
+        let path = pressed().torsion(&[lubkin.M_z(c)], 1);
+        let scene = sphere_on_flat(STEEL, STEEL, MU, (2.3, n), path);
+        let increments = run(&scene, |_, _| ());
+        let end = increments.last().expect("an increment");
+        let off = (radius(end.stick_area) - c) / scene.grid.dx;
+        assert!(off.abs() < 0.13, "{n}: off by {off} cells");
+    }
+}
+
+#[test]
 fn the_torque_of_full_slip() {
     let (_, lubkin) = scene(pressed());
     let a = lubkin.hertz.a;
