@@ -41,19 +41,23 @@ def closed_form(pair: str) -> tuple[fret.reference.CoupledIndentation, fret.refe
     return truth, round_, round_.a / np.cbrt(truth.W)
 
 
-#: Cells about the axis through which the pressure is continued to it.
-TIP = (4, 16)
+#: Distances from the axis between which the pressure is continued to it, over the square root of
+#: cell times contact radius; with these the errors on all ladders of grids are small together.
+TIP = (0.4, 2.0)
 
 
 def tip(at: fret.Snapshot) -> float:
-    """Pressure on the axis [Pa]: a cubic in the distance from it, by least squares.
+    """Pressure on the axis [Pa]: a parabola in the distance from it, by least squares.
 
     The slip that the stick zone has frozen in grows like the square of the distance, and so p has a
-    cone on the axis. In the cells next to it that is what a contact of these few cells left.
+    cone on the axis. In the cells next to it that is what a contact of these few cells left, which
+    dies out with the distance in cells; what a parabola leaves grows with the distance over the
+    contact radius. Together they are least at a distance in between.
     """
-    r = distance(at) / float(at.x[1] - at.x[0])
+    between = float(np.sqrt((at.x[1] - at.x[0]) * at.contact_radius))
+    r = distance(at) / between
     near = (r >= TIP[0]) & (r < TIP[1])
-    return float(np.polynomial.polynomial.polyfit(r[near], at.p.values[near], 3)[0])
+    return float(np.polynomial.polynomial.polyfit(r[near], at.p.values[near], 2)[0])
 
 
 def known(result: fret.Result, *, pair: str) -> dict[str, Known]:
@@ -127,7 +131,7 @@ def page(pair: str) -> Truth:
         known=partial(known, pair=pair),
         draw=partial(drawn, pair=pair),
         grids=(64, 128, 256),
-        path=lambda k, place: pressed(256, k, pair=pair, extent=stretched(place)),
+        path=lambda k, place: pressed(384 if thin else 256, k, pair=pair, extent=stretched(place)),
         increments=(40, 80, 160, 320) if thin else (5, 10, 20, 40, 80),
         path_places=2 if thin else PLACES // 2,
         placed=lambda n, place: pressed(n, n // coarser, pair=pair, extent=stretched(place)),
@@ -137,8 +141,9 @@ def page(pair: str) -> Truth:
             "On the ladders of grids the increments grow with the cells, so that an increment "
             f"stays as long as {'one cell, and four' if thin else 'a cell'}. p has a cone on the "
             "axis and is continued to it "
-            f"from {TIP[0]} to {TIP[1]} cells away; the cell next to it is below p(0) by an error "
-            "of first order." + thin_ring(pair)
+            f"by a parabola from {TIP[0]:g} to {TIP[1]:g} times the root of cell times contact "
+            "radius away; the cell next to it is below p(0) by an error of first order."
+            + thin_ring(pair)
         ),
     )
 
