@@ -108,9 +108,8 @@ def write(outcome: Outcome, folder: Path) -> None:
             "## Error against the increments",
             table(steps, "increments", steps.order_along_path),
             ("" if truth.path_places == 1 else f"Root mean square over {truth.path_places} grids. ")
-            + f"The order is that of errors, from the largest on, more than {LEFT_BY_CELLS} times "
-            "what is left with the most increments, which the cells leave; none where fewer than "
-            "two are.",
+            + f"The order is that of errors more than {LEFT_BY_CELLS} times what is left with the "
+            "most increments, which the cells leave; none where fewer than two are.",
         ]
     if outcome.placed is not None:
         parts += [

@@ -46,13 +46,11 @@ class Ladder:
         return order(self.sizes, self.errors(name))
 
     def order_along_path(self, name: str) -> float:
-        """Order in the increments from the largest error on, while it is not that of the cells."""
-        errors = [abs(error) for error in self.errors(name)]
-        left = LEFT_BY_CELLS * errors[-1]
-        # Before the largest one they have another sign.
-        largest = errors.index(max(errors))
-        of_path = list(takewhile(lambda error: error > left, errors[largest:]))
-        return order(self.sizes[largest:][: len(of_path)], of_path)
+        """Order in the increments, as long as the error is not that of the cells."""
+        errors = self.errors(name)
+        left = LEFT_BY_CELLS * abs(errors[-1])
+        of_path = list(takewhile(lambda error: abs(error) > left, errors))
+        return order(self.sizes[: len(of_path)], of_path)
 
 
 @dataclass(frozen=True)
