@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 #: An order along the path is that of errors so many times what is left with the most increments,
 #: which the cells leave.
 LEFT_BY_CELLS = 2
+#: Errors that the solver leaves with its default tolerance: numbers off by less show no order.
+LEFT_BY_SOLVER = 1e-6
 #: Places of the rim within the cells that errors are averaged over, if a truth says nothing else.
 PLACES = 8
 
@@ -113,9 +115,12 @@ class Truth:
 
 
 def order(sizes: tuple[int, ...], errors: list[float]) -> float:
-    """Order that the errors fall with in the number of cells or increments, by least squares."""
+    """Order that the errors fall with in the number of cells or increments, by least squares.
+
+    None (not a number) where all are the solver's.
+    """
     known = [(n, abs(e)) for n, e in zip(sizes, errors, strict=True) if abs(e) > 1e-13]
-    if len(known) < 2:
+    if len(known) < 2 or max(e for _, e in known) < LEFT_BY_SOLVER:
         return float("nan")
     n, e = np.log(np.array(known)).T
     return float(-np.polyfit(n, e, 1)[0])

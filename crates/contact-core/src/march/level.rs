@@ -38,12 +38,13 @@ pub(super) struct Told {
 }
 
 impl Told {
-    /// Of a root of the distance; the spread is that of Hertz contacts and of their stick zones.
+    /// Of a root of the distance; the spread is that of Hertz contacts and of their stick zones, twisted ones too,
+    /// on many cells.
     pub(super) const ROOT: Self = Self {
         skipped: 2,
         most: ALONG,
         before_middle: false,
-        spread: 0.012,
+        spread: 0.010,
     };
     /// Of a linear law, or a root that is only looked for.
     pub(super) const LINEAR: Self = Self {
