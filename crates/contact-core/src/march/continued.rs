@@ -10,8 +10,9 @@
 use ndarray::{Array2, Axis, Zip};
 use std::ops::Range;
 
+use super::edge::Edge;
 use super::lattice::Lattice;
-use super::level::{Edge, Power, Told};
+use super::level::{Power, Told};
 use super::partial_cells::{SHRINKS, STICK};
 use crate::convolution::{Mirror, Tractions};
 use crate::scene::Grid;

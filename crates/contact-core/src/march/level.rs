@@ -7,6 +7,7 @@
 //! all, slip by those next to its border. Where the continued f is zero runs the border, a straight line
 //! within a cell.
 
+use super::edge::Edge;
 use super::lattice::Lattice;
 use super::parabola::Parabola;
 
@@ -131,45 +132,11 @@ pub(super) struct Level {
     pub(super) law: usize,
     /// How much further out than the border it vanishes, in the mean over the places of the border
     /// within the cells, in cells.
-    spread: f64,
+    pub(super) spread: f64,
     /// Its value at the cell's centre.
     pub(super) middle: f64,
     /// Its change from cell to cell along x and y.
     pub(super) gradient: [f64; 2],
-}
-
-/// A cell at the border of a zone.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Edge {
-    /// The level of the zone; none where the cells do not tell.
-    pub(super) level: Option<Level>,
-    /// Whether the cell is in the zone.
-    inside: bool,
-}
-
-impl Edge {
-    /// The same border, told of what lies on its other side; whether the cell is there.
-    pub(super) fn other_side(self, inside: bool) -> Self {
-        let level = self.level.map(|level| Level {
-            spread: -level.spread,
-            middle: -level.middle,
-            gradient: level.gradient.map(|g| -g),
-            ..level
-        });
-        Self { level, inside }
-    }
-
-    /// The part of the cell that belongs to the zone, 0 to 1; all or nothing where the cells do not
-    /// tell.
-    pub(super) fn share(&self) -> f64 {
-        match self.level {
-            Some(level) => {
-                let slope = level.gradient[0].hypot(level.gradient[1]);
-                half_plane(level.middle - level.spread * slope, level.gradient)
-            }
-            None => f64::from(u8::from(self.inside)),
-        }
-    }
 }
 
 impl Lattice {
@@ -328,21 +295,6 @@ fn bend(levels: &[f64]) -> f64 {
     bends.sum::<f64>() / (near.last().unwrap_or(&0.0) - near.first().unwrap_or(&0.0)).abs()
 }
 
-/// The part of the unit square about the origin where f + g . x > 0.
-fn half_plane(f: f64, g: [f64; 2]) -> f64 {
-    let [small, large] = [g[0].abs().min(g[1].abs()), g[0].abs().max(g[1].abs())];
-    let beyond = 0.5 * (small + large) - f.abs();
-    // The part on the other side of the line from the origin.
-    let other = if beyond <= 0.0 {
-        0.0
-    } else if beyond < small {
-        0.5 * beyond * beyond / (small * large)
-    } else {
-        0.5 - f.abs() / large
-    };
-    if f > 0.0 { 1.0 - other } else { other }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -395,19 +347,5 @@ mod tests {
     fn half_the_grid_tells_the_same() {
         let [whole, half] = [Mirror::None, Mirror::Y].map(|m| area(64, (1.0, 0.7), m));
         assert!((whole - half).abs() < 1e-12, "{whole} {half}");
-    }
-
-    #[test]
-    fn a_line_cuts_a_square() {
-        for (f, g, share) in [
-            (0.0, [1.0, 0.3], 0.5),
-            (0.25, [1.0, 0.0], 0.75),
-            (-0.25, [0.0, 1.0], 0.25),
-            (2.0, [1.0, 1.0], 1.0),
-            (-0.5, [1.0, 1.0], 0.125),
-            (-0.5, [-1.0, 1.0], 0.125),
-        ] {
-            assert!((half_plane(f, g) - share).abs() < 1e-15, "{f} {g:?}");
-        }
     }
 }

@@ -6,6 +6,7 @@ mod border;
 mod carried;
 mod coarse;
 mod continued;
+mod edge;
 mod entering;
 mod entry_order;
 mod equations;

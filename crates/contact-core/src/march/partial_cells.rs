@@ -24,8 +24,9 @@
 use ndarray::Array2;
 
 use super::March;
+use super::edge::Edge;
 use super::lattice::Lattice;
-use super::level::{Edge, Level, Line, Power, Told};
+use super::level::{Level, Line, Power, Told};
 use crate::convolution::Mirror;
 use crate::reference::dundurs_beta;
 use crate::scene::Grid;
