@@ -6,9 +6,10 @@ mod rig;
 use std::time::Instant;
 
 use contact_core::convolution::{
-    CirculantInverse, DcFft, Displacements, Mirror, SurfaceOperator, Tractions,
+    CirculantInverse, DcFft, Displacements, SurfaceOperator, Tractions,
 };
 use contact_core::kernels::{InfluenceCoefficients, influence_coefficients};
+use contact_core::plan::Mirror;
 use contact_core::scene::{Body, Coating, Elastic, Grid, KernelSettings, Shape};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use rayon::{ThreadPool, ThreadPoolBuilder};

@@ -6,8 +6,9 @@
 
 use std::time::{Duration, Instant};
 
-use contact_core::convolution::{DcFft, Displacements, Mirror, SurfaceOperator, Tractions};
+use contact_core::convolution::{DcFft, Displacements, SurfaceOperator, Tractions};
 use contact_core::kernels::influence_coefficients;
+use contact_core::plan::Mirror;
 use contact_core::scene::{Body, Coating, Elastic, Grid, KernelSettings, Shape};
 use rayon::ThreadPoolBuilder;
 

@@ -11,9 +11,10 @@ use std::time::Instant;
 
 use contact_core::Error;
 use contact_core::convolution::{
-    DcFft, Displacements, FrequencyDomain, Mirror, SurfaceOperator, Tractions,
+    DcFft, Displacements, FrequencyDomain, SurfaceOperator, Tractions,
 };
 use contact_core::kernels::{InfluenceCoefficients, clear_cache, influence_coefficients};
+use contact_core::plan::Mirror;
 use contact_core::scene::{Body, Coating, Elastic, Grid, KernelMethod, KernelSettings, Shape};
 
 /// Runs of which the shortest counts.

@@ -10,7 +10,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use contact_core::march::{Increment, March, Observer, choose_increments, error_bars, solve};
+use contact_core::estimate::{choose_increments, error_bars};
+use contact_core::march::{Increment, March, Observer, solve};
 use contact_core::output::{Resumed, Store, StoreWriter, resume};
 use contact_core::{Error, Scene};
 

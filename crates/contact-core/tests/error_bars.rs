@@ -10,9 +10,8 @@ mod splitmix;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use contact_core::march::{
-    Bar, BranchEnds, BranchSummary, ErrorBars, Tractions, error_bars, means, solve, summarise,
-};
+use contact_core::estimate::{Bar, BranchEnds, ErrorBars, Tractions, error_bars, means};
+use contact_core::march::{BranchSummary, solve, summarise};
 use contact_core::scene::Scene;
 use ndarray::Array2;
 use splitmix::Draw;

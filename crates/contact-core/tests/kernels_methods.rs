@@ -4,11 +4,12 @@
 #![allow(clippy::unwrap_used)]
 
 use contact_core::convolution::{
-    DcFft, Displacements, FrequencyDomain, Mirror, SurfaceOperator, Tractions,
+    DcFft, Displacements, FrequencyDomain, SurfaceOperator, Tractions,
 };
 use contact_core::kernels::{
     InfluenceCoefficients, Stack, clear_cache, convert, influence_coefficients,
 };
+use contact_core::plan::Mirror;
 use contact_core::scene::{Body, Coating, Elastic, Grid, KernelMethod, KernelSettings, Shape};
 
 /// Of the benchmark: E1/E2 = 4, a coating of eight cells.

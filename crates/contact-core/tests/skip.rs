@@ -2,9 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
-use contact_core::kernels::{KernelSet, Quadrant, influence_coefficients, pair_coefficients};
+use contact_core::kernels::{Quadrant, influence_coefficients, pair_coefficients};
 use contact_core::march::{Fields, Increment, March, Observer, solve};
-use contact_core::scene::{Plan, PlanLine};
+use contact_core::plan::KernelSet;
+use contact_core::plan::{Plan, PlanLine};
 use contact_core::{Error, Scene};
 use ndarray::Array2;
 

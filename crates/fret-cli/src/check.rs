@@ -1,7 +1,8 @@
 //! `fret check`.
 
 use contact_core::Scene;
-use contact_core::scene::{Plan, available_memory};
+use contact_core::memory::available_memory;
+use contact_core::plan::Plan;
 
 use crate::{Failure, SceneOptions, print};
 

@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
-use contact_core::march::{Bar, BranchSummary, ErrorBars, Increment, summarise};
+use contact_core::estimate::{Bar, ErrorBars};
+use contact_core::march::{BranchSummary, Increment, summarise};
 use contact_core::scene::{Branch, LOADS, MOTIONS};
 
 /// Micrometres, or microjoules, per SI unit.

@@ -2,8 +2,9 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use contact_core::convolution::{DcFft, Displacements, Mirror, SurfaceOperator as _, Tractions};
+use contact_core::convolution::{DcFft, Displacements, SurfaceOperator as _, Tractions};
 use contact_core::kernels::influence_coefficients_until;
+use contact_core::plan::Mirror;
 use ndarray::{Array3, ArrayViewMut2, Axis};
 use numpy::{AllowTypeChange, PyArray3, PyArrayLike2, ToPyArray};
 use pyo3::exceptions::PyValueError;

@@ -3,9 +3,10 @@
 use std::sync::atomic::AtomicBool;
 
 use super::good_size::good_size;
-use super::{Displacements, Mirror, Spectra, SpectralProduct, SurfaceOperator, Tractions};
+use super::{Displacements, Spectra, SpectralProduct, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, norm};
+use crate::plan::Mirror;
 use crate::stop::NOBODY;
 
 /// The DC-FFT operator: exact up to rounding for tractions that are constant on each cell.

@@ -8,9 +8,10 @@
 use std::sync::atomic::AtomicBool;
 
 use super::good_size::good_size;
-use super::{Displacements, Mirror, Spectra, SpectralProduct, Tractions};
+use super::{Displacements, Spectra, SpectralProduct, Tractions};
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, Quadrant};
+use crate::plan::Mirror;
 use crate::stop::{NOBODY, unless};
 
 /// Circulant inverse of the normal and of the tangential part of an operator.

@@ -30,7 +30,7 @@ mod surface;
 pub use cache::clear_cache;
 pub(crate) use cell::Cell;
 pub(crate) use coefficients::norm;
-pub use coefficients::{InfluenceCoefficients, KernelSet, Quadrant};
+pub use coefficients::{InfluenceCoefficients, Quadrant};
 pub use convert::{Conversion, SurfaceFrf, convert};
 pub use depth_frf::FrequencyResponse;
 pub(crate) use depth_kernel::{DepthKernel, Quantity};
@@ -47,6 +47,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::error::Error;
+use crate::plan::KernelSet;
 use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
 
 /// The surface coefficients of a body on a grid, computed once per process and kept.

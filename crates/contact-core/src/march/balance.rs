@@ -2,10 +2,12 @@
 
 use super::carried::Carried;
 use super::{Energy, Increment, March, Motion, State, Status, Work};
-use crate::convolution::Mirror;
+use crate::cells::{both, set, size, sums};
 use crate::error::Error;
+use crate::plan::Mirror;
 use crate::scene::{LoadPoint, Loads};
-use crate::solvers::{CoupledInfo, Interface, both, friction_bound, set, size, sums};
+use crate::solvers::Interface;
+use crate::solvers::intermediate::{CoupledInfo, friction_bound};
 
 impl March {
     /// Draws up the accounts of a solved increment and makes it the present state; fails if the

@@ -16,9 +16,10 @@ use super::neighbours::Neighbours;
 use super::screened::Screened;
 use super::view::REACH;
 use super::{Interface, March};
+use crate::cells::Drive;
 use crate::error::Error;
 use crate::scene::{LoadPoint, Preset};
-use crate::solvers::{CoupledInfo, Drive};
+use crate::solvers::intermediate::CoupledInfo;
 
 /// Rounds that look for the shift of bodies that touch for the first time.
 const ROUNDS: usize = 6;

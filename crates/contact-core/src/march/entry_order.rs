@@ -283,12 +283,12 @@ fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> 
 mod tests {
     use ndarray::{Array2, Axis};
 
-    use crate::convolution::Mirror;
     use crate::march::kept_contact::KeptContact;
     use crate::march::neighbours::Neighbours;
     use crate::march::screened::Screened;
     use crate::march::screened::tests::{half_space, of_all};
     use crate::march::view::{REACH, View};
+    use crate::plan::Mirror;
     use crate::reference::linear_system::solve;
     use crate::scene::Grid;
 

@@ -2,13 +2,13 @@
 
 use super::slip_datum::{Before, Following};
 use super::{Carried, March};
-use crate::convolution::Mirror;
+use crate::cells::Drive;
 use crate::error::Error;
+use crate::plan::Mirror;
 use crate::scene::{LoadPoint, Preset, Scene};
-use crate::solvers::{
-    CoupledInfo, CoupledParams, Drive, IncrementProblem, Interface, NormalParams, Response,
-    TangentialMethod, TangentialParams, coupled,
-};
+use crate::solvers::inner::{NormalParams, TangentialMethod, TangentialParams};
+use crate::solvers::intermediate::{CoupledInfo, CoupledParams, IncrementProblem, coupled};
+use crate::solvers::{Interface, Response};
 
 /// The cells that may touch at the end of an increment.
 #[derive(Clone, Copy)]

@@ -2,9 +2,9 @@
 
 use ndarray::Array2;
 
-use super::error_bars::Tractions;
 use super::{March, Motion};
-use crate::convolution::Half;
+use crate::estimate::Tractions;
+use crate::plan::Half;
 
 /// Fields at the end of an increment, each of shape (nx, ny).
 #[derive(Clone, Debug, PartialEq)]

@@ -115,11 +115,11 @@ impl KeptContact {
 #[cfg(test)]
 mod tests {
     use super::KeptContact;
-    use crate::convolution::Mirror;
     use crate::march::neighbours::Neighbours;
     use crate::march::screened::Screened;
     use crate::march::screened::tests::half_space;
     use crate::march::view::REACH;
+    use crate::plan::Mirror;
     use crate::scene::Grid;
 
     /// Closes the gaps up to this distance in one increment.

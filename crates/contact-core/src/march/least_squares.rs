@@ -1,6 +1,6 @@
 //! A fit of few terms to values around.
 
-use crate::solvers::{inverse, product};
+use crate::cells::{inverse, product};
 
 /// Regularisation of the terms but the first, which few values need not tell apart.
 pub(super) const RIDGE: f64 = 1e-6;

@@ -1,28 +1,20 @@
 //! Stage 5: THE LOAD PATH, one increment at a time (the outer loop of figure 2 of the paper).
 
+mod accounts;
 mod awake;
 mod balance;
 mod border;
 mod carried;
 mod coarse;
-mod continued;
-mod edge;
 mod entering;
 mod entry_order;
 mod equations;
-mod error_bars;
 mod fields;
-mod finer;
 mod halving;
 mod increment;
 mod kept_contact;
-mod lattice;
 mod least_squares;
-mod level;
 mod neighbours;
-mod parabola;
-mod partial_cells;
-mod path_error;
 mod predict;
 mod residuals;
 mod room;
@@ -32,17 +24,11 @@ mod solve;
 mod state;
 #[cfg(test)]
 mod tests;
-mod trial;
 mod view;
 mod window;
 
-pub(crate) use continued::Continued;
-pub use error_bars::{Bar, BranchEnds, ErrorBars, Tractions, coarsest, error_bars, means};
 pub use fields::Fields;
-pub use finer::finest;
 pub use increment::{Energy, Increment, Motion, Residuals, Status, Work};
-pub use partial_cells::continued_pressure;
-pub use path_error::{choose_increments, estimate_path_error};
 pub use solve::{BranchSummary, Observer, solve, summarise};
 pub use state::State;
 
@@ -57,8 +43,10 @@ use self::slip_datum::Datum;
 use self::window::{Whole, Window};
 use crate::convolution::PARALLEL_FROM;
 use crate::error::Error;
-use crate::scene::{History, LoadPoint, Plan, Preset, Scene};
-use crate::solvers::{CoupledInfo, CoupledWorkspace, Interface};
+use crate::plan::Plan;
+use crate::scene::{History, LoadPath, LoadPoint, Preset, Scene};
+use crate::solvers::Interface;
+use crate::solvers::intermediate::{CoupledInfo, CoupledWorkspace};
 
 /// A load path being run through.
 pub struct March {
@@ -88,18 +76,17 @@ pub struct March {
 }
 
 impl March {
-    /// Checks the scene, chooses the increments that are not given, plans, and computes the kernels.
+    /// Checks the scene, plans, and computes the kernels. Fails where a branch has no number of increments:
+    /// [`choose_increments`](crate::estimate::choose_increments) chooses it.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         Self::until(scene, &Arc::default())
     }
 
-    /// As [`Self::new`] and [`Self::stop_on`]: the flag also ends the choice of the increments and
-    /// the kernels, [`Error::Interrupted`] after increment 0.
+    /// As [`Self::new`] and [`Self::stop_on`]: the flag also ends the
+    /// computation of the kernels, [`Error::Interrupted`] after increment 0.
     pub fn until(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         scene.check()?;
-        if scene.path.is_open() {
-            return Self::until(&choose_increments(scene, stop)?, stop);
-        }
+        scene.path.check_increments()?;
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
         let whole = Whole::new(scene, &plan, stop)?;
@@ -169,6 +156,15 @@ impl March {
             });
         }
         Ok(())
+    }
+
+    /// Takes another path of the same loads, and a state on it; without one it begins anew.
+    pub(crate) fn go_along(&mut self, path: &LoadPath, state: Option<State>) {
+        self.scene.path = path.clone();
+        self.points = self.plan.points(&self.scene);
+        let unloaded = || State::unloaded(self.window.shape(), self.window.h_init.len());
+        let state = state.unwrap_or_else(unloaded);
+        self.put(state);
     }
 
     /// The scene, with the increments and the tolerance that it is solved with.

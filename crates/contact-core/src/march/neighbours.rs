@@ -1,10 +1,10 @@
 //! The cells around a cell of the kept rows, mirror images included.
 
-use super::lattice::Lattice;
-use crate::convolution::Mirror;
+use crate::cells::Lattice;
+use crate::cells::size;
 use crate::kernels::Quadrant;
+use crate::plan::Mirror;
 use crate::scene::Grid;
-use crate::solvers::size;
 
 /// The ways to the cells around a kept one.
 pub(super) struct Neighbours {

@@ -5,8 +5,10 @@ use rayon::prelude::*;
 
 use super::window::Window;
 use super::{March, State};
+use crate::cells::{CHUNK, Drive, set, size, sweep};
 use crate::scene::{Given, LoadPoint, Loads};
-use crate::solvers::{CHUNK, Drive, Interface, friction_bound, set, size, sweep};
+use crate::solvers::Interface;
+use crate::solvers::intermediate::friction_bound;
 
 impl Loads {
     /// The change from `before` and `motions` to here, of what is given.

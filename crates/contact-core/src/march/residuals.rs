@@ -1,9 +1,11 @@
 //! How well the equations hold at the end of an increment, from the fields alone.
 
 use super::{Increment, March, Residuals, Status};
+use crate::cells::{set, size, survey};
 use crate::error::Error;
 use crate::scene::{Given, LoadPoint, Loads, Preset};
-use crate::solvers::{CoupledInfo, Interface, friction_bound, set, size, survey};
+use crate::solvers::Interface;
+use crate::solvers::intermediate::{CoupledInfo, friction_bound};
 
 /// What sums in another order may differ by.
 const ROUNDING: f64 = 1e-9;

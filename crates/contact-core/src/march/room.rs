@@ -5,7 +5,8 @@ use super::entry_order::AROUND;
 use super::window::{Window, embedded, shape_of};
 use crate::convolution::good_size;
 use crate::error::Error;
-use crate::scene::{Grid, LoadPoint, Plan, Scene};
+use crate::plan::Plan;
+use crate::scene::{Grid, LoadPoint, Scene};
 
 /// Least cells between the contact and the border of the window; those that enter it look further around.
 const ROOM: usize = 2;

@@ -82,10 +82,10 @@ pub(super) mod tests {
     use ndarray::{Array2, Axis};
 
     use super::Screened;
-    use crate::convolution::Mirror;
     use crate::kernels::{Quadrant, influence_coefficients};
     use crate::march::neighbours::Neighbours;
     use crate::march::view::{REACH, View};
+    use crate::plan::Mirror;
     use crate::reference::linear_system::solve;
     use crate::scene::{Body, Elastic, Grid, KernelSettings, Shape};
 

@@ -30,7 +30,9 @@
 
 use rayon::prelude::*;
 
-use crate::solvers::{Arms, CHUNK, Interface, SlipDatum, set, size};
+use crate::cells::{Arms, CHUNK, set, size};
+use crate::solvers::Interface;
+use crate::solvers::intermediate::SlipDatum;
 
 /// Cosines between e_0 and e_1 between which the turn comes to count: where the shear turns further, the
 /// way there is not known.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Motion;
-use crate::convolution::Mirror;
+use crate::plan::Mirror;
 use crate::scene::{Grid, Loads};
 use crate::solvers::Interface;
 

@@ -8,7 +8,7 @@ use super::{Increment, March, State};
 use crate::convolution::{Displacements, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::solvers::CoupledInfo;
+use crate::solvers::intermediate::CoupledInfo;
 
 /// A coated contact with friction that turns back after partial slip.
 const COATED: &str = r#"

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::neighbours::{Neighbour, Neighbours};
-use crate::solvers::size;
+use crate::cells::size;
 
 /// How far a cell sees, in columns and rows.
 pub(super) const REACH: isize = 8;

@@ -13,14 +13,17 @@ use ndarray::Array2;
 
 use super::slip_datum::Datum;
 use super::{March, State};
+use crate::cells::{Arms, sums};
 use crate::convolution::{
-    CirculantInverse, DcFft, Displacements, FrequencyDomain, Half, Mirror, SurfaceOperator,
-    Tractions,
+    CirculantInverse, DcFft, Displacements, FrequencyDomain, SurfaceOperator, Tractions,
 };
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, Quadrant, norm, pair_coefficients_until};
-use crate::scene::{Grid, KernelMethod, Plan, Preset, Scene};
-use crate::solvers::{Arms, CoupledInfo, CoupledWorkspace, Interface, Response, sums};
+use crate::plan::Plan;
+use crate::plan::{Half, Mirror};
+use crate::scene::{Grid, KernelMethod, Preset, Scene};
+use crate::solvers::intermediate::{CoupledInfo, CoupledWorkspace};
+use crate::solvers::{Interface, Response};
 use crate::stop::NOBODY;
 
 /// Cells in the middle of the grid, and what the solvers need to know of them.

@@ -33,7 +33,7 @@ pub struct Branch {
     /// Loads at the end of the branch.
     pub to: Loads,
     /// Number of increments, at least one; `None`: as many as the error of the path asks for,
-    /// [`choose_increments`](crate::march::choose_increments).
+    /// [`choose_increments`](crate::estimate::choose_increments).
     pub increments: Option<usize>,
     /// How they are spaced.
     pub spacing: Spacing,
@@ -267,6 +267,18 @@ impl LoadPath {
                 .any(|s| *s != 0.0);
             !(shears || moves || strains)
         })
+    }
+
+    /// Fails where the increments of a branch are yet to be chosen.
+    pub(crate) fn check_increments(&self) -> Result<(), Error> {
+        match self.branches.iter().position(|b| b.increments.is_none()) {
+            None => Ok(()),
+            Some(branch) => Err(Error::invalid(
+                format!("path.{branch}.increments"),
+                "auto",
+                "a number: estimate::choose_increments gives one to each branch",
+            )),
+        }
     }
 
     /// Whether the increments of a branch are yet to be chosen.

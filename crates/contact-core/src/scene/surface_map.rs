@@ -8,7 +8,7 @@ use std::sync::Arc;
 use ndarray::{Array2, ArrayView2};
 use ndarray_npy::ViewNpyExt;
 
-use super::{Grid, memory};
+use super::Grid;
 use crate::error::Error;
 
 /// Memory that reading numbers takes, over the length of the file: a number may be two bytes of
@@ -37,7 +37,7 @@ impl SurfaceMap {
         if !about.is_file() {
             return Err(failed("is not a file".into()));
         }
-        memory::fits("the numbers of a file", COPIES * about.len() as f64)?;
+        crate::memory::fits("the numbers of a file", COPIES * about.len() as f64)?;
         let is_npy = path
             .extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("npy"));

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Response;
+use super::inner::Shear;
 use super::owed::Owed;
-use super::sweep::{set, sums, sweep};
-use super::vector::copy;
-use super::{Response, Shear};
+use crate::cells::copy;
+use crate::cells::{set, sums, sweep};
 use crate::convolution::{Displacements, Tractions};
 
 /// Tractions of an increment and the displacements that belong to them, on the kept cells.

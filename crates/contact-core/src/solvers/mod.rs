@@ -8,38 +8,14 @@
 //! Each takes Params and gives Info or an Error with numbers. Lengths are those of the scene; a
 //! tolerance is a length too, so that "how wrong" can be read off.
 
-mod admissible;
-mod contact_cells;
-mod contact_shear;
-mod coupled;
+pub mod inner;
 mod interface;
-mod limit;
-mod mixing;
-mod newton_step;
-mod normal;
+pub mod intermediate;
 mod owed;
-mod projected_gradient;
 mod response;
-mod rigid_motion;
-mod shear;
-mod shear_gradient;
-mod sweep;
-mod tangential;
-mod vector;
 
-pub(crate) use coupled::friction_bound;
-pub use coupled::{
-    CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, SlipDatum, coupled,
-};
 pub use interface::Interface;
-pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub use response::Response;
-pub use rigid_motion::{Arms, Drive};
-pub(crate) use rigid_motion::{inverse, product};
-pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
-pub(crate) use sweep::{set, sums, survey, sweep};
-pub use tangential::{TangentialWorkspace, tangential};
-pub(crate) use vector::{CHUNK, both, size};
 
 /// A solver that stopped before its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

@@ -8,7 +8,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::sweep::{set, sweep};
+use crate::cells::{set, sweep};
 
 /// What of the shear u_x, u_y, u_z leave out, all in cells of the contact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

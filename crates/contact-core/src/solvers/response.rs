@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::sweep::set;
+use crate::cells::set;
 use crate::convolution::{CirculantInverse, Displacements, SurfaceOperator, Tractions};
 
 /// The surface operator and, where there is one, its approximate inverse.

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use contact_core::march::{Increment, March, Observer, solve};
 use contact_core::output::{FIELDS, SCALARS, Store, StoreWriter, resume};
-use contact_core::scene::Plan;
+use contact_core::plan::Plan;
 use contact_core::{Error, Scene};
 use proptest::prelude::*;
 

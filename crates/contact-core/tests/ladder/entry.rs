@@ -7,9 +7,9 @@
 
 use std::sync::Arc;
 
-use contact_core::convolution::Mirror;
 use contact_core::kernels::influence_coefficients;
 use contact_core::march::{Increment, March};
+use contact_core::plan::Mirror;
 use contact_core::scene::{LoadPath, Scene, Shape, SurfaceMap};
 use ndarray::Array2;
 

@@ -1,9 +1,10 @@
 //! Sliding both ways, and contact lost and found again.
 
+use contact_core::Error;
+use contact_core::march::March;
 use contact_core::march::{Increment, Status};
 use contact_core::reference::CattaneoMindlin;
 use contact_core::scene::{LoadPath, Loads, Scene};
-use contact_core::{Error, march::March};
 
 use crate::bench::{CORK, STEEL, W, close, hertz_of, indentation, run, sphere_on_flat};
 

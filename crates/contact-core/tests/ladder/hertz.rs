@@ -1,7 +1,7 @@
 //! Frictionless and homogeneous: Hertz, and its convergence with the grid.
 
-use contact_core::march::continued_pressure;
 use contact_core::scene::LoadPath;
+use contact_core::zones::continued_pressure;
 
 use crate::bench::{
     FIELD, RIM, SMOOTH, STEEL, W, cell, close, hertz_of, norm, run, sphere_on_flat,

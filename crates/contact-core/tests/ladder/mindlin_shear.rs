@@ -1,7 +1,8 @@
 //! Kernel and convolution alone: a Hertz-shaped shear and Mindlin's displacement under it.
 
-use contact_core::convolution::{DcFft, Displacements, Mirror, SurfaceOperator, Tractions};
+use contact_core::convolution::{DcFft, Displacements, SurfaceOperator, Tractions};
 use contact_core::kernels::influence_coefficients;
+use contact_core::plan::Mirror;
 use contact_core::reference::mindlin_shear_displacement;
 use contact_core::scene::{Body, Elastic, Grid, KernelSettings, Shape};
 

@@ -1,8 +1,9 @@
 //! What physics asks of every increment, computed from the fields alone.
 
-use contact_core::convolution::{DcFft, Displacements, Mirror, SurfaceOperator, Tractions};
+use contact_core::convolution::{DcFft, Displacements, SurfaceOperator, Tractions};
 use contact_core::kernels::pair_coefficients;
 use contact_core::march::{Fields, Increment, March, Motion, Status};
+use contact_core::plan::Mirror;
 use contact_core::scene::Loads;
 use ndarray::Array2;
 

@@ -7,9 +7,11 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use contact_core::Error;
+use contact_core::march::Fields;
 use contact_core::march::{Increment, March};
-use contact_core::scene::{Loads, Plan, Scene};
-use contact_core::{Error, march::Fields};
+use contact_core::plan::Plan;
+use contact_core::scene::{Loads, Scene};
 use ndarray::Array2;
 
 use crate::audit::{Audit, Violations};

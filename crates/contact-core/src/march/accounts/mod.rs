@@ -1,0 +1,3 @@
+//! The accounts of an increment.
+
+mod areas;
