@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 use super::finer::Finer;
 use super::path_error::{choose_increments, path_errors};
 use crate::error::Error;
-use crate::march::{BranchSummary, Increment, March, Observer, summarise};
+use crate::march::{BranchSummary, Increment, March, Observer, Tractions, summarise};
 use crate::scene::{Grid, SaveFields, Scene};
 
 /// Cells of the coarser grids each way, over those of the grid.
@@ -118,9 +118,6 @@ pub struct BranchEnds<'a> {
     /// The tractions of the branches that are done.
     pub tractions: Vec<Tractions>,
 }
-
-/// p, `q_x`, `q_y` \[Pa\], each of shape (nx, ny).
-pub type Tractions = [Array2<f64>; 3];
 
 impl<'a> BranchEnds<'a> {
     /// Beside an observer.

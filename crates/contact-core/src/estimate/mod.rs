@@ -5,6 +5,6 @@ mod finer;
 mod path_error;
 mod trial;
 
-pub use error_bars::{Bar, BranchEnds, ErrorBars, Tractions, coarsest, error_bars, means};
+pub use error_bars::{Bar, BranchEnds, ErrorBars, coarsest, error_bars, means};
 pub use finer::finest;
 pub use path_error::{choose_increments, estimate_path_error};

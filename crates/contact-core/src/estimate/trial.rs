@@ -8,10 +8,10 @@ use std::sync::atomic::AtomicBool;
 
 use ndarray::Array2;
 
-use super::error_bars::{Tractions, numbers};
+use super::error_bars::numbers;
 use super::path_error::{ORDER, PathError, SOLVED};
 use crate::error::Error;
-use crate::march::{BranchSummary, Increment, March, State, summarise};
+use crate::march::{BranchSummary, Increment, March, State, Tractions, summarise};
 use crate::scene::{Branch, Grid, LoadPath, Scene};
 
 /// Cells of a grid that is not made coarser.

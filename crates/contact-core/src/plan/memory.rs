@@ -57,7 +57,7 @@ impl Plan {
             KernelMethod::InverseFft { lambda, .. } => HALF_WAY * lambda as f64,
             KernelMethod::FrequencyDomain { lambda } => SAMPLES * (lambda * lambda) as f64,
         };
-        let spectra = if self.window {
+        let spectra = if self.methods.window {
             WINDOW * spectra
         } else {
             spectra

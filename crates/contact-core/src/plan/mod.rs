@@ -2,14 +2,16 @@
 
 mod direct;
 mod memory;
+mod methods;
 mod mirror;
 
+pub use methods::{Methods, TangentialMethod};
 pub use mirror::{Half, Mirror};
 
 use ndarray::Array2;
 
 use self::direct::direct_branches;
-use crate::scene::{Body, KernelMethod, LoadPoint, Loads, Preset, Scene, SurfaceMap};
+use crate::scene::{Body, LoadPoint, Loads, Scene, SurfaceMap};
 
 /// What is computed and what is left out.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,10 +24,8 @@ pub struct Plan {
     pub friction: bool,
     /// Part of the grid that is solved for.
     pub mirror: Mirror,
-    /// Whether a window around the contact is solved on.
-    pub window: bool,
-    /// Whether changes of the tractions are answered in single precision.
-    pub single: bool,
+    /// The numerical methods.
+    pub methods: Methods,
     /// Branches of the load path whose end does not depend on the way there.
     pub direct: Vec<bool>,
     /// One line per rule, for people.
@@ -105,10 +105,10 @@ impl Plan {
         rule("influence coefficients of body 1", alike(scene));
         let coupling = !rule("normal-tangential coupling", uncoupled(scene));
         let half = rule("the half y < 0 of the grid", mirror(scene));
-        let window = rule("cells far from the contact", far(scene));
+        let window = rule("cells far from the contact", methods::window(scene));
         let single = rule(
             "digits beyond single precision in the iterations",
-            digits(scene),
+            methods::single_precision(scene),
         );
         let (direct, verdict) = direct_branches(scene, coupling);
         let subject = match direct.iter().filter(|&&d| d).count() {
@@ -121,8 +121,7 @@ impl Plan {
             coupling,
             friction,
             mirror: if half { Mirror::Y } else { Mirror::None },
-            window,
-            single,
+            methods: Methods::new(scene, window, single),
             direct,
             lines,
         }
@@ -165,51 +164,6 @@ fn layers(body: &Body, scene: &Scene) -> Vec<(f64, f64, f64)> {
     body.layers(scene.settings.skip.equal_layers)
 }
 
-/// The finest tolerance that single precision serves: what it rounds is a tenth of that, or less.
-const SINGLE: f64 = 1e-6;
-
-/// Whether, and why, single precision is enough for the response to a change of the tractions: the
-/// response to what they add up to is computed anew in each increment.
-fn digits(scene: &Scene) -> Result<&'static str, &'static str> {
-    let solver = &scene.settings.solver;
-    if !scene.settings.skip.digits {
-        Err("skip.digits is off")
-    } else if solver.preset != Preset::Fast {
-        Err("the preset is plain")
-    } else if in_frequency_domain(scene) {
-        Err("the frequency-domain operator has double precision alone")
-    } else if scene.tolerance() < SINGLE {
-        Err("the tolerance is finer than 1e-6")
-    } else {
-        Ok("the tolerance is 1e-6 or more")
-    }
-}
-
-fn in_frequency_domain(scene: &Scene) -> bool {
-    let method = &scene.settings.kernel.method;
-    matches!(method, KernelMethod::FrequencyDomain { .. })
-}
-
-/// Whether, and why, a window around the contact is enough to solve on.
-fn far(scene: &Scene) -> Result<&'static str, &'static str> {
-    if !scene.settings.skip.far {
-        return Err("skip.far is off");
-    }
-    if scene.settings.solver.preset != Preset::Fast {
-        return Err("the preset is plain");
-    }
-    if in_frequency_domain(scene) {
-        return Err("the frequency-domain operator works on the whole grid");
-    }
-    if scene.grid.plane_strain {
-        return Err("the grid is one row of cells");
-    }
-    if scene.path.branches.iter().any(|b| b.to.rolled != 0.0) {
-        return Err("the bodies roll over the grid");
-    }
-    Ok("a window goes with the contact; what is beyond it is seen to stay clear")
-}
-
 /// Whether a field is its own mirror image under y -> -y, up to rounding.
 fn is_mirror_symmetric(h: &Array2<f64>) -> bool {
     let ny = h.ncols();
@@ -223,7 +177,7 @@ fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.settings.skip.mirror {
         return Err("skip.mirror is off");
     }
-    if in_frequency_domain(scene) {
+    if methods::in_frequency_domain(scene) {
         return Err("the frequency-domain operator works on the whole grid");
     }
     if !scene.grid.ny.is_multiple_of(2) {

@@ -1,8 +1,9 @@
 //! Stage 4: ONE INCREMENT, the inner and the intermediate loop (figures 2 and 3 of the paper).
 //!
-//! - [`normal`]: the pressure for known shear, eq. (5)-(6);
-//! - [`tangential`]: the shear for known pressure, eq. (7)-(8);
-//! - [`coupled`]: one after the other until neither changes what the other was solved for.
+//! - [`inner::normal`]: the pressure for known shear, eq. (5)-(6);
+//! - [`inner::tangential`]: the shear for known pressure, eq. (7)-(8);
+//! - [`intermediate::alternation`]: one after the other until neither changes what the other was solved for;
+//! - [`no_slip`]: the displacement that means no slip, eq. (7).
 //!
 //! The solvers know no elasticity, only a [`SurfaceOperator`](crate::convolution::SurfaceOperator).
 //! Each takes Params and gives Info or an Error with numbers. Lengths are those of the scene; a
@@ -11,11 +12,18 @@
 pub mod inner;
 mod interface;
 pub mod intermediate;
-mod owed;
+pub mod no_slip;
 mod response;
 
 pub use interface::Interface;
 pub use response::Response;
+
+use self::inner::Shear;
+
+/// Largest shear under the pressure p, mu p \[Pa\].
+pub(crate) fn friction_bound(mu: f64, p: f64) -> f64 {
+    if p > 0.0 { mu * p } else { 0.0 }
+}
 
 /// A solver that stopped before its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

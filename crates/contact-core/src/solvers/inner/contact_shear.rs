@@ -5,7 +5,6 @@ use crate::cells::ContactCells;
 use crate::cells::sums;
 use crate::cells::{Arms, Drive};
 use crate::cells::{copy, copy_to};
-use crate::solvers::owed::Owed;
 
 type Pair = [Vec<f64>; 2];
 
@@ -13,13 +12,11 @@ type Pair = [Vec<f64>; 2];
 #[derive(Debug, Default)]
 pub(crate) struct ContactShear {
     bound: Vec<f64>,
-    u_ref: Pair,
-    turning: Vec<f64>,
+    no_slip: Pair,
     arms: Arms,
     q: Pair,
     u: Pair,
     slip: Vec<bool>,
-    owed: Owed,
 }
 
 impl ContactShear {
@@ -31,24 +28,18 @@ impl ContactShear {
         shear: &Shear<'_>,
     ) {
         (self.arms.length, self.arms.stretch) = (problem.arms.length, problem.arms.stretch);
-        let ([u_ref_x, u_ref_y], [q_x, q_y], [u_x, u_y]) =
-            (&mut self.u_ref, &mut self.q, &mut self.u);
-        let [owed_x, owed_y] = &mut self.owed.q;
+        let ([x, y], [q_x, q_y], [u_x, u_y]) = (&mut self.no_slip, &mut self.q, &mut self.u);
         cells.pack_all([
             (problem.bound, &mut self.bound),
-            (problem.turning, &mut self.turning),
             (&problem.arms.x, &mut self.arms.x),
             (&problem.arms.y, &mut self.arms.y),
-            (problem.u_ref[0], u_ref_x),
-            (problem.u_ref[1], u_ref_y),
+            (problem.no_slip[0], x),
+            (problem.no_slip[1], y),
             (shear.q[0], q_x),
             (shear.q[1], q_y),
             (shear.u[0], u_x),
             (shear.u[1], u_y),
-            (&shear.owed.q[0], owed_x),
-            (&shear.owed.q[1], owed_y),
         ]);
-        self.owed.moves = shear.owed.moves;
         self.slip.resize(cells.count(), false);
         cells.pack(shear.slip, &mut self.slip);
     }
@@ -57,8 +48,7 @@ impl ContactShear {
     pub(crate) fn parts(&mut self, drive: Drive) -> (TangentialProblem<'_>, Shear<'_>) {
         let problem = TangentialProblem {
             bound: &self.bound,
-            u_ref: [&self.u_ref[0], &self.u_ref[1]],
-            turning: &self.turning,
+            no_slip: [&self.no_slip[0], &self.no_slip[1]],
             arms: &self.arms,
             drive,
         };
@@ -68,7 +58,6 @@ impl ContactShear {
             q: [q_x, q_y],
             u: [u_x, u_y],
             slip: &mut self.slip,
-            owed: &mut self.owed,
         };
         (problem, shear)
     }
@@ -84,21 +73,12 @@ impl Shear<'_> {
         cells.pack(grid.slip, self.slip);
     }
 
-    /// Puts shear, slip set and what is owed back; the displacements of the grid have followed all along.
+    /// Puts shear and slip set back; the displacements of the grid are kept up to date all along.
     pub(crate) fn unpack(&self, cells: &ContactCells, grid: &mut Shear<'_>) {
         for c in 0..2 {
             cells.unpack(self.q[c], grid.q[c]);
         }
         cells.unpack(self.slip, grid.slip);
-        if self.owed.owes() {
-            let on_grid = grid.owed.extend(grid.q[0].len());
-            for (packed, field) in self.owed.q.iter().zip(on_grid) {
-                cells.unpack(packed, field);
-            }
-            grid.owed.moves = self.owed.moves;
-        } else {
-            grid.owed.settle();
-        }
     }
 }
 
@@ -143,17 +123,17 @@ impl Before {
     ) -> bool {
         let given = problem.drive.given;
         let ([q_x, q_y], [u_x, u_y]) = (&shear.q, &shear.u);
-        let [ref_x, ref_y] = problem.u_ref;
+        let [x, y] = problem.no_slip;
         let ([p_x, p_y], [v_x, v_y]) = (&self.q, &self.u);
         let (now, before) = ([&**q_x, q_y, u_x, u_y], [&p_x[..], p_y, v_x, v_y]);
-        let fields = ((now, before), [ref_x, ref_y]);
-        let [rise, moved, work] = sums(fields, |n, ((now, before), u_ref)| {
+        let fields = ((now, before), [x, y]);
+        let [rise, moved, work] = sums(fields, |n, ((now, before), u_0)| {
             let given = problem.arms.in_plane(given, n);
             let shift = problem.arms.in_plane(shift, n);
             let (mut rise, mut moved, mut work) = (0.0, 0.0, 0.0);
             for c in 0..2 {
                 let change = now[c] - before[c];
-                let mean = 0.5 * (now[2 + c] + before[2 + c]) - u_ref[c];
+                let mean = 0.5 * (now[2 + c] + before[2 + c]) - u_0[c];
                 rise += change * (mean - shift[c]);
                 moved += change.abs();
                 work += (now[c] * (mean - given[c])).abs();

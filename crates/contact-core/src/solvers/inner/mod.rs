@@ -3,11 +3,12 @@
 mod admissible;
 mod contact_shear;
 mod limit;
-mod newton_step;
+mod newton_system;
 mod normal;
 mod projected_gradient;
 mod shear;
 mod shear_gradient;
+mod tangent;
 mod tangential;
 
 pub(super) use admissible::admissible;
@@ -15,6 +16,6 @@ pub(super) use limit::{Sliding, exceeds, sliding};
 pub(crate) use normal::assess;
 pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub(super) use shear::first_shift;
-pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
+pub use shear::{Shear, TangentialInfo, TangentialParams, TangentialProblem};
 pub(super) use shear_gradient::shear_gradient;
-pub use tangential::{TangentialWorkspace, tangential};
+pub use tangential::{TangentialWorkspace, newton_step, tangential};

@@ -47,7 +47,8 @@ impl ProjectedGradient {
     ) -> [f64; 3] {
         let cells = problem.bound.len();
         let given = problem.drive.given;
-        let no_slip = |c: usize, n: usize| problem.u_ref[c][n] + problem.arms.in_plane(given, n)[c];
+        let no_slip =
+            |c: usize, n: usize| problem.no_slip[c][n] + problem.arms.in_plane(given, n)[c];
         let mut stiffness = 1.0 / self.largest_compliance(response, problem);
         for c in 0..2 {
             self.ahead[c].copy_from_slice(shear.q[c]);

@@ -1,18 +1,16 @@
 //! What the tangential solvers are given, work on and end with.
 
 use crate::cells::{Arms, Drive, add};
-use crate::solvers::owed::Owed;
+use crate::plan::TangentialMethod;
+use crate::solvers::no_slip::slip;
 
 /// What is given: the friction bound, the reference of the slip, what drives the shift.
 #[derive(Clone, Copy, Debug)]
 pub struct TangentialProblem<'a> {
     /// Largest shear g = mu p in each cell \[Pa\], zero outside the contact.
     pub bound: &'a [f64],
-    /// Displacements that mean no slip, those of the last increment \[m\].
-    pub u_ref: [&'a [f64]; 2],
-    /// Where these follow the solution: the part of a turn of the shear in each cell that they take
-    /// over from the slip. Empty where they stay.
-    pub turning: &'a [f64],
+    /// The displacement that means no slip, u_0 \[m\].
+    pub no_slip: [&'a [f64]; 2],
     /// Where the cells are.
     pub arms: &'a Arms,
     /// Forces and torsional moment, or the motions of this increment where these are given.
@@ -20,23 +18,15 @@ pub struct TangentialProblem<'a> {
 }
 
 impl TangentialProblem<'_> {
-    /// Slip ds = u - u_ref - shift in cell n \[m\].
+    /// The slip of cell n with the rigid motion `shift` \[m\].
     pub(crate) fn slip(&self, u: &[&mut [f64]; 2], shift: [f64; 3], n: usize) -> [f64; 2] {
-        let rigid = self.arms.in_plane(shift, n);
-        [
-            u[0][n] - self.u_ref[0][n] - rigid[0],
-            u[1][n] - self.u_ref[1][n] - rigid[1],
-        ]
+        let at = |f: [&[f64]; 2]| [f[0][n], f[1][n]];
+        slip(
+            at([u[0], u[1]]),
+            at(self.no_slip),
+            self.arms.in_plane(shift, n),
+        )
     }
-}
-
-/// How the tangential problem is solved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TangentialMethod {
-    /// Semi-smooth Newton steps, [`super::tangential`].
-    Newton,
-    /// Conjugate gradients of the Polonsky-Keer type, as in the paper.
-    Gradient,
 }
 
 /// Settings of the tangential solver.
@@ -61,7 +51,7 @@ pub struct TangentialInfo {
     pub shift: [f64; 3],
     /// Root-mean-square misfit \[m\].
     pub misfit: f64,
-    /// Newton steps; one, where the displacements that mean no slip are to follow.
+    /// Newton steps; of a single step none where the shear was the solution already.
     pub iterations: usize,
     /// Conjugate-gradient passes, one convolution each.
     pub passes: usize,
@@ -71,12 +61,10 @@ pub struct TangentialInfo {
 pub struct Shear<'a> {
     /// q_x, q_y \[Pa\]; on entry a guess.
     pub q: [&'a mut [f64]; 2],
-    /// Total u_x, u_y \[m\], belonging to q on entry and on exit, but for what is owed.
+    /// Total u_x, u_y \[m\], belonging to q on entry and on exit.
     pub u: [&'a mut [f64]; 2],
     /// Contact cells that slip; on entry a guess.
     pub slip: &'a mut [bool],
-    /// What of q the displacements leave out.
-    pub(crate) owed: &'a mut Owed,
 }
 
 /// The shift that fits the stick cells best, or all contact cells where none sticks.
@@ -85,14 +73,15 @@ pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) ->
     let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slip[n];
     let any_sticks = (0..cells).any(sticks);
     let given = problem.drive.given;
-    let ([u_x, u_y], [ref_x, ref_y]) = (&shear.u, problem.u_ref);
-    let fields = ([u_x, u_y, ref_x, ref_y, problem.bound], &*shear.slip);
-    let slip = |n: usize, ([u_x, u_y, ref_x, ref_y, bound], slips): ([f64; 5], bool)| {
+    let ([u_x, u_y], [x, y]) = (&shear.u, problem.no_slip);
+    let fields = ([u_x, u_y, x, y, problem.bound], &*shear.slip);
+    let of_cell = |n: usize, ([u_x, u_y, x, y, bound], slips): ([f64; 5], bool)| {
         let counts = bound > 0.0 && !(slips && any_sticks);
         let rigid = problem.arms.in_plane(given, n);
-        let slip = [u_x - ref_x - rigid[0], u_y - ref_y - rigid[1]];
-        (f64::from(u8::from(counts)), slip)
+        (f64::from(u8::from(counts)), slip([u_x, u_y], [x, y], rigid))
     };
-    let fitted = problem.arms.fit_in_plane(problem.drive.free, fields, slip);
+    let fitted = problem
+        .arms
+        .fit_in_plane(problem.drive.free, fields, of_cell);
     add(given, fitted)
 }

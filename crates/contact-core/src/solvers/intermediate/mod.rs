@@ -1,9 +1,9 @@
 //! The intermediate loop (figure 2 of the paper): pressure and shear in turn.
 
 mod alternation;
-mod mixing;
+mod anderson;
+mod known_pressure;
+mod precision;
 
-pub(crate) use alternation::friction_bound;
-pub use alternation::{
-    CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, SlipDatum, coupled,
-};
+pub use alternation::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};
+pub use precision::alternation;

@@ -83,14 +83,14 @@ pub(super) mod tests {
 
     use super::Screened;
     use crate::kernels::{Quadrant, influence_coefficients};
-    use crate::march::neighbours::Neighbours;
-    use crate::march::view::{REACH, View};
+    use crate::march::entry::neighbours::Neighbours;
+    use crate::march::entry::view::{REACH, View};
     use crate::plan::Mirror;
     use crate::reference::linear_system::solve;
     use crate::scene::{Body, Elastic, Grid, KernelSettings, Shape};
 
     /// C_zz of a half-space \[m/Pa\].
-    pub(in crate::march) fn half_space(grid: &Grid) -> Quadrant {
+    pub(in crate::march::entry) fn half_space(grid: &Grid) -> Quadrant {
         let body = Body::homogeneous(Elastic::new(1.0, 0.3).unwrap(), Shape::Flat);
         let settings = KernelSettings::default();
         influence_coefficients(&body, grid, &settings, true)
@@ -99,7 +99,7 @@ pub(super) mod tests {
     }
 
     /// The response of all cells to all \[m/Pa\].
-    pub(in crate::march) fn of_all(grid: &Grid, kernel: &Quadrant) -> Array2<f64> {
+    pub(in crate::march::entry) fn of_all(grid: &Grid, kernel: &Quadrant) -> Array2<f64> {
         let cells = grid.nx * grid.ny;
         Array2::from_shape_fn((cells, cells), |(n, m)| {
             let [n, m] = [n, m].map(|n| (n / grid.ny, n % grid.ny));

@@ -31,7 +31,7 @@ use super::neighbours::Neighbour;
 use super::view::{REACH, View};
 
 /// How far the cells around reach that the rates are fitted to, in cells.
-pub(super) const AROUND: isize = 7;
+pub(in crate::march) const AROUND: isize = 7;
 /// Least rate at which a gap closes, over that with the contact kept.
 const SLOWEST: f64 = 1e-3;
 
@@ -283,11 +283,11 @@ fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> 
 mod tests {
     use ndarray::{Array2, Axis};
 
-    use crate::march::kept_contact::KeptContact;
-    use crate::march::neighbours::Neighbours;
-    use crate::march::screened::Screened;
-    use crate::march::screened::tests::{half_space, of_all};
-    use crate::march::view::{REACH, View};
+    use crate::march::entry::kept_contact::KeptContact;
+    use crate::march::entry::neighbours::Neighbours;
+    use crate::march::entry::screened::Screened;
+    use crate::march::entry::screened::tests::{half_space, of_all};
+    use crate::march::entry::view::{REACH, View};
     use crate::plan::Mirror;
     use crate::reference::linear_system::solve;
     use crate::scene::Grid;
@@ -341,8 +341,9 @@ mod tests {
             ],
             cells,
             screened: Screened::new(&grid, &kernel),
+            ordered: true,
         };
-        let found = kept.moved(|cell| cell >= CONTACT);
+        let found = kept.motion_before_entry(|cell| cell >= CONTACT);
         for (k, [_, way]) in moved.iter().enumerate() {
             let off = (found[0][CONTACT + k] - way).abs() / way;
             assert!(off < 0.01, "{k}: off by {off:e} of the way");

@@ -1,4 +1,4 @@
-//! Anderson mixing of the intermediate loop, for contacts where plain alternation does not settle.
+//! Anderson acceleration of the intermediate loop, for contacts where plain alternation is slow.
 //!
 //! The unknown of the loop is the part s of u_z that the shear causes: the pressure is solved for a
 //! given s, the shear for that pressure, and this shear causes G(s). Plain alternation takes
@@ -15,9 +15,9 @@ use crate::cells::{set, sums};
 const DEPTH: usize = 8;
 /// A pass that leaves more than this part of the misfit is slow.
 const SLOW: f64 = 0.5;
-/// Slow passes before mixing begins.
+/// Slow passes before the acceleration begins.
 const PATIENCE: usize = 2;
-/// Mixing passes that leave more than [`SLOW`] of the least misfit before the steps are damped.
+/// Accelerated passes that leave more than [`SLOW`] of the least misfit before the steps are damped.
 const TRIALS: usize = 12;
 /// Least damping.
 const LEAST: f64 = 1.0 / 16.0;
@@ -26,7 +26,7 @@ const RIDGE: f64 = 1e-12;
 
 /// Memory of the loop over one increment.
 #[derive(Debug)]
-pub(crate) struct Mixing {
+pub(crate) struct Anderson {
     /// The present s less the s that the shear causes \[m\]; zero in plain alternation.
     ahead: Vec<f64>,
     /// Misfit of the last pass \[m\].
@@ -38,6 +38,7 @@ pub(crate) struct Mixing {
     /// Root of the sum of squares of the last misfit on the contact.
     size: f64,
     slow_passes: usize,
+    enabled: bool,
     /// Part of the misfit that is added to s: less than one where whole steps go astray.
     damping: f64,
     /// Least misfit that counted, and passes since.
@@ -45,7 +46,7 @@ pub(crate) struct Mixing {
     since_least: usize,
 }
 
-impl Mixing {
+impl Anderson {
     pub(crate) fn new(cells: usize) -> Self {
         let field = || vec![0.0; cells];
         Self {
@@ -55,14 +56,16 @@ impl Mixing {
             changes: VecDeque::new(),
             size: f64::INFINITY,
             slow_passes: 0,
+            enabled: true,
             damping: 1.0,
             least: f64::INFINITY,
             since_least: 0,
         }
     }
 
-    /// Begins anew with the next increment.
-    pub(crate) fn restart(&mut self) {
+    /// Begins anew, in plain alternation; for good unless `enabled`.
+    pub(crate) fn restart(&mut self, enabled: bool) {
+        self.enabled = enabled;
         set([], [&mut self.ahead], |_, [], _| [0.0]);
         self.changes.clear();
         self.size = f64::INFINITY;
@@ -72,17 +75,16 @@ impl Mixing {
         self.since_least = 0;
     }
 
-    /// Whether the loop has turned out to be slow.
-    pub(crate) fn mixes(&self) -> bool {
-        self.slow_passes >= PATIENCE
+    /// Whether the loop has turned out to be slow, and its passes are combined.
+    pub(crate) fn accelerates(&self) -> bool {
+        self.enabled && self.slow_passes >= PATIENCE
     }
 
     /// After a pass that changed what the shear causes by `change`: `u_z`, solved for with the
     /// present s, becomes that of the tractions.
-    pub(crate) fn settle(&mut self, change: &[f64], u_z: &mut [f64]) {
+    pub(crate) fn close_pass(&mut self, change: &[f64], u_z: &mut [f64]) {
         let cells = u_z.len();
-        let mixes = self.mixes();
-        if mixes {
+        if self.accelerates() {
             let oldest = if self.changes.len() == DEPTH {
                 self.changes.pop_front()
             } else {
@@ -108,14 +110,14 @@ impl Mixing {
     }
 
     /// Takes the next s, for the contact of the pressure `p`, into `u_z`.
-    pub(crate) fn mix(&mut self, p: &[f64], u_z: &mut [f64]) {
+    pub(crate) fn extrapolate(&mut self, p: &[f64], u_z: &mut [f64]) {
         let on_contact = |a: &[f64], b: &[f64]| -> f64 {
             let inside = |p: f64, product: f64| if p > 0.0 { product } else { 0.0 };
             let [sum] = sums([p, a, b], |_, [p, a, b]| [inside(p, a * b)]);
             sum
         };
         let size = on_contact(&self.misfit, &self.misfit).sqrt();
-        if !self.mixes() {
+        if !self.accelerates() {
             self.slow_passes += usize::from(size > SLOW * self.size);
         }
         self.size = size;

@@ -11,14 +11,14 @@
 //! ```
 //!
 //! Near the contact, where the edge moves in steps of cells, this is the sum over the entries of the cells
-//! between ([`entry_order`](super::entry_order)). Farther off it is summed from cell to cell outwards. Where
+//! between ([`order`](super::order)). Farther off it is summed from cell to cell outwards. Where
 //! gap and motion are alike (proportional loads on similar bodies of nu = 0) m/c is the same everywhere, and
 //! M exact in increments of any size.
 
 use rayon::prelude::*;
 
-use super::entry_order;
 use super::neighbours::Neighbours;
+use super::order;
 use super::screened::Screened;
 use super::view::View;
 
@@ -35,19 +35,25 @@ pub(super) struct KeptContact {
     pub(super) motion: [Vec<f64>; 2],
     pub(super) cells: Neighbours,
     pub(super) screened: Screened,
+    /// Whether cells next to the contact enter one by one.
+    pub(super) ordered: bool,
 }
 
 impl KeptContact {
     /// The motion of each cell outside before its entry \[m\]; of one that does not enter, that of the
     /// whole increment.
-    pub(super) fn moved(&self, outside: impl Fn(usize) -> bool + Sync) -> [Vec<f64>; 2] {
+    pub(super) fn motion_before_entry(
+        &self,
+        outside: impl Fn(usize) -> bool + Sync,
+    ) -> [Vec<f64>; 2] {
         let enters = |n: &usize| outside(*n) && self.gap[*n] < self.closing[*n];
         let entering: Vec<usize> = (0..self.gap.len()).filter(enters).collect();
         let views = self.views(&entering, &outside);
-        let (near, mut far): (Vec<usize>, Vec<usize>) =
-            entering.into_iter().partition(|&n| views[n].is_some());
+        let (near, mut far): (Vec<usize>, Vec<usize>) = entering
+            .into_iter()
+            .partition(|&n| self.ordered && views[n].is_some());
         let mut known = vec![None; self.gap.len()];
-        for (&n, by) in near.iter().zip(entry_order::moved(self, &views, &near)) {
+        for (&n, by) in near.iter().zip(order::moved(self, &views, &near)) {
             known[n] = Some(by);
         }
         far.sort_by(|&n, &m| self.gap[n].total_cmp(&self.gap[m]));
@@ -99,7 +105,7 @@ impl KeptContact {
     ) -> Vec<Option<View>> {
         let mut around = vec![false; self.gap.len()];
         for &n in entering {
-            for near in self.cells.of(n, entry_order::AROUND) {
+            for near in self.cells.of(n, order::AROUND) {
                 around[near.cell] = outside(near.cell) && self.closing[near.cell] > 0.0;
             }
         }
@@ -115,10 +121,10 @@ impl KeptContact {
 #[cfg(test)]
 mod tests {
     use super::KeptContact;
-    use crate::march::neighbours::Neighbours;
-    use crate::march::screened::Screened;
-    use crate::march::screened::tests::half_space;
-    use crate::march::view::REACH;
+    use crate::march::entry::neighbours::Neighbours;
+    use crate::march::entry::screened::Screened;
+    use crate::march::entry::screened::tests::half_space;
+    use crate::march::entry::view::REACH;
     use crate::plan::Mirror;
     use crate::scene::Grid;
 
@@ -156,6 +162,7 @@ mod tests {
             closing,
             cells: Neighbours::new(&grid, mirror, REACH, &kernel),
             screened: Screened::new(&grid, &kernel),
+            ordered: true,
         };
         (contact, places)
     }
@@ -163,7 +170,7 @@ mod tests {
     #[test]
     fn cells_move_by_the_integral_of_the_ratio_over_their_gap() {
         let (contact, places) = round(|r| 0.3 - 0.05 * r + 0.003 * r * r, Mirror::None);
-        let moved = contact.moved(|n| contact.gap[n] > 0.0);
+        let moved = contact.motion_before_entry(|n| contact.gap[n] > 0.0);
         let mut worst: f64 = 0.0;
         for (n, at) in places.iter().enumerate() {
             let d = at[0].hypot(at[1]) - 20.0;
@@ -186,7 +193,7 @@ mod tests {
         let (mut contact, _) = round(|_| 0.0, Mirror::None);
         contact.motion =
             [0.2, -0.1].map(|ratio| contact.closing.iter().map(|c| ratio * c).collect());
-        let moved = contact.moved(|n| contact.gap[n] > 0.0);
+        let moved = contact.motion_before_entry(|n| contact.gap[n] > 0.0);
         for n in (0..contact.gap.len()).filter(|&n| contact.gap[n] < contact.closing[n]) {
             let gap = contact.gap[n];
             let off = (moved[0][n] - 0.2 * gap).hypot(moved[1][n] + 0.1 * gap);
@@ -199,8 +206,8 @@ mod tests {
         let ratio = |r: f64| 0.3 - 0.05 * r;
         let (whole, places) = round(ratio, Mirror::None);
         let (half, kept) = round(ratio, Mirror::Y);
-        let in_whole = whole.moved(|n| whole.gap[n] > 0.0);
-        let in_half = half.moved(|n| half.gap[n] > 0.0);
+        let in_whole = whole.motion_before_entry(|n| whole.gap[n] > 0.0);
+        let in_half = half.motion_before_entry(|n| half.gap[n] > 0.0);
         let same = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 0.5;
         for (n, at) in kept.iter().enumerate() {
             let twin = places.iter().position(|place| same(place, at)).unwrap();

@@ -1,12 +1,11 @@
 //! One Newton step of the tangential problem: the linear system on the tangent space.
 
+use super::tangent::{Admitted, Pair, Tangent};
 use super::{Shear, TangentialProblem};
 use crate::cells::ContactCells;
-use crate::cells::{add, inverse, product};
-use crate::cells::{set, sums, sweep};
+use crate::cells::{add, inverse, product, set, sweep};
 use crate::solvers::Response;
-
-type Pair = [Vec<f64>; 2];
+use crate::solvers::no_slip::slip;
 
 /// The eigenvalue c_0 at which the guess of the inverse is right, over C_xx(0,0).
 const RIGHT: f64 = 2.0;
@@ -19,7 +18,7 @@ const RIGHT: f64 = 2.0;
 ///
 /// with B the rigid motions that are free, Pi the projection on the tangent space (stick cells:
 /// both components; slip cells: across q) and D the curvature |ds|/g of the circle, less the part of it
-/// by which u_ref turns with q ([`TangentialProblem::turning`]). The unknowns are packed contact cells;
+/// by which u_0 turns with q ([`Self::set_turning`]). The unknowns are packed contact cells;
 /// what goes through the operator covers the grid.
 ///
 /// With P the inverse of C, and c an eigenvalue of C, the guess of the inverse is S P S + A,
@@ -33,15 +32,18 @@ const RIGHT: f64 = 2.0;
 /// are those that took the fewest passes. At the rim D has no bound, and there a cell must not hear of the
 /// others through P: the little that it would move too far is D times as much in the residual.
 #[derive(Debug)]
-pub(crate) struct NewtonStep {
+pub(crate) struct NewtonSystem {
     tangent: Tangent,
+    /// The part of a turn of the shear that u_0 takes over.
+    turning: Vec<f64>,
     /// D \[m/Pa\].
     diagonal: Vec<f64>,
     /// S \[1\] and A \[Pa/m\] of the guess S P S + A of (C + D)^-1.
     scale: Vec<f64>,
     alone: Vec<f64>,
-    /// Solution \[Pa\].
+    /// Solution, and the change of the shear after it that brings cells back to their circle \[Pa\].
     x: Pair,
+    pub(super) change: Pair,
     residual: Pair,
     residual_norm: f64,
     z: Pair,
@@ -53,49 +55,19 @@ pub(crate) struct NewtonStep {
     displacement: Pair,
 }
 
-/// The tangent space: the projection Pi on it, and what is left of tractions whose sums are to be zero
-/// and of displacements up to a rigid motion.
-///
-/// Where the curvature D is large a cell hardly gives way: a motion taken out of all cells alike would
-/// be far more than it can follow. It counts with the weight w = 1/(1 + D/C_xx(0,0)): tractions t become
-/// t - w Pi B m with B^T t = 0, displacements v become v - Pi B m with B^T w v = 0, and their products are
-/// what they were.
-#[derive(Debug)]
-struct Tangent {
-    /// Direction across the shear of slip cells, along which alone it may change; zero in stick cells.
-    across: Pair,
-    /// Lever arms of the contact cells; empty where the rotation is not free.
-    arms: Pair,
-    /// w
-    weight: Vec<f64>,
-    /// Inverse of B^T w Pi B.
-    inverse_sum: [[f64; 3]; 3],
-}
-
-/// The same of one cell.
-#[derive(Clone, Copy)]
-struct Admitted {
-    across: [f64; 2],
-    arm: [f64; 2],
-    weight: f64,
-}
-
-impl NewtonStep {
+impl NewtonSystem {
     pub(crate) fn new(cells: usize) -> Self {
         let field = || Vec::with_capacity(cells);
         let pair = || [field(), field()];
         let on_grid = || [vec![0.0; cells], vec![0.0; cells]];
         Self {
-            tangent: Tangent {
-                across: pair(),
-                arms: pair(),
-                weight: field(),
-                inverse_sum: [[0.0; 3]; 3],
-            },
+            tangent: Tangent::new(cells),
+            turning: field(),
             diagonal: field(),
             scale: field(),
             alone: field(),
             x: pair(),
+            change: pair(),
             residual: pair(),
             residual_norm: 0.0,
             z: pair(),
@@ -110,6 +82,7 @@ impl NewtonStep {
     pub(crate) fn set_contact(&mut self, problem: &TangentialProblem<'_>) {
         let count = problem.bound.len();
         let of_cells = [
+            &mut self.turning,
             &mut self.diagonal,
             &mut self.scale,
             &mut self.alone,
@@ -121,6 +94,7 @@ impl NewtonStep {
         for pair in [
             &mut self.tangent.across,
             &mut self.x,
+            &mut self.change,
             &mut self.residual,
             &mut self.z,
             &mut self.direction,
@@ -139,6 +113,14 @@ impl NewtonStep {
         clear(&mut self.traction);
     }
 
+    /// Takes over the part of a turn of the shear that u_0 follows in each cell of the grid; none without.
+    pub(super) fn set_turning(&mut self, contact: &ContactCells, turning: Option<&[f64]>) {
+        match turning {
+            Some(turning) => contact.pack(turning, &mut self.turning),
+            None => self.turning.fill(0.0),
+        }
+    }
+
     /// Tangent space, curvature and residual at the present shear and slip; x starts from zero.
     /// Returns the shift that fits the tangent space best, which the residual is that of.
     pub(crate) fn linearise(
@@ -152,16 +134,8 @@ impl NewtonStep {
         let right = RIGHT * c_xx;
         // The root of the contact cells is about the number across.
         let limit = 2.0 * c_xx * (problem.bound.len() as f64).powf(0.25);
-        // Where the displacements that mean no slip stay, any field stands in for the turning.
-        let turns = !problem.turning.is_empty();
-        let turning = if turns {
-            problem.turning
-        } else {
-            problem.bound
-        };
-        let [u_x, u_y] = &shear.u;
-        let ([ref_x, ref_y], [q_x, q_y]) = (problem.u_ref, &shear.q);
-        let from = [u_x, u_y, ref_x, ref_y, q_x, q_y, problem.bound, turning];
+        let ([x, y], [q_x, q_y], [u_x, u_y]) = (problem.no_slip, &shear.q, &shear.u);
+        let from = [u_x, u_y, x, y, q_x, q_y, problem.bound, &self.turning];
         let [t_x, t_y] = &mut t.across;
         let [r_x, r_y] = &mut self.residual;
         let to = [
@@ -175,14 +149,12 @@ impl NewtonStep {
             r_y,
         ];
         set((from, &*shear.slip), to, |n, (cell, slips), _| {
-            let [u_x, u_y, ref_x, ref_y, q_x, q_y, g, turning] = cell;
-            let rigid = problem.arms.in_plane(shift, n);
-            let slip = [u_x - ref_x - rigid[0], u_y - ref_y - rigid[1]];
+            let [u_x, u_y, x, y, q_x, q_y, g, turning] = cell;
+            let slip = slip([u_x, u_y], [x, y], problem.arms.in_plane(shift, n));
             let e = if slips { [q_x / g, q_y / g] } else { [0.0; 2] };
             let against = -(slip[0] * e[0] + slip[1] * e[1]);
-            let kept = if turns { 1.0 - turning } else { 1.0 };
             let curvature = if slips {
-                kept * against.max(0.0) / g
+                (1.0 - turning) * against.max(0.0) / g
             } else {
                 0.0
             };
@@ -319,14 +291,15 @@ impl NewtonStep {
         });
     }
 
-    /// Adds C times what is owed to the displacements and to what x causes.
-    pub(crate) fn answer(
+    /// Adds C times a change of the shear, packed, to the displacements and to what x causes; the change is
+    /// that left in [`Self::change`].
+    pub(crate) fn respond(
         &mut self,
         response: &mut Response<'_>,
         contact: &ContactCells,
         shear: &mut Shear<'_>,
     ) {
-        contact.unpack_pair(&shear.owed.q, &mut self.traction);
+        contact.unpack_pair(&self.change, &mut self.traction);
         let [q_x, q_y] = &self.traction;
         let [u_x, u_y] = &mut self.displacement;
         response.tangential([q_x, q_y], [u_x, u_y]);
@@ -335,11 +308,10 @@ impl NewtonStep {
         set([&z_x[..], z_y], [u_x, u_y], |_, z, u| {
             [u[0] + z[0], u[1] + z[1]]
         });
-        shear.owed.settle();
         self.add_response(1.0);
     }
 
-    /// Adds C x and what has been answered since to the displacements of the grid.
+    /// Adds C x and the responses added since to the displacements of the grid.
     pub(crate) fn follow_on_grid(&self, grid: &mut Shear<'_>) {
         let ([of_x, of_y], [u_x, u_y]) = (&self.response_x, &mut grid.u);
         set([&of_x[..], of_y], [u_x, u_y], |_, of, u| {
@@ -364,16 +336,15 @@ impl NewtonStep {
         let given = problem.drive.given;
         contact.pack_pair(&self.response_x, &mut self.z);
         let ([x, y], [z_x, z_y]) = (&self.x, &self.z);
-        let [ref_x, ref_y] = problem.u_ref;
-        let from = [&x[..], y, z_x, z_y, ref_x, ref_y, &self.diagonal];
+        let [x_0, y_0] = problem.no_slip;
+        let from = [&x[..], y, z_x, z_y, x_0, y_0, &self.diagonal];
         let ([q_x, q_y], [u_x, u_y]) = (&mut shear.q, &mut shear.u);
         let from = (self.tangent.fields(), from);
         let sums = sweep(from, [q_x, q_y, u_x, u_y], |n, (of_cell, from), old| {
-            let [x, y, z_x, z_y, ref_x, ref_y, diagonal] = from;
+            let [x, y, z_x, z_y, x_0, y_0, diagonal] = from;
             let [q_x, q_y, u_x, u_y] = old;
             let u = [u_x + z_x, u_y + z_y];
-            let rigid = problem.arms.in_plane(given, n);
-            let slip = [u[0] - ref_x - rigid[0], u[1] - ref_y - rigid[1]];
+            let slip = slip(u, [x_0, y_0], problem.arms.in_plane(given, n));
             let cell = Admitted::of(of_cell);
             let turned = cell.project([slip[0] + diagonal * x, slip[1] + diagonal * y]);
             (
@@ -382,92 +353,6 @@ impl NewtonStep {
             )
         });
         add(given, product(&self.tangent.inverse_sum, sums))
-    }
-}
-
-impl Tangent {
-    /// Directions and lever arms. Where the rotation is not free any field does for the arms:
-    /// [`Self::inverse_sum`] has no part of it.
-    fn fields(&self) -> [&[f64]; 5] {
-        let [t_x, t_y] = &self.across;
-        let [a_x, a_y] = if self.arms[0].is_empty() {
-            &self.across
-        } else {
-            &self.arms
-        };
-        [t_x, t_y, a_x, a_y, &self.weight]
-    }
-
-    /// B^T w Pi B
-    fn gram(&self) -> [[f64; 3]; 3] {
-        let [xx, xy, yy, xr, yr, rr] = sums(self.fields(), |_, of_cell| {
-            let cell = Admitted::of(of_cell);
-            let [x, y] = cell.arm;
-            let (of_x, of_y) = (cell.project([1.0, 0.0]), cell.project([0.0, 1.0]));
-            let turn = cell.project([-y, x]);
-            let of_turn = x * turn[1] - y * turn[0];
-            [of_x[0], of_x[1], of_y[1], turn[0], turn[1], of_turn].map(|of| cell.weight * of)
-        });
-        [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]]
-    }
-
-    /// Projects the `value(v, from)` on the tangent space of each cell, into v; returns the motion m
-    /// to be taken out for which the sums of what `sums` makes of a cell's v are zero, and the sum of v
-    /// times what the values come with.
-    fn project<const N: usize>(
-        &self,
-        v: &mut Pair,
-        sums: impl Fn(Admitted, [f64; 2]) -> [f64; 3] + Sync,
-        from: [&[f64]; N],
-        value: impl Fn([f64; 2], [f64; N]) -> ([f64; 2], [f64; 2]) + Sync,
-    ) -> ([f64; 3], f64) {
-        let [v_x, v_y] = v;
-        let from = (self.fields(), from);
-        let [x, y, turn, along] = sweep(from, [v_x, v_y], |_, (of_cell, from), v| {
-            let cell = Admitted::of(of_cell);
-            let (v, with) = value(v, from);
-            let v = cell.project(v);
-            let [x, y, turn] = sums(cell, v);
-            (v, [x, y, turn, v[0] * with[0] + v[1] * with[1]])
-        });
-        (product(&self.inverse_sum, [x, y, turn]), along)
-    }
-}
-
-impl Admitted {
-    fn of([t_x, t_y, a_x, a_y, weight]: [f64; 5]) -> Self {
-        Self {
-            across: [t_x, t_y],
-            arm: [a_x, a_y],
-            weight,
-        }
-    }
-
-    /// Pi v. With 1 - e_x^2 in place of t_x^2, where few cells stick, rounding would hide what slip cells
-    /// whose shear is turned a little aside give way by.
-    fn project(self, v: [f64; 2]) -> [f64; 2] {
-        let [x, y] = self.across;
-        let along = x * v[0] + y * v[1];
-        let sticks = x == 0.0 && y == 0.0;
-        if sticks { v } else { [along * x, along * y] }
-    }
-
-    /// B^T v
-    fn motion_of(self, [a, b]: [f64; 2]) -> [f64; 3] {
-        let [x, y] = self.arm;
-        [a, b, x * b - y * a]
-    }
-
-    /// B^T w v
-    fn weighted_motion_of(self, v: [f64; 2]) -> [f64; 3] {
-        self.motion_of(v).map(|m| self.weight * m)
-    }
-
-    /// v - Pi B m
-    fn without(self, m: [f64; 3], v: [f64; 2]) -> [f64; 2] {
-        let [x, y] = self.arm;
-        let rigid = self.project([m[0] - y * m[2], m[1] + x * m[2]]);
-        [v[0] - rigid[0], v[1] - rigid[1]]
     }
 }
 

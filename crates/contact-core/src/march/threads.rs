@@ -17,7 +17,7 @@ const PATIENCE: Duration = Duration::from_micros(100);
 /// A thread that does not come in time, being busy with other work of the pool, stays out: it might
 /// else begin to watch in the middle of a part of this work, which would wait for it for ever. So
 /// whatever a watcher holds up was begun before the work it watches, and no two wait for each other.
-pub(super) fn with_all_awake<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+pub(super) fn with_busy_threads<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     let watchers: Vec<_> = (1..rayon::current_num_threads())
         .map(|_| AtomicBool::new(false))
         .collect();
