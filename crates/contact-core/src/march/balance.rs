@@ -5,7 +5,7 @@ use super::{Energy, Increment, March, Motion, State, Status, Work};
 use crate::cells::{both, set, size, sums};
 use crate::error::Error;
 use crate::plan::Mirror;
-use crate::scene::{LoadPoint, Loads};
+use crate::scene::{LoadPoint, Loads, RigidMotion};
 use crate::solvers::Interface;
 use crate::solvers::intermediate::{CoupledInfo, friction_bound};
 
@@ -113,7 +113,7 @@ impl March {
             match motions[k] {
                 None => forces[k],
                 // The other half has the opposite.
-                Some(_) if mirrored && matches!(k, 1 | 4 | 5) => 0.0,
+                Some(_) if mirrored && RigidMotion::ALL[k].is_odd_in_y() => 0.0,
                 Some(_) => sums[k / 3][k % 3] * cell_area * self.unit(k),
             }
         });

@@ -5,7 +5,7 @@ use super::{Carried, March};
 use crate::cells::Drive;
 use crate::error::Error;
 use crate::plan::Mirror;
-use crate::scene::{LoadPoint, Preset, Scene};
+use crate::scene::{LoadPoint, Preset, RigidMotion, Scene};
 use crate::solvers::inner::{NormalParams, TangentialMethod, TangentialParams};
 use crate::solvers::intermediate::{CoupledInfo, CoupledParams, IncrementProblem, coupled};
 use crate::solvers::{Interface, Response};
@@ -122,7 +122,7 @@ impl March {
             let mut drive = Drive::default();
             for (k, &load) in of.iter().enumerate() {
                 let unit = self.unit(load);
-                let odd = mirrored && matches!(load, 1 | 4 | 5);
+                let odd = mirrored && RigidMotion::ALL[load].is_odd_in_y();
                 match given[load] {
                     _ if odd => {}
                     Some(motion) => drive.given[k] = (motion - from[load]) * unit,
@@ -137,12 +137,12 @@ impl March {
         (drive([0, 1, 2], [0.0; 6]), drive([3, 4, 5], before))
     }
 
-    /// What a motion of [`MOTIONS`](crate::scene::MOTIONS) is multiplied by, and its load divided by,
+    /// What a motion of [`RigidMotion::ALL`] is multiplied by, and its load divided by,
     /// for the solvers.
     pub(super) fn unit(&self, k: usize) -> f64 {
-        match k {
-            1 | 2 | 5 => self.window.arms.length,
-            4 => self.window.arms.stretch,
+        match RigidMotion::ALL[k] {
+            of if of.is_rotation() => self.window.arms.length,
+            RigidMotion::DeltaY => self.window.arms.stretch,
             _ => 1.0,
         }
     }
