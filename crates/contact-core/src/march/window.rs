@@ -18,7 +18,7 @@ use crate::convolution::{
     CirculantInverse, DcFft, Displacements, FrequencyDomain, SurfaceOperator, Tractions,
 };
 use crate::error::Error;
-use crate::kernels::{InfluenceCoefficients, Quadrant, norm, pair_coefficients_until};
+use crate::kernels::{InfluenceCoefficients, Quadrant, norm, pair_coefficients};
 use crate::plan::Plan;
 use crate::plan::{Half, Mirror};
 use crate::scene::{Grid, KernelMethod, Preset, Scene};
@@ -56,13 +56,13 @@ impl Whole {
     /// Computes the coefficients that a plan needs; ends when `stop` is raised.
     pub(super) fn new(scene: &Scene, plan: &Plan, stop: &AtomicBool) -> Result<Self, Error> {
         let settings = &scene.settings;
-        let pair = pair_coefficients_until(
+        let pair = pair_coefficients(
             (&scene.body1, &scene.body2),
             &scene.grid,
             &settings.kernel,
             settings.skip.equal_layers,
             plan.kernels(),
-            stop,
+            Some(stop),
         )?;
         let pair = pair.stretched(scene.friction.stretch());
         let shear = plan.friction && plan.coupling;
