@@ -27,7 +27,7 @@ fn coefficients(n: usize) -> InfluenceCoefficients {
         shape: Shape::Flat,
     };
     let grid = Grid::centred(1.2e-3, n).expect("a positive extent");
-    influence_coefficients(&body, &grid, &KernelSettings::default(), true).expect("a coating")
+    influence_coefficients(&body, &grid, &KernelSettings::default(), true, None).expect("a coating")
 }
 
 fn pool(threads: usize) -> ThreadPool {

@@ -50,13 +50,15 @@ fn main() -> Result<(), Error> {
         for _ in 0..REPEATS {
             clear_cache();
             let start = Instant::now();
-            result = Some(influence_coefficients(&coated, &grid, &settings, true)?);
+            result = Some(influence_coefficients(
+                &coated, &grid, &settings, true, None,
+            )?);
             shortest = shortest.min(start.elapsed().as_secs_f64());
         }
         Ok((result.expect("repeated"), shortest))
     };
     let exact = coefficients(KernelMethod::Hankel)?.0;
-    let other = influence_coefficients(&indenter, &grid, &KernelSettings::default(), true)?;
+    let other = influence_coefficients(&indenter, &grid, &KernelSettings::default(), true, None)?;
 
     println!("method,lambda,aliases,kernel_s,convolution_s,error_self,error_far,error_largest");
     for method in methods {

@@ -29,7 +29,7 @@ fn by(method: KernelMethod, body: &Body, grid: &Grid) -> InfluenceCoefficients {
         method,
         ..KernelSettings::default()
     };
-    influence_coefficients(body, grid, &settings, true).unwrap()
+    influence_coefficients(body, grid, &settings, true, None).unwrap()
 }
 
 fn inverse_fft(lambda: usize, aliases: usize, grid: &Grid) -> InfluenceCoefficients {

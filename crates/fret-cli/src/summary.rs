@@ -6,7 +6,7 @@ use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
 use contact_core::estimate::{Bar, ErrorBars};
 use contact_core::march::{BranchSummary, Increment, summarise};
-use contact_core::scene::{Branch, LOADS, MOTIONS};
+use contact_core::scene::{Branch, RigidMotion};
 
 /// Micrometres, or microjoules, per SI unit.
 const MICRO: f64 = 1e6;
@@ -37,11 +37,11 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
     let Measures { radius, pressure } = Measures::of(scene);
     let loads = branch.loads;
     let held = loads.given.motions();
-    let others = OTHERS.iter().fold(String::new(), |text, &(k, unit, _)| {
-        match (loads.forces()[k], held[k]) {
+    let others = OTHERS.iter().fold(String::new(), |text, of| {
+        match (loads.forces()[of.index()], held[of.index()]) {
             // What keeps the bodies from turning says little.
             (0.0, _) | (_, Some(0.0)) => text,
-            (load, _) => text + &format!(", {} = {load} {unit}", LOADS[k]),
+            (load, _) => text + &format!(", {} = {load} {}", of.load(), units(*of).0),
         }
     });
     format!(
@@ -59,13 +59,22 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
     )
 }
 
-/// Loads and motions that most paths leave at zero: place in [`LOADS`], units.
-const OTHERS: [(usize, &str, &str); 4] = [
-    (4, "N", "um"),
-    (1, "N m", "urad"),
-    (2, "N m", "urad"),
-    (5, "N m", "urad"),
+/// Motions that most paths leave at zero, and their loads.
+const OTHERS: [RigidMotion; 4] = [
+    RigidMotion::DeltaY,
+    RigidMotion::PhiX,
+    RigidMotion::PhiY,
+    RigidMotion::PhiZ,
 ];
+
+/// The units of a load and of its motion.
+fn units(of: RigidMotion) -> (&'static str, &'static str) {
+    if of.is_rotation() {
+        ("N m", "urad")
+    } else {
+        ("N", "um")
+    }
+}
 
 /// A column of the table: title, and its cell for a branch that ended at path time t.
 type Column = (String, Box<dyn Fn(&BranchSummary, f64) -> String>);
@@ -97,17 +106,18 @@ fn columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
         }),
         column("shift\ndelta_x\n[um]", move |b, _| micro(b.motion.delta_x)),
     ];
-    for (k, unit, motion_unit) in OTHERS {
-        let drives = |b: &Branch| b.to.given.motions()[k].unwrap_or(b.to.forces()[k]) != 0.0;
+    for of in OTHERS {
+        let (k, (unit, motion_unit)) = (of.index(), units(of));
+        let drives = |b: &Branch| b.to.prescribed(of).value() != 0.0;
         if !scene.path.branches.iter().any(drives) {
             continue;
         }
-        let title = format!("{}\n[{unit}]", LOADS[k]);
+        let title = format!("{}\n[{unit}]", of.load());
         columns.insert(
             4,
             column(title, move |b, _| format!("{:.4}", b.loads.forces()[k])),
         );
-        let title = format!("{}\n[{motion_unit}]", MOTIONS[k]);
+        let title = format!("{}\n[{motion_unit}]", of.name());
         columns.push(column(title, move |b, _| micro(b.motion.motions()[k])));
     }
     columns.extend([

@@ -120,7 +120,7 @@ pub(crate) fn resume(
         march,
         writer,
         increments,
-    }) = interruptible(py, &stop, || output::resume_until(store, &stop))?.map_err(to_python)?
+    }) = interruptible(py, &stop, || output::resume(store, Some(&stop)))?.map_err(to_python)?
     else {
         return Ok(());
     };

@@ -35,12 +35,19 @@ const METHODS: [Method; 12] = [
     Method {
         name: "window around the contact",
         off: |m| m.window = false,
-        files: &["march/domain/fit.rs", "march/domain/embed.rs", "march/domain/beyond.rs"],
+        files: &[
+            "march/domain/fit.rs",
+            "march/domain/embed.rs",
+            "march/domain/beyond.rs",
+        ],
     },
     Method {
         name: "single precision",
         off: |m| m.single_precision = false,
-        files: &["solvers/intermediate/precision.rs", "convolution/precision.rs"],
+        files: &[
+            "solvers/intermediate/precision.rs",
+            "convolution/precision.rs",
+        ],
     },
     Method {
         name: "busy threads",
@@ -158,16 +165,25 @@ impl Run {
     fn errors(&self, reference: &Self, cell: f64) -> [f64; 4] {
         let pairs = self.ends.iter().zip(&reference.ends);
         let off = pairs.map(|(a, b)| squares(&[0, 1, 2].map(|k| &a[k] - &b[k])).sqrt());
-        let largest = reference.ends.iter().map(squares).fold(0.0, f64::max).sqrt();
+        let largest = reference
+            .ends
+            .iter()
+            .map(squares)
+            .fold(0.0, f64::max)
+            .sqrt();
         let off: Vec<f64> = off.map(|off| off / largest).collect();
         let ends = |run: &Self| -> Vec<[f64; 2]> {
             let ends = run.increments.iter().filter(|i| i.point.ends_branch);
             let radius = |area: f64| (area / std::f64::consts::PI).sqrt();
-            ends.map(|i| [radius(i.contact_area), radius(i.stick_area)]).collect()
+            ends.map(|i| [radius(i.contact_area), radius(i.stick_area)])
+                .collect()
         };
         let (radii, truths) = (ends(self), ends(reference));
         let radius = |k: usize| {
-            let off = radii.iter().zip(&truths).map(|(a, b)| (a[k] - b[k]).abs() / cell);
+            let off = radii
+                .iter()
+                .zip(&truths)
+                .map(|(a, b)| (a[k] - b[k]).abs() / cell);
             off.fold(0.0, f64::max)
         };
         let later = off.iter().skip(1).copied().fold(0.0, f64::max);
@@ -223,7 +239,10 @@ fn main() -> Result<(), Error> {
     println!("{}", include_str!("introduction.md").trim_end());
     let only = std::env::args().nth(1);
     for trial in trials()? {
-        if only.as_ref().is_none_or(|only| trial.name.contains(only.as_str())) {
+        if only
+            .as_ref()
+            .is_none_or(|only| trial.name.contains(only.as_str()))
+        {
             table(&trial)?;
         }
     }

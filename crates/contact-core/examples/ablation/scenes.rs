@@ -105,9 +105,29 @@ pub fn trials() -> Result<Vec<Trial>, Error> {
     let torsion = TORSION.replace("MOMENT", "0.0762");
     Ok(vec![
         trial("paper's scene, chosen increments", PAPER, None, &finer)?,
-        trial("paper's scene, 1000 increments", PAPER, Some(&thousand), &finer)?,
-        trial("coupled indentation, chosen increments", INDENTATION, None, &[400])?,
-        trial("contact in spots", SPOTS, Some(&[30, 15, 30, 30]), &[300, 100, 200, 200])?,
-        trial("torsion", &torsion, Some(&[1, 5, 10, 10]), &[1, 60, 120, 120])?,
+        trial(
+            "paper's scene, 1000 increments",
+            PAPER,
+            Some(&thousand),
+            &finer,
+        )?,
+        trial(
+            "coupled indentation, chosen increments",
+            INDENTATION,
+            None,
+            &[400],
+        )?,
+        trial(
+            "contact in spots",
+            SPOTS,
+            Some(&[30, 15, 30, 30]),
+            &[300, 100, 200, 200],
+        )?,
+        trial(
+            "torsion",
+            &torsion,
+            Some(&[1, 5, 10, 10]),
+            &[1, 60, 120, 120],
+        )?,
     ])
 }

@@ -225,7 +225,11 @@ pub(super) fn increment(
     let mut solver = Solver {
         response: Response {
             op: &mut *domain.window.op,
-            inverse: domain.window.inverse.as_mut().map(|inverse| &mut **inverse as _),
+            inverse: domain
+                .window
+                .inverse
+                .as_mut()
+                .map(|inverse| &mut **inverse as _),
             stop: Some(&problem.stop),
             exact: false,
         },

@@ -7,7 +7,7 @@ use super::{State, off_grid};
 use crate::cells::{Arms, Drive};
 use crate::error::Error;
 use crate::plan::{Mirror, Plan};
-use crate::scene::{LoadPoint, Scene};
+use crate::scene::{LoadPoint, RigidMotion, Scene};
 use crate::solvers::inner::{NormalParams, TangentialParams};
 use crate::solvers::intermediate::AlternationParams;
 
@@ -64,12 +64,12 @@ impl Drives {
     }
 }
 
-/// What a motion of [`MOTIONS`](crate::scene::MOTIONS) is multiplied by, and its load divided by,
+/// What a motion of [`RigidMotion::ALL`] is multiplied by, and its load divided by,
 /// for the solvers.
 pub(super) fn unit(arms: &Arms, k: usize) -> f64 {
-    match k {
-        1 | 2 | 5 => arms.length,
-        4 => arms.stretch,
+    match RigidMotion::ALL[k] {
+        motion if motion.is_rotation() => arms.length,
+        RigidMotion::DeltaY => arms.stretch,
         _ => 1.0,
     }
 }
@@ -110,9 +110,9 @@ impl Problem {
         self.scene.grid.cell_area() * self.plan.mirror.multiplicity()
     }
 
-    /// Whether a load of [`LOADS`](crate::scene::LOADS) is zero by symmetry.
+    /// Whether a load of [`RigidMotion::ALL`] is zero by symmetry.
     pub(super) fn is_odd(&self, load: usize) -> bool {
-        self.plan.mirror != Mirror::None && matches!(load, 1 | 4 | 5)
+        self.plan.mirror != Mirror::None && RigidMotion::ALL[load].is_odd_in_y()
     }
 
     /// The settings of the loops, with lengths in metres, for a share of the tolerance.

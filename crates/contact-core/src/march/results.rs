@@ -22,7 +22,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The motions in the order of [`MOTIONS`](crate::scene::MOTIONS).
+    /// The motions in the order of [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
     pub fn motions(&self) -> [f64; 6] {
         [
             self.delta_z,

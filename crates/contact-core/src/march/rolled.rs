@@ -11,9 +11,9 @@
 //! rotation that follows from M_z it is left out: with the shift along y given too, an error of first order
 //! in s; where that is free it takes it up.
 
+use super::State;
 use super::domain::Geometry;
 use super::problem::Problem;
-use super::State;
 use crate::plan::Mirror;
 use crate::scene::{LoadPoint, Loads};
 use crate::solvers::Interface;

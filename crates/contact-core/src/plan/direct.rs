@@ -9,7 +9,7 @@
 //!
 //! What is left out is the curve in between: the rows of the increments, the shape of a loop.
 
-use crate::scene::{Branch, Loads, SaveFields, Scene};
+use crate::scene::{Branch, Loads, RigidMotion, SaveFields, Scene};
 
 /// For every branch whether its increments may be left out, and why any or none are.
 pub(crate) fn direct_branches(
@@ -68,8 +68,10 @@ pub(crate) fn direct_branches(
 
 /// Whether no shear is asked for.
 fn is_normal(to: &Loads) -> bool {
-    let (forces, given) = (to.forces(), to.given.motions());
-    (3..6).all(|k| given[k].unwrap_or(forces[k]) == 0.0)
+    let in_plane = RigidMotion::ALL.into_iter().filter(|of| of.is_in_plane());
+    in_plane
+        .map(|of| to.prescribed(of))
+        .all(|p| p.value() == 0.0)
 }
 
 /// Whether shear along a line causes displacements along that line alone, and slip follows.
@@ -89,28 +91,22 @@ fn isotropic(scene: &Scene) -> bool {
 fn on_a_line(branches: &[Branch]) -> bool {
     let mut line = (0.0_f64, 0.0_f64);
     branches.iter().all(|b| {
-        let Loads {
-            T_x,
-            T_y,
-            M_z,
-            given,
-            ..
-        } = b.to;
+        let Loads { T_x, T_y, .. } = b.to;
         if line == (0.0, 0.0) {
             line = (T_x, T_y);
         }
         let across = (T_x * line.1 - T_y * line.0).abs();
-        let turns = given.phi_z.unwrap_or(M_z) != 0.0;
-        let pushed = given.delta_x.is_some() || given.delta_y.is_some();
+        let prescribed = |of: RigidMotion| b.to.prescribed(of);
+        let turns = prescribed(RigidMotion::PhiZ).value() != 0.0;
+        let pushed = [RigidMotion::DeltaX, RigidMotion::DeltaY]
+            .iter()
+            .any(|of| prescribed(*of).is_motion());
         across <= 1e-12 * T_x.hypot(T_y) * line.0.hypot(line.1) && !turns && !pushed
     })
 }
 
 /// Whether the loads across the plane stay as they are in branch `b`.
 fn same_pressure(branches: &[Branch], b: usize) -> bool {
-    let across = |to: &Loads| {
-        let (forces, given) = (to.forces(), to.given.motions());
-        [0, 1, 2].map(|k| (given[k].is_some(), given[k].unwrap_or(forces[k])))
-    };
-    across(&branches[b].to) == across(&branches[b - 1].to)
+    let mut across = RigidMotion::ALL.into_iter().filter(|of| !of.is_in_plane());
+    across.all(|of| branches[b].to.prescribed(of) == branches[b - 1].to.prescribed(of))
 }

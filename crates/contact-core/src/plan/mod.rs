@@ -11,7 +11,7 @@ pub use mirror::{Half, Mirror};
 use ndarray::Array2;
 
 use self::direct::direct_branches;
-use crate::scene::{Body, LoadPoint, Loads, Scene, SurfaceMap};
+use crate::scene::{Body, LoadPoint, Loads, RigidMotion, Scene, SurfaceMap};
 
 /// What is computed and what is left out.
 #[derive(Clone, Debug, PartialEq)]
@@ -191,11 +191,8 @@ fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
         return Err("the friction is not mirror-symmetric in y");
     }
     let uneven = |to: &Loads| {
-        let (forces, given) = (to.forces(), to.given.motions());
-        // M_x, T_y, M_z and what goes with them change their sign under y -> -y.
-        [1, 4, 5]
-            .iter()
-            .any(|&k| given[k].unwrap_or(forces[k]) != 0.0)
+        let mut odd = RigidMotion::ALL.into_iter().filter(|of| of.is_odd_in_y());
+        odd.any(|of| to.prescribed(of).value() != 0.0)
     };
     if scene.path.branches.iter().any(|b| uneven(&b.to)) {
         return Err("the load path drives a motion along y or a rotation about x or z");

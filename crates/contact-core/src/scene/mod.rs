@@ -9,10 +9,10 @@ mod case;
 mod friction;
 mod grid;
 mod load_path;
-mod load_table;
 mod loads;
 mod magnitude;
 mod material;
+mod motion;
 mod settings;
 mod shape;
 mod surface_map;
@@ -21,10 +21,10 @@ pub use body::{Body, Coating};
 pub use case::Reach;
 pub use friction::{Friction, FrictionHistory, History};
 pub use grid::Grid;
-pub use load_path::{Branch, LoadPath, LoadPoint, Spacing};
-pub use load_table::Increments;
-pub use loads::{Given, LOADS, Loads, MOTIONS};
+pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
+pub use loads::{Given, Loads};
 pub use material::Elastic;
+pub use motion::{Prescribed, RigidMotion};
 pub use settings::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
 };

@@ -123,7 +123,9 @@ type Place = (usize, usize);
 /// u_z under pressure on a cell so many columns and rows away, over that under its own.
 fn response(scene: &Scene) -> Array2<f64> {
     let (kernel, equal) = (&scene.settings.kernel, scene.settings.skip.equal_layers);
-    let of = |body| influence_coefficients(body, &scene.grid, kernel, equal).expect("coefficients");
+    let of = |body| {
+        influence_coefficients(body, &scene.grid, kernel, equal, None).expect("coefficients")
+    };
     let zz = of(&scene.body1).zz + of(&scene.body2).zz;
     let own = zz[(0, 0)];
     zz / own

@@ -93,6 +93,7 @@ impl Audit {
             &scene.settings.kernel,
             scene.settings.skip.equal_layers,
             plan.kernels(),
+            None,
         );
         Self {
             op: DcFft::new(&pair.unwrap(), Mirror::None, plan.coupling),

@@ -4,172 +4,13 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use contact_core::Error;
-use contact_core::scene as core;
+use contact_core::scene::{self as core, Prescribed, RigidMotion};
 use numpy::{PyArray1, ToPyArray};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use super::branch::{Branch, Spacing};
+use super::increments::{AnyIncrements, Count};
 use crate::error::to_python;
-
-/// How the increments of a branch are spaced.
-#[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Spacing {
-    #[pyo3(name = "UNIFORM")]
-    Uniform,
-    #[pyo3(name = "EQUAL_RADIUS")]
-    EqualRadius,
-}
-
-impl From<Spacing> for core::Spacing {
-    fn from(spacing: Spacing) -> Self {
-        match spacing {
-            Spacing::Uniform => Self::Uniform,
-            Spacing::EqualRadius => Self::EqualRadius,
-        }
-    }
-}
-
-impl From<core::Spacing> for Spacing {
-    fn from(spacing: core::Spacing) -> Self {
-        match spacing {
-            core::Spacing::Uniform => Self::Uniform,
-            core::Spacing::EqualRadius => Self::EqualRadius,
-        }
-    }
-}
-
-/// One straight piece of the load history.
-#[pyclass(frozen, eq, module = "pyfret")]
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) struct Branch(core::Branch);
-
-impl Branch {
-    /// A load, `None` where the motion is given instead.
-    fn load(&self, k: usize) -> Option<f64> {
-        let free = self.0.to.given.motions()[k].is_none();
-        free.then(|| self.0.to.forces()[k])
-    }
-}
-
-#[pymethods]
-impl Branch {
-    #[getter]
-    fn W(&self) -> Option<f64> {
-        self.load(0)
-    }
-
-    #[getter]
-    fn M_x(&self) -> Option<f64> {
-        self.load(1)
-    }
-
-    #[getter]
-    fn M_y(&self) -> Option<f64> {
-        self.load(2)
-    }
-
-    #[getter]
-    fn T_x(&self) -> Option<f64> {
-        self.load(3)
-    }
-
-    #[getter]
-    fn T_y(&self) -> Option<f64> {
-        self.load(4)
-    }
-
-    #[getter]
-    fn M_z(&self) -> Option<f64> {
-        self.load(5)
-    }
-
-    #[getter]
-    fn delta_z(&self) -> Option<f64> {
-        self.0.to.given.delta_z
-    }
-
-    #[getter]
-    fn delta_x(&self) -> Option<f64> {
-        self.0.to.given.delta_x
-    }
-
-    #[getter]
-    fn delta_y(&self) -> Option<f64> {
-        self.0.to.given.delta_y
-    }
-
-    #[getter]
-    fn phi_x(&self) -> Option<f64> {
-        self.0.to.given.phi_x
-    }
-
-    #[getter]
-    fn phi_y(&self) -> Option<f64> {
-        self.0.to.given.phi_y
-    }
-
-    #[getter]
-    fn phi_z(&self) -> Option<f64> {
-        self.0.to.given.phi_z
-    }
-
-    #[getter]
-    fn sigma_B(&self) -> f64 {
-        self.0.to.sigma_B
-    }
-
-    #[getter]
-    fn sigma_B1(&self) -> f64 {
-        self.0.to.sigma_B1
-    }
-
-    #[getter]
-    fn rolled(&self) -> f64 {
-        self.0.to.rolled
-    }
-
-    #[getter]
-    fn increments(&self) -> Option<usize> {
-        self.0.increments
-    }
-
-    #[getter]
-    fn path_error(&self) -> Option<f64> {
-        self.0.path_error
-    }
-
-    #[getter]
-    fn spacing(&self) -> Spacing {
-        self.0.spacing.into()
-    }
-
-    #[getter]
-    fn t(&self) -> f64 {
-        self.0.t_end
-    }
-
-    fn __repr__(&self) -> String {
-        let given = self.0.to.given.motions();
-        let parts = (0..6).filter_map(|k| match (self.load(k), given[k]) {
-            (Some(load), _) if load != 0.0 || k == 0 => {
-                Some(format!("{}={load:?}", core::LOADS[k]))
-            }
-            (None, Some(motion)) if motion != 0.0 || k % 3 == 0 => {
-                Some(format!("{}={motion:?}", core::MOTIONS[k]))
-            }
-            _ => None,
-        });
-        format!(
-            "Branch({}, increments={}, t={:?})",
-            parts.collect::<Vec<_>>().join(", "),
-            self.0
-                .increments
-                .map_or_else(|| "\"auto\"".to_owned(), |n| n.to_string()),
-            self.0.t_end
-        )
-    }
-}
 
 /// The load history, from two bodies just touching.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
@@ -192,83 +33,20 @@ impl Values {
     }
 }
 
-/// As many increments as the change needs if the whole range takes this many.
-#[pyclass(frozen, eq, hash, from_py_object, module = "pyfret")]
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct PerRange(usize);
-
-#[pymethods]
-impl PerRange {
-    #[new]
-    fn new(increments: usize) -> Self {
-        Self(increments)
-    }
-
-    #[getter]
-    fn increments(&self) -> usize {
-        self.0
-    }
-
-    fn __repr__(&self) -> String {
-        format!("PerRange({})", self.0)
-    }
-}
-
-/// Increments of a branch: a number, or "auto" for as many as the path tolerance asks for.
-struct Count(Option<usize>);
-
-impl<'py> FromPyObject<'_, 'py> for Count {
-    type Error = PyErr;
-
-    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if value.extract::<&str>().is_ok_and(|word| word == "auto") {
-            return Ok(Self(None));
-        }
-        let wrong = |_| PyValueError::new_err("increments: a whole number >= 1, or \"auto\"");
-        value.extract().map(|n| Self(Some(n))).map_err(wrong)
-    }
-}
-
-/// Increments between two waypoints.
-#[derive(FromPyObject)]
-enum AnyIncrements {
-    Each(usize),
-    PerRange(PerRange),
-}
-
-impl From<AnyIncrements> for core::Increments {
-    fn from(increments: AnyIncrements) -> Self {
-        match increments {
-            AnyIncrements::Each(n) => Self::Each(n),
-            AnyIncrements::PerRange(PerRange(n)) => Self::PerRange(n),
-        }
-    }
-}
-
 impl LoadPath {
-    /// Appends a branch; `change` makes of each load and given motion the new ones.
+    /// Appends a branch that goes to the loads and motions which `change` makes of the present ones.
     fn branch(
         &self,
         increments: Option<usize>,
         spacing: Spacing,
         t: Option<f64>,
-        change: impl Fn(usize, f64, Option<f64>) -> (f64, Option<f64>),
+        change: impl FnOnce(&mut core::Loads),
     ) -> Self {
-        let (at, t_before) = self
-            .0
-            .branches
-            .last()
-            .map_or_else(Default::default, |b| (b.to, b.t_end));
-        let (mut forces, mut motions) = (at.forces(), at.given.motions());
-        for k in 0..6 {
-            (forces[k], motions[k]) = change(k, forces[k], motions[k]);
-        }
+        let (mut to, t_before) = self.0.last();
+        change(&mut to);
         Self(self.0.clone().branch(core::Branch {
-            to: at.with_forces(forces, core::Given::from_motions(motions)),
-            increments,
             spacing: spacing.into(),
-            t_end: t.unwrap_or(t_before + 1.0),
-            path_error: None,
+            ..core::Branch::new(to, increments, t.unwrap_or(t_before + 1.0))
         }))
     }
 
@@ -279,6 +57,15 @@ impl LoadPath {
     ) -> Bound<'py, PyArray1<f64>> {
         let column: Vec<f64> = self.0.points().iter().map(of).collect();
         column.to_pyarray(py)
+    }
+}
+
+/// Prescribes what is given of the six motions or their loads.
+fn prescribe(to: &mut core::Loads, given: [Option<Prescribed>; 6]) {
+    for (of, given) in RigidMotion::ALL.into_iter().zip(given) {
+        if let Some(prescribed) = given {
+            to.prescribe(of, prescribed);
+        }
     }
 }
 
@@ -359,17 +146,13 @@ impl LoadPath {
         spacing: Spacing,
         t: Option<f64>,
     ) -> Self {
-        let named = [W, M_x, M_y, T_x, T_y, M_z];
-        let mut path = self.branch(increments.0, spacing, t, |k, load, motion| match named[k] {
-            Some(load) => (load, None),
-            None => (load, motion),
-        });
-        if let Some(branch) = path.0.branches.last_mut() {
-            branch.to.sigma_B = sigma_B.unwrap_or(branch.to.sigma_B);
-            branch.to.sigma_B1 = sigma_B1.unwrap_or(branch.to.sigma_B1);
-            branch.to.rolled = rolled.unwrap_or(branch.to.rolled);
-        }
-        path
+        let loads = [W, M_x, M_y, T_x, T_y, M_z].map(|load| load.map(Prescribed::Load));
+        self.branch(increments.0, spacing, t, |to| {
+            prescribe(to, loads);
+            to.sigma_B = sigma_B.unwrap_or(to.sigma_B);
+            to.sigma_B1 = sigma_B1.unwrap_or(to.sigma_B1);
+            to.rolled = rolled.unwrap_or(to.rolled);
+        })
     }
 
     #[pyo3(signature = (*, delta_z = None, delta_x = None, delta_y = None, phi_x = None, phi_y = None, phi_z = None, increments = Count(None), spacing = Spacing::Uniform, t = None))]
@@ -386,11 +169,9 @@ impl LoadPath {
         spacing: Spacing,
         t: Option<f64>,
     ) -> Self {
-        let named = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
-        self.branch(increments.0, spacing, t, |k, load, motion| match named[k] {
-            Some(motion) => (0.0, Some(motion)),
-            None => (load, motion),
-        })
+        let motions = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
+        let motions = motions.map(|motion| motion.map(Prescribed::Motion));
+        self.branch(increments.0, spacing, t, |to| prescribe(to, motions))
     }
 
     #[getter]

@@ -1,8 +1,10 @@
 //! WHAT is in contact, as the user writes it: one file per part of the scene.
 
 mod body;
+mod branch;
 mod friction;
 mod grid;
+mod increments;
 mod load_path;
 mod material;
 mod profile;
@@ -11,9 +13,11 @@ mod shape;
 mod whole;
 
 pub(crate) use body::{Body, Coating};
+pub(crate) use branch::{Branch, Spacing};
 pub(crate) use friction::{AnyFriction, Friction, History};
 pub(crate) use grid::Grid;
-pub(crate) use load_path::{Branch, LoadPath, PerRange, Spacing};
+pub(crate) use increments::PerRange;
+pub(crate) use load_path::LoadPath;
 pub(crate) use material::Elastic;
 pub(crate) use profile::{Profile, graded};
 pub(crate) use settings::{FrequencyDomain, Hankel, InverseFft, Preset, Save, Settings, Skip};

@@ -22,7 +22,7 @@ use crate::convolution::{
     ApproximateInverse, SurfaceOperator, approximate_inverse, surface_operator,
 };
 use crate::error::Error;
-use crate::kernels::{InfluenceCoefficients, norm, pair_coefficients_until};
+use crate::kernels::{InfluenceCoefficients, norm, pair_coefficients};
 use crate::plan::{Half, Mirror, Plan};
 use crate::scene::{Grid, Scene};
 use crate::solvers::Response;
@@ -68,13 +68,13 @@ impl Domain {
     /// Computes the coefficients that a plan needs; ends when `stop` is raised.
     pub(super) fn new(scene: &Scene, plan: &Plan, stop: &AtomicBool) -> Result<Self, Error> {
         let settings = &scene.settings;
-        let pair = pair_coefficients_until(
+        let pair = pair_coefficients(
             (&scene.body1, &scene.body2),
             &scene.grid,
             &settings.kernel,
             settings.skip.equal_layers,
             plan.kernels(),
-            stop,
+            Some(stop),
         )?;
         let pair = pair.stretched(scene.friction.stretch());
         let shear = plan.friction && plan.coupling;

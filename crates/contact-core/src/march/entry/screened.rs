@@ -93,7 +93,7 @@ pub(super) mod tests {
     pub(in crate::march::entry) fn half_space(grid: &Grid) -> Quadrant {
         let body = Body::homogeneous(Elastic::new(1.0, 0.3).unwrap(), Shape::Flat);
         let settings = KernelSettings::default();
-        influence_coefficients(&body, grid, &settings, true)
+        influence_coefficients(&body, grid, &settings, true, None)
             .unwrap()
             .zz
     }

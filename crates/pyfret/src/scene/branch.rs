@@ -1,0 +1,174 @@
+//! A branch of the load history.
+
+use contact_core::scene::{self as core, Prescribed, RigidMotion};
+use pyo3::prelude::*;
+
+/// How the increments of a branch are spaced.
+#[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Spacing {
+    #[pyo3(name = "UNIFORM")]
+    Uniform,
+    #[pyo3(name = "EQUAL_RADIUS")]
+    EqualRadius,
+}
+
+impl From<Spacing> for core::Spacing {
+    fn from(spacing: Spacing) -> Self {
+        match spacing {
+            Spacing::Uniform => Self::Uniform,
+            Spacing::EqualRadius => Self::EqualRadius,
+        }
+    }
+}
+
+impl From<core::Spacing> for Spacing {
+    fn from(spacing: core::Spacing) -> Self {
+        match spacing {
+            core::Spacing::Uniform => Self::Uniform,
+            core::Spacing::EqualRadius => Self::EqualRadius,
+        }
+    }
+}
+
+/// One straight piece of the load history.
+#[pyclass(frozen, eq, module = "pyfret")]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct Branch(pub(super) core::Branch);
+
+impl Branch {
+    /// A load, `None` where its motion is prescribed.
+    fn load(&self, of: RigidMotion) -> Option<f64> {
+        match self.0.to.prescribed(of) {
+            Prescribed::Load(load) => Some(load),
+            Prescribed::Motion(_) => None,
+        }
+    }
+
+    /// A motion, `None` where its load is prescribed.
+    fn motion(&self, of: RigidMotion) -> Option<f64> {
+        match self.0.to.prescribed(of) {
+            Prescribed::Load(_) => None,
+            Prescribed::Motion(motion) => Some(motion),
+        }
+    }
+}
+
+#[pymethods]
+impl Branch {
+    #[getter]
+    fn W(&self) -> Option<f64> {
+        self.load(RigidMotion::DeltaZ)
+    }
+
+    #[getter]
+    fn M_x(&self) -> Option<f64> {
+        self.load(RigidMotion::PhiX)
+    }
+
+    #[getter]
+    fn M_y(&self) -> Option<f64> {
+        self.load(RigidMotion::PhiY)
+    }
+
+    #[getter]
+    fn T_x(&self) -> Option<f64> {
+        self.load(RigidMotion::DeltaX)
+    }
+
+    #[getter]
+    fn T_y(&self) -> Option<f64> {
+        self.load(RigidMotion::DeltaY)
+    }
+
+    #[getter]
+    fn M_z(&self) -> Option<f64> {
+        self.load(RigidMotion::PhiZ)
+    }
+
+    #[getter]
+    fn delta_z(&self) -> Option<f64> {
+        self.motion(RigidMotion::DeltaZ)
+    }
+
+    #[getter]
+    fn delta_x(&self) -> Option<f64> {
+        self.motion(RigidMotion::DeltaX)
+    }
+
+    #[getter]
+    fn delta_y(&self) -> Option<f64> {
+        self.motion(RigidMotion::DeltaY)
+    }
+
+    #[getter]
+    fn phi_x(&self) -> Option<f64> {
+        self.motion(RigidMotion::PhiX)
+    }
+
+    #[getter]
+    fn phi_y(&self) -> Option<f64> {
+        self.motion(RigidMotion::PhiY)
+    }
+
+    #[getter]
+    fn phi_z(&self) -> Option<f64> {
+        self.motion(RigidMotion::PhiZ)
+    }
+
+    #[getter]
+    fn sigma_B(&self) -> f64 {
+        self.0.to.sigma_B
+    }
+
+    #[getter]
+    fn sigma_B1(&self) -> f64 {
+        self.0.to.sigma_B1
+    }
+
+    #[getter]
+    fn rolled(&self) -> f64 {
+        self.0.to.rolled
+    }
+
+    #[getter]
+    fn increments(&self) -> Option<usize> {
+        self.0.increments
+    }
+
+    #[getter]
+    fn path_error(&self) -> Option<f64> {
+        self.0.path_error
+    }
+
+    #[getter]
+    fn spacing(&self) -> Spacing {
+        self.0.spacing.into()
+    }
+
+    #[getter]
+    fn t(&self) -> f64 {
+        self.0.t_end
+    }
+
+    fn __repr__(&self) -> String {
+        // Zero is worth a word only where it is not the default.
+        let parts = RigidMotion::ALL.into_iter().filter_map(|of| {
+            let prescribed = self.0.to.prescribed(of);
+            let shown = match prescribed {
+                Prescribed::Load(_) => of == RigidMotion::DeltaZ,
+                Prescribed::Motion(_) => matches!(of, RigidMotion::DeltaZ | RigidMotion::DeltaX),
+            };
+            let value = prescribed.value();
+            (value != 0.0 || shown).then(|| format!("{}={value:?}", prescribed.name(of)))
+        });
+        format!(
+            "Branch({}, increments={}, t={:?})",
+            parts.collect::<Vec<_>>().join(", "),
+            self.0
+                .increments
+                .map_or_else(|| "\"auto\"".to_owned(), |n| n.to_string()),
+            self.0.t_end
+        )
+    }
+}
