@@ -5,10 +5,10 @@ use contact_core::estimate::choose_increments;
 use contact_core::scene::Scene;
 
 /// A scene, and the same with more increments.
-pub struct Trial {
-    pub name: &'static str,
-    pub scene: Scene,
-    pub reference: Scene,
+pub(crate) struct Trial {
+    pub(crate) name: &'static str,
+    pub(crate) scene: Scene,
+    pub(crate) reference: Scene,
 }
 
 /// The paper's scene, E1/E2 = 2.
@@ -98,7 +98,7 @@ fn trial(
 }
 
 /// All of them.
-pub fn trials() -> Result<Vec<Trial>, Error> {
+pub(crate) fn trials() -> Result<Vec<Trial>, Error> {
     let finer = [400, 200, 400, 400, 400, 400];
     let thousand = [100, 100, 200, 200, 200, 200];
     // M/(mu W a) = 0.53: the stick zone has half the contact radius (Lubkin).
