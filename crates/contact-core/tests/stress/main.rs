@@ -7,14 +7,15 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+#[path = "../audit/mod.rs"]
 mod audit;
 mod campaign;
 mod corners;
 #[path = "../document/mod.rs"]
 mod document;
 mod draw;
-mod misfit;
 mod report;
+mod twins;
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
