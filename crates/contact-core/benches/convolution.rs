@@ -6,7 +6,7 @@ mod rig;
 use std::time::Instant;
 
 use contact_core::convolution::{
-    CirculantInverse, DcFft, Displacements, SurfaceOperator, Tractions,
+    ApproximateInverse, CirculantInverse, DcFft, Displacements, SurfaceOperator, Tractions,
 };
 use contact_core::kernels::{InfluenceCoefficients, influence_coefficients};
 use contact_core::plan::Mirror;

@@ -8,7 +8,7 @@ use contact_core::kernels::influence_coefficients;
 use contact_core::scene::{Grid, KernelSettings};
 use kernel_tables::{body, load, matrix, number, whole};
 
-/// What the tables promise and the issue asks for: 1e-11 of C33(0,0).
+/// What the tables are good to and the conversion promises: 1e-11 of C33(0,0).
 const TOLERANCE: f64 = 1e-11;
 
 #[test]

@@ -194,7 +194,7 @@ fn a_homogeneous_body_is_not_converted() {
 
 /// What is kept is what is computed, and the settings are part of the key.
 #[test]
-fn kept_coefficients_are_those_computed() {
+fn cached_coefficients_are_those_computed() {
     let grid = square(24);
     let first = by(KernelMethod::Hankel, &coated(), &grid);
     let other = inverse_fft(2, 0, &grid);
