@@ -19,7 +19,7 @@
 //! increment, to second order, since what slips in all of it are the cells outside that. By the end its
 //! radius has grown by half of what it grew from the last increment.
 
-use super::energy::Slips;
+use super::energy::slip_of;
 use crate::cells::{Lattice, size};
 use crate::march::increment::Setup;
 use crate::reference::dundurs_beta;
@@ -64,7 +64,7 @@ pub(super) fn areas(
     let border = if partial {
         cells.stick_border(&rim, |n| {
             let rigid = setup.geometry.arms.in_plane(info.shift, n);
-            size(Slips::of(no_slip, now, setup.last(), rigid, n).held)
+            size(slip_of(no_slip, now, setup.last(), rigid, n).0)
         })
     } else {
         Vec::new()

@@ -38,11 +38,8 @@ pub(super) fn energies(
         let du_z = now.u_z[n] - last.u_z[n];
         let stretch = roll.stretch_at(geometry, n);
         let wider = roll.gap_at(geometry, mirror, n);
-        let Slips {
-            slip,
-            held,
-            entered,
-        } = Slips::of(no_slip, now, last, arms.in_plane(info.shift, n), n);
+        let rigid = arms.in_plane(info.shift, n);
+        let (slip, entered) = slip_of(no_slip, now, last, rigid, n);
         let mut elastic = p * du_z;
         let (mut trapezoidal, mut of_bulk) = (0.0, 0.0);
         let mut opening = -p * (du_z + wider - arms.across(approach, n));
@@ -54,7 +51,7 @@ pub(super) fn energies(
             trapezoidal -= q * slip[c];
             of_bulk -= q * stretch[c];
         }
-        let dissipated = dissipated(setup.mu[n], now, last, held, n);
+        let dissipated = dissipated(setup.mu[n], now, last, slip, n);
         let quadrature = dissipated - trapezoidal;
         [
             elastic,
@@ -82,39 +79,26 @@ pub(super) fn energies(
     }
 }
 
-/// The slip of a cell in the increment \[m\].
-pub(super) struct Slips {
-    /// From where its material started, or entered the contact.
-    pub(super) slip: [f64; 2],
-    /// The same without its turn: what is held against the final shear.
-    pub(super) held: [f64; 2],
-    /// How far it moved before it entered.
-    pub(super) entered: [f64; 2],
+/// The slip of cell n in the increment, from where its material started or entered the contact, and how far
+/// it moved before it entered \[m\]; with the rigid motion there.
+pub(super) fn slip_of(
+    no_slip: &NoSlipTerms,
+    now: &Interface,
+    last: &Interface,
+    rigid: [f64; 2],
+    n: usize,
+) -> ([f64; 2], [f64; 2]) {
+    let at = |u: &[Vec<f64>; 2]| [u[0][n], u[1][n]];
+    let entered = if last.p[n] > 0.0 {
+        [0.0; 2]
+    } else {
+        no_slip.added(n)
+    };
+    let moved = slip(at(&now.u), at(&last.u), rigid);
+    ([moved[0] - entered[0], moved[1] - entered[1]], entered)
 }
 
-impl Slips {
-    /// Of cell n with the rigid motion there.
-    pub(super) fn of(
-        no_slip: &NoSlipTerms,
-        now: &Interface,
-        last: &Interface,
-        rigid: [f64; 2],
-        n: usize,
-    ) -> Self {
-        let at = |u: &[Vec<f64>; 2]| [u[0][n], u[1][n]];
-        let added = no_slip.added(n);
-        let entered = if last.p[n] > 0.0 { [0.0; 2] } else { added };
-        let moved = slip(at(&now.u), at(&last.u), rigid);
-        let less = |by: [f64; 2]| [moved[0] - by[0], moved[1] - by[1]];
-        Self {
-            slip: less(entered),
-            held: less(if now.p[n] > 0.0 { added } else { entered }),
-            entered,
-        }
-    }
-}
-
-/// Energy per area that friction takes from a cell whose `slip` is held against the final shear
+/// Energy per area that friction takes from a cell by its `slip` against the final shear
 /// \[J/m^2\]: a cell slips at its bound, so it is the mean bound of the increment times the slip,
 /// where the trapezoidal rule takes a mean of the shear before slip and in slip. A single increment
 /// is exact while the pressure stays. It is not negative because slip opposes the shear, to the

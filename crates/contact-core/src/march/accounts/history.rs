@@ -1,6 +1,6 @@
 //! The state that an increment leaves: what the material of each cell has been through.
 
-use super::energy::{Slips, dissipated};
+use super::energy::{dissipated, slip_of};
 use crate::cells::{set, size};
 use crate::march::domain::Geometry;
 use crate::march::rolled::{Roll, Rolled};
@@ -98,8 +98,8 @@ fn add_slip(state: &mut State, last: &Interface, closing: &Closing<'_>) {
             return old;
         }
         let rigid = arms.in_plane(closing.shift, n);
-        let Slips { slip, held, .. } = Slips::of(closing.no_slip, now, before, rigid, n);
-        let energy = energy + dissipated(mu[n], now, before, held, n);
+        let (slip, _) = slip_of(closing.no_slip, now, before, rigid, n);
+        let energy = energy + dissipated(mu[n], now, before, slip, n);
         if !(p > 0.0 && now.slip[n]) {
             return [x, y, length, energy];
         }

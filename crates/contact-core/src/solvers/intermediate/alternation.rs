@@ -209,6 +209,7 @@ pub(super) fn alternate(
             return Ok(info);
         }
         if sliding.is_full() {
+            no_slip.straighten();
             info.shift = incipient_shift(problem, no_slip, sliding.motion, now, ws);
         } else {
             shear_for_known_pressure(response, problem, no_slip, now, ws, params, &mut info)?;

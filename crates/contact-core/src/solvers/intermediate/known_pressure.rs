@@ -99,6 +99,7 @@ pub(super) fn shear_for_known_pressure(
     if follow_the_turn(response, problem, no_slip, now, ws, params, info) {
         return Ok(());
     }
+    no_slip.straighten();
     let shear = problem.tangential_problem(&ws.bound, no_slip.displacement());
     let solve = match params.tangential.method {
         TangentialMethod::Newton => tangential,

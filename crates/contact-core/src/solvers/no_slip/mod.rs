@@ -130,13 +130,14 @@ impl<'a> NoSlip<'a> {
     }
 
     /// Takes t a `part` of the way to what the shear `now` and the `shift` d(delta) make of it \[m\]; false
-    /// where no cell sticks: bodies slide as they are moved, and the shear has turned into that direction
-    /// at the end.
+    /// where it is zero since no cell sticks: bodies slide as they are moved, and the shear has turned into
+    /// that direction at the end.
     pub fn follow(&mut self, now: &Interface, shift: [f64; 3], part: f64) -> bool {
         let Some(earlier) = self.start.earlier else {
             return false;
         };
         if !(0..now.p.len()).any(|n| now.p[n] > 0.0 && !now.slip[n]) {
+            self.straighten();
             return false;
         }
         let Start {
@@ -178,6 +179,8 @@ impl<'a> NoSlip<'a> {
                     continue;
                 }
                 let (to, follows) = turned(n);
+                // A cell that sticks has no turn to follow.
+                let part = if now.slip[n] { part } else { 1.0 };
                 x[i] += part * (to[0] - x[i]);
                 y[i] += part * (to[1] - y[i]);
                 u_x[i] = last.u[0][n] - residual[0][n] + x[i];
@@ -186,5 +189,27 @@ impl<'a> NoSlip<'a> {
             }
         });
         true
+    }
+
+    /// Takes the slip for opposite to the shear at the end, where its turn cannot be followed: t is zero.
+    pub fn straighten(&mut self) {
+        if self.start.earlier.is_none() {
+            return;
+        }
+        let (last, r) = (self.start.interface, self.start.residual);
+        let NoSlipTerms {
+            sum: [u_x, u_y],
+            added: [x, y],
+            turning,
+        } = &mut *self.terms;
+        let from = [&last.p[..], &last.u[0], &last.u[1], &r[0], &r[1]];
+        let to = [&mut u_x[..], u_y, x, y, turning];
+        set(from, to, |_, [p, x, y, r_x, r_y], old| {
+            if p > 0.0 {
+                [x - r_x, y - r_y, 0.0, 0.0, 0.0]
+            } else {
+                old
+            }
+        });
     }
 }
