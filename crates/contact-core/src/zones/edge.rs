@@ -15,7 +15,6 @@ impl Edge {
     /// The same border, told of what lies on its other side; whether the cell is there.
     pub(crate) fn other_side(self, inside: bool) -> Self {
         let level = self.level.map(|level| Level {
-            spread: -level.spread,
             middle: -level.middle,
             gradient: level.gradient.map(|g| -g),
             ..level
@@ -27,10 +26,7 @@ impl Edge {
     /// tell.
     pub(crate) fn share(&self) -> f64 {
         match self.level {
-            Some(level) => {
-                let slope = level.gradient[0].hypot(level.gradient[1]);
-                half_plane(level.middle - level.spread * slope, level.gradient)
-            }
+            Some(level) => half_plane(level.middle, level.gradient),
             None => f64::from(u8::from(self.inside)),
         }
     }

@@ -33,34 +33,26 @@ pub(crate) struct Told {
     most: usize,
     /// Whether, where it is no parabola, only what lies before the middle of a line tells it.
     before_middle: bool,
-    /// How much further out than the true border the level vanishes with constant tractions, in cells: the
-    /// mean over places and directions of the border within the cells.
-    spread: f64,
 }
 
 impl Told {
-    /// Of a root of the distance; the spread is that of Hertz contacts and of their stick zones, twisted ones too,
-    /// on many cells.
+    /// Of a root of the distance.
     pub(crate) const ROOT: Self = Self {
         skipped: 2,
         most: ALONG,
         before_middle: false,
-        spread: 0.010,
     };
     /// Of a linear law, or a root that is only looked for.
     pub(crate) const LINEAR: Self = Self {
         skipped: 0,
         most: ALONG,
         before_middle: false,
-        spread: 0.0,
     };
-    /// Of slip, which changes over the width of a slip ring: the cells next to its border. The spread is
-    /// that of the slip of Hertz contacts that are pushed.
+    /// Of slip, which changes over the width of a slip ring: the cells next to its border.
     pub(crate) const SLIP: Self = Self {
         skipped: 0,
         most: 3,
         before_middle: false,
-        spread: 0.024,
     };
 
     /// The same where a level need not go on beyond the middle of a line: what shear falls short of its
@@ -130,9 +122,6 @@ pub(crate) struct Level {
     /// The line that tells it, and the law that it follows.
     pub(crate) line: Line,
     pub(crate) law: usize,
-    /// How much further out than the border it vanishes, in the mean over the places of the border
-    /// within the cells, in cells.
-    pub(crate) spread: f64,
     /// Its value at the cell's centre.
     pub(crate) middle: f64,
     /// Its change from cell to cell along x and y.
@@ -232,7 +221,6 @@ impl Lattice {
             mut skipped,
             most,
             before_middle,
-            spread,
         } = told[law];
         let mut tell = &along[..line.count.min(most)];
         // The cell whose gradient tells the direction of the border.
@@ -266,7 +254,6 @@ impl Lattice {
         Some(Level {
             line,
             law,
-            spread: spread / stride,
             middle: parabola.at(here),
             gradient,
         })
@@ -311,14 +298,7 @@ mod tests {
         let edges = lattice.edges(&zone, [Told::ROOT], |_| ([Power::One], |n: usize| f[n]));
         let partial: f64 = edges
             .iter()
-            .map(|(n, edge)| {
-                // Sampled at the centres nothing is spread.
-                let level = edge.level.map(|level| Level {
-                    spread: 0.0,
-                    ..level
-                });
-                Edge { level, ..*edge }.share() - f64::from(u8::from(zone[*n]))
-            })
+            .map(|(n, edge)| edge.share() - f64::from(u8::from(zone[*n])))
             .sum();
         (whole + partial) * grid.cell_area() * mirror.multiplicity()
             / (std::f64::consts::PI * a * b)
