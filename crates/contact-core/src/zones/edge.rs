@@ -5,14 +5,14 @@ use super::level::Level;
 /// A cell at the border of a zone.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
-    /// The level of the zone; none where the cells do not tell.
+    /// The level of the zone; none where it cannot be extrapolated.
     pub(crate) level: Option<Level>,
     /// Whether the cell is in the zone.
     pub(crate) inside: bool,
 }
 
 impl Edge {
-    /// The same border, told of what lies on its other side; whether the cell is there.
+    /// The same border as that of the zone on its other side; `inside`: whether the cell is in that.
     pub(crate) fn other_side(self, inside: bool) -> Self {
         let level = self.level.map(|level| Level {
             middle: -level.middle,
@@ -22,8 +22,7 @@ impl Edge {
         Self { level, inside }
     }
 
-    /// The part of the cell that belongs to the zone, 0 to 1; all or nothing where the cells do not
-    /// tell.
+    /// The part of the cell that belongs to the zone, 0 to 1; all or nothing without a level.
     pub(crate) fn share(&self) -> f64 {
         match self.level {
             Some(level) => half_plane(level.middle, level.gradient),
