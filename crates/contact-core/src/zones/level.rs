@@ -19,11 +19,6 @@ use crate::cells::Lattice;
 const FARTHEST: f64 = 1.5;
 /// Most cells of a line that a level is extrapolated from, those left out included.
 const ALONG: usize = 7;
-/// Cells of a line contact from which on not every cell is taken: the error of f that constant tractions
-/// leave k cells from the rim is about 1/(20 k) cells, and that of the parabola about (k/L)^4 of the length
-/// L of the zone. With every m-th cell k is about 3 m; both are least together with m = (L/24)^(3/5). Of the
-/// round contacts the errors along the border have either sign, and every cell is taken.
-const CLOSE: f64 = 24.0;
 /// A level that bends by less of its rise needs no other law.
 const STRAIGHT: f64 = 0.1;
 
@@ -95,8 +90,6 @@ pub(crate) struct Line {
     step: [f64; 2],
     /// Steps from the cell whose level is asked for to the outermost one of the zone.
     first: f64,
-    /// Steps from one of `cells` to the next.
-    stride: f64,
     /// Cells before the middle of the zone along the line, or `ALONG` if there are more.
     half: usize,
 }
@@ -112,12 +105,6 @@ impl Line {
         let step = inwards.map(|k| k as f64);
         // As far as it stays in the zone.
         let cells = (first..).map_while(|k| at(k).filter(in_zone));
-        let stride = if lattice.flat {
-            let length = cells.clone().count() as f64;
-            (length / CLOSE).powf(0.6).round().max(1.0)
-        } else {
-            1.0
-        };
         let mut line = Self {
             outside: at(first - 1).filter(|m| !in_zone(m))?,
             cells: [0; ALONG],
@@ -125,10 +112,9 @@ impl Line {
             inwards: step.map(|k| k / step[0].hypot(step[1])),
             step,
             first: first as f64,
-            stride,
             half: cells.clone().take(2 * ALONG).count().div_ceil(2),
         };
-        for m in cells.step_by(stride as usize).take(ALONG) {
+        for m in cells.take(ALONG) {
             line.cells[line.count] = m;
             line.count += 1;
         }
@@ -240,9 +226,9 @@ impl Lattice {
         let parabola = Parabola::through(levels, skipped)?;
         // The outermost cell, and this one, on the parabola.
         let outermost = -(skipped as f64);
-        let place = 0.5 - line.stride * parabola.at(outermost) / parabola.slope(outermost);
-        let here = outermost - line.first / line.stride;
-        let slope = parabola.slope(here) / line.stride;
+        let place = 0.5 - parabola.at(outermost) / parabola.slope(outermost);
+        let here = outermost - line.first;
+        let slope = parabola.slope(here);
         let usable = place.abs() <= FARTHEST && parabola.slope(outermost) > 0.0 && slope > 0.0;
         if !usable {
             return None;
