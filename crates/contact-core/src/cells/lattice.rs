@@ -1,9 +1,10 @@
-//! The kept cells: their places, neighbours, and the borders of zones of them.
+//! The cells that are stored, half of the grid of a mirrored scene: their places, neighbours, and the borders
+//! of zones of them.
 
 use crate::plan::Mirror;
 use crate::scene::Grid;
 
-/// Where the kept cells are.
+/// Where the stored cells are.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lattice {
     columns: isize,
@@ -100,7 +101,7 @@ impl Lattice {
             .map(move |d| (d, self.kept(i + d[0], j + d[1])))
     }
 
-    /// The kept cell that stands for the one so many columns and rows away.
+    /// The stored cell that stands for the one so many columns and rows away.
     pub(crate) fn beside(self, n: usize, [columns, rows]: [isize; 2]) -> Option<usize> {
         let (i, j) = self.place(n);
         self.kept(i + columns, j + rows)
@@ -111,21 +112,21 @@ impl Lattice {
         columns * self.rows + rows
     }
 
-    /// Whether a kept cell has so many columns and rows around it.
+    /// Whether a stored cell has so many columns and rows around it.
     pub(crate) fn is_clear(self, n: usize, reach: isize) -> bool {
         let (i, j) = self.place(n);
         let inside = |k: isize, of: isize| (reach..of - reach).contains(&k);
         inside(i, self.columns) && inside(j, self.rows)
     }
 
-    /// Column and row of a kept cell.
+    /// Column and row of a stored cell.
     pub(crate) fn place(self, n: usize) -> (isize, isize) {
         (n as isize / self.rows, n as isize % self.rows)
     }
 
-    /// The kept cell that stands for the one in a column and row.
+    /// The stored cell that stands for the one in a column and row.
     pub(crate) fn kept(self, i: isize, j: isize) -> Option<usize> {
-        // The kept half lies at y > 0.
+        // The stored half lies at y > 0.
         let j = if j < 0 && self.mirrored { -1 - j } else { j };
         let on_grid = (0..self.columns).contains(&i) && (0..self.rows).contains(&j);
         on_grid.then(|| (i * self.rows + j) as usize)

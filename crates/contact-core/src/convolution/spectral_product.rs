@@ -32,7 +32,7 @@ const HALF: [Half; 3] = [Half::Even, Half::Odd, Half::Even];
 /// Planned transforms, spectra and buffers for fields of one shape.
 pub(crate) struct SpectralProduct<T: Precision> {
     nx: usize,
-    /// Rows kept along y.
+    /// Rows stored along y.
     rows: usize,
     mirror: Mirror,
     /// The components that there are kernels for.
@@ -60,7 +60,7 @@ pub(crate) struct SpectralProduct<T: Precision> {
 /// Buffers of one part of the work.
 struct Scratch<T> {
     y: YScratch<T>,
-    /// A line per component that there is, one number more than the period and room for a last
+    /// A line per component that there is, one number more than the period and space for a last
     /// block.
     line: [Vec<Complex<T>>; 3],
     fft: Vec<Complex<T>>,

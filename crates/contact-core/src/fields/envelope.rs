@@ -7,7 +7,7 @@ use super::{Accumulate, Depth, Measure, Moment};
 /// Keeps the extremes of measures of stress over the whole path and over each cycle.
 #[derive(Clone, Debug)]
 pub struct Envelope {
-    /// What is followed.
+    /// The measures whose extremes are sought.
     pub measures: Vec<Measure>,
     /// First and last branch of each cycle, as in [`crate::fields::cycles`].
     pub cycles: Vec<(usize, usize)>,
@@ -24,7 +24,7 @@ pub struct Extremes {
     pub increment_of_max: Array2<usize>,
 }
 
-/// What an [`Envelope`] keeps at one depth.
+/// The accumulator of an [`Envelope`] at one depth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DepthEnvelope {
     /// Over the whole path.

@@ -9,7 +9,7 @@ use super::{Accumulate, Depth, Measure, Moment};
 /// place per depth.
 #[derive(Clone, Debug)]
 pub struct Largest {
-    /// What is followed.
+    /// The measures of which the largest value is sought.
     pub measures: Vec<Measure>,
     /// Places of the samples along the line \[m\].
     pub along: Vec<f64>,
@@ -25,7 +25,7 @@ pub struct DepthTops {
 }
 
 impl Largest {
-    /// The largest values over all depths, by moment and measure, from what was kept at each.
+    /// The largest values over all depths, by moment and measure, from the accumulators of the depths.
     pub fn over_depths(kept: &[DepthTops]) -> Vec<(Moment, Vec<Option<Maximum<1>>>)> {
         let depths: Vec<Depth> = kept.iter().map(|k| k.depth).collect();
         let Some(first) = kept.first() else {

@@ -255,7 +255,7 @@ impl Loads {
     }
 }
 
-/// Shares each cell's load with its neighbours along both axes; there is room for them.
+/// Shares each cell's load with its neighbours along both axes; the patch has cells for them.
 fn spread(q: &mut [f64], columns: usize) {
     let rows = q.len() / columns;
     let mut line = vec![0.0; columns.max(rows)];

@@ -26,7 +26,7 @@ const PRESSURE: (f64, f64) = (8.0, 0.08);
 /// Fewest cells of the contact on the line.
 const FEWEST: usize = 24;
 /// Largest root mean square that the samples of a component may leave, over the largest pressure.
-/// More tells of another singularity nearby, such as the border of a narrow slip zone.
+/// A larger one means another singularity nearby, such as the border of a narrow slip zone.
 const LEFT: f64 = 5e-3;
 
 /// A rim of the contact on a line on the surface.

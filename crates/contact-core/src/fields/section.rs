@@ -109,7 +109,7 @@ impl Section {
     }
 
     /// Hands the stresses of all states on each line, of shape (6, cells along the line), to `f`
-    /// as soon as they are known, with what it keeps of that depth; depths in parallel.
+    /// as soon as they are known, with the accumulator of that depth; depths in parallel.
     pub fn pass_stress<T: Send>(
         &self,
         depths: &[Depth],

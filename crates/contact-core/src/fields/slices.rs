@@ -67,7 +67,7 @@ impl Slices {
     }
 
     /// Hands the stresses of all states at each depth, of shape (6, cells in row-major order), to
-    /// `f` as soon as they are known, with what it keeps of that depth; depths in parallel.
+    /// `f` as soon as they are known, with the accumulator of that depth; depths in parallel.
     pub fn pass_stress<T: Send>(
         &self,
         depths: &[Depth],

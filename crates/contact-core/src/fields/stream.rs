@@ -48,9 +48,9 @@ impl Moment {
     }
 }
 
-/// What is kept of the stresses that pass by.
+/// What is accumulated from the stresses of a path.
 pub trait Accumulate: Sync {
-    /// What is kept at one depth.
+    /// The accumulator of one depth.
     type Kept: Send;
 
     /// Before the first increment.
@@ -135,8 +135,8 @@ impl<A: Accumulate> Stream<A> {
         })
     }
 
-    /// Ends what is computed when `flag` is raised: [`Error::Interrupted`]. What was kept then is of no
-    /// use any more.
+    /// Ends what is computed when `flag` is raised: [`Error::Interrupted`]. The accumulators are not
+    /// to be used then.
     pub fn stop_on(&mut self, flag: Arc<AtomicBool>) {
         self.stop = flag;
     }
@@ -168,7 +168,7 @@ impl<A: Accumulate> Stream<A> {
         Ok(())
     }
 
-    /// What was kept at each depth, with all that was pushed.
+    /// The accumulator of each depth, with all that was pushed.
     pub fn finish(mut self) -> Result<(Vec<Depth>, Vec<A::Kept>), Error> {
         self.flush()?;
         Ok((self.depths, self.kept))

@@ -6,7 +6,7 @@ use super::InfluenceCoefficients;
 use crate::plan::KernelSet;
 use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
 
-/// Most memory kept, in numbers: 128 MiB, or the six coefficients of a 1024 x 1024 grid and more.
+/// Most memory of the cache, in numbers: 128 MiB, or the six coefficients of a 1024 x 1024 grid and more.
 const CAPACITY: usize = 1 << 24;
 
 /// All that the coefficients depend on; reals by their bits.
@@ -58,7 +58,7 @@ type Entries = Vec<(Key, Arc<InfluenceCoefficients>)>;
 /// The entries, least recently used first.
 static ENTRIES: LazyLock<Mutex<Entries>> = LazyLock::new(Mutex::default);
 
-/// What was kept under `key`.
+/// The coefficients of a `key`, if they are in the cache.
 pub(crate) fn get(key: &Key) -> Option<Arc<InfluenceCoefficients>> {
     let mut entries = ENTRIES.lock().unwrap_or_else(PoisonError::into_inner);
     let found = entries.iter().position(|(k, _)| k == key)?;
@@ -85,7 +85,7 @@ pub(crate) fn keep(key: Key, coefficients: &Arc<InfluenceCoefficients>) {
     }
 }
 
-/// Forgets all coefficients kept by this process.
+/// Empties the cache of coefficients of this process.
 pub fn clear_cache() {
     ENTRIES
         .lock()

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// Largest number of nodes kept ready.
+/// Largest number of nodes of a rule that is cached.
 const MOST: usize = 32;
 
 static RULES: LazyLock<Vec<Vec<(f64, f64)>>> = LazyLock::new(|| (0..=MOST).map(rule).collect());

@@ -50,7 +50,7 @@ use crate::error::Error;
 use crate::plan::KernelSet;
 use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
 
-/// The surface coefficients of a body on a grid, computed once per process and kept.
+/// The surface coefficients of a body on a grid, computed once per process (cached).
 ///
 /// A rigid body gives zeros. A homogeneous body needs no conversion whatever the method: its
 /// closed form is used; with `shortcut_equal_layers` also for a body whose layers all equal its

@@ -1,4 +1,4 @@
-//! The state of a run on disk: enough to go on to the same result, bit by bit.
+//! The state of a run on disk: enough to resume to the same result, bit by bit.
 //!
 //! Beside the arrays of a store lies the folder `checkpoint`:
 //!
@@ -57,7 +57,7 @@ pub(super) struct Checkpoints {
     older: usize,
 }
 
-/// What a run goes on from.
+/// What a run resumes from.
 pub(super) struct Found {
     pub(super) checkpoints: Checkpoints,
     /// None if the run died before its first checkpoint.

@@ -4,10 +4,10 @@
 //! have the dimension `increment`, fields `saved`, `x`, `y`; [`SCALARS`] and [`FIELDS`] say what
 //! each variable is. The attributes of the group hold the scene and how the run ended.
 //!
-//! [`StoreWriter`] appends while the run goes on. Every file is replaced as a whole, the
+//! [`StoreWriter`] appends during the run. Every file is replaced as a whole, the
 //! consolidated metadata last: whoever reads it, or is left with it after a crash, sees the store
-//! as it was at one moment. Beside the arrays it keeps a checkpoint of the state, from which
-//! [`resume`] goes on to the same result, bit by bit. Groups are laid out beside their place and take
+//! as it was at one moment. Beside the arrays it holds a checkpoint of the state, from which
+//! [`resume`] continues to the same result, bit by bit. Groups are laid out beside their place and take
 //! it at once: a path holds nothing, or a store.
 //!
 //! Stress below the surface goes to a group of its own ([`StressStore`]) or to VTK image data

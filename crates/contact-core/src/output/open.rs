@@ -1,4 +1,4 @@
-//! A store that has been begun: the scalars of its increments, the fields that it keeps, its metadata.
+//! A store that has been begun: the scalars of its increments, its saved fields, its metadata.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -196,7 +196,7 @@ impl Open {
         Ok(())
     }
 
-    /// Counts the fields of an increment among those that are kept.
+    /// Counts the fields of an increment among those that are saved.
     fn count_saved(&mut self, index: usize, point: &LoadPoint) {
         self.saved += 1;
         self.saved_increment = index;

@@ -94,7 +94,7 @@ impl Store {
         self.increments
     }
 
-    /// Increments whose fields are kept.
+    /// Increments whose fields are saved.
     pub fn saved(&self) -> usize {
         self.saved
     }
@@ -114,7 +114,7 @@ impl Store {
             .map_err(|e| self.folder.error(&format!("{name}: {e}")))
     }
 
-    /// A field of the `saved`-th increment whose fields are kept, from 0; a mask is 0 and 1.
+    /// A field of the `saved`-th increment whose fields are saved, from 0; a mask is 0 and 1.
     pub fn field(&self, name: &str, saved: usize) -> Result<Array2<f64>, Error> {
         let failed = |e: &dyn std::fmt::Display| self.folder.error(&format!("{name}: {e}"));
         let (array, dtype) = self.array(name)?;

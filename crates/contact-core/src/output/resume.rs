@@ -1,4 +1,4 @@
-//! Going on with a run that has ended early.
+//! Resuming a run that has ended early.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -28,7 +28,7 @@ pub struct Resumed {
 /// Takes up the run of a store; `None` if it is done.
 ///
 /// The result will be that of the run without the interruption, bit by bit. What the store holds
-/// stays there meanwhile; only fields that were kept because the run stopped are given up. Fails
+/// stays there meanwhile; only fields that were saved because the run stopped are dropped. Fails
 /// if there is no store, if another process writes it, or if its checkpoint is damaged or of
 /// another version, and ends when `stop` is raised, if there is one ([`Error::Interrupted`]); then
 /// nothing is changed.
@@ -74,7 +74,7 @@ pub fn resume(
     }))
 }
 
-/// The metadata of a store whose run goes on: without the fields that were kept only because it
+/// The metadata of a store whose run is resumed: without the fields that were saved only because it
 /// had stopped.
 fn begun_again(metadata: &Value, kept: usize) -> Map<String, Value> {
     let mut documents = metadata.as_object().cloned().unwrap_or_default();

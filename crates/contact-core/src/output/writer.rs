@@ -20,7 +20,7 @@ const INTERVAL: Duration = Duration::from_secs(5);
 /// increment, a second and more; they follow from the checkpoint.
 const NO_FIELDS_FROM: usize = 1 << 21;
 
-/// Appends a run to a store while it goes on. Give it to [`crate::march::solve`].
+/// Appends a run to a store as it is solved. Give it to [`crate::march::solve`].
 pub struct StoreWriter {
     path: PathBuf,
     overwrite: bool,
@@ -60,7 +60,7 @@ impl StoreWriter {
         })
     }
 
-    /// A writer that goes on with the store of `open`.
+    /// A writer that continues the store of `open`.
     pub(super) fn go_on(open: Open) -> Self {
         Self {
             path: open.folder.root().to_owned(),
@@ -130,7 +130,7 @@ impl Observer for StoreWriter {
         };
         let status = failure.map_or("done".to_owned(), ToString::to_string);
         open.attributes.insert("status".into(), json!(status));
-        // Where there is no room for the fields there may be for the rest.
+        // A disk too full for the fields may hold the rest.
         if failure.is_some() {
             return open.checkpoint(march.state()).and(last_fields);
         }

@@ -54,7 +54,7 @@ pub struct Scene {
     pub grid: Grid,
     /// Load history.
     pub path: LoadPath,
-    /// How the problem is solved and what is kept.
+    /// How the problem is solved and which fields are saved.
     pub settings: Settings,
 }
 

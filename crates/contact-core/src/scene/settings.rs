@@ -1,4 +1,4 @@
-//! How a scene is solved and what of it is kept.
+//! How a scene is solved and which of its fields are saved.
 
 use crate::error::Error;
 
@@ -11,7 +11,7 @@ pub struct Settings {
     pub solver: SolverSettings,
     /// What may be skipped when the scene does not need it.
     pub skip: SkipSettings,
-    /// Which increments keep their fields.
+    /// Which increments save their fields.
     pub save: SaveFields,
 }
 
@@ -132,7 +132,7 @@ pub struct SkipSettings {
     pub far: bool,
     /// Leave out the increments of branches whose end does not depend on the way (default false:
     /// the results have a row for every increment asked for, and loops their points); they are
-    /// solved all the same if their fields are to be kept.
+    /// solved all the same if their fields are to be saved.
     pub path: bool,
 }
 
@@ -149,7 +149,7 @@ impl Default for SkipSettings {
     }
 }
 
-/// Which increments keep their fields; scalars are kept for all.
+/// Which increments save their fields; scalars are saved for all.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SaveFields {
     /// The ends of the branches (default).

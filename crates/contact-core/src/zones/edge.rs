@@ -5,17 +5,16 @@ use super::level::Level;
 /// A cell at the border of a zone.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
-    /// The level of the zone; none where the cells do not tell.
+    /// The level of the zone; none where it cannot be extrapolated.
     pub(crate) level: Option<Level>,
     /// Whether the cell is in the zone.
     pub(crate) inside: bool,
 }
 
 impl Edge {
-    /// The same border, told of what lies on its other side; whether the cell is there.
+    /// The same border as that of the zone on its other side; `inside`: whether the cell is in that.
     pub(crate) fn other_side(self, inside: bool) -> Self {
         let level = self.level.map(|level| Level {
-            spread: -level.spread,
             middle: -level.middle,
             gradient: level.gradient.map(|g| -g),
             ..level
@@ -23,14 +22,10 @@ impl Edge {
         Self { level, inside }
     }
 
-    /// The part of the cell that belongs to the zone, 0 to 1; all or nothing where the cells do not
-    /// tell.
+    /// The part of the cell that belongs to the zone, 0 to 1; all or nothing without a level.
     pub(crate) fn share(&self) -> f64 {
         match self.level {
-            Some(level) => {
-                let slope = level.gradient[0].hypot(level.gradient[1]);
-                half_plane(level.middle - level.spread * slope, level.gradient)
-            }
+            Some(level) => half_plane(level.middle, level.gradient),
             None => f64::from(u8::from(self.inside)),
         }
     }

@@ -1,69 +1,59 @@
-//! Levels of a zone of kept cells, continued to its border.
+//! The level of a zone, extrapolated to the cells at its border.
 //!
-//! A root is not told by the outermost cells: that one shows a border that is off by up to a tenth of a
-//! cell, the second by a thirtieth, those further in by less than a hundredth. So f is continued outwards
-//! from these: along that line of cells, out of eight, that meets the border most squarely, by the parabola
-//! through the next cells, on one that is no parabola by those before its middle. A linear law is told by
-//! all, slip by those next to its border. Where the continued f is zero runs the border, a straight line
-//! within a cell.
+//! A level f is a power of a traction that vanishes linearly at the border. Constant tractions in the cells
+//! leave errors in it next to the border: where f is the square of a root, the outermost cell shows a border
+//! that is off by up to a tenth of a cell, the second by a thirtieth, those further in by less than a
+//! hundredth. So f is extrapolated outwards from these: along that line of cells, out of eight, that meets
+//! the border most squarely, by the parabola through the next cells (`parabola`); where the level of a line is
+//! no parabola, by the cells before its middle. A linear law needs no cells left out, slip is extrapolated
+//! from those next to its border. Where the extrapolated f is zero runs the border, a straight line within
+//! a cell.
 
 use super::edge::Edge;
+use super::laws::Power;
 use super::parabola::Parabola;
 use crate::cells::Lattice;
 
 /// Farthest that the border may lie from the middle between the outermost cell of the zone and its
 /// neighbour outside, in cells along the line: beyond, f is no such level (a punch with a sharp edge).
 const FARTHEST: f64 = 1.5;
-/// Most cells of a line that tell the level.
+/// Most cells of a line that a level is extrapolated from, those left out included.
 const ALONG: usize = 7;
-/// Cells of a zone on a line that tell its border, each as it comes. In a zone of more the error that
-/// constant tractions leave, about 1/(20 k) cells k cells from the rim, and the parabola's, about
-/// (k/L)^4 of its length L, are least together with every (L/24)^(3/5)-th cell. Worth it where the two
-/// ends of a line are all there is; along a closed border such errors have either sign.
-const CLOSE: f64 = 24.0;
 /// A level that bends by less of its rise needs no other law.
 const STRAIGHT: f64 = 0.1;
 
-/// Which cells tell a level.
+/// Which cells of a line a level is extrapolated from.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Told {
-    /// Outermost cells that do not.
+pub(crate) struct Stencil {
+    /// Outermost cells that are left out.
     skipped: usize,
     /// Most cells of a line, with these.
     most: usize,
-    /// Whether, where it is no parabola, only what lies before the middle of a line tells it.
+    /// Whether only the cells before the middle of a line count where the level is no parabola.
     before_middle: bool,
-    /// How much further out than the true border the level vanishes with constant tractions, in cells: the
-    /// mean over places and directions of the border within the cells.
-    spread: f64,
 }
 
-impl Told {
-    /// Of a root of the distance; the spread is that of Hertz contacts and of their stick zones, twisted ones too,
-    /// on many cells.
+impl Stencil {
+    /// For a root of the distance.
     pub(crate) const ROOT: Self = Self {
         skipped: 2,
         most: ALONG,
         before_middle: false,
-        spread: 0.010,
     };
-    /// Of a linear law, or a root that is only looked for.
+    /// For a linear law, or a root where only the law is of interest.
     pub(crate) const LINEAR: Self = Self {
         skipped: 0,
         most: ALONG,
         before_middle: false,
-        spread: 0.0,
     };
-    /// Of slip, which changes over the width of a slip ring: the cells next to its border. The spread is
-    /// that of the slip of Hertz contacts that are pushed.
+    /// For slip, which changes over the width of a slip ring: the cells next to its border.
     pub(crate) const SLIP: Self = Self {
         skipped: 0,
         most: 3,
         before_middle: false,
-        spread: 0.024,
     };
 
-    /// The same where a level need not go on beyond the middle of a line: what shear falls short of its
+    /// The same for a level that may have a kink in the middle of a line: the shortfall of the shear from its
     /// bound has a cone in the middle of a contact that is twisted.
     pub(crate) const fn before_the_middle(self) -> Self {
         Self {
@@ -71,27 +61,18 @@ impl Told {
             ..self
         }
     }
-}
 
-/// The power of a value that makes a level.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Power {
-    One,
-    Two,
-    TwoThirds,
-    Other(f64),
-}
-
-impl Power {
-    /// The level of a value, which is not below zero.
-    fn of(self, value: f64) -> f64 {
-        let value = value.max(0.0);
-        match self {
-            Self::One => value,
-            Self::Two => value * value,
-            Self::TwoThirds => value.cbrt().powi(2),
-            Self::Other(power) => value.powf(power),
+    /// The levels of a line that count, how many of them are left out, and the cell whose gradient gives the
+    /// direction of the border.
+    fn choose(self, levels: &[f64], half: usize) -> (&[f64], usize, usize) {
+        let levels = &levels[..levels.len().min(self.most)];
+        if !self.before_middle || Parabola::holds(levels, self.skipped) {
+            return (levels, self.skipped, 2);
         }
+        let levels = &levels[..levels.len().min(half)];
+        let skipped = self.skipped.min((levels.len() - 1) / 3);
+        // The cell in the middle has no gradient.
+        (levels, skipped, levels.len().saturating_sub(2).min(2))
     }
 }
 
@@ -105,15 +86,47 @@ pub(crate) struct Line {
     count: usize,
     /// Direction into the zone.
     pub(crate) inwards: [f64; 2],
+    /// From cell to cell, in columns and rows.
+    step: [f64; 2],
+    /// Steps from the cell whose level is asked for to the outermost one of the zone.
+    first: f64,
+    /// Cells before the middle of the zone along the line, or `ALONG` if there are more.
+    half: usize,
 }
 
 impl Line {
+    /// Through a cell at the border of a zone; none where the border has no clear direction.
+    fn through(lattice: Lattice, n: usize, zone: &[bool]) -> Option<Self> {
+        let inwards = lattice.inwards(n, zone)?;
+        let (i, j) = lattice.place(n);
+        let at = |k: isize| lattice.kept(i + k * inwards[0], j + k * inwards[1]);
+        let in_zone = |m: &usize| zone[*m];
+        let first = (-1..=1).find(|&k| at(k).is_some_and(|m| zone[m]))?;
+        let step = inwards.map(|k| k as f64);
+        // As far as it stays in the zone.
+        let cells = (first..).map_while(|k| at(k).filter(in_zone));
+        let mut line = Self {
+            outside: at(first - 1).filter(|m| !in_zone(m))?,
+            cells: [0; ALONG],
+            count: 0,
+            inwards: step.map(|k| k / step[0].hypot(step[1])),
+            step,
+            first: first as f64,
+            half: cells.clone().take(2 * ALONG).count().div_ceil(2),
+        };
+        for m in cells.take(ALONG) {
+            line.cells[line.count] = m;
+            line.count += 1;
+        }
+        Some(line)
+    }
+
     /// The first cell of the zone.
     pub(crate) fn outermost(&self) -> usize {
         self.cells[0]
     }
 
-    /// Leaves no more than the first cells to tell the level.
+    /// Leaves no more than the first cells to extrapolate from.
     pub(crate) fn shorten(&mut self, count: usize) {
         self.count = self.count.min(count);
     }
@@ -122,100 +135,20 @@ impl Line {
     pub(crate) fn cells(&self) -> &[usize] {
         &self.cells[..self.count]
     }
-}
 
-/// A level continued to a cell at the border of a zone.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Level {
-    /// The line that tells it, and the law that it follows.
-    pub(crate) line: Line,
-    pub(crate) law: usize,
-    /// How much further out than the border it vanishes, in the mean over the places of the border
-    /// within the cells, in cells.
-    pub(crate) spread: f64,
-    /// Its value at the cell's centre.
-    pub(crate) middle: f64,
-    /// Its change from cell to cell along x and y.
-    pub(crate) gradient: [f64; 2],
-}
-
-impl Lattice {
-    /// Every cell at the border of a zone, in it or next to it, in order.
-    ///
-    /// `laws` of a line of cells gives K powers and the value of a cell on it: the value to one of
-    /// them vanishes linearly at the border, the straightest counts, as its cells tell it.
-    pub(crate) fn edges<const K: usize, V: Fn(usize) -> f64>(
-        self,
-        zone: &[bool],
-        told: [Told; K],
-        laws: impl Fn(&mut Line) -> ([Power; K], V),
-    ) -> Vec<(usize, Edge)> {
-        let edge = |n: usize| (n, self.edge(n, zone, told, &laws));
-        self.border(zone).into_iter().map(edge).collect()
-    }
-
-    /// One of these cells.
-    pub(crate) fn edge<const K: usize, V: Fn(usize) -> f64>(
-        self,
-        n: usize,
-        zone: &[bool],
-        told: [Told; K],
-        laws: &impl Fn(&mut Line) -> ([Power; K], V),
-    ) -> Edge {
-        Edge {
-            level: self.level(n, zone, told, laws),
-            inside: zone[n],
-        }
-    }
-
-    /// The straightest level at the centre of a cell, continued from inside.
-    fn level<const K: usize, V: Fn(usize) -> f64>(
-        self,
-        n: usize,
-        zone: &[bool],
-        told: [Told; K],
-        laws: &impl Fn(&mut Line) -> ([Power; K], V),
-    ) -> Option<Level> {
-        let in_zone = |m: &usize| zone[*m];
-        let inwards = self.inwards(n, zone)?;
-        let (i, j) = self.place(n);
-        let step = |k: isize| self.kept(i + k * inwards[0], j + k * inwards[1]);
-        // Steps from the cell to the outermost one of the zone on the line.
-        let first = (-1..=1).find(|&k| step(k).is_some_and(|m| zone[m]))?;
-        let d = inwards.map(|k| k as f64);
-        let mut line = Line {
-            outside: step(first - 1).filter(|m| !in_zone(m))?,
-            cells: [0; ALONG],
-            count: 0,
-            inwards: d.map(|k| k / d[0].hypot(d[1])),
-        };
-        // As far as it stays in the zone.
-        let cells = (first..).map_while(|k| step(k).filter(in_zone));
-        let stride = if self.flat {
-            (cells.clone().count() as f64 / CLOSE)
-                .powf(0.6)
-                .round()
-                .max(1.0)
-        } else {
-            1.0
-        };
-        // Cells before the middle of the line.
-        let half = cells.clone().take(2 * ALONG).count().div_ceil(2);
-        for m in cells.step_by(stride as usize).take(ALONG) {
-            line.cells[line.count] = m;
-            line.count += 1;
-        }
-        let (powers, value) = laws(&mut line);
+    /// The first of these laws whose level is straight along the line, or the straightest, and its levels; the
+    /// first `checked` cells count.
+    fn straightest<const K: usize>(
+        &self,
+        powers: &[Power; K],
+        value: impl Fn(usize) -> f64,
+        checked: usize,
+    ) -> (usize, [f64; ALONG]) {
         let mut values = [0.0; ALONG];
-        for (value_k, &m) in values.iter_mut().zip(line.cells()) {
+        for (value_k, &m) in values.iter_mut().zip(self.cells()) {
             *value_k = value(m);
         }
         let levels = |law: usize| values.map(|value| powers[law].of(value));
-        let checked = if told[0].before_middle {
-            line.count.min(half)
-        } else {
-            line.count
-        };
         let bends = |levels: &[f64; ALONG]| bend(&levels[1..checked]);
         let (mut law, mut along) = (0, levels(0));
         for other in 1..K {
@@ -228,27 +161,74 @@ impl Lattice {
                 (law, along) = (other, others);
             }
         }
-        let Told {
-            mut skipped,
-            most,
-            before_middle,
-            spread,
-        } = told[law];
-        let mut tell = &along[..line.count.min(most)];
-        // The cell whose gradient tells the direction of the border.
-        let mut sloping = 2;
-        if before_middle && !Parabola::holds(tell, skipped) {
-            tell = &tell[..tell.len().min(half)];
-            skipped = skipped.min((tell.len() - 1) / 3);
-            // That in the middle has none.
-            sloping = sloping.min(tell.len().saturating_sub(2));
+        (law, along)
+    }
+}
+
+/// A level extrapolated to a cell at the border of a zone.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Level {
+    /// The line that it is extrapolated along, and the law that it follows.
+    pub(crate) line: Line,
+    pub(crate) law: usize,
+    /// Its value at the cell's centre.
+    pub(crate) middle: f64,
+    /// Its change from cell to cell along x and y.
+    pub(crate) gradient: [f64; 2],
+}
+
+impl Lattice {
+    /// Every cell at the border of a zone, in it or next to it, in order.
+    ///
+    /// `laws` of a line of cells gives K powers and the value of a cell on it: the value to one of
+    /// them vanishes linearly at the border, the straightest counts, extrapolated from its stencil.
+    pub(crate) fn edges<const K: usize, V: Fn(usize) -> f64>(
+        self,
+        zone: &[bool],
+        stencils: [Stencil; K],
+        laws: impl Fn(&mut Line) -> ([Power; K], V),
+    ) -> Vec<(usize, Edge)> {
+        let edge = |n: usize| (n, self.edge(n, zone, stencils, &laws));
+        self.border(zone).into_iter().map(edge).collect()
+    }
+
+    /// One of these cells.
+    pub(crate) fn edge<const K: usize, V: Fn(usize) -> f64>(
+        self,
+        n: usize,
+        zone: &[bool],
+        stencils: [Stencil; K],
+        laws: &impl Fn(&mut Line) -> ([Power; K], V),
+    ) -> Edge {
+        Edge {
+            level: self.level(n, zone, stencils, laws),
+            inside: zone[n],
         }
-        let parabola = Parabola::through(tell, skipped)?;
+    }
+
+    /// The straightest level at the centre of a cell, extrapolated from inside.
+    fn level<const K: usize, V: Fn(usize) -> f64>(
+        self,
+        n: usize,
+        zone: &[bool],
+        stencils: [Stencil; K],
+        laws: &impl Fn(&mut Line) -> ([Power; K], V),
+    ) -> Option<Level> {
+        let mut line = Line::through(self, n, zone)?;
+        let (powers, value) = laws(&mut line);
+        let checked = if stencils[0].before_middle {
+            line.count.min(line.half)
+        } else {
+            line.count
+        };
+        let (law, levels) = line.straightest(&powers, &value, checked);
+        let (levels, skipped, sloping) = stencils[law].choose(&levels[..line.count], line.half);
+        let parabola = Parabola::through(levels, skipped)?;
         // The outermost cell, and this one, on the parabola.
         let outermost = -(skipped as f64);
-        let place = 0.5 - stride * parabola.at(outermost) / parabola.slope(outermost);
-        let here = outermost - first as f64 / stride;
-        let slope = parabola.slope(here) / stride;
+        let place = 0.5 - parabola.at(outermost) / parabola.slope(outermost);
+        let here = outermost - line.first;
+        let slope = parabola.slope(here);
         let usable = place.abs() <= FARTHEST && parabola.slope(outermost) > 0.0 && slope > 0.0;
         if !usable {
             return None;
@@ -257,6 +237,8 @@ impl Lattice {
         let gradient = sloping.map_or([0.0; 2], |&m| {
             self.gradient(m, zone, |m| powers[law].of(value(m)))
         });
+        // In the direction of the central differences, with the slope of the parabola along the line.
+        let d = line.step;
         let along = gradient[0] * d[0] + gradient[1] * d[1];
         let gradient = if along > 0.0 {
             gradient.map(|g| g * slope / along)
@@ -266,7 +248,6 @@ impl Lattice {
         Some(Level {
             line,
             law,
-            spread: spread / stride,
             middle: parabola.at(here),
             gradient,
         })
@@ -308,17 +289,10 @@ mod tests {
         let zone: Vec<bool> = f.iter().map(|&f| f > 0.0).collect();
         let lattice = Lattice::new(&grid, mirror);
         let whole = zone.iter().filter(|&&inside| inside).count() as f64;
-        let edges = lattice.edges(&zone, [Told::ROOT], |_| ([Power::One], |n: usize| f[n]));
+        let edges = lattice.edges(&zone, [Stencil::ROOT], |_| ([Power::One], |n: usize| f[n]));
         let partial: f64 = edges
             .iter()
-            .map(|(n, edge)| {
-                // Sampled at the centres nothing is spread.
-                let level = edge.level.map(|level| Level {
-                    spread: 0.0,
-                    ..level
-                });
-                Edge { level, ..*edge }.share() - f64::from(u8::from(zone[*n]))
-            })
+            .map(|(n, edge)| edge.share() - f64::from(u8::from(zone[*n])))
             .sum();
         (whole + partial) * grid.cell_area() * mirror.multiplicity()
             / (std::f64::consts::PI * a * b)
@@ -344,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn half_the_grid_tells_the_same() {
+    fn half_the_grid_gives_the_same_area() {
         let [whole, half] = [Mirror::None, Mirror::Y].map(|m| area(64, (1.0, 0.7), m));
         assert!((whole - half).abs() < 1e-12, "{whole} {half}");
     }

@@ -2,12 +2,16 @@
 
 mod continued;
 mod edge;
+mod laws;
 mod level;
+mod neighbours;
 mod parabola;
-mod partial_cells;
+mod rim_pressure;
+mod sampled_border;
+mod stick_zone;
 
 pub(crate) use continued::Continued;
 pub(crate) use edge::Edge;
-pub(crate) use level::{Level, Line, Power, Told};
-pub use partial_cells::continued_pressure;
-pub(crate) use partial_cells::{SHRINKS, STICK};
+pub(crate) use laws::{Power, SHRINKS, STICK};
+pub(crate) use level::{Level, Line, Stencil};
+pub use rim_pressure::continued_pressure;

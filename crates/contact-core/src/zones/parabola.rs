@@ -1,4 +1,4 @@
-//! The parabola that a level is continued along a line by.
+//! The parabola by which a level is extrapolated along a line.
 
 /// Largest second difference of the level along a line, and largest change of it from cell to cell,
 /// over the first change of the level: beyond, another border lies there (of the stick zone before
@@ -16,7 +16,7 @@ impl Parabola {
     /// Given the outermost cell and the next ones: least squares through five that are not skipped,
     /// the parabola through three if there are no more, a straight line through two if these are all.
     pub(crate) fn through(levels: &[f64], skipped: usize) -> Option<Self> {
-        // The last one skipped tells whether the next ones can be trusted.
+        // With the last one skipped, which shows a bend right behind it.
         let before = usize::from(skipped > 0);
         let (checked, used) = (levels.get(skipped - before..)?, levels.get(skipped..)?);
         let &[y_1, y_2, ..] = checked else {

@@ -26,7 +26,7 @@ use crate::reference::dundurs_beta;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::NoSlipTerms;
 use crate::solvers::{Interface, friction_bound};
-use crate::zones::{Edge, Level, Line, Power, SHRINKS, STICK, Told};
+use crate::zones::{Edge, Level, Line, Power, SHRINKS, STICK, Stencil};
 
 /// Cells across a slip ring on dissimilar bodies up to which its rim is continued from cells that stick
 /// as well, whose pressure follows another law: fewer cannot show it. In wider ones all count but the
@@ -122,7 +122,7 @@ impl<'a> Cells<'a> {
     fn rim(&self) -> Vec<(usize, Edge)> {
         let (now, scene) = (self.now, &self.setup.problem.scene);
         let beta = dundurs_beta(scene.body1.outermost(), scene.body2.outermost());
-        (self.lattice).edges(&self.contact, [Told::ROOT, Told::LINEAR], |line| {
+        (self.lattice).edges(&self.contact, [Stencil::ROOT, Stencil::LINEAR], |line| {
             let at = line.outermost();
             let ring = line.cells().iter().take_while(|&&n| now.slip[n]).count();
             if beta != 0.0 && ring > RING {
@@ -146,8 +146,8 @@ impl<'a> Cells<'a> {
         slip: impl Fn(usize) -> f64,
     ) -> Vec<(usize, Edge)> {
         let now = self.now;
-        let told = [Told::ROOT, Told::LINEAR].map(Told::before_the_middle);
-        let mut border = self.lattice.edges(&self.stick, told, |line| {
+        let stencils = [Stencil::ROOT, Stencil::LINEAR].map(Stencil::before_the_middle);
+        let mut border = self.lattice.edges(&self.stick, stencils, |line| {
             let slipping = self.slipping_beside(line);
             (STICK, move |n| self.shortfall(now, n, slipping))
         });
@@ -160,7 +160,7 @@ impl<'a> Cells<'a> {
             }
             edge.level = None;
             let laws = |_: &mut Line| ([Power::TwoThirds], &slip);
-            let by_slip = (self.lattice).edge(*n, &self.slips, [Told::SLIP], &laws);
+            let by_slip = (self.lattice).edge(*n, &self.slips, [Stencil::SLIP], &laws);
             let grown = by_slip.level.is_some_and(|Level { line, .. }| {
                 self.stick[line.outside] && self.grew(line.outside, line.outermost())
             });

@@ -7,7 +7,7 @@ use super::measure::Measure;
 use super::section::{Fault, Section, count};
 use crate::scene::{Branch, Increments, LoadPath, Loads, Prescribed, RigidMotion, Spacing};
 
-/// The branches; loads that one does not name keep their value.
+/// The branches; loads that a branch does not name do not change.
 pub(super) fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<LoadPath, Fault> {
     let own = [
         "sigma_B",

@@ -1,0 +1,28 @@
+//! Laws by which a traction vanishes at the border of a zone: a power of it is linear in the distance.
+
+/// The power of a value that vanishes linearly at the border: the level.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Power {
+    One,
+    Two,
+    TwoThirds,
+    Other(f64),
+}
+
+impl Power {
+    /// The level of a value, which is not below zero.
+    pub(super) fn of(self, value: f64) -> f64 {
+        let value = value.max(0.0);
+        match self {
+            Self::One => value,
+            Self::Two => value * value,
+            Self::TwoThirds => value.cbrt().powi(2),
+            Self::Other(power) => value.powf(power),
+        }
+    }
+}
+
+/// The laws of a stick zone's border, by the power of mu p - q . t that vanishes linearly.
+pub(crate) const STICK: [Power; 2] = [Power::Two, Power::TwoThirds];
+/// Of these that of a zone that shrinks; the other is that of one that grows.
+pub(crate) const SHRINKS: usize = 0;

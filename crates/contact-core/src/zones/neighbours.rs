@@ -1,0 +1,73 @@
+//! Fields on the cells of a grid and the neighbours of a cell.
+
+use ndarray::{Array2, Axis};
+use std::ops::Range;
+
+/// The part of a field in a window of columns and rows.
+pub(super) fn cut<T: Clone>(
+    field: &Array2<T>,
+    (columns, rows): &(Range<usize>, Range<usize>),
+) -> Array2<T> {
+    let columns = field.slice_axis(Axis(0), columns.clone().into());
+    columns.slice_axis(Axis(1), rows.clone().into()).to_owned()
+}
+
+/// A field in a cell and its neighbours.
+pub(super) struct Around([[f64; 3]; 3]);
+
+impl Around {
+    pub(super) fn new(field: &Array2<f64>, (i, j): (usize, usize)) -> Self {
+        let (nx, ny) = field.dim();
+        let near = |n: usize, count: usize| [n.saturating_sub(1), n, (n + 1).min(count - 1)];
+        Self(near(i, nx).map(|i| near(j, ny).map(|j| field[(i, j)])))
+    }
+
+    /// Bilinear between the middles, at an offset of at most half a cell.
+    pub(super) fn at(&self, (s, t): (f64, f64)) -> f64 {
+        let Self(field) = self;
+        let (next, above) = (usize::from(s > 0.0) * 2, usize::from(t > 0.0) * 2);
+        let (s, t) = (s.abs(), t.abs());
+        let along = |column: [f64; 3]| column[1] + t * (column[above] - column[1]);
+        let (here, there) = (along(field[1]), along(field[next]));
+        here + s * (there - here)
+    }
+}
+
+/// Cells that lack a quantity get the mean of their neighbours that have it.
+pub(super) fn filled(known: &Array2<Option<f64>>) -> Array2<Option<f64>> {
+    Array2::from_shape_fn(known.dim(), |cell| {
+        known[cell].or_else(|| {
+            let there = || around(cell, known.dim()).filter_map(|at| known[at]);
+            let count = there().count();
+            (count > 0).then(|| there().sum::<f64>() / count as f64)
+        })
+    })
+}
+
+/// Distances from some cells, by two sweeps.
+pub(super) fn distances<'a>(
+    shape: (usize, usize),
+    from: impl Iterator<Item = &'a (usize, usize)>,
+) -> Array2<u8> {
+    let mut distance = Array2::from_elem(shape, u8::MAX);
+    for cell in from {
+        distance[*cell] = 0;
+    }
+    let mut sweep = |n: usize| {
+        let cell = (n / shape.1, n % shape.1);
+        let nearest = around(cell, shape).map(|at| distance[at]).min();
+        distance[cell] = distance[cell].min(nearest.unwrap_or(u8::MAX).saturating_add(1));
+    };
+    (0..shape.0 * shape.1).for_each(&mut sweep);
+    (0..shape.0 * shape.1).rev().for_each(&mut sweep);
+    distance
+}
+
+/// A cell and its neighbours.
+pub(super) fn around(
+    (i, j): (usize, usize),
+    (nx, ny): (usize, usize),
+) -> impl Iterator<Item = (usize, usize)> {
+    let rows = j.saturating_sub(1)..(j + 2).min(ny);
+    (i.saturating_sub(1)..(i + 2).min(nx)).flat_map(move |i| rows.clone().map(move |j| (i, j)))
+}

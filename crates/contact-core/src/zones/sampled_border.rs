@@ -1,0 +1,156 @@
+//! A field of levels of a zone and the cells around it.
+
+use ndarray::Array2;
+
+use super::edge::Edge;
+use super::laws::Power;
+use super::level::Stencil;
+use super::neighbours::around;
+use crate::cells::Lattice;
+use crate::plan::Mirror;
+use crate::scene::Grid;
+
+/// Most that the level of a cell may differ from the one extrapolated from inside, in its change over a
+/// cell: a larger difference means that the level is not smooth (a rough contact, a layer as thin as the
+/// cells).
+const OFF: f64 = 0.12;
+
+/// Cells with a known level around one outside whose own cannot be extrapolated, from which it is taken.
+const ENOUGH: usize = 4;
+
+/// A level that is above zero in a zone and below on the other side of its border.
+pub(super) struct SampledBorder {
+    pub(super) level: Array2<f64>,
+    /// Cells at the border whose level is known, and the others.
+    pub(super) known: Vec<(usize, usize)>,
+    pub(super) unknown: Vec<(usize, usize)>,
+}
+
+impl SampledBorder {
+    /// p^2 \[Pa^2\].
+    pub(super) fn of_contact(grid: &Grid, p: &Array2<f64>) -> Self {
+        let contact: Vec<bool> = p.iter().map(|&p| p > 0.0).collect();
+        let level = p.mapv(|p| p.max(0.0).powi(2));
+        let edges = Lattice::new(grid, Mirror::None).edges(&contact, [Stencil::ROOT], |_| {
+            ([Power::Two], |n: usize| p[(n / grid.ny, n % grid.ny)])
+        });
+        Self::new(&level, &edges)
+    }
+
+    /// The level `own` of the cells of a zone, with that extrapolated to the cells at its border.
+    pub(super) fn new(own: &Array2<f64>, edges: &[(usize, Edge)]) -> Self {
+        let planes = Planes::new(own, edges);
+        let mut level = own.clone();
+        let (mut known, mut unknown) = (Vec::new(), Vec::new());
+        for (cell, plane) in planes.cells() {
+            let (mean, count) = planes.mean_around(cell, |_, _| true);
+            match plane {
+                Some(plane) => level[cell] = plane.middle,
+                None if own[cell] <= 0.0 && count >= ENOUGH => level[cell] = mean,
+                None => {
+                    unknown.push(cell);
+                    continue;
+                }
+            }
+            known.push(cell);
+        }
+        // Cells of the zone whose middle lies outside: the constant level of those next to them is wrong
+        // like that of outermost ones.
+        let thin = |at: (usize, usize), plane: Plane| own[at] > 0.0 && plane.middle < 0.0;
+        let thin_cells = planes
+            .cells()
+            .filter(|(cell, plane)| plane.is_some_and(|plane| thin(*cell, plane)));
+        for cell in thin_cells.flat_map(|(cell, _)| around(cell, own.dim())) {
+            if own[cell] > 0.0 && planes.find(cell).is_none() {
+                let (mean, count) = planes.mean_around(cell, thin);
+                if count > 0 {
+                    level[cell] = mean;
+                }
+            }
+        }
+        Self {
+            level,
+            known,
+            unknown,
+        }
+    }
+}
+
+/// A level around a cell, linear.
+#[derive(Clone, Copy)]
+struct Plane {
+    /// In the middle of the cell.
+    middle: f64,
+    /// Its change from cell to cell along x and y.
+    slope: [f64; 2],
+}
+
+/// The levels extrapolated to the cells at a border, where they agree with the zone's own.
+struct Planes<'a> {
+    own: &'a Array2<f64>,
+    edges: &'a [(usize, Edge)],
+    planes: Vec<Option<Plane>>,
+}
+
+impl<'a> Planes<'a> {
+    fn new(own: &'a Array2<f64>, edges: &'a [(usize, Edge)]) -> Self {
+        let mut all = Self {
+            own,
+            edges,
+            planes: Vec::new(),
+        };
+        let plane = |(n, edge): &(usize, Edge)| {
+            let level = edge.level?;
+            let plane = Plane {
+                middle: level.middle,
+                slope: level.gradient,
+            };
+            all.agrees(all.place(*n), plane).then_some(plane)
+        };
+        let planes = edges.iter().map(plane).collect();
+        all.planes = planes;
+        all
+    }
+
+    fn place(&self, n: usize) -> (usize, usize) {
+        let rows = self.own.ncols();
+        (n / rows, n % rows)
+    }
+
+    /// The cells at the border.
+    fn cells(&self) -> impl Iterator<Item = ((usize, usize), Option<Plane>)> {
+        let cells = self.edges.iter().map(|(n, _)| self.place(*n));
+        cells.zip(self.planes.iter().copied())
+    }
+
+    /// Where a cell is among them.
+    fn find(&self, (i, j): (usize, usize)) -> Option<usize> {
+        let n = i * self.own.ncols() + j;
+        self.edges.binary_search_by_key(&n, |(n, _)| *n).ok()
+    }
+
+    /// Whether a plane comes near the own level of a cell, which is not below zero.
+    fn agrees(&self, cell: (usize, usize), plane: Plane) -> bool {
+        let off = (plane.middle.max(0.0) - self.own[cell]).abs();
+        off <= OFF * plane.slope[0].hypot(plane.slope[1])
+    }
+
+    /// The mean level of a cell by the planes of those cells around for which `of` is true, and their number.
+    fn mean_around(
+        &self,
+        cell: (usize, usize),
+        of: impl Fn((usize, usize), Plane) -> bool,
+    ) -> (f64, usize) {
+        let levels: Vec<f64> = around(cell, self.own.dim())
+            .filter_map(|at| {
+                let plane = self.planes[self.find(at)?].filter(|plane| of(at, *plane))?;
+                let offset = [cell.0 as f64 - at.0 as f64, cell.1 as f64 - at.1 as f64];
+                let middle = plane.middle + plane.slope[0] * offset[0] + plane.slope[1] * offset[1];
+                self.agrees(cell, Plane { middle, ..plane })
+                    .then_some(middle)
+            })
+            .collect();
+        let mean = levels.iter().sum::<f64>() / levels.len().max(1) as f64;
+        (mean, levels.len())
+    }
+}

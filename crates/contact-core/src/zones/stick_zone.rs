@@ -1,0 +1,115 @@
+//! The shear in and around a stick zone: its bound, and how far it falls short of that.
+
+use ndarray::{Array2, Zip};
+
+use super::laws::{SHRINKS, STICK};
+use super::level::Stencil;
+use super::neighbours::around;
+use super::sampled_border::SampledBorder;
+use crate::cells::Lattice;
+use crate::plan::Mirror;
+use crate::scene::Grid;
+
+/// Columns or rows of stick cells over which m is extended from the slip cells beside them.
+const EXTENDED: usize = 10;
+
+/// What bounds the shear, and how far it falls short of that.
+pub(super) struct StickZone {
+    /// |q|/p where cells slip, extended into the zone; not a number further in.
+    pub(super) m: Array2<f64>,
+    /// (m p - |q|)^2 \[Pa^2\].
+    pub(super) border: SampledBorder,
+    /// Cells next to the border.
+    near: Array2<bool>,
+}
+
+impl StickZone {
+    /// None where all cells stick or all slip.
+    pub(super) fn new(
+        grid: &Grid,
+        p: &Array2<f64>,
+        q: &[Array2<f64>; 2],
+        stick: &[bool],
+    ) -> Option<Self> {
+        let shape = p.dim();
+        let sticks = |(i, j): (usize, usize)| stick[i * grid.ny + j];
+        let q = Zip::from(&q[0]).and(&q[1]).map_collect(|x, y| x.hypot(*y));
+        let slipping = Array2::from_shape_fn(shape, |cell| {
+            (p[cell] > 0.0 && !sticks(cell)).then(|| q[cell] / p[cell])
+        });
+        if !stick.contains(&true) || slipping.iter().all(Option::is_none) {
+            return None;
+        }
+        let m = extended(&slipping);
+        let short = |cell: (usize, usize)| (m[cell] * p[cell] - q[cell]).max(0.0);
+        let level = Array2::from_shape_fn(shape, |cell| {
+            if sticks(cell) {
+                short(cell).powi(2)
+            } else {
+                0.0
+            }
+        });
+        // Where the zone grows the shortfall vanishes with the power 3/2: constant tractions follow that.
+        let mut edges =
+            Lattice::new(grid, Mirror::None).edges(stick, [Stencil::ROOT, Stencil::LINEAR], |_| {
+                (STICK, |n: usize| short((n / grid.ny, n % grid.ny)))
+            });
+        edges.retain(|(n, _)| p[(n / grid.ny, n % grid.ny)] > 0.0);
+        for (_, edge) in &mut edges {
+            edge.level = edge.level.filter(|level| level.law == SHRINKS);
+        }
+        let border = SampledBorder::new(&level, &edges);
+        let mut near = Array2::from_elem(shape, false);
+        for cell in border.known.iter().flat_map(|cell| around(*cell, shape)) {
+            near[cell] = true;
+        }
+        for cell in border.unknown.iter().flat_map(|cell| around(*cell, shape)) {
+            near[cell] = false;
+        }
+        Some(Self { m, border, near })
+    }
+
+    /// Whether the shear in a cell follows from its bound.
+    pub(super) fn reaches(&self, cell: (usize, usize)) -> bool {
+        self.near[cell] && around(cell, self.m.dim()).all(|at| self.m[at].is_finite())
+    }
+}
+
+/// A quantity known in some cells, extended to the next ones by the mean of their neighbours; not a number
+/// beyond.
+fn extended(known: &Array2<Option<f64>>) -> Array2<f64> {
+    let mut all = known.mapv(|v| v.unwrap_or(f64::NAN));
+    let lacks = |all: &Array2<f64>, cell| all[cell].is_nan();
+    let shape = all.dim();
+    let at_border = |&(cell, v): &(_, &Option<f64>)| {
+        v.is_some() && around(cell, shape).any(|at| lacks(&all, at))
+    };
+    let mut front: Vec<_> = known
+        .indexed_iter()
+        .filter(at_border)
+        .map(|(cell, _)| cell)
+        .collect();
+    for _ in 0..EXTENDED {
+        let mut next: Vec<_> = front
+            .iter()
+            .flat_map(|cell| around(*cell, shape))
+            .filter(|cell| lacks(&all, *cell))
+            .collect();
+        next.sort_unstable();
+        next.dedup();
+        let mean = |cell: &(usize, usize)| {
+            let there = || {
+                around(*cell, shape)
+                    .map(|at| all[at])
+                    .filter(|v| !v.is_nan())
+            };
+            there().sum::<f64>() / there().count() as f64
+        };
+        let means: Vec<f64> = next.iter().map(mean).collect();
+        for (cell, mean) in next.iter().zip(means) {
+            all[*cell] = mean;
+        }
+        front = next;
+    }
+    all
+}
