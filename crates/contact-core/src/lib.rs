@@ -22,6 +22,7 @@
 
 pub mod convolution;
 pub mod error;
+pub mod fatigue;
 pub mod fields;
 pub mod kernels;
 pub mod march;
