@@ -11,11 +11,15 @@
 //! f(n) <= largest f of the corners + K (1/cos r - 1) in the triangle of circumradius r.
 //!
 //! The triangles that may hold more than the best plane known are cut into four until that bound is
-//! within the tolerance of the best; the best planes of what is left are refined by Newton steps.
-//! The largest value of several smooth functions has a horizontal tangent, so these converge.
+//! within the tolerance of the best. What is left is refined: the instants that decide on a plane
+//! make a smooth function of it, a piece, whose top Newton's steps find; where other instants decide
+//! there, their piece is next. The largest value of several smooth functions is the top of one of
+//! them, so the place is found to rounding, much nearer than what is proved.
 
 use super::hemisphere::{Face, HEMISPHERE, midway, sag};
-use super::path::{Frame, dot, unit};
+
+use super::path::dot;
+use super::refine::{Deciding, refine};
 
 /// How far the search goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +63,8 @@ pub(super) trait PlaneFunction {
     /// The bounds, from the largest parts on the first planes and the largest 1/cos r - 1 of their
     /// triangles.
     fn bend(&self, largest: [f64; 2], sag: f64) -> Bend;
+    /// The piece of the instants that decide on the plane of a unit normal.
+    fn deciding(&mut self, n: [f64; 3]) -> Deciding;
 
     /// The plane of a unit normal.
     fn at(&mut self, n: [f64; 3]) -> OnPlane {
@@ -80,29 +86,45 @@ pub(super) struct Peak {
 /// Room for the search.
 #[derive(Default)]
 pub(super) struct Room {
-    planes: Vec<([f64; 3], OnPlane)>,
+    planes: Vec<Known>,
     faces: Vec<Face>,
     cut: Vec<Face>,
-    /// Middles of edges by the numbers of their ends.
-    edges: Vec<([usize; 2], usize)>,
+    /// Middles of edges: the other end, the number of the middle, the next edge of the same end.
+    edges: Vec<[usize; 3]>,
+    corners: Vec<usize>,
+    tried: Vec<[usize; 6]>,
 }
+
+/// A plane that was looked at.
+#[derive(Clone, Copy)]
+struct Known {
+    n: [f64; 3],
+    on: OnPlane,
+    /// First of the edges that have this as the end of the smaller number.
+    edge: usize,
+}
+
+/// No edge.
+const NONE: usize = usize::MAX;
+/// Pieces whose top is refined at most.
+const PIECES: usize = 24;
 
 impl Search {
     /// The plane on which `f` is largest.
     pub(super) fn peak(&self, f: &mut impl PlaneFunction, room: &mut Room) -> Peak {
         let start = &*HEMISPHERE;
         room.planes.clear();
-        room.planes
-            .extend(start.planes.iter().map(|n| (*n, f.at(*n))));
+        for n in &start.planes {
+            room.look(f, *n);
+        }
         room.faces.clone_from(&start.faces);
+        room.tried.clear();
         let largest = [0, 1].map(|k| {
-            let part = room.planes.iter().map(|(_, p)| p.parts[k]);
+            let part = room.planes.iter().map(|p| p.on.parts[k]);
             part.fold(f64::NEG_INFINITY, f64::max)
         });
-        let sag_of = |faces: &[Face]| faces.iter().map(|f| sag(&f.corners)).fold(0.0, f64::max);
-        let bend = f.bend(largest, sag_of(&room.faces));
-        let first = room.best(0..room.planes.len());
-        let mut best = refine(f, first, (2.0 * sag_of(&room.faces)).sqrt() / 2.0);
+        let bend = f.bend(largest, start.sag);
+        let mut best = room.refined(f, room.best());
         let mut missed = 0.0;
         for cuts in 0..=self.cuts {
             let Room { planes, faces, .. } = room;
@@ -118,167 +140,134 @@ impl Search {
             }
             room.cut(f);
         }
-        let reach = (2.0 * sag_of(&room.faces)).sqrt();
-        for n in room.hills(&best, reach) {
-            let other = refine(f, n, reach / 2.0);
-            if other.value > best.value {
-                missed -= other.value - best.value;
-                best = other;
-            }
-        }
+        let proved = best.value + missed;
+        room.try_the_rest(f, &mut best);
         Peak {
-            missed: missed.max(0.0),
+            missed: (proved - best.value).max(0.0),
             ..best
         }
     }
 }
 
 /// No plane in the face has more.
-fn bound(f: &impl PlaneFunction, face: &Face, planes: &[([f64; 3], OnPlane)], bend: &Bend) -> f64 {
-    let at = face.planes.map(|p| planes[p].1);
+fn bound(f: &impl PlaneFunction, face: &Face, planes: &[Known], bend: &Bend) -> f64 {
+    let [a, b, c] = face.planes.map(|p| planes[p].on);
     let sag = sag(&face.corners);
-    let most = |of: &dyn Fn(&OnPlane) -> f64| at.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-    let whole = most(&|p| p.value) + bend.value * sag;
-    let parts = [0, 1].map(|k| most(&|p| p.parts[k]) + bend.parts[k] * sag);
+    let whole = a.value.max(b.value).max(c.value) + bend.value * sag;
+    let parts = [0, 1].map(|k| {
+        let most = a.parts[k].max(b.parts[k]).max(c.parts[k]);
+        most + bend.parts[k] * sag
+    });
     whole.min(f.value(parts))
 }
 
 impl Room {
-    fn best(&self, among: impl Iterator<Item = usize>) -> [f64; 3] {
-        let value = |p: &usize| self.planes[*p].1.value;
-        let best = among.max_by(|a, b| value(a).total_cmp(&value(b)));
-        self.planes[best.unwrap_or(0)].0
+    /// Looks at a plane; its number.
+    fn look(&mut self, f: &mut impl PlaneFunction, n: [f64; 3]) -> usize {
+        let (on, edge) = (f.at(n), NONE);
+        self.planes.push(Known { n, on, edge });
+        self.planes.len() - 1
+    }
+
+    fn best(&self) -> usize {
+        let value = |p: &usize| self.planes[*p].on.value;
+        let best = (0..self.planes.len()).max_by(|a, b| value(a).total_cmp(&value(b)));
+        best.unwrap_or(0)
+    }
+
+    /// The top that the piece on a plane leads to.
+    fn refined(&mut self, f: &mut impl PlaneFunction, plane: usize) -> Peak {
+        let Known { n, on, .. } = self.planes[plane];
+        let mut best = (n, on.value);
+        for _ in 0..8 {
+            let piece = f.deciding(best.0);
+            self.tried.push(piece.instants);
+            let (top, of_piece) = refine(&|n| f.value(piece.parts(n)), best.0);
+            let value = f.at(top).value;
+            let rounding = 4.0 * f64::EPSILON * value.abs();
+            if value < best.1 - rounding {
+                break;
+            }
+            best = (top, value);
+            if value <= of_piece + rounding {
+                break;
+            }
+        }
+        Peak {
+            n: best.0,
+            value: best.1,
+            missed: 0.0,
+        }
+    }
+
+    /// Refines the pieces at the corners of the faces left that promise more than the best.
+    fn try_the_rest(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
+        self.corners.clear();
+        self.corners.extend(self.faces.iter().flat_map(|face| face.planes));
+        self.corners.sort_unstable();
+        self.corners.dedup();
+        for k in 0..self.corners.len() {
+            let plane = self.corners[k];
+            let n = self.planes[plane].n;
+            let piece = f.deciding(n);
+            if self.tried.contains(&piece.instants) || self.tried.len() > PIECES {
+                continue;
+            }
+            self.tried.push(piece.instants);
+            let (_, top) = refine(&|n| f.value(piece.parts(n)), n);
+            if top > best.value {
+                let other = self.refined(f, plane);
+                if other.value > best.value {
+                    *best = other;
+                }
+            }
+        }
     }
 
     /// Cuts every face into four.
     fn cut(&mut self, f: &mut impl PlaneFunction) {
-        self.cut.clear();
         self.edges.clear();
-        for face in &self.faces {
-            let [a, b, c] = face.corners;
-            let [i, j, k] = face.planes;
-            let mut middle = |a: [f64; 3], b: [f64; 3], i: usize, j: usize| {
-                let (n, ends) = (midway(a, b), [i.min(j), i.max(j)]);
-                let known = self.edges.iter().rev().find(|(edge, _)| *edge == ends);
-                let number = known.map_or(self.planes.len(), |(_, number)| *number);
-                if known.is_none() {
-                    self.edges.push((ends, number));
-                    self.planes.push((n, f.at(n)));
-                }
-                (n, number)
-            };
-            let (ab, l) = middle(a, b, i, j);
-            let (bc, m) = middle(b, c, j, k);
-            let (ca, o) = middle(c, a, k, i);
+        for plane in &mut self.planes {
+            plane.edge = NONE;
+        }
+        let (mut cut, faces) = (std::mem::take(&mut self.cut), std::mem::take(&mut self.faces));
+        cut.clear();
+        for Face { corners, planes } in &faces {
+            let ([a, b, c], [i, j, k]) = (*corners, *planes);
+            let (ab, l) = self.middle(f, (a, i), (b, j));
+            let (bc, m) = self.middle(f, (b, j), (c, k));
+            let (ca, o) = self.middle(f, (c, k), (a, i));
             let face = |corners, planes| Face { corners, planes };
-            self.cut.extend([
+            cut.extend([
                 face([a, ab, ca], [i, l, o]),
                 face([ab, b, bc], [l, j, m]),
                 face([ca, bc, c], [o, m, k]),
                 face([ab, bc, ca], [l, m, o]),
             ]);
         }
-        std::mem::swap(&mut self.faces, &mut self.cut);
+        (self.faces, self.cut) = (cut, faces);
     }
 
-    /// A plane of each hill that the faces left belong to, but for that of the best one known.
-    fn hills(&self, best: &Peak, reach: f64) -> Vec<[f64; 3]> {
-        let mut corners: Vec<usize> = self.faces.iter().flat_map(|face| face.planes).collect();
-        corners.sort_unstable();
-        corners.dedup();
-        corners.sort_by(|a, b| self.planes[*b].1.value.total_cmp(&self.planes[*a].1.value));
-        let mut tops = vec![best.n];
-        for corner in corners {
-            let n = self.planes[corner].0;
-            let near = |top: &[f64; 3]| 1.0 - dot(*top, n).abs() < 8.0 * reach * reach;
-            if tops.len() < 9 && !tops.iter().any(near) {
-                tops.push(n);
+    /// The middle of an edge and the number of its plane, looked at once.
+    fn middle(
+        &mut self,
+        f: &mut impl PlaneFunction,
+        (a, i): ([f64; 3], usize),
+        (b, j): ([f64; 3], usize),
+    ) -> ([f64; 3], usize) {
+        let (n, low, high) = (midway(a, b), i.min(j), i.max(j));
+        let mut edge = self.planes[low].edge;
+        while edge != NONE {
+            let [end, middle, next] = self.edges[edge];
+            // Opposite corners are one plane: two edges may have the same ends.
+            if end == high && dot(self.planes[middle].n, n).abs() > 1.0 - 1e-9 {
+                return (n, middle);
             }
+            edge = next;
         }
-        tops.split_off(1)
+        let middle = self.look(f, n);
+        self.edges.push([high, middle, self.planes[low].edge]);
+        self.planes[low].edge = self.edges.len() - 1;
+        (n, middle)
     }
-}
-
-/// Newton steps from the plane n; derivatives from planes `step` away at first.
-fn refine(f: &mut impl PlaneFunction, n: [f64; 3], step: f64) -> Peak {
-    let mut best = (n, f.at(n).value);
-    let mut step = step;
-    for _ in 0..12 {
-        let before = best.1;
-        newton(f, &mut best, step, false);
-        let gain = best.1 - before;
-        if step < 2e-3 && gain <= 1e-9 * best.1.abs() {
-            break;
-        }
-        step = (step / 5.0).max(1e-3);
-    }
-    newton(f, &mut best, 1e-3, true);
-    Peak {
-        n: best.0,
-        value: best.1,
-        missed: 0.0,
-    }
-}
-
-/// One step to the top of the quadratic through planes around the best; any better plane on the way
-/// is kept. With `close` the slope is exact to the fourth order of the step and a plane as good is
-/// taken.
-fn newton(f: &mut impl PlaneFunction, best: &mut ([f64; 3], f64), step: f64, close: bool) {
-    let Frame { n, u, v } = Frame::across(best.0);
-    let turned = |a: f64, b: f64| unit(std::array::from_fn(|d| n[d] + a * u[d] + b * v[d]));
-    let here = best.1;
-    let mut sample = |a: f64, b: f64| {
-        let n = turned(a, b);
-        let value = f.at(n).value;
-        if value > best.1 {
-            *best = (n, value);
-        }
-        value
-    };
-    let (east, west) = (sample(step, 0.0), sample(-step, 0.0));
-    let (north, south) = (sample(0.0, step), sample(0.0, -step));
-    let mixed =
-        sample(step, step) - sample(step, -step) - sample(-step, step) + sample(-step, -step);
-    let mut slope = [(east - west) / 2.0, (north - south) / 2.0];
-    if close {
-        let twice = 2.0 * step;
-        let far = [
-            (sample(twice, 0.0) - sample(-twice, 0.0)) / 4.0,
-            (sample(0.0, twice) - sample(0.0, -twice)) / 4.0,
-        ];
-        slope = [0, 1].map(|k| (4.0 * slope[k] - far[k]) / 3.0);
-    }
-    let (uu, vv, uv) = (
-        east + west - 2.0 * here,
-        north + south - 2.0 * here,
-        mixed / 4.0,
-    );
-    let Some([a, b]) = top_of_quadratic(slope, [uu, vv, uv], 1e-9 * here.abs()) else {
-        return;
-    };
-    let far = a.hypot(b);
-    let shrink = if far > 2.0 { 2.0 / far } else { 1.0 };
-    let there = turned(a * shrink * step, b * shrink * step);
-    let value = f.at(there).value;
-    let as_good = close && value >= best.1 - 4.0 * f64::EPSILON * best.1.abs();
-    if value > best.1 || as_good {
-        *best = (there, value);
-    }
-}
-
-/// Where slope + bend x = 0, along the directions that bend down by more than `flat`.
-fn top_of_quadratic(slope: [f64; 2], [uu, vv, uv]: [f64; 3], flat: f64) -> Option<[f64; 2]> {
-    // Rotation to the axes of the quadratic.
-    let angle = 0.5 * (2.0 * uv).atan2(uu - vv);
-    let (sin, cos) = angle.sin_cos();
-    let axes = [[cos, sin], [-sin, cos]];
-    let mut top = [0.0; 2];
-    for [a, b] in axes {
-        let bend = a * a * uu + b * b * vv + 2.0 * a * b * uv;
-        if bend < -flat {
-            let by = -(slope[0] * a + slope[1] * b) / bend;
-            top = [top[0] + by * a, top[1] + by * b];
-        }
-    }
-    (top != [0.0; 2]).then_some(top)
 }

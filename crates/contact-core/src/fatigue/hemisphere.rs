@@ -19,6 +19,8 @@ pub(super) struct Hemisphere {
     /// A normal of every plane.
     pub(super) planes: Vec<[f64; 3]>,
     pub(super) faces: Vec<Face>,
+    /// The largest [`sag`] of the faces.
+    pub(super) sag: f64,
 }
 
 /// Times each of the ten faces is cut into four.
@@ -43,8 +45,9 @@ pub(super) static HEMISPHERE: LazyLock<Hemisphere> = LazyLock::new(|| {
             corners,
             planes: corners.map(&mut number),
         })
-        .collect();
-    Hemisphere { planes, faces }
+        .collect::<Vec<_>>();
+    let sag = faces.iter().map(|f: &Face| sag(&f.corners)).fold(0.0, f64::max);
+    Hemisphere { planes, faces, sag }
 });
 
 /// Ten faces of a regular icosahedron of which none lies opposite another.

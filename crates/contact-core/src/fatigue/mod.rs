@@ -7,6 +7,7 @@
 
 mod assessment;
 mod ball;
+mod circle;
 mod criterion;
 mod critical_plane;
 mod evaluate;
@@ -17,6 +18,7 @@ mod life;
 mod material;
 mod on_planes;
 mod path;
+mod refine;
 mod shakedown;
 
 pub use assessment::{Assessment, CRITERIA, Judge, strain_life};

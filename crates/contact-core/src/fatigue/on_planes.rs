@@ -6,11 +6,13 @@
 //! most (1 + nu)/E D, D bounding Tresca's stress of the deviation of any instant from a constant
 //! stress (derived).
 
-use super::ball::Search as Balls;
+use super::circle::Circles;
 use super::criterion::Criterion;
 use super::critical_plane::{Bend, PlaneFunction};
 use super::lanes::Lanes;
 use super::path::{Frame, Path, normal_weights};
+use super::refine::{Deciding, First};
+use crate::fields::StressTensor;
 
 /// Weight of the second quantity where the plane is that of the largest first one: enough to choose
 /// between equal planes, and too little to move the plane by more than this.
@@ -20,7 +22,7 @@ const TIE: f64 = 1e-7;
 #[derive(Default)]
 pub(super) struct ShearRoom {
     shear: Vec<[Lanes; 2]>,
-    balls: Balls<2>,
+    circles: Circles,
 }
 
 /// How the criterion follows from the two parts.
@@ -82,31 +84,34 @@ impl<'a> OnPlanes<'a> {
     }
 
     /// Half the range of the normal strain on a plane.
-    fn strain_amplitude(&self, n: [f64; 3], [along, across]: [f64; 2]) -> f64 {
-        let mut weights = normal_weights(n).map(|w| along * w);
-        for w in &mut weights[..3] {
-            *w -= across;
-        }
-        self.path.range(&weights).amplitude()
+    fn strain_amplitude(&self, n: [f64; 3], strain: [f64; 2]) -> f64 {
+        self.path.range(&strain_weights(n, strain)).amplitude()
+    }
+
+    /// The instants of the largest and smallest normal strain on a plane, and half of the difference
+    /// of the strains of their stresses.
+    fn strain_range(&self, n: [f64; 3], strain: [f64; 2]) -> ([usize; 2], StressTensor) {
+        let ends = self.path.extremes(&strain_weights(n, strain));
+        let [most, least] = ends.map(|k| self.path.at(k));
+        let [along, across] = strain;
+        let change: StressTensor = std::array::from_fn(|c| (most[c] - least[c]) / 2.0);
+        let trace = change[0] + change[1] + change[2];
+        let of = |c: usize| along * change[c] - if c < 3 { across * trace } else { 0.0 };
+        (ends, std::array::from_fn(of))
     }
 
     /// Shear amplitude and largest normal stress on a plane.
     fn shear_and_normal(&mut self, n: [f64; 3]) -> [f64; 2] {
         let s_n = self.path.resolve(&Frame::across(n), &mut self.room.shear);
-        [self.room.balls.ball(&self.room.shear).radius, s_n]
+        [self.room.circles.round(&self.room.shear).radius, s_n]
     }
 }
 
 impl PlaneFunction for OnPlanes<'_> {
     fn parts(&mut self, n: [f64; 3]) -> [f64; 2] {
         match (self.has_shear, self.strain) {
-            (false, Some([along, across])) => {
-                let normal = normal_weights(n);
-                let mut strain = normal.map(|w| along * w);
-                for w in &mut strain[..3] {
-                    *w -= across;
-                }
-                let (s_n, strain) = self.path.max_and_range(&normal, &strain);
+            (false, Some(strain)) => {
+                let (s_n, strain) = self.path.max_and_range(n, strain);
                 [strain.amplitude(), s_n]
             }
             (_, strain) => {
@@ -122,6 +127,31 @@ impl PlaneFunction for OnPlanes<'_> {
             Law::Sum(weight) => a + weight * b,
             Law::Product => a * b.max(0.0),
             Law::Raised(weight) => a * (1.0 + weight * b).max(0.0),
+        }
+    }
+
+    fn deciding(&mut self, n: [f64; 3]) -> Deciding {
+        let [most, _] = self.path.extremes(&normal_weights(n));
+        let range = self.strain.map(|strain| self.strain_range(n, strain));
+        let (second, at) = match range {
+            Some((_, tensor)) if self.has_shear => (tensor, most),
+            _ => (self.path.at(most), most),
+        };
+        let ends = range.map_or([0; 2], |(ends, _)| ends);
+        if let (false, Some((_, tensor))) = (self.has_shear, range) {
+            return Deciding {
+                instants: [0, 0, 0, ends[0], ends[1], at],
+                first: First::Normal(tensor),
+                second,
+            };
+        }
+        self.path.resolve(&Frame::across(n), &mut self.room.shear);
+        let mut on = self.room.circles.round(&self.room.shear).on;
+        on.sort_unstable();
+        Deciding {
+            instants: [on[0], on[1], on[2], ends[0], ends[1], at],
+            first: First::Shear(self.shear_scale, on.map(|k| self.path.at(k))),
+            second,
         }
     }
 
@@ -155,6 +185,15 @@ impl PlaneFunction for OnPlanes<'_> {
     }
 }
 
+/// The normal strain on a plane as a sum of the components of the stress.
+fn strain_weights(n: [f64; 3], [along, across]: [f64; 2]) -> [f64; 6] {
+    let mut weights = normal_weights(n).map(|w| along * w);
+    for w in &mut weights[..3] {
+        *w -= across;
+    }
+    weights
+}
+
 /// What acts on the plane of a unit normal, for people.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Acting {
@@ -169,7 +208,7 @@ impl Acting {
         path.resolve(&Frame::across(n), &mut room.shear);
         let normal = path.normal(n);
         Self {
-            shear_amplitude: room.balls.ball(&room.shear).radius,
+            shear_amplitude: room.circles.round(&room.shear).radius,
             shear_chord: half_chord(&room.shear),
             normal_max: normal.max,
             normal_min: normal.min,

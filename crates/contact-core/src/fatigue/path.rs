@@ -1,8 +1,13 @@
 //! The stress at one point over time, and what it is on a plane.
 
-use pulp::Arch;
+#![allow(
+    clippy::inline_always,
+    reason = "sweeps are to be compiled for the processor that runs them"
+)]
 
-use super::lanes::{LANES, Lanes, bottom, lower, raise, top};
+use pulp::{Arch, Simd, WithSimd};
+
+use super::lanes::{LANES, Lanes, bottom, lower, place_of, raise, top};
 use crate::fields::{StressTensor, von_mises};
 
 /// Tresca's equivalent stress is at most this times von Mises'.
@@ -12,6 +17,8 @@ const TRESCA_OVER_MISES: f64 = 1.154_700_538_379_251_5;
 #[derive(Clone, Debug)]
 pub(super) struct Path {
     pub(super) blocks: Vec<[Lanes; 6]>,
+    /// Sums of the normal stresses.
+    traces: Vec<Lanes>,
     arch: Arch,
 }
 
@@ -66,6 +73,7 @@ impl Path {
     pub(super) fn new() -> Self {
         Self {
             blocks: Vec::new(),
+            traces: Vec::new(),
             arch: Arch::new(),
         }
     }
@@ -89,6 +97,9 @@ impl Path {
         for n in n..blocks * LANES {
             put(last, n);
         }
+        let trace = |b: &[Lanes; 6]| std::array::from_fn(|l| b[0][l] + b[1][l] + b[2][l]);
+        self.traces.clear();
+        self.traces.extend(self.blocks.iter().map(trace));
     }
 
     /// The stress at every instant, the last one repeated to the end of its block.
@@ -106,52 +117,43 @@ impl Path {
 
     /// Largest and smallest of a sum of weighted components.
     pub(super) fn range(&self, weights: &[f64; 6]) -> Range {
-        self.arch.dispatch(|| {
-            let (mut most, mut least) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
-            for block in &self.blocks {
-                let value = weighted(block, weights);
-                raise(&mut most, &value);
-                lower(&mut least, &value);
-            }
-            Range {
-                max: top(&most),
-                min: bottom(&least),
-            }
+        let blocks = &self.blocks;
+        self.arch.dispatch(RangeOf { blocks, weights })
+    }
+
+    /// The largest normal stress on a plane \[Pa\], and the range of `along` times it less `across`
+    /// times the sum of the normal stresses.
+    pub(super) fn max_and_range(&self, n: [f64; 3], strain: [f64; 2]) -> (f64, Range) {
+        self.arch.dispatch(NormalAndStrain {
+            path: self,
+            weights: normal_weights(n),
+            strain,
         })
     }
 
-    /// The largest of one sum of weighted components, and the range of another.
-    pub(super) fn max_and_range(&self, of: &[f64; 6], other: &[f64; 6]) -> (f64, Range) {
-        self.arch.dispatch(|| {
-            let mut first = [f64::NEG_INFINITY; LANES];
-            let (mut most, mut least) = (first, [f64::INFINITY; LANES]);
-            for block in &self.blocks {
-                raise(&mut first, &weighted(block, of));
-                let value = weighted(block, other);
-                raise(&mut most, &value);
-                lower(&mut least, &value);
-            }
-            let (max, min) = (top(&most), bottom(&least));
-            (top(&first), Range { max, min })
-        })
+    /// The instants at which a sum of weighted components is largest and smallest.
+    pub(super) fn extremes(&self, weights: &[f64; 6]) -> [usize; 2] {
+        let blocks = &self.blocks;
+        self.arch.dispatch(ExtremesOf { blocks, weights })
+    }
+
+    /// The stress at an instant \[Pa\].
+    pub(super) fn at(&self, instant: usize) -> StressTensor {
+        self.blocks[instant / LANES].map(|lanes| lanes[instant % LANES])
     }
 
     /// Normal and shear stress on a plane at every instant \[Pa\]: the largest normal stress, and the
     /// shear along u and v.
     pub(super) fn resolve(&self, plane: &Frame, shear: &mut Vec<[Lanes; 2]>) -> f64 {
-        let weights = normal_weights(plane.n);
-        let (u, v) = (
-            shear_weights(plane.n, plane.u),
-            shear_weights(plane.n, plane.v),
-        );
         shear.resize(self.blocks.len(), [[0.0; LANES]; 2]);
-        self.arch.dispatch(|| {
-            let mut most = [f64::NEG_INFINITY; LANES];
-            for (block, shear) in self.blocks.iter().zip(shear.iter_mut()) {
-                raise(&mut most, &weighted(block, &weights));
-                *shear = [weighted(block, &u), weighted(block, &v)];
-            }
-            top(&most)
+        self.arch.dispatch(Resolved {
+            blocks: &self.blocks,
+            weights: [
+                normal_weights(plane.n),
+                shear_weights(plane.n, plane.u),
+                shear_weights(plane.n, plane.v),
+            ],
+            shear,
         })
     }
 
@@ -179,11 +181,109 @@ impl Path {
     }
 }
 
+/// [`Path::range`], compiled for the processor.
+struct RangeOf<'a> {
+    blocks: &'a [[Lanes; 6]],
+    weights: &'a [f64; 6],
+}
+
+impl WithSimd for RangeOf<'_> {
+    type Output = Range;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Range {
+        let (mut most, mut least) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
+        for block in self.blocks {
+            let value = weighted(block, self.weights);
+            raise(&mut most, &value);
+            lower(&mut least, &value);
+        }
+        let (max, min) = (top(&most), bottom(&least));
+        Range { max, min }
+    }
+}
+
+/// [`Path::extremes`], compiled for the processor.
+struct ExtremesOf<'a> {
+    blocks: &'a [[Lanes; 6]],
+    weights: &'a [f64; 6],
+}
+
+impl WithSimd for ExtremesOf<'_> {
+    type Output = [usize; 2];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [usize; 2] {
+        let (mut most, mut least) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
+        // Blocks of the extremes, as numbers that blend with the others.
+        let mut at = [[0.0; LANES]; 2];
+        for (n, block) in self.blocks.iter().enumerate() {
+            let (value, n) = (weighted(block, self.weights), n as f64);
+            for l in 0..LANES {
+                at[0][l] = if value[l] > most[l] { n } else { at[0][l] };
+                at[1][l] = if value[l] < least[l] { n } else { at[1][l] };
+            }
+            raise(&mut most, &value);
+            lower(&mut least, &value);
+        }
+        let lane = |lanes: &Lanes, value: f64| place_of(std::slice::from_ref(lanes), value);
+        let ends = [lane(&most, top(&most)), lane(&least, bottom(&least))];
+        [0, 1].map(|k| at[k][ends[k]] as usize * LANES + ends[k])
+    }
+}
+
+/// [`Path::max_and_range`], compiled for the processor.
+struct NormalAndStrain<'a> {
+    path: &'a Path,
+    weights: [f64; 6],
+    strain: [f64; 2],
+}
+
+impl WithSimd for NormalAndStrain<'_> {
+    type Output = (f64, Range);
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> (f64, Range) {
+        let [along, across] = self.strain;
+        let mut first = [f64::NEG_INFINITY; LANES];
+        let (mut most, mut least) = (first, [f64::INFINITY; LANES]);
+        for (block, trace) in self.path.blocks.iter().zip(&self.path.traces) {
+            let mut value = weighted(block, &self.weights);
+            raise(&mut first, &value);
+            for l in 0..LANES {
+                value[l] = along * value[l] - across * trace[l];
+            }
+            raise(&mut most, &value);
+            lower(&mut least, &value);
+        }
+        let (max, min) = (top(&most), bottom(&least));
+        (top(&first), Range { max, min })
+    }
+}
+
+/// [`Path::resolve`], compiled for the processor.
+struct Resolved<'a> {
+    blocks: &'a [[Lanes; 6]],
+    weights: [[f64; 6]; 3],
+    shear: &'a mut [[Lanes; 2]],
+}
+
+impl WithSimd for Resolved<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        let [normal, u, v] = &self.weights;
+        let mut most = [f64::NEG_INFINITY; LANES];
+        for (block, shear) in self.blocks.iter().zip(self.shear) {
+            raise(&mut most, &weighted(block, normal));
+            *shear = [weighted(block, u), weighted(block, v)];
+        }
+        top(&most)
+    }
+}
+
 #[inline(always)]
-#[expect(
-    clippy::inline_always,
-    reason = "it is to be compiled for the processor of the caller"
-)]
 fn weighted(block: &[Lanes; 6], weights: &[f64; 6]) -> Lanes {
     let mut sum = [0.0; LANES];
     for c in 0..6 {

@@ -5,11 +5,13 @@
 mod ball;
 mod brute_force;
 mod closed_forms;
+mod materials;
 mod refused;
 #[allow(dead_code, reason = "logarithmic numbers are for others")]
 #[path = "../splitmix/mod.rs"]
 mod splitmix;
 mod symmetries;
+mod yielding;
 
 use std::sync::atomic::AtomicBool;
 
