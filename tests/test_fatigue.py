@@ -28,7 +28,9 @@ def axial(most: float, least: float) -> np.ndarray:
 def test_numbers_of_the_literature() -> None:
     stress = np.stack([axial(100, -100), axial(200, 0)], axis=1).reshape(2, 2, 1, 6)
     found = fatigue.evaluate(stress, Criterion.findley(k=0.3))
-    np.testing.assert_allclose(found.value.values.ravel(), [67.2015 * MPA, 88.3095 * MPA], rtol=1e-6)
+    np.testing.assert_allclose(
+        found.value.values.ravel(), [67.2015 * MPA, 88.3095 * MPA], rtol=1e-6
+    )
     assert found.value.dims == ("dim_0", "dim_1")
     assert found.normal.shape == (2, 1, 3)
     np.testing.assert_allclose(np.linalg.norm(found.normal, axis=-1), 1.0)

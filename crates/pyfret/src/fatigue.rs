@@ -142,7 +142,9 @@ impl Material {
     /// Name, value and source of every number.
     fn numbers(&self) -> Vec<(&'static str, f64, String)> {
         let numbers = self.0.numbers.iter();
-        numbers.map(|(name, of)| (*name, of.value, of.source.clone())).collect()
+        numbers
+            .map(|(name, of)| (*name, of.value, of.source.clone()))
+            .collect()
     }
 
     fn number(&self, name: &str) -> PyResult<f64> {
@@ -250,8 +252,11 @@ pub(crate) fn dang_van_path<'py>(
     let rows = stress.rows().into_iter();
     let stress: Vec<_> = rows.map(|s| std::array::from_fn(|c| s[c])).collect();
     let path = core::dang_van_path(&stress);
-    let path = Array2::from_shape_fn((path.len(), 2), |(t, k)| {
-        if k == 0 { path[t].0 } else { path[t].1 }
-    });
+    let path = Array2::from_shape_fn(
+        (path.len(), 2),
+        |(t, k)| {
+            if k == 0 { path[t].0 } else { path[t].1 }
+        },
+    );
     Ok(path.into_pyarray(py))
 }

@@ -61,8 +61,8 @@ mod _core {
 
     #[pymodule_export]
     use crate::fatigue::{
-        Assessment, Criterion, Material, criterion_on, dang_van_path, material_quantities, materials,
-        yielding_on,
+        Assessment, Criterion, Material, criterion_on, dang_van_path, material_quantities,
+        materials, yielding_on,
     };
     #[pymodule_export]
     use crate::history::{Envelope, loops};

@@ -25,9 +25,10 @@ use super::refine::{Deciding, refine};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Search {
     /// Largest part of the value by which a plane may be proved better than the one found
-    /// (default: 1e-3). The one found is much nearer to the best than what is proved.
+    /// (default: 1e-3). While few triangles are left the search goes on beyond it, so that of hills
+    /// of nearly the same height the highest is found.
     pub tolerance: f64,
-    /// Times the first 160 triangles may be cut into four (default: 6).
+    /// Times the first 160 triangles may be cut into four (default: 12).
     pub cuts: usize,
 }
 
@@ -35,7 +36,7 @@ impl Default for Search {
     fn default() -> Self {
         Self {
             tolerance: 1e-3,
-            cuts: 6,
+            cuts: 12,
         }
     }
 }
@@ -106,6 +107,8 @@ struct Known {
 
 /// No edge.
 const NONE: usize = usize::MAX;
+/// Triangles that are so few that cutting them costs little.
+const FEW: usize = 48;
 /// Pieces whose top is refined at most.
 const PIECES: usize = 24;
 
@@ -124,8 +127,9 @@ impl Search {
             part.fold(f64::NEG_INFINITY, f64::max)
         });
         let bend = f.bend(largest, start.sag);
-        let mut best = room.refined(f, room.best());
+        let mut best = room.refined(f, room.best(0..room.planes.len()).unwrap_or(0));
         let mut missed = 0.0;
+        let mut seen = room.planes.len();
         for cuts in 0..=self.cuts {
             let Room { planes, faces, .. } = room;
             let mut most = best.value;
@@ -135,10 +139,19 @@ impl Search {
                 bound > best.value
             });
             missed = most - best.value;
-            if missed <= self.tolerance * best.value.abs() || cuts == self.cuts {
+            let done = missed <= self.tolerance * best.value.abs() && faces.len() > FEW;
+            if faces.is_empty() || done || cuts == self.cuts {
                 break;
             }
             room.cut(f);
+            let higher = room.best(seen..room.planes.len());
+            seen = room.planes.len();
+            if higher.is_some_and(|k| room.planes[k].on.value > best.value) {
+                let other = room.refined(f, higher.unwrap_or(0));
+                if other.value > best.value {
+                    best = other;
+                }
+            }
         }
         let proved = best.value + missed;
         room.try_the_rest(f, &mut best);
@@ -169,10 +182,10 @@ impl Room {
         self.planes.len() - 1
     }
 
-    fn best(&self) -> usize {
+    /// The plane of the largest value.
+    fn best(&self, among: std::ops::Range<usize>) -> Option<usize> {
         let value = |p: &usize| self.planes[*p].on.value;
-        let best = (0..self.planes.len()).max_by(|a, b| value(a).total_cmp(&value(b)));
-        best.unwrap_or(0)
+        among.max_by(|a, b| value(a).total_cmp(&value(b)))
     }
 
     /// The top that the piece on a plane leads to.
@@ -203,7 +216,8 @@ impl Room {
     /// Refines the pieces at the corners of the faces left that promise more than the best.
     fn try_the_rest(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
         self.corners.clear();
-        self.corners.extend(self.faces.iter().flat_map(|face| face.planes));
+        self.corners
+            .extend(self.faces.iter().flat_map(|face| face.planes));
         self.corners.sort_unstable();
         self.corners.dedup();
         for k in 0..self.corners.len() {
@@ -230,7 +244,10 @@ impl Room {
         for plane in &mut self.planes {
             plane.edge = NONE;
         }
-        let (mut cut, faces) = (std::mem::take(&mut self.cut), std::mem::take(&mut self.faces));
+        let (mut cut, faces) = (
+            std::mem::take(&mut self.cut),
+            std::mem::take(&mut self.faces),
+        );
         cut.clear();
         for Face { corners, planes } in &faces {
             let ([a, b, c], [i, j, k]) = (*corners, *planes);

@@ -46,7 +46,10 @@ pub(super) static HEMISPHERE: LazyLock<Hemisphere> = LazyLock::new(|| {
             planes: corners.map(&mut number),
         })
         .collect::<Vec<_>>();
-    let sag = faces.iter().map(|f: &Face| sag(&f.corners)).fold(0.0, f64::max);
+    let sag = faces
+        .iter()
+        .map(|f: &Face| sag(&f.corners))
+        .fold(0.0, f64::max);
     Hemisphere { planes, faces, sag }
 });
 

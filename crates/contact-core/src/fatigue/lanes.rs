@@ -31,7 +31,10 @@ pub(super) fn lower(least: &mut Lanes, by: &Lanes) {
 pub(super) fn top(lanes: &Lanes) -> f64 {
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     let [a, b, c, d, e, f, g, h] = *lanes;
-    larger(larger(larger(a, b), larger(c, d)), larger(larger(e, f), larger(g, h)))
+    larger(
+        larger(larger(a, b), larger(c, d)),
+        larger(larger(e, f), larger(g, h)),
+    )
 }
 
 /// The smallest of the lanes.

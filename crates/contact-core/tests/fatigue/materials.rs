@@ -22,7 +22,10 @@ fn limits_are_those_of_the_tests() {
     let table = materials();
     for name in ["steel_42CrMo4", "steel_34Cr4", "steel_30NCD16"] {
         let material = &table[name];
-        let (s_D, t_D) = (material.number("s_D").unwrap(), material.number("t_D").unwrap());
+        let (s_D, t_D) = (
+            material.number("s_D").unwrap(),
+            material.number("t_D").unwrap(),
+        );
         let bent = |s: f64| -> Tensor { [s, 0.0, 0.0, 0.0, 0.0, 0.0] };
         let twisted = |t: f64| -> Tensor { [0.0, 0.0, 0.0, t, 0.0, 0.0] };
         for criterion in ["crossland", "dang_van", "findley", "matake"] {
@@ -43,11 +46,15 @@ fn lives_are_those_of_the_test() {
     let mut material: Material = table["titanium_6Al4V"].clone();
     for (name, value) in [("k", 0.0), ("S", 0.5)] {
         let of = material.numbers["E"].clone();
-        material.numbers.insert(name, contact_core::fatigue::Sourced { value, ..of });
+        material
+            .numbers
+            .insert(name, contact_core::fatigue::Sourced { value, ..of });
     }
     for criterion in ["smith_watson_topper", "fatemi_socie", "brown_miller"] {
         let of = Assessment::of(criterion, &material).unwrap();
-        let Judge::Life(curve) = of.judge else { panic!("{criterion} has a curve") };
+        let Judge::Life(curve) = of.judge else {
+            panic!("{criterion} has a curve")
+        };
         let N = 1e9;
         let s = curve.elastic.amplitude(N);
         let uniaxial: Tensor = [s, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -63,16 +70,30 @@ fn wrong_files_and_missing_numbers() {
     let refused = |text: &str| read(text, "mine.toml").unwrap_err().to_string();
     let with = |line: &str| format!("schema = 1\n[materials.mine]\n{line}\n");
     let unknown = refused(&with("s_yield = { value = 1.0, source = \"test\" }"));
-    assert!(unknown.starts_with("mine.toml:3: materials.mine.s_yield: unknown; nearest is s_y"), "{unknown}");
+    assert!(
+        unknown.starts_with("mine.toml:3: materials.mine.s_yield: unknown; nearest is s_y"),
+        "{unknown}"
+    );
     assert!(refused(&with("E = 210e9")).contains("source"));
     assert!(refused(&with("E = { value = 210e9, source = \"\" }")).contains("has no source"));
     assert!(refused(&with("E = { value = -1.0, source = \"test\" }")).contains("must be positive"));
     assert!(refused(&with("b = { value = 0.1, source = \"test\" }")).contains("must be negative"));
     assert!(refused("schema = 2\n[materials]\n").contains("must be 1"));
     assert!(refused("schema = 1\n[materials.x\n").starts_with("mine.toml:2:"));
-    let mine = read(&with("s_D = { value = 4e8, source = \"test\" }"), "mine.toml").unwrap();
-    let error = Assessment::of("crossland", &mine["mine"]).unwrap_err().to_string();
-    assert!(error.contains("mine`.t_D (fatigue limit") && error.contains("known of it are s_D"), "{error}");
-    let error = Assessment::of("crosland", &mine["mine"]).unwrap_err().to_string();
+    let mine = read(
+        &with("s_D = { value = 4e8, source = \"test\" }"),
+        "mine.toml",
+    )
+    .unwrap();
+    let error = Assessment::of("crossland", &mine["mine"])
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("mine`.t_D (fatigue limit") && error.contains("known of it are s_D"),
+        "{error}"
+    );
+    let error = Assessment::of("crosland", &mine["mine"])
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("one of crossland"), "{error}");
 }

@@ -73,7 +73,10 @@ fn same(name: &str, a: &[AtPoint], b: &[AtPoint], [scale, shear_scale]: [f64; 2]
     for (n, (a, b)) in a.iter().zip(b).enumerate() {
         let off = (a.shear_amplitude - shear_scale * b.shear_amplitude).abs();
         if of_shear {
-            assert!(off <= digits * a.shear_amplitude, "{name}, history {n}: {a:?} {b:?}");
+            assert!(
+                off <= digits * a.shear_amplitude,
+                "{name}, history {n}: {a:?} {b:?}"
+            );
         }
         let digits = if of_shear { 1e-9 } else { digits };
         let size = b.value.abs().max(scale * b.shear_amplitude.abs() * 1e-3);
@@ -115,7 +118,9 @@ fn time_reversed_and_the_cycle_doubled() {
         same(
             criterion.name(),
             &many(&criterion, &back),
-            &before, [1.0; 2], 1e-12,
+            &before,
+            [1.0; 2],
+            1e-12,
         );
         let twice: Vec<Vec<Tensor>> = histories
             .iter()
@@ -124,7 +129,9 @@ fn time_reversed_and_the_cycle_doubled() {
         same(
             criterion.name(),
             &many(&criterion, &twice),
-            &before, [1.0; 2], 1e-12,
+            &before,
+            [1.0; 2],
+            1e-12,
         );
     }
 }
@@ -148,7 +155,9 @@ fn scaled_stress() {
         same(
             criterion.name(),
             &after,
-            &before, [factor.powi(degree), factor], 1e-12,
+            &before,
+            [factor.powi(degree), factor],
+            1e-12,
         );
     }
 }

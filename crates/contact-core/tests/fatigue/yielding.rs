@@ -26,7 +26,10 @@ fn below_a_sphere(z: f64, nu: f64) -> Tensor {
 #[test]
 fn first_yield_below_a_sphere() {
     let z: Vec<f64> = (1..400).map(|i| 0.005 * f64::from(i)).collect();
-    let points: Vec<_> = z.iter().map(|z| vec![NONE, below_a_sphere(*z, 0.3)]).collect();
+    let points: Vec<_> = z
+        .iter()
+        .map(|z| vec![NONE, below_a_sphere(*z, 0.3)])
+        .collect();
     let found = factors(&points, 1.0, &NONE);
     for of in [|f: &Yield| f.von_mises, |f: &Yield| f.tresca] {
         let (k, least) = (0..z.len())
@@ -59,7 +62,9 @@ fn below_a_cylinder(x: f64, z: f64) -> Tensor {
 fn shakedown_of_a_rolling_cylinder() {
     let z: Vec<f64> = (4..40).map(|i| 0.025 * f64::from(i)).collect();
     let passes = |z: &f64| -> Vec<Tensor> {
-        (-400..=400).map(|i| below_a_cylinder(0.02 * f64::from(i), *z)).collect()
+        (-400..=400)
+            .map(|i| below_a_cylinder(0.02 * f64::from(i), *z))
+            .collect()
     };
     let points: Vec<_> = z.iter().map(passes).collect();
     let found = factors(&points, 3.0_f64.sqrt(), &NONE);
@@ -76,7 +81,11 @@ fn shakedown_of_a_rolling_cylinder() {
 fn residual_stress_is_not_scaled() {
     let pulled = vec![NONE, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]];
     for (held, exact) in [(0.0, 5.0), (2.0, 3.0), (-2.0, 7.0)] {
-        let found = factors(std::slice::from_ref(&pulled), 5.0, &[held, 0.0, 0.0, 0.0, 0.0, 0.0])[0];
+        let found = factors(
+            std::slice::from_ref(&pulled),
+            5.0,
+            &[held, 0.0, 0.0, 0.0, 0.0, 0.0],
+        )[0];
         assert!((found.von_mises - exact).abs() < 1e-12, "{found:?}");
         assert!((found.tresca - exact).abs() < 1e-12, "{found:?}");
         assert!((found.shakedown - 10.0).abs() < 1e-12, "{found:?}");
@@ -87,5 +96,10 @@ fn residual_stress_is_not_scaled() {
         &[2.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         &AtomicBool::new(false),
     );
-    assert!(refused.unwrap_err().to_string().contains("within the yield stress"));
+    assert!(
+        refused
+            .unwrap_err()
+            .to_string()
+            .contains("within the yield stress")
+    );
 }
