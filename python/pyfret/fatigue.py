@@ -135,7 +135,7 @@ def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3
         ``axis``; NaN without a plane); there ``shear_amplitude`` by the smallest circle,
         ``shear_chord`` (half of the longest chord of the shear path), ``normal_max``,
         ``normal_min``, ``normal_mean`` and ``normal_amplitude`` [Pa]. For Crossland's and Dang
-        Van's criteria ``shear_amplitude`` is sqrt(J2,a), or the mesoscopic shear at the instant that
+        Van's criteria ``shear_amplitude`` is sqrt(J2,a), or the mesoscopic shear when it
         decides, and ``normal_max`` the hydrostatic stress that goes with it.
 
     Raises
