@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "RIGID",
+    "Assessment",
     "Body",
     "Branch",
     "CattaneoMindlin",
@@ -20,6 +21,7 @@ __all__ = [
     "Cone",
     "Conversion",
     "CoupledIndentation",
+    "Criterion",
     "CrownedRoller",
     "Cylinder",
     "Elastic",
@@ -42,6 +44,7 @@ __all__ = [
     "LoadPath",
     "Lubkin",
     "March",
+    "Material",
     "NoConvergenceError",
     "OffGridError",
     "PerRange",
@@ -66,6 +69,8 @@ __all__ = [
     "coated_indentation",
     "continued_pressure",
     "coupled_indentation",
+    "criterion_on",
+    "dang_van_path",
     "depths",
     "dundurs_beta",
     "goodman_stick_ratio",
@@ -76,6 +81,8 @@ __all__ = [
     "labels",
     "line_contact",
     "loops",
+    "material_quantities",
+    "materials",
     "maximum",
     "measure",
     "principal",
@@ -86,6 +93,7 @@ __all__ = [
     "stress_at",
     "stress_coefficients",
     "surface_frf",
+    "yielding_on",
 ]
 
 _Array: TypeAlias = NDArray[np.float64]
@@ -1787,12 +1795,13 @@ class Envelope:
     def finish(self) -> dict[str, dict[str, _Array]]:
         """Give the extremes of every measure."""
 
+@final
 class Criterion:
     """A criterion of crack initiation with its numbers.
 
     s_n is the normal stress on a plane, tau_a the shear amplitude there (radius of the smallest
-    circle round the path of the shear stress), p_h the hydrostatic stress, tension positive; strains
-    are those of the elastic stress. ``docs/fatigue.md`` has the sources.
+    circle round the path of the shear stress), p_h the hydrostatic stress, tension positive;
+    strains are those of the elastic stress. ``docs/fatigue.md`` has the sources.
     """
 
     @staticmethod
@@ -1830,6 +1839,7 @@ class Criterion:
         """Whether it looks for a plane."""
     def __eq__(self, value: object, /) -> bool: ...
 
+@final
 class Assessment:
     """A criterion with the limit or the curve of lives of a material."""
 
@@ -1845,6 +1855,7 @@ class Assessment:
         """Cycles until a crack has started; with a limit: infinite below it, NaN above."""
     def __eq__(self, value: object, /) -> bool: ...
 
+@final
 class Material:
     """What is known of a material, every number with its source."""
 
@@ -1862,7 +1873,7 @@ class Material:
         """Give a criterion with the numbers of the material."""
     def __eq__(self, value: object, /) -> bool: ...
 
-def materials(file: str | os.PathLike[str] | None = None) -> list[Material]:
+def materials(file: str | PathLike[str] | None = None) -> list[Material]:
     """Give the materials that come with the package, or those of a file."""
 
 def material_quantities() -> list[tuple[str, str, str]]:
