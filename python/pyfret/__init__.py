@@ -17,7 +17,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from pyfret import kernels, reference, subsurface, sweep
+from pyfret import fatigue, kernels, reference, subsurface, sweep
 from pyfret._core import (
     RIGID,
     Body,
@@ -110,6 +110,7 @@ __all__ = [
     "Waviness",
     "Wedge",
     "__version__",
+    "fatigue",
     "graded",
     "kernels",
     "march",

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "RIGID",
+    "Assessment",
     "Body",
     "Branch",
     "CattaneoMindlin",
@@ -20,6 +21,7 @@ __all__ = [
     "Cone",
     "Conversion",
     "CoupledIndentation",
+    "Criterion",
     "CrownedRoller",
     "Cylinder",
     "Elastic",
@@ -42,6 +44,7 @@ __all__ = [
     "LoadPath",
     "Lubkin",
     "March",
+    "Material",
     "NoConvergenceError",
     "OffGridError",
     "PerRange",
@@ -66,6 +69,8 @@ __all__ = [
     "coated_indentation",
     "continued_pressure",
     "coupled_indentation",
+    "criterion_on",
+    "dang_van_path",
     "depths",
     "dundurs_beta",
     "goodman_stick_ratio",
@@ -76,6 +81,8 @@ __all__ = [
     "labels",
     "line_contact",
     "loops",
+    "material_quantities",
+    "materials",
     "maximum",
     "measure",
     "principal",
@@ -86,6 +93,7 @@ __all__ = [
     "stress_at",
     "stress_coefficients",
     "surface_frf",
+    "yielding_on",
 ]
 
 _Array: TypeAlias = NDArray[np.float64]
@@ -1786,6 +1794,106 @@ class Envelope:
         """Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa]."""
     def finish(self) -> dict[str, dict[str, _Array]]:
         """Give the extremes of every measure."""
+
+@final
+class Criterion:
+    """A criterion of crack initiation with its numbers.
+
+    s_n is the normal stress on a plane, tau_a the shear amplitude there (radius of the smallest
+    circle round the path of the shear stress), p_h the hydrostatic stress, tension positive;
+    strains are those of the elastic stress. ``docs/fatigue.md`` has the sources.
+    """
+
+    @staticmethod
+    def crossland(*, alpha: float) -> Criterion:
+        """Give sqrt(J2,a) + alpha p_h,max [Pa]."""
+    @staticmethod
+    def dang_van(*, alpha: float) -> Criterion:
+        """Give the largest tau(t) + alpha p_h(t) of the mesoscopic shear [Pa]."""
+    @staticmethod
+    def findley(*, k: float) -> Criterion:
+        """Give the largest tau_a + k s_n,max of all planes [Pa]."""
+    @staticmethod
+    def matake(*, k: float) -> Criterion:
+        """Give tau_a + k s_n,max on the plane of the largest tau_a [Pa]."""
+    @staticmethod
+    def mcdiarmid(*, k: float) -> Criterion:
+        """Give tau_a + k s_n,max on the plane of the largest tau_a [Pa]; k = t_D/(2 s_u)."""
+    @staticmethod
+    def smith_watson_topper(*, E: float, nu: float) -> Criterion:
+        """Give the largest s_n,max times half the range of the normal strain [Pa]."""
+    @staticmethod
+    def fatemi_socie(*, E: float, nu: float, k: float, s_y: float) -> Criterion:
+        """Give the largest tau_a/G (1 + k s_n,max/s_y) of all planes."""
+    @staticmethod
+    def brown_miller(*, E: float, nu: float, S: float) -> Criterion:
+        """Give tau_a/G + S times the range of the normal strain, where tau_a is largest."""
+    @property
+    def name(self) -> str:
+        """Name."""
+    @property
+    def unit(self) -> str:
+        """Unit of the value: ``Pa``, or ``1`` for a strain."""
+    @property
+    def has_plane(self) -> bool:
+        """Whether it looks for a plane."""
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class Assessment:
+    """A criterion with the limit or the curve of lives of a material."""
+
+    @property
+    def criterion(self) -> Criterion:
+        """The criterion with the weights of the material."""
+    @property
+    def limit(self) -> float | None:
+        """Limit for endless life, in the unit of the value; None if the criterion gives lives."""
+    def safety_factor(self, value: float) -> float:
+        """Limit over value; NaN for criteria that give lives."""
+    def life(self, value: float) -> float:
+        """Cycles until a crack has started; with a limit: infinite below it, NaN above."""
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class Material:
+    """What is known of a material, every number with its source."""
+
+    @property
+    def name(self) -> str:
+        """Name in the table."""
+    @property
+    def title(self) -> str:
+        """What it is."""
+    def numbers(self) -> list[tuple[str, float, str]]:
+        """Name, value and source of every number."""
+    def number(self, name: str) -> float:
+        """Give a number; a ValueError says what is known if that is not."""
+    def assessment(self, criterion: str) -> Assessment:
+        """Give a criterion with the numbers of the material."""
+    def __eq__(self, value: object, /) -> bool: ...
+
+def materials(file: str | PathLike[str] | None = None) -> list[Material]:
+    """Give the materials that come with the package, or those of a file."""
+
+def material_quantities() -> list[tuple[str, str, str]]:
+    """Give names, units and meanings of the numbers of materials."""
+
+def criterion_on(
+    criterion: Criterion, stress: NDArray[np.float64], *, tolerance: float
+) -> dict[str, _Array]:
+    """Evaluate a criterion on stresses of shape (time, points, 6); arrays over the points."""
+
+def yielding_on(
+    stress: NDArray[np.float64],
+    *,
+    s_y: float,
+    constant: tuple[float, float, float, float, float, float],
+) -> dict[str, _Array]:
+    """Give load factors of yield and shakedown of stresses of shape (time, points, 6)."""
+
+def dang_van_path(stress: NDArray[np.float64]) -> _Array:
+    """Give rows of tau and p_h of one point from its stress of shape (time, 6)."""
 
 class InvalidSceneError(ValueError):
     """A scene, or a scene file, has no meaning."""

@@ -14,7 +14,8 @@
 //! `docs/conventions.md`. The modules stand in the order of the computation:
 //!
 //! [`scene`] -> [`kernels`] -> [`convolution`] -> [`solvers`] -> [`march`] -> [`fields`] ->
-//! [`output`], with [`mod@reference`] (closed forms) beside them. The method is that of S. Spinu,
+//! [`output`], with [`mod@reference`] (closed forms) beside them, and [`fatigue`], criteria on plain
+//! stress histories, beside all of it. The method is that of S. Spinu,
 //! Tribology in Industry 42 (2020) 131-145, doi:10.24874/ti.2020.42.01.13 ("the paper"); where we
 //! left it, the module says why.
 
@@ -24,6 +25,7 @@ pub mod cells;
 pub mod convolution;
 pub mod error;
 pub mod estimate;
+pub mod fatigue;
 pub mod fields;
 pub mod kernels;
 pub mod march;

@@ -11,6 +11,7 @@
 )]
 
 mod error;
+mod fatigue;
 mod history;
 mod interruptible;
 mod kernels;
@@ -58,6 +59,11 @@ mod _core {
         graded,
     };
 
+    #[pymodule_export]
+    use crate::fatigue::{
+        Assessment, Criterion, Material, criterion_on, dang_van_path, material_quantities,
+        materials, yielding_on,
+    };
     #[pymodule_export]
     use crate::history::{Envelope, loops};
     #[pymodule_export]

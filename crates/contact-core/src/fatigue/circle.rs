@@ -1,0 +1,189 @@
+//! Smallest circle round the path of the shear stress on a plane.
+//!
+//! The circle is that of two or three of the points. The farthest point outside the circle of these
+//! joins them, and of the circles of that point and one or two of the others the smallest that holds
+//! all is the next; its radius grows until no point is outside (see the `ball` module for sources).
+
+#![allow(
+    clippy::inline_always,
+    reason = "sweeps are to be compiled for the processor that runs them"
+)]
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::lanes::{LANES, Lanes, largest, place_of};
+
+/// A point is outside if the square of its distance is larger by this share.
+const OUTSIDE: f64 = 1e-14;
+
+/// A circle and the instants of the points that it is the smallest round.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Circle {
+    pub(super) radius: f64,
+    pub(super) on: [usize; 3],
+}
+
+/// A centre and the square of a radius.
+#[derive(Clone, Copy)]
+struct Round {
+    x: f64,
+    y: f64,
+    square: f64,
+}
+
+/// Room for the search, and the points that mattered last.
+#[derive(Clone, Debug)]
+pub(super) struct Circles {
+    on: [usize; 3],
+    distances: Vec<Lanes>,
+    arch: Arch,
+}
+
+impl Default for Circles {
+    fn default() -> Self {
+        Self {
+            on: [0; 3],
+            distances: Vec::new(),
+            arch: Arch::new(),
+        }
+    }
+}
+
+impl Circles {
+    /// The smallest circle round at least one block of points.
+    pub(super) fn round(&mut self, points: &[[Lanes; 2]]) -> Circle {
+        let point = |k: usize| points[k / LANES].map(|lanes| lanes[k % LANES]);
+        let within = |k: usize| if k < points.len() * LANES { k } else { 0 };
+        let on = self.on.map(within);
+        let mut circle = round_of_three(on.map(point));
+        self.on = on;
+        loop {
+            let far = self.distances_from(&circle, points);
+            if far <= circle.square * (1.0 + OUTSIDE) {
+                return self.found(far);
+            }
+            let k = place_of(&self.distances, far);
+            let (larger, on) = joined(k, self.on, &point);
+            if larger.square <= circle.square {
+                // Rounding: the circle is as large as it gets.
+                return self.found(far);
+            }
+            (circle, self.on) = (larger, on);
+        }
+    }
+
+    fn found(&self, square: f64) -> Circle {
+        Circle {
+            radius: square.sqrt(),
+            on: self.on,
+        }
+    }
+
+    /// The squares of all distances from the centre; the largest is returned.
+    fn distances_from(&mut self, from: &Round, points: &[[Lanes; 2]]) -> f64 {
+        let distances = &mut self.distances;
+        distances.resize(points.len(), [0.0; LANES]);
+        self.arch.dispatch(Distances {
+            from: *from,
+            points,
+            distances,
+        })
+    }
+}
+
+/// [`Circles::distances_from`], compiled for the processor.
+struct Distances<'a> {
+    from: Round,
+    points: &'a [[Lanes; 2]],
+    distances: &'a mut [Lanes],
+}
+
+impl WithSimd for Distances<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        for (square, [x, y]) in self.distances.iter_mut().zip(self.points) {
+            for l in 0..LANES {
+                let (a, b) = (x[l] - self.from.x, y[l] - self.from.y);
+                square[l] = a * a + b * b;
+            }
+        }
+        largest(self.distances)
+    }
+}
+
+/// The smallest circle round the point k and those of `on`, which has k on it.
+fn joined(k: usize, on: [usize; 3], point: &impl Fn(usize) -> [f64; 2]) -> (Round, [usize; 3]) {
+    let p = point(k);
+    let all = on.map(point);
+    let holds = |c: &Round, own: [usize; 3]| {
+        on.iter().zip(&all).all(|(n, [x, y])| {
+            let (a, b) = (x - c.x, y - c.y);
+            own.contains(n) || a * a + b * b <= c.square * (1.0 + OUTSIDE)
+        })
+    };
+    let mut best: Option<(Round, [usize; 3])> = None;
+    let mut consider = |c: Round, own: [usize; 3]| {
+        if best.is_none_or(|(b, _)| c.square < b.square) && holds(&c, own) {
+            best = Some((c, own));
+        }
+    };
+    for i in 0..3 {
+        consider(across(p, all[i]), [k, on[i], on[i]]);
+    }
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        if let Some(c) = through(p, all[i], all[j]) {
+            consider(c, [k, on[i], on[j]]);
+        }
+    }
+    best.unwrap_or((across(p, p), [k; 3]))
+}
+
+/// The smallest circle round three points.
+fn round_of_three([a, b, c]: [[f64; 2]; 3]) -> Round {
+    let square = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
+    let (ab, bc, ca) = (square(a, b), square(b, c), square(c, a));
+    // Beside a right or obtuse angle the longest side is the diameter.
+    if ab >= bc + ca {
+        across(a, b)
+    } else if bc >= ca + ab {
+        across(b, c)
+    } else if ca >= ab + bc {
+        across(c, a)
+    } else {
+        through(a, b, c).unwrap_or_else(|| across(a, b))
+    }
+}
+
+/// Radius of the smallest circle round three points.
+pub(super) fn radius_of_three(points: [[f64; 2]; 3]) -> f64 {
+    round_of_three(points).square.sqrt()
+}
+
+/// The circle with two points at the ends of a diameter.
+fn across(a: [f64; 2], b: [f64; 2]) -> Round {
+    let (x, y) = (f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1]));
+    Round {
+        x,
+        y,
+        square: ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)) / 4.0,
+    }
+}
+
+/// The circle through three points; `None` if they are on a line.
+fn through(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Option<Round> {
+    let (p, q) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+    let twice_area = p[0] * q[1] - p[1] * q[0];
+    let (pp, qq) = (p[0] * p[0] + p[1] * p[1], q[0] * q[0] + q[1] * q[1]);
+    if twice_area * twice_area <= 1e-20 * pp * qq {
+        return None;
+    }
+    let x = (q[1] * pp - p[1] * qq) / (2.0 * twice_area);
+    let y = (p[0] * qq - q[0] * pp) / (2.0 * twice_area);
+    Some(Round {
+        x: a[0] + x,
+        y: a[1] + y,
+        square: x * x + y * y,
+    })
+}

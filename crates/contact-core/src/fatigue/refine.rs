@@ -1,0 +1,128 @@
+//! The top of a smooth function of the plane, by Newton's steps.
+
+use super::circle::radius_of_three;
+use super::path::{Frame, normal_weights, shear_weights, unit};
+use crate::fields::StressTensor;
+
+/// Turn of the planes from which slopes are taken \[rad\]: what these miss is its sixth power, what
+/// rounding adds 1e-16 over it.
+const TURN: f64 = 5e-3;
+/// Longest step \[rad\].
+const LONGEST: f64 = 0.2;
+
+/// The instants that decide on a plane, and the smooth function that they make of it: the largest of
+/// such functions is the criterion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Deciding {
+    /// Those on the smallest circle, those of the largest and smallest of a range, that of the
+    /// second part.
+    pub(super) instants: [usize; 6],
+    /// Stresses on the smallest circle, and the factor of its radius; or else a tensor whose normal
+    /// component the first part is.
+    pub(super) first: First,
+    /// The tensor whose normal component is the second part.
+    pub(super) second: StressTensor,
+}
+
+/// The first part of a piece.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum First {
+    /// A factor times the radius of the smallest circle round the shear of three stresses.
+    Shear(f64, [StressTensor; 3]),
+    /// The normal component of a tensor.
+    Normal(StressTensor),
+}
+
+impl Deciding {
+    /// The two parts on the plane of a unit normal.
+    pub(super) fn parts(&self, n: [f64; 3]) -> [f64; 2] {
+        let normal = normal_weights(n);
+        let of = |weights: &[f64; 6], s: &StressTensor| -> f64 {
+            weights.iter().zip(s).map(|(w, s)| w * s).sum()
+        };
+        let first = match &self.first {
+            First::Normal(tensor) => of(&normal, tensor),
+            First::Shear(factor, stresses) => {
+                let Frame { u, v, .. } = Frame::across(n);
+                let (u, v) = (shear_weights(n, u), shear_weights(n, v));
+                factor * radius_of_three(stresses.map(|s| [of(&u, &s), of(&v, &s)]))
+            }
+        };
+        [first, of(&normal, &self.second)]
+    }
+}
+
+/// The top that is reached from the plane n, and the value there.
+pub(super) fn refine(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3]) -> ([f64; 3], f64) {
+    let mut best = (n, f(n));
+    for _ in 0..12 {
+        let Some((turn, there)) = newton(f, best) else {
+            break;
+        };
+        let rounding = 4.0 * f64::EPSILON * best.1.abs();
+        if there.1 < best.1 - rounding {
+            break;
+        }
+        best = there;
+        if turn < 1e-7 {
+            break;
+        }
+    }
+    best
+}
+
+/// One step to the top of the quadratic through planes around; shorter ones while the value falls.
+/// How far it turns \[rad\], and where it leads.
+fn newton(
+    f: &impl Fn([f64; 3]) -> f64,
+    (n, here): ([f64; 3], f64),
+) -> Option<(f64, ([f64; 3], f64))> {
+    let Frame { n, u, v } = Frame::across(n);
+    let turned = |a: f64, b: f64| unit(std::array::from_fn(|d| n[d] + a * u[d] + b * v[d]));
+    let at = |a: f64, b: f64| f(turned(a * TURN, b * TURN));
+    // Slope to the sixth order of the turn, bend to the second; for a turn of TURN.
+    let axis = |a: f64, b: f64| {
+        let [east, west] = [at(a, b), at(-a, -b)];
+        let second = at(2.0 * a, 2.0 * b) - at(-2.0 * a, -2.0 * b);
+        let third = at(3.0 * a, 3.0 * b) - at(-3.0 * a, -3.0 * b);
+        let slope = (45.0 * (east - west) - 9.0 * second + third) / 60.0;
+        (slope, east + west - 2.0 * here)
+    };
+    let (slope_u, uu) = axis(1.0, 0.0);
+    let (slope_v, vv) = axis(0.0, 1.0);
+    let uv = (at(1.0, 1.0) + at(-1.0, -1.0) - 2.0 * here - uu - vv) / 2.0;
+    let [a, b] = top_of_quadratic([slope_u, slope_v], [uu, vv, uv], 1e-10 * here.abs())?;
+    let far = a.hypot(b) * TURN;
+    let mut share = (LONGEST / far).min(1.0);
+    for _ in 0..6 {
+        let (a, b) = (a * share * TURN, b * share * TURN);
+        let there = turned(a, b);
+        let value = f(there);
+        if value >= here || far < 1e-6 {
+            return Some((far * share, (there, value)));
+        }
+        share /= 3.0;
+    }
+    None
+}
+
+/// Where slope + bend x = 0 along the directions that bend down by more than `flat`; along others
+/// the longest step uphill.
+fn top_of_quadratic(slope: [f64; 2], [uu, vv, uv]: [f64; 3], flat: f64) -> Option<[f64; 2]> {
+    let angle = 0.5 * (2.0 * uv).atan2(uu - vv);
+    let (sin, cos) = angle.sin_cos();
+    let mut top = [0.0; 2];
+    for [a, b] in [[cos, sin], [-sin, cos]] {
+        let bend = a * a * uu + b * b * vv + 2.0 * a * b * uv;
+        let uphill = slope[0] * a + slope[1] * b;
+        let by = if bend < -flat {
+            -uphill / bend
+        } else if uphill.abs() > flat {
+            uphill.signum() * LONGEST / TURN
+        } else {
+            0.0
+        };
+        top = [top[0] + by * a, top[1] + by * b];
+    }
+    (top != [0.0; 2]).then_some(top)
+}

@@ -1,0 +1,162 @@
+//! The search for the plane against all planes of a dense lattice.
+
+use contact_core::fatigue::{Criterion, Search};
+
+use super::splitmix::Draw;
+use super::{Tensor, all, many, one, random, smooth};
+
+/// Normals spread evenly over the hemisphere on a spiral.
+fn normals(count: usize) -> impl Iterator<Item = [f64; 3]> {
+    let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    (0..count).map(move |i| {
+        let z = (i as f64 + 0.5) / count as f64;
+        let (sin, cos) = (turn * i as f64).sin_cos();
+        let r = (1.0 - z * z).sqrt();
+        [r * cos, r * sin, z]
+    })
+}
+
+/// Traction on a plane.
+fn traction(s: &Tensor, n: [f64; 3]) -> [f64; 3] {
+    [
+        s[0] * n[0] + s[3] * n[1] + s[4] * n[2],
+        s[3] * n[0] + s[1] * n[1] + s[5] * n[2],
+        s[4] * n[0] + s[5] * n[1] + s[2] * n[2],
+    ]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Radius of the smallest circle round points of a plane in space: the largest of all circles of two
+/// or of acute three of them.
+fn radius(points: &[[f64; 3]]) -> f64 {
+    let square = |a: [f64; 3], b: [f64; 3]| -> f64 { (0..3).map(|d| (a[d] - b[d]).powi(2)).sum() };
+    let mut most = 0.0_f64;
+    for (i, a) in points.iter().enumerate() {
+        for (j, b) in points.iter().enumerate().skip(i + 1) {
+            let ab = square(*a, *b);
+            most = most.max(ab.sqrt() / 2.0);
+            for c in &points[j + 1..] {
+                let (bc, ca) = (square(*b, *c), square(*c, *a));
+                if ab < bc + ca && bc < ab + ca && ca < ab + bc {
+                    // Heron: 16 area^2.
+                    let area = 4.0 * ab * bc - (ab + bc - ca).powi(2);
+                    if area > 1e-12 * ab * bc {
+                        most = most.max((ab * bc * ca / area).sqrt());
+                    }
+                }
+            }
+        }
+    }
+    most
+}
+
+/// The criterion on one plane, and the shear amplitude there.
+fn on_plane(criterion: &Criterion, history: &[Tensor], n: [f64; 3]) -> (f64, f64) {
+    let normal: Vec<f64> = history.iter().map(|s| dot(traction(s, n), n)).collect();
+    let most = normal.iter().fold(f64::NEG_INFINITY, |m, s| m.max(*s));
+    let shear = || {
+        let points: Vec<[f64; 3]> = history
+            .iter()
+            .zip(&normal)
+            .map(|(s, s_n)| {
+                let t = traction(s, n);
+                std::array::from_fn(|d| t[d] - s_n * n[d])
+            })
+            .collect();
+        radius(&points)
+    };
+    match *criterion {
+        Criterion::Findley { k } => {
+            let tau = shear();
+            (tau + k * most, tau)
+        }
+        Criterion::SmithWatsonTopper { E, nu } => {
+            let strain = history.iter().zip(&normal);
+            let strain: Vec<f64> = strain
+                .map(|(s, s_n)| ((1.0 + nu) * s_n - nu * (s[0] + s[1] + s[2])) / E)
+                .collect();
+            let max = strain.iter().fold(f64::NEG_INFINITY, |m, s| m.max(*s));
+            let min = strain.iter().fold(f64::INFINITY, |m, s| m.min(*s));
+            (most.max(0.0) * (max - min) / 2.0, 0.0)
+        }
+        Criterion::FatemiSocie { E, nu, k, s_y } => {
+            let tau = shear();
+            let G = E / (2.0 * (1.0 + nu));
+            (tau / G * (1.0 + k * most / s_y).max(0.0), tau)
+        }
+        // The plane is that of the largest shear amplitude.
+        _ => {
+            let tau = shear();
+            (tau, tau)
+        }
+    }
+}
+
+fn searches(criterion: &Criterion) -> bool {
+    criterion.has_plane()
+}
+
+/// What the search makes as large as it can.
+fn sought(criterion: &Criterion, found: &contact_core::fatigue::AtPoint) -> f64 {
+    match criterion {
+        Criterion::Matake { .. } | Criterion::McDiarmid { .. } | Criterion::BrownMiller { .. } => {
+            found.shear_amplitude
+        }
+        _ => found.value,
+    }
+}
+
+#[test]
+fn two_hundred_thousand_planes_hold_no_more() {
+    let mut draw = Draw(23);
+    let histories = [
+        random(&mut draw, 6),
+        random(&mut draw, 9),
+        smooth(&mut draw, 8),
+        smooth(&mut draw, 10),
+    ];
+    let tolerance = Search::default().tolerance;
+    for criterion in all().into_iter().filter(searches) {
+        for history in &histories {
+            let found = one(&criterion, history);
+            let ours = sought(&criterion, &found);
+            let brute = normals(200_000)
+                .map(|n| on_plane(&criterion, history, n).0)
+                .fold(f64::NEG_INFINITY, f64::max);
+            let name = criterion.name();
+            // TIE: the plane may be off by 1e-7 where two quantities are weighed.
+            assert!(ours >= brute - 1e-9 * brute.abs(), "{name}: {ours} {brute}");
+            assert!(ours - brute < tolerance * ours, "{name}: {ours} {brute}");
+            assert!(
+                found.missed <= tolerance * found.value.abs() * 1.0001,
+                "{name}: {found:?}"
+            );
+            let (there, _) = on_plane(&criterion, history, found.normal);
+            assert!((there / ours - 1.0).abs() < 1e-9, "{name}: {there} {ours}");
+        }
+    }
+}
+
+/// Many histories, so that narrow hills and near ties occur.
+#[test]
+fn a_thousand_histories_against_two_thousand_planes() {
+    let mut draw = Draw(5);
+    let mut histories: Vec<_> = (0..300).map(|_| random(&mut draw, 5)).collect();
+    histories.extend((0..300).map(|_| smooth(&mut draw, 5)));
+    for criterion in all().into_iter().filter(searches) {
+        let found = many(&criterion, &histories);
+        for (history, found) in histories.iter().zip(&found) {
+            let brute = normals(500)
+                .map(|n| on_plane(&criterion, history, n).0)
+                .fold(f64::NEG_INFINITY, f64::max);
+            let ours = sought(&criterion, found);
+            assert!(
+                ours >= brute - 1e-9 * brute.abs(),
+                "{criterion:?} {history:?}: {ours} {brute}"
+            );
+        }
+    }
+}

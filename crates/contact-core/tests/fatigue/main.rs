@@ -1,0 +1,79 @@
+//! Criteria on stress histories against closed forms, brute force and symmetries.
+
+#![allow(clippy::unwrap_used)]
+
+mod ball;
+mod brute_force;
+mod closed_forms;
+mod materials;
+mod refused;
+#[allow(dead_code, reason = "logarithmic numbers are for others")]
+#[path = "../splitmix/mod.rs"]
+mod splitmix;
+mod symmetries;
+mod yielding;
+
+use std::sync::atomic::AtomicBool;
+
+use contact_core::fatigue::{AtPoint, Criterion, Search, evaluate};
+use ndarray::Array3;
+use splitmix::Draw;
+
+type Tensor = [f64; 6];
+
+const STEEL: (f64, f64) = (210e9, 0.3);
+
+/// All criteria, with weights that matter.
+fn all() -> [Criterion; 8] {
+    let (E, nu) = STEEL;
+    [
+        Criterion::Crossland { alpha: 0.22 },
+        Criterion::DangVan { alpha: 0.4 },
+        Criterion::Findley { k: 0.3 },
+        Criterion::Matake { k: 0.5 },
+        Criterion::McDiarmid { k: 0.2 },
+        Criterion::SmithWatsonTopper { E, nu },
+        Criterion::FatemiSocie {
+            E,
+            nu,
+            k: 1.0,
+            s_y: 500e6,
+        },
+        Criterion::BrownMiller { E, nu, S: 0.85 },
+    ]
+}
+
+fn one(criterion: &Criterion, history: &[Tensor]) -> AtPoint {
+    many(criterion, &[history.to_vec()])[0]
+}
+
+/// Points of equally long histories.
+fn many(criterion: &Criterion, histories: &[Vec<Tensor>]) -> Vec<AtPoint> {
+    let shape = (histories[0].len(), histories.len(), 6);
+    let stress = Array3::from_shape_fn(shape, |(t, p, c)| histories[p][t][c]);
+    let never = AtomicBool::new(false);
+    evaluate(criterion, &stress.view(), &Search::default(), &never).unwrap()
+}
+
+/// A non-proportional history of independent stresses \[Pa\].
+fn random(draw: &mut Draw, instants: usize) -> Vec<Tensor> {
+    let mean: Tensor = std::array::from_fn(|_| 4e8 * (draw.next() - 0.6));
+    (0..instants)
+        .map(|_| std::array::from_fn(|c| mean[c] + 4e8 * (draw.next() - 0.5)))
+        .collect()
+}
+
+/// A smooth cycle of two harmonics, as of a contact.
+fn smooth(draw: &mut Draw, instants: usize) -> Vec<Tensor> {
+    let part: [[f64; 5]; 6] = std::array::from_fn(|_| std::array::from_fn(|_| draw.next() - 0.5));
+    (0..instants)
+        .map(|t| {
+            let phase = std::f64::consts::TAU * t as f64 / instants as f64;
+            std::array::from_fn(|c| {
+                let [a, b, d, e, f] = part[c];
+                let second = (2.0 * phase).cos() * d + (2.0 * phase).sin() * e;
+                4e8 * (a * phase.cos() + b * phase.sin() + 0.3 * second + f)
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,262 @@
+//! Fatigue criteria, yield and shakedown on plain stress histories.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use contact_core::fatigue as core;
+use ndarray::{Array1, Array2};
+use numpy::{IntoPyArray, PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::error::to_python;
+use crate::interruptible::interruptible;
+
+/// A criterion with its numbers.
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.fatigue")]
+#[derive(Clone, PartialEq)]
+pub(crate) struct Criterion(core::Criterion);
+
+fn checked(criterion: core::Criterion) -> PyResult<Criterion> {
+    criterion.check().map_err(to_python)?;
+    Ok(Criterion(criterion))
+}
+
+#[pymethods]
+impl Criterion {
+    #[staticmethod]
+    #[pyo3(signature = (*, alpha))]
+    fn crossland(alpha: f64) -> PyResult<Self> {
+        checked(core::Criterion::Crossland { alpha })
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (*, alpha))]
+    fn dang_van(alpha: f64) -> PyResult<Self> {
+        checked(core::Criterion::DangVan { alpha })
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (*, k))]
+    fn findley(k: f64) -> PyResult<Self> {
+        checked(core::Criterion::Findley { k })
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (*, k))]
+    fn matake(k: f64) -> PyResult<Self> {
+        checked(core::Criterion::Matake { k })
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (*, k))]
+    fn mcdiarmid(k: f64) -> PyResult<Self> {
+        checked(core::Criterion::McDiarmid { k })
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (*, E, nu))]
+    fn smith_watson_topper(E: f64, nu: f64) -> PyResult<Self> {
+        checked(core::Criterion::SmithWatsonTopper { E, nu })
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (*, E, nu, k, s_y))]
+    fn fatemi_socie(E: f64, nu: f64, k: f64, s_y: f64) -> PyResult<Self> {
+        checked(core::Criterion::FatemiSocie { E, nu, k, s_y })
+    }
+
+    #[staticmethod]
+    #[pyo3(signature = (*, E, nu, S))]
+    fn brown_miller(E: f64, nu: f64, S: f64) -> PyResult<Self> {
+        checked(core::Criterion::BrownMiller { E, nu, S })
+    }
+
+    #[getter]
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+
+    #[getter]
+    fn unit(&self) -> &'static str {
+        self.0.unit()
+    }
+
+    #[getter]
+    fn has_plane(&self) -> bool {
+        self.0.has_plane()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("{:?}", self.0)
+    }
+}
+
+/// A criterion with its limit or its curve of lives.
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.fatigue")]
+#[derive(Clone, PartialEq)]
+pub(crate) struct Assessment(core::Assessment);
+
+#[pymethods]
+impl Assessment {
+    #[getter]
+    fn criterion(&self) -> Criterion {
+        Criterion(self.0.criterion)
+    }
+
+    /// The limit, or nothing where the criterion gives lives.
+    #[getter]
+    fn limit(&self) -> Option<f64> {
+        match self.0.judge {
+            core::Judge::Limit(limit) => Some(limit),
+            core::Judge::Life(_) => None,
+        }
+    }
+
+    fn safety_factor(&self, value: f64) -> f64 {
+        self.0.safety_factor(value)
+    }
+
+    fn life(&self, value: f64) -> f64 {
+        self.0.life(value)
+    }
+}
+
+/// A material and its numbers.
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.fatigue")]
+#[derive(Clone, PartialEq)]
+pub(crate) struct Material(core::Material);
+
+#[pymethods]
+impl Material {
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.0.title
+    }
+
+    /// Name, value and source of every number.
+    fn numbers(&self) -> Vec<(&'static str, f64, String)> {
+        let numbers = self.0.numbers.iter();
+        numbers
+            .map(|(name, of)| (*name, of.value, of.source.clone()))
+            .collect()
+    }
+
+    fn number(&self, name: &str) -> PyResult<f64> {
+        self.0.number(name).map_err(to_python)
+    }
+
+    fn assessment(&self, criterion: &str) -> PyResult<Assessment> {
+        let found = core::Assessment::of(criterion, &self.0).map_err(to_python)?;
+        Ok(Assessment(found))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Material({:?}, {:?})", self.0.name, self.0.title)
+    }
+}
+
+/// The materials that come with the package, or those of a file.
+#[pyfunction]
+#[pyo3(signature = (file = None))]
+pub(crate) fn materials(file: Option<PathBuf>) -> PyResult<Vec<Material>> {
+    let found = match file {
+        None => core::materials(),
+        Some(file) => core::materials_from(&file).map_err(to_python)?,
+    };
+    Ok(found.into_values().map(Material).collect())
+}
+
+/// Names, units and meanings of the numbers of materials.
+#[pyfunction]
+pub(crate) fn material_quantities() -> Vec<(&'static str, &'static str, &'static str)> {
+    let label = |q: &core::Quantity| (q.name, q.unit, q.long_name);
+    core::QUANTITIES.iter().map(label).collect()
+}
+
+/// A criterion on stresses of shape (time, points, 6): arrays over the points.
+#[pyfunction]
+#[pyo3(signature = (criterion, stress, *, tolerance))]
+pub(crate) fn criterion_on<'py>(
+    py: Python<'py>,
+    criterion: Criterion,
+    stress: PyReadonlyArray3<'py, f64>,
+    tolerance: f64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (view, stop) = (stress.as_array(), Arc::default());
+    let search = core::Search {
+        tolerance,
+        ..core::Search::default()
+    };
+    let work = || core::evaluate(&criterion.0, &view, &search, &stop);
+    let points = interruptible(py, &stop, work)?.map_err(to_python)?;
+    let of = |f: &dyn Fn(&core::AtPoint) -> f64| {
+        let values: Array1<f64> = points.iter().map(f).collect();
+        values.into_pyarray(py)
+    };
+    let found = PyDict::new(py);
+    found.set_item("value", of(&|p| p.value))?;
+    found.set_item("missed", of(&|p| p.missed))?;
+    found.set_item("shear_amplitude", of(&|p| p.shear_amplitude))?;
+    found.set_item("shear_chord", of(&|p| p.shear_chord))?;
+    found.set_item("normal_max", of(&|p| p.normal_max))?;
+    found.set_item("normal_min", of(&|p| p.normal_min))?;
+    let normal = Array2::from_shape_fn((points.len(), 3), |(n, d)| points[n].normal[d]);
+    found.set_item("normal", normal.into_pyarray(py))?;
+    Ok(found)
+}
+
+/// Load factors of first yield and shakedown of stresses of shape (time, points, 6).
+#[pyfunction]
+#[pyo3(signature = (stress, *, s_y, constant))]
+pub(crate) fn yielding_on<'py>(
+    py: Python<'py>,
+    stress: PyReadonlyArray3<'py, f64>,
+    s_y: f64,
+    constant: [f64; 6],
+) -> PyResult<Bound<'py, PyDict>> {
+    let (view, stop) = (stress.as_array(), Arc::default());
+    let work = || core::yielding(&view, s_y, &constant, &stop);
+    let points = interruptible(py, &stop, work)?.map_err(to_python)?;
+    let of = |f: &dyn Fn(&core::Yield) -> f64| {
+        let values: Array1<f64> = points.iter().map(f).collect();
+        values.into_pyarray(py)
+    };
+    let found = PyDict::new(py);
+    found.set_item("von_mises", of(&|p| p.von_mises))?;
+    found.set_item("tresca", of(&|p| p.tresca))?;
+    found.set_item("shakedown", of(&|p| p.shakedown))?;
+    let residual = Array2::from_shape_fn((points.len(), 6), |(n, c)| points[n].residual[c]);
+    found.set_item("residual", residual.into_pyarray(py))?;
+    Ok(found)
+}
+
+/// The path of one point in Dang Van's plane, from its stress of shape (time, 6): tau and
+/// hydrostatic stress at every instant.
+#[pyfunction]
+pub(crate) fn dang_van_path<'py>(
+    py: Python<'py>,
+    stress: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
+    let stress = stress.as_array();
+    if stress.ncols() != 6 {
+        let allowed = "6 long: xx, yy, zz, xy, xz, yz";
+        let error = contact_core::Error::invalid("last axis of stress", stress.ncols(), allowed);
+        return Err(to_python(error));
+    }
+    let rows = stress.rows().into_iter();
+    let stress: Vec<_> = rows.map(|s| std::array::from_fn(|c| s[c])).collect();
+    let path = core::dang_van_path(&stress);
+    let path = Array2::from_shape_fn(
+        (path.len(), 2),
+        |(t, k)| {
+            if k == 0 { path[t].0 } else { path[t].1 }
+        },
+    );
+    Ok(path.into_pyarray(py))
+}
