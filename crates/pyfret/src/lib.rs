@@ -11,6 +11,7 @@
 )]
 
 mod error;
+mod forked;
 mod history;
 mod interruptible;
 mod kernels;
@@ -49,7 +50,7 @@ mod _core {
         goodman_stick_ratio, hertz, hertz_ellipse, line_contact,
     };
     #[pymodule_export]
-    use crate::result::{resume, solve};
+    use crate::result::{resume, solve, verify};
     #[pymodule_export]
     use crate::scene::{
         Body, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat, FlatPunch,
