@@ -11,7 +11,7 @@ import pytest
 import pyfret as fret
 from conftest import W, sphere_on_flat
 
-STORES = 120
+STORES = 60
 
 
 def damage(file: Path, rng: random.Random) -> None:
@@ -42,21 +42,22 @@ def test_a_damaged_store_is_read_as_it_was_or_refused_by_name(tmp_path: Path) ->
     files = sorted(f.relative_to(good) for f in good.rglob("*") if f.is_file())
     rng = random.Random(34)
     refused = 0
+    bad = tmp_path / "bad.zarr"
+    shutil.copytree(good, bad)
     for n in range(STORES):
-        bad = tmp_path / f"bad{n}.zarr"
-        shutil.copytree(good, bad)
         name = Path(".zmetadata") if n % 8 == 0 else rng.choice(files)
         damage(bad / name, rng)
         try:
             read = fret.open(bad).dataset.load()
         except fret.StoreError as error:
             text = str(error)
-            assert str(bad) in text and "\n" not in text, text
+            assert str(bad) in text, text
+            assert "\n" not in text, text
             assert str(name.parent if name.name[0] != "." else name) in text, (name, text)
             refused += 1
         else:
             assert read.identical(written.dataset), name
-        shutil.rmtree(bad)
+        shutil.copy(good / name, bad / name)
     assert refused > STORES // 3
 
 

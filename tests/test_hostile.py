@@ -1,4 +1,4 @@
-"""Every public function and constructor with hostile values: an answer or a clear error, and soon."""
+"""Every public function with hostile values: an answer or a clear error, and soon."""
 
 from __future__ import annotations
 
@@ -36,7 +36,9 @@ def batch(start: int) -> tuple[list[str], int | None]:
                     return wrong, None
                 if number:
                     last, text = int(number), words
-                elif words.startswith("BAD") or (text.endswith("as it should be") and words.startswith("refused")):
+                elif words.startswith("BAD") or (
+                    text.endswith("as it should be") and words.startswith("refused")
+                ):
                     wrong.append(f"{text}: {words}")
 
 
