@@ -13,6 +13,7 @@ use std::ops::Range;
 use super::edge::Edge;
 use super::level::{Power, Told};
 use super::partial_cells::{SHRINKS, STICK};
+use super::within_cell::{Around, GoesOn, WithinCell};
 use crate::cells::Lattice;
 use crate::convolution::Tractions;
 use crate::plan::Mirror;
@@ -35,6 +36,9 @@ pub(crate) struct Continued {
     start: (usize, usize),
     /// The tractions q_x, q_y, p as they are \[Pa\].
     constant: [Array2<f64>; 3],
+    /// What the constant tractions of a cell stand for \[Pa\]: the mean of the continued ones, or in cells
+    /// at the borders themselves.
+    whole: Array2<[f64; 3]>,
     /// p^2 \[Pa^2\], below zero in cells beside the contact.
     level: Array2<f64>,
     /// q/p, in cells beside the contact the mean of their neighbours' within.
@@ -45,17 +49,6 @@ pub(crate) struct Continued {
     /// Distance of the cells from those beside a border that the tractions are continued to, in
     /// cells along or across, up to 255.
     distance: Array2<u8>,
-}
-
-/// What of the tractions is not constant in a cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum GoesOn {
-    Nothing,
-    Pressure,
-    /// With the shear in its ratio to it.
-    Both,
-    /// The shear by what it falls short of its bound.
-    Shortfall,
 }
 
 impl Continued {
@@ -95,16 +88,33 @@ impl Continued {
             around(*cell, shape).for_each(|at| goes_on[at] = GoesOn::Nothing);
         }
         let zone_told = zone.iter().flat_map(|zone| &zone.border.told);
-        let distance = distances(shape, rim.told.iter().chain(zone_told));
-        Self {
+        let distance = distances(shape, rim.told.iter().chain(zone_told.clone()));
+        // A cell carries the mean of the tractions in it, but for those at the borders, which carry what
+        // balances the others.
+        let mut balances = Zip::from(&rim.level)
+            .and(&p)
+            .map_collect(|level, p| level.to_bits() != p.max(0.0).powi(2).to_bits());
+        zone_told.clone().for_each(|cell| balances[*cell] = true);
+        let mut continued = Self {
             start: (window.0.start, window.1.start),
+            whole: Array2::default((0, 0)),
             ratios: [0, 1].map(|c| cut(&ratio(&q[c], &p), window)),
             constant: [&q[0], &q[1], &p].map(|field| cut(field, window)),
             level: cut(&rim.level, window),
             bound: zone.map(|zone| [&zone.m, &zone.border.level].map(|field| cut(field, window))),
             goes_on: cut(&goes_on, window),
             distance: cut(&distance, window),
-        }
+        };
+        let balances = cut(&balances, window);
+        continued.whole = Array2::from_shape_fn(balances.dim(), |cell| {
+            let within = continued.within(cell);
+            if balances[cell] {
+                within.own
+            } else {
+                within.mean(grid.ny == 1)
+            }
+        });
+        continued
     }
 
     /// A cell of the grid in the window.
@@ -131,37 +141,25 @@ impl Continued {
         mut f: impl FnMut([f64; 3], &T),
     ) {
         let Some(cell) = self.place(cell) else { return };
-        let goes_on = self.goes_on[cell];
-        if goes_on == GoesOn::Nothing {
+        if self.goes_on[cell] == GoesOn::Nothing {
             return;
         }
-        let constant = [0, 1, 2].map(|c| self.constant[c][cell]);
-        let level = Around::new(&self.level, cell);
-        let ratios = [0, 1].map(|c| Around::new(&self.ratios[c], cell));
-        let bound = self.bound.as_ref().filter(|_| goes_on == GoesOn::Shortfall);
-        let bound = bound.map(|fields| [0, 1].map(|c| Around::new(&fields[c], cell)));
+        let (within, whole) = (self.within(cell), self.whole[cell]);
         for (offset, of) in places {
-            let p = level.at(*offset).max(0.0).sqrt();
-            if goes_on == GoesOn::Pressure {
-                f([0.0, 0.0, p - constant[2]], of);
-                continue;
-            }
-            let [x, y] = [0, 1].map(|c| ratios[c].at(*offset));
-            let size = match &bound {
-                Some([m, shortfall]) => {
-                    let q = m.at(*offset) * p - shortfall.at(*offset).max(0.0).sqrt();
-                    q.max(0.0) / x.hypot(y).max(f64::MIN_POSITIVE)
-                }
-                None => p,
-            };
-            f(
-                [
-                    size * x - constant[0],
-                    size * y - constant[1],
-                    p - constant[2],
-                ],
-                of,
-            );
+            let here = within.at(*offset);
+            f([0, 1, 2].map(|c| here[c] - whole[c]), of);
+        }
+    }
+
+    fn within(&self, cell: (usize, usize)) -> WithinCell {
+        let goes_on = self.goes_on[cell];
+        let bound = self.bound.as_ref().filter(|_| goes_on == GoesOn::Shortfall);
+        WithinCell {
+            own: [0, 1, 2].map(|c| self.constant[c][cell]),
+            goes_on,
+            level: Around::new(&self.level, cell),
+            ratios: [0, 1].map(|c| Around::new(&self.ratios[c], cell)),
+            bound: bound.map(|fields| [0, 1].map(|c| Around::new(&fields[c], cell))),
         }
     }
 }
@@ -322,27 +320,6 @@ impl StickZone {
 fn cut<T: Clone>(field: &Array2<T>, (columns, rows): &(Range<usize>, Range<usize>)) -> Array2<T> {
     let columns = field.slice_axis(Axis(0), columns.clone().into());
     columns.slice_axis(Axis(1), rows.clone().into()).to_owned()
-}
-
-/// A field in a cell and its neighbours.
-struct Around([[f64; 3]; 3]);
-
-impl Around {
-    fn new(field: &Array2<f64>, (i, j): (usize, usize)) -> Self {
-        let (nx, ny) = field.dim();
-        let near = |n: usize, count: usize| [n.saturating_sub(1), n, (n + 1).min(count - 1)];
-        Self(near(i, nx).map(|i| near(j, ny).map(|j| field[(i, j)])))
-    }
-
-    /// Bilinear between the middles, at an offset of at most half a cell.
-    fn at(&self, (s, t): (f64, f64)) -> f64 {
-        let Self(field) = self;
-        let (next, above) = (usize::from(s > 0.0) * 2, usize::from(t > 0.0) * 2);
-        let (s, t) = (s.abs(), t.abs());
-        let along = |column: [f64; 3]| column[1] + t * (column[above] - column[1]);
-        let (here, there) = (along(field[1]), along(field[next]));
-        here + s * (there - here)
-    }
 }
 
 /// q/p, in cells beside the contact the mean of their neighbours' within.

@@ -5,6 +5,7 @@ mod edge;
 mod level;
 mod parabola;
 mod partial_cells;
+mod within_cell;
 
 pub(crate) use continued::Continued;
 pub(crate) use edge::Edge;
