@@ -172,7 +172,7 @@ fn what_is_resumed_ends_with_the_same_bits() {
         let among = if n % 3 == 0 { &central } else { &names };
         let name = damage(&mut bad, &mut draw, among);
         lay_out(&path, &bad);
-        match resume(&path) {
+        match resume(&path, None) {
             Ok(Some(mut run)) => {
                 run.march.run(run.increments, &mut run.writer).unwrap();
                 // Of the metadata of the arrays only those that are consolidated count.
