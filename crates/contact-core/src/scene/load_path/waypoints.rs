@@ -1,7 +1,4 @@
-//! Load paths from waypoints: m        let text = files::read(path)?;
-        let mut reader = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .from_reader(text.as_slice());asured histories, tables.
+//! Load paths from waypoints: measured histories, tables.
 
 use std::path::Path;
 
@@ -122,8 +119,10 @@ impl LoadPath {
             .map(|name| Column::named(name))
             .collect::<Result<_, _>>()?;
         for (n, name) in names.iter().enumerate() {
-            let same = |other: &&&str| drives(other) == drives(name);
-            if let Some(other) = names[..n].iter().find(same) {
+            if let Some(other) = names[..n]
+                .iter()
+                .find(|other| drives(other) == drives(name))
+            {
                 let allowed = format!("left out, since {other} says the same");
                 return Err(Error::invalid("path column", name, allowed));
             }
@@ -175,10 +174,10 @@ impl LoadPath {
             path: path.display().to_string(),
             message,
         };
+        let text = files::read(path)?;
         let mut reader = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
-            .from_path(path)
-            .map_err(|e| failed(e.to_string()))?;
+            .from_reader(text.as_slice());
         let names = reader.headers().map_err(|e| failed(e.to_string()))?.clone();
         let rows = reader.deserialize::<Vec<f64>>();
         let rows: Vec<Vec<f64>> = rows
