@@ -61,7 +61,7 @@ def fall(shape: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray | None:
         return -bilinear(of["z"], of["spacing"], x, y)
     if kind == "waviness":
         wave = 2 * np.pi * along / of["wavelength"] + of["phase"]
-        return -of["amplitude"] * np.cos(wave)
+        return of["amplitude"] * (1 - np.cos(wave))
     return None
 
 
@@ -162,10 +162,10 @@ class Audit:
         found["tension"] = -p.min() / (room * top)
         outside = p <= 0
         shear = np.hypot(q_x, q_y)
-        found["shear without pressure"] = shear[outside].max(initial=0.0) / (room * top)
+        found["shear without pressure"] = shear[outside].max(initial=0.0) / (room * max(top, 1.0))
         bound = self.bound(p)
         if bound is not None:
-            b_x, b_y = (np.maximum(b, 1e-12 * top) for b in bound)
+            b_x, b_y = (np.maximum(b, 1e-12 * max(top, 1.0)) for b in bound)
             over = np.hypot(q_x / b_x, q_y / b_y)[~outside].max(initial=0.0) - 1
             found["Coulomb"] = over / 1e-6
         u_x, u_y, u_z = self.operator.displacement(p=p, q_x=q_x, q_y=q_y)
