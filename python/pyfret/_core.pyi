@@ -1679,6 +1679,9 @@ def resume(
 ) -> None:
     """Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it."""
 
+def verify(store: str | PathLike[str]) -> str:
+    """Check every file of a result store; give the attributes of its group as JSON."""
+
 def probe_labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of everything that follows from the stress."""
 

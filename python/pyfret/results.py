@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import numbers
+from os import fspath
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import xarray as xr
 
 from pyfret import _core, subsurface
-from pyfret._core import Scene
+from pyfret._core import Scene, StoreError
 from pyfret.snapshot import Snapshot
 
 if TYPE_CHECKING:
@@ -287,5 +289,21 @@ class Result:
 
 
 def open(path: str | os.PathLike[str]) -> Result:
-    """Open a result store; fields are read when they are asked for."""
-    return Result(xr.open_zarr(path, chunks=None))
+    """Open a result store; its fields are read when they are asked for.
+
+    Every file of it is checked before: what is read is what was written.
+
+    Raises
+    ------
+    StoreError
+        There is no store, or a file of it is missing or damaged; the message names both.
+    """
+    # Zarr reads the attributes of the group from a file that no checksum covers.
+    attributes = json.loads(_core.verify(path))
+    try:
+        dataset = xr.open_zarr(path, chunks=None)
+    except Exception as error:
+        message = " ".join(str(error).split())
+        raise StoreError(f"{fspath(path)}: {type(error).__name__}: {message}") from error
+    kept = {name: value for name, value in attributes.items() if name in dataset.attrs}
+    return Result(dataset.assign_attrs(kept))

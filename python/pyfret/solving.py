@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import tempfile
 from pathlib import Path
@@ -14,7 +15,6 @@ from pyfret.progress import Progress
 from pyfret.results import Result, Snapshot, open
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Iterator, Sequence
 
     from pyfret._core import LoadPath, Scene
@@ -73,7 +73,9 @@ def solve(
                 scene, store=out, checkpoint=checkpoint, error=error, on_increment=bar.update
             )
             return open(out)
-        with tempfile.TemporaryDirectory(prefix="pyfret-", dir=memory(scene)) as folder:
+        tidy()
+        name = PASSING.format(os.getpid())
+        with tempfile.TemporaryDirectory(prefix=name, dir=memory(scene)) as folder:
             store = Path(folder) / "run.zarr"
             _core.solve(scene, store=store, error=error, on_increment=bar.update)
             return Result(open(store).dataset.load())
@@ -113,16 +115,29 @@ def resume(
 
 #: A file system in memory, where there is one.
 SHARED_MEMORY = Path("/dev/shm")
+#: The largest store that is written there [bytes]; larger ones would double the memory of a result.
+SMALL = 64 << 20
+#: What the folders of passing stores are called, with the number of their process.
+PASSING = "pyfret-{}-"
+
+
+def tidy() -> None:
+    """Remove the passing stores in shared memory whose processes were killed."""
+    for folder in SHARED_MEMORY.glob(PASSING.format("*") + "*"):
+        process = folder.name.split("-")[1]
+        if process.isdigit() and not Path("/proc", process).exists():
+            shutil.rmtree(folder, ignore_errors=True)
 
 
 def memory(scene: Scene) -> Path | None:
-    """Where a passing store is written: in memory if it fits, else the usual temporary folder."""
+    """Where a passing store is written: in memory if it is small, else the usual folder."""
     kept = len(scene.path) if scene.settings.save == "all" else len(scene.path.branches)
     if isinstance(scene.settings.save, list):
         kept = len(scene.settings.save)
     size = 8 * (len(_core.labels()) * (len(scene.path) + kept * scene.grid.nx * scene.grid.ny))
     try:
-        return SHARED_MEMORY if shutil.disk_usage(SHARED_MEMORY).free > 2 * size else None
+        free = shutil.disk_usage(SHARED_MEMORY).free
+        return SHARED_MEMORY if size < min(SMALL, free / 2) else None
     except OSError:
         return None
 

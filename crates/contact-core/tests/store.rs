@@ -269,7 +269,7 @@ fn damage_is_named() {
     fs::write(path.join(".zmetadata"), other).unwrap();
     let error = text(Store::open(&path).err().unwrap());
     assert!(
-        error.contains("schema 9: this version reads schema 1"),
+        error.contains("schema 9: this version reads schema 2"),
         "{error}"
     );
     let endless = metadata.replace("      12\n", "      1200000000000\n");

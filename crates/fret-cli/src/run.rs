@@ -125,10 +125,10 @@ impl Manner {
             say(&summary::time(begun.elapsed(), writer.checkpoints()));
         }
         outcome.map(|_| stop).map_err(|error| {
-            if !increments.is_empty() {
+            let kept = writer.kept();
+            if kept > 0 {
                 say(&format!(
-                    "fret: {} of {} increments are kept in {}; `fret resume` goes on from there",
-                    increments.len(),
+                    "fret: {kept} of {} increments are kept in {}; `fret resume` goes on from there",
                     scene.path.increments(),
                     out.display()
                 ));

@@ -114,6 +114,7 @@ fn a_folder_that_cannot_be_written_is_named() {
     assert_eq!(ended.status.code(), Some(1), "{text}");
     assert!(text.contains(&format!("{}: ", place.display())), "{text}");
     assert!(text.contains(reason), "{text}");
+    assert!(!text.contains("are kept"), "{text}");
     assert!(!place.exists());
     fs::set_permissions(&folder, Permissions::from_mode(0o755)).unwrap();
 }

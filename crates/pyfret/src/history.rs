@@ -34,6 +34,7 @@ impl Envelope {
     #[new]
     #[pyo3(signature = (body, grid, path, z, layer, *, of, x = None, y = None, body_number = 2, rim = true))]
     fn new(
+        py: Python<'_>,
         body: Body,
         grid: Grid,
         path: LoadPath,
@@ -72,7 +73,8 @@ impl Envelope {
         );
         let depths = Subsurface::depths(&z, &layer)?;
         let side = side(body_number)?;
-        let stream = Stream::new(&body.0, side, &grid.0, line, depths, accumulate);
+        let new = || Stream::new(&body.0, side, &grid.0, line, depths, accumulate);
+        let stream = interruptible(py, &Arc::default(), new)?;
         let stream = stream.map_err(to_python)?;
         Ok(Self {
             stream: Some(stream.rim(rim)),

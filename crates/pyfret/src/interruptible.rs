@@ -8,6 +8,8 @@ use std::time::Duration;
 
 use pyo3::prelude::*;
 
+use crate::forked::in_this_process;
+
 /// Time between two looks at the signals.
 const LOOK: Duration = Duration::from_millis(50);
 
@@ -24,11 +26,12 @@ pub(crate) fn interruptible<T: Send>(
     work: impl FnOnce() -> T + Send,
 ) -> PyResult<T> {
     let (at_work, ended) = channel::<()>();
+    let running = in_this_process()?;
     py.detach(move || {
         thread::scope(|scope| {
             let worker = scope.spawn(move || {
                 let _at_work = at_work;
-                work()
+                running.install(work)
             });
             let mut raised = None;
             while let Err(RecvTimeoutError::Timeout) = ended.recv_timeout(LOOK) {

@@ -23,7 +23,7 @@ pub(crate) fn surface_frf<'py>(
     k_x: PyReadonlyArray1<'py, f64>,
     k_y: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray3<Complex64>>> {
-    let stack = Stack::new(&body.0);
+    let stack = Stack::checked(&body.0).map_err(to_python)?;
     let mut frf = Array3::zeros((k_x.len()?, 3, 3));
     let waves = k_x.as_array().into_iter().zip(k_y.as_array());
     for (n, (&k_x, &k_y)) in waves.enumerate() {
@@ -81,9 +81,8 @@ pub(crate) fn stress_at(
     point: (f64, f64, f64),
     layer: Option<usize>,
 ) -> PyResult<Bound<'_, PyArray2<f64>>> {
-    let stress = py
-        .detach(|| core::stress_at(&body.0, cell, point, layer))
-        .map_err(to_python)?;
+    let at = || core::stress_at(&body.0, cell, point, layer);
+    let stress = interruptible(py, &Arc::default(), at)?.map_err(to_python)?;
     Ok(Array2::from_shape_fn((6, 3), |(i, j)| stress[i][j]).into_pyarray(py))
 }
 
@@ -124,6 +123,7 @@ impl Conversion {
         }
         let matrix = |m: ArrayView2<'_, Complex64>| [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[(i, j)]));
         let samples: Vec<_> = frf.outer_iter().map(matrix).collect();
-        Ok(py.detach(|| self.0.convert(&samples)).into_pyarray(py))
+        let converted = interruptible(py, &Arc::default(), || self.0.convert(&samples))?;
+        Ok(converted.into_pyarray(py))
     }
 }

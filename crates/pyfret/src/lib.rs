@@ -12,6 +12,7 @@
 
 mod error;
 mod fatigue;
+mod forked;
 mod history;
 mod interruptible;
 mod kernels;
@@ -50,7 +51,7 @@ mod _core {
         goodman_stick_ratio, hertz, hertz_ellipse, line_contact,
     };
     #[pymodule_export]
-    use crate::result::{resume, solve};
+    use crate::result::{resume, solve, verify};
     #[pymodule_export]
     use crate::scene::{
         Body, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat, FlatPunch,

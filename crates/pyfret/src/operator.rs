@@ -64,7 +64,7 @@ impl SurfaceOperator {
             self.cells("q_y", q_y)?,
         );
         let mut u = Array3::zeros((3, self.shape.0, self.shape.1));
-        py.detach(|| {
+        interruptible(py, &Arc::default(), || {
             let mut parts = u
                 .axis_iter_mut(Axis(0))
                 .filter_map(ArrayViewMut2::into_slice);
@@ -80,7 +80,7 @@ impl SurfaceOperator {
             };
             let mut operator = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
             operator.apply(tractions, displacements);
-        });
+        })?;
         Ok(u.to_pyarray(py))
     }
 }

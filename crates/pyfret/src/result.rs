@@ -106,6 +106,13 @@ pub(crate) fn solve(
     })
 }
 
+/// Checks a store and gives the attributes of its group as JSON.
+#[pyfunction]
+pub(crate) fn verify(py: Python<'_>, store: PathBuf) -> PyResult<String> {
+    let store = interruptible(py, &Arc::default(), || output::Store::open_whole(store))?;
+    Ok(store.map_err(to_python)?.attributes().to_string())
+}
+
 /// Goes on with the run of a store that ended early; nothing is done if it is done.
 #[pyfunction]
 #[pyo3(signature = (store, *, checkpoint = 5.0, on_increment = None))]

@@ -36,7 +36,7 @@ impl Side {
 
 /// The depths `z` \[m\] with their layers; on an interface both, the upper one first.
 pub fn depths(body: &Body, z: &[f64]) -> Result<Vec<Depth>, Error> {
-    body.check("body")?;
+    body.check_alone()?;
     let stack = Stack::new(body);
     let mut all = Vec::with_capacity(z.len());
     for &z in z {

@@ -75,8 +75,8 @@ impl Loaded {
         states: &States<'_>,
         window: impl FnOnce() -> Result<(Range<usize>, Range<usize>), Error>,
     ) -> Result<Self, Error> {
-        body.check("body")?;
-        grid.check()?;
+        body.check_alone()?;
+        grid.check_alone()?;
         let window = window()?;
         let near = |stick| NearRim::new(grid, side, states.tractions, stick, window);
         Ok(Self {

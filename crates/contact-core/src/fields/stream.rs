@@ -156,6 +156,15 @@ impl<A: Accumulate> Stream<A> {
         tractions: [Array2<f64>; 3],
         stick: Array2<bool>,
     ) -> Result<(), Error> {
+        let shape = (self.grid.nx, self.grid.ny);
+        let [q_x, q_y, p] = &tractions;
+        let shapes = [("q_x", q_x.dim()), ("q_y", q_y.dim()), ("p", p.dim())];
+        for (key, found) in shapes.into_iter().chain([("stick", stick.dim())]) {
+            if found != shape {
+                let allowed = format!("of the shape of the grid, {shape:?}");
+                return Err(Error::invalid(key, format!("of shape {found:?}"), allowed));
+            }
+        }
         self.waiting.push((moment, tractions, stick));
         let batch = if self.line.is_some() {
             BATCH

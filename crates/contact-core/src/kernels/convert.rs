@@ -14,7 +14,8 @@ use rustfft::num_complex::Complex64;
 
 use super::gauss::gauss;
 use crate::error::Error;
-use crate::scene::Grid;
+use crate::memory::fits;
+use crate::scene::{Grid, MOST_ALIASES};
 
 /// The displacements u_x, u_y, u_z \[m/Pa\] (rows) under tractions exp(i(k_x x + k_y y)) q_x, q_y, p
 /// (columns).
@@ -22,6 +23,9 @@ pub type SurfaceFrf = [[Complex64; 3]; 3];
 
 /// Gauss nodes in angle and radius of the mean at zero frequency.
 const MEAN: usize = 16;
+
+/// Memory of a wave vector and the sample of the response at it \[bytes\].
+const POINT: f64 = 200.0;
 
 /// A conversion planned: grid, enlargement of the domain, order of the alias sums.
 #[derive(Clone, Debug)]
@@ -48,6 +52,14 @@ impl Conversion {
             let allowed = "2 or more: offsets reach over twice the grid";
             return Err(Error::invalid("lambda", lambda, allowed));
         }
+        if aliases > MOST_ALIASES {
+            let allowed = format!("0 to {MOST_ALIASES}");
+            return Err(Error::invalid("aliases", aliases, allowed));
+        }
+        grid.check_alone()?;
+        let sums = (2 * aliases + 1).pow(2) as f64;
+        let frequencies = (lambda as f64).powi(2) * grid.cells() as f64 / 2.0;
+        fits("the conversion", POINT * frequencies * sums)?;
         let period = (lambda * grid.nx, lambda * grid.ny);
         let step = (
             2.0 * PI / (period.0 as f64 * grid.dx),

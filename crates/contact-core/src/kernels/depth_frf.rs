@@ -15,6 +15,7 @@ use rustfft::num_complex::Complex64;
 use super::layered_frf::{HalfSpace, Stack, propagate_down, propagate_up};
 use super::matrix::Matrix2;
 use crate::error::Error;
+use crate::scene::{LARGEST, SMALLEST};
 
 /// Share of the stack's height by which a depth may miss its layer, for rounded sums of thicknesses.
 const ROUNDING: f64 = 1e-12;
@@ -178,13 +179,13 @@ impl Stack {
 
 fn wave_number(k_x: f64, k_y: f64) -> Result<f64, Error> {
     let k = k_x.hypot(k_y);
-    if k > 0.0 && k.is_finite() {
+    if (SMALLEST..=LARGEST).contains(&k) {
         return Ok(k);
     }
     Err(Error::invalid(
         "(k_x, k_y)",
         format!("({k_x}, {k_y})"),
-        "finite and not both zero, where the response is singular",
+        format!("of a size from {SMALLEST:e} to {LARGEST:e}: at zero the response is singular"),
     ))
 }
 

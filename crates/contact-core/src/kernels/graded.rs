@@ -3,6 +3,10 @@
 use crate::error::Error;
 use crate::scene::{Coating, Elastic};
 
+/// Most layers that stand for a coating: the error falls with the square of their number, and a
+/// thousand leave a millionth of it.
+const MOST_LAYERS: usize = 1000;
+
 /// How a property changes from the surface of a graded coating to its bottom.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Profile {
@@ -106,8 +110,9 @@ impl Graded {
     pub fn coatings(&self) -> Result<Vec<Coating>, Error> {
         self.E.check("E")?;
         self.nu.check("nu")?;
-        if self.layers == 0 {
-            return Err(Error::invalid("layers", 0, "at least 1"));
+        if !(1..=MOST_LAYERS).contains(&self.layers) {
+            let allowed = format!("1 to {MOST_LAYERS}");
+            return Err(Error::invalid("layers", self.layers, allowed));
         }
         if !(self.thickness > 0.0 && self.thickness.is_finite()) {
             let allowed = "a positive length in m";

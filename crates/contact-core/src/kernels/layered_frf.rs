@@ -30,6 +30,7 @@
 //! cancellation where x is small.
 
 use super::matrix::Matrix2;
+use crate::error::Error;
 use crate::scene::{Body, Elastic};
 
 /// Phase thickness k h below which Y is built on the response of what lies below the layer, above
@@ -251,6 +252,12 @@ pub struct Stack {
 }
 
 impl Stack {
+    /// The layers of a body; fails if it has no meaning.
+    pub fn checked(body: &Body) -> Result<Self, Error> {
+        body.check_alone()?;
+        Ok(Self::new(body))
+    }
+
     /// The layers of a body.
     pub fn new(body: &Body) -> Self {
         let layer = |c: &crate::scene::Coating| (HalfSpace::new(c.material), c.thickness);

@@ -47,8 +47,13 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::error::Error;
+use crate::memory::fits;
 use crate::plan::KernelSet;
 use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
+
+/// Memory that the coefficients of a body take per cell while they are made: nine quadrants, twice
+/// \[bytes\].
+const NUMBERS: f64 = 18.0 * 8.0;
 
 /// The surface coefficients of a body on a grid, computed once per process (cached).
 ///
@@ -101,8 +106,9 @@ fn of_body(
     set: KernelSet,
     stop: Option<&AtomicBool>,
 ) -> Result<Arc<InfluenceCoefficients>, Error> {
-    body.check("body")?;
-    grid.check()?;
+    body.check_alone()?;
+    grid.check_alone()?;
+    fits("the influence coefficients", NUMBERS * grid.cells() as f64)?;
     let bare = shortcut_equal_layers && body.is_homogeneous();
     let key = cache::Key::new(body, grid, settings, bare, set);
     if let Some(kept) = cache::get(&key) {

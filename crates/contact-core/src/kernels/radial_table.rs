@@ -185,7 +185,8 @@ impl<const N: usize> Hankel<'_, N> {
     pub(crate) fn tabulate(&self, r_max: f64) -> RadialTable<N> {
         let r_first = self.r_first(r_max);
         let mut coefficients = self.first_panel(r_first);
-        let octaves = (r_max / r_first).log2().ceil().max(0.0) as usize;
+        // A radius at the very end of an octave belongs to the next one.
+        let octaves = ((r_max / r_first).log2().floor() + 1.0).max(0.0) as usize;
         if octaves > 0 {
             coefficients.extend(self.octaves(r_first, octaves));
         }

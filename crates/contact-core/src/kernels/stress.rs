@@ -24,7 +24,12 @@ use super::depth_kernel::{DepthKernel, Quantity, quadrants};
 use super::half_space_stress::{self, StressResponse};
 use super::layered_frf::{HalfSpace, Stack};
 use crate::error::Error;
-use crate::scene::{Body, Grid};
+use crate::memory::fits;
+use crate::scene::{Body, Grid, LARGEST};
+
+/// Memory that the stress coefficients of a body take per cell while they are made: eighteen quadrants,
+/// twice \[bytes\].
+const NUMBERS: f64 = 36.0 * 8.0;
 
 /// The six stresses.
 pub(crate) struct Stress;
@@ -153,10 +158,16 @@ pub fn stress_at(
     point: (f64, f64, f64),
     layer: Option<usize>,
 ) -> Result<StressResponse, Error> {
-    body.check("body")?;
+    body.check_alone()?;
+    Grid::from_spacing((1, 1), cell)?.check_alone()?;
+    for (key, value) in [("point.x", point.0), ("point.y", point.1)] {
+        if value.is_nan() || value.abs() > LARGEST {
+            let allowed = format!("a place in m, at most {LARGEST:e}");
+            return Err(Error::invalid(key, value, allowed));
+        }
+    }
     let stack = Stack::new(body);
     let place = stack.place(point.2, layer)?;
-    Grid::from_spacing((1, 1), cell)?;
     let rectangle = Cell {
         x: point.0,
         y: point.1,
@@ -179,7 +190,9 @@ pub fn stress_coefficients(
     layer: Option<usize>,
     stop: Option<&AtomicBool>,
 ) -> Result<StressCoefficients, Error> {
-    body.check("body")?;
+    body.check_alone()?;
+    grid.check_alone()?;
+    fits("the stress coefficients", NUMBERS * grid.cells() as f64)?;
     let stack = Stack::new(body);
     let place = stack.place(z, layer)?;
     refuse_rigid(body, place.layer)?;

@@ -25,6 +25,8 @@ use crate::march::{Increment, State};
 /// The first bytes of a state; the number is that of the layout.
 const MAGIC: &[u8] = b"fret checkpoint 3\n";
 pub(super) const FOLDER: &str = "checkpoint";
+/// Names in that folder.
+pub(super) const FILES: [&str; 3] = ["increments", "state.0", "state.1"];
 const INCREMENTS: &str = "checkpoint/increments";
 const STATES: [&str; 2] = ["checkpoint/state.0", "checkpoint/state.1"];
 /// Bytes of a CRC-32.

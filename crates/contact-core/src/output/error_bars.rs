@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use serde_json::{Value, json};
+use serde_json::json;
 
+use super::consolidated::FILE;
 use super::folder::Folder;
 use super::reader::Store;
 use crate::error::Error;
@@ -13,16 +14,9 @@ use crate::estimate::ErrorBars;
 pub fn write_error_bars(path: impl AsRef<Path>, bars: &[ErrorBars]) -> Result<(), Error> {
     let store = Store::open(&path)?;
     let folder = Folder::new(path.as_ref());
-    let mut documents = store.metadata().clone();
-    documents[".zattrs"]["error_bars"] = json!(bars);
-    let write = |key: &str, document: &Value| {
-        folder
-            .write(key, format!("{document:#}").as_bytes())
-            .map_err(|e| folder.error(&format!("{key}: {e}")))
-    };
-    write(".zattrs", &documents[".zattrs"])?;
-    write(
-        ".zmetadata",
-        &json!({ "zarr_consolidated_format": 1, "metadata": documents }),
-    )
+    let mut metadata = store.consolidated().clone();
+    metadata.documents[".zattrs"]["error_bars"] = json!(bars);
+    let attributes = metadata.document(".zattrs");
+    folder.put(".zattrs", &format!("{attributes:#}"))?;
+    folder.put(FILE, &metadata.encode())
 }

@@ -66,6 +66,12 @@ impl Folder {
         finish(&unfinished, &path, written)
     }
 
+    /// Writes a text in the same way; the error names the file.
+    pub(super) fn put(&self, key: &str, text: &str) -> Result<(), Error> {
+        let written = self.write(key, text.as_bytes());
+        written.map_err(|e| self.error(&format!("{key}: {e}")))
+    }
+
     /// The same for a file of a folder that exists, written by `content`; it is on the disk before
     /// this returns, so that a power failure leaves the old file or the new one too.
     pub(super) fn write_durably(

@@ -6,7 +6,8 @@
 //!
 //! [`StoreWriter`] appends during the run. Every file is replaced as a whole, the
 //! consolidated metadata last: whoever reads it, or is left with it after a crash, sees the store
-//! as it was at one moment. Beside the arrays it holds a checkpoint of the state, from which
+//! as it was at one moment. They hold a checksum of every chunk, too, so that what is read is what was
+//! written, or an error names the file ([`Store::verify`]). Beside the arrays it holds a checkpoint of the state, from which
 //! [`resume`] continues to the same result, bit by bit. Groups are laid out beside their place and take
 //! it at once: a path holds nothing, or a store.
 //!
@@ -15,6 +16,7 @@
 
 mod catalogue;
 mod checkpoint;
+mod consolidated;
 mod error_bars;
 mod folder;
 mod image_data;
@@ -37,4 +39,4 @@ pub use volume::{VolumeSink, write_volume};
 pub use writer::StoreWriter;
 
 /// The version of the store's layout.
-const SCHEMA: u64 = 1;
+const SCHEMA: u64 = 2;

@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::catalogue::{FIELDS, FieldView, Kind, SCALARS, STATUS_MEANINGS};
 use super::checkpoint::Checkpoints;
+use super::consolidated::{Checksums, Consolidated, FILE};
 use super::folder::Folder;
 use super::place::Unfinished;
 use super::variable::{Column, Variable};
@@ -33,13 +34,13 @@ pub(super) struct Open {
     last: Option<(usize, LoadPoint)>,
     saved: usize,
     pub(super) saved_increment: usize,
-    /// Metadata documents as they were last written.
-    documents: Map<String, Value>,
+    /// Metadata as they were last written.
+    written: Consolidated,
     pub(super) checkpoints: Option<Checkpoints>,
     /// Increments that the store on the disk holds.
     pub(super) on_disk: usize,
     /// When the last checkpoint was written, and how long that took.
-    written: Instant,
+    last_checkpoint: Instant,
     cost: Duration,
     /// Checkpoints so far, and how long they took together.
     pub(super) checkpoints_so_far: (usize, Duration),
@@ -95,10 +96,10 @@ impl Open {
             last: None,
             saved: 0,
             saved_increment: 0,
-            documents: Map::new(),
+            written: Consolidated::default(),
             checkpoints: None,
             on_disk: 0,
-            written: Instant::now(),
+            last_checkpoint: Instant::now(),
             cost: FIRST_COST,
             checkpoints_so_far: (0, Duration::ZERO),
         }
@@ -109,7 +110,10 @@ impl Open {
     pub(super) fn begin(&mut self, replace: bool) -> Result<(), Error> {
         let unfinished = Unfinished::begin(self.folder.root())?;
         let place = std::mem::replace(&mut self.folder, unfinished.folder().clone());
-        self.write_documents(self.group_documents())?;
+        self.write_metadata(Consolidated {
+            documents: self.group_documents(),
+            checksums: Checksums::new(),
+        })?;
         self.folder = place;
         let scene = self.attributes["scene"].as_str().unwrap_or_default();
         let checkpoints = Checkpoints::begin(unfinished.folder(), scene)?;
@@ -119,12 +123,12 @@ impl Open {
     }
 
     /// Takes up what a run has left: its increments, of which those that `keeps` says keep their
-    /// fields, and a store on the disk that holds `on_disk` of them or more.
+    /// fields, and a store on the disk that holds `on_disk` of them or more, with these checksums.
     pub(super) fn take_up(
         &mut self,
         checkpoints: Checkpoints,
         increments: &[Increment],
-        on_disk: usize,
+        (on_disk, checksums): (usize, &Checksums),
         keeps: impl Fn(&Increment) -> bool,
     ) {
         self.checkpoints = Some(checkpoints);
@@ -134,6 +138,10 @@ impl Open {
             if keeps(increment) {
                 self.count_saved(increment.index, &increment.point);
             }
+        }
+        for field in &mut self.fields {
+            let of_field = checksums.get(field.name()).map_or(&[][..], Vec::as_slice);
+            field.set_checksums(&of_field[..self.saved.min(of_field.len())]);
         }
     }
 
@@ -154,7 +162,7 @@ impl Open {
 
     /// Whether a checkpoint is to be written now.
     pub(super) fn is_due(&self, interval: Duration, ends_branch: bool) -> bool {
-        let elapsed = self.written.elapsed();
+        let elapsed = self.last_checkpoint.elapsed();
         interval.is_zero()
             || ((ends_branch || elapsed >= interval) && elapsed.mul_f64(SHARE) >= self.cost)
     }
@@ -166,8 +174,8 @@ impl Open {
         if let Some(checkpoints) = &mut self.checkpoints {
             checkpoints.write(state)?;
         }
-        self.written = Instant::now();
-        self.cost = self.written - begun;
+        self.last_checkpoint = Instant::now();
+        self.cost = self.last_checkpoint - begun;
         let (count, time) = &mut self.checkpoints_so_far;
         (*count, *time) = (*count + 1, *time + self.cost);
         Ok(())
@@ -178,18 +186,15 @@ impl Open {
         let Some((index, point)) = self.last else {
             return Ok(());
         };
-        let chunk = [self.saved as u64, 0, 0];
+        let (folder, saved) = (&self.folder, self.saved);
         self.fields
-            .par_iter()
+            .par_iter_mut()
             .zip(FIELDS)
-            .try_for_each(|(variable, field)| {
-                let folder = &self.folder;
-                match (field.values)(fields) {
-                    FieldView::Real(f) => variable.store(folder, &chunk, f.iter().copied()),
-                    FieldView::Mask(f) => {
-                        let values = f.iter().map(|&yes| f64::from(u8::from(yes)));
-                        variable.store(folder, &chunk, values)
-                    }
+            .try_for_each(|(variable, field)| match (field.values)(fields) {
+                FieldView::Real(f) => variable.store_last(folder, saved, f.iter().copied()),
+                FieldView::Mask(f) => {
+                    let values = f.iter().map(|&yes| f64::from(u8::from(yes)));
+                    variable.store_last(folder, saved, values)
                 }
             })?;
         self.count_saved(index, &point);
@@ -218,23 +223,28 @@ impl Open {
     pub(super) fn flush(&mut self) -> Result<(), Error> {
         let solved = self.last.map_or(0, |(index, _)| index);
         if solved < self.on_disk {
-            let mut documents = self.documents.clone();
-            documents.insert(".zattrs".into(), Value::Object(self.attributes.clone()));
-            return self.write_documents(documents);
+            let mut metadata = self.written.clone();
+            let attributes = Value::Object(self.attributes.clone());
+            metadata.documents.insert(".zattrs".into(), attributes);
+            return self.write_metadata(metadata);
         }
         let (scalars, others) = (&mut self.scalars, &mut self.others);
         let mut columns: Vec<_> = scalars.iter_mut().chain(others).collect();
         columns
             .par_iter_mut()
             .try_for_each(|column| column.flush(&self.folder))?;
-        let mut documents = self.group_documents();
+        let (mut documents, mut checksums) = (self.group_documents(), Checksums::new());
         let columns = self.scalars.iter().chain(&self.others);
         for variable in columns.map(Column::variable).chain(&self.fields) {
             let name = variable.name();
             documents.insert(format!("{name}/.zarray"), variable.zarray());
             documents.insert(format!("{name}/.zattrs"), variable.attributes());
+            checksums.insert(name.to_owned(), variable.checksums().to_vec());
         }
-        self.write_documents(documents)?;
+        self.write_metadata(Consolidated {
+            documents,
+            checksums,
+        })?;
         self.on_disk = solved;
         Ok(())
     }
@@ -247,22 +257,14 @@ impl Open {
     }
 
     /// Writes the metadata documents that have changed, and all of them as consolidated metadata.
-    pub(super) fn write_documents(&mut self, documents: Map<String, Value>) -> Result<(), Error> {
-        let changed = documents
-            .iter()
-            .filter(|(key, document)| self.documents.get(*key) != Some(document));
+    pub(super) fn write_metadata(&mut self, metadata: Consolidated) -> Result<(), Error> {
+        let changed = (metadata.documents.iter())
+            .filter(|(key, document)| self.written.documents.get(*key) != Some(document));
         (changed.collect::<Vec<_>>().par_iter())
-            .try_for_each(|(key, document)| self.write(key, document))?;
-        let consolidated = json!({ "zarr_consolidated_format": 1, "metadata": documents });
-        self.write(".zmetadata", &consolidated)?;
-        self.documents = documents;
+            .try_for_each(|(key, document)| self.folder.put(key, &format!("{document:#}")))?;
+        self.folder.put(FILE, &metadata.encode())?;
+        self.written = metadata;
         Ok(())
-    }
-
-    fn write(&self, key: &str, document: &Value) -> Result<(), Error> {
-        self.folder
-            .write(key, format!("{document:#}").as_bytes())
-            .map_err(|e| self.folder.error(&format!("{key}: {e}")))
     }
 }
 

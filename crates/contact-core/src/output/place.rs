@@ -24,6 +24,7 @@ use crate::error::Error;
 use crate::fields::Probe;
 
 const METADATA: [&str; 3] = [".zgroup", ".zattrs", ".zmetadata"];
+const ARRAY: [&str; 2] = [".zarray", ".zattrs"];
 /// Coordinates of the stores of a run and of the stress below it.
 const COORDINATES: [&str; 6] = ["x", "y", "saved_increment", "saved_t", "z", "layer"];
 
@@ -78,6 +79,7 @@ impl Unfinished {
         let (place, replaced) = (Folder::new(&self.place), beside(&self.place, "replaced"));
         let old = replace && self.place.exists();
         if old {
+            has_nothing_else(&self.place)?;
             if Checkpoints::in_use(&place) {
                 return Err(place.error(&"is being written by another process"));
             }
@@ -108,6 +110,62 @@ impl Drop for Unfinished {
             let _ = fs::remove_dir_all(self.folder.root());
         }
     }
+}
+
+/// The place that a path leads to: links are followed, so that what is laid out beside a place and put
+/// there is on its file system, and so that a link stays one.
+pub(super) fn place(path: &Path) -> Result<PathBuf, Error> {
+    // A slash at the end says nothing.
+    let path: PathBuf = path.components().collect();
+    let is_link = fs::symlink_metadata(&path).is_ok_and(|about| about.is_symlink());
+    if !is_link {
+        return Ok(path);
+    }
+    path.canonicalize().map_err(|e| {
+        let folder = Folder::new(&path);
+        folder.error(&format!("is a link that leads nowhere: {e}"))
+    })
+}
+
+/// Fails if there is anything in a store that is no part of one.
+pub(super) fn has_nothing_else(store: &Path) -> Result<(), Error> {
+    let folder = Folder::new(store);
+    let found = foreign(store, is_of_a_store).map_err(|e| folder.error(&e))?;
+    let Some(name) = found else { return Ok(()) };
+    let name = name.display();
+    let message = format!("{name} in it is no part of a store: move it elsewhere before");
+    Err(folder.error(&message))
+}
+
+/// The first entry of a folder, or of one in it, that does not belong there.
+fn foreign(path: &Path, belongs: impl Fn(&OsStr) -> bool) -> io::Result<Option<PathBuf>> {
+    for entry in fs::read_dir(path)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        if !belongs(&name) {
+            return Ok(Some(name.into()));
+        }
+        if entry.file_type()?.is_dir() {
+            let inner = foreign(&entry.path(), is_of_an_array)?;
+            if let Some(inner) = inner {
+                return Ok(Some(Path::new(&name).join(inner)));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// Whether an array of a store, or its checkpoint, has an entry of that name: metadata, chunks.
+fn is_of_an_array(name: &OsStr) -> bool {
+    let Some(name) = name.to_str() else {
+        return false;
+    };
+    let is_chunk = !name.is_empty() && name.chars().all(|c| c.is_ascii_digit() || c == '.');
+    is_chunk || is_on_its_way(name) || ARRAY.contains(&name) || checkpoint::FILES.contains(&name)
+}
+
+fn is_on_its_way(name: &str) -> bool {
+    name.starts_with('.') && name.ends_with(".unfinished")
 }
 
 /// Puts a store back that a killed process had moved aside to replace it, but did not.
@@ -162,8 +220,7 @@ fn is_of_a_store(name: &OsStr) -> bool {
     let Some(name) = name.to_str() else {
         return false;
     };
-    let on_its_way = |name: &str| name.starts_with('.') && name.ends_with(".unfinished");
-    on_its_way(name)
+    is_on_its_way(name)
         || name == checkpoint::FOLDER
         || METADATA.contains(&name)
         || COORDINATES.contains(&name)
@@ -290,6 +347,52 @@ path = [{ W = 1000.0, increments = 1 }]
         run(&place, "new", true).unwrap();
         assert_eq!(names(&place), ["run.zarr"]);
         remove_all(&place);
+    }
+
+    #[test]
+    fn a_store_with_something_else_in_it_is_not_replaced() {
+        let place = place("else");
+        run(&place, "old", false).unwrap();
+        for theirs in ["thesis.tex", "p/notes.txt", "p/0.0.0.png"] {
+            fs::write(place.join(theirs), "").unwrap();
+            let refused = run(&place, "new", true).unwrap_err().to_string();
+            assert!(
+                refused.contains(&format!("{theirs} in it is no part")),
+                "{refused}"
+            );
+            assert_eq!(title(&place), "old");
+            fs::remove_file(place.join(theirs)).unwrap();
+        }
+        run(&place, "new", true).unwrap();
+        assert_eq!(title(&place), "new");
+        remove_all(&place);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_a_store_stays_one() {
+        let store = place("link");
+        run(&store, "old", false).unwrap();
+        let link = store.with_file_name("link.zarr");
+        std::os::unix::fs::symlink(&store, &link).unwrap();
+        for (path, title_there) in [(link.clone(), "new"), (link.join(""), "newer")] {
+            let refused = run(&path, "never", false).unwrap_err().to_string();
+            assert!(refused.contains("--overwrite"), "{refused}");
+            run(&path, title_there, true).unwrap();
+            assert_eq!(names(&store), ["link.zarr", "run.zarr"]);
+            assert!(link.is_symlink() && !store.is_symlink());
+            assert_eq!(
+                (title(&store), title(&link)),
+                (title_there.into(), title_there.into())
+            );
+        }
+        fs::remove_dir_all(&store).unwrap();
+        let refused = StoreWriter::create(&link, true).err().unwrap().to_string();
+        assert!(
+            refused.contains("is a link that leads nowhere"),
+            "{refused}"
+        );
+        remove_all(&store);
     }
 
     #[test]

@@ -4,42 +4,48 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ndarray::Array2;
+use rayon::prelude::*;
 use serde_json::Value;
-use zarrs::array::{Array, ArraySubset};
+use zarrs::array::ArraySubset;
 
 use super::SCHEMA;
+use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
-use super::variable::{numbers, open_array};
+use super::variable::Stored;
 use crate::error::Error;
 use crate::scene::Scene;
 
 /// A result store as it was when it was opened.
 pub struct Store {
     folder: Arc<Folder>,
-    /// The consolidated metadata.
-    metadata: Value,
+    consolidated: Consolidated,
     scene: Scene,
     increments: usize,
     saved: usize,
 }
 
 impl Store {
-    /// Opens a store; fails if there is none, or one of another layout.
+    /// Opens a store; fails if there is none, one of another layout, or one whose metadata are damaged.
+    /// What is read of it later is checked then; [`Self::verify`] checks all of it.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let folder = Folder::new(path.as_ref());
         let text = folder
-            .read(".zmetadata")
-            .map_err(|e| folder.error(&e))?
+            .read(FILE)
+            .map_err(|e| folder.error(&format!("{FILE}: {e}")))?
             .ok_or_else(|| folder.error(&"is not a result store (it has no .zmetadata)"))?;
-        let document: Value = serde_json::from_slice(&text)
-            .map_err(|e| folder.error(&format!(".zmetadata is damaged: {e}")))?;
-        let metadata = &document["metadata"];
-        let attributes = &metadata[".zattrs"];
+        let damaged = |e: &dyn std::fmt::Display| folder.error(&format!("{FILE} is damaged: {e}"));
+        let (consolidated, whole) = Consolidated::decode(&text).map_err(|e| damaged(&e))?;
+        let attributes = consolidated.document(".zattrs");
         if attributes["schema"] != SCHEMA {
-            return Err(folder.error(&format!(
-                "is a store of schema {}: this version reads schema {SCHEMA}",
-                attributes["schema"]
-            )));
+            return Err(match attributes["schema"] {
+                Value::Null => folder.error(&"is not a result store (it has no schema)"),
+                ref schema => folder.error(&format!(
+                    "is a store of schema {schema}: this version reads schema {SCHEMA}"
+                )),
+            });
+        }
+        if !whole {
+            return Err(damaged(&"it is not what was written"));
         }
         let scene = attributes["scene"]
             .as_str()
@@ -47,34 +53,87 @@ impl Store {
         let file = format!("scene in {}", folder.root().display());
         let scene = Scene::from_toml_str(scene, &file, &[])?;
         // A store that has only been begun holds no variable.
-        let length = |name: &str| {
-            let length = &metadata[format!("{name}/.zarray")]["shape"][0];
-            length.as_u64().unwrap_or(0) as usize
-        };
+        let length = |name: &str| consolidated.length(name);
         let (increments, saved) = (length("increment"), length("saved_increment"));
         if saved > increments || increments > scene.path.increments() {
-            return Err(folder.error(&format!(
-                ".zmetadata is damaged: fields of {saved} and scalars of {increments} increments, \
-                 for a path of {}",
+            return Err(damaged(&format!(
+                "fields of {saved} and scalars of {increments} increments, for a path of {}",
                 scene.path.increments()
             )));
         }
         Ok(Self {
             increments,
             saved,
-            metadata: metadata.clone(),
+            consolidated,
             folder,
             scene,
         })
+    }
+
+    /// Fails if a file of the store is missing, or is not as it was written; the error names it.
+    pub fn verify(&self) -> Result<(), Error> {
+        for key in [".zgroup", ".zattrs"] {
+            self.verify_document(key)
+                .map_err(|e| self.folder.error(&format!("the file {key} {e}")))?;
+        }
+        let arrays = self.consolidated.documents.keys();
+        let arrays: Vec<_> = arrays
+            .filter_map(|key| key.strip_suffix("/.zarray"))
+            .collect();
+        arrays.par_iter().try_for_each(|name| {
+            let stored = self.array(name)?;
+            let verified = stored.verify(&stored.all());
+            verified.map_err(|e| self.folder.error(&format!("{name}: {e}")))
+        })
+    }
+
+    /// Opens a store and checks all of it; a store that is being written meanwhile is looked at again.
+    pub fn open_whole(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let mut store = Self::open(path)?;
+        loop {
+            let Err(error) = store.verify() else {
+                return Ok(store);
+            };
+            let again = Self::open(path)?;
+            if again.consolidated == store.consolidated {
+                return Err(error);
+            }
+            store = again;
+        }
+    }
+
+    /// The attributes of the group: the scene, the version, how the run ended.
+    pub fn attributes(&self) -> &Value {
+        self.consolidated.document(".zattrs")
+    }
+
+    /// Fails if a document of the group is not the one that the consolidated metadata have, but for
+    /// how the run ended: a process may have died between the two.
+    fn verify_document(&self, key: &str) -> Result<(), String> {
+        let bytes = self.folder.read(key).map_err(|e| e.to_string())?;
+        let bytes = bytes.ok_or("is missing")?;
+        let read: Value = serde_json::from_slice(&bytes).map_err(|e| format!("is damaged: {e}"))?;
+        let what_stays = |document: &Value| {
+            let mut document = document.clone();
+            if let Value::Object(entries) = &mut document {
+                entries.retain(|key, _| key != "status" && key != "error_bars");
+            }
+            document
+        };
+        if what_stays(&read) != what_stays(self.consolidated.document(key)) {
+            return Err(format!("is damaged: it is not that of {FILE}"));
+        }
+        Ok(())
     }
 
     pub(super) fn folder(&self) -> &Arc<Folder> {
         &self.folder
     }
 
-    /// The metadata documents of the group and the arrays.
-    pub(super) fn metadata(&self) -> &Value {
-        &self.metadata
+    /// The metadata documents of the group and the arrays, and the checksums.
+    pub(super) fn consolidated(&self) -> &Consolidated {
+        &self.consolidated
     }
 
     /// The scene that was solved.
@@ -84,7 +143,7 @@ impl Store {
 
     /// `running`, `done` or the sentence that says why the run stopped.
     pub fn status(&self) -> &str {
-        self.metadata[".zattrs"]["status"]
+        self.consolidated.document(".zattrs")["status"]
             .as_str()
             .unwrap_or_default()
     }
@@ -101,36 +160,39 @@ impl Store {
 
     /// A variable over `increment`, `saved`, `x` or `y`.
     pub fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
-        let (array, dtype) = self.array(name)?;
+        let failed = |e: &dyn std::fmt::Display| self.folder.error(&format!("{name}: {e}"));
+        let stored = self.array(name)?;
         let grid = &self.scene.grid;
         let longest = self.increments.max(grid.nx).max(grid.ny) as u64;
-        if array.shape().len() != 1 || array.shape()[0] > longest {
-            let shape = array.shape();
-            return Err(self
-                .folder
-                .error(&format!("{name}: is of shape {shape:?}, no column")));
+        let shape = stored.shape();
+        if shape.len() != 1 || shape[0] > longest {
+            return Err(failed(&format!("is of shape {shape:?}, no column")));
         }
-        numbers(&array, dtype, &array.subset_all())
-            .map_err(|e| self.folder.error(&format!("{name}: {e}")))
+        stored.numbers(&stored.all()).map_err(|e| failed(&e))
     }
 
     /// A field of the `saved`-th increment whose fields are saved, from 0; a mask is 0 and 1.
     pub fn field(&self, name: &str, saved: usize) -> Result<Array2<f64>, Error> {
         let failed = |e: &dyn std::fmt::Display| self.folder.error(&format!("{name}: {e}"));
-        let (array, dtype) = self.array(name)?;
+        let stored = self.array(name)?;
         let (nx, ny) = (self.scene.grid.nx, self.scene.grid.ny);
         let part = saved as u64..saved as u64 + 1;
         let part = ArraySubset::new_with_ranges(&[part, 0..nx as u64, 0..ny as u64]);
-        let values = numbers(&array, dtype, &part).map_err(|e| failed(&e))?;
+        let values = stored.numbers(&part).map_err(|e| failed(&e))?;
         Array2::from_shape_vec((nx, ny), values).map_err(|e| failed(&e))
     }
 
-    fn array(&self, name: &str) -> Result<(Array<Folder>, Option<&str>), Error> {
-        let zarray = &self.metadata[format!("{name}/.zarray")];
+    fn array(&self, name: &str) -> Result<Stored<'_>, Error> {
+        let zarray = self.consolidated.document(&format!("{name}/.zarray"));
         if zarray.is_null() {
             return Err(self.folder.error(&format!("holds no {name}")));
         }
-        let array = open_array(&self.folder, name, zarray.clone())?;
-        Ok((array, zarray["dtype"].as_str()))
+        let checksums = self.consolidated.checksums.get(name);
+        Stored::new(
+            &self.folder,
+            name,
+            zarray,
+            checksums.map_or(&[], Vec::as_slice),
+        )
     }
 }

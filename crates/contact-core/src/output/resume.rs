@@ -4,16 +4,21 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use serde_json::{Map, Value, json};
+use serde_json::json;
 
-use super::catalogue::FIELDS;
+use super::catalogue::{FIELDS, Kind};
 use super::checkpoint::{Checkpoints, Found};
+use super::consolidated::Consolidated;
 use super::open::Open;
-use super::place::mend;
+use super::place::{mend, place};
 use super::reader::Store;
+use super::variable::Column;
 use super::writer::StoreWriter;
 use crate::error::Error;
 use crate::march::{Increment, March};
+
+/// The columns over the increments whose fields are kept.
+const SAVED: [(&str, Kind); 2] = [("saved_increment", Kind::Count), ("saved_t", Kind::Real)];
 
 /// A run taken up where its last checkpoint left it: `march.run(increments, &mut writer)`.
 pub struct Resumed {
@@ -29,21 +34,26 @@ pub struct Resumed {
 ///
 /// The result will be that of the run without the interruption, bit by bit. What the store holds
 /// stays there meanwhile; only fields that were saved because the run stopped are dropped. Fails
-/// if there is no store, if another process writes it, or if its checkpoint is damaged or of
-/// another version, and ends when `stop` is raised, if there is one ([`Error::Interrupted`]); then
-/// nothing is changed.
+/// if there is no store, if another process writes it, if a file of it is missing or damaged, or if
+/// its checkpoint is of another version, and ends when `stop` is raised, if there is one
+/// ([`Error::Interrupted`]); then nothing is changed.
 pub fn resume(
     path: impl AsRef<Path>,
     stop: Option<&Arc<AtomicBool>>,
 ) -> Result<Option<Resumed>, Error> {
     let stop = stop.cloned().unwrap_or_default();
-    mend(path.as_ref());
-    let store = Store::open(path)?;
+    let path = place(path.as_ref())?;
+    mend(&path);
+    let store = Store::open(&path)?;
+    if Checkpoints::in_use(store.folder()) {
+        return Err(store.folder().error(&"is being written by another process"));
+    }
+    store.verify()?;
     if store.status() == "done" {
         Checkpoints::clear(store.folder());
         return Ok(None);
     }
-    let text = store.metadata()[".zattrs"]["scene"].as_str();
+    let text = store.consolidated().document(".zattrs")["scene"].as_str();
     let Found {
         checkpoints,
         state,
@@ -61,12 +71,13 @@ pub fn resume(
     };
     let kept = (1..=store.increments()).filter(|&index| keeps(index));
     let kept = kept.count().min(store.saved());
-    let documents = begun_again(store.metadata(), kept);
+    let metadata = begun_again(&store, kept)?;
     let mut open = Open::new(store.folder().clone(), scene, march.plan());
-    open.take_up(checkpoints, &increments, store.increments(), |increment| {
+    let on_disk = (store.increments(), &metadata.checksums);
+    open.take_up(checkpoints, &increments, on_disk, |increment| {
         keeps(increment.index)
     });
-    open.write_documents(documents)?;
+    open.write_metadata(metadata)?;
     Ok(Some(Resumed {
         march,
         writer: StoreWriter::go_on(open),
@@ -76,14 +87,21 @@ pub fn resume(
 
 /// The metadata of a store whose run is resumed: without the fields that were saved only because it
 /// had stopped.
-fn begun_again(metadata: &Value, kept: usize) -> Map<String, Value> {
-    let mut documents = metadata.as_object().cloned().unwrap_or_default();
-    documents[".zattrs"]["status"] = json!("running");
+fn begun_again(store: &Store, kept: usize) -> Result<Consolidated, Error> {
+    let mut metadata = store.consolidated().clone();
+    metadata.documents[".zattrs"]["status"] = json!("running");
     let of_saved = FIELDS.iter().map(|f| f.name);
-    for name in of_saved.chain(["saved_increment", "saved_t"]) {
-        if let Some(array) = documents.get_mut(&format!("{name}/.zarray")) {
+    for name in of_saved.chain(SAVED.map(|(name, _)| name)) {
+        if let Some(array) = metadata.documents.get_mut(&format!("{name}/.zarray")) {
             array["shape"][0] = json!(kept);
         }
     }
-    documents
+    for (name, kind) in SAVED {
+        if store.saved() > 0 {
+            let column = store.column(name)?;
+            let checksums = Column::checksums_of(kind, &column[..kept]);
+            metadata.checksums.insert(name.to_owned(), checksums);
+        }
+    }
+    Ok(metadata)
 }

@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::SCHEMA;
 use super::catalogue::Kind;
+use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
 use super::place::Unfinished;
 use super::variable::{Column, Variable};
@@ -119,7 +120,10 @@ impl StressStore {
     /// Stores a probe on a section, shape (depths, places).
     pub fn put_section(&self, probe: usize, values: &Array2<f64>) -> Result<(), Error> {
         let folder = self.unfinished.folder();
-        self.variables[probe].store(folder, &[0, 0], values.iter().copied())
+        let values = values.iter().copied();
+        self.variables[probe]
+            .store(folder, &[0, 0], values)
+            .map(drop)
     }
 
     /// Writes coordinates and metadata and puts the group in its place.
@@ -136,19 +140,16 @@ impl StressStore {
             documents.insert(format!("{name}/.zarray"), variable.zarray());
             documents.insert(format!("{name}/.zattrs"), variable.attributes());
         }
-        for (key, document) in &documents {
-            self.write(key, document)?;
-        }
-        let all = json!({ "zarr_consolidated_format": 1, "metadata": documents });
-        self.write(".zmetadata", &all)?;
-        self.unfinished.finish(false).map(drop)
-    }
-
-    fn write(&self, key: &str, document: &Value) -> Result<(), Error> {
         let folder = self.unfinished.folder();
-        folder
-            .write(key, format!("{document:#}").as_bytes())
-            .map_err(|e| folder.error(&format!("{key}: {e}")))
+        for (key, document) in &documents {
+            folder.put(key, &format!("{document:#}"))?;
+        }
+        let metadata = Consolidated {
+            documents,
+            ..Consolidated::default()
+        };
+        folder.put(FILE, &metadata.encode())?;
+        self.unfinished.finish(false).map(drop)
     }
 }
 
@@ -156,6 +157,9 @@ impl VolumeSink for StressStore {
     fn put(&self, probe: usize, depth: usize, values: &Array2<f64>) -> Result<(), Error> {
         let _one = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
         let (folder, chunk) = (self.unfinished.folder(), [depth as u64, 0, 0]);
-        self.variables[probe].store(folder, &chunk, values.iter().copied())
+        let values = values.iter().copied();
+        self.variables[probe]
+            .store(folder, &chunk, values)
+            .map(drop)
     }
 }

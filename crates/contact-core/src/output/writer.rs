@@ -8,7 +8,7 @@ use serde_json::json;
 use super::checkpoint::Checkpoints;
 use super::folder::Folder;
 use super::open::Open;
-use super::place::mend;
+use super::place::{has_nothing_else, mend, place};
 use super::reader::Store;
 use crate::error::Error;
 use crate::march::{Increment, March, Observer};
@@ -31,19 +31,17 @@ pub struct StoreWriter {
 impl StoreWriter {
     /// A writer of a new store at `path`. Nothing is written, or overwritten, before the first
     /// increment is solved. Fails if there is something at `path` already, unless it is a store
-    /// and may be overwritten.
+    /// and nothing else, and may be overwritten. A link to a store is followed.
     pub fn create(path: impl AsRef<Path>, overwrite: bool) -> Result<Self, Error> {
-        let path = path.as_ref();
-        mend(path);
-        let refuse = |message: &str| {
-            Err(Error::File {
-                path: path.display().to_string(),
-                message: message.to_owned(),
-            })
-        };
+        let path = place(path.as_ref())?;
+        mend(&path);
+        let refuse = |message: &str| Err(Folder::new(&path).error(&message));
         if path.exists() {
-            if Store::open(path).is_err() {
-                return refuse("exists and is not a result store: choose another path");
+            if let Err(reason) = Store::open(&path) {
+                return refuse(&format!(
+                    "exists and is not a result store that could be replaced ({reason}): choose \
+                     another path, or remove it"
+                ));
             }
             if !overwrite {
                 return refuse(
@@ -51,9 +49,10 @@ impl StoreWriter {
                      (--overwrite)",
                 );
             }
+            has_nothing_else(&path)?;
         }
         Ok(Self {
-            path: path.to_owned(),
+            path,
             overwrite,
             interval: INTERVAL,
             open: None,
@@ -78,6 +77,12 @@ impl StoreWriter {
     pub fn with_interval(mut self, interval: Duration) -> Self {
         self.interval = interval;
         self
+    }
+
+    /// Increments that the store on the disk holds, from which [`super::resume`] goes on; 0 if there is
+    /// none.
+    pub fn kept(&self) -> usize {
+        self.open.as_ref().map_or(0, |open| open.on_disk)
     }
 
     /// Checkpoints that this writer has written, and the time that they took, what brings the

@@ -52,7 +52,7 @@ impl CattaneoMindlin {
 
     /// Friction's limit on a disc: mu p_s(r) \[Pa\] for s = `ratio` a.
     fn disc(&self, ratio: f64, r: f64) -> f64 {
-        let s = ratio * self.hertz.a;
+        let (r, s) = (r.abs(), ratio * self.hertz.a);
         if r < s {
             self.mu * self.hertz.p0 * ratio * (1.0 - (r / s).powi(2)).sqrt()
         } else {
@@ -125,6 +125,9 @@ impl CattaneoMindlin {
     /// Loop energy over the energy 4 T_m delta_x(T_m) of the rectangle around the loop; 0.2 where
     /// partial slip ends (S. Fouvry, Ph. Kapsa, L. Vincent, Wear 185 (1995) 35).
     pub fn energy_ratio(&self, T_m: f64) -> f64 {
+        if T_m == 0.0 {
+            return 0.0;
+        }
         self.loop_energy(T_m) / (4.0 * T_m.abs() * self.shift_loading(T_m).abs())
     }
 }

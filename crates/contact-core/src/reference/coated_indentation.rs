@@ -7,8 +7,11 @@ use ndarray::Array2;
 use super::layered_response::layered_normal_remainder;
 use super::linear_system::solve;
 use super::quadrature::gauss_legendre;
+use crate::error::Error;
 use crate::scene::{Coating, Elastic};
 
+/// Widest contact over the thickness of the coating: the linear system has 700 unknowns there.
+const WIDEST: f64 = 200.0;
 /// Wave numbers beyond this over the thickness change nothing: exp(-40) is below round-off.
 const LAST_WAVE: f64 = 20.0;
 
@@ -43,16 +46,28 @@ pub struct CoatedIndentation {
 
 /// The contact of an elastic or rigid sphere of radius `R` \[m\] with a coated body under `W` \[N\].
 ///
-/// The work grows like (a/h)^3: a second or so at h = a/100.
+/// The work grows like (a/h)^3: a second or so at h = a/100. Fails if the contact is more than 200
+/// times as wide as the coating is thick, where the closed forms of thin layers hold.
 pub fn coated_indentation(
     R: f64,
     indenter: Elastic,
     coating: Coating,
     substrate: Elastic,
     W: f64,
-) -> CoatedIndentation {
+) -> Result<CoatedIndentation, Error> {
+    let is_thick_enough = |a: f64| {
+        if a <= WIDEST * coating.thickness {
+            return Ok(());
+        }
+        let allowed = format!("at least 1/{WIDEST} of the contact radius, here {a:e} m");
+        let (key, h) = ("coating.thickness", coating.thickness);
+        Err(Error::invalid(key, format!("{h:e}"), allowed))
+    };
     // Secants of ln W over ln a; W grows like a power of a, the cube on a half-space.
     let mut a = super::hertz(R, indenter, coating.material, W).a;
+    is_thick_enough(a.min(super::hertz(R, indenter, substrate, W).a))?;
+    // A coating that gives way more than its substrate lets the first radius be too large.
+    a = a.min(WIDEST * coating.thickness);
     let mut power = 3.0;
     let mut contact = CoatedIndentation::of_radius(R, indenter, coating, substrate, a);
     for _ in 0..MOST_SECANTS {
@@ -60,6 +75,7 @@ pub fn coated_indentation(
         if (next - a).abs() <= 1e-13 * a {
             break;
         }
+        is_thick_enough(next)?;
         let W_before = contact.W;
         contact = CoatedIndentation::of_radius(R, indenter, coating, substrate, next);
         let local = (contact.W / W_before).ln() / (next / a).ln();
@@ -69,7 +85,7 @@ pub fn coated_indentation(
         }
         a = next;
     }
-    contact
+    Ok(contact)
 }
 
 impl CoatedIndentation {
@@ -137,6 +153,7 @@ impl CoatedIndentation {
 
     /// Pressure at distance r from the middle \[Pa\], -(E_c/pi) int_r^a phi'(t)/sqrt(t^2 - r^2) dt.
     pub fn p(&self, r: f64) -> f64 {
+        let r = r.abs();
         if r >= self.a {
             return 0.0;
         }

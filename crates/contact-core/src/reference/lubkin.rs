@@ -72,7 +72,7 @@ impl Lubkin {
     /// (2 mu p0/pi) int E(sqrt(1 - r^2/(a sin t)^2)) dt over asin(r/a) < t < asin(r/c) for r < c
     /// (derived).
     pub fn q(&self, r: f64, c: f64) -> f64 {
-        let a = self.hertz.a;
+        let (r, a) = (r.abs(), self.hertz.a);
         if r >= c {
             return self.mu * self.hertz.p(r);
         }

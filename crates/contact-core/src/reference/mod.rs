@@ -15,6 +15,7 @@
 mod cattaneo_mindlin;
 mod coated_indentation;
 mod coupled_indentation;
+pub mod domain;
 mod elliptic;
 mod goodman;
 mod hamilton;

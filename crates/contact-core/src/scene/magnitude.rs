@@ -6,11 +6,32 @@
 //! they result in is looked at too.
 
 use super::shape::Range;
-use super::{Body, RigidMotion, Scene, Shape};
+use super::{Body, Grid, RigidMotion, Scene, Shape};
 use crate::error::Error;
 
-const SMALLEST: f64 = 1e-75;
-const LARGEST: f64 = 1e75;
+/// Largest factor of a coefficient of friction over the surface, in the other direction, in motion or
+/// over the history: six orders of magnitude are more than any surface has, and the equations of cells
+/// that differ by more can't be solved to six digits together.
+const FACTOR: f64 = 1e6;
+pub(crate) const SMALLEST: f64 = 1e-75;
+pub(crate) const LARGEST: f64 = 1e75;
+
+impl Body {
+    /// The same checks as in a scene, but for the shape, where a body is used by itself.
+    pub(crate) fn check_alone(&self) -> Result<(), Error> {
+        self.check("body")?;
+        check_layers("body", self)
+    }
+}
+
+impl Grid {
+    /// The same checks as in a scene, where a grid is used by itself.
+    pub(crate) fn check_alone(&self) -> Result<(), Error> {
+        self.check()?;
+        within(SMALLEST, "grid.dx", self.dx)?;
+        within(SMALLEST, "grid.dy", self.dy)
+    }
+}
 
 impl Scene {
     /// Fails at the first number that is so small or so large that nothing could be computed from
@@ -19,19 +40,50 @@ impl Scene {
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
             check_body(key, body)?;
         }
-        for (key, value) in [
-            ("friction.mu", self.friction.mu),
-            ("grid.dx", self.grid.dx),
-            ("grid.dy", self.grid.dy),
-        ] {
-            within(SMALLEST, key, value)?;
-        }
+        self.check_friction_magnitudes()?;
+        within(SMALLEST, "grid.dx", self.grid.dx)?;
+        within(SMALLEST, "grid.dy", self.grid.dy)?;
         for (i, branch) in self.path.branches.iter().enumerate() {
             within(SMALLEST, &format!("path[{i}].W"), branch.to.W)?;
             for motion in RigidMotion::ALL {
                 let prescribed = branch.to.prescribed(motion);
                 let key = format!("path[{i}].{}", prescribed.name(motion));
                 within(0.0, &key, prescribed.value())?;
+            }
+            for (name, value) in [
+                ("sigma_B", branch.to.sigma_B),
+                ("sigma_B1", branch.to.sigma_B1),
+            ] {
+                within(0.0, &format!("path[{i}].{name}"), value)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The coefficients of friction and their factors: what a cell multiplies mu with is of the size
+    /// of one, if it is not zero.
+    fn check_friction_magnitudes(&self) -> Result<(), Error> {
+        let friction = &self.friction;
+        within(SMALLEST, "friction.mu", friction.mu)?;
+        let coefficients = [
+            ("friction.mu_y", friction.mu_y),
+            ("friction.kinetic", friction.kinetic),
+        ];
+        for (key, mu) in coefficients {
+            let factor = mu.map_or(1.0, |mu| mu / friction.mu);
+            if factor.is_finite() && !(1.0 / FACTOR..=FACTOR).contains(&factor) {
+                let allowed = format!("between 1/{FACTOR:e} and {FACTOR:e} of friction.mu");
+                return Err(Error::invalid(key, mu.unwrap_or_default(), allowed));
+            }
+        }
+        let map = friction.map.iter().flat_map(|map| map.values.iter());
+        let map = map.map(|factor| ("friction.map", *factor));
+        let table = friction.history.iter().flat_map(|history| &history.table);
+        let table = table.map(|(_, factor)| ("friction.history.table", *factor));
+        for (key, factor) in map.chain(table) {
+            if factor.is_finite() && factor > 0.0 && !(1.0 / FACTOR..=FACTOR).contains(&factor) {
+                let allowed = format!("factors that are 0 or between 1/{FACTOR:e} and {FACTOR:e}");
+                return Err(Error::invalid(key, format!("{factor:e}"), allowed));
             }
         }
         Ok(())
@@ -52,13 +104,18 @@ impl Scene {
 }
 
 fn check_body(key: &str, body: &Body) -> Result<(), Error> {
+    check_layers(key, body)?;
+    check_shape(&format!("{key}.shape"), &body.shape)
+}
+
+fn check_layers(key: &str, body: &Body) -> Result<(), Error> {
     within(SMALLEST, &format!("{key}.E"), body.substrate.E)?;
     for (i, coating) in body.coatings.iter().enumerate() {
         let key = format!("{key}.coatings[{i}]");
         within(SMALLEST, &format!("{key}.E"), coating.material.E)?;
         within(SMALLEST, &format!("{key}.thickness"), coating.thickness)?;
     }
-    check_shape(&format!("{key}.shape"), &body.shape)
+    Ok(())
 }
 
 fn check_shape(key: &str, shape: &Shape) -> Result<(), Error> {

@@ -23,6 +23,7 @@ pub use friction::{Friction, FrictionHistory, History};
 pub use grid::Grid;
 pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
 pub use loads::{Given, Loads};
+pub(crate) use magnitude::{LARGEST, SMALLEST};
 pub use material::Elastic;
 pub use motion::{Prescribed, RigidMotion};
 pub use settings::{
@@ -31,6 +32,7 @@ pub use settings::{
 pub use shape::{Rough, Shape};
 pub use surface_map::SurfaceMap;
 
+pub(crate) use self::settings::MOST_ALIASES;
 use self::settings::{PATH_PART, TOLERANCE};
 use crate::error::Error;
 use crate::memory::fits;
@@ -117,7 +119,24 @@ impl Scene {
             }
         }
         self.check_yardsticks()?;
-        self.settings.check()
+        self.settings.check()?;
+        self.check_saved()
+    }
+
+    /// Fails if fields are to be kept of increments that the path does not have.
+    fn check_saved(&self) -> Result<(), Error> {
+        let (SaveFields::Indices(kept), false) = (&self.settings.save, self.path.is_open()) else {
+            return Ok(());
+        };
+        let last = self.path.increments();
+        match kept.iter().find(|index| !(1..=last).contains(*index)) {
+            Some(index) => Err(Error::invalid(
+                "output.save",
+                index,
+                format!("1 to {last}, the increments of the path"),
+            )),
+            None => Ok(()),
+        }
     }
 
     /// Fails if there is no memory even to lay out the surfaces on the grid.

@@ -22,7 +22,7 @@ pub(super) const TOLERANCE: f64 = 1e-6;
 pub(super) const PATH_PART: [f64; 2] = [4e-4, 1e-2];
 
 /// Highest order of an alias sum; its work grows with the square.
-const MOST_ALIASES: usize = 32;
+pub(crate) const MOST_ALIASES: usize = 32;
 
 /// How influence coefficients are made from the frequency response of a coated body.
 #[derive(Clone, Copy, Debug, PartialEq)]

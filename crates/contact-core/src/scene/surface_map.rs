@@ -1,6 +1,6 @@
 //! Numbers given on points of the contact plane: heights, friction.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
@@ -9,11 +9,8 @@ use ndarray::{Array2, ArrayView2};
 use ndarray_npy::ViewNpyExt;
 
 use super::Grid;
+use super::case::files;
 use crate::error::Error;
-
-/// Memory that reading numbers takes, over the length of the file: a number may be two bytes of
-/// text, and a list that grows is copied.
-const COPIES: f64 = 12.0;
 
 /// Numbers over the contact plane on points of their own, the middle of the map over the origin.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,11 +30,7 @@ impl SurfaceMap {
             path: path.display().to_string(),
             message: message.split_whitespace().collect::<Vec<_>>().join(" "),
         };
-        let about = fs::metadata(path).map_err(|e| failed(e.to_string()))?;
-        if !about.is_file() {
-            return Err(failed("is not a file".into()));
-        }
-        crate::memory::fits("the numbers of a file", COPIES * about.len() as f64)?;
+        files::check(path)?;
         let is_npy = path
             .extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("npy"));

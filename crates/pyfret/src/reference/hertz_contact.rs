@@ -1,10 +1,12 @@
 //! Hertz: circular and elliptical contacts.
 
 use contact_core::reference as core;
+use contact_core::reference::domain::{between, positive};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
-use super::{Numbers, map};
+use super::{Numbers, map, pair};
+use crate::error::to_python;
 use crate::scene::Elastic;
 
 /// Hertz contact of two paraboloids of revolution.
@@ -57,8 +59,10 @@ impl Hertz {
 
 #[pyfunction]
 #[pyo3(signature = (*, R, bodies, W))]
-pub(crate) fn hertz(R: f64, bodies: (Elastic, Elastic), W: f64) -> Hertz {
-    Hertz(core::hertz(R, bodies.0.0, bodies.1.0, W))
+pub(crate) fn hertz(R: f64, bodies: (Elastic, Elastic), W: f64) -> PyResult<Hertz> {
+    let (body1, body2) = pair(bodies)?;
+    positive("R", R).and(positive("W", W)).map_err(to_python)?;
+    Ok(Hertz(core::hertz(R, body1, body2, W)))
 }
 
 /// Elliptical Hertz contact.
@@ -100,6 +104,11 @@ impl HertzEllipse {
 
 #[pyfunction]
 #[pyo3(signature = (*, R_x, R_y, E_star, W))]
-pub(crate) fn hertz_ellipse(R_x: f64, R_y: f64, E_star: f64, W: f64) -> HertzEllipse {
-    HertzEllipse(core::hertz_ellipse(R_x, R_y, E_star, W))
+pub(crate) fn hertz_ellipse(R_x: f64, R_y: f64, E_star: f64, W: f64) -> PyResult<HertzEllipse> {
+    for (key, value) in [("R_x", R_x), ("R_y", R_y), ("E_star", E_star), ("W", W)] {
+        positive(key, value).map_err(to_python)?;
+    }
+    let ratio = R_x.max(R_y) / R_x.min(R_y);
+    between("R_x/R_y or R_y/R_x", ratio, (1.0, 1e12)).map_err(to_python)?;
+    Ok(HertzEllipse(core::hertz_ellipse(R_x, R_y, E_star, W)))
 }

@@ -1,10 +1,15 @@
 //! Stress below a sphere that presses and slides.
 
 use contact_core::reference as core;
+use contact_core::reference::domain::{between, positive};
 use numpy::{PyArrayDyn, ToPyArray};
 use pyo3::prelude::*;
 
-use super::Numbers;
+use super::{Numbers, checked};
+use crate::error::to_python;
+
+/// Farthest place over the radius of the loaded circle.
+const FAR: f64 = 1e30;
 
 /// A half-space under Hertz's distribution, as pressure or as shear.
 #[pyclass(frozen, module = "pyfret.reference")]
@@ -14,8 +19,11 @@ pub(crate) struct HertzStress(core::HertzStress);
 impl HertzStress {
     #[new]
     #[pyo3(signature = (*, a, nu))]
-    fn new(a: f64, nu: f64) -> Self {
-        Self(core::HertzStress { a, nu })
+    fn new(a: f64, nu: f64) -> PyResult<Self> {
+        positive("a", a)
+            .and(between("nu", nu, (-1.0, 0.5)))
+            .map_err(to_python)?;
+        Ok(Self(core::HertzStress { a, nu }))
     }
 
     fn pressure<'py>(
@@ -24,9 +32,11 @@ impl HertzStress {
         x: Numbers<'py>,
         y: f64,
         z: f64,
-    ) -> [Bound<'py, PyArrayDyn<f64>>; 6] {
+    ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 6]> {
+        self.check(&x, y, z)?;
         let x = x.as_array();
-        std::array::from_fn(|row| x.mapv(|x| self.0.pressure(x, y, z)[row]).to_pyarray(py))
+        let row = |row: usize| x.mapv(|x| self.0.pressure(x, y, z)[row]).to_pyarray(py);
+        Ok(std::array::from_fn(row))
     }
 
     fn shear<'py>(
@@ -35,8 +45,20 @@ impl HertzStress {
         x: Numbers<'py>,
         y: f64,
         z: f64,
-    ) -> [Bound<'py, PyArrayDyn<f64>>; 6] {
+    ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 6]> {
+        self.check(&x, y, z)?;
         let x = x.as_array();
-        std::array::from_fn(|row| x.mapv(|x| self.0.shear(x, y, z)[row]).to_pyarray(py))
+        let row = |row: usize| x.mapv(|x| self.0.shear(x, y, z)[row]).to_pyarray(py);
+        Ok(std::array::from_fn(row))
+    }
+}
+
+impl HertzStress {
+    /// Places in the body, not so far away that the stress is lost in rounding.
+    fn check(&self, x: &Numbers<'_>, y: f64, z: f64) -> PyResult<()> {
+        let far = FAR * self.0.a;
+        between("y", y, (-far, far)).map_err(to_python)?;
+        between("z", z, (0.0, far)).map_err(to_python)?;
+        checked(x, |x| between("x", x, (-far, far)))
     }
 }

@@ -1,10 +1,13 @@
 //! Torsion of a sphere in partial slip.
 
+use contact_core::Error;
 use contact_core::reference as core;
+use contact_core::reference::domain::{between, positive};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
-use super::{Hertz, Numbers, map};
+use super::{Hertz, Numbers, map, map_checked, pair};
+use crate::error::to_python;
 use crate::scene::Elastic;
 
 /// Lubkin's partial slip under a torsional moment.
@@ -15,9 +18,10 @@ pub(crate) struct Lubkin(core::Lubkin);
 impl Lubkin {
     #[new]
     #[pyo3(signature = (hertz, *, bodies, mu))]
-    fn new(hertz: Hertz, bodies: (Elastic, Elastic), mu: f64) -> Self {
-        let (body1, body2) = bodies;
-        Self(core::Lubkin::new(hertz.0, body1.0, body2.0, mu))
+    fn new(hertz: Hertz, bodies: (Elastic, Elastic), mu: f64) -> PyResult<Self> {
+        let (body1, body2) = pair(bodies)?;
+        positive("mu", mu).map_err(to_python)?;
+        Ok(Self(core::Lubkin::new(hertz.0, body1, body2, mu)))
     }
 
     #[getter]
@@ -30,21 +34,37 @@ impl Lubkin {
         self.0.stiffness()
     }
 
-    fn phi<'py>(&self, py: Python<'py>, c: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        map(py, &c, |c| self.0.phi(c))
+    fn phi<'py>(&self, py: Python<'py>, c: Numbers<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let radius = |c| positive("c", c).and(self.radius(c));
+        map_checked(py, &c, radius, |c| self.0.phi(c))
     }
 
-    fn M_z<'py>(&self, py: Python<'py>, c: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        map(py, &c, |c| self.0.M_z(c))
+    fn M_z<'py>(&self, py: Python<'py>, c: Numbers<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        map_checked(py, &c, |c| self.radius(c), |c| self.0.M_z(c))
     }
 
     #[pyo3(signature = (*, M_z))]
-    fn stick_radius(&self, M_z: f64) -> f64 {
-        self.0.stick_radius(M_z)
+    fn stick_radius(&self, M_z: f64) -> PyResult<f64> {
+        let limit = self.0.M_limit() * (1.0 + 1e-9);
+        between("M_z", M_z, (0.0, limit)).map_err(to_python)?;
+        Ok(self.0.stick_radius(M_z))
     }
 
     #[pyo3(signature = (r, *, c))]
-    fn q<'py>(&self, py: Python<'py>, r: Numbers<'py>, c: f64) -> Bound<'py, PyArrayDyn<f64>> {
-        map(py, &r, |r| self.0.q(r, c))
+    fn q<'py>(
+        &self,
+        py: Python<'py>,
+        r: Numbers<'py>,
+        c: f64,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.radius(c).map_err(to_python)?;
+        Ok(map(py, &r, |r| self.0.q(r, c)))
+    }
+}
+
+impl Lubkin {
+    /// A stick radius in the contact.
+    fn radius(&self, c: f64) -> Result<f64, Error> {
+        between("c", c, (0.0, self.0.hertz.a))
     }
 }

@@ -54,9 +54,10 @@ impl LoadPath {
         &self,
         py: Python<'py>,
         of: impl Fn(&core::LoadPoint) -> f64,
-    ) -> Bound<'py, PyArray1<f64>> {
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        self.0.check_length().map_err(to_python)?;
         let column: Vec<f64> = self.0.points().iter().map(of).collect();
-        column.to_pyarray(py)
+        Ok(column.to_pyarray(py))
     }
 }
 
@@ -97,8 +98,9 @@ impl LoadPath {
     }
 
     #[pyo3(signature = (*, T_x, T_y, turns = 1, increments))]
-    fn ellipse(&self, T_x: f64, T_y: f64, turns: usize, increments: usize) -> Self {
-        Self(self.0.clone().ellipse((T_x, T_y), turns, increments))
+    fn ellipse(&self, T_x: f64, T_y: f64, turns: usize, increments: usize) -> PyResult<Self> {
+        core::LoadPath::check_turns(turns, increments).map_err(to_python)?;
+        Ok(Self(self.0.clone().ellipse((T_x, T_y), turns, increments)))
     }
 
     #[pyo3(signature = (*, increments = AnyIncrements::Each(1), **columns))]
@@ -180,47 +182,48 @@ impl LoadPath {
     }
 
     #[getter]
-    fn t<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn t<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.t)
     }
 
     #[getter]
-    fn W<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn W<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.W)
     }
 
     #[getter]
-    fn T_x<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn T_x<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.T_x)
     }
 
     #[getter]
-    fn T_y<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn T_y<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.T_y)
     }
 
     #[getter]
-    fn sigma_B<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn sigma_B<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.sigma_B)
     }
 
     #[getter]
-    fn sigma_B1<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn sigma_B1<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.sigma_B1)
     }
 
     #[getter]
-    fn rolled<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn rolled<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.rolled)
     }
 
     #[getter]
-    fn M_z<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+    fn M_z<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.M_z)
     }
 
-    fn __len__(&self) -> usize {
-        self.0.increments()
+    fn __len__(&self) -> PyResult<usize> {
+        self.0.check_length().map_err(to_python)?;
+        Ok(self.0.increments())
     }
 
     pub(crate) fn __repr__(&self) -> String {

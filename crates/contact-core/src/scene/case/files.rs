@@ -1,6 +1,38 @@
 //! Files that a scene names.
 
+use std::fs;
 use std::path::{Component, Path, PathBuf};
+
+use crate::error::Error;
+use crate::memory::fits;
+
+/// Memory that reading a text takes, over the length of the file: a number may be two bytes of text,
+/// and a list that grows is copied.
+const COPIES: f64 = 12.0;
+
+/// Fails where there is no file, but a folder, a pipe or a device, and if what is made of the file
+/// would not fit into memory.
+pub(crate) fn check(path: &Path) -> Result<(), Error> {
+    let failed = |message: String| Error::File {
+        path: path.display().to_string(),
+        message,
+    };
+    // A pipe would be waited for when it is opened, and a device has no end.
+    let about = fs::metadata(path).map_err(|e| failed(e.to_string()))?;
+    if !about.is_file() {
+        return Err(failed("is not a file".into()));
+    }
+    fits("the numbers of a file", COPIES * about.len() as f64)
+}
+
+/// The content of a file; checked first.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    check(path)?;
+    fs::read(path).map_err(|e| Error::File {
+        path: path.display().to_string(),
+        message: e.to_string(),
+    })
+}
 
 /// Where the files that a scene names may lie.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -5,7 +5,7 @@
 //! names the key and its line, and an unknown key the nearest valid one.
 
 mod document;
-mod files;
+pub(in crate::scene) mod files;
 mod friction;
 mod measure;
 mod path;
@@ -46,9 +46,9 @@ impl Scene {
         reach: Reach,
     ) -> Result<Self, Error> {
         let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|e| Error::File {
+        let text = String::from_utf8(files::read(path)?).map_err(|e| Error::File {
             path: path.display().to_string(),
-            message: e.to_string(),
+            message: format!("is not UTF-8 text: {e}"),
         })?;
         Self::read(&text, &path.display().to_string(), settings, reach)
     }

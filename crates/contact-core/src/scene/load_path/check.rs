@@ -1,13 +1,34 @@
 //! Load paths that have no meaning, refused before anything is computed.
 
-use super::{Branch, LoadPath};
+use super::LoadPath;
 use crate::error::Error;
+use crate::memory::fits;
 use crate::scene::{Friction, Grid, Prescribed, RigidMotion};
 
 /// Most increments of a path: the points alone take some 60 bytes each.
 const MOST_INCREMENTS: usize = 100_000_000;
+/// Memory of a point of the path \[bytes\].
+const POINT: f64 = 256.0;
 
 impl LoadPath {
+    /// Fails if the path has more increments than can be told apart in memory.
+    pub fn check_length(&self) -> Result<(), Error> {
+        if self.increments() > MOST_INCREMENTS {
+            return Err(Error::invalid(
+                "path",
+                "of more increments",
+                format!("at most {MOST_INCREMENTS} increments in all"),
+            ));
+        }
+        fits("the load path", POINT * self.increments() as f64)
+    }
+
+    /// Fails if [`Self::ellipse`] would make more increments than a path may have.
+    pub fn check_turns(turns: usize, increments: usize) -> Result<(), Error> {
+        let all = turns.saturating_mul(increments);
+        Self::start().normal(0.0, all).check_length()
+    }
+
     /// Fails where the increments of a branch are yet to be chosen.
     pub(crate) fn check_increments(&self) -> Result<(), Error> {
         match self.branches.iter().position(|b| b.increments.is_none()) {
@@ -24,14 +45,7 @@ impl LoadPath {
         if self.branches.is_empty() {
             return Err(Error::invalid("path", "empty", "at least one branch"));
         }
-        let total = self.branches.iter().map(Branch::count);
-        if total.fold(0, usize::saturating_add) > MOST_INCREMENTS {
-            return Err(Error::invalid(
-                "path",
-                "of more increments",
-                format!("at most {MOST_INCREMENTS} increments in all"),
-            ));
-        }
+        self.check_length()?;
         let mut t = 0.0;
         for (i, b) in self.branches.iter().enumerate() {
             let key = |name: &str| format!("path[{i}].{name}");

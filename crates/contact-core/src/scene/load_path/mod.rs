@@ -77,7 +77,8 @@ pub struct LoadPath {
 impl LoadPath {
     /// Number of increments of the whole path; a branch whose number is yet to be chosen counts as one.
     pub fn increments(&self) -> usize {
-        self.branches.iter().map(Branch::count).sum()
+        let counts = self.branches.iter().map(Branch::count);
+        counts.fold(0, usize::saturating_add)
     }
 
     /// Whether nothing but normal forces and tilting moments, or their motions, act.

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::{Branch, LoadPath};
 use crate::error::Error;
+use crate::scene::case::files;
 use crate::scene::{Loads, Prescribed, RigidMotion};
 
 /// How many increments lie between two waypoints.
@@ -95,6 +96,14 @@ impl Column {
     }
 }
 
+/// What a column drives: a motion and its load are one thing.
+fn drives(name: &str) -> (Option<usize>, &str) {
+    match RigidMotion::of(name, 0.0) {
+        Some((of, _)) => (Some(of.index()), ""),
+        None => (None, name),
+    }
+}
+
 impl LoadPath {
     /// Goes straight from waypoint to waypoint, a branch for each. `names` are those of loads and
     /// motions, `sigma_B`, `sigma_B1`, `rolled` and the path time `t`; each row has a value for
@@ -109,6 +118,15 @@ impl LoadPath {
             .iter()
             .map(|name| Column::named(name))
             .collect::<Result<_, _>>()?;
+        for (n, name) in names.iter().enumerate() {
+            if let Some(other) = names[..n]
+                .iter()
+                .find(|other| drives(other) == drives(name))
+            {
+                let allowed = format!("left out, since {other} says the same");
+                return Err(Error::invalid("path column", name, allowed));
+            }
+        }
         if let Some(row) = rows.iter().position(|row| row.len() != names.len()) {
             return Err(Error::invalid(
                 format!("path row {}", row + 1),
@@ -156,15 +174,18 @@ impl LoadPath {
             path: path.display().to_string(),
             message,
         };
+        let text = files::read(path)?;
         let mut reader = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
-            .from_path(path)
-            .map_err(|e| failed(e.to_string()))?;
+            .from_reader(text.as_slice());
         let names = reader.headers().map_err(|e| failed(e.to_string()))?.clone();
         let rows = reader.deserialize::<Vec<f64>>();
         let rows: Vec<Vec<f64>> = rows
             .collect::<Result<_, _>>()
             .map_err(|e| failed(e.to_string()))?;
+        if rows.is_empty() {
+            return Err(failed("has no row of numbers".into()));
+        }
         let names: Vec<&str> = names.iter().collect();
         Self::start()
             .waypoints(&names, &rows, increments)

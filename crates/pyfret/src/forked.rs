@@ -1,0 +1,79 @@
+//! Processes that are copies of another one: `os.fork`, and with it `multiprocessing` where that is how
+//! it starts its processes.
+//!
+//! A copy has none of the threads of the process that it was copied from. The pool of threads that all
+//! work is shared out to is one without a thread there: whoever handed it anything would wait forever.
+//! A copy gets a pool of its own. What cannot be helped is a copy made while another thread was at
+//! work, which has left its locks behind; it is refused at once.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// The process that has worked last, and its pool if it is a copy.
+struct Home {
+    process: u32,
+    pool: Option<Arc<ThreadPool>>,
+}
+
+static HOME: Mutex<Option<Home>> = Mutex::new(None);
+/// Calls at work; a copy finds what was at work when it was made.
+static AT_WORK: AtomicUsize = AtomicUsize::new(0);
+
+/// A call at work.
+pub(crate) struct Running {
+    pool: Option<Arc<ThreadPool>>,
+}
+
+impl Running {
+    /// Does `work` with the threads of this process.
+    pub(crate) fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        AT_WORK.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// Begins a call. Fails in a copy of a process that was at work when it was copied.
+pub(crate) fn in_this_process() -> PyResult<Running> {
+    let mut home = HOME.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    let pool = match &*home {
+        Some(home) if home.process == process => home.pool.clone(),
+        None => None,
+        Some(_) => {
+            if AT_WORK.load(Ordering::Relaxed) > 0 {
+                return Err(PyRuntimeError::new_err(
+                    "this process was forked while pyfret was at work in another thread, and cannot \
+                     use it: start processes anew, with multiprocessing.get_context(\"spawn\")",
+                ));
+            }
+            let pool = ThreadPoolBuilder::new().build();
+            Some(Arc::new(
+                pool.map_err(|e| PyRuntimeError::new_err(e.to_string()))?,
+            ))
+        }
+    };
+    // A pool of the process that this one is a copy of has no threads that could be waited for.
+    let before = home.replace(Home {
+        process,
+        pool: pool.clone(),
+    });
+    if let Some(before) = before
+        && before.process != process
+    {
+        std::mem::forget(before.pool);
+    }
+    AT_WORK.fetch_add(1, Ordering::Relaxed);
+    Ok(Running { pool })
+}

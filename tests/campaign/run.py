@@ -1,0 +1,134 @@
+"""Runs scenes of the campaign: ``python tests/campaign/run.py FIRST COUNT``.
+
+Each line is a scene: its seed, what became of it, the seconds it took. Scenes run in processes of
+their own, so that one that does not end can be ended.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+#: Seconds that a scene may take.
+LIMIT = 60.0
+
+
+def fate(seed: int) -> dict[str, object]:
+    """What becomes of the scene of a seed."""
+    from audit import Audit
+    from draw import draw
+
+    import pyfret as fret
+
+    text = draw(seed)
+    worst: dict[str, tuple[float, int]] = {}
+    number = 0
+    try:
+        audit = Audit(text)
+        for increment in fret.march(audit.scene):
+            number += 1
+            for name, off in audit.look(increment).items():
+                if off > worst.get(name, (0.0, 0))[0]:
+                    worst[name] = (off, number)
+    except fret.InvalidSceneError as error:
+        kind = "off grid" if isinstance(error, fret.OffGridError) else "refused"
+        return {"fate": kind, "why": str(error), "worst": worst, "increment": number}
+    except fret.SlidingError as error:
+        return {"fate": "beyond friction", "why": str(error), "worst": worst, "increment": number}
+    except fret.NoConvergenceError as error:
+        return {"fate": "not converged", "why": str(error), "worst": worst, "increment": number}
+    except BaseException as error:
+        kind = type(error).__name__
+        return {"fate": f"raised {kind}", "why": str(error), "worst": worst, "increment": number}
+    return {"fate": "solved", "why": "", "worst": worst, "increment": number}
+
+
+def work(first: int, last: int, stride: int) -> None:
+    """Tells of each scene before and after it."""
+    for seed in range(first, last, stride):
+        print(json.dumps({"seed": seed}), flush=True)
+        begun = time.process_time()
+        of = fate(seed)
+        print(json.dumps({"seed": seed, **of, "seconds": time.process_time() - begun}), flush=True)
+
+
+@dataclass
+class Worker:
+    """A process that works through its share of the scenes."""
+
+    process: subprocess.Popen[bytes]
+    #: The scene that it is at, or the next one.
+    seed: int
+    #: Its processor time when that began, and the time [s].
+    begun: tuple[float, float]
+    #: What it has told of a line that is not whole.
+    rest: bytes = b""
+
+    def spent(self) -> tuple[float, float]:
+        """Processor time so far, and the time [s]."""
+        stat = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        ticks = int(stat[11]) + int(stat[12])
+        return ticks / os.sysconf("SC_CLK_TCK"), time.monotonic()
+
+    def is_over(self, limit: float) -> bool:
+        """Whether its scene takes too long: processor time, or ten times as much of any time."""
+        work, all_of_it = (now - then for now, then in zip(self.spent(), self.begun, strict=True))
+        return work > limit or all_of_it > 10 * limit
+
+
+def campaign(first: int, count: int, limit: float = LIMIT) -> Iterator[dict[str, object]]:
+    """What becomes of `count` scenes, as they end; two processes at a time."""
+    stride, last = 2, first + count
+    environment = os.environ | {"RAYON_NUM_THREADS": "1"}
+    starts = [first + k for k in range(stride)]
+    running: list[Worker] = []
+    while starts or running:
+        for start in (seed for seed in starts if seed < last):
+            command = [sys.executable, __file__, "work", str(start), str(last), str(stride)]
+            process = subprocess.Popen(command, stdout=subprocess.PIPE, env=environment)
+            running.append(Worker(process, start, (0.0, time.monotonic())))
+        starts = []
+        select.select([w.process.stdout for w in running], [], [], 1.0)
+        for worker in list(running):
+            pipe = worker.process.stdout
+            assert pipe is not None
+            how = ""
+            if select.select([pipe], [], [], 0)[0]:
+                data = os.read(pipe.fileno(), 1 << 16)
+                *lines, worker.rest = (worker.rest + data).split(b"\n")
+                for line in lines:
+                    told = json.loads(line)
+                    worker.seed, worker.begun = int(told["seed"]), worker.spent()
+                    if "fate" in told:
+                        yield told
+                        worker.seed += stride
+                if data:
+                    continue
+                how = "ended the process"
+            elif worker.is_over(limit):
+                how = f"over {limit:g} s"
+            else:
+                continue
+            worker.process.kill()
+            worker.process.wait()
+            running.remove(worker)
+            if worker.seed < last:
+                yield {"seed": worker.seed, "fate": how, "worst": {}}
+                starts.append(worker.seed + stride)
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "work":
+        work(*(int(n) for n in sys.argv[2:5]))
+    else:
+        for outcome in campaign(int(sys.argv[1]), int(sys.argv[2])):
+            print(json.dumps(outcome), flush=True)

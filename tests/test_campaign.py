@@ -1,0 +1,61 @@
+"""The audit of the campaign sees what is wrong, and nothing in a contact that is right."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import pyfret as fret
+
+sys.path.insert(0, str(Path(__file__).parent / "campaign"))
+
+from audit import Audit
+from draw import draw
+
+SCENE = """
+schema = 1
+body1 = { shape.sphere.R = 0.01, E = 210e9, nu = 0.3 }
+body2 = { shape = "flat", E = 70e9, nu = 0.3 }
+friction.mu = 0.3
+grid = { n = 24, extent = 6e-4 }
+path = [{ W = 50.0, increments = 2 }, { T_x = 8.0, increments = 2 }]
+"""
+
+
+def test_a_contact_that_is_right_passes_and_every_error_shows() -> None:
+    """Each equation is broken in turn."""
+    audit = Audit(SCENE)
+    for increment in fret.march(audit.scene):
+        before = audit.before
+        found = audit.look(increment)
+        assert max(found.values()) < 1, found
+    d = increment.dataset
+    middle = tuple(n // 2 for n in d.p.shape)
+    outside = (0, 0)
+    errors = {
+        "balance W": ("p", middle, 1.1 * d.p[middle]),
+        "balance T_x": ("q_x", middle, 1.1 * d.q_x[middle]),
+        "tension": ("p", outside, -1e6),
+        "shear without pressure": ("q_y", outside, 1e5),
+        "Coulomb": ("q_y", middle, 0.4 * d.p[middle]),
+        "gap inside": ("p", middle, 1.1 * d.p[middle]),
+        "slip in stick": ("q_x", middle, 1.1 * d.q_x[middle]),
+    }
+    for name, (field, place, wrong) in errors.items():
+        broken = d.copy(deep=True)
+        broken[field][place] = wrong
+        audit.before = before
+        found = audit.look(SimpleNamespace(dataset=broken))
+        assert found[name] > 1, (name, found)
+
+
+def test_most_of_what_is_drawn_is_a_scene() -> None:
+    """The others are refused by name."""
+    refused = 0
+    for seed in range(100):
+        try:
+            fret.Scene.from_toml(draw(seed))
+        except fret.InvalidSceneError:
+            refused += 1
+    assert refused < 25

@@ -1,0 +1,72 @@
+"""Result stores that are damaged: read as they were written, or refused by name."""
+
+from __future__ import annotations
+
+import random
+import shutil
+from pathlib import Path
+
+import pytest
+
+import pyfret as fret
+from conftest import W, sphere_on_flat
+
+STORES = 60
+
+
+def damage(file: Path, rng: random.Random) -> None:
+    """Flips a bit, cuts, empties, removes or swaps."""
+    content = bytearray(file.read_bytes())
+    kind = rng.randrange(6)
+    if kind == 0 or not content:
+        file.unlink()
+    elif kind == 1:
+        file.write_bytes(content[: rng.randrange(len(content))])
+    elif kind == 2:
+        file.write_bytes(content + bytes(rng.randrange(1, 9)))
+    elif kind == 3:
+        other = rng.choice(sorted(f for f in file.parent.iterdir() if f.is_file()))
+        file.write_bytes(other.read_bytes())
+    else:
+        place = rng.randrange(len(content))
+        content[place] ^= 1 << rng.randrange(8)
+        file.write_bytes(content)
+
+
+def test_a_damaged_store_is_read_as_it_was_or_refused_by_name(tmp_path: Path) -> None:
+    """Every file of a store, in turn and at random."""
+    good = tmp_path / "good.zarr"
+    path = fret.LoadPath.start().normal(W, increments=2).tangential([50.0, -50.0], increments=3)
+    written = fret.solve(sphere_on_flat(n=12), path, out=good, progress=False)
+    written = fret.Result(written.dataset.load())
+    files = sorted(f.relative_to(good) for f in good.rglob("*") if f.is_file())
+    rng = random.Random(34)
+    refused = 0
+    bad = tmp_path / "bad.zarr"
+    shutil.copytree(good, bad)
+    for n in range(STORES):
+        name = Path(".zmetadata") if n % 8 == 0 else rng.choice(files)
+        damage(bad / name, rng)
+        try:
+            read = fret.open(bad).dataset.load()
+        except fret.StoreError as error:
+            text = str(error)
+            assert str(bad) in text, text
+            assert "\n" not in text, text
+            assert str(name.parent if name.name[0] != "." else name) in text, (name, text)
+            refused += 1
+        else:
+            assert read.identical(written.dataset), name
+        shutil.copy(good / name, bad / name)
+    assert refused > STORES // 3
+
+
+@pytest.mark.parametrize("name", ["nothing.zarr", "empty.zarr", "others.zarr"])
+def test_what_is_no_store_is_refused_by_name(tmp_path: Path, name: str) -> None:
+    """Nothing, an empty folder, the store of another program."""
+    if name != "nothing.zarr":
+        (tmp_path / name).mkdir()
+    if name == "others.zarr":
+        (tmp_path / name / ".zmetadata").write_text('{"metadata": {".zattrs": {}}}')
+    with pytest.raises(fret.StoreError, match=f"{name}.*is not a result store"):
+        fret.open(tmp_path / name)
