@@ -116,15 +116,15 @@ mod tests {
 
     #[test]
     fn every_plane_once() {
-        let HEMISPHERE = &*HEMISPHERE;
+        let sphere = &*HEMISPHERE;
         // Euler on the projective plane: planes - edges + faces = 1, edges = 3/2 faces.
-        assert_eq!((HEMISPHERE.planes.len(), HEMISPHERE.faces.len()), (81, 160));
+        assert_eq!((sphere.planes.len(), sphere.faces.len()), (81, 160));
         // The solid angles of the faces fill half of the sphere.
         let angle = |[a, b, c]: Triangle| {
             let triple = dot(a, cross(b, c)).abs();
             2.0 * triple.atan2(1.0 + dot(a, b) + dot(b, c) + dot(c, a))
         };
-        let whole: f64 = HEMISPHERE.faces.iter().map(|f| angle(f.corners)).sum();
+        let whole: f64 = sphere.faces.iter().map(|f| angle(f.corners)).sum();
         assert!((whole - 2.0 * std::f64::consts::PI).abs() < 1e-12);
     }
 
