@@ -43,7 +43,7 @@ fn main() {
             let slices = Slices::new(body, Side::Body2, grid, &states).unwrap();
             let slices = slices.with_rim(&states, &[]);
             let image = ImageData::create(file, grid, Side::Body2, &depths, &of).unwrap();
-            write_volume(&slices, &depths, &of, &[&image]).unwrap();
+            write_volume(&slices, &depths, &[], &of, &[&image]).unwrap();
             image.finish().unwrap();
         }
         _ => panic!("arguments: plane, or volume FILE.vti NAMES"),

@@ -16,6 +16,8 @@ use crate::interruptible::interruptible;
 use crate::scene::{Grid, Scene};
 
 /// A load path being run through; iterating solves one increment after the other.
+///
+/// Use :func:`pyfret.march`, which labels what this one gives.
 #[pyclass(module = "pyfret")]
 pub(crate) struct March {
     /// Python may hand the object to another thread.
@@ -39,11 +41,13 @@ impl March {
         })
     }
 
+    /// Increments solved so far.
     #[getter]
     fn done(&mut self) -> usize {
         self.inner().state().increments
     }
 
+    /// The scene that is being solved.
     #[getter]
     fn scene(&mut self) -> Scene {
         Scene(self.inner().scene().clone())
@@ -53,6 +57,7 @@ impl March {
         slf
     }
 
+    /// Solve the next increment and give its scalars.
     fn __next__<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         py.check_signals()?;
         let march = self.inner();
@@ -75,6 +80,7 @@ impl March {
         }
     }
 
+    /// Fields after the last increment, shape (nx, ny).
     fn fields<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = self.inner().fields();
         let fields = PyDict::new(py);
@@ -88,7 +94,7 @@ impl March {
     }
 }
 
-/// The pressure at the centres of the cells, that at the rim continued from inside.
+/// Pressure [Pa], that at the rim continued from inside; use :meth:`Snapshot.p_continued`.
 #[pyfunction]
 pub(crate) fn continued_pressure<'py>(
     py: Python<'py>,

@@ -50,3 +50,51 @@ pub fn depths(body: &Body, z: &[f64]) -> Result<Vec<Depth>, Error> {
     }
     Ok(all)
 }
+
+/// Distance of neighbouring chosen depths over their depth.
+const STEP: f64 = 0.1;
+/// Depth below which the distance no longer falls, over the radius of the contact.
+const SHALLOW: f64 = 0.02;
+/// Fewest steps across a layer.
+const STEPS_OF_A_LAYER: f64 = 4.0;
+
+/// The depths at which the stress is looked at where none are named, with both sides of every
+/// interface: from the surface to the depth `deepest` \[m\] under a contact of the radius `a` \[m\].
+/// `finer` times as many as the default, 1.
+///
+/// What tractions on the surface cause at a depth z varies along z over lengths of the order of z, so
+/// that neighbours are a tenth of their depth apart, near the surface a five-hundredth of `a`; a layer
+/// has five of them at least, its borders among them.
+pub fn chosen_depths(body: &Body, a: f64, deepest: f64, finer: f64) -> Result<Vec<Depth>, Error> {
+    if !(deepest > 0.0 && deepest.is_finite()) {
+        return Err(Error::invalid("depth", deepest, "a positive length in m"));
+    }
+    let shallow = SHALLOW * a;
+    let mut z = vec![0.0];
+    let borders = body.interfaces().into_iter().filter(|b| *b < deepest);
+    for bottom in borders.chain([deepest]) {
+        let top = z[z.len() - 1];
+        let range = ((bottom + shallow) / (top + shallow)).ln();
+        let steps = (finer * (range / STEP).max(STEPS_OF_A_LAYER)).ceil();
+        // Even in the logarithm.
+        let inside = (1..steps as usize).map(|i| {
+            let at = (range * i as f64 / steps).exp() * (top + shallow) - shallow;
+            at.clamp(top, bottom)
+        });
+        z.extend(inside);
+        z.push(bottom);
+    }
+    depths(body, &z)
+}
+
+/// The places in `depths` that lie on an interface: the same depth in two layers, one after the other.
+pub(super) fn on_interfaces(depths: &[Depth]) -> Vec<bool> {
+    let same = |a: usize, b: usize| {
+        depths
+            .get(a)
+            .zip(depths.get(b))
+            .is_some_and(|(a, b)| a.z == b.z && a.layer != b.layer)
+    };
+    let one = |n: usize| same(n, n + 1) || (n > 0 && same(n - 1, n));
+    (0..depths.len()).map(one).collect()
+}

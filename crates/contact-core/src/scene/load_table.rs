@@ -76,6 +76,50 @@ impl LoadPath {
         )
     }
 
+    /// Visits values of a motion in turn, by its place in [`MOTIONS`](super::MOTIONS), as
+    /// [`Self::tangential`] visits forces; a motion that was free counts from 0.
+    #[must_use]
+    pub fn moved(self, motion: usize, to: &[f64], increments: impl Into<Option<usize>>) -> Self {
+        self.visit(
+            to,
+            increments.into(),
+            |at| at.given.motions()[motion].unwrap_or(0.0),
+            |at, value| {
+                let (mut forces, mut motions) = (at.forces(), at.given.motions());
+                (forces[motion], motions[motion]) = (0.0, Some(value));
+                *at = at.with_forces(forces, Given::from_motions(motions));
+            },
+        )
+    }
+
+    /// Visits values of a load in turn, by its place in [`LOADS`](super::LOADS).
+    #[must_use]
+    pub fn loaded(self, load: usize, to: &[f64], increments: impl Into<Option<usize>>) -> Self {
+        self.visit(
+            to,
+            increments.into(),
+            |at| at.forces()[load],
+            |at, value| {
+                let (mut forces, mut motions) = (at.forces(), at.given.motions());
+                (forces[load], motions[load]) = (value, None);
+                *at = at.with_forces(forces, Given::from_motions(motions));
+            },
+        )
+    }
+
+    /// Stays where it is for some increments, one unit of path time: what friction makes of its
+    /// history goes on.
+    #[must_use]
+    pub fn hold(self, increments: usize) -> Self {
+        self.to(|_| (), increments)
+    }
+
+    /// The values of `n` cycles of an amplitude: to it, then `n` times to its opposite and back.
+    pub fn cycle(amplitude: f64, n: usize) -> Vec<f64> {
+        let cycles = std::iter::repeat_n([-amplitude, amplitude], n);
+        std::iter::once(amplitude).chain(cycles.flatten()).collect()
+    }
+
     /// Turns the tangential force around an ellipse of the semi-axes `T_x`, `T_y` \[N\] with its
     /// middle where the path stands, from (T_x, 0) on towards (0, T_y), `turns` times. It goes
     /// there in `increments` and takes as many for a turn, each a branch of its own, since the path

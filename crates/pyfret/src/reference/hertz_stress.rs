@@ -6,7 +6,14 @@ use pyo3::prelude::*;
 
 use super::Numbers;
 
-/// A half-space under Hertz's distribution, as pressure or as shear.
+/// A half-space under sqrt(1 - r^2/a^2) of unit peak on r < a: Hamilton's stresses.
+///
+/// Parameters
+/// ----------
+/// a : float
+///     Radius of the loaded circle [m].
+/// nu : float
+///     Poisson's ratio.
 #[pyclass(frozen, module = "pyfret.reference")]
 pub(crate) struct HertzStress(core::HertzStress);
 
@@ -18,6 +25,7 @@ impl HertzStress {
         Self(core::HertzStress { a, nu })
     }
 
+    /// Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure.
     fn pressure<'py>(
         &self,
         py: Python<'py>,
@@ -29,6 +37,7 @@ impl HertzStress {
         std::array::from_fn(|row| x.mapv(|x| self.0.pressure(x, y, z)[row]).to_pyarray(py))
     }
 
+    /// The same under a shear traction that acts on the body along +x.
     fn shear<'py>(
         &self,
         py: Python<'py>,

@@ -9,9 +9,12 @@ use numpy::{PyArray1, ToPyArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::error::to_python;
+use crate::error::{must_be, takes, to_python};
 
 /// How the increments of a branch are spaced.
+///
+/// ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius of a
+/// paraboloid; natural for an indentation.
 #[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Spacing {
@@ -39,7 +42,7 @@ impl From<core::Spacing> for Spacing {
     }
 }
 
-/// One straight piece of the load history.
+/// One straight piece of a load history.
 #[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Branch(core::Branch);
@@ -54,96 +57,115 @@ impl Branch {
 
 #[pymethods]
 impl Branch {
+    /// Normal force at its end [N]; None where the approach is given.
     #[getter]
     fn W(&self) -> Option<f64> {
         self.load(0)
     }
 
+    /// Tilting moment about x at its end [N m]; None where the tilt is given.
     #[getter]
     fn M_x(&self) -> Option<f64> {
         self.load(1)
     }
 
+    /// Tilting moment about y at its end [N m]; None where the tilt is given.
     #[getter]
     fn M_y(&self) -> Option<f64> {
         self.load(2)
     }
 
+    /// Tangential force along x on body 2 at its end [N]; None where the shift is given.
     #[getter]
     fn T_x(&self) -> Option<f64> {
         self.load(3)
     }
 
+    /// Tangential force along y on body 2 at its end [N]; None where the shift is given.
     #[getter]
     fn T_y(&self) -> Option<f64> {
         self.load(4)
     }
 
+    /// Torsional moment on body 2 at its end [N m]; None where the rotation is given.
     #[getter]
     fn M_z(&self) -> Option<f64> {
         self.load(5)
     }
 
+    /// Approach at its end [m]; None where W is given.
     #[getter]
     fn delta_z(&self) -> Option<f64> {
         self.0.to.given.delta_z
     }
 
+    /// Shift along x at its end [m]; None where T_x is given.
     #[getter]
     fn delta_x(&self) -> Option<f64> {
         self.0.to.given.delta_x
     }
 
+    /// Shift along y at its end [m]; None where T_y is given.
     #[getter]
     fn delta_y(&self) -> Option<f64> {
         self.0.to.given.delta_y
     }
 
+    /// Tilt about x at its end [rad]; None where M_x is given.
     #[getter]
     fn phi_x(&self) -> Option<f64> {
         self.0.to.given.phi_x
     }
 
+    /// Tilt about y at its end [rad]; None where M_y is given.
     #[getter]
     fn phi_y(&self) -> Option<f64> {
         self.0.to.given.phi_y
     }
 
+    /// Rotation about z at its end [rad]; None where M_z is given.
     #[getter]
     fn phi_z(&self) -> Option<f64> {
         self.0.to.given.phi_z
     }
 
+    /// Bulk stress along x in body 2 at its end [Pa].
     #[getter]
     fn sigma_B(&self) -> f64 {
         self.0.to.sigma_B
     }
 
+    /// Bulk stress along x in body 1 at its end [Pa].
     #[getter]
     fn sigma_B1(&self) -> f64 {
         self.0.to.sigma_B1
     }
 
+    /// Way that the contact has rolled along x at its end [m].
     #[getter]
     fn rolled(&self) -> f64 {
         self.0.to.rolled
     }
 
+    /// Number of increments; None: as many as the path tolerance asks for.
     #[getter]
     fn increments(&self) -> Option<usize> {
         self.0.increments
     }
 
+    /// Estimated error that the increments leave in the shear, over the largest shear.
     #[getter]
     fn path_error(&self) -> Option<f64> {
         self.0.path_error
     }
 
+    /// How the increments are spaced.
     #[getter]
     fn spacing(&self) -> Spacing {
         self.0.spacing.into()
     }
 
+    /// Path time at its end.
     #[getter]
     fn t(&self) -> f64 {
         self.0.t_end
@@ -172,27 +194,54 @@ impl Branch {
 }
 
 /// The load history, from two bodies just touching.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+///
+/// Built by chaining; every call gives a new path with more branches.
+///
+/// Examples
+/// --------
+/// >>> path = LoadPath.start().normal(1e3, increments=100)
+/// >>> path.tangential([270.0, -270.0, 270.0], increments=500)
+/// LoadPath(4 branches, 600 increments)
+#[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct LoadPath(pub(crate) core::LoadPath);
 
+takes!(
+    LoadPath,
+    "a load path, such as LoadPath.start().normal(100.0).tangential([20.0, -20.0])"
+);
+
 /// One value or several to visit in turn.
-#[derive(FromPyObject)]
 enum Values {
     One(f64),
     Several(Vec<f64>),
 }
 
+impl<'py> FromPyObject<'_, 'py> for Values {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(one) = value.extract::<f64>() {
+            return Ok(Self::One(one));
+        }
+        let wanted = "a number, or several to visit in turn, such as [100.0, -100.0, 100.0]";
+        let several = value.extract::<Vec<f64>>().ok().filter(|v| !v.is_empty());
+        several
+            .map(Self::Several)
+            .ok_or_else(|| must_be(&value, wanted))
+    }
+}
+
 impl Values {
-    fn list(self) -> Vec<f64> {
+    fn slice(&self) -> &[f64] {
         match self {
-            Self::One(value) => vec![value],
+            Self::One(value) => std::slice::from_ref(value),
             Self::Several(values) => values,
         }
     }
 }
 
-/// As many increments as the change needs if the whole range takes this many.
+/// As many increments as a change needs if the whole range takes this many.
 #[pyclass(frozen, eq, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct PerRange(usize);
@@ -204,6 +253,7 @@ impl PerRange {
         Self(increments)
     }
 
+    /// Increments over the whole range of the load or motion that needs most.
     #[getter]
     fn increments(&self) -> usize {
         self.0
@@ -230,10 +280,24 @@ impl<'py> FromPyObject<'_, 'py> for Count {
 }
 
 /// Increments between two waypoints.
-#[derive(FromPyObject)]
 enum AnyIncrements {
     Each(usize),
     PerRange(PerRange),
+}
+
+impl<'py> FromPyObject<'_, 'py> for AnyIncrements {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(per_range) = value.extract::<PerRange>() {
+            return Ok(Self::PerRange(per_range));
+        }
+        let wanted = "a whole number of increments per branch, or PerRange(40)";
+        value
+            .extract()
+            .map(Self::Each)
+            .map_err(|_| must_be(&value, wanted))
+    }
 }
 
 impl From<AnyIncrements> for core::Increments {
@@ -284,36 +348,57 @@ impl LoadPath {
 
 #[pymethods]
 impl LoadPath {
+    /// The path before its first branch.
     #[staticmethod]
     fn start() -> Self {
         Self(core::LoadPath::start())
     }
 
+    /// Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
     #[pyo3(signature = (W, *, increments = Count(None)))]
     fn normal(&self, W: f64, increments: Count) -> Self {
         Self(self.0.clone().normal(W, increments.0))
     }
 
+    /// Visit the tangential forces `T_x` [N] in turn.
+    ///
+    /// The increments are shared out in proportion to the change of force. Path time runs as in
+    /// the first branch: one unit for as many increments as that one has.
     #[pyo3(signature = (T_x, *, increments = Count(None)))]
     fn tangential(&self, T_x: Values, increments: Count) -> Self {
-        Self(self.0.clone().tangential(&T_x.list(), increments.0))
+        Self(self.0.clone().tangential(T_x.slice(), increments.0))
     }
 
+    /// Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces.
     #[pyo3(signature = (M_z, *, increments = Count(None)))]
     fn torsion(&self, M_z: Values, increments: Count) -> Self {
-        Self(self.0.clone().torsion(&M_z.list(), increments.0))
+        Self(self.0.clone().torsion(M_z.slice(), increments.0))
     }
 
+    /// Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II.
     #[pyo3(signature = (W, *, increments = Count(None)))]
     fn radial(&self, W: Values, increments: Count) -> Self {
-        Self(self.0.clone().radial(&W.list(), increments.0))
+        Self(self.0.clone().radial(W.slice(), increments.0))
     }
 
+    /// Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
+    ///
+    /// Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
+    /// for each turn towards (0, T_y), each a branch of its own.
     #[pyo3(signature = (*, T_x, T_y, turns = 1, increments))]
     fn ellipse(&self, T_x: f64, T_y: f64, turns: usize, increments: usize) -> Self {
         Self(self.0.clone().ellipse((T_x, T_y), turns, increments))
     }
 
+    /// Go straight from waypoint to waypoint, a branch for each.
+    ///
+    /// Parameters
+    /// ----------
+    /// increments : int or PerRange
+    ///     Increments per branch; or as many as the change needs.
+    /// **columns : array
+    ///     Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
+    ///     ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
     #[pyo3(signature = (*, increments = AnyIncrements::Each(1), **columns))]
     fn waypoints(
         &self,
@@ -334,6 +419,7 @@ impl LoadPath {
         path.map(Self).map_err(to_python)
     }
 
+    /// Read a measured history; the first line names the columns of `waypoints`.
     #[staticmethod]
     #[pyo3(signature = (path, *, increments = AnyIncrements::Each(1)))]
     fn from_csv(path: PathBuf, increments: AnyIncrements) -> PyResult<Self> {
@@ -342,6 +428,28 @@ impl LoadPath {
             .map_err(to_python)
     }
 
+    /// Go to the given loads on a straight line; what is not named stays as it was.
+    ///
+    /// A load that is named is given from here on, and the motion that goes with it is free.
+    ///
+    /// Parameters
+    /// ----------
+    /// W, T_x, T_y : float, optional
+    ///     Normal force and tangential forces on body 2 [N].
+    /// M_x, M_y, M_z : float, optional
+    ///     Tilting moments and torsional moment on body 2 [N m].
+    /// sigma_B : float, optional
+    ///     Bulk stress along x in body 2, tension positive: a fatigue load [Pa].
+    /// sigma_B1 : float, optional
+    ///     The same in body 1.
+    /// rolled : float, optional
+    ///     Way that the contact has rolled along x over both bodies [m], whole cells per increment.
+    /// increments : int or "auto"
+    ///     Number of increments (default: as many as the path tolerance of the settings asks for).
+    /// spacing : Spacing
+    ///     How they are spaced (default: equal increments of force).
+    /// t : float, optional
+    ///     Path time at the end (default: one unit later).
     #[pyo3(signature = (*, W = None, T_x = None, T_y = None, M_x = None, M_y = None, M_z = None, sigma_B = None, sigma_B1 = None, rolled = None, increments = Count(None), spacing = Spacing::Uniform, t = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn force(
@@ -372,81 +480,225 @@ impl LoadPath {
         path
     }
 
+    /// Go to the given rigid motions of body 1 on a straight line, or visit several in turn.
+    ///
+    /// A motion that is named is given from here on, and its load follows from the solution. What
+    /// is not named stays as it was; without a word, rotations are given as zero.
+    ///
+    /// Parameters
+    /// ----------
+    /// delta_z, delta_x, delta_y : float or sequence of float, optional
+    ///     Approach and shifts [m]. One of all the motions may be a sequence: its values are visited
+    ///     in turn, and the increments shared out in proportion to the change, as `tangential` does.
+    /// phi_x, phi_y, phi_z : float or sequence of float, optional
+    ///     Tilts and rotation about z [rad].
+    /// increments : int or "auto"
+    ///     Number of increments (default: as many as the path tolerance of the settings asks for).
+    /// spacing : Spacing
+    ///     How they are spaced (default: equal increments).
+    /// t : float, optional
+    ///     Path time at the end (default: one unit later); not with a sequence.
+    ///
+    /// Examples
+    /// --------
+    /// >>> pressed = LoadPath.start().normal(10.0)
+    /// >>> pressed.displace(delta_x=[2e-6, -2e-6, 2e-6])
+    /// LoadPath(4 branches, increments to be chosen)
     #[pyo3(signature = (*, delta_z = None, delta_x = None, delta_y = None, phi_x = None, phi_y = None, phi_z = None, increments = Count(None), spacing = Spacing::Uniform, t = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn displace(
         &self,
-        delta_z: Option<f64>,
-        delta_x: Option<f64>,
-        delta_y: Option<f64>,
-        phi_x: Option<f64>,
-        phi_y: Option<f64>,
-        phi_z: Option<f64>,
+        delta_z: Option<Values>,
+        delta_x: Option<Values>,
+        delta_y: Option<Values>,
+        phi_x: Option<Values>,
+        phi_y: Option<Values>,
+        phi_z: Option<Values>,
         increments: Count,
         spacing: Spacing,
         t: Option<f64>,
-    ) -> Self {
+    ) -> PyResult<Self> {
         let named = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
-        self.branch(increments.0, spacing, t, |k, load, motion| match named[k] {
-            Some(motion) => (0.0, Some(motion)),
-            None => (load, motion),
-        })
+        let several = |v: &Option<Values>| matches!(v, Some(Values::Several(_)));
+        let first = |v: &Option<Values>| v.as_ref().and_then(|v| v.slice().first().copied());
+        if named.iter().filter(|v| several(v)).count() > 1 {
+            return Err(PyValueError::new_err(
+                "displace: one motion at a time may be a sequence; waypoints(delta_x=.., delta_y=..) \
+                 takes several",
+            ));
+        }
+        let Some(k) = named.iter().position(several) else {
+            return Ok(self.branch(increments.0, spacing, t, |k, load, motion| {
+                first(&named[k]).map_or((load, motion), |motion| (0.0, Some(motion)))
+            }));
+        };
+        if t.is_some() {
+            return Err(PyValueError::new_err(
+                "displace: t goes with a single value",
+            ));
+        }
+        let values = named[k].as_ref().map(Values::slice).unwrap_or_default();
+        let start = self.0.branches.len();
+        let mut path = self.0.clone().moved(k, values, increments.0);
+        for branch in &mut path.branches[start..] {
+            branch.spacing = spacing.into();
+            let (mut forces, mut motions) = (branch.to.forces(), branch.to.given.motions());
+            for n in (0..6).filter(|n| *n != k) {
+                if let Some(motion) = first(&named[n]) {
+                    (forces[n], motions[n]) = (0.0, Some(motion));
+                }
+            }
+            let given = core::Given::from_motions(motions);
+            branch.to = branch.to.with_forces(forces, given);
+        }
+        Ok(Self(path))
     }
 
+    /// Go through `n` cycles of one load or motion about zero, what is not named staying as it was.
+    ///
+    /// The path goes to the amplitude, then `n` times to its opposite and back.
+    ///
+    /// Parameters
+    /// ----------
+    /// n : int
+    ///     Number of cycles.
+    /// T_x, T_y : float, optional
+    ///     Amplitude of a tangential force [N].
+    /// M_z : float, optional
+    ///     Amplitude of the torsional moment [N m].
+    /// delta_x, delta_y : float, optional
+    ///     Amplitude of a shift [m].
+    /// phi_z : float, optional
+    ///     Amplitude of the rotation [rad].
+    /// increments : int or "auto"
+    ///     Number of increments of all branches together, shared out in proportion to the change
+    ///     (default: as many as the path tolerance of the settings asks for).
+    ///
+    /// Examples
+    /// --------
+    /// >>> LoadPath.start().normal(10.0).cycles(2, delta_x=2e-6)
+    /// LoadPath(6 branches, increments to be chosen)
+    #[pyo3(signature = (n, *, T_x = None, T_y = None, M_z = None, delta_x = None, delta_y = None, phi_z = None, increments = Count(None)))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn cycles(
+        &self,
+        n: usize,
+        T_x: Option<f64>,
+        T_y: Option<f64>,
+        M_z: Option<f64>,
+        delta_x: Option<f64>,
+        delta_y: Option<f64>,
+        phi_z: Option<f64>,
+        increments: Count,
+    ) -> PyResult<Self> {
+        let loads = [(3, T_x), (4, T_y), (5, M_z)].map(|(k, v)| (k, true, v));
+        let motions = [(3, delta_x), (4, delta_y), (5, phi_z)].map(|(k, v)| (k, false, v));
+        let named = loads.into_iter().chain(motions);
+        let named: Vec<_> = named
+            .filter_map(|(k, load, v)| Some((k, load, v?)))
+            .collect();
+        let [(k, is_load, amplitude)] = named[..] else {
+            return Err(PyValueError::new_err(
+                "cycles: give the amplitude of one load or motion, such as T_x=100.0 or delta_x=2e-6",
+            ));
+        };
+        let values = core::LoadPath::cycle(amplitude, n);
+        let path = self.0.clone();
+        Ok(Self(if is_load {
+            path.loaded(k, &values, increments.0)
+        } else {
+            path.moved(k, &values, increments.0)
+        }))
+    }
+
+    /// Stay at the loads and motions reached for some increments, one unit of path time.
+    ///
+    /// What friction makes of the history of a cell goes on meanwhile.
+    #[pyo3(signature = (*, increments = 1))]
+    fn hold(&self, increments: usize) -> Self {
+        Self(self.0.clone().hold(increments))
+    }
+
+    /// The branches in their order.
     #[getter]
     fn branches(&self) -> Vec<Branch> {
         self.0.branches.iter().copied().map(Branch).collect()
     }
 
+    /// Path time at the end of every increment.
     #[getter]
     fn t<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |point| point.t)
     }
 
+    /// Normal force at the end of every increment [N]; NaN where only the solution can say.
     #[getter]
     fn W<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |point| point.loads.W)
     }
 
+    /// Tangential force along x at the end of every increment [N].
     #[getter]
     fn T_x<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |point| point.loads.T_x)
     }
 
+    /// Tangential force along y at the end of every increment [N].
     #[getter]
     fn T_y<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |point| point.loads.T_y)
     }
 
+    /// Bulk stress of body 2 at the end of every increment [Pa].
     #[getter]
     fn sigma_B<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |point| point.loads.sigma_B)
     }
 
+    /// Bulk stress of body 1 at the end of every increment [Pa].
     #[getter]
     fn sigma_B1<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |point| point.loads.sigma_B1)
     }
 
+    /// Way rolled at the end of every increment [m].
     #[getter]
     fn rolled<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |point| point.loads.rolled)
     }
 
+    /// Torsional moment at the end of every increment [N m].
     #[getter]
     fn M_z<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.column(py, |point| point.loads.M_z)
     }
 
-    fn __len__(&self) -> usize {
-        self.0.increments()
+    fn __len__(&self) -> PyResult<usize> {
+        let branches = &self.0.branches;
+        match branches.iter().filter(|b| b.increments.is_none()).count() {
+            0 => Ok(self.0.increments()),
+            open => Err(PyValueError::new_err(format!(
+                "the increments of {open} of {} branches are chosen when the path is solved; \
+                 len(path.branches) is the number of branches",
+                branches.len()
+            ))),
+        }
+    }
+
+    #[expect(clippy::unused_self, reason = "Python passes it")]
+    fn __bool__(&self) -> bool {
+        true
     }
 
     pub(crate) fn __repr__(&self) -> String {
-        format!(
-            "LoadPath({} branches, {} increments)",
-            self.0.branches.len(),
-            self.0.increments()
-        )
+        let branches = &self.0.branches;
+        let given: usize = branches.iter().filter_map(|b| b.increments).sum();
+        let open = branches.iter().filter(|b| b.increments.is_none()).count();
+        let increments = match (given, open) {
+            (given, 0) => format!("{given} increments"),
+            (0, _) => "increments to be chosen".to_owned(),
+            (given, open) => format!("{given} increments, those of {open} branches to be chosen"),
+        };
+        format!("LoadPath({} branches, {increments})", branches.len())
     }
 }
