@@ -14,7 +14,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo figure-13 loads validation test stress path-errors error-bars kill memory fuzz deny check format bench bench-kernels bench-stress bench-peers clean
+.PHONY: help setup stub demo figure-13 loads validation test stress path-errors error-bars kill memory fuzz deny check format bench bench-kernels bench-stress bench-peers clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -73,7 +73,11 @@ check: setup ## formats, lints, types, spelling
 	$(BIN)/ruff check
 	$(BIN)/mypy
 	$(PY) -m mypy.stubtest pyfret._core
+	$(PY) tools/stub_docs.py --check
 	$(BIN)/typos
+
+stub: setup ## docstrings of the compiled module into its stub
+	$(PY) tools/stub_docs.py
 
 format: $(VENV)/.tools ## format all sources
 	cargo fmt --all

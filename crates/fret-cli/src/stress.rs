@@ -360,16 +360,20 @@ fn check_interfaces(body: &Body, probes: &[Probe]) -> Result<(), Error> {
     }
 }
 
-/// Says which layers are thinner than a cell: the tractions do not know them.
+/// Says if the first interface is nearer to the surface than a cell is long: the tractions are known per
+/// cell.
 fn say_thin(scene: &Scene, body: &Body) {
-    let cell = scene.grid.dx.min(scene.grid.dy);
-    for (n, coating) in body.coatings.iter().enumerate() {
-        if coating.thickness < cell {
-            say(&format!(
-                "fret: warning: coating {n} is {:.2} cells thick; a finer grid tells whether that matters",
-                coating.thickness / cell
-            ));
-        }
+    let cell = if scene.grid.plane_strain {
+        scene.grid.dx
+    } else {
+        scene.grid.dx.min(scene.grid.dy)
+    };
+    if let Some(first) = body.interfaces().first().filter(|first| **first < cell) {
+        say(&format!(
+            "fret: warning: the first interface is {first:.3e} m below the surface, {:.2} cells: the \
+             tractions are known per cell; a finer grid tells whether that matters",
+            first / cell
+        ));
     }
 }
 

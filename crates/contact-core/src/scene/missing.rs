@@ -26,7 +26,7 @@ impl Missing {
     }
 }
 
-/// The numbers without holes.
+/// The numbers without holes; the error says where the holes are.
 pub(super) fn completed(values: Array2<f64>, missing: Missing) -> Result<Array2<f64>, String> {
     let holes = values.iter().filter(|v| v.is_nan()).count();
     if holes == 0 {

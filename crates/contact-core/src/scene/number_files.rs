@@ -32,7 +32,7 @@ pub(super) fn read_npy(path: &Path) -> Result<Array2<f64>, String> {
         for number in bytes[begin..].chunks_exact_mut(size) {
             number.reverse();
         }
-        let order = header.find('>').unwrap_or_default();
+        let order = bytes.iter().position(|b| *b == b'>').unwrap_or_default();
         bytes[order] = b'<';
     }
     match kind.get(1..).unwrap_or_default() {

@@ -52,6 +52,18 @@ impl SurfaceMap {
         })
     }
 
+    /// Numbers on points with a `spacing` \[m\]; what becomes of those that are NaN, `missing` says.
+    pub fn new(values: Array2<f64>, spacing: (f64, f64), missing: Missing) -> Result<Self, Error> {
+        let values = completed(values, missing)
+            .map_err(|holes| Error::invalid("map", holes, "a number at every point"))?;
+        let map = Self {
+            values: Arc::new(values),
+            spacing,
+        };
+        map.check("map")?;
+        Ok(map)
+    }
+
     /// The number at (x, y), linear between the points, level beyond the border.
     pub(crate) fn at(&self, x: f64, y: f64) -> f64 {
         let (nx, ny) = self.values.dim();

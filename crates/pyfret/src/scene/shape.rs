@@ -1,7 +1,6 @@
 //! Shapes of the undeformed surfaces.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use contact_core::Error;
 use contact_core::scene as core;
@@ -322,6 +321,9 @@ impl Rough {
 ///     The numbers.
 /// spacing : float or (float, float)
 ///     Distance of the points along x and y [m]. In between they are interpolated linearly.
+/// missing : "refuse", "crop" or "fill"
+///     What becomes of points that are NaN: an error that says where they are; lines taken off the
+///     edges; the mean of the neighbours.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct SurfaceMap(pub(crate) core::SurfaceMap);
@@ -329,14 +331,12 @@ pub(crate) struct SurfaceMap(pub(crate) core::SurfaceMap);
 #[pymethods]
 impl SurfaceMap {
     #[new]
-    #[pyo3(signature = (values, *, spacing))]
-    fn new(values: Field<'_>, spacing: Pitch) -> PyResult<Self> {
-        let map = core::SurfaceMap {
-            values: Arc::new(values.as_array().to_owned()),
-            spacing: spacing.0,
-        };
-        map.check("map").map_err(to_python)?;
-        Ok(Self(map))
+    #[pyo3(signature = (values, *, spacing, missing = "refuse"))]
+    fn new(values: Field<'_>, spacing: Pitch, missing: &str) -> PyResult<Self> {
+        let values = values.as_array().to_owned();
+        core::SurfaceMap::new(values, spacing.0, word(missing)?)
+            .map(Self)
+            .map_err(to_python)
     }
 
     /// Read numbers from a ``.npy`` array or from a table of text, one line per x.
@@ -354,11 +354,7 @@ impl SurfaceMap {
     #[staticmethod]
     #[pyo3(signature = (path, *, spacing, missing = "refuse"))]
     fn from_file(path: PathBuf, spacing: Pitch, missing: &str) -> PyResult<Self> {
-        let missing = core::Missing::named(missing).ok_or_else(|| {
-            let allowed = "\"refuse\", \"crop\" or \"fill\"";
-            to_python(Error::invalid("missing", missing, allowed))
-        })?;
-        core::SurfaceMap::from_file(&path, spacing.0, missing)
+        core::SurfaceMap::from_file(&path, spacing.0, word(missing)?)
             .map(Self)
             .map_err(to_python)
     }
@@ -386,6 +382,14 @@ impl SurfaceMap {
             self.0.spacing
         )
     }
+}
+
+/// What becomes of points without a number.
+fn word(missing: &str) -> PyResult<core::Missing> {
+    core::Missing::named(missing).ok_or_else(|| {
+        let allowed = "\"refuse\", \"crop\" or \"fill\"";
+        to_python(Error::invalid("missing", missing, allowed))
+    })
 }
 
 /// Several shapes on top of one another, made by adding them.
