@@ -1,4 +1,4 @@
-"""An alumina ball on titanium with hard carbon on chromium, under a given shift: everything at once."""
+"""An alumina ball on titanium with hard carbon on chromium, under a given shift."""
 
 import matplotlib.pyplot as plt
 
@@ -12,7 +12,7 @@ flat = fret.Body(titanium, coatings=[dlc, chromium])
 hertz = fret.reference.hertz(R=5e-3, bodies=(ball, flat), W=10.0)
 grid = fret.Grid.centred(extent=2.4 * hertz.a, n=128)
 scene = fret.Scene(body1=ball, body2=flat, mu=0.15, grid=grid, title="DLC on titanium")
-path = fret.LoadPath.start().normal(10.0).cycles(1, delta_x=0.2e-6)
+path = fret.LoadPath.start().normal(10.0).cycles(1, delta_x=0.1e-6)
 result = fret.solve(scene, path)
 print(result.summary())  # states, energy per cycle, energy ratio, stiffness
 below = result.at(-1).stress()  # depths chosen from the layers

@@ -16,6 +16,7 @@ HARD = fret.Elastic(E=420e9, nu=0.25)
 A = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W).a
 GRID = fret.Grid.centred(extent=2.6 * A, n=16)
 PRESSED = fret.LoadPath.start().normal(W, increments=2)
+GENTLE = fret.LoadPath.start().normal(W / 5, increments=2).cycles(1, T_x=20.0, increments=6)
 SHEARED = PRESSED.cycles(1, T_x=0.7 * MU * W, increments=6)
 
 
@@ -48,8 +49,8 @@ SCENES = {
     "shift": scene(fret.Sphere(R), PRESSED.cycles(1, delta_x=4e-6, increments=6)),
     "along y": scene(fret.Sphere(R), PRESSED.cycles(1, T_y=0.5 * MU * W, increments=4)),
     "torsion": scene(fret.Sphere(R), PRESSED.cycles(1, phi_z=2e-3, increments=6)),
-    "ellipsoid": scene(fret.Ellipsoid(R_x=R, R_y=1.4 * R)),
-    "rough flat under a punch": scene(PUNCH + ROUGH),
+    "ellipsoid": scene(fret.Ellipsoid(R_x=0.8 * R, R_y=1.1 * R)),
+    "rough flat under a punch": scene(PUNCH + ROUGH, GENTLE),
     "line": scene(
         fret.Cylinder(R=R),
         fret.LoadPath.start().normal(LINE_LOAD, increments=1).cycles(1, T_x=1e4, increments=3),
@@ -100,8 +101,10 @@ def test_every_figure_is_drawn(result: fret.Result, units: fret.plot.Units) -> N
         fret.plot.stress_history(envelope, units=units),
         fret.plot.loop_evolution(result),
     ]
-    for ax in figures:
-        ax.get_figure().canvas.draw()
+    assert all(ax.has_data() or ax.images for ax in figures)
+    if units == "SI":
+        for ax in figures:
+            ax.get_figure().canvas.draw()
 
 
 def test_every_number_is_told(result: fret.Result) -> None:

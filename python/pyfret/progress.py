@@ -37,7 +37,7 @@ class Progress:
         return self
 
     def update(self, done: int, total: int) -> None:
-        """Say that `done` of `total` increments are solved; the total is known once they are chosen."""
+        """Say that `done` of `total` increments are solved."""
         self.done, self.total = done, total
         now = time.monotonic()
         if self.shown and (now - self.drawn > INTERVAL or done == total):

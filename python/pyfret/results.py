@@ -49,8 +49,8 @@ def yardstick(attrs: Mapping[Any, Any], name: str) -> float:
     """A Hertz yardstick of a run; a ValueError where there is no Hertz contact."""
     if name not in attrs:
         raise ValueError(
-            f"no {name}: these bodies have no Hertz contact (a flat, a punch or a rough surface, or "
-            "nothing that presses); lengths are measured by .length, stresses in Pa"
+            f"no {name}: these bodies have no Hertz contact (a flat, a punch, a rough surface, or "
+            "nothing presses); lengths are measured by .length, stresses in Pa"
         )
     return float(attrs[name])
 
@@ -540,6 +540,10 @@ class Result:
         """Columns of the summary: a title, then a cell per branch."""
         hertz = "a_H" in self.dataset.attrs
         radius = ("a/a_H", 1 / self.a_H) if hertz else ("a [um]", 1e6)
+        grid = self.scene.grid
+        if grid.plane_strain:
+            # Half the width of the strips that touch.
+            ends["contact_radius"] = ends.contact_area / (2 * grid.dy)
         pressure = ("p_max/p_H", 1 / self.p_H) if hertz else ("p_max [MPa]", 1e-6)
         numbers = [
             ("t", "t", 1.0),
@@ -553,8 +557,10 @@ class Result:
             ("dissipated [uJ]", "dissipated", 1e6),
         ]
         others = [("T_y [N]", "T_y", 1.0), ("delta_y [um]", "delta_y", 1e6)]
-        others += [("M_z [N m]", "M_z", 1.0), ("phi_z [urad]", "phi_z", 1e6)]
-        numbers[3:3] = [of for of in others if self._drives(of[1])]
+        torsion = [("M_z [N m]", "M_z", 1.0), ("phi_z [urad]", "phi_z", 1e6)]
+        for pair in (others, torsion):
+            if any(self._drives(name) for _, name, _ in pair):
+                numbers[3:3] = pair
         columns = [
             [title, *(f"{value:.5g}" for value in scale * ends[name].values)]
             for title, name, scale in numbers
@@ -568,7 +574,8 @@ class Result:
     def summary(self) -> str:
         """Tabulate what the run ended with: a line per branch, then one per cycle.
 
-        Lengths are over a_H and pressures over p_H where there is a Hertz contact, else in um and MPa.
+        Lengths are over a_H and pressures over p_H where there is a Hertz contact, else in um and
+        MPa; in plane strain a is half the width of the contact.
         """
         columns = self._columns(self.branches())
         widths = [max(len(cell) for cell in column) for column in columns]

@@ -145,8 +145,8 @@ class Stress:
         if missed:
             places = ", ".join(f"{depth:.4g}" for depth in missed)
             warnings.warn(
-                f"the interfaces at z = {places} m are not among the depths: the largest value may lie "
-                "there; leave z out, or add scene.interfaces()",
+                f"the interfaces at z = {places} m are not among the depths: the largest value may "
+                "lie there; leave z out, or add scene.interfaces()",
                 SceneWarning,
                 stacklevel=3,
             )

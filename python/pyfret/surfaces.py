@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from pyfret._core import SurfaceMap
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 #: Files of numbers alone, whose spacing has to be said.
 PLAIN = frozenset((".npy", ".csv", ".txt", ".dat", ".tsv", ".asc"))
@@ -60,7 +63,9 @@ def read_surface(
         message = 'reading instrument files needs SurfaceTopography: pip install "pyfret[surfaces]"'
         raise ImportError(message) from absent
     surface = read_topography(fspath(path)).to_unit("m").detrend(detrend)
-    heights = np.ma.filled(np.ma.asarray(surface.heights(), dtype=float), np.nan)
+    heights: NDArray[np.float64] = np.ma.filled(
+        np.ma.asarray(surface.heights(), dtype=float), np.nan
+    )
     x, y = surface.pixel_size
     pitch = (float(x), float(y))
     return SurfaceMap(np.ascontiguousarray(heights), spacing=pitch, missing=missing)

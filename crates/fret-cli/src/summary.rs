@@ -120,6 +120,12 @@ fn column(
 fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
     let Measures { radius, pressure } = Measures::of(scene);
     let micro = |x: f64| short(x * MICRO);
+    // In plane strain half the width of the strips that touch.
+    let width = if scene.grid.plane_strain {
+        ("half-\nwidth", Some(scene.grid.dy))
+    } else {
+        ("radius", None)
+    };
     let mut columns = vec![
         column("#", |b, _| (b.branch + 1).to_string()),
         column("t", |_, last| short(last.point.t)),
@@ -131,8 +137,11 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
         columns.push(column(title, move |b, _| short(b.loads.forces()[k])));
     }
     columns.extend([
-        column(format!("radius\n[{}]", radius.0), move |b, _| {
-            short(b.contact_radius / radius.1)
+        column(format!("{}\n[{}]", width.0, radius.0), move |b, last| {
+            let a = width
+                .1
+                .map_or(b.contact_radius, |dy| last.contact_area / (2.0 * dy));
+            short(a / radius.1)
         }),
         column("stick\nratio", |b, _| short(b.stick_ratio)),
         column("state", |_, last| state(last.status).replace(' ', "\n")),

@@ -11,7 +11,7 @@ create_exception!(
     pyfret,
     InvalidSceneError,
     PyValueError,
-    "A scene, or a scene file, has no meaning; the message names the key, the value and what is allowed."
+    "A scene, or a scene file, has no meaning; the message says where and what is allowed."
 );
 create_exception!(
     pyfret,
@@ -64,8 +64,8 @@ pub(crate) fn to_python(error: Error) -> PyErr {
     }
 }
 
-/// Refuses an argument of another type: what was found, and what is wanted, with an example. The name
-/// of the argument is put before it by PyO3.
+/// Refuses an argument of another type: what was found, and what is wanted, with an example. The
+/// name of the argument is put before it by PyO3.
 pub(crate) fn must_be(value: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
     let shown = value
         .repr()

@@ -78,8 +78,8 @@ fn watched(
 
 /// Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
 ///
-/// `on_increment` is called with the number of each increment solved and their number in all, which is
-/// known once they are chosen.
+/// `on_increment` is called with the number of each increment solved and their number in all,
+/// which is known once they are chosen.
 #[pyfunction]
 #[pyo3(signature = (scene, *, store, checkpoint = 5.0, error = false, on_increment = None))]
 pub(crate) fn solve(

@@ -77,7 +77,9 @@ pub(crate) fn principal<'py>(
     Ok((values.into_pyarray(py), directions.into_pyarray(py)))
 }
 
-/// Largest value on a section of stresses (6, depths, places): value, place, depth, layer, error.
+/// Largest value on a section of stresses (6, depths, places).
+///
+/// The value, its place, depth and layer, and the error that the distances of the depths leave.
 #[pyfunction]
 pub(crate) fn maximum(
     name: String,

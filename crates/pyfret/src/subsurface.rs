@@ -51,8 +51,10 @@ pub(crate) fn depths(body: Body, z: Vec<f64>) -> PyResult<(Vec<f64>, Vec<usize>)
     Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
 }
 
-/// Depths [m] with their layers that the layers of a body ask for, to the depth `deepest` [m] under a
-/// contact of the radius `a` [m]; `finer` times as many as the default.
+/// Depths [m] that the layers of a body ask for, with their layers.
+///
+/// They go to the depth `deepest` [m] under a contact of the radius `a` [m]; `finer` times as
+/// many as the default.
 #[pyfunction]
 #[pyo3(signature = (body, *, a, deepest, finer = 1.0))]
 pub(crate) fn chosen_depths(

@@ -31,7 +31,7 @@ def stretched(borders: NDArray[np.float64]) -> NDArray[np.float64]:
     thin = shares < least
     rest = 1.0 - least * np.count_nonzero(thin)
     shares = np.where(thin, least, rest * shares / max(shares[~thin].sum(), 1e-300))
-    return np.r_[0.0, np.cumsum(shares)]
+    return np.concatenate(([0.0], np.cumsum(shares)))
 
 
 def thin(borders: NDArray[np.float64]) -> bool:
@@ -46,12 +46,12 @@ def stretch(ax: Axes, borders: NDArray[np.float64], which: Literal["x", "y"]) ->
     span = borders[-1] - borders[0]
 
     def onward(z: NDArray[np.float64]) -> NDArray[np.float64]:
-        inside = np.interp(z, borders, places)
-        return inside + (np.minimum(z - borders[0], 0) + np.maximum(z - borders[-1], 0)) / span
+        beyond = np.minimum(z - borders[0], 0) + np.maximum(z - borders[-1], 0)
+        return np.asarray(np.interp(z, borders, places) + beyond / span)
 
     def back(place: NDArray[np.float64]) -> NDArray[np.float64]:
-        inside = np.interp(place, places, borders)
-        return inside + span * (np.minimum(place, 0) + np.maximum(place - 1, 0))
+        beyond = np.minimum(place, 0) + np.maximum(place - 1, 0)
+        return np.asarray(np.interp(place, places, borders) + span * beyond)
 
     set_scale = ax.set_yscale if which == "y" else ax.set_xscale
     set_scale("function", functions=(onward, back))

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from pyfret._core import LoadPath
 from pyfret.plot.scales import MICRO, Scale, Units, bears, scales
 from pyfret.plot.style import axes, styled
 
@@ -13,7 +14,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from pyfret._core import LoadPath
     from pyfret.results import Result
 
 Direction = Literal["x", "y", "torsion"]
@@ -98,7 +98,7 @@ def loop_scales(result: Result, units: Units, *, torsion: bool) -> tuple[Scale, 
 
 @styled
 def stick_ratio(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
-    r"""Stick area over contact area along the load path, over :math:`t/\tau`, the end of which is 1."""
+    r"""Stick area over contact area along the load path, over :math:`t/\tau`."""
     ax = axes(ax)
     t = result.dataset.t
     ax.plot(t / t[-1], result.stick_ratio, **line)
@@ -161,16 +161,16 @@ def histories(
     path: LoadPath | Result,
 ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
     """Path time, and what the path drives, from the unloaded state."""
-    branches = path.scene.path.branches if hasattr(path, "dataset") else path.branches
+    branches = path.branches if isinstance(path, LoadPath) else path.scene.path.branches
     names = [name for name in DRIVEN if any(getattr(b, name) for b in branches)]
-    if hasattr(path, "dataset"):
-        columns = {name: path.dataset[name].values for name in names}
-        t = path.dataset.t.values
-    else:
+    if isinstance(path, LoadPath):
         of = {name: [getattr(b, name) for b in branches] for name in names}
         columns = {
             name: np.array([np.nan if v is None else v for v in values], dtype=float)
             for name, values in of.items()
         }
         t = np.array([b.t for b in branches])
+    else:
+        columns = {name: path.dataset[name].values for name in names}
+        t = path.dataset.t.values
     return np.r_[0.0, t], {name: np.r_[0.0, values] for name, values in columns.items()}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from matplotlib import colormaps
 
+from pyfret.plot.histories import NAMES, driven
 from pyfret.plot.scales import Units, last_of, of_snapshot
 from pyfret.plot.style import axes, styled
 
@@ -63,7 +64,7 @@ def shear_profile(
     snapshot = last_of(shown)
     ax, by = axes(ax), of_snapshot(snapshot, units)
     cut = snapshot.along_x()
-    name = of or max(("q_x", "q_y"), key=lambda component: float(abs(cut[component]).max()))
+    name: str = of or max(("q_x", "q_y"), key=lambda component: float(abs(cut[component]).max()))
     ax.plot(cut.x / by.length.value, cut[name] / by.shear.value, **line)
     ax.set_xlabel(by.length.label("x"))
     ax.set_ylabel(by.shear.label(name))
@@ -109,11 +110,12 @@ MARKERS = ("o", "x", "s", "^")
 def load_states(result: Result) -> list[tuple[int, int]]:
     """Number the load states of the kept increments and count the visits of each.
 
-    Two increments share a state if they have the same forces, reached in the same direction, to
-    1e-6 of the largest force.
+    Two increments share a state if they have the same loads, reached in the same direction, to
+    1e-6 of the largest one.
     """
     d = result.dataset
-    scale = 1e-6 * result.W_max or 1.0
+    force, _, _, _ = NAMES[driven(result.scene.path)]
+    scales = {name: 1e-6 * float(abs(d[name]).max()) or 1.0 for name in ("W", force)}
     seen: list[tuple[float, ...]] = []
     counts: list[int] = []
     visits = []
@@ -121,8 +123,9 @@ def load_states(result: Result) -> list[tuple[int, int]]:
         i = int(increment) - 1
         before = max(i - 1, 0)
         here = d.isel(increment=i)
-        rise = float(here.T_x - d.T_x[before])
-        state = (round(float(here.W) / scale), round(float(here.T_x) / scale), np.sign(rise))
+        rise = float(here[force] - d[force][before])
+        loads = (round(float(here[name]) / scale) for name, scale in scales.items())
+        state = (*loads, np.sign(rise))
         if state not in seen:
             seen.append(state)
             counts.append(-1)

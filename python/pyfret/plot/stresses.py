@@ -52,7 +52,7 @@ def _scales(attrs: Mapping[Any, Any], units: Units, a_H: float | None, p_H: floa
 
 
 def _mark(ax: Axes, largest: Maximum, by: Scales, *, marker: str = "x") -> None:
-    """Mark a value at its place along the section and its depth."""
+    """Mark a value at its place along the section and its depth; one on the surface from above."""
     at = (largest.along / by.length.value, largest.z / by.length.value)
     ax.plot(*at, marker, color=MARK, mfc="none", ms=7, mew=1.6, clip_on=False, zorder=4)
     # Away from the border of the section, so that the number stays on it.
@@ -61,9 +61,9 @@ def _mark(ax: Axes, largest: Maximum, by: Scales, *, marker: str = "x") -> None:
     ax.annotate(
         f"{largest.value / by.stress.value:.4g}",
         at,
-        xytext=(-7 if on_the_right else 7, -11),
+        xytext=(0, 5) if at[1] == 0.0 else (-7 if on_the_right else 7, -11),
         textcoords="offset points",
-        ha="right" if on_the_right else "left",
+        ha="center" if at[1] == 0.0 else "right" if on_the_right else "left",
         color=MARK,
         fontsize=8,
         bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
@@ -71,6 +71,8 @@ def _mark(ax: Axes, largest: Maximum, by: Scales, *, marker: str = "x") -> None:
     )
 
 
+#: Length over depth of a section beyond which equal lengths leave it too low to be read.
+FLAT = 3.0
 #: Colour of largest values.
 MARK = "#D55E00"
 #: Light enough for black labels.
@@ -109,7 +111,8 @@ def section_map(
     maximum : Maximum, optional
         A largest value to mark by a cross with its value beside it.
     aspect : "equal" or "auto", optional
-        Whether lengths are the same in both directions (default: unless the depth is stretched).
+        Whether lengths are the same in both directions (default: unless the depth is stretched or
+        the section is much longer than deep).
     stretch : bool, optional
         Whether every layer gets room on the axis of depth, each on a scale of its own (default: if
         one is too thin to be seen).
@@ -146,13 +149,16 @@ def section_map(
     name = symbol if symbol is not None else SYMBOLS.get(str(values.name), str(values.name))
     if colorbar and image is not None:
         bar = ax.get_figure().colorbar(image, ax=ax, shrink=0.9, pad=0.02)  # type: ignore[union-attr]
-        bar.outline.set_visible(False)  # type: ignore[operator]
+        bar.outline.set_visible(False)
+        bar.set_label(by.stress.label(name))
+    else:
+        ax.set_title(by.stress.label(name))
     ax.set_xlabel(by.length.label(along))
     ax.set_ylabel(by.length.label("z"))
     ax.set_ylim(z[-1], z[0])
-    ax.set_aspect(aspect or ("auto" if stretch else "equal"))
+    flat = x[-1] - x[0] > FLAT * (z[-1] - z[0])
+    ax.set_aspect(aspect or ("auto" if stretch or flat else "equal"))
     ax.grid(visible=False)
-    ax.set_title(by.stress.label(name))
     return ax
 
 

@@ -8,8 +8,8 @@ use crate::error::{must_be, to_python};
 
 /// What a cell has been through.
 ///
-/// ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the cell has
-/// slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2].
+/// ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
+/// cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2].
 #[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum History {

@@ -13,8 +13,8 @@ use crate::error::{must_be, takes, to_python};
 
 /// How the increments of a branch are spaced.
 ///
-/// ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius of a
-/// paraboloid; natural for an indentation.
+/// ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
+/// of a paraboloid; natural for an indentation.
 #[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Spacing {
@@ -488,8 +488,9 @@ impl LoadPath {
     /// Parameters
     /// ----------
     /// delta_z, delta_x, delta_y : float or sequence of float, optional
-    ///     Approach and shifts [m]. One of all the motions may be a sequence: its values are visited
-    ///     in turn, and the increments shared out in proportion to the change, as `tangential` does.
+    ///     Approach and shifts [m]. One of all the motions may be a sequence: its values are
+    ///     visited in turn, and the increments shared out in proportion to the change, as
+    ///     `tangential` does.
     /// phi_x, phi_y, phi_z : float or sequence of float, optional
     ///     Tilts and rotation about z [rad].
     /// increments : int or "auto"
@@ -554,9 +555,10 @@ impl LoadPath {
         Ok(Self(path))
     }
 
-    /// Go through `n` cycles of one load or motion about zero, what is not named staying as it was.
+    /// Go through `n` cycles of one load or motion about zero.
     ///
-    /// The path goes to the amplitude, then `n` times to its opposite and back.
+    /// The path goes to the amplitude, then `n` times to its opposite and back; what is not named
+    /// stays as it was.
     ///
     /// Parameters
     /// ----------

@@ -8,8 +8,8 @@ use crate::error::to_python;
 
 /// Families of algorithms.
 ///
-/// ``FAST``: preconditioned solvers; sets and fields carried over and extrapolated. ``SPINU2020``: the
-/// paper's, plain conjugate gradients in both directions, plain alternation.
+/// ``FAST``: preconditioned solvers; sets and fields carried over and extrapolated.
+/// ``SPINU2020``: the paper's, plain conjugate gradients in both directions, plain alternation.
 #[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Preset {

@@ -344,13 +344,13 @@ impl SurfaceMap {
     /// Parameters
     /// ----------
     /// path : path
-    ///     An array of real or whole numbers of any size and byte order, or a table parted by commas,
-    ///     semicolons, tabs or blanks, with or without a line of titles.
+    ///     An array of real or whole numbers of any size and byte order, or a table parted by
+    ///     commas, semicolons, tabs or blanks, with or without a line of titles.
     /// spacing : float or (float, float)
     ///     Distance of the points, along x and y [m].
     /// missing : "refuse", "crop" or "fill"
-    ///     What becomes of points without a number (blank or NaN): an error that says where they are;
-    ///     lines taken off the edges; the mean of the neighbours.
+    ///     What becomes of points without a number (blank or NaN): an error that says where they
+    ///     are; lines taken off the edges; the mean of the neighbours.
     #[staticmethod]
     #[pyo3(signature = (path, *, spacing, missing = "refuse"))]
     fn from_file(path: PathBuf, spacing: Pitch, missing: &str) -> PyResult<Self> {

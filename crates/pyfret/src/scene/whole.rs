@@ -209,9 +209,10 @@ impl Scene {
         })
     }
 
-    /// The length that results of an increment of pressure `p` [Pa], shape (nx, ny), are measured in [m].
+    /// Length that results of an increment are measured in [m].
     ///
-    /// a_H, or where there is no Hertz contact half the longer side of the box around the contact.
+    /// That is a_H, or where there is no Hertz contact half the longer side of the box around the
+    /// cells under the pressure `p` [Pa], shape (nx, ny).
     fn length(&self, p: Field<'_>) -> f64 {
         self.0.length(&p.as_array().to_owned())
     }
