@@ -20,6 +20,7 @@ pub(crate) struct Options {
 /// Says what the scene means and what its solution needs.
 pub(crate) fn check(options: &Options) -> Result<(), Failure> {
     let scene = options.scene.read().map_err(Failure::BadInput)?;
+    scene.check_fit().map_err(Failure::BadInput)?;
     let plan = Plan::new(&scene);
     let lines = description(&scene, &plan);
     if options.json {

@@ -63,6 +63,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// Runs through the load path.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let scene = options.scene.read().map_err(Failure::BadInput)?;
+    scene.check_fit().map_err(Failure::BadInput)?;
     say_doubts(&scene);
     if options.error {
         coarsest(&scene).map_err(Failure::BadInput)?;

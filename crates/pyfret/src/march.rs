@@ -34,6 +34,7 @@ impl March {
 impl March {
     #[new]
     fn new(py: Python<'_>, scene: Scene) -> PyResult<Self> {
+        scene.0.check_fit().map_err(to_python)?;
         let stop = Arc::default();
         let march = interruptible(py, &stop, || core::March::until(&scene.0, &stop))?;
         Ok(Self {

@@ -90,6 +90,7 @@ pub(crate) fn solve(
     error: bool,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {
+    scene.0.check_fit().map_err(to_python)?;
     if error {
         coarsest(&scene.0).map_err(to_python)?;
     }

@@ -139,7 +139,8 @@ impl Scene {
     /// InvalidSceneError
     ///     With the key, the value and what is allowed.
     fn check(&self) -> PyResult<()> {
-        self.0.check().map_err(to_python)
+        self.0.check().map_err(to_python)?;
+        self.0.check_fit().map_err(to_python)
     }
 
     /// One line that names the scene.
