@@ -145,7 +145,7 @@ def test_the_example_of_a_real_coating_is_short_and_runs(
     script = (ROOT / "examples" / "dlc_on_titanium.py").read_text(encoding="utf-8")
     assert len(script.splitlines()) <= 25
     monkeypatch.chdir(tmp_path)
-    exec(compile(script.replace("n=128", "n=48"), "dlc_on_titanium.py", "exec"), {})
+    exec(compile(script.replace("n=128", "n=64"), "dlc_on_titanium.py", "exec"), {})
     plt.close("all")
     assert (tmp_path / "dlc_on_titanium.png").is_file()
     told = capsys.readouterr().out

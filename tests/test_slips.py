@@ -12,6 +12,7 @@ import pytest
 
 import pyfret as fret
 from conftest import R, W, pair, sphere_on_flat
+from pyfret.progress import Progress
 
 STEEL, _ = pair(0.3)
 BALL = fret.Body(STEEL, shape=fret.Sphere(R))
@@ -191,3 +192,22 @@ def test_a_scene_file_is_solved_by_its_name(tmp_path: Path) -> None:
         warnings.simplefilter("error")
         assert fret.solve(file, progress=False).scene.body2 == scene.body2
         assert next(iter(fret.march(file))).W == W
+
+
+def test_the_bar_of_a_run_never_runs_over() -> None:
+    bar = Progress(title="run", shown=False)
+    bar.update(78, 90)
+    assert "78/90" in bar.line(10.0)
+    assert "2 s left" in bar.line(10.0)
+    # An increment more than there should be.
+    bar.update(91, 90)
+    assert len(bar.line(1.0)) < 60
+    assert "91/91 1 s, 0 s left" in bar.line(1.0)
+
+
+def test_a_run_with_chosen_increments_knows_how_many_there_are(tmp_path: Path) -> None:
+    told: list[tuple[int, int]] = []
+    scene = sphere_on_flat(n=16).replace(path=fret.LoadPath.start().normal(W))
+    fret._core.solve(scene, store=tmp_path / "run.zarr", on_increment=lambda *at: told.append(at))
+    count = fret.open(tmp_path / "run.zarr").dataset.sizes["increment"]
+    assert told == [(n, count) for n in range(1, count + 1)]

@@ -98,3 +98,39 @@ pub(super) fn on_interfaces(depths: &[Depth]) -> Vec<bool> {
     let one = |n: usize| same(n, n + 1) || (n > 0 && same(n - 1, n));
     (0..depths.len()).map(one).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{chosen_depths, on_interfaces};
+    use crate::scene::{Body, Coating, Elastic, Shape};
+
+    #[test]
+    fn every_layer_has_its_depths_and_both_sides_of_its_borders() {
+        let material = Elastic { E: 2e11, nu: 0.3 };
+        let coatings = [3e-6, 2e-7, 4e-5].map(|thickness| Coating {
+            material,
+            thickness,
+        });
+        let body = Body {
+            coatings: coatings.to_vec(),
+            ..Body::homogeneous(material, Shape::Flat)
+        };
+        let (a, deepest) = (8e-5, 1.6e-4);
+        let depths = chosen_depths(&body, a, deepest, 1.0).expect("depths");
+        let of_layer = |n| depths.iter().filter(move |d| d.layer == n).map(|d| d.z);
+        for layer in 0..4 {
+            assert!(of_layer(layer).count() >= 5, "layer {layer}: {depths:?}");
+        }
+        for (n, z) in body.interfaces().into_iter().enumerate() {
+            assert_eq!(of_layer(n).last(), Some(z));
+            assert_eq!(of_layer(n + 1).next(), Some(z));
+        }
+        assert!(depths[0].z == 0.0 && depths.last().is_some_and(|d| d.z == deepest));
+        assert!(depths.windows(2).all(|d| d[0].z <= d[1].z) && depths.len() < 80);
+        assert_eq!(on_interfaces(&depths).iter().filter(|on| **on).count(), 6);
+        // Interfaces below the deepest are not looked at.
+        let shallow = chosen_depths(&body, a, 1e-6, 1.0).expect("depths");
+        assert!(shallow.iter().all(|d| d.layer == 0));
+        assert!(chosen_depths(&body, a, 0.0, 1.0).is_err());
+    }
+}

@@ -226,6 +226,45 @@ mod tests {
     }
 
     #[test]
+    fn its_error_is_what_half_of_the_depths_miss() {
+        let depths: Vec<Depth> = (0..=16)
+            .map(|k| Depth {
+                z: 0.25 * f64::from(k),
+                layer: 0,
+            })
+            .collect();
+        let field = |z: f64| (z - 1.6).powi(2) * (0.1 * z - 1.0);
+        let values = Array2::from_shape_fn((17, 6), |(k, i)| field(depths[k].z) - X[i].powi(2));
+        let m = maximum(&values, &depths, &X).expect("numbers");
+        let off = (m.value - field(1.6)).abs();
+        assert!(m.error > 0.0 && off < 1e-2, "{m:?}");
+        // One at a border is exact.
+        let at_border = Array2::from_shape_fn((17, 6), |(k, i)| depths[k].z - X[i].powi(2));
+        assert_eq!(
+            maximum(&at_border, &depths, &X).expect("numbers").error,
+            0.0
+        );
+    }
+
+    #[test]
+    fn what_lives_on_interfaces_is_looked_for_there_alone() {
+        let at = |z: f64, layer: usize| Depth { z, layer };
+        let depths = [at(0.0, 0), at(1.0, 0), at(1.0, 1), at(2.0, 1)];
+        let tops: Vec<_> = [9.0, 2.0, 3.0, 8.0]
+            .map(|value| {
+                Some(Top {
+                    value,
+                    place: [0.0],
+                    sample: [0],
+                })
+            })
+            .to_vec();
+        let m = maximum_on_interfaces(&tops, &depths).expect("an interface");
+        assert!(m.value == 3.0 && m.depth == at(1.0, 1), "{m:?}");
+        assert!(maximum_on_interfaces(&tops[..2], &depths[..2]).is_none());
+    }
+
+    #[test]
     fn finds_the_top_in_a_volume() {
         let y = [-1.0, -0.5, 0.0, 0.5, 1.0];
         let f = |x: f64, y: f64, z: f64| {
