@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from pyfret._core import Body, Grid, Scene
-    from pyfret.results import Snapshot
+    from pyfret.snapshot import Snapshot
 
 __all__ = ["Maximum", "Stress", "displacement", "envelope", "stress", "write_volume"]
 

@@ -7,6 +7,7 @@
 
 mod check;
 mod json;
+mod loads;
 mod new;
 mod progress;
 mod resume;

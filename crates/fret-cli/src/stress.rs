@@ -6,14 +6,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use contact_core::Error;
-use contact_core::convolution::Tractions;
 use contact_core::fields::{
     Depth, Line, Maximum, Probe, Section, Side, Slices, chosen_depths, depths,
 };
 use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volume};
 use contact_core::scene::{Body, Scene};
-use ndarray::{Array2, Axis};
+use ndarray::Axis;
 
+use crate::loads::Loads;
 use crate::{Failure, print, say};
 
 /// Options of `fret stress`.
@@ -26,10 +26,10 @@ pub(crate) struct Options {
     out: Option<PathBuf>,
     /// Increment whose fields were kept; by default the last
     #[arg(long, value_name = "N")]
-    increment: Option<usize>,
+    pub(crate) increment: Option<usize>,
     /// Body below (2) or above (1) the contact plane
     #[arg(long, default_value = "2", value_parser = clap::value_parser!(u8).range(1..=2))]
-    body: u8,
+    pub(crate) body: u8,
     /// Section along x at this y, in metres
     #[arg(long, value_name = "Y", allow_hyphen_values = true, conflicts_with_all = ["along_y", "volume"])]
     along_x: Option<f64>,
@@ -49,7 +49,7 @@ pub(crate) struct Options {
     json: bool,
     /// Leave out the bulk stress of the body
     #[arg(long)]
-    no_bulk: bool,
+    pub(crate) no_bulk: bool,
     /// Tractions constant on each cell up to the rim of the contact and the stick zone
     #[arg(long)]
     no_rim: bool,
@@ -70,17 +70,6 @@ pub(crate) struct Options {
         default_value = "von_mises"
     )]
     of: Vec<String>,
-}
-
-/// The tractions of one increment.
-struct Loads {
-    increment: usize,
-    q_x: Array2<f64>,
-    q_y: Array2<f64>,
-    p: Array2<f64>,
-    stick: Array2<bool>,
-    /// Bulk stress of the body in Pa.
-    sigma_B: f64,
 }
 
 /// What is to be computed.
@@ -374,66 +363,6 @@ fn say_thin(scene: &Scene, body: &Body) {
              tractions are known per cell; a finer grid tells whether that matters",
             first / cell
         ));
-    }
-}
-
-impl Loads {
-    /// Of the increment asked for, or of the last one kept.
-    fn of(store: &Store, options: &Options) -> Result<Self, Error> {
-        let increment = options.increment;
-        let kept: Vec<usize> = store
-            .column("saved_increment")?
-            .into_iter()
-            .map(|v| v as usize)
-            .collect();
-        let place = match increment {
-            None => kept.len().checked_sub(1),
-            Some(n) => kept.iter().position(|k| *k == n),
-        };
-        let Some(place) = place else {
-            let found = increment.map_or("nothing".into(), |n| n.to_string());
-            return Err(Error::invalid(
-                "--increment",
-                found,
-                format!("one whose fields were kept: {kept:?}"),
-            ));
-        };
-        let sigma_B = if options.no_bulk {
-            0.0
-        } else {
-            let name = if options.body == 1 {
-                "sigma_B1"
-            } else {
-                "sigma_B"
-            };
-            // Rows are increments from 1.
-            let row = kept[place].wrapping_sub(1);
-            let stress = store.column(name)?.get(row).copied();
-            stress.ok_or_else(|| {
-                let allowed = "one of the increments of the store";
-                Error::invalid("saved_increment", kept[place], allowed)
-            })?
-        };
-        Ok(Self {
-            increment: kept[place],
-            sigma_B,
-            q_x: store.field("q_x", place)?,
-            q_y: store.field("q_y", place)?,
-            p: store.field("p", place)?,
-            stick: store.field("stick", place)?.mapv(|v| v != 0.0),
-        })
-    }
-
-    fn tractions(&self) -> Tractions<'_> {
-        Tractions {
-            q_x: self.q_x.as_slice(),
-            q_y: self.q_y.as_slice(),
-            p: self.p.as_slice(),
-        }
-    }
-
-    fn stick(&self) -> [&[bool]; 1] {
-        [self.stick.as_slice().unwrap_or_default()]
     }
 }
 

@@ -1,20 +1,24 @@
 //! WHAT is in contact, as the user writes it: one file per part of the scene.
 
 mod body;
+mod branch;
 mod friction;
 mod grid;
 mod load_path;
 mod material;
+mod path_arguments;
 mod profile;
 mod settings;
 mod shape;
 mod whole;
 
 pub(crate) use body::{Body, Coating};
+pub(crate) use branch::{Branch, Spacing};
 pub(crate) use friction::{AnyFriction, Friction, History};
 pub(crate) use grid::{Grid, Pitch};
-pub(crate) use load_path::{Branch, LoadPath, PerRange, Spacing};
+pub(crate) use load_path::LoadPath;
 pub(crate) use material::{Elastic, Material};
+pub(crate) use path_arguments::PerRange;
 pub(crate) use profile::{Profile, graded};
 pub(crate) use settings::{FrequencyDomain, Hankel, InverseFft, Preset, Save, Settings, Skip};
 pub(crate) use shape::{

@@ -1,0 +1,186 @@
+//! One straight piece of the load history.
+
+use contact_core::scene as core;
+use pyo3::prelude::*;
+
+/// How the increments of a branch are spaced.
+///
+/// ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
+/// of a paraboloid; natural for an indentation.
+#[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Spacing {
+    #[pyo3(name = "UNIFORM")]
+    Uniform,
+    #[pyo3(name = "EQUAL_RADIUS")]
+    EqualRadius,
+}
+
+impl From<Spacing> for core::Spacing {
+    fn from(spacing: Spacing) -> Self {
+        match spacing {
+            Spacing::Uniform => Self::Uniform,
+            Spacing::EqualRadius => Self::EqualRadius,
+        }
+    }
+}
+
+impl From<core::Spacing> for Spacing {
+    fn from(spacing: core::Spacing) -> Self {
+        match spacing {
+            core::Spacing::Uniform => Self::Uniform,
+            core::Spacing::EqualRadius => Self::EqualRadius,
+        }
+    }
+}
+
+/// One straight piece of a load history.
+#[pyclass(frozen, eq, module = "pyfret")]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct Branch(pub(super) core::Branch);
+
+impl Branch {
+    /// A load, `None` where the motion is given instead.
+    fn load(&self, k: usize) -> Option<f64> {
+        let free = self.0.to.given.motions()[k].is_none();
+        free.then(|| self.0.to.forces()[k])
+    }
+}
+
+#[pymethods]
+impl Branch {
+    /// Normal force at its end [N]; None where the approach is given.
+    #[getter]
+    fn W(&self) -> Option<f64> {
+        self.load(0)
+    }
+
+    /// Tilting moment about x at its end [N m]; None where the tilt is given.
+    #[getter]
+    fn M_x(&self) -> Option<f64> {
+        self.load(1)
+    }
+
+    /// Tilting moment about y at its end [N m]; None where the tilt is given.
+    #[getter]
+    fn M_y(&self) -> Option<f64> {
+        self.load(2)
+    }
+
+    /// Tangential force along x on body 2 at its end [N]; None where the shift is given.
+    #[getter]
+    fn T_x(&self) -> Option<f64> {
+        self.load(3)
+    }
+
+    /// Tangential force along y on body 2 at its end [N]; None where the shift is given.
+    #[getter]
+    fn T_y(&self) -> Option<f64> {
+        self.load(4)
+    }
+
+    /// Torsional moment on body 2 at its end [N m]; None where the rotation is given.
+    #[getter]
+    fn M_z(&self) -> Option<f64> {
+        self.load(5)
+    }
+
+    /// Approach at its end [m]; None where W is given.
+    #[getter]
+    fn delta_z(&self) -> Option<f64> {
+        self.0.to.given.delta_z
+    }
+
+    /// Shift along x at its end [m]; None where T_x is given.
+    #[getter]
+    fn delta_x(&self) -> Option<f64> {
+        self.0.to.given.delta_x
+    }
+
+    /// Shift along y at its end [m]; None where T_y is given.
+    #[getter]
+    fn delta_y(&self) -> Option<f64> {
+        self.0.to.given.delta_y
+    }
+
+    /// Tilt about x at its end [rad]; None where M_x is given.
+    #[getter]
+    fn phi_x(&self) -> Option<f64> {
+        self.0.to.given.phi_x
+    }
+
+    /// Tilt about y at its end [rad]; None where M_y is given.
+    #[getter]
+    fn phi_y(&self) -> Option<f64> {
+        self.0.to.given.phi_y
+    }
+
+    /// Rotation about z at its end [rad]; None where M_z is given.
+    #[getter]
+    fn phi_z(&self) -> Option<f64> {
+        self.0.to.given.phi_z
+    }
+
+    /// Bulk stress along x in body 2 at its end [Pa].
+    #[getter]
+    fn sigma_B(&self) -> f64 {
+        self.0.to.sigma_B
+    }
+
+    /// Bulk stress along x in body 1 at its end [Pa].
+    #[getter]
+    fn sigma_B1(&self) -> f64 {
+        self.0.to.sigma_B1
+    }
+
+    /// Way that the contact has rolled along x at its end [m].
+    #[getter]
+    fn rolled(&self) -> f64 {
+        self.0.to.rolled
+    }
+
+    /// Number of increments; None: as many as the path tolerance asks for.
+    #[getter]
+    fn increments(&self) -> Option<usize> {
+        self.0.increments
+    }
+
+    /// Estimated error that the increments leave in the shear, over the largest shear.
+    #[getter]
+    fn path_error(&self) -> Option<f64> {
+        self.0.path_error
+    }
+
+    /// How the increments are spaced.
+    #[getter]
+    fn spacing(&self) -> Spacing {
+        self.0.spacing.into()
+    }
+
+    /// Path time at its end.
+    #[getter]
+    fn t(&self) -> f64 {
+        self.0.t_end
+    }
+
+    fn __repr__(&self) -> String {
+        let given = self.0.to.given.motions();
+        let parts = (0..6).filter_map(|k| match (self.load(k), given[k]) {
+            (Some(load), _) if load != 0.0 || k == 0 => {
+                Some(format!("{}={load:?}", core::LOADS[k]))
+            }
+            (None, Some(motion)) if motion != 0.0 || k % 3 == 0 => {
+                Some(format!("{}={motion:?}", core::MOTIONS[k]))
+            }
+            _ => None,
+        });
+        format!(
+            "Branch({}, increments={}, t={:?})",
+            parts.collect::<Vec<_>>().join(", "),
+            self.0
+                .increments
+                .map_or_else(|| "\"auto\"".to_owned(), |n| n.to_string()),
+            self.0.t_end
+        )
+    }
+}
