@@ -65,7 +65,7 @@ kill: ## a hundred kills of a running solve, and what checkpoints cost; the numb
 	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package fret-cli --test kill -- --nocapture --test-threads=1
 
-check: setup ## formats, lints, types, spelling
+check: setup ## formats, lints, types, spelling, circles of imports
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
@@ -75,6 +75,7 @@ check: setup ## formats, lints, types, spelling
 	$(PY) -m mypy.stubtest pyfret._core
 	$(PY) tools/stub_docs.py --check
 	$(BIN)/typos
+	$(PY) tools/acyclic.py
 
 stub: setup ## docstrings of the compiled module into its stub
 	$(PY) tools/stub_docs.py

@@ -11,6 +11,8 @@ import pyfret as fret
 ROOT = Path(__file__).parents[1]
 
 R, W, MU = 0.018, 1e3, 0.3
+# Relative tolerance of the solutions, what the bounds of the tests are multiples of.
+TOLERANCE = 1e-6
 T_MAX = 0.9 * MU * W
 
 
@@ -49,7 +51,9 @@ def coated() -> fret.Result:
     """The paper's scene with E1/E2 = 2 on a coarse grid, every tenth of the history kept."""
     path = paper_path()
     kept = [int(i) + 1 for i in range(len(path)) if abs(path.t[i] * 10 % 1) < 1e-9]
-    return fret.solve(sphere_on_flat(ratio=2.0), path, save=kept, progress=False)
+    settings = fret.Settings(tolerance=TOLERANCE)
+    scene = sphere_on_flat(ratio=2.0).replace(settings=settings)
+    return fret.solve(scene, path, save=kept, progress=False)
 
 
 @pytest.fixture(scope="session")

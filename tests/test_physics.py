@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import MU, W, paper_path, sphere_on_flat
+from conftest import MU, TOLERANCE, W, paper_path, sphere_on_flat
 
 
 def test_forces_balance(coated: fret.Result) -> None:
@@ -29,8 +29,11 @@ def test_complementarity_and_coulomb(coated: fret.Result) -> None:
     assert (p >= 0).all()
     assert (p[contact] > 0).all()
     assert (p[~contact] == 0).all()
-    assert (gap[~contact] >= -1e-5 * coated.delta_H).all()
-    assert np.abs(gap[contact]).max() < 1e-4 * coated.delta_H
+    # Overlap is bounded in every cell, up to the rounding of u_z; the gap in the root mean square over the
+    # contact, and one cell may hold all of it.
+    assert (gap[~contact] >= -1.001 * TOLERANCE * coated.delta_H).all()
+    most = np.sqrt(contact.sum(axis=(1, 2)).max())
+    assert np.abs(gap[contact]).max() < most * TOLERANCE * coated.delta_H
     assert (q <= MU * p * (1 + 1e-9)).all()
     np.testing.assert_allclose(q[slip], MU * p[slip], rtol=1e-9)
 
@@ -43,16 +46,16 @@ def test_every_reversal_starts_in_full_stick(coated: fret.Result) -> None:
 
 def test_friction_only_takes_energy(coated: fret.Result) -> None:
     taken = coated.dissipated_energy.values
-    # Slip along the shear is within the solver's tolerance, 1e-6.
-    assert np.diff(taken, prepend=0.0).min() >= -1e-6 * taken[-1]
+    # Slip along the shear is within the solver's tolerance.
+    assert np.diff(taken, prepend=0.0).min() >= -TOLERANCE * taken[-1]
 
 
 def test_energy_balances(coated: fret.Result) -> None:
     d = coated.dataset
     imbalance = (d.work - d.elastic - d.dissipated - d.opening + d.quadrature).values
     total = np.cumsum(np.abs(d.work.values))
-    # Ten times the solver's tolerance, as the identity is algebra.
-    assert np.abs(imbalance[1:] / total[1:]).max() < 1e-4
+    # The identity is algebra: what the gaps and slips within the tolerance take is left.
+    assert np.abs(imbalance[1:] / total[1:]).max() < TOLERANCE
 
 
 def test_both_loops_are_the_same_within_a_hundredth(coated: fret.Result) -> None:
@@ -75,10 +78,12 @@ def test_the_stick_zone_moves_against_x_below_a_soft_coating(ratio: float, sign:
 
 
 def test_answers_do_not_depend_on_the_mirror(coated: fret.Result) -> None:
-    settings = fret.Settings(skip=fret.Skip(mirror=False))
+    settings = fret.Settings(tolerance=TOLERANCE, skip=fret.Skip(mirror=False))
     scene = coated.scene.replace(settings=settings)
     whole = fret.solve(scene, progress=False)
-    np.testing.assert_allclose(whole.at(-1).q_x, coated.at(-1).q_x, atol=1e-4 * MU * coated.p_H)
+    # Waves of a few cells make of a misfit a hundred times as much traction.
+    known = 100 * TOLERANCE * MU * coated.p_H
+    np.testing.assert_allclose(whole.at(-1).q_x, coated.at(-1).q_x, atol=known)
 
 
 def test_two_runs_are_the_same_bit_for_bit(coated: fret.Result) -> None:

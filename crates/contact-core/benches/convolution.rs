@@ -6,9 +6,10 @@ mod rig;
 use std::time::Instant;
 
 use contact_core::convolution::{
-    CirculantInverse, DcFft, Displacements, Mirror, SurfaceOperator, Tractions,
+    ApproximateInverse, CirculantInverse, DcFft, Displacements, SurfaceOperator, Tractions,
 };
 use contact_core::kernels::{InfluenceCoefficients, influence_coefficients};
+use contact_core::plan::Mirror;
 use contact_core::scene::{Body, Coating, Elastic, Grid, KernelSettings, Shape};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -26,7 +27,7 @@ fn coefficients(n: usize) -> InfluenceCoefficients {
         shape: Shape::Flat,
     };
     let grid = Grid::centred(1.2e-3, n).expect("a positive extent");
-    influence_coefficients(&body, &grid, &KernelSettings::default(), true).expect("a coating")
+    influence_coefficients(&body, &grid, &KernelSettings::default(), true, None).expect("a coating")
 }
 
 fn pool(threads: usize) -> ThreadPool {

@@ -47,7 +47,7 @@ fn surface(c: &mut Criterion) {
         group.bench_function(name, |b| {
             b.iter(|| {
                 clear_cache();
-                influence_coefficients(black_box(&body), &grid, &settings, true)
+                influence_coefficients(black_box(&body), &grid, &settings, true, None)
             });
         });
     }
@@ -64,7 +64,7 @@ fn surface(c: &mut Criterion) {
         group.bench_function(name, |b| {
             b.iter(|| {
                 clear_cache();
-                influence_coefficients(black_box(&body), &grid, &settings, true)
+                influence_coefficients(black_box(&body), &grid, &settings, true, None)
             });
         });
     }
@@ -80,7 +80,7 @@ fn stress(c: &mut Criterion) {
     ] {
         let (body, grid) = (body(1), grid(256));
         group.bench_function(name, |b| {
-            b.iter(|| stress_coefficients(black_box(&body), &grid, z, None));
+            b.iter(|| stress_coefficients(black_box(&body), &grid, z, None, None));
         });
     }
     group.finish();

@@ -6,8 +6,9 @@
 
 use std::time::{Duration, Instant};
 
-use contact_core::convolution::{DcFft, Displacements, Mirror, SurfaceOperator, Tractions};
+use contact_core::convolution::{DcFft, Displacements, SurfaceOperator, Tractions};
 use contact_core::kernels::influence_coefficients;
+use contact_core::plan::Mirror;
 use contact_core::scene::{Body, Coating, Elastic, Grid, KernelSettings, Shape};
 use rayon::ThreadPoolBuilder;
 
@@ -58,7 +59,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for argument in std::env::args().skip(1) {
         let n = argument.parse()?;
         let grid = Grid::centred(1.2e-3, n)?;
-        let coefficients = influence_coefficients(&body, &grid, &KernelSettings::default(), true)?;
+        let coefficients =
+            influence_coefficients(&body, &grid, &KernelSettings::default(), true, None)?;
         for threads in [1, 2] {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
             let seconds = pool.install(|| {

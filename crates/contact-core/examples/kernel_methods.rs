@@ -11,9 +11,10 @@ use std::time::Instant;
 
 use contact_core::Error;
 use contact_core::convolution::{
-    DcFft, Displacements, FrequencyDomain, Mirror, SurfaceOperator, Tractions,
+    DcFft, Displacements, FrequencyDomain, SurfaceOperator, Tractions,
 };
 use contact_core::kernels::{InfluenceCoefficients, clear_cache, influence_coefficients};
+use contact_core::plan::Mirror;
 use contact_core::scene::{Body, Coating, Elastic, Grid, KernelMethod, KernelSettings, Shape};
 
 /// Runs of which the shortest counts.
@@ -49,13 +50,15 @@ fn main() -> Result<(), Error> {
         for _ in 0..REPEATS {
             clear_cache();
             let start = Instant::now();
-            result = Some(influence_coefficients(&coated, &grid, &settings, true)?);
+            result = Some(influence_coefficients(
+                &coated, &grid, &settings, true, None,
+            )?);
             shortest = shortest.min(start.elapsed().as_secs_f64());
         }
         Ok((result.expect("repeated"), shortest))
     };
     let exact = coefficients(KernelMethod::Hankel)?.0;
-    let other = influence_coefficients(&indenter, &grid, &KernelSettings::default(), true)?;
+    let other = influence_coefficients(&indenter, &grid, &KernelSettings::default(), true, None)?;
 
     println!("method,lambda,aliases,kernel_s,convolution_s,error_self,error_far,error_largest");
     for method in methods {

@@ -12,14 +12,18 @@ mod stressed;
 
 use std::time::Instant;
 
-use contact_core::fields::{Line, Probe, Section, Side, Slices};
+use contact_core::fields::{Line, Probe, Section, Side, Slices, States};
 use contact_core::output::{ImageData, write_volume};
 
 const N: usize = 256;
 
 fn main() {
     let contact = stressed::coated(N);
-    let states = [contact.tractions()];
+    let tractions = [contact.tractions()];
+    let states = States {
+        stick: Some(&[]),
+        ..States::from(&tractions)
+    };
     let (body, grid) = (&contact.body, &contact.grid);
     let depths = contact.depths(N);
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -27,8 +31,8 @@ fn main() {
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["plane"] => {
             let line = Line::AlongX(0.0);
-            let section = Section::new(body, Side::Body2, grid, line, &states).unwrap();
-            section.with_rim(&states, &[]).stress(&depths).unwrap();
+            let section = Section::new(body, Side::Body2, grid, line, states).unwrap();
+            section.stress(&depths).unwrap();
         }
         ["volume", file, ref names @ ..] => {
             let names = if names.is_empty() {
@@ -40,8 +44,7 @@ fn main() {
                 .iter()
                 .map(|name| Probe::named(name, "probe").unwrap())
                 .collect();
-            let slices = Slices::new(body, Side::Body2, grid, &states).unwrap();
-            let slices = slices.with_rim(&states, &[]);
+            let slices = Slices::new(body, Side::Body2, grid, states).unwrap();
             let image = ImageData::create(file, grid, Side::Body2, &depths, &of).unwrap();
             write_volume(&slices, &depths, &[], &of, &[&image]).unwrap();
             image.finish().unwrap();

@@ -11,6 +11,7 @@
 
 use std::time::Instant;
 
+use contact_core::estimate::choose_increments;
 use contact_core::march::{Increment, March, Observer, solve};
 use contact_core::{Error, Scene};
 use ndarray::Array2;
@@ -44,6 +45,7 @@ fn run(file: &str, settings: &[String], name: String) -> Result<Run, Error> {
     let scene = Scene::from_file(file, settings)?;
     let mut ends = Ends::default();
     let start = Instant::now();
+    let scene = choose_increments(&scene, &std::sync::Arc::default())?;
     let increments = solve(&scene, &mut ends)?;
     Ok(Run {
         settings: name,

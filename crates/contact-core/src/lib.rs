@@ -20,16 +20,21 @@
 
 #![forbid(unsafe_code)]
 
+pub mod cells;
 pub mod convolution;
 pub mod error;
+pub mod estimate;
 pub mod fields;
 pub mod kernels;
 pub mod march;
+pub mod memory;
 pub mod output;
+pub mod plan;
 pub mod reference;
 pub mod scene;
 pub mod solvers;
 mod stop;
+pub mod zones;
 
 pub use error::Error;
 pub use scene::Scene;

@@ -10,7 +10,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use contact_core::march::{Increment, March, Observer, choose_increments, error_bars, solve};
+use contact_core::estimate::{choose_increments, error_bars};
+use contact_core::march::{Increment, March, Observer, solve};
 use contact_core::output::{Resumed, Store, StoreWriter, resume};
 use contact_core::{Error, Scene};
 
@@ -85,7 +86,7 @@ fn ended(path: &Path, after: usize, dies: bool) {
 }
 
 fn taken_up(path: &Path) -> Resumed {
-    resume(path).unwrap().expect("a run that is not done")
+    resume(path, None).unwrap().expect("a run that is not done")
 }
 
 /// Goes on to the end, or to an increment before.
@@ -132,7 +133,7 @@ fn a_resumed_run_ends_with_the_same_bits_wherever_it_ended() {
                 again.is_ok(),
                 after == END - 1 && usize::midpoint(after, END) == after
             );
-            let all = match resume(&path).unwrap() {
+            let all = match resume(&path, None).unwrap() {
                 Some(run) => go_on(run, 0).unwrap(),
                 None => again.unwrap(),
             };
@@ -147,9 +148,9 @@ fn a_run_that_is_done_has_nothing_to_resume() {
     let path = free("done.zarr");
     let mut writer = StoreWriter::create(&path, false).unwrap();
     solve(&scene(), &mut writer).unwrap();
-    assert!(resume(&path).unwrap().is_none());
+    assert!(resume(&path, None).unwrap().is_none());
     assert!(!path.join("checkpoint").exists());
-    assert!(resume(free("nothing.zarr")).is_err());
+    assert!(resume(free("nothing.zarr"), None).is_err());
 }
 
 #[test]
@@ -197,7 +198,7 @@ fn what_was_saved_stays_while_the_run_catches_up() {
 /// The message of an error about a store that nothing was done to.
 fn refusal(path: &Path) -> String {
     let before = files(path);
-    let error = resume(path).err().unwrap().to_string();
+    let error = resume(path, None).err().unwrap().to_string();
     assert!(files(path) == before, "{error}");
     assert!(error.starts_with(&path.display().to_string()), "{error}");
     error
@@ -271,7 +272,7 @@ fn a_store_has_one_writer() {
     let path = free("one_writer.zarr");
     ended(&path, 5, false);
     let run = taken_up(&path);
-    let error = resume(&path).err().unwrap().to_string();
+    let error = resume(&path, None).err().unwrap().to_string();
     assert!(error.contains("by another process"), "{error}");
     let mut other = StoreWriter::create(&path, true).unwrap();
     let error = solve(&scene(), &mut other).unwrap_err().to_string();

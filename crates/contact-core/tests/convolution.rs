@@ -2,9 +2,10 @@
 //! prime and elongated, whole and halved by symmetry, with any part of the tractions.
 
 use contact_core::convolution::{
-    CirculantInverse, DcFft, Direct, Displacements, Half, Mirror, SurfaceOperator, Tractions,
+    ApproximateInverse, CirculantInverse, DcFft, Direct, Displacements, SurfaceOperator, Tractions,
 };
 use contact_core::kernels::InfluenceCoefficients;
+use contact_core::plan::{Half, Mirror};
 use ndarray::Array2;
 
 /// A reproducible sequence in (-1, 1).

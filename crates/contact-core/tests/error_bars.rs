@@ -10,9 +10,8 @@ mod splitmix;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use contact_core::march::{
-    Bar, BranchEnds, BranchSummary, ErrorBars, Tractions, error_bars, means, solve, summarise,
-};
+use contact_core::estimate::{Bar, BranchEnds, ErrorBars, error_bars, means};
+use contact_core::march::{BranchSummary, Tractions, solve, summarise};
 use contact_core::scene::Scene;
 use ndarray::Array2;
 use splitmix::Draw;
@@ -149,7 +148,7 @@ fn ratios(seed: u64) -> Option<Ratios> {
 }
 
 /// How many of these are honest, too small, and a line that says so.
-fn told(name: &str, ratios: &[f64]) -> (usize, String) {
+fn summary(name: &str, ratios: &[f64]) -> (usize, String) {
     let mut sorted = ratios.to_vec();
     sorted.sort_by(f64::total_cmp);
     let at = |part: f64| sorted[(part * (sorted.len() - 1) as f64).round() as usize];
@@ -200,7 +199,7 @@ fn error_bars_are_honest() {
     let mut honest_fields = [0; 2];
     for (k, name) in ["p, field", "q, field"].into_iter().enumerate() {
         let ratios: Vec<f64> = found.iter().map(|(fields, _)| fields[k]).collect();
-        let (honest, line) = told(name, &ratios);
+        let (honest, line) = summary(name, &ratios);
         honest_fields[k] = honest;
         lines.push(line);
     }
@@ -211,7 +210,7 @@ fn error_bars_are_honest() {
         if ratios.is_empty() {
             continue;
         }
-        let (honest, line) = told(name, &ratios);
+        let (honest, line) = summary(name, &ratios);
         lines.push(line);
         honest_numbers += honest;
         numbers += ratios.len();

@@ -47,7 +47,10 @@ fn an_increment_that_does_not_converge_is_solved_in_pieces() {
         assert!(piece.work.convolutions > whole.work.convolutions);
         done += piece.energy.work;
         let missing = piece.energy.imbalance();
-        assert!(missing.abs() < 1e-5 * done, "{missing:e} J of {done:e} J");
+        assert!(
+            missing.abs() < 10.0 * tight.tolerance() * done,
+            "{missing:e} J of {done:e} J"
+        );
     }
     // Pieces make a finer path, nearer to that of fine increments than the whole is.
     let finer = scene(&[

@@ -20,7 +20,7 @@ fn body(layers: &[(f64, f64, f64)], substrate: Elastic) -> Body {
 }
 
 fn coefficients(body: &Body, grid: &Grid) -> InfluenceCoefficients {
-    influence_coefficients(body, grid, &KernelSettings::default(), false).unwrap()
+    influence_coefficients(body, grid, &KernelSettings::default(), false, None).unwrap()
 }
 
 fn grid(n: (usize, usize), d: (f64, f64)) -> Grid {
@@ -192,7 +192,7 @@ fn an_impossible_tolerance_is_refused() {
         ..KernelSettings::default()
     };
     let grid = grid((8, 8), (1e-6, 1e-6));
-    let error = influence_coefficients(&stacks()[0], &grid, &settings, true).unwrap_err();
+    let error = influence_coefficients(&stacks()[0], &grid, &settings, true, None).unwrap_err();
     assert!(error.to_string().contains("estimated error"), "{error}");
 }
 

@@ -4,11 +4,12 @@
 #![allow(clippy::unwrap_used)]
 
 use contact_core::convolution::{
-    DcFft, Displacements, FrequencyDomain, Mirror, SurfaceOperator, Tractions,
+    DcFft, Displacements, FrequencyDomain, SurfaceOperator, Tractions,
 };
 use contact_core::kernels::{
     InfluenceCoefficients, Stack, clear_cache, convert, influence_coefficients,
 };
+use contact_core::plan::Mirror;
 use contact_core::scene::{Body, Coating, Elastic, Grid, KernelMethod, KernelSettings, Shape};
 
 /// Of the benchmark: E1/E2 = 4, a coating of eight cells.
@@ -28,7 +29,7 @@ fn by(method: KernelMethod, body: &Body, grid: &Grid) -> InfluenceCoefficients {
         method,
         ..KernelSettings::default()
     };
-    influence_coefficients(body, grid, &settings, true).unwrap()
+    influence_coefficients(body, grid, &settings, true, None).unwrap()
 }
 
 fn inverse_fft(lambda: usize, aliases: usize, grid: &Grid) -> InfluenceCoefficients {
@@ -193,7 +194,7 @@ fn a_homogeneous_body_is_not_converted() {
 
 /// What is kept is what is computed, and the settings are part of the key.
 #[test]
-fn kept_coefficients_are_those_computed() {
+fn cached_coefficients_are_those_computed() {
     let grid = square(24);
     let first = by(KernelMethod::Hankel, &coated(), &grid);
     let other = inverse_fft(2, 0, &grid);

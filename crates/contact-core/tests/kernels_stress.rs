@@ -46,7 +46,7 @@ fn coefficients_are_the_stress_at_the_offsets() {
         let grid = Grid::from_spacing((4, 5), d).unwrap();
         let z = number(entry, "x3");
         let layer = Some(whole(entry, "layer_index") as usize);
-        let c = stress_coefficients(&body, &grid, z, layer).unwrap();
+        let c = stress_coefficients(&body, &grid, z, layer, None).unwrap();
         for (i, j) in [
             (0_i32, 0_i32),
             (3, 2),

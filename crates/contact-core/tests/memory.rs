@@ -14,10 +14,11 @@ use std::sync::Arc;
 
 use cap::Cap;
 use contact_core::Scene;
+use contact_core::estimate::{BranchEnds, error_bars, finest};
 use contact_core::kernels::clear_cache;
-use contact_core::march::{BranchEnds, error_bars, finest, solve};
+use contact_core::march::solve;
 use contact_core::output::StoreWriter;
-use contact_core::scene::Plan;
+use contact_core::plan::Plan;
 
 #[global_allocator]
 static MEMORY: Cap<System> = Cap::new(System, usize::MAX);

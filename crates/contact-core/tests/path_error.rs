@@ -11,7 +11,8 @@ mod splitmix;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use contact_core::march::{March, choose_increments};
+use contact_core::estimate::choose_increments;
+use contact_core::march::March;
 use contact_core::scene::{LoadPath, Scene, Spacing};
 use ndarray::Array2;
 use splitmix::Draw;

@@ -2,9 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
-use contact_core::kernels::{KernelSet, Quadrant, influence_coefficients, pair_coefficients};
+use contact_core::kernels::{Quadrant, influence_coefficients, pair_coefficients};
 use contact_core::march::{Fields, Increment, March, Observer, solve};
-use contact_core::scene::{Plan, PlanLine};
+use contact_core::plan::KernelSet;
+use contact_core::plan::{Plan, PlanLine};
 use contact_core::{Error, Scene};
 use ndarray::Array2;
 
@@ -104,7 +105,7 @@ fn kernels_that_are_not_needed() {
         let bodies = (&scene.body1, &scene.body2);
         let pair = |set| {
             let kernel = &scene.settings.kernel;
-            pair_coefficients(bodies, &scene.grid, kernel, true, set).unwrap()
+            pair_coefficients(bodies, &scene.grid, kernel, true, set, None).unwrap()
         };
         let (some, all) = (pair(set), pair(KernelSet::All));
         let same = |some: &Quadrant, all: &Quadrant, needed: bool| {
@@ -129,9 +130,9 @@ fn kernels_of_the_same_body() {
     assert!(line(&alike, "coefficients").skipped);
     assert!(!line(&scene(&[&both[0]]), "coefficients").skipped);
     let (grid, kernel) = (&alike.grid, &alike.settings.kernel);
-    let of = |body| influence_coefficients(body, grid, kernel, true).unwrap();
+    let of = |body| influence_coefficients(body, grid, kernel, true, None).unwrap();
     let bodies = (&alike.body1, &alike.body2);
-    let once = pair_coefficients(bodies, grid, kernel, true, KernelSet::All).unwrap();
+    let once = pair_coefficients(bodies, grid, kernel, true, KernelSet::All, None).unwrap();
     assert_eq!(once, of(bodies.1).pair(&of(bodies.0)));
 }
 

@@ -2,7 +2,9 @@
 
 use clap::Args;
 use contact_core::Scene;
-use contact_core::scene::{Body, Elastic, Plan, available_memory};
+use contact_core::memory::available_memory;
+use contact_core::plan::Plan;
+use contact_core::scene::{Body, Elastic};
 use serde_json::{Map, Value, json};
 
 use crate::{Failure, SceneOptions, print, say_doubts};

@@ -2,7 +2,7 @@
 
 use contact_core::fields::{Cycle, Direction, LoopPoint, loops};
 use contact_core::march::{BranchSummary, Increment, summarise};
-use contact_core::scene::{LOADS, MOTIONS, Scene};
+use contact_core::scene::{RigidMotion, Scene};
 use serde_json::{Map, Value, json};
 
 use crate::summary::state;
@@ -40,9 +40,9 @@ fn branch(b: &BranchSummary, last: &Increment) -> Value {
     set("branch", json!(b.branch));
     set("t", json!(last.point.t));
     let (loads, motions) = (b.loads.forces(), b.motion.motions());
-    for k in 0..6 {
-        set(LOADS[k], json!(loads[k]));
-        set(MOTIONS[k], json!(motions[k]));
+    for of in RigidMotion::ALL {
+        set(of.load(), json!(loads[of.index()]));
+        set(of.name(), json!(motions[of.index()]));
     }
     set("contact_radius", json!(b.contact_radius));
     set("stick_ratio", json!(b.stick_ratio));
@@ -80,17 +80,17 @@ pub(crate) fn word(direction: Direction) -> &'static str {
 
 /// The cycles of the motions that the path drives.
 pub(crate) fn cycles(scene: &Scene, increments: &[Increment]) -> Vec<(Direction, Cycle)> {
-    let driven = |k: usize| {
+    let driven = |of: RigidMotion| {
         let mut ends = scene.path.branches.iter().map(|b| &b.to);
-        ends.any(|to| to.given.motions()[k].unwrap_or(to.forces()[k]) != 0.0)
+        ends.any(|to| to.prescribed(of).value() != 0.0)
     };
     [
-        (Direction::X, 3),
-        (Direction::Y, 4),
-        (Direction::Torsion, 5),
+        (Direction::X, RigidMotion::DeltaX),
+        (Direction::Y, RigidMotion::DeltaY),
+        (Direction::Torsion, RigidMotion::PhiZ),
     ]
     .into_iter()
-    .filter(|(_, k)| driven(*k))
+    .filter(|(_, of)| driven(*of))
     .flat_map(|(direction, _)| {
         let points: Vec<_> = increments
             .iter()

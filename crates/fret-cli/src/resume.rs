@@ -24,7 +24,7 @@ pub(crate) fn resume(options: &Options) -> Result<(), Failure> {
         march,
         writer,
         increments,
-    }) = take_up(&options.store).map_err(Failure::BadInput)?
+    }) = take_up(&options.store, None).map_err(Failure::BadInput)?
     else {
         say(&format!("fret: {} is done", options.store.display()));
         return Ok(());

@@ -6,9 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use contact_core::march::{
-    BranchEnds, Increment, March, Observer, choose_increments, coarsest, error_bars, solve,
-};
+use contact_core::estimate::{BranchEnds, choose_increments, coarsest, error_bars};
+use contact_core::march::{Increment, March, Observer, solve};
 use contact_core::output::{StoreWriter, write_error_bars};
 use contact_core::{Error, Scene};
 

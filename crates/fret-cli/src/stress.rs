@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use contact_core::Error;
+use contact_core::convolution::Tractions;
 use contact_core::fields::{
-    Depth, Line, Maximum, Probe, Section, Side, Slices, chosen_depths, depths,
+    Depth, Line, Maximum, Probe, Section, Side, Slices, States, chosen_depths, depths,
 };
 use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volume};
 use contact_core::scene::{Body, Scene};
@@ -214,6 +215,21 @@ impl Task {
         .map(Some)
     }
 
+    /// The increment's loads as the options have them taken.
+    fn states<'a>(
+        &'a self,
+        options: &Options,
+        tractions: &'a [Tractions<'a>],
+        stick: &'a [&'a [bool]],
+    ) -> States<'a> {
+        States {
+            tractions,
+            sigma_B: std::slice::from_ref(&self.loads.sigma_B),
+            stick: (!options.no_rim).then_some(stick),
+            stop: self.stop.clone(),
+        }
+    }
+
     fn section(&self, options: &Options, line: Line) -> Result<Vec<String>, Error> {
         let grid = &self.scene.grid;
         if is_image(options) {
@@ -221,12 +237,9 @@ impl Task {
             return Err(Error::invalid("--out", "a section", allowed));
         }
         let store = self.store(options, Some(line))?;
-        let states = [self.loads.tractions()];
-        let mut section = Section::until(self.body(), self.side, grid, line, &states, &self.stop)?
-            .with_bulk_stress(&[self.loads.sigma_B]);
-        if !options.no_rim {
-            section = section.with_rim(&states, &self.loads.stick());
-        }
+        let (tractions, stick) = ([self.loads.tractions()], self.loads.stick());
+        let states = self.states(options, &tractions, &stick);
+        let section = Section::new(self.body(), self.side, grid, line, states)?;
         let (axis, along): (_, Vec<f64>) = match line {
             Line::AlongX(_) => ("x", (0..grid.nx).map(|i| grid.x(i)).collect()),
             Line::AlongY(_) => ("y", (0..grid.ny).map(|j| grid.y(j)).collect()),
@@ -264,12 +277,9 @@ impl Task {
         let mut sinks: Vec<&dyn VolumeSink> = Vec::new();
         sinks.extend(image.as_ref().map(|i| i as &dyn VolumeSink));
         sinks.extend(store.as_ref().map(|s| s as &dyn VolumeSink));
-        let states = [self.loads.tractions()];
-        let mut slices = Slices::until(self.body(), self.side, grid, &states, &self.stop)?
-            .with_bulk_stress(&[self.loads.sigma_B]);
-        if !options.no_rim {
-            slices = slices.with_rim(&states, &self.loads.stick());
-        }
+        let (tractions, stick) = ([self.loads.tractions()], self.loads.stick());
+        let states = self.states(options, &tractions, &stick);
+        let slices = Slices::new(self.body(), self.side, grid, states)?;
         let largest = write_volume(&slices, &self.depths, &self.chosen, &self.probes, &sinks)?;
         image.map_or(Ok(()), ImageData::finish)?;
         store.map_or(Ok(()), StressStore::finish)?;

@@ -4,9 +4,10 @@ use std::time::Duration;
 
 use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
+use contact_core::estimate::{Bar, ErrorBars};
 use contact_core::fields::{Cycle, Direction};
-use contact_core::march::{Bar, BranchSummary, ErrorBars, Increment, Status, summarise};
-use contact_core::scene::{Branch, LOADS, MOTIONS};
+use contact_core::march::{BranchSummary, Increment, Status, summarise};
+use contact_core::scene::{Branch, RigidMotion};
 
 use crate::json;
 
@@ -70,11 +71,11 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
     let Measures { radius, pressure } = Measures::of(scene);
     let loads = branch.loads;
     let held = loads.given.motions();
-    let others = OTHERS.iter().fold(String::new(), |text, &(k, unit, _)| {
-        match (loads.forces()[k], held[k]) {
+    let others = OTHERS.iter().fold(String::new(), |text, of| {
+        match (loads.forces()[of.index()], held[of.index()]) {
             // What keeps the bodies from turning says little.
             (0.0, _) | (_, Some(0.0)) => text,
-            (load, _) => text + &format!(", {} = {} {unit}", LOADS[k], short(load)),
+            (load, _) => text + &format!(", {} = {} {}", of.load(), short(load), units(*of).0),
         }
     });
     format!(
@@ -93,13 +94,22 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
     )
 }
 
-/// Loads and motions that most paths leave at zero: place in [`LOADS`], units.
-const OTHERS: [(usize, &str, &str); 4] = [
-    (4, "N", "um"),
-    (1, "N m", "urad"),
-    (2, "N m", "urad"),
-    (5, "N m", "urad"),
+/// Motions that most paths leave at zero, and their loads.
+const OTHERS: [RigidMotion; 4] = [
+    RigidMotion::DeltaY,
+    RigidMotion::PhiX,
+    RigidMotion::PhiY,
+    RigidMotion::PhiZ,
 ];
+
+/// The units of a load and of its motion.
+fn units(of: RigidMotion) -> (&'static str, &'static str) {
+    if of.is_rotation() {
+        ("N m", "urad")
+    } else {
+        ("N", "um")
+    }
+}
 
 /// What a row of the table is made of: a branch, its last increment.
 type Row<'a> = (&'a BranchSummary, &'a Increment);
@@ -132,8 +142,9 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
         column("W\n[N]", |b, _| short(b.loads.W)),
         column("T_x\n[N]", |b, _| short(b.loads.T_x)),
     ];
-    for (k, unit, _) in driven(scene) {
-        let title = format!("{}\n[{unit}]", LOADS[k]);
+    for of in driven(scene) {
+        let title = format!("{}\n[{}]", of.load(), units(of).0);
+        let k = of.index();
         columns.push(column(title, move |b, _| short(b.loads.forces()[k])));
     }
     columns.extend([
@@ -151,8 +162,9 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
         column("delta_z\n[um]", move |b, _| micro(b.motion.delta_z)),
         column("delta_x\n[um]", move |b, _| micro(b.motion.delta_x)),
     ]);
-    for (k, _, unit) in driven(scene) {
-        let title = format!("{}\n[{unit}]", MOTIONS[k]);
+    for of in driven(scene) {
+        let title = format!("{}\n[{}]", of.name(), units(of).1);
+        let k = of.index();
         columns.push(column(title, move |b, _| micro(b.motion.motions()[k])));
     }
     columns.extend([
@@ -188,9 +200,9 @@ fn work_columns() -> [Column; 4] {
 }
 
 /// Those of [`OTHERS`] that the path drives.
-fn driven(scene: &Scene) -> impl Iterator<Item = (usize, &'static str, &'static str)> {
-    OTHERS.into_iter().filter(|&(k, ..)| {
-        let drives = |b: &Branch| b.to.given.motions()[k].unwrap_or(b.to.forces()[k]) != 0.0;
+fn driven(scene: &Scene) -> impl Iterator<Item = RigidMotion> {
+    OTHERS.into_iter().filter(|&of| {
+        let drives = |b: &Branch| b.to.prescribed(of).value() != 0.0;
         scene.path.branches.iter().any(drives)
     })
 }

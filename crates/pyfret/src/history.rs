@@ -74,7 +74,7 @@ impl Envelope {
         let stream = Stream::new(&body.0, side, &grid.0, line, depths, accumulate);
         let stream = stream.map_err(to_python)?;
         Ok(Self {
-            stream: Some(if rim { stream.with_rim() } else { stream }),
+            stream: Some(stream.rim(rim)),
             names: of,
             cycles,
             of_line: line.is_some(),

@@ -65,7 +65,7 @@ pub(crate) fn influence_coefficients(
     let shortcut = settings.skip.equal_layers;
     let stop = Arc::default();
     let matrix = interruptible(py, &stop, || {
-        core::influence_coefficients_until(&body.0, &grid.0, &settings.kernel, shortcut, &stop)
+        core::influence_coefficients(&body.0, &grid.0, &settings.kernel, shortcut, Some(&stop))
             .map(|coefficients| coefficients.matrix())
     })?;
     Ok(matrix.map_err(to_python)?.into_pyarray(py))
@@ -101,7 +101,7 @@ pub(crate) fn stress_coefficients(
 ) -> PyResult<Bound<'_, PyArray4<f64>>> {
     let stop = Arc::default();
     let matrix = interruptible(py, &stop, || {
-        core::stress_coefficients_until(&body.0, &grid.0, z, layer, &stop)
+        core::stress_coefficients(&body.0, &grid.0, z, layer, Some(&stop))
             .map(|coefficients| coefficients.matrix())
     })?;
     Ok(matrix.map_err(to_python)?.into_pyarray(py))

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use contact_core::estimate::choose_increments;
 use contact_core::march as core;
 use contact_core::output::{FIELDS, FieldView, Kind, SCALARS};
 use numpy::{AllowTypeChange, IntoPyArray, PyArray2, PyArrayLike2, ToPyArray};
@@ -36,7 +37,10 @@ impl March {
     fn new(py: Python<'_>, scene: Scene) -> PyResult<Self> {
         scene.0.check_fit().map_err(to_python)?;
         let stop = Arc::default();
-        let march = interruptible(py, &stop, || core::March::until(&scene.0, &stop))?;
+        let march = interruptible(py, &stop, || {
+            let scene = choose_increments(&scene.0, &stop)?;
+            core::March::until(&scene, &stop)
+        })?;
         Ok(Self {
             inner: Mutex::new(march.map_err(to_python)?),
         })
@@ -108,7 +112,7 @@ pub(crate) fn continued_pressure<'py>(
             "p: must be of the grid's shape {shape:?}"
         )));
     }
-    Ok(core::continued_pressure(&p, &grid.0).into_pyarray(py))
+    Ok(contact_core::zones::continued_pressure(&p, &grid.0).into_pyarray(py))
 }
 
 /// Units and meaning of every variable of a result, scalars and fields.

@@ -2,8 +2,9 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use contact_core::convolution::{DcFft, Displacements, Mirror, SurfaceOperator as _, Tractions};
-use contact_core::kernels::influence_coefficients_until;
+use contact_core::convolution::{DcFft, Displacements, SurfaceOperator as _, Tractions};
+use contact_core::kernels::influence_coefficients;
+use contact_core::plan::Mirror;
 use ndarray::{Array3, ArrayViewMut2, Axis};
 use numpy::{AllowTypeChange, PyArray3, PyArrayLike2, ToPyArray};
 use pyo3::exceptions::PyValueError;
@@ -46,7 +47,7 @@ impl SurfaceOperator {
         let settings = settings.unwrap_or_default().0;
         let (shortcut, stop) = (settings.skip.equal_layers, Arc::default());
         let of = |body: &Body| {
-            influence_coefficients_until(&body.0, &grid.0, &settings.kernel, shortcut, &stop)
+            influence_coefficients(&body.0, &grid.0, &settings.kernel, shortcut, Some(&stop))
         };
         let operator = interruptible(py, &stop, || {
             let pair = of(&body2)?.pair(&of(&body1)?);

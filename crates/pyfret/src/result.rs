@@ -6,7 +6,8 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use contact_core::Error;
-use contact_core::march::{BranchEnds, Increment, March, Observer, coarsest, error_bars};
+use contact_core::estimate::{BranchEnds, choose_increments, coarsest, error_bars};
+use contact_core::march::{Increment, March, Observer};
 use contact_core::output::{self, Resumed, StoreWriter};
 use pyo3::prelude::*;
 
@@ -100,9 +101,10 @@ pub(crate) fn solve(
     watched(py, writer, on_increment, |watch| {
         let stop = watch.stop().unwrap_or_default();
         let mut ends = BranchEnds::beside(watch);
-        let increments = contact_core::march::solve(&scene.0, &mut ends)?;
+        let scene = &choose_increments(&scene.0, &stop)?;
+        let increments = contact_core::march::solve(scene, &mut ends)?;
         if error {
-            let bars = error_bars(&scene.0, &increments, &ends.tractions, &stop)?;
+            let bars = error_bars(scene, &increments, &ends.tractions, &stop)?;
             output::write_error_bars(&store, &bars)?;
         }
         Ok(increments)
@@ -123,7 +125,7 @@ pub(crate) fn resume(
         march,
         writer,
         increments,
-    }) = interruptible(py, &stop, || output::resume_until(store, &stop))?.map_err(to_python)?
+    }) = interruptible(py, &stop, || output::resume(store, Some(&stop)))?.map_err(to_python)?
     else {
         return Ok(());
     };

@@ -8,6 +8,7 @@ use contact_core::convolution::Tractions;
 use contact_core::fields as core;
 use contact_core::fields::{Depth, Line, Side};
 use contact_core::output::{ImageData, StressStore, VolumeSink, write_volume};
+use contact_core::scene;
 use ndarray::Array2;
 use numpy::{AllowTypeChange, IntoPyArray, PyArray2, PyArray3, PyArrayLike2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -96,14 +97,25 @@ impl Subsurface {
         self.stick.iter().map(Vec::as_slice).collect()
     }
 
+    /// Does `work` under the state, which `stop` ends.
+    fn under<T>(
+        &self,
+        stop: &Arc<AtomicBool>,
+        work: impl FnOnce(&scene::Body, &scene::Grid, core::States<'_>) -> T,
+    ) -> T {
+        let (tractions, stick) = ([self.tractions()], self.stick());
+        let states = core::States {
+            tractions: &tractions,
+            sigma_B: &[self.sigma_B],
+            stick: self.rim.then_some(&stick[..]),
+            stop: stop.clone(),
+        };
+        work(&self.body.0, &self.grid.0, states)
+    }
+
     fn slices(&self, stop: &Arc<AtomicBool>) -> Result<core::Slices, contact_core::Error> {
-        let (body, grid, states) = (&self.body.0, &self.grid.0, [self.tractions()]);
-        let slices = core::Slices::until(body, self.side, grid, &states, stop)?
-            .with_bulk_stress(&[self.sigma_B]);
-        Ok(if self.rim {
-            slices.with_rim(&states, &self.stick())
-        } else {
-            slices
+        self.under(stop, |body, grid, states| {
+            core::Slices::new(body, self.side, grid, states)
         })
     }
 
@@ -172,12 +184,9 @@ impl Subsurface {
         let (depths, line) = (Self::depths(&z, &layer)?, line(x, y)?);
         let stop = Arc::default();
         let found = interruptible(py, &stop, || {
-            let (body, grid, states) = (&self.body.0, &self.grid.0, [self.tractions()]);
-            let mut section = core::Section::until(body, self.side, grid, line, &states, &stop)?
-                .with_bulk_stress(&[self.sigma_B]);
-            if self.rim {
-                section = section.with_rim(&states, &self.stick());
-            }
+            let section = self.under(&stop, |body, grid, states| {
+                core::Section::new(body, self.side, grid, line, states)
+            })?;
             if displacement {
                 section.displacement(&depths)
             } else {
@@ -222,12 +231,9 @@ impl Subsurface {
             .collect();
         let stop = Arc::default();
         let both = interruptible(py, &stop, || {
-            let (body, grid, states) = (&self.body.0, &self.grid.0, [self.tractions()]);
-            let mut points = core::Points::until(body, self.side, grid, &states, &stop)?
-                .with_bulk_stress(&[self.sigma_B]);
-            if self.rim {
-                points = points.with_rim(&states, &self.stick());
-            }
+            let points = self.under(&stop, |body, grid, states| {
+                core::Points::new(body, self.side, grid, states)
+            })?;
             Ok((points.stress(&places)?, points.displacement(&places)?))
         })?;
         let (stress, u) = both.map_err(to_python)?;

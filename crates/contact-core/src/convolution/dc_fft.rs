@@ -3,9 +3,10 @@
 use std::sync::atomic::AtomicBool;
 
 use super::good_size::good_size;
-use super::{Displacements, Mirror, Spectra, SpectralProduct, SurfaceOperator, Tractions};
+use super::{Displacements, Spectra, SpectralProduct, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, norm};
+use crate::plan::Mirror;
 use crate::stop::NOBODY;
 
 /// The DC-FFT operator: exact up to rounding for tractions that are constant on each cell.
@@ -16,7 +17,6 @@ pub struct DcFft {
     product: SpectralProduct<f64>,
     single: Option<SpectralProduct<f32>>,
     rounding: f64,
-    norm: f64,
     coupled: bool,
     self_coefficients: (f64, f64),
 }
@@ -66,7 +66,6 @@ impl DcFft {
             } else {
                 0.0
             },
-            norm: norm_of_shear(coefficients) * mirror.multiplicity().sqrt(),
             single: single.transpose()?,
             coupled: coupling,
             self_coefficients: coefficients.at_origin(),
@@ -78,12 +77,6 @@ impl DcFft {
 fn largest_norm(c: &InfluenceCoefficients) -> f64 {
     let kernels = [&c.xx, &c.yy, &c.zz, &c.xy, &c.xz, &c.yz];
     kernels.into_iter().map(norm).fold(0.0, f64::max)
-}
-
-/// The largest norm of what a cell under shear does in the plane \[m/Pa\].
-fn norm_of_shear(c: &InfluenceCoefficients) -> f64 {
-    let across = norm(&c.xy);
-    norm(&c.xx).hypot(across).max(norm(&c.yy).hypot(across))
 }
 
 impl SurfaceOperator for DcFft {
@@ -104,10 +97,6 @@ impl SurfaceOperator for DcFft {
 
     fn rounding(&self) -> f64 {
         self.rounding
-    }
-
-    fn norm(&self) -> f64 {
-        self.norm
     }
 
     fn transforms(&self) -> usize {

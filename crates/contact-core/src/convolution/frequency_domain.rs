@@ -9,9 +9,10 @@ use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-use super::{Displacements, Mirror, Spectra, SpectralProduct, SurfaceOperator, Tractions};
+use super::{Displacements, Spectra, SpectralProduct, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, SampledFrf, Stack};
+use crate::plan::Mirror;
 use crate::scene::{Body, Grid};
 use crate::stop::{NOBODY, unless};
 

@@ -11,7 +11,7 @@ mod frequency_domain;
 mod good_size;
 mod line_product;
 mod line_spectra;
-mod mirror;
+mod operator;
 mod precision;
 mod preconditioner;
 mod spectra;
@@ -22,7 +22,7 @@ pub use dc_fft::DcFft;
 pub use direct::Direct;
 pub use frequency_domain::FrequencyDomain;
 pub(crate) use good_size::good_size;
-pub use mirror::{Half, Mirror};
+pub(crate) use operator::{approximate_inverse, surface_operator};
 pub use preconditioner::CirculantInverse;
 pub(crate) use spectra::Spectra;
 pub(crate) use spectral_product::{PARALLEL_FROM, SpectralProduct};
@@ -75,12 +75,6 @@ pub trait SurfaceOperator: Send + Sync {
         0.0
     }
 
-    /// What shear moves the surfaces by in their plane at most, root of the sum of squares, over the sum of
-    /// the sizes of its components \[m/Pa\]; infinite where that is not known.
-    fn norm(&self) -> f64 {
-        f64::INFINITY
-    }
-
     /// Two-dimensional transforms done so far; a three-component convolution takes six.
     fn transforms(&self) -> usize;
 
@@ -89,4 +83,13 @@ pub trait SurfaceOperator: Send + Sync {
 
     /// The self coefficients C_xx(0,0) and C_zz(0,0) \[m/Pa\].
     fn self_coefficients(&self) -> (f64, f64);
+}
+
+/// An approximate inverse of the normal and of the tangential part of an operator: a preconditioner.
+pub trait ApproximateInverse: Send + Sync {
+    /// z ~ C_zz^-1 r.
+    fn normal(&mut self, r: &[f64], z: &mut [f64]);
+
+    /// z ~ C_tt^-1 r.
+    fn tangential(&mut self, r: [&[f64]; 2], z: [&mut [f64]; 2]);
 }

@@ -8,9 +8,10 @@
 use std::sync::atomic::AtomicBool;
 
 use super::good_size::good_size;
-use super::{Displacements, Mirror, Spectra, SpectralProduct, Tractions};
+use super::{ApproximateInverse, Displacements, Spectra, SpectralProduct, Tractions};
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, Quadrant};
+use crate::plan::Mirror;
 use crate::stop::{NOBODY, unless};
 
 /// Circulant inverse of the normal and of the tangential part of an operator.
@@ -60,8 +61,16 @@ impl CirculantInverse {
         Ok(Self { product })
     }
 
-    /// z ~ C_zz^-1 r.
-    pub fn normal(&mut self, r: &[f64], z: &mut [f64]) {
+    fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
+        match &mut self.product {
+            Product::Single(product) => product.apply(tractions, displacements),
+            Product::Double(product) => product.apply(tractions, displacements),
+        }
+    }
+}
+
+impl ApproximateInverse for CirculantInverse {
+    fn normal(&mut self, r: &[f64], z: &mut [f64]) {
         let tractions = Tractions {
             p: Some(r),
             ..Tractions::default()
@@ -73,8 +82,7 @@ impl CirculantInverse {
         self.apply(tractions, displacements);
     }
 
-    /// z ~ C_tt^-1 r.
-    pub fn tangential(&mut self, r: [&[f64]; 2], z: [&mut [f64]; 2]) {
+    fn tangential(&mut self, r: [&[f64]; 2], z: [&mut [f64]; 2]) {
         let [z_x, z_y] = z;
         let tractions = Tractions {
             q_x: Some(r[0]),
@@ -87,13 +95,6 @@ impl CirculantInverse {
             u_z: None,
         };
         self.apply(tractions, displacements);
-    }
-
-    fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
-        match &mut self.product {
-            Product::Single(product) => product.apply(tractions, displacements),
-            Product::Double(product) => product.apply(tractions, displacements),
-        }
     }
 }
 

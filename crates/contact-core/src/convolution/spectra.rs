@@ -6,9 +6,9 @@ use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use rustfft::num_complex::Complex64;
 
-use super::Half;
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, Quadrant};
+use crate::plan::Half;
 use crate::stop::unless;
 
 /// One real spectrum S, k_y-major, shape (period_y/2 + 1, period_x/2 + 1); the transform of the

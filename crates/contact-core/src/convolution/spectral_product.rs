@@ -18,8 +18,9 @@ use super::line_product::multiply;
 use super::line_spectra::LineSpectra;
 use super::precision::Precision;
 use super::y_transform::{ROWS, YScratch, YTransform};
-use super::{Displacements, Half, Mirror, Spectra, Tractions};
+use super::{Displacements, Spectra, Tractions};
 use crate::error::Error;
+use crate::plan::{Half, Mirror};
 
 /// Cells below which a second thread costs more than it brings.
 pub(crate) const PARALLEL_FROM: usize = 48 * 48;

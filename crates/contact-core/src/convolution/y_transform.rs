@@ -17,7 +17,7 @@ use rustfft::{Fft, FftPlanner};
 use super::complexes::Complexes;
 use super::line_spectra::LANES;
 use super::precision::Precision;
-use super::{Half, Mirror};
+use crate::plan::{Half, Mirror};
 
 /// Rows that travel together: eight complex numbers of single precision fill a cache line.
 pub(crate) const ROWS: usize = 8;

@@ -7,7 +7,7 @@
 //! turns into gross slip at an energy ratio of 0.2 and a sliding ratio of 0.26.
 
 use crate::march::{Increment, Status};
-use crate::scene::{Branch, LoadPath, Loads};
+use crate::scene::{Branch, LoadPath, Loads, Prescribed, RigidMotion};
 
 /// Loads that agree to this share of the largest are the same.
 const SAME: f64 = 1e-9;
@@ -72,16 +72,20 @@ pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
     let ends: Vec<Loads> = std::iter::once(Loads::default())
         .chain(path.branches.iter().map(|b| b.to))
         .collect();
-    // Largest load and largest motion that is given; moments and rotations have their own.
-    let is_turn = |k: usize| matches!(k, 1 | 2 | 5);
+    // Largest load and largest motion that is prescribed; moments and rotations have their own.
+    let kind = |of: RigidMotion, prescribed: Prescribed| {
+        (
+            usize::from(of.is_rotation()),
+            usize::from(prescribed.is_motion()),
+        )
+    };
     let mut largest = [[0.0_f64; 2]; 2];
     for end in &ends {
-        for (k, (force, motion)) in driven(end).enumerate() {
-            let [loads, motions] = &mut largest[usize::from(is_turn(k))];
-            match motion {
-                None => *loads = loads.max(force.abs()),
-                Some(motion) => *motions = motions.max(motion.abs()),
-            }
+        for of in RigidMotion::ALL {
+            let prescribed = end.prescribed(of);
+            let (rotation, motion) = kind(of, prescribed);
+            let largest = &mut largest[rotation][motion];
+            *largest = largest.max(prescribed.value().abs());
         }
     }
     let pulls = |l: &Loads| [l.sigma_B, l.sigma_B1];
@@ -92,13 +96,11 @@ pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
     let same = |a: &Loads, b: &Loads| {
         let (a_pulls, b_pulls) = (pulls(a), pulls(b));
         let pulled_alike = (0..2).all(|k| (a_pulls[k] - b_pulls[k]).abs() <= SAME * bulk);
-        let driven_alike = driven(a).zip(driven(b)).enumerate().all(|(k, (a, b))| {
-            let [loads, motions] = largest[usize::from(is_turn(k))];
-            match (a.1, b.1) {
-                (None, None) => (a.0 - b.0).abs() <= SAME * loads,
-                (Some(a), Some(b)) => (a - b).abs() <= SAME * motions,
-                _ => false,
-            }
+        let driven_alike = RigidMotion::ALL.into_iter().all(|of| {
+            let (a, b) = (a.prescribed(of), b.prescribed(of));
+            let (rotation, motion) = kind(of, a);
+            a.is_motion() == b.is_motion()
+                && (a.value() - b.value()).abs() <= SAME * largest[rotation][motion]
         });
         pulled_alike && driven_alike
     };
@@ -116,11 +118,6 @@ pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
         }
     }
     found
-}
-
-/// The six loads, each with the motion that is given instead.
-fn driven(loads: &Loads) -> impl Iterator<Item = (f64, Option<f64>)> {
-    loads.forces().into_iter().zip(loads.given.motions())
 }
 
 /// What a loop is made of, at the end of an increment.

@@ -11,8 +11,8 @@ use super::loads::{Plane, snapped};
 use super::{Depth, Side};
 use crate::convolution::Tractions;
 use crate::kernels::{Cell, DepthKernel, Quantity, Stress};
-use crate::march::Continued;
 use crate::scene::Grid;
+use crate::zones::Continued;
 
 /// Deepest samples, in cells.
 const DEEPEST: f64 = 6.0;

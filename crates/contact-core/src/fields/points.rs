@@ -1,104 +1,52 @@
 //! Single points, by summation over the loaded cells.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-use super::bulk::Bulk;
 use super::loads::{Loads, Plane, Source, snapped};
 use super::near_rim::NearRim;
-use super::{Depth, Side};
-use crate::convolution::Tractions;
+use super::states::Loaded;
+use super::{Depth, Side, States};
 use crate::error::Error;
-use crate::kernels::{Cell, DepthKernel, Displacement, Quantity, Stack, refuse_rigid};
+use crate::kernels::{Cell, DepthKernel, Displacement, Quantity};
 use crate::scene::{Body, Grid};
 use crate::stop::unless;
 
 /// Stress and displacement at single points; each costs one kernel value per loaded cell.
 pub struct Points {
-    body: Body,
-    stack: Stack,
-    grid: Grid,
-    side: Side,
+    loaded: Loaded,
     plane: Plane,
-    bulk: Bulk,
-    rim: Option<NearRim>,
     /// By state, for loads on cells and for point loads.
     loads: Vec<[Loads; 2]>,
-    stop: Arc<AtomicBool>,
 }
 
 /// A point: x, y \[m\] and the depth.
 pub type Point = (f64, f64, Depth);
 
 impl Points {
-    /// In the body `side` under each of the `states` of tractions, each field of shape (nx, ny) of
-    /// the grid.
-    pub fn new(
+    /// In the body `side` under each of the `states`.
+    pub fn new<'a>(
         body: &Body,
         side: Side,
         grid: &Grid,
-        states: &[Tractions<'_>],
+        states: impl Into<States<'a>>,
     ) -> Result<Self, Error> {
-        Self::until(body, side, grid, states, &Arc::default())
-    }
-
-    /// As [`Self::new`]; when `stop` is raised, what is asked of it ends with
-    /// [`Error::Interrupted`].
-    pub fn until(
-        body: &Body,
-        side: Side,
-        grid: &Grid,
-        states: &[Tractions<'_>],
-        stop: &Arc<AtomicBool>,
-    ) -> Result<Self, Error> {
-        body.check("body")?;
-        grid.check()?;
+        let states = states.into();
+        let window = || Ok((0..grid.nx, 0..grid.ny));
+        let loaded = Loaded::new(body, side, grid, &states, window)?;
         let plane = Plane::new(grid, false);
-        let loads = states.iter().map(|state| {
+        let loads = states.tractions.iter().map(|state| {
             Source::ALL.map(|source| {
                 let patch = plane.patch(std::slice::from_ref(state), source);
                 plane.loads(state, side, source, patch)
             })
         });
         Ok(Self {
-            stack: Stack::new(body),
-            body: body.clone(),
-            grid: *grid,
-            side,
+            loaded,
             plane,
-            bulk: Bulk::default(),
-            rim: None,
             loads: loads.collect(),
-            stop: stop.clone(),
         })
-    }
-
-    /// Adds the stress that the body has under the bulk stress `sigma_B` of each of the states \[Pa\]
-    /// (0 for those beyond the list): that of its own modulus in each layer.
-    #[must_use]
-    pub fn with_bulk_stress(mut self, sigma_B: &[f64]) -> Self {
-        self.bulk = Bulk::new(sigma_B, &self.grid);
-        self
-    }
-
-    /// Takes the tractions, the same `states`, for those of contacts of which the cells `stick` (for
-    /// states beyond the list: which slip at their rim). Near the surface and near the rim and the
-    /// stick zone the stress is then that of tractions that vary within the cells.
-    #[must_use]
-    pub fn with_rim(mut self, states: &[Tractions<'_>], stick: &[&[bool]]) -> Self {
-        let grid = &self.grid;
-        let (columns, rows) = (0..grid.nx, 0..grid.ny);
-        self.rim = Some(NearRim::new(
-            grid,
-            self.side,
-            states,
-            stick,
-            (columns, rows),
-        ));
-        self
     }
 
     /// Stress of each state at each point \[Pa\]: xx, yy, zz, xy, xz, yz.
@@ -107,8 +55,8 @@ impl Points {
     /// as far as these are finite.
     pub fn stress(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 6]>>, Error> {
         let mut all = self.gather(points, |kernel, depth, n, values: &mut [[f64; 6]]| {
-            let Some(rim) = &self.rim else { return };
-            let (cell, offset) = NearRim::locate(&self.grid, points[n].0, points[n].1);
+            let Some(rim) = &self.loaded.rim else { return };
+            let (cell, offset) = NearRim::locate(&self.loaded.grid, points[n].0, points[n].1);
             let near = |(state, _): &(usize, _)| rim.is_near(*state, depth, cell);
             let mut near = values.iter_mut().enumerate().filter(near).peekable();
             let Some(parts) = near.peek().and_then(|_| rim.parts(kernel, depth, offset)) else {
@@ -122,7 +70,7 @@ impl Points {
         })?;
         for (state, stresses) in all.iter_mut().enumerate() {
             for (stress, (_, _, depth)) in stresses.iter_mut().zip(points) {
-                let bulk = self.bulk.stress(&self.body, state, depth.layer);
+                let bulk = self.loaded.bulk(state, *depth);
                 for (s, bulk) in stress.iter_mut().zip(bulk) {
                     *s += bulk;
                 }
@@ -180,14 +128,12 @@ impl Points {
         more: &(impl Fn(&DepthKernel<Q, N, R>, Depth, usize, &mut [[f64; R]]) + Sync),
     ) -> Result<Vec<Vec<[f64; R]>>, Error> {
         let depth = points[group[0]].2;
-        refuse_rigid(&self.body, depth.layer)?;
-        let place = self.stack.place(depth.z, Some(depth.layer))?;
         let farthest = group
             .iter()
             .map(|n| points[*n].0.hypot(points[*n].1))
             .fold(0.0, f64::max);
-        let kernel =
-            DepthKernel::<Q, N, R>::new(&self.stack, place, self.plane.reach() + farthest)?;
+        let reach = self.plane.reach() + farthest;
+        let kernel: DepthKernel<Q, N, R> = self.loaded.kernel(depth, reach)?;
         let source = Source::at(depth.z, self.plane.d);
         let variant = source.index();
         let at = |n: &usize| {
@@ -219,7 +165,7 @@ impl Points {
         };
         let mut sum = [0.0; R];
         for j in 0..patch.rows {
-            unless(&self.stop)?;
+            unless(&self.loaded.stop)?;
             let rows = [0, 1, 2].map(|component| loads.row(component, j));
             let from_y = from(y, j, patch.start.1, n.1, d.1);
             for i in 0..patch.columns {
@@ -247,7 +193,7 @@ impl Points {
         }
         for (row, sum) in sum.iter_mut().enumerate() {
             if Q::has_one_z(row) {
-                *sum *= self.side.sign();
+                *sum *= self.loaded.side.sign();
             }
         }
         Ok(sum)

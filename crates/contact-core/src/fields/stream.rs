@@ -10,7 +10,7 @@ use std::sync::atomic::AtomicBool;
 
 use ndarray::Array2;
 
-use super::{Depth, Line, Section, Side, Slices};
+use super::{Depth, Line, Section, Side, Slices, States};
 use crate::convolution::Tractions;
 use crate::error::Error;
 use crate::march::{Increment, March, Observer};
@@ -108,9 +108,9 @@ impl<A: Accumulate> Stream<A> {
     ) -> Result<Self, Error> {
         // Refuses now what would fail after a long run.
         if let Some(line) = line {
-            Section::new(body, side, grid, line, &[])?;
+            Section::new(body, side, grid, line, States::default())?;
         } else {
-            Slices::new(body, side, grid, &[])?;
+            Slices::new(body, side, grid, States::default())?;
         }
         let places = match line {
             Some(Line::AlongX(_)) => grid.nx,
@@ -141,10 +141,10 @@ impl<A: Accumulate> Stream<A> {
         self.stop = flag;
     }
 
-    /// Takes the tractions for those of contacts, as [`Section::with_rim`] does.
+    /// Takes the tractions for those of contacts: [`States::stick`] (default: constant in each cell).
     #[must_use]
-    pub fn with_rim(mut self) -> Self {
-        self.rim = true;
+    pub fn rim(mut self, rim: bool) -> Self {
+        self.rim = rim;
         self
     }
 
@@ -178,7 +178,7 @@ impl<A: Accumulate> Stream<A> {
         if self.waiting.is_empty() {
             return Ok(());
         }
-        let states: Vec<_> = self
+        let tractions: Vec<_> = self
             .waiting
             .iter()
             .map(|(_, [q_x, q_y, p], _)| Tractions {
@@ -192,24 +192,21 @@ impl<A: Accumulate> Stream<A> {
                 self.accumulate.add(kept, *moment, stress);
             }
         };
-        let bulk: Vec<f64> = self.waiting.iter().map(|(m, ..)| m.sigma_B).collect();
+        let sigma_B: Vec<f64> = self.waiting.iter().map(|(m, ..)| m.sigma_B).collect();
         let stick = self.waiting.iter().map(|(.., stick)| stick.as_slice());
         let stick: Vec<&[bool]> = stick.map(Option::unwrap_or_default).collect();
+        let states = States {
+            tractions: &tractions,
+            sigma_B: &sigma_B,
+            stick: self.rim.then_some(&stick[..]),
+            stop: self.stop.clone(),
+        };
         let (body, side, grid) = (&self.body, self.side, &self.grid);
+        let (depths, kept) = (&self.depths, &mut self.kept);
         if let Some(line) = self.line {
-            let mut section = Section::until(body, side, grid, line, &states, &self.stop)?
-                .with_bulk_stress(&bulk);
-            if self.rim {
-                section = section.with_rim(&states, &stick);
-            }
-            section.pass_stress(&self.depths, &mut self.kept, add)?;
+            Section::new(body, side, grid, line, states)?.pass_stress(depths, kept, add)?;
         } else {
-            let mut slices =
-                Slices::until(body, side, grid, &states, &self.stop)?.with_bulk_stress(&bulk);
-            if self.rim {
-                slices = slices.with_rim(&states, &stick);
-            }
-            slices.pass_stress(&self.depths, &mut self.kept, add)?;
+            Slices::new(body, side, grid, states)?.pass_stress(depths, kept, add)?;
         }
         self.waiting.clear();
         Ok(())

@@ -2,7 +2,8 @@
 
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
-use super::{InfluenceCoefficients, KernelSet};
+use super::InfluenceCoefficients;
+use crate::plan::KernelSet;
 use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
 
 /// Most memory kept, in numbers: 128 MiB, or the six coefficients of a 1024 x 1024 grid and more.

@@ -1,18 +1,7 @@
 //! Influence coefficients: the surface displacement that unit traction on one cell causes.
 
+use crate::plan::KernelSet;
 use ndarray::{Array2, Array4};
-
-/// Which of the coefficients are asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum KernelSet {
-    /// `zz`, all that a contact without friction needs.
-    Normal,
-    /// `xx`, `yy`, `zz` and `xy`: pressure and shear do not act on each other.
-    Uncoupled,
-    /// All six.
-    #[default]
-    All,
-}
 
 /// One coefficient on the non-negative offsets, shape (nx, ny): entry (i, j) belongs to the offset
 /// (i dx, j dy) of the observed cell from the loaded one. The other quadrants follow by parity.

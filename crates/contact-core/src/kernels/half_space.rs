@@ -14,9 +14,9 @@
 
 use std::f64::consts::PI;
 
-use super::KernelSet;
 use super::cell::Cell;
 use super::layered_frf::HalfSpace;
+use crate::plan::KernelSet;
 
 /// The six coefficients at one offset, in the order xx, yy, zz, xy, xz, yz.
 pub(crate) type Six = [f64; 6];

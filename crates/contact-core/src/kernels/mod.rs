@@ -30,7 +30,7 @@ mod surface;
 pub use cache::clear_cache;
 pub(crate) use cell::Cell;
 pub(crate) use coefficients::norm;
-pub use coefficients::{InfluenceCoefficients, KernelSet, Quadrant};
+pub use coefficients::{InfluenceCoefficients, Quadrant};
 pub use convert::{Conversion, SurfaceFrf, convert};
 pub use depth_frf::FrequencyResponse;
 pub(crate) use depth_kernel::{DepthKernel, Quantity};
@@ -41,12 +41,13 @@ pub use layered_frf::{RadialResponse, Stack};
 pub use rustfft::num_complex::Complex64;
 pub(crate) use sampled_frf::SampledFrf;
 pub(crate) use stress::{Stress, refuse_rigid};
-pub use stress::{StressCoefficients, stress_at, stress_coefficients, stress_coefficients_until};
+pub use stress::{StressCoefficients, stress_at, stress_coefficients};
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::error::Error;
+use crate::plan::KernelSet;
 use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
 
 /// The surface coefficients of a body on a grid, computed once per process and kept.
@@ -58,23 +59,14 @@ use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
 ///
 /// On a grid in plane strain they are those of strips without end along y: displacements relative to
 /// the points at the grid's length from the load, since a line load has no absolute ones.
+///
+/// Ends when `stop` is raised, if there is one: [`Error::Interrupted`] after increment 0.
 pub fn influence_coefficients(
     body: &Body,
     grid: &Grid,
     settings: &KernelSettings,
     shortcut_equal_layers: bool,
-) -> Result<InfluenceCoefficients, Error> {
-    let stop = AtomicBool::new(false);
-    influence_coefficients_until(body, grid, settings, shortcut_equal_layers, &stop)
-}
-
-/// As [`influence_coefficients`]; ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
-pub fn influence_coefficients_until(
-    body: &Body,
-    grid: &Grid,
-    settings: &KernelSettings,
-    shortcut_equal_layers: bool,
-    stop: &AtomicBool,
+    stop: Option<&AtomicBool>,
 ) -> Result<InfluenceCoefficients, Error> {
     let set = KernelSet::All;
     let coefficients = of_body(body, grid, settings, shortcut_equal_layers, set, stop)?;
@@ -83,25 +75,15 @@ pub fn influence_coefficients_until(
 
 /// The coefficients of a pair of bodies, eq. (4) of the paper, those of a set; of bodies of the same
 /// layers they are computed once.
+///
+/// Ends when `stop` is raised, if there is one: [`Error::Interrupted`] after increment 0.
 pub fn pair_coefficients(
-    bodies: (&Body, &Body),
-    grid: &Grid,
-    settings: &KernelSettings,
-    shortcut_equal_layers: bool,
-    set: KernelSet,
-) -> Result<InfluenceCoefficients, Error> {
-    let stop = AtomicBool::new(false);
-    pair_coefficients_until(bodies, grid, settings, shortcut_equal_layers, set, &stop)
-}
-
-/// As [`pair_coefficients`]; ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
-pub(crate) fn pair_coefficients_until(
     (body1, body2): (&Body, &Body),
     grid: &Grid,
     settings: &KernelSettings,
     shortcut_equal_layers: bool,
     set: KernelSet,
-    stop: &AtomicBool,
+    stop: Option<&AtomicBool>,
 ) -> Result<InfluenceCoefficients, Error> {
     let of = |body| of_body(body, grid, settings, shortcut_equal_layers, set, stop);
     let two = Arc::unwrap_or_clone(of(body2)?);
@@ -117,7 +99,7 @@ fn of_body(
     settings: &KernelSettings,
     shortcut_equal_layers: bool,
     set: KernelSet,
-    stop: &AtomicBool,
+    stop: Option<&AtomicBool>,
 ) -> Result<Arc<InfluenceCoefficients>, Error> {
     body.check("body")?;
     grid.check()?;
@@ -126,6 +108,8 @@ fn of_body(
     if let Some(kept) = cache::get(&key) {
         return Ok(kept);
     }
+    let never = AtomicBool::new(false);
+    let stop = stop.unwrap_or(&never);
     let mut stack = Stack::new(body);
     if bare {
         stack.layers.clear();

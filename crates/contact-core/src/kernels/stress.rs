@@ -170,22 +170,14 @@ pub fn stress_at(
 
 /// The stress coefficients of a body on a grid at the depth `z` \[m\]; `layer` decides at an
 /// interface (default: the upper one).
+///
+/// Ends when `stop` is raised, if there is one: [`Error::Interrupted`] after increment 0.
 pub fn stress_coefficients(
     body: &Body,
     grid: &Grid,
     z: f64,
     layer: Option<usize>,
-) -> Result<StressCoefficients, Error> {
-    stress_coefficients_until(body, grid, z, layer, &AtomicBool::new(false))
-}
-
-/// As [`stress_coefficients`]; ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
-pub fn stress_coefficients_until(
-    body: &Body,
-    grid: &Grid,
-    z: f64,
-    layer: Option<usize>,
-    stop: &AtomicBool,
+    stop: Option<&AtomicBool>,
 ) -> Result<StressCoefficients, Error> {
     body.check("body")?;
     let stack = Stack::new(body);
@@ -193,6 +185,8 @@ pub fn stress_coefficients_until(
     refuse_rigid(body, place.layer)?;
     let r_max = (grid.nx as f64 * grid.dx).hypot(grid.ny as f64 * grid.dy);
     let kernel = StressKernel::new(&stack, place, r_max)?;
+    let never = AtomicBool::new(false);
+    let stop = stop.unwrap_or(&never);
     Ok(StressCoefficients {
         z,
         layer: place.layer,

@@ -9,14 +9,15 @@ use std::sync::atomic::AtomicBool;
 
 use ndarray::Array2;
 
+use super::InfluenceCoefficients;
 use super::cell::Cell;
 use super::coefficients::{ODD, none};
 use super::half_space::{Radial, Six, add_kernel, over_cell, radial};
 use super::layered_frf::{HalfSpace, Stack};
 use super::radial_table::{Hankel, RadialTable};
 use super::rows::each_row;
-use super::{InfluenceCoefficients, KernelSet};
 use crate::error::Error;
+use crate::plan::KernelSet;
 use crate::scene::Grid;
 
 /// Relative error that a cell's Gauss rule may leave, against C33(0,0).

@@ -2,9 +2,12 @@
 
 use ndarray::Array2;
 
-use super::error_bars::Tractions;
+use super::domain::on_grid;
 use super::{March, Motion};
-use crate::convolution::Half;
+use crate::plan::Half;
+
+/// p, `q_x`, `q_y` \[Pa\], each of shape (nx, ny).
+pub type Tractions = [Array2<f64>; 3];
 
 /// Fields at the end of an increment, each of shape (nx, ny).
 #[derive(Clone, Debug, PartialEq)]
@@ -15,8 +18,7 @@ pub struct Fields {
     pub q_x: Array2<f64>,
     /// Shear traction on body 2 along y \[Pa\].
     pub q_y: Array2<f64>,
-    /// Relative surface displacement u(2) - u(1) along x \[m\], that of the tractions within the tolerance of
-    /// the slip (root mean square over the contact).
+    /// Relative surface displacement u(2) - u(1) along x \[m\], that of the tractions.
     pub u_x: Array2<f64>,
     /// Relative surface displacement along y \[m\].
     pub u_y: Array2<f64>,
@@ -37,63 +39,32 @@ pub struct Fields {
 }
 
 impl March {
-    /// The part of the slip of the last increment, along x and y \[m\], that the turn of the shear
-    /// within the increment puts across the final shear; zero where the slip opposes that.
-    pub fn turned(&self) -> [Array2<f64>; 2] {
-        let unfold = |f: &[f64], half| self.on_grid(f, half);
-        let last = &self.state.p_before;
-        let turned = |c: usize| -> Vec<f64> {
-            let of = self.datum.moved[c].iter().zip(last);
-            of.map(|(e, p)| if *p > 0.0 { *e } else { 0.0 }).collect()
-        };
-        [
-            unfold(&turned(0), Half::Even),
-            unfold(&turned(1), Half::Odd) / self.window.arms.stretch,
-        ]
-    }
-
-    /// The slip that the last increment should not have and the solver left within its tolerance, along
-    /// x and y \[m\]; the next increment makes it good.
-    pub fn missed(&self) -> [Array2<f64>; 2] {
-        let [x, y] = &self.state.missed;
-        [
-            self.on_grid(x, Half::Even),
-            self.on_grid(y, Half::Odd) / self.window.arms.stretch,
-        ]
-    }
-
-    /// What of the shear, along x and y \[Pa\], the displacements after the last increment leave out: the
-    /// next increment answers it. It moves the surfaces by less than the tolerance of the slip, root mean
-    /// square over the contact.
-    pub fn owed(&self) -> [Array2<f64>; 2] {
-        let owed = &self.state.interface.owed;
-        if !owed.owes() {
-            let shape = (self.scene.grid.nx, self.scene.grid.ny);
-            return [Array2::zeros(shape), Array2::zeros(shape)];
-        }
-        let [x, y] = &owed.q;
-        [
-            self.on_grid(x, Half::Even),
-            self.on_grid(y, Half::Odd) * self.window.arms.stretch,
-        ]
-    }
-
     /// The shear tractions q_x, q_y after the last increment on the whole grid \[Pa\], shape (nx, ny).
     pub fn shear(&self) -> [Array2<f64>; 2] {
         let q = &self.state.interface.q;
-        let q_y = self.on_grid(&q[1], Half::Odd) * self.window.arms.stretch;
-        [self.on_grid(&q[0], Half::Even), q_y]
+        let q_y = on_grid(&self.problem, &self.state, &q[1], Half::Odd)
+            * self.problem.scene.friction.stretch();
+        [on_grid(&self.problem, &self.state, &q[0], Half::Even), q_y]
     }
 
     /// p, `q_x`, `q_y` after the last increment on the whole grid \[Pa\], shape (nx, ny).
     pub fn tractions(&self) -> Tractions {
         let [q_x, q_y] = self.shear();
-        [self.on_grid(&self.state.interface.p, Half::Even), q_x, q_y]
+        [
+            on_grid(
+                &self.problem,
+                &self.state,
+                &self.state.interface.p,
+                Half::Even,
+            ),
+            q_x,
+            q_y,
+        ]
     }
 
     /// The fields after the last increment on the whole grid.
     pub fn fields(&self) -> Fields {
-        let unfold = |f: &[f64], half| self.on_grid(f, half);
+        let unfold = |f: &[f64], half| on_grid(&self.problem, &self.state, f, half);
         let s = &self.state;
         let now = &s.interface;
         let Motion {
@@ -102,11 +73,15 @@ impl March {
             phi_y,
             ..
         } = s.motion;
-        let stretch = self.window.arms.stretch;
-        let rigid = self.scene.grid.map(|x, y| delta_z + y * phi_x - x * phi_y);
+        let stretch = self.problem.scene.friction.stretch();
+        let rigid = self
+            .problem
+            .scene
+            .grid
+            .map(|x, y| delta_z + y * phi_x - x * phi_y);
         let [q_x, q_y] = self.shear();
         let p = unfold(&now.p, Half::Even);
-        let [u_x, u_y, u_z] = self.displacements();
+        let [u_x, u_y, u_z] = self.domain.displacements(&self.problem, &self.state);
         let slips: Vec<f64> = now.slip.iter().map(|&s| f64::from(u8::from(s))).collect();
         let slips = unfold(&slips, Half::Even);
         let contact = p.mapv(|p| p > 0.0);
@@ -114,7 +89,7 @@ impl March {
             .and(&slips)
             .map_collect(|&c, &slips| c && slips == 0.0);
         Fields {
-            gap: u_z.clone() + self.scene.h_init() - rigid,
+            gap: u_z.clone() + self.problem.scene.h_init() - rigid,
             q_x,
             q_y,
             u_x,

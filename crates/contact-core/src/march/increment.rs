@@ -1,174 +1,271 @@
-//! What one increment ends with: the numbers a user reads, the residuals and the work done.
+//! One increment: drives -> no_slip -> guess -> solve -> check -> account.
 
-use serde::{Deserialize, Serialize};
-
+use super::accounts::Closing;
+use super::domain::{Domain, Geometry};
+use super::problem::{Drives, Problem};
+use super::rolled::{Roll, Rolled};
+use super::{Increment, State, accounts, check, entry, friction, guess};
+use crate::error::Error;
+use crate::kernels::Quadrant;
 use crate::scene::LoadPoint;
+use crate::solvers::intermediate::{
+    AlternationInfo, AlternationWorkspace, IncrementProblem, alternation,
+};
+use crate::solvers::no_slip::{Earlier, NoSlip, NoSlipTerms, Start};
+use crate::solvers::{Interface, Response};
 
-/// Rigid-body motion of body 1 relative to body 2, from the unloaded state.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Motion {
-    /// Approach \[m\], positive when the bodies come together.
-    pub delta_z: f64,
-    /// Relative tangential shift along x \[m\], of the sign of the force T_x that drives it.
-    pub delta_x: f64,
-    /// Relative tangential shift along y \[m\].
-    pub delta_y: f64,
-    /// Tilt about x \[rad\]: the gap grows by -y phi_x.
-    pub phi_x: f64,
-    /// Tilt about y \[rad\]: the gap grows by x phi_y.
-    pub phi_y: f64,
-    /// Rotation about z \[rad\], of the sign of the moment M_z that drives it.
-    pub phi_z: f64,
+/// Why an increment has not come to its end.
+pub(super) enum Failure {
+    /// The contact has these half-lengths, in cells, and the window no margin around it.
+    Narrow([usize; 2]),
+    /// Cells beyond the window overlap.
+    Beyond,
+    Error(Error),
 }
 
-impl Motion {
-    /// The motions in the order of [`MOTIONS`](crate::scene::MOTIONS).
-    pub fn motions(&self) -> [f64; 6] {
-        [
-            self.delta_z,
-            self.phi_x,
-            self.phi_y,
-            self.delta_x,
-            self.delta_y,
-            self.phi_z,
-        ]
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Error(error)
     }
 }
 
-/// State of the interface.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Status {
-    /// No cell transmits pressure.
-    #[default]
-    NoContact,
-    /// Every contact cell sticks.
-    FullStick,
-    /// Stick and slip cells.
-    PartialSlip,
-    /// Every contact cell slips: friction carries its limit. Under given forces the shift is that of
-    /// incipient sliding.
-    GrossSlip,
+/// Fields that an increment works on, kept from one to the next.
+pub(super) struct Workspace {
+    /// Friction coefficient of the kept cells.
+    pub(super) mu: Vec<f64>,
+    pub(super) no_slip: NoSlipTerms,
+    pub(super) alternation: AlternationWorkspace,
 }
 
-impl Status {
-    /// All, the more they slip the later.
-    pub const ALL: [Self; 4] = [
-        Self::NoContact,
-        Self::FullStick,
-        Self::PartialSlip,
-        Self::GrossSlip,
-    ];
-
-    /// Its number in result stores, 0 to 3; the higher, the more it slips.
-    pub fn code(self) -> u8 {
-        self as u8
-    }
-}
-
-/// Energy of one increment, with mid-increment (trapezoidal) tractions \[J\].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Energy {
-    /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi), of the bulk stress on what the
-    /// contact moves, and of what makes the bodies roll.
-    pub work: f64,
-    /// Change of the elastic energy, 1/2 sum of traction times displacement.
-    pub elastic: f64,
-    /// Energy dissipated by friction, -sum of q . ds dA, >= 0 up to the solver's tolerance: a cell
-    /// slips at its bound, so that the shear is the mean bound of the increment against the slip.
-    pub dissipated: f64,
-    /// Work of the tractions on cells that close or open, -sum of p dh dA, and of the shear on what
-    /// cells moved before they closed; it vanishes with the increment.
-    pub opening: f64,
-    /// What `dissipated` is more than -sum of q . ds dA with the mean shear of the increment, the
-    /// rule of the other terms; it vanishes with the increment.
-    pub quadrature: f64,
-}
-
-impl Energy {
-    /// What the balance misses \[J\]: zero up to the solver's tolerance, for any size of the
-    /// increment.
-    pub fn imbalance(&self) -> f64 {
-        self.work - self.elastic - (self.dissipated - self.quadrature) - self.opening
-    }
-}
-
-/// How well the equations hold at the end of an increment, in physical terms.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Residuals {
-    /// Root-mean-square gap in the contact over the Hertz approach.
-    pub gap: f64,
-    /// Deepest penetration outside the contact over the Hertz approach.
-    pub penetration: f64,
-    /// Largest |q| - mu p over mu p_max; zero or below if Coulomb's law holds everywhere.
-    pub coulomb: f64,
-    /// Root-mean-square distance of stick cells from where they should be, from what earlier increments
-    /// have missed too, over mu times the Hertz approach.
-    pub stick: f64,
-    /// Root-mean-square part of the slip that is not opposite to q, over mu times the approach.
-    pub direction: f64,
-    /// Angle between the slip and the shear that it opposes, root mean square over the slip
-    /// cells, each with the square of its slip \[rad\].
-    pub angle: f64,
-    /// Largest relative error of the force balances.
-    pub balance: f64,
-    /// Energy imbalance over the work done so far.
-    pub energy: f64,
-}
-
-/// Work counters; they do not jitter as times do.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Work {
-    /// Convolutions in units of three components (six two-dimensional transforms).
-    pub convolutions: f64,
-    /// Passes of the intermediate loop (normal, then tangential).
-    pub alternations: usize,
-    /// Conjugate-gradient iterations of the normal solver.
-    pub normal_iterations: usize,
-    /// Conjugate-gradient iterations of the tangential solver.
-    pub tangential_iterations: usize,
-    /// Pieces that the increment was solved in: more than one if it did not converge whole.
-    pub parts: usize,
-}
-
-/// One increment of the load path: scalars, residuals, work.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Increment {
-    /// Increment, from 1.
-    pub index: usize,
-    /// The place in the path and the loads, those of given motions as the solution says.
-    pub point: LoadPoint,
-    /// Rigid-body motion.
-    pub motion: Motion,
-    /// State of the interface.
-    pub status: Status,
-    /// Area of the contact \[m^2\], of cells at its rim the part within.
-    pub contact_area: f64,
-    /// Area of the stick zone \[m^2\], of cells at its border the part within.
-    pub stick_area: f64,
-    /// Largest pressure \[Pa\].
-    pub p_max: f64,
-    /// Largest shear traction |q| \[Pa\].
-    pub q_max: f64,
-    /// Energies of the increment.
-    pub energy: Energy,
-    /// How well the equations hold.
-    pub residuals: Residuals,
-    /// What it cost.
-    pub work: Work,
-}
-
-impl Increment {
-    /// Stick area over contact area; 1 where there is no contact.
-    pub fn stick_ratio(&self) -> f64 {
-        if self.contact_area > 0.0 {
-            self.stick_area / self.contact_area
-        } else {
-            1.0
+impl Workspace {
+    /// For fields of `cells` cells.
+    pub(super) fn new(cells: usize, mu: f64) -> Self {
+        Self {
+            mu: vec![mu; cells],
+            no_slip: NoSlipTerms::new(cells),
+            alternation: AlternationWorkspace::new(cells),
         }
     }
 
-    /// Radius of the circle of the contact's area \[m\].
-    pub fn contact_radius(&self) -> f64 {
-        (self.contact_area / std::f64::consts::PI).sqrt()
+    /// Takes another number of cells.
+    pub(super) fn fit(&mut self, cells: usize, mu: f64) {
+        if self.mu.len() != cells {
+            *self = Self::new(cells, mu);
+        }
     }
+}
+
+/// What is given in an increment.
+pub(super) struct Setup<'a> {
+    pub(super) problem: &'a Problem,
+    pub(super) geometry: &'a Geometry,
+    /// C_zz on the whole grid \[m/Pa\].
+    pub(super) kernel: &'a Quadrant,
+    /// The state after the last increment.
+    pub(super) state: &'a State,
+    pub(super) roll: Roll,
+    rolled: Option<&'a Rolled>,
+    /// Friction coefficient of the kept cells.
+    pub(super) mu: &'a [f64],
+    pub(super) point: &'a LoadPoint,
+    pub(super) drives: Drives,
+    /// The factor by which the change of the loads is that of the last increment, if both go the same way.
+    pub(super) goes_on: Option<f64>,
+}
+
+impl Setup<'_> {
+    /// The interface that the material brings along.
+    pub(super) fn last(&self) -> &Interface {
+        self.rolled
+            .map_or(&self.state.interface, |rolled| &rolled.interface)
+    }
+
+    /// The residual slip of the last increment \[m\].
+    fn residual(&self) -> &[Vec<f64>; 2] {
+        self.rolled
+            .map_or(&self.state.residual, |rolled| &rolled.residual)
+    }
+
+    /// Tractions an increment earlier.
+    fn earlier(&self) -> Earlier<'_> {
+        match self.rolled {
+            Some(rolled) => Earlier {
+                p: &rolled.p_before,
+                q: &rolled.q_before,
+            },
+            None => Earlier {
+                p: &self.state.p_before,
+                q: &self.state.q_before,
+            },
+        }
+    }
+
+    /// What the slip is reckoned from; with the shear an increment earlier where it is to follow its turn.
+    fn start(&self, turns: bool) -> Start<'_> {
+        let turns = turns && self.problem.plan.methods.turning && self.goes_on.is_some();
+        Start {
+            interface: self.last(),
+            residual: self.residual(),
+            arms: &self.geometry.arms,
+            earlier: turns.then(|| self.earlier()),
+            elastic_slip: self.problem.scene.friction.scale() * self.problem.approach,
+        }
+    }
+
+    /// Fails once the flag is raised.
+    pub(super) fn unless_stopped(&self) -> Result<(), Error> {
+        self.problem.unless_stopped(self.state.increments)
+    }
+}
+
+/// A solution of an increment.
+pub(super) type Solution = (Interface, AlternationInfo);
+
+/// What solves the equations of an increment.
+pub(super) struct Solver<'a> {
+    pub(super) response: Response<'a>,
+    pub(super) no_slip: &'a mut NoSlipTerms,
+    pub(super) workspace: &'a mut AlternationWorkspace,
+}
+
+/// What one solution of the equations is asked for.
+pub(super) struct Asked<'a> {
+    /// Gap between the undeformed surfaces \[m\].
+    pub(super) h_init: &'a [f64],
+    /// Share of the tolerance.
+    pub(super) share: f64,
+    /// Whether the slip follows the turn of the shear.
+    pub(super) turns: bool,
+    /// Motion of cells before they enter the contact \[m\].
+    pub(super) entry: Option<&'a [Vec<f64>; 2]>,
+}
+
+impl Solver<'_> {
+    /// Solves the equations from a guess of the tractions.
+    pub(super) fn solve(
+        &mut self,
+        setup: &Setup<'_>,
+        asked: &Asked<'_>,
+        mut now: Interface,
+    ) -> Result<Solution, Error> {
+        setup.unless_stopped()?;
+        let equations = IncrementProblem {
+            h_init: asked.h_init,
+            mu: setup.mu,
+            arms: &setup.geometry.arms,
+            normal: setup.drives.normal,
+            tangential: setup.drives.tangential,
+        };
+        let params = setup.problem.params(asked.share);
+        let mut no_slip = NoSlip::new(setup.start(asked.turns), self.no_slip, asked.entry);
+        let (response, ws) = (&mut self.response, &mut *self.workspace);
+        match alternation(response, &equations, &mut no_slip, &mut now, ws, &params) {
+            Ok(info) => Ok((now, info)),
+            Err(failed) => {
+                setup.unless_stopped()?;
+                Err(Error::NotConverged {
+                    increment: setup.state.increments + 1,
+                    solver: failed.solver,
+                    residual: failed.residual,
+                    tolerance: failed.tolerance,
+                    iterations: failed.iterations,
+                })
+            }
+        }
+    }
+
+    /// Bodies that nothing presses together do not touch.
+    fn apart(&mut self, setup: &Setup<'_>) -> Solution {
+        let apart = Interface::unloaded(setup.geometry.h_init.len());
+        let info = AlternationInfo {
+            approach: setup.drives.normal.given,
+            shift: setup.drives.tangential.given,
+            ..AlternationInfo::default()
+        };
+        let start = Start {
+            interface: &apart,
+            residual: &apart.q,
+            ..setup.start(false)
+        };
+        NoSlip::new(start, self.no_slip, None);
+        (apart, info)
+    }
+}
+
+/// Computes the increment to a point and makes it the present state, which after a failure is as before.
+pub(super) fn increment(
+    problem: &Problem,
+    domain: &mut Domain,
+    state: &mut State,
+    ws: &mut Workspace,
+    point: &LoadPoint,
+    extrapolates: bool,
+) -> Result<Increment, Failure> {
+    let Workspace {
+        mu,
+        no_slip,
+        alternation,
+    } = ws;
+    let geometry = &domain.window.geometry;
+    let roll = Roll::new(problem, state, point);
+    let rolled = Rolled::new(&roll, geometry, problem.plan.mirror, state);
+    friction::update(problem, geometry, state, (&roll, rolled.as_ref()), mu);
+    let setup = Setup {
+        problem,
+        geometry,
+        kernel: &domain.kernels.pair.zz,
+        state,
+        roll,
+        rolled: rolled.as_ref(),
+        mu,
+        point,
+        drives: Drives::new(problem, &geometry.arms, state, point),
+        goes_on: state.going_on(point),
+    };
+    let mut solver = Solver {
+        response: Response {
+            op: &mut *domain.window.op,
+            inverse: domain
+                .window
+                .inverse
+                .as_mut()
+                .map(|inverse| &mut **inverse as _),
+            stop: Some(&problem.stop),
+            exact: false,
+        },
+        no_slip,
+        workspace: alternation,
+    };
+    let (now, info) = if setup.drives.press() {
+        let guess = guess::first_guess(&setup, extrapolates);
+        entry::solve(&setup, &mut solver, guess)?
+    } else {
+        solver.apart(&setup)
+    };
+    let clear = check::admissible(&setup, domain, &now, &info)?;
+    let (mut increment, without_slip) = accounts::draw_up(&setup, no_slip, &now, &info);
+    check::within_tolerance(&setup, &increment, count(&now))?;
+    let closing = Closing {
+        geometry,
+        mirror: problem.plan.mirror,
+        roll,
+        rolled: rolled.as_ref(),
+        mu,
+        no_slip,
+        keeps_residual: problem.plan.methods.residual_slip,
+        shift: info.shift,
+        without_slip,
+        clear,
+    };
+    accounts::close(state, &increment, now, &closing);
+    if state.work != 0.0 {
+        increment.residuals.energy = increment.energy.imbalance() / state.work;
+    }
+    Ok(increment)
+}
+
+/// Cells in contact, and those of them that slip.
+pub(super) fn count(now: &Interface) -> (usize, usize) {
+    let contact = now.p.iter().filter(|&&p| p > 0.0).count();
+    (contact, now.slip.iter().filter(|&&slips| slips).count())
 }

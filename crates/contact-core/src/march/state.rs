@@ -3,8 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::Motion;
-use crate::convolution::Mirror;
-use crate::scene::{Grid, Loads};
+use super::problem::unit;
+use crate::cells::Arms;
+use crate::plan::Mirror;
+use crate::scene::{Grid, LoadPoint, Loads};
 use crate::solvers::Interface;
 
 /// State after an increment, on the kept cells (half of the grid where the scene is symmetric).
@@ -37,9 +39,9 @@ pub struct State {
     pub(crate) p_before: Vec<f64>,
     /// Shear before the last increment \[Pa\].
     pub(crate) q_before: [Vec<f64>; 2],
-    /// Slip that the last increment should not have, and the solver left within its tolerance \[m\]: the
-    /// next one makes it good.
-    pub(crate) missed: [Vec<f64>; 2],
+    /// Residual slip of the last increment, what the solver left within its tolerance of slip that should be
+    /// zero \[m\]: the next one corrects it.
+    pub(crate) residual: [Vec<f64>; 2],
     /// Change of the loads in the last increment.
     pub(crate) step: Loads,
 }
@@ -63,7 +65,7 @@ impl State {
             clear: 0.0,
             p_before: field(),
             q_before: pair(),
-            missed: pair(),
+            residual: pair(),
             step: Loads::default(),
         }
     }
@@ -76,19 +78,23 @@ impl State {
             return false;
         }
         let cells = nx * mirror.rows(ny);
-        let Interface {
-            p,
-            q,
-            u,
-            u_z,
-            slip,
-            owed,
-            rounding: _,
-        } = &self.interface;
+        let Interface { p, q, u, u_z, slip } = &self.interface;
         let fields = [p, u_z, &self.slip_length, &self.dissipated, &self.p_before];
-        let pairs = [q, u, &self.slip, &self.q_before, &self.missed];
+        let pairs = [q, u, &self.slip, &self.q_before, &self.residual];
         let fields = fields.into_iter().chain(pairs.into_iter().flatten());
-        let owes = owed.q.iter().all(|f| f.len() == cells) || !owed.owes();
-        fields.into_iter().all(|f| f.len() == cells) && slip.len() == cells && owes
+        fields.into_iter().all(|f| f.len() == cells) && slip.len() == cells
+    }
+
+    /// Approach and tilts, as lengths \[m\].
+    pub(super) fn approach(&self, arms: &Arms) -> [f64; 3] {
+        let motions = self.motion.motions();
+        [0, 1, 2].map(|k| motions[k] * unit(arms, k))
+    }
+
+    /// The factor by which the change of the loads to a point is that of the last increment, if both
+    /// go the same way.
+    pub(super) fn going_on(&self, point: &LoadPoint) -> Option<f64> {
+        let step = point.loads.since(&self.loads, self.motion.motions());
+        step.along(&self.step).filter(|_| self.increments > 1)
     }
 }

@@ -1,5 +1,5 @@
 //! A flag that is raised at any moment of an increment: how much is still computed. What is known of
-//! the cells beyond the window without a look. What displacements owe.
+//! the cells beyond the window without a check. Displacements and tractions.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -8,7 +8,8 @@ use super::{Increment, March, State};
 use crate::convolution::{Displacements, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::solvers::CoupledInfo;
+use crate::solvers::Response;
+use crate::solvers::intermediate::AlternationInfo;
 
 /// A coated contact with friction that turns back after partial slip.
 const COATED: &str = r#"
@@ -43,7 +44,7 @@ struct Clock {
 
 /// An operator that raises the flag in the middle of one of its convolutions.
 struct Clocked {
-    op: Box<dyn SurfaceOperator + Send>,
+    op: Box<dyn SurfaceOperator>,
     clock: Arc<Clock>,
 }
 
@@ -72,10 +73,6 @@ impl SurfaceOperator for Clocked {
 
     fn rounding(&self) -> f64 {
         self.op.rounding()
-    }
-
-    fn norm(&self) -> f64 {
-        self.op.norm()
     }
 
     fn transforms(&self) -> usize {
@@ -107,18 +104,18 @@ fn stopped(
     march.stop_on(clock.stop.clone());
     let grid = &scene.grid;
     let clocked = |shape| {
-        let mut window = march.laid_out(shape).unwrap();
+        let mut window = march.domain.laid_out(&march.problem, shape, 0).unwrap();
         window.op = Box::new(Clocked {
             op: window.op,
             clock: clock.clone(),
         });
         window
     };
-    let window = clocked(march.window.shape());
+    let window = clocked(state.window);
     // The window that it may become.
     let whole = clocked((grid.nx, grid.ny));
-    march.window = window;
-    *march.whole.grid.get_mut().unwrap() = Some(whole);
+    march.domain.window = window;
+    *march.domain.whole.get_mut().unwrap() = Some(whole);
     let ended = march.advance().unwrap();
     (ended, clock.done.load(Ordering::Relaxed), march)
 }
@@ -169,13 +166,13 @@ fn a_flag_raised_in_a_wider_window_leaves_the_state_of_the_narrow_one() {
     march.advance().unwrap().unwrap();
     let narrow = march.state().clone();
     let wide = march.advance().unwrap().unwrap();
-    assert_ne!(march.window.shape(), narrow.window);
+    assert_ne!(march.domain.shape(), narrow.window);
 
     let (_, convolutions, _) = stopped(&scene, &narrow, 0);
     let mut widened = 0;
     for raised_at in 1..=convolutions {
         let (ended, _, march) = stopped(&scene, &narrow, raised_at);
-        if ended.is_ok() || march.window.shape() == narrow.window {
+        if ended.is_ok() || march.domain.shape() == narrow.window {
             continue;
         }
         widened += 1;
@@ -196,7 +193,8 @@ fn a_raised_flag_lays_out_no_window() {
         let scene = Scene::from_toml_str(COATED, "coated.toml", settings).unwrap();
         let march = March::new(&scene).unwrap();
         let stop = AtomicBool::new(true);
-        let window = (march.whole).window(&scene, &march.plan, (32, 32), &stop);
+        let kernels = &march.domain.kernels;
+        let window = kernels.window(&scene, march.plan(), (32, 32), &stop);
         assert!(window.is_err_and(|e| e == Error::Interrupted { increment: 0 }));
     }
 }
@@ -214,15 +212,16 @@ fn cells_beyond_the_window_are_as_far_as_they_are_known_to_be() {
     let (mut increments, mut not_looked) = (0, 0);
     while let Some(increment) = march.advance() {
         increment.unwrap();
-        assert!(march.is_windowed());
+        assert_ne!(march.domain.shape(), (96, 96));
         let known = std::mem::replace(&mut march.state.clear, 0.0);
         let now = march.state.interface.clone();
-        let info = CoupledInfo {
-            approach: march.approach_before(),
-            ..CoupledInfo::default()
+        let info = AlternationInfo {
+            approach: march.state.approach(&march.domain.window.geometry.arms),
+            ..AlternationInfo::default()
         };
         // With nothing known there is a look.
-        let seen = march.clear_beyond(&now, &info).unwrap().unwrap();
+        let seen = (march.domain).clear_beyond(&march.problem, &march.state, &now, &info);
+        let seen = seen.unwrap().unwrap();
         assert!(0.0 < known && known <= seen, "{known:e} {seen:e}");
         not_looked += usize::from(known < seen);
         increments += 1;
@@ -231,10 +230,9 @@ fn cells_beyond_the_window_are_as_far_as_they_are_known_to_be() {
     assert!(2 * not_looked > increments, "{not_looked} of {increments}");
 }
 
-/// Displacements answer to the shear but for what is owed, and this moves the surfaces by no more than it
-/// says; nothing adds up along the path.
+/// Displacements belong to the tractions in every increment: nothing adds up along the path.
 #[test]
-fn displacements_are_those_of_the_shear_less_what_is_owed() {
+fn displacements_are_those_of_the_tractions() {
     let more = ["grid.n=64", "solver.tolerance=1e-5", "path.0.increments=10"];
     let more = more
         .into_iter()
@@ -242,55 +240,18 @@ fn displacements_are_those_of_the_shear_less_what_is_owed() {
     let settings: Vec<String> = more.map(str::to_owned).collect();
     let scene = Scene::from_toml_str(COATED, "coated", &settings).unwrap();
     let mut march = March::new(&scene).unwrap();
-    let allowed = 0.6 * 0.9 * 0.3 * scene.tolerance() * march.approach;
-    let mut owing = 0;
+    // A tenth of the tolerance may be rounded, and in a pass a tenth of that of the slip is negligible.
+    let allowed = 0.2 * scene.tolerance() * march.problem.approach;
     while let Some(increment) = march.advance() {
         increment.unwrap();
-        let now = march.state.interface.clone();
-        let cells = now.p.len();
-        let answer = |march: &mut March, q: [&[f64]; 2], p: Option<&[f64]>| {
-            let mut u = [vec![0.0; cells], vec![0.0; cells], vec![0.0; cells]];
-            let [u_x, u_y, u_z] = &mut u;
-            let tractions = Tractions {
-                q_x: Some(q[0]),
-                q_y: Some(q[1]),
-                p,
-            };
-            let displacements = Displacements {
-                u_x: Some(u_x),
-                u_y: Some(u_y),
-                u_z: Some(u_z),
-            };
-            march.window.op.apply(tractions, displacements);
-            u
-        };
-        let mut answered = [vec![0.0; cells], vec![0.0; cells]];
-        now.answered(answered.each_mut().map(|q| &mut q[..]));
-        let u = answer(&mut march, [&answered[0], &answered[1]], Some(&now.p));
-        let rounded = 0.1 * scene.tolerance() * march.approach;
-        for (kept, u) in [&now.u[0], &now.u[1], &now.u_z].into_iter().zip(&u) {
+        let kept = &march.state.interface;
+        let mut evaluated = kept.clone();
+        evaluated.evaluate(&mut Response::plain(&mut *march.domain.window.op), true);
+        let pairs = [&kept.u[0], &kept.u[1], &kept.u_z].into_iter();
+        for (kept, u) in pairs.zip([&evaluated.u[0], &evaluated.u[1], &evaluated.u_z]) {
             let off = kept.iter().zip(u).map(|(a, b)| (a - b).abs());
             let off = off.fold(0.0, f64::max);
-            assert!(off <= rounded, "{off:e} {rounded:e}");
+            assert!(off <= allowed, "{off:e} {allowed:e}");
         }
-
-        if !now.owed.owes() {
-            continue;
-        }
-        let [owed_x, owed_y] = &now.owed.q;
-        let u = answer(&mut march, [owed_x, owed_y], None);
-        let (mut squares, mut contact) = (0.0, 0.0);
-        for n in (0..cells).filter(|&n| now.p[n] > 0.0) {
-            squares += u[0][n].powi(2) + u[1][n].powi(2);
-            contact += 1.0;
-        }
-        let moved = (squares / contact).sqrt();
-        let says = now.owed.moves;
-        assert!(
-            moved <= says && says <= allowed,
-            "{moved:e} {says:e} {allowed:e}"
-        );
-        owing += 1;
     }
-    assert!(owing > 20, "{owing}");
 }

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::folder::Folder;
 use super::reader::Store;
 use crate::error::Error;
-use crate::march::ErrorBars;
+use crate::estimate::ErrorBars;
 
 /// Adds the error bars of its branches to a store whose run is done.
 pub fn write_error_bars(path: impl AsRef<Path>, bars: &[ErrorBars]) -> Result<(), Error> {

@@ -31,7 +31,7 @@ pub use catalogue::{FIELDS, Field, FieldView, Kind, SCALARS, Scalar};
 pub use error_bars::write_error_bars;
 pub use image_data::ImageData;
 pub use reader::Store;
-pub use resume::{Resumed, resume, resume_until};
+pub use resume::{Resumed, resume};
 pub use stress_store::StressStore;
 pub use volume::{VolumeSink, write_volume};
 pub use writer::StoreWriter;

@@ -13,7 +13,8 @@ use super::place::Unfinished;
 use super::variable::{Column, Variable};
 use crate::error::Error;
 use crate::march::{Fields, Increment, State};
-use crate::scene::{LoadPoint, Plan, Scene};
+use crate::plan::Plan;
+use crate::scene::{LoadPoint, Scene};
 
 /// Largest part of the time that goes to checkpoints.
 const SHARE: f64 = 0.03;

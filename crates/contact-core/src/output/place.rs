@@ -260,7 +260,7 @@ path = [{ W = 1000.0, increments = 1 }]
         assert!(refused.contains("--overwrite"), "{refused}");
         assert_eq!(title(&place), "old");
         fs::rename(&place, beside(&place, "replaced")).unwrap();
-        assert!(crate::output::resume(&place).unwrap().is_none());
+        assert!(crate::output::resume(&place, None).unwrap().is_none());
         assert_eq!(title(&place), "old");
         fs::rename(&place, beside(&place, "replaced")).unwrap();
         run(&place, "new", true).unwrap();

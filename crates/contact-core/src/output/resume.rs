@@ -30,16 +30,13 @@ pub struct Resumed {
 /// The result will be that of the run without the interruption, bit by bit. What the store holds
 /// stays there meanwhile; only fields that were kept because the run stopped are given up. Fails
 /// if there is no store, if another process writes it, or if its checkpoint is damaged or of
-/// another version; then nothing is changed.
-pub fn resume(path: impl AsRef<Path>) -> Result<Option<Resumed>, Error> {
-    resume_until(path, &Arc::default())
-}
-
-/// As [`resume`]; ends when `stop` is raised ([`Error::Interrupted`]), and nothing is changed then.
-pub fn resume_until(
+/// another version, and ends when `stop` is raised, if there is one ([`Error::Interrupted`]); then
+/// nothing is changed.
+pub fn resume(
     path: impl AsRef<Path>,
-    stop: &Arc<AtomicBool>,
+    stop: Option<&Arc<AtomicBool>>,
 ) -> Result<Option<Resumed>, Error> {
+    let stop = stop.cloned().unwrap_or_default();
     mend(path.as_ref());
     let store = Store::open(path)?;
     if store.status() == "done" {
@@ -54,8 +51,8 @@ pub fn resume_until(
     } = Checkpoints::find(store.folder(), text.unwrap_or_default())?;
     let scene = store.scene();
     let march = match state {
-        Some(state) => March::resume_until(scene, state, stop)?,
-        None => March::until(scene, stop)?,
+        Some(state) => March::resume_until(scene, state, &stop)?,
+        None => March::until(scene, &stop)?,
     };
     let points = march.points();
     let keeps = |index: usize| {

@@ -4,7 +4,7 @@
 //! in units of its own is a scene like any other.
 
 use super::shape::Shape;
-use super::{Body, Coating, Elastic, MOTIONS, Scene, SurfaceMap};
+use super::{Body, Coating, Elastic, Prescribed, RigidMotion, Scene, SurfaceMap};
 use crate::error::Error;
 use crate::reference::Hertz;
 
@@ -147,10 +147,11 @@ impl Scene {
             }
         }
         for (i, branch) in self.path.branches.iter().enumerate() {
-            for k in [3, 4] {
-                let shift = branch.to.given.motions()[k].unwrap_or(0.0);
-                if shift.abs() > wide {
-                    let name = MOTIONS[k];
+            for of in [RigidMotion::DeltaX, RigidMotion::DeltaY] {
+                if let Prescribed::Motion(shift) = branch.to.prescribed(of)
+                    && shift.abs() > wide
+                {
+                    let name = of.name();
                     doubts.push(format!(
                         "path[{i}].{name} = {shift:.3e} m is beyond the grid, {wide:.3e} m: {UNITS}"
                     ));

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Friction;
+use super::{Friction, Prescribed, RigidMotion};
 use crate::error::Error;
 
 /// The loads that the contact transmits at one moment, on body 2, and the rigid motions that are
@@ -63,13 +63,26 @@ impl Default for Given {
     }
 }
 
-/// Names of the loads and of the motions that they drive, in the order of [`Loads::forces`].
-pub const LOADS: [&str; 6] = ["W", "M_x", "M_y", "T_x", "T_y", "M_z"];
-/// Names of the rigid motions, in the order of [`LOADS`].
-pub const MOTIONS: [&str; 6] = ["delta_z", "phi_x", "phi_y", "delta_x", "delta_y", "phi_z"];
-
 impl Loads {
-    /// The six loads: W, M_x, M_y across the contact plane, T_x, T_y, M_z in it.
+    /// What is prescribed of a motion.
+    pub fn prescribed(&self, of: RigidMotion) -> Prescribed {
+        match self.given.motions()[of.index()] {
+            None => Prescribed::Load(self.forces()[of.index()]),
+            Some(motion) => Prescribed::Motion(motion),
+        }
+    }
+
+    /// Prescribes a load, which frees its motion, or a motion, whose load has no value of its own then.
+    pub fn prescribe(&mut self, of: RigidMotion, prescribed: Prescribed) {
+        let (mut forces, mut motions) = (self.forces(), self.given.motions());
+        (forces[of.index()], motions[of.index()]) = match prescribed {
+            Prescribed::Load(load) => (load, None),
+            Prescribed::Motion(motion) => (0.0, Some(motion)),
+        };
+        *self = self.with_forces(forces, Given::from_motions(motions));
+    }
+
+    /// The six loads in the order of [`RigidMotion::ALL`].
     pub fn forces(&self) -> [f64; 6] {
         [self.W, self.M_x, self.M_y, self.T_x, self.T_y, self.M_z]
     }
@@ -92,7 +105,7 @@ impl Loads {
 }
 
 impl Given {
-    /// The six motions in the order of [`MOTIONS`].
+    /// The six motions in the order of [`RigidMotion::ALL`].
     pub fn motions(&self) -> [Option<f64>; 6] {
         [
             self.delta_z,
@@ -124,37 +137,20 @@ impl Loads {
         key: &dyn Fn(&str) -> String,
         friction: &Friction,
     ) -> Result<(), Error> {
-        let (forces, given) = (self.forces(), self.given.motions());
-        for k in 0..6 {
-            match given[k] {
-                Some(motion) if !motion.is_finite() => {
-                    let unit = if MOTIONS[k].starts_with("phi") {
-                        "rotation in rad"
-                    } else {
-                        "shift in m"
-                    };
-                    return Err(Error::invalid(
-                        key(MOTIONS[k]),
-                        motion,
-                        format!("a finite {unit}"),
-                    ));
-                }
-                None if !forces[k].is_finite() => {
-                    let unit = if LOADS[k].starts_with('M') {
-                        "moment in N m"
-                    } else {
-                        "force in N"
-                    };
-                    return Err(Error::invalid(
-                        key(LOADS[k]),
-                        forces[k],
-                        format!("a finite {unit}"),
-                    ));
-                }
-                _ => {}
+        for motion in RigidMotion::ALL {
+            let prescribed = self.prescribed(motion);
+            if !prescribed.value().is_finite() {
+                let allowed = match (prescribed, motion.is_rotation()) {
+                    (Prescribed::Load(_), true) => "a finite moment in N m",
+                    (Prescribed::Load(_), false) => "a finite force in N",
+                    (Prescribed::Motion(_), true) => "a finite rotation in rad",
+                    (Prescribed::Motion(_), false) => "a finite shift in m",
+                };
+                let name = prescribed.name(motion);
+                return Err(Error::invalid(key(name), prescribed.value(), allowed));
             }
         }
-        if given[0].is_some() {
+        if self.given.delta_z.is_some() {
             return Ok(());
         }
         if self.W < 0.0 {
@@ -164,17 +160,21 @@ impl Loads {
                 "a finite compressive force >= 0 in N",
             ));
         }
-        for k in 1..6 {
-            if self.W == 0.0 && given[k].is_none() && forces[k] != 0.0 {
+        // The load of a motion, zero where the motion is prescribed.
+        let load = |of: RigidMotion| match self.prescribed(of) {
+            Prescribed::Load(load) => load,
+            Prescribed::Motion(_) => 0.0,
+        };
+        for motion in &RigidMotion::ALL[1..] {
+            if self.W == 0.0 && load(*motion) != 0.0 {
                 return Err(Error::invalid(
-                    key(LOADS[k]),
-                    forces[k],
+                    key(motion.load()),
+                    load(*motion),
                     "0 where W = 0: the bodies part",
                 ));
             }
         }
-        let part = |k: usize| if given[k].is_none() { forces[k] } else { 0.0 };
-        let (T_x, T_y) = (part(3), part(4));
+        let (T_x, T_y) = (load(RigidMotion::DeltaX), load(RigidMotion::DeltaY));
         let Some(limit) = friction.limit(self.W) else {
             return Ok(());
         };

@@ -6,7 +6,7 @@
 //! they result in is looked at too.
 
 use super::shape::Range;
-use super::{Body, Scene, Shape};
+use super::{Body, RigidMotion, Scene, Shape};
 use crate::error::Error;
 
 const SMALLEST: f64 = 1e-75;
@@ -27,14 +27,11 @@ impl Scene {
             within(SMALLEST, key, value)?;
         }
         for (i, branch) in self.path.branches.iter().enumerate() {
-            let (loads, motions) = (branch.to.forces(), branch.to.given.motions());
-            within(SMALLEST, &format!("path[{i}].W"), loads[0])?;
-            for k in 0..6 {
-                let (name, value) = match motions[k] {
-                    Some(motion) => (super::MOTIONS[k], motion),
-                    None => (super::LOADS[k], loads[k]),
-                };
-                within(0.0, &format!("path[{i}].{name}"), value)?;
+            within(SMALLEST, &format!("path[{i}].W"), branch.to.W)?;
+            for motion in RigidMotion::ALL {
+                let prescribed = branch.to.prescribed(motion);
+                let key = format!("path[{i}].{}", prescribed.name(motion));
+                within(0.0, &key, prescribed.value())?;
             }
         }
         Ok(())

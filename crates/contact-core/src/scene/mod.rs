@@ -6,19 +6,16 @@
 mod body;
 mod bulk_stress;
 mod case;
-mod direct;
 mod doubts;
 mod friction;
 mod grid;
 mod load_path;
-mod load_table;
 mod loads;
 mod magnitude;
 mod material;
-mod memory;
 mod missing;
+mod motion;
 mod number_files;
-mod plan;
 mod settings;
 mod shape;
 mod surface_map;
@@ -27,13 +24,11 @@ pub use body::{Body, Coating};
 pub use case::Reach;
 pub use friction::{Friction, FrictionHistory, History};
 pub use grid::Grid;
-pub use load_path::{Branch, LoadPath, LoadPoint, Spacing};
-pub use load_table::Increments;
-pub use loads::{Given, LOADS, Loads, MOTIONS};
+pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
+pub use loads::{Given, Loads};
 pub use material::Elastic;
-pub use memory::available_memory;
 pub use missing::Missing;
-pub use plan::{Plan, PlanLine};
+pub use motion::{Prescribed, RigidMotion};
 pub use settings::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
 };
@@ -42,7 +37,11 @@ pub use surface_map::SurfaceMap;
 
 use self::settings::{PATH_PART, TOLERANCE};
 use crate::error::Error;
+use crate::memory::fits;
 use crate::reference::{Hertz, contact_modulus, hertz, hertz_ellipse, line_contact};
+
+/// Numbers per cell that laying out the surfaces takes: each of them, their sum, their making.
+const SURFACES: f64 = 6.0;
 
 /// A fretting contact problem.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,6 +123,12 @@ impl Scene {
         self.check_yardsticks()?;
         self.check_sense()?;
         self.settings.check()
+    }
+
+    /// Fails if there is no memory even to lay out the surfaces on the grid.
+    fn check_surfaces_fit(&self) -> Result<(), Error> {
+        let cells = self.grid.nx as f64 * self.grid.ny as f64;
+        fits("the grid", SURFACES * cells * size_of::<f64>() as f64)
     }
 
     /// The Hertz contact of the uncoated pair at the largest normal load of the path, or at the

@@ -8,7 +8,7 @@ use ndarray::Array2;
 
 use super::missing::{Missing, completed};
 use super::number_files::{read_npy, read_table};
-use super::{Grid, memory};
+use super::Grid;
 use crate::error::Error;
 
 /// Memory that reading numbers takes, over the length of the file: a number may be two bytes of
@@ -38,7 +38,7 @@ impl SurfaceMap {
         if !about.is_file() {
             return Err(failed("is not a file".into()));
         }
-        memory::fits("the numbers of a file", COPIES * about.len() as f64)?;
+        crate::memory::fits("the numbers of a file", COPIES * about.len() as f64)?;
         let is_npy = path
             .extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("npy"));

@@ -1,45 +1,29 @@
 //! Stage 4: ONE INCREMENT, the inner and the intermediate loop (figures 2 and 3 of the paper).
 //!
-//! - [`normal`]: the pressure for known shear, eq. (5)-(6);
-//! - [`tangential`]: the shear for known pressure, eq. (7)-(8);
-//! - [`coupled`]: one after the other until neither changes what the other was solved for.
+//! - [`inner::normal`]: the pressure for known shear, eq. (5)-(6);
+//! - [`inner::tangential`]: the shear for known pressure, eq. (7)-(8);
+//! - [`intermediate::alternation`]: one after the other until neither changes what the other was solved for;
+//! - [`no_slip`]: the displacement that means no slip, eq. (7).
 //!
 //! The solvers know no elasticity, only a [`SurfaceOperator`](crate::convolution::SurfaceOperator).
 //! Each takes Params and gives Info or an Error with numbers. Lengths are those of the scene; a
 //! tolerance is a length too, so that "how wrong" can be read off.
 
-mod admissible;
-mod contact_cells;
-mod contact_shear;
-mod coupled;
+pub mod inner;
 mod interface;
-mod limit;
-mod mixing;
-mod newton_step;
-mod normal;
-mod owed;
-mod projected_gradient;
+pub mod intermediate;
+pub mod no_slip;
 mod response;
-mod rigid_motion;
-mod shear;
-mod shear_gradient;
-mod sweep;
-mod tangential;
-mod vector;
 
-pub(crate) use coupled::friction_bound;
-pub use coupled::{
-    CoupledInfo, CoupledParams, CoupledWorkspace, IncrementProblem, SlipDatum, coupled,
-};
 pub use interface::Interface;
-pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub use response::Response;
-pub use rigid_motion::{Arms, Drive};
-pub(crate) use rigid_motion::{inverse, product};
-pub use shear::{Shear, TangentialInfo, TangentialMethod, TangentialParams, TangentialProblem};
-pub(crate) use sweep::{set, sums, survey, sweep};
-pub use tangential::{TangentialWorkspace, tangential};
-pub(crate) use vector::{CHUNK, both, size};
+
+use self::inner::Shear;
+
+/// Largest shear under the pressure p, mu p \[Pa\].
+pub(crate) fn friction_bound(mu: f64, p: f64) -> f64 {
+    if p > 0.0 { mu * p } else { 0.0 }
+}
 
 /// A solver that stopped before its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

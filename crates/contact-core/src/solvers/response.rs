@@ -2,22 +2,32 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::sweep::set;
-use crate::convolution::{CirculantInverse, Displacements, SurfaceOperator, Tractions};
+use crate::cells::set;
+use crate::convolution::{ApproximateInverse, Displacements, SurfaceOperator, Tractions};
 
 /// The surface operator and, where there is one, its approximate inverse.
 pub struct Response<'a> {
     /// u = C * q.
     pub op: &'a mut dyn SurfaceOperator,
     /// Preconditioner; without it the conjugate gradients are plain.
-    pub inverse: Option<&'a mut CirculantInverse>,
+    pub inverse: Option<&'a mut dyn ApproximateInverse>,
     /// Raised from outside to end the iterations.
     pub stop: Option<&'a AtomicBool>,
     /// Whether changes of the tractions are answered with all digits too.
     pub exact: bool,
 }
 
-impl Response<'_> {
+impl<'a> Response<'a> {
+    /// Of an operator alone.
+    pub fn plain(op: &'a mut dyn SurfaceOperator) -> Self {
+        Self {
+            op,
+            inverse: None,
+            stop: None,
+            exact: false,
+        }
+    }
+
     /// Whether the iterations are to end, converged or not.
     pub(crate) fn stopped(&self) -> bool {
         self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed))

@@ -103,7 +103,7 @@ fn take(text: &str) -> Result<bool, Error> {
     let scene = Scene::from_toml_str(text, "fuzz.toml", &[])?;
     let again = Scene::from_toml_str(&scene.to_toml(), "again.toml", &[]).unwrap();
     assert_eq!(again, scene);
-    let plan = contact_core::scene::Plan::new(&scene);
+    let plan = contact_core::plan::Plan::new(&scene);
     let small = scene.grid.cells() <= CELLS && scene.path.increments() <= INCREMENTS;
     if !(small && plan.memory(&scene) < crate::ANNOUNCED) {
         return Ok(false);

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use contact_core::march::{Increment, March, Observer, solve};
 use contact_core::output::{FIELDS, SCALARS, Store, StoreWriter, resume};
-use contact_core::scene::Plan;
+use contact_core::plan::Plan;
 use contact_core::{Error, Scene};
 use proptest::prelude::*;
 
@@ -141,7 +141,7 @@ fn read(path: &Path) -> Result<(), Error> {
     let small = scene.grid.cells() <= 400 && scene.path.increments() <= 20;
     if small
         && Plan::new(scene).memory(scene) < crate::ANNOUNCED
-        && let Some(mut resumed) = resume(path)?
+        && let Some(mut resumed) = resume(path, None)?
     {
         let increments = resumed.increments.clone();
         resumed.march.run(increments, &mut resumed.writer)?;

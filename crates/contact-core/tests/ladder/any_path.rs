@@ -11,7 +11,7 @@ use crate::bench::{CORK, R, W, run, sphere_on_flat};
 const MU: f64 = 0.3;
 /// Waypoints of a path and increments between two of them.
 const WAYPOINTS: usize = 20;
-/// Error of the shift over its range that the issue allows.
+/// Error allowed of the shift over its range.
 const ALLOWED: f64 = 5e-3;
 
 /// Waypoints (W, T).

@@ -8,6 +8,8 @@ use contact_core::scene::{
 };
 use ndarray::{Array2, Zip};
 
+use crate::audit::{Audit, Violations};
+
 /// Radius of the sphere \[m\].
 pub(crate) const R: f64 = 0.018;
 /// Largest normal force \[N\].
@@ -124,6 +126,19 @@ pub(crate) fn run(scene: &Scene, mut watch: impl FnMut(&March, &Increment)) -> V
         increments.push(increment);
     }
     increments
+}
+
+/// The same, and every increment is audited.
+pub(crate) fn run_audited(
+    scene: &Scene,
+    mut watch: impl FnMut(&March, &Increment),
+) -> Vec<Increment> {
+    let (mut audit, mut worst) = (Audit::new(scene), Violations::default());
+    run(scene, |march, increment| {
+        worst.worse(&audit.check(march, increment));
+        assert!(worst.hold(), "{worst:#?} at {}", increment.index);
+        watch(march, increment);
+    })
 }
 
 /// Radius of the circle of an area.

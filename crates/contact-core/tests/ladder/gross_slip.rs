@@ -1,9 +1,10 @@
 //! Sliding both ways, and contact lost and found again.
 
+use contact_core::Error;
+use contact_core::march::March;
 use contact_core::march::{Increment, Status};
 use contact_core::reference::CattaneoMindlin;
 use contact_core::scene::{LoadPath, Loads, Scene};
-use contact_core::{Error, march::March};
 
 use crate::bench::{CORK, STEEL, W, close, hertz_of, indentation, run, sphere_on_flat};
 
@@ -30,7 +31,9 @@ fn a_given_shift_draws_the_trapezoid_of_gross_slip() {
         .to(shifted_to(delta), 20)
         .to(shifted_to(-delta), 40)
         .to(shifted_to(delta), 40);
-    let increments = run(&scene(path), |_, _| ());
+    let scene = scene(path);
+    let tolerance = scene.tolerance();
+    let increments = run(&scene, |_, _| ());
     let limit = MU * W;
     let gross = |i: &&Increment| i.status == Status::GrossSlip;
     for i in increments.iter().filter(gross) {
@@ -53,7 +56,7 @@ fn a_given_shift_draws_the_trapezoid_of_gross_slip() {
         "work of the loop",
         (work + quadrature) / dissipated,
         1.0,
-        1e-6,
+        tolerance,
     );
     // Flanks: E_d = 4 mu W (delta - delta_flank) with the energy of gross slip incipient, 0.2.
     let elastic = 4.0 * limit * sliding_shift() * (1.0 - 0.2);
@@ -62,10 +65,10 @@ fn a_given_shift_draws_the_trapezoid_of_gross_slip() {
     for i in &increments {
         // In stick cells the slip that the tolerance leaves may go either way.
         assert!(
-            i.energy.dissipated >= -1e-6 * limit * sliding_shift(),
+            i.energy.dissipated >= -tolerance * limit * sliding_shift(),
             "friction gives energy"
         );
-        assert!(i.residuals.energy.abs() < 1e-6 && i.residuals.balance < 1e-9);
+        assert!(i.residuals.energy.abs() < tolerance && i.residuals.balance < 1e-9);
     }
 }
 
@@ -109,17 +112,20 @@ fn a_given_approach_is_a_given_force() {
             1,
         );
     }
-    let motions = run(&scene(path), |_, _| ());
+    let by_motion = scene(path);
+    let motions = run(&by_motion, |_, _| ());
+    // An approach or a shift that is off by the tolerance of both runs is off in force by some times that.
+    let known = 10.0 * by_motion.tolerance();
     for (f, m) in forces.iter().zip(&motions) {
-        close("W", m.point.loads.W / f.point.loads.W, 1.0, 1e-5);
+        close("W", m.point.loads.W / f.point.loads.W, 1.0, known);
         close(
             "T_x",
             (m.point.loads.T_x - f.point.loads.T_x) / W,
             0.0,
-            1e-5,
+            known,
         );
         // The rim follows from the pressure a few cells inside, a tenth of the largest.
-        close("area", m.contact_area / f.contact_area, 1.0, 1e-4);
+        close("area", m.contact_area / f.contact_area, 1.0, 10.0 * known);
     }
 }
 

@@ -7,6 +7,7 @@
 //! ([`bench::SMOOTH`]). A path-dependent state is off by a part of an increment.
 
 mod any_path;
+#[path = "../audit/mod.rs"]
 mod audit;
 mod bench;
 mod bulk_stress;

@@ -1,7 +1,8 @@
 //! Kernel and convolution alone: a Hertz-shaped shear and Mindlin's displacement under it.
 
-use contact_core::convolution::{DcFft, Displacements, Mirror, SurfaceOperator, Tractions};
+use contact_core::convolution::{DcFft, Displacements, SurfaceOperator, Tractions};
 use contact_core::kernels::influence_coefficients;
+use contact_core::plan::Mirror;
 use contact_core::reference::mindlin_shear_displacement;
 use contact_core::scene::{Body, Elastic, Grid, KernelSettings, Shape};
 
@@ -12,7 +13,7 @@ fn error(nu: f64, n: usize) -> f64 {
     let grid = Grid::centred(2.2 * a, n).expect("a grid");
     let body = Body::homogeneous(material, Shape::Flat);
     let settings = KernelSettings::default();
-    let c = influence_coefficients(&body, &grid, &settings, true).expect("coefficients");
+    let c = influence_coefficients(&body, &grid, &settings, true, None).expect("coefficients");
     let mut op = DcFft::new(&c, Mirror::None, true);
     let shear = |x: f64, y: f64| q0 * (1.0 - (x * x + y * y) / (a * a)).max(0.0).sqrt();
     let q_x = grid.map(shear);

@@ -53,7 +53,7 @@ fn shear_is_a_multiple_of_pressure() {
 
 /// Without the motion before entry it converges with the first power of the increment.
 #[test]
-fn cells_that_enter_without_a_past_take_too_much_shear() {
+fn cells_whose_motion_before_entry_is_left_out_take_too_much_shear() {
     let [coarse, fine] = [20, 40].map(|n| misfit(n, false));
     assert!(coarse > 0.05 && fine < 0.8 * coarse, "{coarse} {fine}");
 }

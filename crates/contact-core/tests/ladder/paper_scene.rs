@@ -4,9 +4,9 @@ use contact_core::march::{Fields, Increment, Motion};
 use contact_core::reference::CattaneoMindlin;
 use contact_core::scene::{Elastic, Scene};
 
-use crate::audit::Audit;
 use crate::bench::{
-    FIELD, STEEL, W, cell, close, coated, hertz_of, indentation, radius, run, sphere_on_flat,
+    FIELD, STEEL, W, cell, close, coated, hertz_of, indentation, radius, run_audited,
+    sphere_on_flat,
 };
 
 const MU: f64 = 0.3;
@@ -37,10 +37,8 @@ struct Run {
 }
 
 fn audited(scene: &Scene) -> Run {
-    let mut audit = Audit::new(scene);
     let mut ends = Vec::new();
-    let increments = run(scene, |march, increment| {
-        audit.check(march, increment);
+    let increments = run_audited(scene, |march, increment| {
         if increment.point.ends_branch {
             ends.push(march.fields());
         }

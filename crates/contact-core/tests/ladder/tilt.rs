@@ -37,7 +37,11 @@ fn a_moment_moves_the_contact_of_a_sphere() {
     );
     for i in &increments {
         assert!(i.residuals.balance < 1e-9, "{:e}", i.residuals.balance);
-        assert!(i.residuals.energy.abs() < 1e-6, "{:e}", i.residuals.energy);
+        assert!(
+            i.residuals.energy.abs() < scene.tolerance(),
+            "{:e}",
+            i.residuals.energy
+        );
     }
 }
 

@@ -10,7 +10,7 @@ const MU: f64 = 0.3;
 const N: usize = 256;
 /// Rows of stick radius over contact radius.
 const ROWS: [f64; 3] = [0.9, 0.5, 0.1];
-/// Error of the rotation and of the moment that the issue allows.
+/// Error allowed of the rotation and of the moment, relative.
 const GLOBAL: f64 = 5e-3;
 
 fn scene(path: LoadPath) -> (Scene, Lubkin) {

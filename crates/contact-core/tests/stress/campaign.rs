@@ -7,14 +7,15 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use contact_core::Error;
+use contact_core::march::Fields;
 use contact_core::march::{Increment, March};
-use contact_core::scene::{Loads, Plan, Scene};
-use contact_core::{Error, march::Fields};
-use ndarray::Array2;
+use contact_core::plan::Plan;
+use contact_core::scene::Scene;
 
 use crate::audit::{Audit, Violations};
-use crate::draw::{Drawn, Intent, SHAPED};
-use crate::misfit::{Misfit, norm};
+use crate::draw::{Drawn, Intent};
+use crate::twins::{compared, has_twins};
 
 /// A scene that takes longer is stopped: most take a second, the largest half a minute, and the
 /// machine may have other things to do.
@@ -54,7 +55,7 @@ pub(crate) struct Outcome {
 pub(crate) fn audited(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<(End, Violations), Error> {
     let mut march = March::new(scene)?;
     march.stop_on(stop.clone());
-    let mut audit = Audit::new(&march);
+    let mut audit = Audit::new(scene);
     let mut worst = Violations::default();
     let mut increments = Vec::new();
     let (mut fields, mut approach) = (march.fields(), 0.0);
@@ -82,13 +83,13 @@ pub(crate) fn audited(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<(End, Vio
 pub(crate) struct End {
     /// Fields and approach of the last increment in contact.
     pub(crate) fields: Fields,
-    approach: f64,
+    pub(crate) approach: f64,
     pub(crate) increments: Vec<Increment>,
 }
 
 impl End {
     /// In how many pieces each increment was solved.
-    fn pieces(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn pieces(&self) -> impl Iterator<Item = usize> {
         self.increments.iter().map(|i| i.work.parts)
     }
 }
@@ -150,54 +151,8 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
     }
 }
 
-/// Whether a scene is compared with its twins.
-pub(crate) fn has_twins(seed: u64) -> bool {
-    seed.is_multiple_of(2) && seed < SHAPED
-}
-
-/// Twins of a scene.
-pub(crate) const TWINS: usize = 3;
-
-/// The name of twins that are alike without the turn of the slip only.
-pub(crate) const UNTURNED: &str = "unturned";
-
-/// The distances of the twins of a scene that take the same path: not those of which an increment
-/// is solved in more pieces. Where the turn of the slip cannot be followed to the end the solution
-/// depends on how far it was: a pair that differs is compared without it.
-fn compared(
-    scene: &Scene,
-    ours: &End,
-    stop: &Arc<AtomicBool>,
-) -> Result<Vec<(&'static str, f64)>, Fate> {
-    let misfit = Misfit::of(scene);
-    let run = |name: &str, scene: &Scene| match audited(scene, stop) {
-        Ok((end, _)) => Ok(end),
-        Err(error) => Err(ended(scene, &format!("{name} twin: "), &error)),
-    };
-    let unturned = |scene: &Scene| {
-        let mut scene = scene.clone();
-        scene.settings.solver.turning = false;
-        run("unturned", &scene)
-    };
-    let mut distances = Vec::new();
-    for (name, twin, back) in twins_of(scene) {
-        let theirs = run(name, &twin)?;
-        if !theirs.pieces().eq(ours.pieces()) {
-            continue;
-        }
-        let off = difference(ours, &theirs, &*back, &misfit);
-        distances.push(if off <= 1.0 {
-            (name, off)
-        } else {
-            let (ours, theirs) = (unturned(scene)?, unturned(&twin)?);
-            (UNTURNED, difference(&ours, &theirs, &*back, &misfit))
-        });
-    }
-    Ok(distances)
-}
-
 /// What an error comes to: a limit that is documented, too little time, or a failure.
-fn ended(scene: &Scene, of: &str, error: &Error) -> Fate {
+pub(crate) fn ended(scene: &Scene, of: &str, error: &Error) -> Fate {
     let strong = scene.friction.mu > STRONG && Plan::new(scene).coupling;
     match error {
         Error::Interrupted { .. } => Fate::Stopped,
@@ -235,92 +190,4 @@ fn widened(scene: &Scene, needed: f64) -> Scene {
     grid.dx = grid.dx.max(needed / grid.nx as f64);
     grid.dy = grid.dy.max(needed / grid.ny as f64);
     scene
-}
-
-/// p, q_x, q_y of a twin as those of the scene, and the factor of the twin's lengths.
-type Mapped = ([Array2<f64>; 3], f64);
-/// How the fields of a twin are mapped back.
-type Back = Box<dyn Fn(&Fields) -> Mapped>;
-
-fn twins_of(scene: &Scene) -> Vec<(&'static str, Scene, Back)> {
-    let mut twins: Vec<(&'static str, Scene, Back)> = Vec::new();
-    let with_loads = |f: &dyn Fn(Loads) -> Loads| {
-        let mut twin = scene.clone();
-        for branch in &mut twin.path.branches {
-            branch.to = f(branch.to);
-        }
-        twin
-    };
-
-    // Lengths a thousandth, moduli sixty-four times.
-    let (length, modulus) = (1e-3, 64.0);
-    let force = modulus * length * length;
-    let mut scaled = with_loads(&|l| Loads {
-        W: l.W * force,
-        T_x: l.T_x * force,
-        T_y: l.T_y * force,
-        ..l
-    });
-    for body in [&mut scaled.body1, &mut scaled.body2] {
-        if let contact_core::scene::Shape::Sphere { R } = &mut body.shape {
-            *R *= length;
-        }
-        body.substrate.E *= modulus;
-        for coating in &mut body.coatings {
-            coating.material.E *= modulus;
-            coating.thickness *= length;
-        }
-    }
-    scaled.grid.dx *= length;
-    scaled.grid.dy *= length;
-    twins.push((
-        "scaled",
-        scaled,
-        Box::new(move |f| {
-            let back = |f: &Array2<f64>| f / modulus;
-            ([back(&f.p), back(&f.q_x), back(&f.q_y)], length)
-        }),
-    ));
-
-    let mirrored = with_loads(&|l| Loads { T_y: -l.T_y, ..l });
-    let flip = |f: &Array2<f64>, sign: f64| f.slice(ndarray::s![.., ..;-1]).mapv(|v| sign * v);
-    twins.push((
-        "mirrored",
-        mirrored,
-        Box::new(move |f| {
-            (
-                [flip(&f.p, 1.0), flip(&f.q_x, 1.0), flip(&f.q_y, -1.0)],
-                1.0,
-            )
-        }),
-    ));
-
-    // A quarter turn: x to y, y to -x.
-    let mut rotated = with_loads(&|l| Loads {
-        T_x: -l.T_y,
-        T_y: l.T_x,
-        ..l
-    });
-    (rotated.grid.nx, rotated.grid.ny) = (scene.grid.ny, scene.grid.nx);
-    (rotated.grid.dx, rotated.grid.dy) = (scene.grid.dy, scene.grid.dx);
-    let turn = |f: &Array2<f64>| f.slice(ndarray::s![..;-1, ..]).t().to_owned();
-    twins.push((
-        "rotated",
-        rotated,
-        Box::new(move |f| ([turn(&f.p), turn(&f.q_y), -turn(&f.q_x)], 1.0)),
-    ));
-    twins
-}
-
-/// What a twin differs by over what two solutions within the tolerance may differ by.
-fn difference(ours: &End, theirs: &End, back: &dyn Fn(&Fields) -> Mapped, misfit: &Misfit) -> f64 {
-    let ([p, q_x, q_y], length) = back(&theirs.fields);
-    let f = &ours.fields;
-    let pressure = norm(&(p - &f.p)) / misfit.pressure(f);
-    let allowed = misfit
-        .shear(f, ours.increments.len())
-        .max(f64::MIN_POSITIVE);
-    let shear = norm(&(q_x - &f.q_x)).hypot(norm(&(q_y - &f.q_y))) / allowed;
-    let approach = (theirs.approach / length - ours.approach).abs() / misfit.approach(f);
-    pressure.max(shear).max(approach)
 }

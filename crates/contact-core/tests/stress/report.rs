@@ -3,20 +3,17 @@
 use std::fmt::Write;
 
 use crate::audit::Violations;
-use crate::campaign::{Fate, Outcome, TWINS, UNTURNED, has_twins};
+use crate::campaign::{Fate, Outcome};
 use crate::draw::SHAPED;
+use crate::twins::{TWINS, UNTURNED, has_twins};
 
 impl Outcome {
     /// Whether a result was given that is not one.
     pub(crate) fn is_silently_wrong(&self) -> bool {
         match &self.fate {
             Fate::Solved(violations, twins) => {
-                let twins = twins.iter().map(|(_, distance)| *distance);
-                !violations
-                    .values()
-                    .into_iter()
-                    .chain(twins)
-                    .all(|v| v <= 1.0)
+                let alike = twins.iter().all(|(_, distance)| *distance <= 1.0);
+                !(violations.hold() && alike)
             }
             Fate::Panicked(_) => true,
             Fate::Refused | Fate::Unsolved(_) | Fate::Stopped | Fate::Failed(_) => false,
@@ -130,7 +127,7 @@ fn write_worst(text: &mut String, outcomes: &[Outcome]) {
             }
         }
     }
-    for (name, value) in Violations::NAMES.into_iter().zip(worst.values()) {
+    for (name, value) in Violations::NAMES.into_iter().zip(worst.0) {
         let _ = writeln!(text, "| {name} | {value:.1e} |");
     }
     for (name, distance) in twins {

@@ -3,7 +3,7 @@
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::fields::{
-    Accumulate, Depth, Line, Moment, Points, Section, Side, Slices, Stream, depths,
+    Accumulate, Depth, Line, Moment, Points, Section, Side, Slices, States, Stream, depths,
 };
 use contact_core::march::{March, Observer};
 use contact_core::scene::{
@@ -26,12 +26,15 @@ fn far_below_the_contact_the_bulk_stress_is_left() {
     let far = depths(&body, &[z]).unwrap();
     let force: f64 = q.iter().flatten().map(|q| q.abs() * grid.cell_area()).sum();
     let ways = |side| {
-        let slices = Slices::new(&body, side, &grid, &[states(&q)]).unwrap();
-        let plane = slices.with_bulk_stress(&[SIGMA]).stress(far[0]).unwrap();
-        let points = Points::new(&body, side, &grid, &[states(&q)]).unwrap();
-        let point = points
-            .with_bulk_stress(&[SIGMA])
-            .stress(&[(3.0, 2.0, far[0])]);
+        let tractions = [states(&q)];
+        let pulled = States {
+            sigma_B: &[SIGMA],
+            ..States::from(&tractions)
+        };
+        let slices = Slices::new(&body, side, &grid, pulled.clone()).unwrap();
+        let plane = slices.stress(far[0]).unwrap();
+        let points = Points::new(&body, side, &grid, pulled).unwrap();
+        let point = points.stress(&[(3.0, 2.0, far[0])]);
         [
             [0, 1, 2, 3, 4, 5].map(|c| plane[0][c][(7, 4)]),
             point.unwrap()[0][0],
@@ -64,15 +67,17 @@ fn it_is_added_in_every_layer_and_in_every_way() {
         ]
     });
     for (line, exchanged) in [(Line::AlongX(0.4), false), (Line::AlongY(1.0), true)] {
-        let at = |states: &[Tractions<'_>]| {
+        let at = |tractions: &[Tractions<'_>], sigma_B: &[f64]| {
+            let states = States {
+                sigma_B,
+                ..States::from(tractions)
+            };
             Section::new(&body, Side::Body2, &grid, line, states).unwrap()
         };
-        let bare = at(&none).stress(&depths).unwrap().remove(0);
+        let bare = at(&none, &[]).stress(&depths).unwrap().remove(0);
         // The second state alone is pulled.
-        let both = at(&two)
-            .with_bulk_stress(&[0.0, SIGMA])
-            .stress(&depths)
-            .unwrap();
+        let pulled = at(&two, &[0.0, SIGMA]);
+        let both = pulled.stress(&depths).unwrap();
         for (k, depth) in depths.iter().enumerate() {
             for i in 0..if exchanged { grid.ny } else { grid.nx } {
                 for c in 0..6 {
@@ -85,8 +90,7 @@ fn it_is_added_in_every_layer_and_in_every_way() {
             }
         }
         // The tractions on planes z = const are not touched.
-        let displaced = at(&two).with_bulk_stress(&[0.0, SIGMA]);
-        let u = displaced.displacement(&depths).unwrap();
+        let u = pulled.displacement(&depths).unwrap();
         assert_eq!(u[0], u[1]);
     }
 }
@@ -198,12 +202,13 @@ fn a_fatigue_criterion_streams_with_the_bulk_stress() -> Result<(), Error> {
                 Side::Body1 => increment.point.loads.sigma_B1,
                 Side::Body2 => increment.point.loads.sigma_B,
             };
-            let section = Section::new(body, side, &scene.grid, line, &[state])?;
-            let stress = section
-                .with_bulk_stress(&[sigma_B])
-                .stress(&depths)?
-                .remove(0);
-            every.push(stress);
+            let (tractions, sigma_B) = ([state], [sigma_B]);
+            let states = States {
+                sigma_B: &sigma_B,
+                ..States::from(&tractions)
+            };
+            let section = Section::new(body, side, &scene.grid, line, states)?;
+            every.push(section.stress(&depths)?.remove(0));
         }
         let (_, kept) = stream.finish()?;
         let p_H = scene.hertz().expect("a Hertz contact").p0;

@@ -1,7 +1,7 @@
 //! A sliding sphere: Hamilton, and the tension at the trailing edge.
 
 use contact_core::convolution::Tractions;
-use contact_core::fields::{Depth, Line, Section, Side, depths, rims};
+use contact_core::fields::{Depth, Line, Section, Side, States, depths, rims};
 use contact_core::reference::HertzStress;
 use contact_core::scene::{Body, Elastic, Grid, Shape};
 use ndarray::{Array3, Axis};
@@ -30,10 +30,11 @@ fn sphere(
         p: p.as_slice(),
     }];
     let depths = depths(&body, z).unwrap();
-    let mut section = Section::new(&body, Side::Body2, &grid, Line::AlongX(0.0), &states).unwrap();
-    if rim {
-        section = section.with_rim(&states, &[]);
-    }
+    let states = States {
+        stick: rim.then_some(&[]),
+        ..States::from(&states)
+    };
+    let section = Section::new(&body, Side::Body2, &grid, Line::AlongX(0.0), states).unwrap();
     let stress = section.stress(&depths).unwrap().remove(0);
     (grid, depths, stress)
 }

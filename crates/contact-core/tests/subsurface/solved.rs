@@ -1,7 +1,7 @@
 //! Below solved contacts, with the rim followed: against superposed closed forms and finer grids.
 
 use contact_core::convolution::Tractions;
-use contact_core::fields::{Depth, Line, Section, Side, depths};
+use contact_core::fields::{Depth, Line, Section, Side, States, depths};
 use contact_core::march::{Fields, March};
 use contact_core::reference::{CattaneoMindlin, Hertz, HertzStress, hertz};
 use contact_core::scene::{
@@ -41,10 +41,12 @@ fn stress(scene: &Scene, fields: &Fields, depths: &[Depth], rim: bool) -> Array3
         p: fields.p.as_slice(),
     }];
     let line = Line::AlongX(0.0);
-    let mut section = Section::new(&scene.body2, Side::Body2, &scene.grid, line, &states).unwrap();
-    if rim {
-        section = section.with_rim(&states, &[fields.stick.as_slice().unwrap()]);
-    }
+    let stick = [fields.stick.as_slice().unwrap()];
+    let states = States {
+        stick: rim.then_some(&stick[..]),
+        ..States::from(&states)
+    };
+    let section = Section::new(&scene.body2, Side::Body2, &scene.grid, line, states).unwrap();
     section.stress(depths).unwrap().remove(0) / scene.hertz().map_or(1.0, |h| h.p0)
 }
 
@@ -232,11 +234,14 @@ fn other_tractions_stay_as_they_are() {
             p: p.as_slice(),
         }];
         let line = Line::AlongX(0.0);
-        let section = || Section::new(&body, Side::Body2, &grid, line, &states).unwrap();
-        let plain = section().stress(&depths).unwrap();
-        assert_eq!(
-            section().with_rim(&states, &[]).stress(&depths).unwrap(),
-            plain
-        );
+        let stress = |stick| {
+            let states = States {
+                stick,
+                ..States::from(&states)
+            };
+            let section = Section::new(&body, Side::Body2, &grid, line, states).unwrap();
+            section.stress(&depths).unwrap()
+        };
+        assert_eq!(stress(Some(&[])), stress(None));
     }
 }

@@ -14,7 +14,7 @@ fn surface_values_are_the_tractions_and_the_surface_displacement() {
     let q = tractions(&grid);
     let top = Depth { z: 0.0, layer: 0 };
     let coefficients =
-        influence_coefficients(&body, &grid, &KernelSettings::default(), true).unwrap();
+        influence_coefficients(&body, &grid, &KernelSettings::default(), true, None).unwrap();
     for side in [Side::Body1, Side::Body2] {
         let slices = Slices::new(&body, side, &grid, &[states(&q)]).unwrap();
         let stress = slices.stress(top).unwrap().remove(0);

@@ -1,6 +1,6 @@
-//! One straight piece of the load history.
+//! A branch of the load history.
 
-use contact_core::scene as core;
+use contact_core::scene::{self as core, Prescribed, RigidMotion};
 use pyo3::prelude::*;
 
 /// How the increments of a branch are spaced.
@@ -40,10 +40,20 @@ impl From<core::Spacing> for Spacing {
 pub(crate) struct Branch(pub(super) core::Branch);
 
 impl Branch {
-    /// A load, `None` where the motion is given instead.
-    fn load(&self, k: usize) -> Option<f64> {
-        let free = self.0.to.given.motions()[k].is_none();
-        free.then(|| self.0.to.forces()[k])
+    /// A load, `None` where its motion is prescribed.
+    fn load(&self, of: RigidMotion) -> Option<f64> {
+        match self.0.to.prescribed(of) {
+            Prescribed::Load(load) => Some(load),
+            Prescribed::Motion(_) => None,
+        }
+    }
+
+    /// A motion, `None` where its load is prescribed.
+    fn motion(&self, of: RigidMotion) -> Option<f64> {
+        match self.0.to.prescribed(of) {
+            Prescribed::Load(_) => None,
+            Prescribed::Motion(motion) => Some(motion),
+        }
     }
 }
 
@@ -52,73 +62,73 @@ impl Branch {
     /// Normal force at its end [N]; None where the approach is given.
     #[getter]
     fn W(&self) -> Option<f64> {
-        self.load(0)
+        self.load(RigidMotion::DeltaZ)
     }
 
     /// Tilting moment about x at its end [N m]; None where the tilt is given.
     #[getter]
     fn M_x(&self) -> Option<f64> {
-        self.load(1)
+        self.load(RigidMotion::PhiX)
     }
 
     /// Tilting moment about y at its end [N m]; None where the tilt is given.
     #[getter]
     fn M_y(&self) -> Option<f64> {
-        self.load(2)
+        self.load(RigidMotion::PhiY)
     }
 
     /// Tangential force along x on body 2 at its end [N]; None where the shift is given.
     #[getter]
     fn T_x(&self) -> Option<f64> {
-        self.load(3)
+        self.load(RigidMotion::DeltaX)
     }
 
     /// Tangential force along y on body 2 at its end [N]; None where the shift is given.
     #[getter]
     fn T_y(&self) -> Option<f64> {
-        self.load(4)
+        self.load(RigidMotion::DeltaY)
     }
 
     /// Torsional moment on body 2 at its end [N m]; None where the rotation is given.
     #[getter]
     fn M_z(&self) -> Option<f64> {
-        self.load(5)
+        self.load(RigidMotion::PhiZ)
     }
 
     /// Approach at its end [m]; None where W is given.
     #[getter]
     fn delta_z(&self) -> Option<f64> {
-        self.0.to.given.delta_z
+        self.motion(RigidMotion::DeltaZ)
     }
 
     /// Shift along x at its end [m]; None where T_x is given.
     #[getter]
     fn delta_x(&self) -> Option<f64> {
-        self.0.to.given.delta_x
+        self.motion(RigidMotion::DeltaX)
     }
 
     /// Shift along y at its end [m]; None where T_y is given.
     #[getter]
     fn delta_y(&self) -> Option<f64> {
-        self.0.to.given.delta_y
+        self.motion(RigidMotion::DeltaY)
     }
 
     /// Tilt about x at its end [rad]; None where M_x is given.
     #[getter]
     fn phi_x(&self) -> Option<f64> {
-        self.0.to.given.phi_x
+        self.motion(RigidMotion::PhiX)
     }
 
     /// Tilt about y at its end [rad]; None where M_y is given.
     #[getter]
     fn phi_y(&self) -> Option<f64> {
-        self.0.to.given.phi_y
+        self.motion(RigidMotion::PhiY)
     }
 
     /// Rotation about z at its end [rad]; None where M_z is given.
     #[getter]
     fn phi_z(&self) -> Option<f64> {
-        self.0.to.given.phi_z
+        self.motion(RigidMotion::PhiZ)
     }
 
     /// Bulk stress along x in body 2 at its end [Pa].
@@ -164,15 +174,15 @@ impl Branch {
     }
 
     fn __repr__(&self) -> String {
-        let given = self.0.to.given.motions();
-        let parts = (0..6).filter_map(|k| match (self.load(k), given[k]) {
-            (Some(load), _) if load != 0.0 || k == 0 => {
-                Some(format!("{}={load:?}", core::LOADS[k]))
-            }
-            (None, Some(motion)) if motion != 0.0 || k % 3 == 0 => {
-                Some(format!("{}={motion:?}", core::MOTIONS[k]))
-            }
-            _ => None,
+        // Zero is worth a word only where it is not the default.
+        let parts = RigidMotion::ALL.into_iter().filter_map(|of| {
+            let prescribed = self.0.to.prescribed(of);
+            let shown = match prescribed {
+                Prescribed::Load(_) => of == RigidMotion::DeltaZ,
+                Prescribed::Motion(_) => matches!(of, RigidMotion::DeltaZ | RigidMotion::DeltaX),
+            };
+            let value = prescribed.value();
+            (value != 0.0 || shown).then(|| format!("{}={value:?}", prescribed.name(of)))
         });
         format!(
             "Branch({}, increments={}, t={:?})",

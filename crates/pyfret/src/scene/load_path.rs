@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use contact_core::Error;
-use contact_core::scene as core;
+use contact_core::scene::{self as core, Prescribed, RigidMotion};
 use numpy::{PyArray1, ToPyArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::branch::{Branch, Spacing};
-use super::path_arguments::{AnyIncrements, Count, Values};
+use super::increments::{AnyIncrements, Count, Values};
 use crate::error::{takes, to_python};
 
 /// The load history, from two bodies just touching.
@@ -32,29 +32,19 @@ takes!(
 );
 
 impl LoadPath {
-    /// Appends a branch; `change` makes of each load and given motion the new ones.
+    /// Appends a branch that goes to the loads and motions which `change` makes of the present ones.
     fn branch(
         &self,
         increments: Option<usize>,
         spacing: Spacing,
         t: Option<f64>,
-        change: impl Fn(usize, f64, Option<f64>) -> (f64, Option<f64>),
+        change: impl FnOnce(&mut core::Loads),
     ) -> Self {
-        let (at, t_before) = self
-            .0
-            .branches
-            .last()
-            .map_or_else(Default::default, |b| (b.to, b.t_end));
-        let (mut forces, mut motions) = (at.forces(), at.given.motions());
-        for k in 0..6 {
-            (forces[k], motions[k]) = change(k, forces[k], motions[k]);
-        }
+        let (mut to, t_before) = self.0.last();
+        change(&mut to);
         Self(self.0.clone().branch(core::Branch {
-            to: at.with_forces(forces, core::Given::from_motions(motions)),
-            increments,
             spacing: spacing.into(),
-            t_end: t.unwrap_or(t_before + 1.0),
-            path_error: None,
+            ..core::Branch::new(to, increments, t.unwrap_or(t_before + 1.0))
         }))
     }
 
@@ -65,6 +55,15 @@ impl LoadPath {
     ) -> Bound<'py, PyArray1<f64>> {
         let column: Vec<f64> = self.0.points().iter().map(of).collect();
         column.to_pyarray(py)
+    }
+}
+
+/// Prescribes what is given of the six motions or their loads.
+fn prescribe(to: &mut core::Loads, given: [Option<Prescribed>; 6]) {
+    for (of, given) in RigidMotion::ALL.into_iter().zip(given) {
+        if let Some(prescribed) = given {
+            to.prescribe(of, prescribed);
+        }
     }
 }
 
@@ -189,17 +188,13 @@ impl LoadPath {
         spacing: Spacing,
         t: Option<f64>,
     ) -> Self {
-        let named = [W, M_x, M_y, T_x, T_y, M_z];
-        let mut path = self.branch(increments.0, spacing, t, |k, load, motion| match named[k] {
-            Some(load) => (load, None),
-            None => (load, motion),
-        });
-        if let Some(branch) = path.0.branches.last_mut() {
-            branch.to.sigma_B = sigma_B.unwrap_or(branch.to.sigma_B);
-            branch.to.sigma_B1 = sigma_B1.unwrap_or(branch.to.sigma_B1);
-            branch.to.rolled = rolled.unwrap_or(branch.to.rolled);
-        }
-        path
+        let loads = [W, M_x, M_y, T_x, T_y, M_z].map(|load| load.map(Prescribed::Load));
+        self.branch(increments.0, spacing, t, |to| {
+            prescribe(to, loads);
+            to.sigma_B = sigma_B.unwrap_or(to.sigma_B);
+            to.sigma_B1 = sigma_B1.unwrap_or(to.sigma_B1);
+            to.rolled = rolled.unwrap_or(to.rolled);
+        })
     }
 
     /// Go to the given rigid motions of body 1 on a straight line, or visit several in turn.
@@ -244,6 +239,7 @@ impl LoadPath {
         let named = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
         let several = |v: &Option<Values>| matches!(v, Some(Values::Several(_)));
         let first = |v: &Option<Values>| v.as_ref().and_then(|v| v.slice().first().copied());
+        let motions = named.each_ref().map(|v| first(v).map(Prescribed::Motion));
         if named.iter().filter(|v| several(v)).count() > 1 {
             return Err(PyValueError::new_err(
                 "displace: one motion at a time may be a sequence; waypoints(delta_x=.., delta_y=..) \
@@ -251,9 +247,7 @@ impl LoadPath {
             ));
         }
         let Some(k) = named.iter().position(several) else {
-            return Ok(self.branch(increments.0, spacing, t, |k, load, motion| {
-                first(&named[k]).map_or((load, motion), |motion| (0.0, Some(motion)))
-            }));
+            return Ok(self.branch(increments.0, spacing, t, |to| prescribe(to, motions)));
         };
         if t.is_some() {
             return Err(PyValueError::new_err(
@@ -261,18 +255,13 @@ impl LoadPath {
             ));
         }
         let values = named[k].as_ref().map(Values::slice).unwrap_or_default();
-        let start = self.0.branches.len();
-        let mut path = self.0.clone().moved(k, values, increments.0);
+        let others = std::array::from_fn(|n| motions[n].filter(|_| n != k));
+        let (start, of) = (self.0.branches.len(), RigidMotion::ALL[k]);
+        let path = self.0.clone();
+        let mut path = path.through(of, Prescribed::Motion, values, increments.0);
         for branch in &mut path.branches[start..] {
             branch.spacing = spacing.into();
-            let (mut forces, mut motions) = (branch.to.forces(), branch.to.given.motions());
-            for n in (0..6).filter(|n| *n != k) {
-                if let Some(motion) = first(&named[n]) {
-                    (forces[n], motions[n]) = (0.0, Some(motion));
-                }
-            }
-            let given = core::Given::from_motions(motions);
-            branch.to = branch.to.with_forces(forces, given);
+            prescribe(&mut branch.to, others);
         }
         Ok(Self(path))
     }
@@ -315,24 +304,27 @@ impl LoadPath {
         phi_z: Option<f64>,
         increments: Count,
     ) -> PyResult<Self> {
-        let loads = [(3, T_x), (4, T_y), (5, M_z)].map(|(k, v)| (k, true, v));
-        let motions = [(3, delta_x), (4, delta_y), (5, phi_z)].map(|(k, v)| (k, false, v));
-        let named = loads.into_iter().chain(motions);
-        let named: Vec<_> = named
-            .filter_map(|(k, load, v)| Some((k, load, v?)))
-            .collect();
-        let [(k, is_load, amplitude)] = named[..] else {
+        let named = [
+            (RigidMotion::DeltaX, T_x.map(Prescribed::Load)),
+            (RigidMotion::DeltaY, T_y.map(Prescribed::Load)),
+            (RigidMotion::PhiZ, M_z.map(Prescribed::Load)),
+            (RigidMotion::DeltaX, delta_x.map(Prescribed::Motion)),
+            (RigidMotion::DeltaY, delta_y.map(Prescribed::Motion)),
+            (RigidMotion::PhiZ, phi_z.map(Prescribed::Motion)),
+        ];
+        let named: Vec<_> = named.into_iter().filter_map(|(of, p)| Some((of, p?))).collect();
+        let [(of, amplitude)] = named[..] else {
             return Err(PyValueError::new_err(
                 "cycles: give the amplitude of one load or motion, such as T_x=100.0 or delta_x=2e-6",
             ));
         };
-        let values = core::LoadPath::cycle(amplitude, n);
-        let path = self.0.clone();
-        Ok(Self(if is_load {
-            path.loaded(k, &values, increments.0)
+        let kind: fn(f64) -> Prescribed = if amplitude.is_motion() {
+            Prescribed::Motion
         } else {
-            path.moved(k, &values, increments.0)
-        }))
+            Prescribed::Load
+        };
+        let values = core::LoadPath::cycle(amplitude.value(), n);
+        Ok(Self(self.0.clone().through(of, kind, &values, increments.0)))
     }
 
     /// Stay at the loads and motions reached for some increments, one unit of path time.

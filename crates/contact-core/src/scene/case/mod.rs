@@ -6,9 +6,12 @@
 
 mod document;
 mod files;
+mod friction;
 mod measure;
+mod path;
 mod read;
 mod section;
+mod settings;
 mod shape;
 #[cfg(test)]
 mod tests;

@@ -6,7 +6,7 @@ use toml::Value;
 
 use super::SCHEMA;
 use crate::scene::{
-    Body, Elastic, Friction, FrictionHistory, History, KernelMethod, LOADS, Loads, MOTIONS, Preset,
+    Body, Elastic, Friction, FrictionHistory, History, KernelMethod, Loads, Preset, RigidMotion,
     SaveFields, Scene, Spacing,
 };
 
@@ -32,13 +32,11 @@ impl Scene {
         line(format_args!("spacing = [{:?}, {:?}]", grid.dx, grid.dy));
         line(format_args!("plane_strain = {}", grid.plane_strain));
         for branch in &self.path.branches {
-            let (forces, motions) = (branch.to.forces(), branch.to.given.motions());
             line(format_args!("\n[[path]]"));
-            for k in 0..6 {
-                match motions[k] {
-                    None => line(format_args!("{} = {:?}", LOADS[k], forces[k])),
-                    Some(motion) => line(format_args!("{} = {motion:?}", MOTIONS[k])),
-                }
+            for motion in RigidMotion::ALL {
+                let prescribed = branch.to.prescribed(motion);
+                let (name, value) = (prescribed.name(motion), prescribed.value());
+                line(format_args!("{name} = {value:?}"));
             }
             let Loads {
                 sigma_B,

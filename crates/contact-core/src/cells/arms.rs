@@ -1,0 +1,236 @@
+//! Rigid motions of body 1 against body 2, each free to balance its load or given.
+//!
+//! Three lie in the contact plane, three across it. A motion m displaces cell n by B m:
+//!
+//! ```text
+//! in the plane      delta_x, delta_y, phi_z     B m = (m_0 - y m_2, m_1 + x m_2)
+//! across it         delta_z, phi_x, phi_y       B m = m_0 + y m_1 - x m_2
+//! ```
+//!
+//! and the sums of B^T times the traction are its forces and moments. Rotations are multiplied by
+//! the length that x and y are divided by, so that every m is a length and every sum a traction.
+
+use super::{Fields, sums};
+
+/// Lever arms: where the cells are.
+#[derive(Clone, Debug, Default)]
+pub struct Arms {
+    /// The length \[m\] that x and y are measured in, and that turns rotations into lengths.
+    pub length: f64,
+    /// x of each cell over `length`.
+    pub x: Vec<f64>,
+    /// y of each cell over `length`.
+    pub y: Vec<f64>,
+    /// What motions and displacements along y are multiplied by, and forces and tractions divided
+    /// by: elliptic friction is round in these. The modes in the plane are (1, 0), (0, 1) and
+    /// (-y, stretch x).
+    pub stretch: f64,
+}
+
+impl Arms {
+    /// How far cell n moves along y in a unit rotation.
+    pub(crate) fn turn_x(&self, n: usize) -> f64 {
+        self.stretch * self.x[n]
+    }
+
+    /// B m in the plane at cell n \[m\].
+    pub(crate) fn in_plane(&self, m: [f64; 3], n: usize) -> [f64; 2] {
+        if m[2] == 0.0 {
+            return [m[0], m[1]];
+        }
+        [m[0] - self.y[n] * m[2], m[1] + self.turn_x(n) * m[2]]
+    }
+
+    /// B m across the plane at cell n \[m\].
+    pub(crate) fn across(&self, m: [f64; 3], n: usize) -> f64 {
+        if m[1] == 0.0 && m[2] == 0.0 {
+            return m[0];
+        }
+        m[0] + self.y[n] * m[1] - self.x[n] * m[2]
+    }
+
+    /// B^T q in the plane, of cell n.
+    pub(crate) fn sums_in_plane(&self, q: [f64; 2], n: usize) -> [f64; 3] {
+        [q[0], q[1], self.turn_x(n) * q[1] - self.y[n] * q[0]]
+    }
+
+    /// B^T p across the plane, of cell n.
+    pub(crate) fn sums_across(&self, p: f64, n: usize) -> [f64; 3] {
+        [p, self.y[n] * p, -self.x[n] * p]
+    }
+
+    /// The motion within `free` that fits best in the plane what `weighted` makes, a weight and a value,
+    /// of the cells of some fields.
+    pub(crate) fn fit_in_plane<F: Fields>(
+        &self,
+        free: [bool; 3],
+        fields: F,
+        weighted: impl Fn(usize, F::Cell) -> (f64, [f64; 2]) + Sync,
+    ) -> [f64; 3] {
+        if !free[2] {
+            let [count, a, b] = sums(fields, |n, cell| {
+                let (w, [a, b]) = weighted(n, cell);
+                [w, w * a, w * b]
+            });
+            let plane = [[count, 0.0, 0.0], [0.0, count, 0.0], [0.0; 3]];
+            return product(&inverse(plane, free), [a, b, 0.0]);
+        }
+        let fields = (fields, [&self.x[..], &self.y]);
+        let [count, x, y, r2, a, b, moment] = sums(fields, |n, (cell, [x, y])| {
+            let (w, [a, b]) = weighted(n, cell);
+            let (x, a, b) = (self.stretch * x, w * a, w * b);
+            [w, w * x, w * y, w * (x * x + y * y), a, b, x * b - y * a]
+        });
+        let plane = [[count, 0.0, -y], [0.0, count, x], [-y, x, r2]];
+        product(&inverse(plane, free), [a, b, moment])
+    }
+
+    /// The motion within `free` that fits best across the plane what `weighted` makes, a weight and a
+    /// value, of the cells of some fields.
+    pub(crate) fn fit_across<F: Fields>(
+        &self,
+        free: [bool; 3],
+        fields: F,
+        weighted: impl Fn(usize, F::Cell) -> (f64, f64) + Sync,
+    ) -> [f64; 3] {
+        if free == [true, false, false] {
+            let [count, v] = sums(fields, |n, cell| {
+                let (weight, v) = weighted(n, cell);
+                [weight, weight * v]
+            });
+            let matrix = [[count, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+            return product(&inverse(matrix, free), [v, 0.0, 0.0]);
+        }
+        self.solve_across(free, fields, weighted, None)
+    }
+
+    /// The motion m within `free` with which the weights times B m have the sums asked for.
+    pub(crate) fn spread_across(
+        &self,
+        free: [bool; 3],
+        weights: &[f64],
+        asked: [f64; 3],
+    ) -> [f64; 3] {
+        self.solve_across(free, [weights], |_, [weight]| (weight, 0.0), Some(asked))
+    }
+
+    /// Normal equations of weights and values; `asked` stands for the sums of the values.
+    fn solve_across<F: Fields>(
+        &self,
+        free: [bool; 3],
+        fields: F,
+        weighted: impl Fn(usize, F::Cell) -> (f64, f64) + Sync,
+        asked: Option<[f64; 3]>,
+    ) -> [f64; 3] {
+        let fields = (fields, [&self.x[..], &self.y]);
+        let [w, x, y, xx, xy, yy, v, vx, vy] = sums(fields, |n, (cell, [x, y])| {
+            let (w, v) = weighted(n, cell);
+            let (wx, wy, v) = (w * x, w * y, w * v);
+            [w, wx, wy, wx * x, wx * y, wy * y, v, v * x, v * y]
+        });
+        let matrix = [[w, y, -x], [y, yy, -xy], [-x, -xy, xx]];
+        product(&inverse(matrix, free), asked.unwrap_or([v, vy, -vx]))
+    }
+}
+
+/// What drives three motions that belong together.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Drive {
+    /// Whether each motion is free to balance its load.
+    pub free: [bool; 3],
+    /// Sums of the traction that free motions balance \[Pa\]; zero where the motion is given.
+    pub sums: [f64; 3],
+    /// Motions that are given \[m\]; zero where they are free.
+    pub given: [f64; 3],
+}
+
+/// Part of a diagonal entry below which what elimination leaves of it is rounding.
+const PIVOT: f64 = 1e-13;
+
+/// Inverse of a symmetric positive semidefinite matrix on the unknowns that are free and that it
+/// determines, zero on the others.
+pub(crate) fn inverse<const N: usize>(matrix: [[f64; N]; N], free: [bool; N]) -> [[f64; N]; N] {
+    let mut a = matrix;
+    let mut kept = [false; N];
+    for k in 0..N {
+        let pivot = a[k][k];
+        if !free[k] || pivot <= PIVOT * matrix[k][k] {
+            continue;
+        }
+        kept[k] = true;
+        for j in 0..N {
+            a[k][j] /= if j == k { pivot * pivot } else { pivot };
+        }
+        for i in (0..N).filter(|&i| i != k) {
+            let factor = a[i][k];
+            for j in (0..N).filter(|&j| j != k) {
+                a[i][j] -= factor * a[k][j];
+            }
+            a[i][k] = -factor / pivot;
+        }
+    }
+    for k in 0..N {
+        for l in 0..N {
+            if !(kept[k] && kept[l]) {
+                a[k][l] = 0.0;
+            }
+        }
+    }
+    a
+}
+
+/// Matrix times vector.
+pub(crate) fn product<const N: usize>(matrix: &[[f64; N]; N], v: [f64; N]) -> [f64; N] {
+    std::array::from_fn(|k| (0..N).map(|l| matrix[k][l] * v[l]).sum())
+}
+
+/// a + b
+pub(crate) fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::cells::{Arms, inverse, product};
+
+    #[test]
+    fn the_inverse_is_that_of_the_free_part() {
+        let a = [[4.0, 1.0, 0.5], [1.0, 3.0, -0.2], [0.5, -0.2, 2.0]];
+        let b = inverse(a, [true; 3]);
+        for v in [[1.0, 2.0, 3.0], [-1.0, 0.5, 0.0]] {
+            let back = product(&b, product(&a, v));
+            assert!((0..3).all(|k| (back[k] - v[k]).abs() < 1e-14), "{back:?}");
+        }
+        let b = inverse(a, [true, false, true]);
+        let det = 4.0 * 2.0 - 0.25;
+        assert!((b[0][0] - 2.0 / det).abs() < 1e-15 && b[1].iter().all(|b| b.abs() <= 0.0));
+        assert!((b[0][2] + 0.5 / det).abs() < 1e-15);
+        // Twice the same motion: one of them is left out.
+        let b = inverse([[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0; 3]], [true; 3]);
+        let sizes: Vec<f64> = b
+            .iter()
+            .map(|row| row.iter().map(|b| b.abs()).sum())
+            .collect();
+        assert!(
+            (sizes[0] - 1.0).abs() < 1e-15 && sizes[1] + sizes[2] <= 0.0,
+            "{b:?}"
+        );
+    }
+
+    #[test]
+    fn a_rigid_motion_is_found_again() {
+        let arms = Arms {
+            length: 1.0,
+            x: vec![0.0, 1.0, -1.0, 2.0],
+            y: vec![0.5, 0.0, 1.0, -3.0],
+            stretch: 0.8,
+        };
+        let m = [0.3, -0.2, 0.7];
+        let plane = arms.fit_in_plane([true; 3], [], |n, []| (1.0, arms.in_plane(m, n)));
+        let moved: Vec<f64> = (0..4).map(|n| arms.across(m, n)).collect();
+        let across = arms.fit_across([true; 3], [&moved[..]], |_, [v]| (1.0, v));
+        for k in 0..3 {
+            assert!((plane[k] - m[k]).abs() < 1e-14 && (across[k] - m[k]).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! What the cells leave in the numbers of a run: the same path in few increments, on the grid and on a
+//! finer one.
+//!
+//! The place of a rim within the cells puts numbers off to either side by chance. On the grid itself,
+//! whatever the increments, the rim lies at the same place, so that the difference to a finer grid is the
+//! error with its sign.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use super::error_bars::numbers;
+use crate::error::Error;
+use crate::march::{March, summarise};
+use crate::scene::{Grid, SaveFields, Scene};
+
+/// Most increments of a branch.
+const INCREMENTS: usize = 8;
+/// Cells of the finer grid each way over those of the grid: the first with which it has no more cells
+/// than [`MOST`].
+const TIMES: [usize; 2] = [3, 2];
+const MOST: usize = 512 * 512;
+/// Least tolerance of the solver: cells leave more.
+const TOLERANCE: f64 = 1e-5;
+
+/// The errors of the grid in the numbers of each branch.
+pub(crate) struct Finer {
+    /// Cells of the finer grid each way over those of the grid.
+    pub(crate) ratio: f64,
+    /// The numbers less those of the finer grid, each in its unit.
+    pub(crate) off: Vec<[f64; 8]>,
+}
+
+impl Finer {
+    /// Of a scene whose increments are chosen. None where a finer grid is too large, or does not come to
+    /// its end; fails only once `stop` is raised.
+    pub(crate) fn solve(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Option<Self>, Error> {
+        let Some(fine) = finest(scene) else {
+            return Ok(None);
+        };
+        let few = Scene {
+            grid: scene.grid,
+            ..fine.clone()
+        };
+        let solved = |scene: &Scene| -> Result<_, Error> {
+            let increments = March::until(scene, stop)?.run(Vec::new(), &mut ())?;
+            Ok(summarise(&increments)
+                .iter()
+                .map(numbers)
+                .collect::<Vec<_>>())
+        };
+        match solved(&few).and_then(|ours| Ok((ours, solved(&fine)?))) {
+            Err(error @ Error::Interrupted { .. }) => Err(error),
+            Err(_) => Ok(None),
+            Ok((ours, theirs)) => {
+                let pairs = ours.iter().zip(&theirs);
+                let off = pairs.map(|(f, g)| std::array::from_fn(|n| f[n] - g[n]));
+                Ok(Some(Self {
+                    ratio: scene.grid.dx / fine.grid.dx,
+                    off: off.collect(),
+                }))
+            }
+        }
+    }
+}
+
+/// The scene in few increments on the finer grid that tells the errors of the cells, if there is one. Error
+/// bars take its memory besides that of the run.
+pub fn finest(scene: &Scene) -> Option<Scene> {
+    let grids = TIMES.map(|times| refined(&scene.grid, times));
+    let grid = grids.into_iter().find(|grid| grid.nx * grid.ny <= MOST)?;
+    let mut fine = Scene {
+        grid,
+        ..scene.clone()
+    };
+    fine.settings.save = SaveFields::Branches;
+    fine.settings.solver.tolerance = Some(scene.tolerance().max(TOLERANCE));
+    for branch in &mut fine.path.branches {
+        branch.increments = Some(branch.count().min(INCREMENTS));
+    }
+    Some(fine)
+}
+
+/// The grid of so many times the cells each way; a strip keeps its one row.
+fn refined(grid: &Grid, times: usize) -> Grid {
+    let part = 1.0 / times as f64;
+    let (ny, dy) = if grid.plane_strain {
+        (grid.ny, grid.dy)
+    } else {
+        (times * grid.ny, part * grid.dy)
+    };
+    Grid {
+        nx: times * grid.nx,
+        ny,
+        dx: part * grid.dx,
+        dy,
+        ..*grid
+    }
+}

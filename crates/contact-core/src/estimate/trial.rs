@@ -1,0 +1,216 @@
+//! A scene on a grid that is just fine enough, run through along its path again and again.
+//!
+//! The ends of the branches are kept: a path that begins as the last one did is gone on with where it
+//! differs.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use ndarray::Array2;
+
+use super::error_bars::numbers;
+use super::path_error::{ORDER, PathError, SOLVED};
+use crate::error::Error;
+use crate::march::{BranchSummary, Increment, March, State, Tractions, summarise};
+use crate::scene::{Branch, Grid, LoadPath, Scene};
+
+/// Cells of a grid that is not made coarser.
+const CELLS: usize = 64 * 64;
+/// Contact cells that a grid must have.
+const CONTACT: usize = 300;
+
+/// The same scene twice, for few increments and for many.
+pub(crate) struct Trial {
+    few: Run,
+    many: Run,
+    mu: f64,
+    /// The largest p and q at the end of a branch so far (L2).
+    largest: (f64, f64),
+}
+
+impl Trial {
+    /// On the coarsest grid on which the contact is not lost.
+    pub(crate) fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
+        let mut grids = vec![scene.grid];
+        while let Some(coarse) = grids.last().and_then(halved) {
+            grids.push(coarse);
+        }
+        let mut trial = scene.clone();
+        let solver = &mut trial.settings.solver;
+        solver.tolerance = Some(solver.path_tolerance * SOLVED);
+        let rolls = scene.path.branches.iter().any(|b| b.to.rolled != 0.0);
+        while let Some(grid) = grids.pop() {
+            if rolls && !grids.is_empty() {
+                continue;
+            }
+            trial.grid = grid;
+            let mut once = trial.clone();
+            once.path
+                .branches
+                .iter_mut()
+                .for_each(|b| b.increments = Some(1));
+            if grids.is_empty() || most_contact(&once, stop)? >= CONTACT {
+                break;
+            }
+        }
+        Ok(Self {
+            few: Run::new(&trial, stop)?,
+            many: Run::new(&trial, stop)?,
+            mu: scene.friction.mu,
+            largest: (f64::MIN_POSITIVE, f64::MIN_POSITIVE),
+        })
+    }
+
+    /// Estimated errors at the end of each branch.
+    pub(crate) fn errors(&mut self, path: &LoadPath) -> Result<Vec<PathError>, Error> {
+        let with = |count: fn(usize) -> usize| {
+            let mut other = path.clone();
+            for branch in &mut other.branches {
+                branch.increments = Some(count(branch.count()));
+            }
+            other
+        };
+        let (change, part) = if path.branches.iter().all(|b| b.count() > 1) {
+            let half = with(|n| n / 2);
+            (self.change(&half, path)?, ORDER.exp2() - 1.0)
+        } else {
+            let twice = with(|n| 2 * n);
+            (self.change(path, &twice)?, 1.0 - (-ORDER).exp2())
+        };
+        Ok(change.into_iter().map(|c| c.times(1.0 / part)).collect())
+    }
+
+    /// The change at the end of each branch from few increments to many, side by side.
+    fn change(&mut self, few: &LoadPath, many: &LoadPath) -> Result<Vec<PathError>, Error> {
+        let (few, many) = rayon::join(|| self.few.along(few), || self.many.along(many));
+        let (few, many) = (few?, many?);
+        for end in many {
+            let (p, q) = self.largest;
+            self.largest = (p.max(end.p()), q.max(end.q()));
+        }
+        let (p, q) = self.largest;
+        let pairs = few.iter().zip(many);
+        Ok(pairs
+            .map(|(few, many)| {
+                let (f, m) = (numbers(&few.summary), numbers(&many.summary));
+                let off = |k: usize| norm(&(&few.tractions[k] - &many.tractions[k]));
+                PathError {
+                    q: off(1).hypot(off(2)) / q,
+                    p: off(0) / p,
+                    numbers: std::array::from_fn(|n| f[n] - m[n]),
+                    reached: many.q() / q,
+                    bearable: self.mu * many.p() / q,
+                }
+            })
+            .collect())
+    }
+}
+
+/// A run, and the ends of the branches that it has been through.
+struct Run {
+    march: March,
+    ends: Vec<End>,
+}
+
+/// How a branch ends.
+struct End {
+    branch: Branch,
+    state: State,
+    summary: BranchSummary,
+    tractions: Tractions,
+}
+
+impl Run {
+    fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
+        Ok(Self {
+            march: March::until(scene, stop)?,
+            ends: Vec::new(),
+        })
+    }
+
+    /// The path run through, and how each of its branches ends.
+    fn along(&mut self, path: &LoadPath) -> Result<&[End], Error> {
+        let known = self.ends.iter().zip(&path.branches);
+        let known = known.take_while(|(end, branch)| end.branch == unjudged(branch));
+        self.ends.truncate(known.count());
+        let state = self.ends.last().map(|end| end.state.clone());
+        self.march.go_along(path, state);
+        let mut increments = Vec::new();
+        while let Some(increment) = self.march.advance() {
+            let increment = of_trial(increment)?;
+            increments.push(increment);
+            if increment.point.ends_branch {
+                let tractions = self.march.tractions();
+                self.ends
+                    .extend(summarise(&increments).pop().map(|summary| End {
+                        branch: unjudged(&path.branches[increment.point.branch]),
+                        state: self.march.state().clone(),
+                        summary,
+                        tractions,
+                    }));
+                increments.clear();
+            }
+        }
+        Ok(&self.ends)
+    }
+}
+
+/// The branch, whatever is known of its error.
+fn unjudged(branch: &Branch) -> Branch {
+    Branch {
+        path_error: None,
+        ..*branch
+    }
+}
+
+impl End {
+    fn p(&self) -> f64 {
+        norm(&self.tractions[0])
+    }
+
+    fn q(&self) -> f64 {
+        norm(&self.tractions[1]).hypot(norm(&self.tractions[2]))
+    }
+}
+
+fn norm(f: &Array2<f64>) -> f64 {
+    f.iter().map(|f| f * f).sum::<f64>().sqrt()
+}
+
+/// The most contact cells that the branches end with.
+fn most_contact(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<usize, Error> {
+    let cell_area = scene.grid.cell_area();
+    let mut march = March::until(scene, stop)?;
+    let mut most = 0.0_f64;
+    while let Some(increment) = march.advance() {
+        most = most.max(of_trial(increment)?.contact_area);
+    }
+    Ok((most / cell_area).round() as usize)
+}
+
+/// An increment of a trial; a stop comes before the first increment of the run itself.
+fn of_trial(increment: Result<Increment, Error>) -> Result<Increment, Error> {
+    increment.map_err(|error| match error {
+        Error::Interrupted { .. } => Error::Interrupted { increment: 0 },
+        error => error,
+    })
+}
+
+/// The grid of half as many cells each way, if there is one that is not too coarse.
+fn halved(grid: &Grid) -> Option<Grid> {
+    let Grid { nx, ny, dx, dy, .. } = *grid;
+    let line = grid.plane_strain;
+    let even = nx.is_multiple_of(2) && (line || ny.is_multiple_of(2));
+    let enough = if line {
+        nx / 2 >= CONTACT
+    } else {
+        nx * ny / 4 >= CELLS
+    };
+    (even && enough).then_some(Grid {
+        nx: nx / 2,
+        ny: if line { ny } else { ny / 2 },
+        dx: 2.0 * dx,
+        dy: if line { dy } else { 2.0 * dy },
+        ..*grid
+    })
+}

@@ -1,0 +1,110 @@
+//! What acts on a body, and what every way to ask for stresses under it needs.
+
+use std::ops::Range;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use super::bulk::Bulk;
+use super::near_rim::NearRim;
+use super::{Depth, Side};
+use crate::convolution::Tractions;
+use crate::error::Error;
+use crate::kernels::{DepthKernel, Quantity, Stack, refuse_rigid};
+use crate::scene::{Body, Grid};
+use crate::stop::unless;
+
+/// What acts on a body in one or several states of a contact, and how it is taken. A slice or array of
+/// [`Tractions`] stands for states with all else at its default.
+#[derive(Clone, Debug, Default)]
+pub struct States<'a> {
+    /// Tractions of each state \[Pa\], each field of shape (nx, ny) of the grid.
+    pub tractions: &'a [Tractions<'a>],
+    /// Bulk stress of the body in each state \[Pa\] (default: 0, also for states beyond the list). The
+    /// stress has that of each layer's own modulus besides what the tractions cause.
+    pub sigma_B: &'a [f64],
+    /// The cells that stick in each state, by which the tractions are those of contacts (for states beyond
+    /// the list: of contacts that slip at their rim). Near the surface and near the rim and the stick
+    /// zone the stress is then that of tractions that vary within the cells (default: `None`, constant
+    /// in each cell).
+    pub stick: Option<&'a [&'a [bool]]>,
+    /// Ends what is asked for with [`Error::Interrupted`] once it is raised (default: never).
+    pub stop: Arc<AtomicBool>,
+}
+
+impl<'a> From<&'a [Tractions<'a>]> for States<'a> {
+    fn from(tractions: &'a [Tractions<'a>]) -> Self {
+        Self {
+            tractions,
+            ..Self::default()
+        }
+    }
+}
+
+impl<'a, const N: usize> From<&'a [Tractions<'a>; N]> for States<'a> {
+    fn from(tractions: &'a [Tractions<'a>; N]) -> Self {
+        tractions.as_slice().into()
+    }
+}
+
+impl<'a> From<&'a Vec<Tractions<'a>>> for States<'a> {
+    fn from(tractions: &'a Vec<Tractions<'a>>) -> Self {
+        tractions.as_slice().into()
+    }
+}
+
+/// A body under states of a contact.
+pub(super) struct Loaded {
+    pub(super) body: Body,
+    pub(super) side: Side,
+    pub(super) grid: Grid,
+    /// How many states there are.
+    pub(super) states: usize,
+    /// What varies within the cells, if it counts.
+    pub(super) rim: Option<NearRim>,
+    pub(super) stop: Arc<AtomicBool>,
+    stack: Stack,
+    bulk: Bulk,
+}
+
+impl Loaded {
+    /// For samples in a window of columns and rows of the grid.
+    pub(super) fn new(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        states: &States<'_>,
+        window: impl FnOnce() -> Result<(Range<usize>, Range<usize>), Error>,
+    ) -> Result<Self, Error> {
+        body.check("body")?;
+        grid.check()?;
+        let window = window()?;
+        let near = |stick| NearRim::new(grid, side, states.tractions, stick, window);
+        Ok(Self {
+            stack: Stack::new(body),
+            body: body.clone(),
+            side,
+            grid: *grid,
+            states: states.tractions.len(),
+            bulk: Bulk::new(states.sigma_B, grid),
+            rim: states.stick.map(near),
+            stop: states.stop.clone(),
+        })
+    }
+
+    /// The kernel at a depth, out to a distance from the load \[m\].
+    pub(super) fn kernel<Q: Quantity<N, R>, const N: usize, const R: usize>(
+        &self,
+        depth: Depth,
+        reach: f64,
+    ) -> Result<DepthKernel<Q, N, R>, Error> {
+        refuse_rigid(&self.body, depth.layer)?;
+        unless(&self.stop)?;
+        let place = self.stack.place(depth.z, Some(depth.layer))?;
+        DepthKernel::new(&self.stack, place, reach)
+    }
+
+    /// s_xx and s_yy of a state's bulk stress at a depth \[Pa\].
+    pub(super) fn bulk(&self, state: usize, depth: Depth) -> [f64; 2] {
+        self.bulk.stress(&self.body, state, depth.layer)
+    }
+}

@@ -1,0 +1,140 @@
+//! Energies of an increment.
+
+use crate::cells::sums;
+use crate::march::increment::Setup;
+use crate::march::problem::unit;
+use crate::march::{Energy, Motion};
+use crate::scene::LoadPoint;
+use crate::solvers::intermediate::AlternationInfo;
+use crate::solvers::no_slip::{NoSlipTerms, slip};
+use crate::solvers::{Interface, friction_bound};
+
+/// Energies with mid-increment tractions, an identity for any symmetric C: the sum of mean
+/// traction times change of displacement is the change of the elastic energy. What friction
+/// takes is not reckoned with the mean shear; the difference stands apart.
+pub(super) fn energies(
+    setup: &Setup<'_>,
+    no_slip: &NoSlipTerms,
+    point: &LoadPoint,
+    now: &Interface,
+    info: &AlternationInfo,
+    motion: &Motion,
+) -> Energy {
+    let (problem, geometry, roll) = (setup.problem, setup.geometry, &setup.roll);
+    let (cell_area, mirror) = (problem.cell_area(), problem.plan.mirror);
+    let (last, arms) = (setup.last(), &geometry.arms);
+    let mean = |a: f64, b: f64| 0.5 * (a + b);
+    let (from, to) = (setup.state.loads.forces(), point.loads.forces());
+    let (started, ended) = (setup.state.motion.motions(), motion.motions());
+    let of_loads: f64 = (0..6)
+        .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
+        .sum();
+    let approach = [0, 1, 2].map(|k| (ended[k] - started[k]) * unit(arms, k));
+    let sums = sums([&now.p[..], &last.p], |n, [p, p_before]| {
+        if p <= 0.0 && p_before <= 0.0 {
+            return [0.0; 6];
+        }
+        let p = mean(p, p_before);
+        let du_z = now.u_z[n] - last.u_z[n];
+        let stretch = roll.stretch_at(geometry, n);
+        let wider = roll.gap_at(geometry, mirror, n);
+        let Slips {
+            slip,
+            held,
+            entered,
+        } = Slips::of(no_slip, now, last, arms.in_plane(info.shift, n), n);
+        let mut elastic = p * du_z;
+        let (mut trapezoidal, mut of_bulk) = (0.0, 0.0);
+        let mut opening = -p * (du_z + wider - arms.across(approach, n));
+        for c in 0..2 {
+            let q = mean(now.q[c][n], last.q[c][n]);
+            let du = now.u[c][n] - last.u[c][n];
+            elastic += q * (du - stretch[c]);
+            opening -= q * entered[c];
+            trapezoidal -= q * slip[c];
+            of_bulk -= q * stretch[c];
+        }
+        let dissipated = dissipated(setup.mu[n], now, last, held, n);
+        let quadrature = dissipated - trapezoidal;
+        [
+            elastic,
+            dissipated,
+            quadrature,
+            opening,
+            of_bulk,
+            -p * wider,
+        ]
+    });
+    let [
+        elastic,
+        dissipated,
+        quadrature,
+        opening,
+        of_bulk,
+        of_rolling,
+    ] = sums;
+    Energy {
+        work: of_loads + (of_bulk + of_rolling) * cell_area,
+        elastic: elastic * cell_area,
+        dissipated: dissipated * cell_area,
+        opening: opening * cell_area,
+        quadrature: quadrature * cell_area,
+    }
+}
+
+/// The slip of a cell in the increment \[m\].
+pub(super) struct Slips {
+    /// From where its material started, or entered the contact.
+    pub(super) slip: [f64; 2],
+    /// The same without its turn: what is held against the final shear.
+    pub(super) held: [f64; 2],
+    /// How far it moved before it entered.
+    pub(super) entered: [f64; 2],
+}
+
+impl Slips {
+    /// Of cell n with the rigid motion there.
+    pub(super) fn of(
+        no_slip: &NoSlipTerms,
+        now: &Interface,
+        last: &Interface,
+        rigid: [f64; 2],
+        n: usize,
+    ) -> Self {
+        let at = |u: &[Vec<f64>; 2]| [u[0][n], u[1][n]];
+        let added = no_slip.added(n);
+        let entered = if last.p[n] > 0.0 { [0.0; 2] } else { added };
+        let moved = slip(at(&now.u), at(&last.u), rigid);
+        let less = |by: [f64; 2]| [moved[0] - by[0], moved[1] - by[1]];
+        Self {
+            slip: less(entered),
+            held: less(if now.p[n] > 0.0 { added } else { entered }),
+            entered,
+        }
+    }
+}
+
+/// Energy per area that friction takes from a cell whose `slip` is held against the final shear
+/// \[J/m^2\]: a cell slips at its bound, so it is the mean bound of the increment times the slip,
+/// where the trapezoidal rule takes a mean of the shear before slip and in slip. A single increment
+/// is exact while the pressure stays. It is not negative because slip opposes the shear, to the
+/// tolerance. A cell that leaves the contact slips under half of the shear that it carried, if it
+/// gives way to it; how it moves once it is free is no slip.
+pub(super) fn dissipated(
+    mu: f64,
+    now: &Interface,
+    last: &Interface,
+    slip: [f64; 2],
+    n: usize,
+) -> f64 {
+    let power = |q: &[Vec<f64>; 2]| q[0][n] * slip[0] + q[1][n] * slip[1];
+    let bound = friction_bound(mu, now.p[n]);
+    if bound <= 0.0 {
+        return (-0.5 * power(&last.q)).max(0.0);
+    }
+    if !now.slip[n] {
+        return 0.0;
+    }
+    let mean = 0.5 * (1.0 + friction_bound(mu, last.p[n]) / bound);
+    -mean * power(&now.q)
+}

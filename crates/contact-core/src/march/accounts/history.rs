@@ -1,0 +1,109 @@
+//! The state that an increment leaves: what the material of each cell has been through.
+
+use super::energy::{Slips, dissipated};
+use crate::cells::{set, size};
+use crate::march::domain::Geometry;
+use crate::march::rolled::{Roll, Rolled};
+use crate::march::{Increment, State, Status};
+use crate::plan::Mirror;
+use crate::solvers::no_slip::{NoSlipTerms, not_opposite, slip};
+use crate::solvers::{Interface, friction_bound};
+
+/// What an increment was computed with, the state apart.
+pub(in crate::march) struct Closing<'a> {
+    pub(in crate::march) geometry: &'a Geometry,
+    pub(in crate::march) mirror: Mirror,
+    pub(in crate::march) roll: Roll,
+    pub(in crate::march) rolled: Option<&'a Rolled>,
+    pub(in crate::march) mu: &'a [f64],
+    pub(in crate::march) no_slip: &'a NoSlipTerms,
+    /// Whether the residual slip is corrected in the next increment.
+    pub(in crate::march) keeps_residual: bool,
+    /// d(delta_x), d(delta_y), d(phi_z) times the length \[m\].
+    pub(in crate::march) shift: [f64; 3],
+    /// Area of the cells that did not slip \[m^2\].
+    pub(in crate::march) without_slip: f64,
+    /// How far the cells beyond the window stay clear at least \[m\].
+    pub(in crate::march) clear: f64,
+}
+
+/// Makes the increment the present state.
+pub(in crate::march) fn close(
+    state: &mut State,
+    increment: &Increment,
+    now: Interface,
+    closing: &Closing<'_>,
+) {
+    keep_residual(state, increment.status, &now, closing);
+    if closing.roll.cells != 0 {
+        let field = |f: &Vec<f64>| closing.roll.field(closing.geometry, closing.mirror, f);
+        state.slip = state.slip.each_ref().map(field);
+        state.slip_length = field(&state.slip_length);
+        state.dissipated = field(&state.dissipated);
+    }
+    let last = std::mem::replace(&mut state.interface, now);
+    add_slip(state, &last, closing);
+    let point = &increment.point;
+    state.step = point.loads.since(&state.loads, state.motion.motions());
+    state.p_before = last.p;
+    state.q_before = last.q;
+    state.loads = point.loads;
+    state.motion = increment.motion;
+    state.work += increment.energy.work;
+    state.without_slip = closing.without_slip;
+    state.clear = closing.clear;
+    state.increments += 1;
+}
+
+/// Keeps the slip that should not be, for the next increment to correct; a body that slides may
+/// have any shift beyond the incipient one.
+fn keep_residual(state: &mut State, status: Status, now: &Interface, closing: &Closing<'_>) {
+    let keeps = closing.keeps_residual && status != Status::GrossSlip;
+    let arms = &closing.geometry.arms;
+    let [x_0, y_0] = closing.no_slip.displacement();
+    let [x, y] = &mut state.residual;
+    let tractions = [&now.p[..], &now.q[0], &now.q[1], closing.mu];
+    let moved = [&now.u[0][..], &now.u[1], x_0, y_0];
+    let fields = ((tractions, moved), &now.slip[..]);
+    set(fields, [x, y], |n, ((tractions, moved), slips), _| {
+        let ([p, q_x, q_y, mu], [u_x, u_y, x_0, y_0]) = (tractions, moved);
+        if !keeps || p <= 0.0 {
+            return [0.0; 2];
+        }
+        let slip = slip([u_x, u_y], [x_0, y_0], arms.in_plane(closing.shift, n));
+        if slips {
+            not_opposite(slip, [q_x, q_y], friction_bound(mu, p))
+        } else {
+            slip
+        }
+    });
+}
+
+/// Adds the slip of the increment and what friction took to the histories of the cells.
+fn add_slip(state: &mut State, last: &Interface, closing: &Closing<'_>) {
+    let now = &state.interface;
+    let before = closing.rolled.map_or(last, |rolled| &rolled.interface);
+    let (arms, mu) = (&closing.geometry.arms, closing.mu);
+    let [slip_x, slip_y] = &mut state.slip;
+    let histories = [
+        &mut slip_x[..],
+        slip_y,
+        &mut state.slip_length,
+        &mut state.dissipated,
+    ];
+    let pressures = [&now.p[..], &before.p];
+    set(pressures, histories, |n, [p, p_before], old| {
+        let [x, y, length, energy] = old;
+        if p <= 0.0 && p_before <= 0.0 {
+            return old;
+        }
+        let rigid = arms.in_plane(closing.shift, n);
+        let Slips { slip, held, .. } = Slips::of(closing.no_slip, now, before, rigid, n);
+        let energy = energy + dissipated(mu[n], now, before, held, n);
+        if !(p > 0.0 && now.slip[n]) {
+            return [x, y, length, energy];
+        }
+        let way = size([slip[0], slip[1] / arms.stretch]);
+        [x + slip[0], y + slip[1], length + way, energy]
+    });
+}

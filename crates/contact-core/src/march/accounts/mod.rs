@@ -1,0 +1,100 @@
+//! The accounts of an increment: motion, loads, areas, energies; and the state that it leaves.
+
+mod areas;
+mod energy;
+mod history;
+
+pub(super) use self::history::{Closing, close};
+use super::increment::{Setup, count};
+use super::problem::unit;
+use super::{Increment, Motion, Status, Work, check};
+use crate::cells::{both, sums};
+use crate::scene::{LoadPoint, Loads};
+use crate::solvers::Interface;
+use crate::solvers::intermediate::AlternationInfo;
+use crate::solvers::no_slip::NoSlipTerms;
+
+/// What a solved increment comes to, and the area of the cells that did not slip in it \[m^2\].
+pub(super) fn draw_up(
+    setup: &Setup<'_>,
+    no_slip: &NoSlipTerms,
+    now: &Interface,
+    info: &AlternationInfo,
+) -> (Increment, f64) {
+    let state = setup.state;
+    let cell_area = setup.problem.cell_area();
+    let motion = motion(setup, info);
+    let point = LoadPoint {
+        loads: transmitted(setup, setup.point, now),
+        ..*setup.point
+    };
+    let ((energy, (residuals, [p_max, q_max])), zones) = both(
+        now.p.len(),
+        || {
+            let energy = energy::energies(setup, no_slip, &point, now, info, &motion);
+            (energy, check::residuals(setup, no_slip, now, info))
+        },
+        || areas::areas(setup, no_slip, now, info),
+    );
+    let (contact, slipping) = count(now);
+    let stick_area = (zones.stick * cell_area).min(zones.contact * cell_area);
+    let increment = Increment {
+        index: state.increments + 1,
+        point,
+        motion,
+        status: match (contact, slipping) {
+            (0, _) => Status::NoContact,
+            (_, 0) => Status::FullStick,
+            (contact, slipping) if contact == slipping => Status::GrossSlip,
+            _ => Status::PartialSlip,
+        },
+        contact_area: zones.contact * cell_area,
+        stick_area,
+        p_max,
+        q_max,
+        energy,
+        residuals,
+        work: Work {
+            convolutions: 0.0,
+            alternations: info.alternations,
+            normal_iterations: info.normal_iterations,
+            tangential_iterations: info.tangential_iterations,
+            parts: 1,
+        },
+    };
+    (increment, zones.without_slip * cell_area)
+}
+
+/// The rigid motion at the end of the increment; what is given is kept as it was said.
+fn motion(setup: &Setup<'_>, info: &AlternationInfo) -> Motion {
+    let (last, arms) = (&setup.state.motion, &setup.geometry.arms);
+    let given = &setup.point.loads.given;
+    let (approach, shift) = (info.approach, info.shift);
+    Motion {
+        delta_z: given.delta_z.unwrap_or(approach[0]),
+        phi_x: given.phi_x.unwrap_or(approach[1] / unit(arms, 1)),
+        phi_y: given.phi_y.unwrap_or(approach[2] / unit(arms, 2)),
+        delta_x: given.delta_x.unwrap_or(last.delta_x + shift[0]),
+        delta_y: (given.delta_y).unwrap_or(last.delta_y + shift[1] / unit(arms, 4)),
+        phi_z: (given.phi_z).unwrap_or(last.phi_z + shift[2] / unit(arms, 5)),
+    }
+}
+
+/// The loads of an increment to `point`: those given, and for given motions what the tractions come to.
+pub(super) fn transmitted(setup: &Setup<'_>, point: &LoadPoint, now: &Interface) -> Loads {
+    let (problem, arms) = (setup.problem, &setup.geometry.arms);
+    let cell_area = problem.cell_area();
+    let sums = [
+        sums([&now.p[..]], |n, [p]| arms.sums_across(p, n)),
+        sums([&now.q[0][..], &now.q[1]], |n, q| arms.sums_in_plane(q, n)),
+    ];
+    let (forces, given) = (point.loads.forces(), point.loads.given);
+    let motions = given.motions();
+    let transmitted = std::array::from_fn(|k| match motions[k] {
+        None => forces[k],
+        // The other half has the opposite.
+        Some(_) if problem.is_odd(k) => 0.0,
+        Some(_) => sums[k / 3][k % 3] * cell_area * unit(arms, k),
+    });
+    point.loads.with_forces(transmitted, given)
+}

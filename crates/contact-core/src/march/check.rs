@@ -1,0 +1,160 @@
+//! How well the equations hold at the end of an increment, from the fields alone.
+
+use super::domain::{Domain, half_lengths};
+use super::increment::{Failure, Setup};
+use super::problem::unit;
+use super::{Increment, Residuals, Status, accounts, off_grid};
+use crate::cells::{size, survey};
+use crate::error::Error;
+use crate::scene::{Given, LoadPoint, Loads};
+use crate::solvers::intermediate::AlternationInfo;
+use crate::solvers::no_slip::{NoSlipTerms, not_opposite, slip};
+use crate::solvers::{Interface, friction_bound};
+
+/// What sums in another order may differ by.
+const ROUNDING: f64 = 1e-9;
+
+/// Whether the solution is one of the whole problem: loads that friction carries, a contact within window
+/// and grid, and cells beyond that stay clear; how far they do at least \[m\].
+pub(super) fn admissible(
+    setup: &Setup<'_>,
+    domain: &Domain,
+    now: &Interface,
+    info: &AlternationInfo,
+) -> Result<f64, Failure> {
+    let Setup {
+        problem,
+        geometry,
+        state,
+        point,
+        ..
+    } = *setup;
+    setup.unless_stopped()?;
+    if info.exceeds_friction() {
+        let (increment, used) = (state.increments + 1, info.friction_used);
+        return Err(Error::BeyondFriction { increment, used }.into());
+    }
+    let shape = (geometry.grid.nx, geometry.grid.ny);
+    let half = half_lengths(&now.p, problem.plan.mirror.rows(shape.1), shape);
+    if domain.is_narrow(problem, state, point, half) {
+        return Err(Failure::Narrow(half));
+    }
+    let clear = domain.clear_beyond(problem, state, now, info)?;
+    off_grid::check(setup, now)?;
+    clear.ok_or(Failure::Beyond)
+}
+
+/// How well the equations hold; and the largest pressure and shear \[Pa\].
+pub(super) fn residuals(
+    setup: &Setup<'_>,
+    no_slip: &NoSlipTerms,
+    now: &Interface,
+    info: &AlternationInfo,
+) -> (Residuals, [f64; 2]) {
+    let mu = setup.problem.scene.friction.scale();
+    let approach = setup.problem.approach;
+    let arms = &setup.geometry.arms;
+    let [x_0, y_0] = no_slip.displacement();
+    let tractions = [&now.p[..], &now.q[0], &now.q[1], setup.mu];
+    let moved = [&now.u[0][..], &now.u[1], x_0, y_0];
+    let heights = [&now.u_z[..], &setup.geometry.h_init];
+    let fields = ((tractions, moved), (heights, &now.slip[..]));
+    let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
+    let (sums, largest) = survey(fields, |n, ((tractions, moved), ([u_z, h], slips))| {
+        let ([p, q_x, q_y, mu], [u_x, u_y, x_0, y_0]) = (tractions, moved);
+        let gap = u_z + h - arms.across(info.approach, n);
+        let bound = friction_bound(mu, p);
+        let (stretched, excess) = (size([q_x, arms.stretch * q_y]), size([q_x, q_y]) - bound);
+        if p <= 0.0 {
+            return ([0.0; 6], [p, stretched, excess, -gap]);
+        }
+        let largest = [p, stretched, excess, 0.0];
+        let slip = slip([u_x, u_y], [x_0, y_0], arms.in_plane(info.shift, n));
+        if !slips {
+            return ([1.0, 0.0, gap * gap, square(slip), 0.0, 0.0], largest);
+        }
+        let off = not_opposite(slip, [q_x, q_y], bound);
+        let squares = [1.0, 1.0, gap * gap, 0.0, square(off), square(slip)];
+        (squares, largest)
+    });
+    let [contact, slipping, gap_squares, stick, direction, slipped] = sums;
+    let [p_max, q_max, excess, overlap] = largest;
+    let mut r = Residuals {
+        coulomb: excess,
+        ..Residuals::default()
+    };
+    let rms = |squares: f64, count: f64| (squares / count.max(1.0)).sqrt();
+    if contact > 0.0 {
+        r.gap = rms(gap_squares, contact) / approach;
+        r.penetration = overlap / approach;
+    }
+    if slipped > 0.0 {
+        r.angle = (direction / slipped).sqrt().min(1.0).asin();
+    }
+    if mu > 0.0 && contact > 0.0 {
+        r.stick = rms(stick, contact - slipping) / (mu * approach);
+        r.direction = rms(direction, slipping) / (mu * approach);
+    }
+    if mu * p_max > 0.0 {
+        r.coulomb /= mu * p_max;
+    }
+    r.balance = missing_loads(setup, now, mu);
+    (r, [p_max, q_max])
+}
+
+/// Largest error of the balances of the loads that are given: across the plane over W, in it
+/// over mu W, moments over these times the grid's half-length.
+fn missing_loads(setup: &Setup<'_>, now: &Interface, mu: f64) -> f64 {
+    let point = setup.point;
+    let all_given = LoadPoint {
+        loads: Loads {
+            given: Given::from_motions([Some(0.0); 6]),
+            ..point.loads
+        },
+        ..*point
+    };
+    let carried = accounts::transmitted(setup, &all_given, now).forces();
+    let (asked, motions) = (point.loads.forces(), point.loads.given.motions());
+    let W = carried[0];
+    let scale = |k: usize| {
+        let unit = unit(&setup.geometry.arms, k);
+        if k < 3 { W * unit } else { mu * W * unit }
+    };
+    (0..6)
+        .filter(|&k| motions[k].is_none() && scale(k) > 0.0)
+        .fold(0.0, |worst, k| {
+            ((carried[k] - asked[k]) / scale(k)).abs().max(worst)
+        })
+}
+
+/// Whatever a solver took for solved: gap and overlap, and the slip that should not be over all contact
+/// cells, are within the tolerance, or the increment is not.
+pub(super) fn within_tolerance(
+    setup: &Setup<'_>,
+    increment: &Increment,
+    (contact, slipping): (usize, usize),
+) -> Result<(), Error> {
+    let (scene, approach) = (&setup.problem.scene, setup.problem.approach);
+    let r = &increment.residuals;
+    let mu = scene.friction.scale();
+    let slips = if increment.status == Status::GrossSlip {
+        // A body that slides may have any shift beyond the incipient one.
+        0.0
+    } else {
+        let stick = r.stick.powi(2) * (contact - slipping) as f64;
+        let direction = r.direction.powi(2) * slipping as f64;
+        mu.max(1.0) * ((stick + direction) / contact.max(1) as f64).sqrt()
+    };
+    let worst = r.gap.max(r.penetration).max(slips);
+    let tolerance = scene.tolerance();
+    if worst <= tolerance * (1.0 + ROUNDING) {
+        return Ok(());
+    }
+    Err(Error::NotConverged {
+        increment: increment.index,
+        solver: "coupled",
+        residual: worst * approach,
+        tolerance: tolerance * approach,
+        iterations: increment.work.alternations,
+    })
+}

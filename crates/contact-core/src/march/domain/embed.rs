@@ -1,0 +1,65 @@
+//! Fields in another window around the same middle.
+
+use crate::march::State;
+use crate::plan::Mirror;
+use crate::solvers::Interface;
+
+/// A field of kept cells on more cells around the same middle, `elsewhere` on the new ones; or on fewer.
+/// Shapes are cells along x and kept rows.
+pub(super) fn embedded<T: Copy>(
+    field: &[T],
+    from: (usize, usize),
+    to: (usize, usize),
+    mirror: Mirror,
+    elsewhere: T,
+) -> Vec<T> {
+    // Where the one begins in the other.
+    let begins =
+        |from: usize, to: usize| (to.saturating_sub(from) / 2, from.saturating_sub(to) / 2);
+    let (i, i_from) = begins(from.0, to.0);
+    let (j, j_from) = match mirror {
+        Mirror::None => begins(from.1, to.1),
+        // The half begins in the middle.
+        Mirror::Y => (0, 0),
+    };
+    let (columns, rows) = (from.0.min(to.0), from.1.min(to.1));
+    let mut embedded = vec![elsewhere; to.0 * to.1];
+    for column in 0..columns {
+        let values = &field[(i_from + column) * from.1 + j_from..][..rows];
+        embedded[(i + column) * to.1 + j..][..rows].copy_from_slice(values);
+    }
+    embedded
+}
+
+/// An interface in another window; in a wider one the displacements are not those of the new cells.
+pub(super) fn interface(
+    now: &Interface,
+    from: (usize, usize),
+    to: (usize, usize),
+    mirror: Mirror,
+) -> Interface {
+    now.map(
+        |field| embedded(field, from, to, mirror, 0.0),
+        |slip| embedded(slip, from, to, mirror, false),
+    )
+}
+
+/// A state in another window; in a wider one the displacements are not those of the new cells.
+pub(super) fn state(
+    state: &State,
+    from: (usize, usize),
+    to: (usize, usize),
+    mirror: Mirror,
+) -> State {
+    let field = |f: &Vec<f64>| embedded(f, from, to, mirror, 0.0);
+    State {
+        interface: interface(&state.interface, from, to, mirror),
+        slip: state.slip.each_ref().map(field),
+        slip_length: field(&state.slip_length),
+        dissipated: field(&state.dissipated),
+        p_before: field(&state.p_before),
+        q_before: state.q_before.each_ref().map(field),
+        residual: state.residual.each_ref().map(field),
+        ..*state
+    }
+}

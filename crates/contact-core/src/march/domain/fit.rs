@@ -1,0 +1,257 @@
+//! How wide the window is: for the contact, what it is expected to grow by, and a margin.
+
+use std::sync::PoisonError;
+
+use super::{Domain, embed, shape_of};
+use crate::convolution::good_size;
+use crate::error::Error;
+use crate::march::State;
+use crate::march::entry::AROUND;
+use crate::march::guess::first_contact;
+use crate::march::problem::Problem;
+use crate::plan::Plan;
+use crate::scene::{Grid, LoadPoint, Scene};
+use crate::solvers::Response;
+
+/// Least cells between the contact and the border of the window.
+const MARGIN: usize = 2;
+/// What the contact is expected to grow by until the next, wider window, if the loads still grow by as
+/// much.
+const GROWTH: f64 = 1.08;
+/// Part of the grid's length from which a window is not worth it.
+const WHOLE: f64 = 0.9;
+/// The least cells along an axis of a window.
+const LEAST: usize = 32;
+
+/// The shape of the window to begin with: the whole grid where cells have to be kept everywhere.
+pub(super) fn first(scene: &Scene, plan: &Plan) -> (usize, usize) {
+    if plan.methods.window {
+        shape_for(&scene.grid, [LEAST, LEAST])
+    } else {
+        shape_of(&scene.grid)
+    }
+}
+
+impl Domain {
+    /// Puts the state into a window wide enough for the contact that is expected in the increment to
+    /// `point`; returns it as it was in another one. Fails where the run is stopped meanwhile; nothing is changed then.
+    pub(in crate::march) fn fit(
+        &mut self,
+        problem: &Problem,
+        state: &mut State,
+        point: &LoadPoint,
+    ) -> Result<Option<State>, Error> {
+        if state.window != self.shape() {
+            let shape = state.window;
+            self.move_into(problem, state, shape)?;
+        }
+        if self.shape() == shape_of(&problem.scene.grid) {
+            return Ok(None);
+        }
+        let mirror = problem.plan.mirror;
+        let touches = state.interface.p.iter().any(|&p| p > 0.0);
+        let presses = point.loads.W > 0.0 || point.loads.given.delta_z.is_some();
+        let [within, _] = growth(problem, state, point);
+        let half = if touches {
+            let (nx, ny) = self.shape();
+            half_lengths(&state.interface.p, mirror.rows(ny), (nx, ny))
+        } else if presses {
+            let (nx, ny) = shape_of(&problem.scene.grid);
+            let p = first_contact(problem, point);
+            half_lengths(&mirror.fold(&p), mirror.rows(ny), (nx, ny))
+        } else {
+            return Ok(None);
+        };
+        let expected = half.map(|half| (half as f64 * within).round() as usize);
+        if self.is_narrow(problem, state, point, expected) {
+            return self.widen(problem, state, point, Some(expected));
+        }
+        Ok(None)
+    }
+
+    /// Whether the window has no margin around a contact of these half-lengths \[cells\] in an increment
+    /// to `point`.
+    pub(in crate::march) fn is_narrow(
+        &self,
+        problem: &Problem,
+        state: &State,
+        point: &LoadPoint,
+        half: [usize; 2],
+    ) -> bool {
+        let (now, whole) = (self.shape(), shape_of(&problem.scene.grid));
+        let margin = margin(problem, state, point);
+        let narrow = |half: usize, n: usize, whole: usize| n < whole && 2 * (half + margin) > n;
+        narrow(half[0], now.0, whole.0) || narrow(half[1], now.1, whole.1)
+    }
+
+    /// Puts the state into a window wide enough for a contact of these half-lengths \[cells\] and what it
+    /// is expected to grow by on the rest of the path; into the whole grid without them. Returns the state as it
+    /// was in another window.
+    pub(in crate::march) fn widen(
+        &mut self,
+        problem: &Problem,
+        state: &mut State,
+        point: &LoadPoint,
+        half: Option<[usize; 2]>,
+    ) -> Result<Option<State>, Error> {
+        let whole = &problem.scene.grid;
+        let Some(half) = half else {
+            return self.move_into(problem, state, shape_of(whole));
+        };
+        let (now, margin) = (self.shape(), margin(problem, state, point));
+        let [_, rest] = growth(problem, state, point);
+        let cells = |half: usize| 2 * ((half as f64 * rest.min(GROWTH)).round() as usize + margin);
+        let wider = [cells(half[0]).max(now.0), cells(half[1]).max(now.1)];
+        self.move_into(problem, state, shape_for(whole, wider))
+    }
+
+    /// Lays out a window of another shape and puts the state into it; where the run is stopped meanwhile
+    /// nothing is changed. Returns the state as it was in another window.
+    fn move_into(
+        &mut self,
+        problem: &Problem,
+        state: &mut State,
+        shape: (usize, usize),
+    ) -> Result<Option<State>, Error> {
+        if shape != self.shape() {
+            let whole = (self.whole.get_mut()).unwrap_or_else(PoisonError::into_inner);
+            let known = whole.take_if(|whole| shape_of(&whole.geometry.grid) == shape);
+            let next = match known {
+                Some(window) => window,
+                None => self.laid_out(problem, shape, state.increments)?,
+            };
+            let last = std::mem::replace(&mut self.window, next);
+            if last.geometry.grid == problem.scene.grid {
+                *(self.whole.get_mut()).unwrap_or_else(PoisonError::into_inner) = Some(last);
+            } else {
+                self.transforms += last.op.transforms();
+            }
+        }
+        Ok(self.embed(problem, state))
+    }
+
+    /// Puts a state into the window, with the displacements of the cells that are new to it.
+    fn embed(&mut self, problem: &Problem, state: &mut State) -> Option<State> {
+        if state.window == self.shape() {
+            return None;
+        }
+        let (mirror, geometry) = (problem.plan.mirror, &self.window.geometry);
+        let from = (state.window.0, mirror.rows(state.window.1));
+        let to = geometry.kept(mirror);
+        let old = embed::embedded(&vec![true; from.0 * from.1], from, to, mirror, false);
+        let wider = embed::state(state, from, to, mirror);
+        let narrow = std::mem::replace(state, wider);
+        state.window = shape_of(&geometry.grid);
+        if !old.contains(&false) {
+            return Some(narrow);
+        }
+        let mut computed = state.interface.clone();
+        let mut response = Response::plain(&mut *self.window.op);
+        computed.evaluate(&mut response, problem.plan.friction);
+        let now = &mut state.interface;
+        let ([x, y], [new_x, new_y]) = (&mut now.u, computed.u);
+        for (now, new) in [(x, new_x), (y, new_y), (&mut now.u_z, computed.u_z)] {
+            for n in (0..old.len()).filter(|&n| !old[n]) {
+                now[n] = new[n];
+            }
+        }
+        Some(narrow)
+    }
+}
+
+/// Cells between the contact and the border of the window: those that enter it need their neighbours.
+fn margin(problem: &Problem, state: &State, point: &LoadPoint) -> usize {
+    let [within, _] = growth(problem, state, point);
+    if within > 1.0 {
+        AROUND as usize
+    } else {
+        MARGIN
+    }
+}
+
+/// What the contact is expected to grow by in an increment to `point`, and on the rest of the path:
+/// that of a sphere grows like the cube root of the force and like the root of the approach.
+fn growth(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
+    let path = &problem.scene.path;
+    let (steps, power) = match point.loads.given.delta_z {
+        Some(now) => ([state.motion.delta_z, now, path.delta_z_max()], 1.0 / 2.0),
+        None => ([state.loads.W, point.loads.W, path.W_max()], 1.0 / 3.0),
+    };
+    let grows = |from: f64, to: f64| {
+        if from > 0.0 && to > from {
+            (to / from).powf(power)
+        } else {
+            1.0
+        }
+    };
+    [grows(steps[0], steps[1]), grows(steps[1], steps[2])]
+}
+
+/// The shape of a window in which so many cells along x and y fit, the longest that transforms take
+/// no longer for.
+fn shape_for(grid: &Grid, cells: [usize; 2]) -> (usize, usize) {
+    let along = |whole: usize, cells: usize| {
+        // A window of an odd grid is odd, too, so that it has the same middle.
+        let odd = whole % 2;
+        let longest = good_size(2 * (cells + odd)) / 2;
+        let length = longest - (longest + odd) % 2;
+        if length as f64 >= WHOLE * whole as f64 {
+            whole
+        } else {
+            length
+        }
+    };
+    (along(grid.nx, cells[0]), along(grid.ny, cells[1]))
+}
+
+/// Cells along x and along y from the middle of a grid to the far side of the outermost that touches; the
+/// pressure is that of the kept rows.
+pub(in crate::march) fn half_lengths(
+    p: &[f64],
+    rows: usize,
+    (nx, ny): (usize, usize),
+) -> [usize; 2] {
+    let to = |i: usize, n: usize| (2 * i + 1).abs_diff(n).div_ceil(2);
+    let touches = |p: &f64| *p > 0.0;
+    let mut half = [0; 2];
+    for (i, column) in p.chunks(rows).enumerate() {
+        let ends = [
+            column.iter().position(touches),
+            column.iter().rposition(touches),
+        ];
+        for j in ends.into_iter().flatten() {
+            half[0] = half[0].max(to(i, nx));
+            half[1] = half[1].max(to(j + ny - rows, ny));
+        }
+    }
+    half
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{half_lengths, shape_for};
+    use crate::scene::Grid;
+
+    #[test]
+    fn what_a_window_is_laid_out_for_fits_in_it() {
+        for whole in 40..260 {
+            let grid = Grid::centred(1.0, whole).unwrap();
+            for cells in (10..whole).step_by(2) {
+                let (nx, ny) = shape_for(&grid, [cells, cells]);
+                let fits = cells <= nx && nx <= whole && (whole - nx) % 2 == 0;
+                assert!(fits && nx == ny, "{nx} x {ny} for {cells} of {whole}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_outermost_cell_that_touches_counts() {
+        // The cell in column 1 and row 1 of the upper three rows.
+        for ((nx, ny), far) in [((4, 5), [1, 1]), ((7, 6), [2, 2])] {
+            let mut p = vec![0.0; 3 * nx];
+            assert_eq!(half_lengths(&p, 3, (nx, ny)), [0, 0]);
+            p[4] = 1.0;
+            assert_eq!(half_lengths(&p, 3, (nx, ny)), far);
+        }
+    }
+}

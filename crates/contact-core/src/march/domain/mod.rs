@@ -1,0 +1,246 @@
+//! The cells that are solved on: a window around the contact, cells far from it are left out.
+//!
+//! Tractions act in the contact alone, and displacements of other cells matter only where these might
+//! touch. So an increment is solved in a window around the contact, with a margin between the two, and
+//! ends with a check of the gap beyond. The window changes between increments only ([`Domain::fit`],
+//! [`Domain::widen`]): an increment that finds its window too small is begun again in a wider one.
+
+mod beyond;
+mod embed;
+mod fit;
+
+use std::sync::atomic::AtomicBool;
+use std::sync::{Mutex, PoisonError};
+
+use ndarray::Array2;
+
+pub(super) use self::fit::half_lengths;
+use super::State;
+use super::problem::Problem;
+use crate::cells::Arms;
+use crate::convolution::{
+    ApproximateInverse, SurfaceOperator, approximate_inverse, surface_operator,
+};
+use crate::error::Error;
+use crate::kernels::{InfluenceCoefficients, norm, pair_coefficients};
+use crate::plan::{Half, Mirror, Plan};
+use crate::scene::{Grid, Scene};
+use crate::solvers::Response;
+
+/// Where the cells are that are solved on, and what is given on them.
+pub(super) struct Geometry {
+    /// The cells; those of the scene's grid where nothing is left out.
+    pub(super) grid: Grid,
+    /// Gap between the undeformed surfaces on the kept cells \[m\].
+    pub(super) h_init: Vec<f64>,
+    /// Lever arms of the kept cells.
+    pub(super) arms: Arms,
+    /// Factor of the friction coefficient over the kept cells; empty where it is 1.
+    pub(super) friction_map: Vec<f64>,
+}
+
+/// Cells in the middle of the grid, with the response of the bodies on them.
+pub(super) struct Window {
+    pub(super) geometry: Geometry,
+    pub(super) op: Box<dyn SurfaceOperator>,
+    pub(super) inverse: Option<Box<dyn ApproximateInverse>>,
+}
+
+/// The coefficients that windows are cut from.
+pub(super) struct Kernels {
+    /// On the whole grid.
+    pub(super) pair: InfluenceCoefficients,
+    /// Norms of the kernels of u_z under q_x, q_y and p on the whole plane \[m/Pa\].
+    norms: [f64; 3],
+}
+
+/// The window, and the whole grid for what lies beyond it.
+pub(super) struct Domain {
+    pub(super) kernels: Kernels,
+    pub(super) window: Window,
+    /// The whole grid, once it has been needed.
+    pub(super) whole: Mutex<Option<Window>>,
+    /// Transforms done in windows that were given up.
+    transforms: usize,
+}
+
+impl Domain {
+    /// Computes the coefficients that a plan needs; ends when `stop` is raised.
+    pub(super) fn new(scene: &Scene, plan: &Plan, stop: &AtomicBool) -> Result<Self, Error> {
+        let settings = &scene.settings;
+        let pair = pair_coefficients(
+            (&scene.body1, &scene.body2),
+            &scene.grid,
+            &settings.kernel,
+            settings.skip.equal_layers,
+            plan.kernels(),
+            Some(stop),
+        )?;
+        let pair = pair.stretched(scene.friction.stretch());
+        let shear = plan.friction && plan.coupling;
+        let norms = [(&pair.xz, shear), (&pair.yz, shear), (&pair.zz, true)];
+        let kernels = Kernels {
+            norms: norms.map(|(kernel, acts)| if acts { norm(kernel) } else { 0.0 }),
+            pair,
+        };
+        let window = kernels.window(scene, plan, fit::first(scene, plan), stop)?;
+        Ok(Self {
+            kernels,
+            window,
+            whole: Mutex::default(),
+            transforms: 0,
+        })
+    }
+
+    /// Cells along x and along y that are solved on.
+    pub(super) fn shape(&self) -> (usize, usize) {
+        shape_of(&self.window.geometry.grid)
+    }
+
+    /// Cells that are solved for.
+    pub(super) fn cells(&self) -> usize {
+        self.window.geometry.h_init.len()
+    }
+
+    /// Two-dimensional transforms done so far.
+    pub(super) fn transforms(&self) -> usize {
+        let whole = (self.whole.lock()).unwrap_or_else(PoisonError::into_inner);
+        let whole = whole.as_ref().map_or(0, |grid| grid.op.transforms());
+        self.transforms + self.window.op.transforms() + whole
+    }
+
+    /// A window of that shape; fails where the run is stopped meanwhile.
+    pub(super) fn laid_out(
+        &self,
+        problem: &Problem,
+        shape: (usize, usize),
+        increments: usize,
+    ) -> Result<Window, Error> {
+        let Problem {
+            scene, plan, stop, ..
+        } = problem;
+        let window = self.kernels.window(scene, plan, shape, stop);
+        window.or_else(|failure| {
+            problem.unless_stopped(increments)?;
+            Err(failure)
+        })
+    }
+
+    /// The displacements u_x, u_y, u_z of a state on the whole grid \[m\].
+    pub(super) fn displacements(&self, problem: &Problem, state: &State) -> [Array2<f64>; 3] {
+        let (scene, plan) = (&problem.scene, &problem.plan);
+        let (grid, mirror) = (&scene.grid, plan.mirror);
+        let now = &state.interface;
+        let halves = [Half::Even, Half::Odd, Half::Even];
+        let solved = [&now.u[0], &now.u[1], &now.u_z];
+        let part = state.window;
+        if part == shape_of(grid) {
+            return [0, 1, 2].map(|c| on_grid(problem, state, solved[c], halves[c]));
+        }
+        let to = (grid.nx, mirror.rows(grid.ny));
+        let from = (part.0, mirror.rows(part.1));
+        let mut whole = embed::interface(now, from, to, mirror);
+        // Asked for what there is, also of a run that has been stopped.
+        let lay_out = || {
+            let (shape, stop) = (shape_of(grid), AtomicBool::new(false));
+            let window = self.kernels.window(scene, plan, shape, &stop);
+            window.expect(crate::stop::NOBODY)
+        };
+        let mut beyond = (self.whole.lock()).unwrap_or_else(PoisonError::into_inner);
+        let beyond = beyond.get_or_insert_with(lay_out);
+        whole.evaluate(&mut Response::plain(&mut *beyond.op), plan.friction);
+        let computed = [&whole.u[0], &whole.u[1], &whole.u_z];
+        let (i, j) = ((grid.nx - part.0) / 2, (grid.ny - part.1) / 2);
+        [0, 1, 2].map(|c| {
+            let mut u = mirror.unfold(computed[c], grid.nx, grid.ny, halves[c]);
+            let solved = mirror.unfold(solved[c], part.0, part.1, halves[c]);
+            for ((a, b), u_solved) in solved.indexed_iter() {
+                u[(i + a, j + b)] = *u_solved;
+            }
+            u
+        })
+    }
+}
+
+/// What a field of the kept cells of a state is on the whole grid; zero beyond its window.
+pub(super) fn on_grid(problem: &Problem, state: &State, field: &[f64], half: Half) -> Array2<f64> {
+    let (grid, mirror) = (&problem.scene.grid, problem.plan.mirror);
+    let to = (grid.nx, mirror.rows(grid.ny));
+    let from = (state.window.0, mirror.rows(state.window.1));
+    let wide = embed::embedded(field, from, to, mirror, 0.0);
+    mirror.unfold(&wide, grid.nx, grid.ny, half)
+}
+
+impl Kernels {
+    /// The nx x ny cells in the middle of the scene's grid; ends when `stop` is raised.
+    pub(super) fn window(
+        &self,
+        scene: &Scene,
+        plan: &Plan,
+        shape: (usize, usize),
+        stop: &AtomicBool,
+    ) -> Result<Window, Error> {
+        let geometry = Geometry::new(scene, plan.mirror, shape);
+        let cut;
+        let pair = if geometry.grid == scene.grid {
+            &self.pair
+        } else {
+            cut = self.pair.within(shape);
+            &cut
+        };
+        Ok(Window {
+            inverse: approximate_inverse(plan, pair, stop)?,
+            op: surface_operator(scene, plan, &geometry.grid, pair, stop)?,
+            geometry,
+        })
+    }
+}
+
+impl Geometry {
+    fn new(scene: &Scene, mirror: Mirror, (nx, ny): (usize, usize)) -> Self {
+        let grid = Grid {
+            nx,
+            ny,
+            ..scene.grid
+        };
+        let extent = scene.grid.extent();
+        let length = if grid.plane_strain {
+            0.5 * extent.0
+        } else {
+            0.5 * extent.0.max(extent.1)
+        };
+        let fold = |field: Array2<f64>| mirror.fold(&field);
+        let map = scene.friction.map.as_ref();
+        Self {
+            h_init: fold(middle(&scene.h_init(), (nx, ny))),
+            arms: Arms {
+                length,
+                x: fold(grid.map(|x, _| x / length)),
+                y: fold(grid.map(|_, y| y / length)),
+                stretch: scene.friction.stretch(),
+            },
+            friction_map: map.map_or_else(Vec::new, |map| fold(grid.map(|x, y| map.at(x, y)))),
+            grid,
+        }
+    }
+
+    /// Shape of the fields: cells along x, kept rows.
+    fn kept(&self, mirror: Mirror) -> (usize, usize) {
+        (self.grid.nx, mirror.rows(self.grid.ny))
+    }
+
+    /// What a field on the whole grid is in the window, on the kept cells.
+    pub(super) fn cut(&self, mirror: Mirror, field: &Array2<f64>) -> Vec<f64> {
+        mirror.fold(&middle(field, shape_of(&self.grid)))
+    }
+}
+
+fn shape_of(grid: &Grid) -> (usize, usize) {
+    (grid.nx, grid.ny)
+}
+
+/// The nx x ny entries in the middle of a field.
+fn middle(field: &Array2<f64>, (nx, ny): (usize, usize)) -> Array2<f64> {
+    let (i, j) = ((field.nrows() - nx) / 2, (field.ncols() - ny) / 2);
+    Array2::from_shape_fn((nx, ny), |(a, b)| field[(i + a, j + b)])
+}

@@ -1,0 +1,352 @@
+//! Cells near the contact enter it one after another.
+//!
+//! The contact kept to its old cells tells at what rates c and m the gaps of cells outside close and the
+//! cells move. A cell n that enters closes no more: the pressure on it that holds it back holds back the
+//! others too,
+//!
+//! ```text
+//! c_m - S_mn/S_nn c_n,
+//! ```
+//!
+//! S the response of the cells outside to each other while the contact is held ([`Screened`]). What the cells
+//! move while their gaps close depends on what they see of the contact ([`View`]),
+//!
+//! ```text
+//! m/c = A + B/s + C s + D s^2 + E e/s,   s = d^(1/2),
+//! ```
+//!
+//! with coefficients from least squares over the cells around; it also changes along the edge. As a cell
+//! enters, those beyond see more contact. A cell enters when its gap has closed; what it has moved by then is
+//! the sum over the stages: nearly what increments of one cell each would make of it. Where gap and motion
+//! are alike m/c = A everywhere, and the motion exact.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use rayon::prelude::*;
+
+use super::kept_contact::{KeptContact, TASK};
+use super::least_squares::{LeastSquares, RIDGE};
+use super::neighbours::Neighbour;
+use super::view::{REACH, View};
+
+/// How far the cells around reach that the rates are fitted to, in cells.
+pub(in crate::march) const AROUND: isize = 7;
+/// Least rate at which a gap closes, over that with the contact kept.
+const SLOWEST: f64 = 1e-3;
+
+/// Cells that enter within such a part of the increment do so at once, as twins in a symmetric scene.
+const AT_ONCE: f64 = 1e-4;
+
+/// How the motion of a cell over its closing depends on what it sees.
+struct Law {
+    /// A, B, C, D for each component.
+    ratio: [[f64; 4]; 2],
+    /// E
+    toward: f64,
+}
+
+impl Law {
+    /// m/c
+    fn ratio(&self, view: &View) -> [f64; 2] {
+        let (s, e) = (view.root(), view.toward());
+        std::array::from_fn(|n| {
+            let [a, b, c, d] = self.ratio[n];
+            a + (b + self.toward * e[n]) / s + (c + d * s) * s
+        })
+    }
+}
+
+/// A cell on its way into the contact.
+struct Entering {
+    cell: usize,
+    view: View,
+    law: Law,
+    /// How far the gap would close in the increment \[m\], and at least.
+    closing: f64,
+    slowest: f64,
+    /// What the cell would move \[m\].
+    motion: [f64; 2],
+    /// What is left of its gap \[m\].
+    gap: f64,
+    moved: [f64; 2],
+    /// The part of the increment that has passed.
+    time: f64,
+    stage: Stage,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    Outside,
+    Enters,
+    Inside,
+}
+
+impl Entering {
+    /// When it enters if nothing else does.
+    fn entry(&self) -> f64 {
+        self.time + (self.gap / self.closing).max(0.0)
+    }
+
+    fn go_on_until(&mut self, time: f64) {
+        let passed = time - self.time;
+        self.gap -= passed * self.closing;
+        for (moved, rate) in self.moved.iter_mut().zip(self.motion) {
+            *moved += passed * rate;
+        }
+        self.time = time;
+    }
+
+    /// Sees one more cell of contact, which holds its closing back by so much.
+    fn sees(&mut self, near: &Neighbour, held_back: f64) {
+        self.view.add(near);
+        self.closing = (self.closing - held_back).max(self.slowest);
+        self.motion = self.law.ratio(&self.view).map(|ratio| ratio * self.closing);
+    }
+}
+
+/// The motion before their entry of those `cells` that enter in the increment, `views` what the cells
+/// outside see whose rates are told from.
+pub(super) fn moved(
+    contact: &KeptContact,
+    views: &[Option<View>],
+    cells: &[usize],
+) -> Vec<[f64; 2]> {
+    let start = |&cell: &usize| {
+        let view = views[cell].expect("a cell that enters is seen from");
+        Entering {
+            cell,
+            view,
+            law: law(contact, views, cell, &view),
+            closing: contact.closing[cell],
+            slowest: SLOWEST * contact.closing[cell],
+            motion: [0, 1].map(|c| contact.motion[c][cell]),
+            gap: contact.gap[cell],
+            moved: [0.0; 2],
+            time: 0.0,
+            stage: Stage::Outside,
+        }
+    };
+    let entering = cells.par_iter().with_min_len(TASK).map(start);
+    let mut entering: Vec<Entering> = entering.collect();
+    let mut places = vec![None; views.len()];
+    for (k, &cell) in cells.iter().enumerate() {
+        places[cell] = Some(k);
+    }
+    let mut queue = Queue::new(&entering);
+    let (mut together, mut held_back) = (Vec::new(), Vec::new());
+    while let Some(next) = queue.next(&entering, f64::INFINITY) {
+        let time = entering[next].entry();
+        together.clear();
+        together.push(next);
+        while let Some(twin) = queue.next(&entering, time + AT_ONCE) {
+            together.push(twin);
+        }
+        for &k in &together {
+            let cell = &mut entering[k];
+            cell.go_on_until(cell.entry());
+            cell.stage = Stage::Enters;
+        }
+        hold_back(contact, &entering, &places, &together, &mut held_back);
+        for &k in &together {
+            entering[k].stage = Stage::Inside;
+        }
+        for (k, near, by) in held_back.drain(..) {
+            entering[k].go_on_until(time);
+            entering[k].sees(&near, by);
+            queue.put(k, entering[k].entry());
+        }
+    }
+    entering.iter().map(|cell| cell.moved).collect()
+}
+
+/// The cells that are to enter, by when.
+struct Queue {
+    cells: BinaryHeap<Reverse<(u64, usize)>>,
+    /// The earliest that each is there for; nothing once it has left. Times are not negative: their bits
+    /// have their order.
+    due: Vec<u64>,
+}
+
+impl Queue {
+    fn new(entering: &[Entering]) -> Self {
+        let mut queue = Self {
+            cells: BinaryHeap::with_capacity(entering.len()),
+            due: vec![u64::MAX; entering.len()],
+        };
+        for (k, cell) in entering.iter().enumerate() {
+            queue.put(k, cell.entry());
+        }
+        queue
+    }
+
+    /// Where it is there for later than `time`, it is now for that.
+    fn put(&mut self, k: usize, time: f64) {
+        if time.to_bits() < self.due[k] {
+            self.due[k] = time.to_bits();
+            self.cells.push(Reverse((time.to_bits(), k)));
+        }
+    }
+
+    /// Takes out the cell that enters next, if it does so until `time`.
+    fn next(&mut self, entering: &[Entering], time: f64) -> Option<usize> {
+        while let Some(&Reverse((due, k))) = self.cells.peek() {
+            if f64::from_bits(due) > time {
+                return None;
+            }
+            self.cells.pop();
+            if due != self.due[k] {
+                continue;
+            }
+            // Cells that entered meanwhile may have slowed it down.
+            let entry = entering[k].entry();
+            self.due[k] = 0;
+            if entry.to_bits() <= due {
+                return Some(k);
+            }
+            self.due[k] = u64::MAX;
+            self.put(k, entry);
+        }
+        None
+    }
+}
+
+/// What cells that enter `together` hold back the others around: the pressure on each is as its closing, so
+/// much that all of them close no more.
+fn hold_back(
+    contact: &KeptContact,
+    entering: &[Entering],
+    places: &[Option<usize>],
+    together: &[usize],
+    held_back: &mut Vec<(usize, Neighbour, f64)>,
+) {
+    for &k in together {
+        let next = &entering[k];
+        let root = next.view.root();
+        let own = contact.screened.own(root);
+        let around = |stage: Stage| {
+            contact.cells.of(next.cell, REACH).filter_map(move |near| {
+                let k = places[near.cell].filter(|&k| entering[k].stage == stage)?;
+                let response = match near.square {
+                    0 => own,
+                    _ => (contact.screened).between(&near, [entering[k].view.root(), root]),
+                };
+                Some((k, near, response))
+            })
+        };
+        let with = around(Stage::Enters).map(|(k, _, response)| response * entering[k].closing);
+        // Pressure may lift what is beside it, as on a thin soft layer: at most half of what a cell responds
+        // with is taken off for that.
+        let closing = with.sum::<f64>().max(0.5 * own * next.closing);
+        let pressure = next.closing * next.closing / closing;
+        held_back.extend(
+            around(Stage::Outside).map(|(k, near, response)| (k, near.back(), pressure * response)),
+        );
+    }
+}
+
+/// The law of a cell, by least squares over those around that tell, nearer ones with more weight.
+fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> Law {
+    let unit = contact.closing[n];
+    let [e_x, e_y] = view.toward();
+    let along = [-e_y, e_x];
+    // Of the motion and of e/s, both times the closing.
+    let mut ratios = LeastSquares::<5, 4>::new();
+    let (mut motion_e, mut e_e) = (0.0, 0.0);
+    for near in contact.cells.of(n, AROUND) {
+        let (m, [x, y]) = (near.cell, near.off);
+        let Some(view) = &views[m] else { continue };
+        let (s, way) = (view.root(), along[0] * x + along[1] * y);
+        let weight = near.nearness(AROUND);
+        let closing = contact.closing[m] / unit;
+        let [e_x, e_y] = view.toward().map(|e| closing * e / s);
+        let [x, y] = [0, 1].map(|c| contact.motion[c][m] / unit);
+        let values = [x, near.sign * y, e_x, near.sign * e_y];
+        let terms = [1.0, 1.0 / s, s, s * s, s * way].map(|term| closing * term);
+        ratios.add(weight, terms, values);
+        motion_e += weight * (values[0] * values[2] + values[1] * values[3]);
+        e_e += weight * (values[2] * values[2] + values[3] * values[3]);
+    }
+    let factors = ratios.factors();
+    // What the other terms leave of the motion and of e tells E.
+    let left =
+        |x: usize, all: f64| all - ratios.told(&factors[x], 2) - ratios.told(&factors[x + 1], 3);
+    let toward = left(0, motion_e) / left(2, e_e * (1.0 + RIDGE)).max(f64::MIN_POSITIVE);
+    let ratio = |c: usize| [0, 1, 2, 3].map(|k| factors[c][k] - toward * factors[c + 2][k]);
+    Law {
+        ratio: [ratio(0), ratio(1)],
+        toward,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ndarray::{Array2, Axis};
+
+    use crate::march::entry::kept_contact::KeptContact;
+    use crate::march::entry::neighbours::Neighbours;
+    use crate::march::entry::screened::Screened;
+    use crate::march::entry::screened::tests::{half_space, of_all};
+    use crate::march::entry::view::{REACH, View};
+    use crate::plan::Mirror;
+    use crate::reference::linear_system::solve;
+    use crate::scene::Grid;
+
+    /// Strips, the first of them in contact, and those that enter.
+    const STRIPS: usize = 60;
+    const CONTACT: usize = 40;
+    const ENTER: usize = 5;
+
+    /// Each stage solved for itself, with as many strips in contact as have entered by then.
+    #[test]
+    fn cells_in_a_row_enter_one_after_another() {
+        let grid = Grid::strip(1.0, STRIPS, 1.0).unwrap();
+        let kernel = half_space(&grid);
+        let all = of_all(&grid, &kernel);
+        let cells = Neighbours::new(&grid, Mirror::None, REACH, &kernel);
+        let rates = |contact: usize, cell: usize| {
+            let (held, others) = all.view().split_at(Axis(0), contact);
+            let (inside, _) = held.split_at(Axis(1), contact);
+            let (to, _) = others.split_at(Axis(1), contact);
+            let p = solve(&inside.to_owned(), &Array2::ones((contact, 1)));
+            let lifted = to.dot(&p)[(cell - contact, 0)];
+            let s =
+                View::of(cell, &cells, |m| m < contact).map_or(f64::INFINITY, |view| view.root());
+            [1.0 - lifted, (1.0 - lifted) * (0.2 + 0.05 / s - 0.01 * s)]
+        };
+        let gap = |k: usize| 0.02 * (k as f64 + 0.7).powf(1.5);
+        let mut moved = [[0.0; 2]; ENTER];
+        let mut time = 0.0;
+        for entered in 0..ENTER {
+            let rates: Vec<[f64; 2]> = (entered..ENTER)
+                .map(|k| rates(CONTACT + entered, CONTACT + k))
+                .collect();
+            let passes = (gap(entered) - moved[entered][0]) / rates[0][0];
+            time += passes;
+            for (moved, rates) in moved[entered..].iter_mut().zip(rates) {
+                (0..2).for_each(|c| moved[c] += passes * rates[c]);
+            }
+        }
+        let first: Vec<[f64; 2]> = (CONTACT..STRIPS).map(|cell| rates(CONTACT, cell)).collect();
+        let field = |inside: f64, of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            let outside = |n: usize| n.checked_sub(CONTACT).map_or(inside, of);
+            (0..STRIPS).map(outside).collect()
+        };
+        let kept = KeptContact {
+            gap: field(0.0, &|k| if k < ENTER { gap(k) } else { 10.0 }),
+            closing: field(-1.0, &|k| 1.01 * time * first[k][0]),
+            motion: [
+                field(0.0, &|k| 1.01 * time * first[k][1]),
+                vec![0.0; STRIPS],
+            ],
+            cells,
+            screened: Screened::new(&grid, &kernel),
+            ordered: true,
+        };
+        let found = kept.motion_before_entry(|cell| cell >= CONTACT);
+        for (k, [_, way]) in moved.iter().enumerate() {
+            let off = (found[0][CONTACT + k] - way).abs() / way;
+            assert!(off < 0.01, "{k}: off by {off:e} of the way");
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! The first guess of an increment.
+
+use ndarray::Array2;
+use rayon::prelude::*;
+
+use super::increment::Setup;
+use super::problem::Problem;
+use crate::cells::{CHUNK, set, size, sweep};
+use crate::scene::LoadPoint;
+use crate::solvers::{Interface, friction_bound};
+
+/// Tractions and slip set to start from: the last increment's, extrapolated while the loads
+/// keep their direction (the paper takes them as they are). At a reversal every cell is taken
+/// to stick: slip needs the load to move on before it sets in again. Bodies that have not touched
+/// start from the pressure of a paraboloid.
+pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
+    let (problem, state) = (setup.problem, setup.state);
+    let mut guess = state.interface.clone();
+    if state.loads.W <= 0.0 {
+        let p = first_contact(problem, setup.point);
+        guess.p = setup.geometry.cut(problem.plan.mirror, &p);
+    }
+    match setup.goes_on {
+        Some(factor) if extrapolates && problem.plan.methods.extrapolation => {
+            let from = [&state.interface.p[..], &state.p_before];
+            set(from, [&mut guess.p], |_, [p, before], [guess]| {
+                [guess + factor * (p - before)]
+            });
+            extrapolate_shear(&mut guess, &state.q_before, setup.mu, factor);
+        }
+        Some(_) => {}
+        None => guess.slip.fill(false),
+    }
+    let [sum] = sweep([], [&mut guess.p], |_, [], [p]| {
+        ([p.max(0.0)], [p.max(0.0)])
+    });
+    if setup.drives.normal.free[0] {
+        let factor = setup.drives.normal.sums[0] / sum;
+        set([], [&mut guess.p], |_, [], [p]| [p * factor]);
+    }
+    guess
+}
+
+/// Extrapolates the shear. The shear of a stick cell nears its bound as the root of the distance
+/// to the moving slip front (Cattaneo: g - q ~ (c^2 - r^2)^(1/2)): the square of what is left of the way
+/// to the bound is extrapolated; a cell for which nothing is left starts to slip.
+fn extrapolate_shear(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64], factor: f64) {
+    let Interface { p, q, slip, .. } = guess;
+    let [q_x, q_y] = q;
+    let chunks = (
+        q_x.par_chunks_mut(CHUNK),
+        q_y.par_chunks_mut(CHUNK),
+        slip.par_chunks_mut(CHUNK),
+    );
+    let chunks = chunks.into_par_iter().enumerate();
+    chunks.for_each(|(chunk, (q_x, q_y, slip))| {
+        for (i, n) in (chunk * CHUNK..).take(q_x.len()).enumerate() {
+            let bound = friction_bound(mu[n], p[n]);
+            if bound <= 0.0 {
+                continue;
+            }
+            let q = [q_x[i], q_y[i]];
+            let change = [q[0] - q_before[0][n], q[1] - q_before[1][n]];
+            let moved = size(change);
+            let inside = bound * bound - q[0] * q[0] - q[1] * q[1];
+            let mut part = factor;
+            if !slip[i] && inside > 0.0 && inside.is_finite() && moved > 0.0 {
+                let along = (q[0] * change[0] + q[1] * change[1]) / moved;
+                let left = (along * along + inside).sqrt() - along;
+                let before = left + moved;
+                let square = left * left + factor * (left * left - before * before);
+                slip[i] = square <= 0.0;
+                part = (left - square.max(0.0).sqrt()) / moved;
+            }
+            q_x[i] += part * change[0];
+            q_y[i] += part * change[1];
+        }
+    });
+}
+
+/// A pressure for bodies that have not touched, on the whole grid: that of a paraboloid of the approach
+/// expected at a point, up to a factor; everywhere the same without
+/// [`Methods::first_contact`](crate::plan::Methods::first_contact).
+pub(super) fn first_contact(problem: &Problem, point: &LoadPoint) -> Array2<f64> {
+    let h_init = problem.scene.h_init();
+    if !problem.plan.methods.first_contact {
+        return Array2::ones(h_init.dim());
+    }
+    let approach = problem.approach_at(point);
+    let lowest = h_init.iter().fold(f64::INFINITY, |m, h| m.min(*h));
+    h_init.map(|h| {
+        if approach > 0.0 {
+            (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt()
+        } else {
+            0.0
+        }
+    })
+}

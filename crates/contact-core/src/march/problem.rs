@@ -1,0 +1,141 @@
+//! The problem that a march solves: what does not change along the path, and what drives an increment.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::{State, off_grid};
+use crate::cells::{Arms, Drive};
+use crate::error::Error;
+use crate::plan::{Mirror, Plan};
+use crate::scene::{LoadPoint, RigidMotion, Scene};
+use crate::solvers::inner::{NormalParams, TangentialParams};
+use crate::solvers::intermediate::AlternationParams;
+
+/// A scene and all that is decided before its first increment.
+pub(super) struct Problem {
+    /// The scene, with the tolerance that it is solved with.
+    pub(super) scene: Scene,
+    /// What is skipped, and the numerical methods.
+    pub(super) plan: Plan,
+    /// Approach that lengths are measured against \[m\].
+    pub(super) approach: f64,
+    /// Raised from outside to end the run.
+    pub(super) stop: Arc<AtomicBool>,
+}
+
+/// What drives the motions of an increment: across the plane from the unloaded state, in it from the last
+/// increment.
+#[derive(Clone, Copy)]
+pub(super) struct Drives {
+    pub(super) normal: Drive,
+    pub(super) tangential: Drive,
+}
+
+impl Drives {
+    /// Of an increment to a point. By symmetry the half of a mirrored scene has no motion that turns it.
+    pub(super) fn new(problem: &Problem, arms: &Arms, state: &State, point: &LoadPoint) -> Self {
+        let cell_area = problem.cell_area();
+        let (forces, given) = (point.loads.forces(), point.loads.given.motions());
+        let before = state.motion.motions();
+        let drive = |of: [usize; 3], from: [f64; 6]| {
+            let mut drive = Drive::default();
+            for (k, &load) in of.iter().enumerate() {
+                let unit = unit(arms, load);
+                match given[load] {
+                    _ if problem.is_odd(load) => {}
+                    Some(motion) => drive.given[k] = (motion - from[load]) * unit,
+                    None => {
+                        drive.free[k] = true;
+                        drive.sums[k] = forces[load] / (cell_area * unit);
+                    }
+                }
+            }
+            drive
+        };
+        Self {
+            normal: drive([0, 1, 2], [0.0; 6]),
+            tangential: drive([3, 4, 5], before),
+        }
+    }
+
+    /// Whether anything presses the bodies together.
+    pub(super) fn press(&self) -> bool {
+        !self.normal.free[0] || self.normal.sums[0] > 0.0
+    }
+}
+
+/// What a motion of [`RigidMotion::ALL`] is multiplied by, and its load divided by,
+/// for the solvers.
+pub(super) fn unit(arms: &Arms, k: usize) -> f64 {
+    match RigidMotion::ALL[k] {
+        motion if motion.is_rotation() => arms.length,
+        RigidMotion::DeltaY => arms.stretch,
+        _ => 1.0,
+    }
+}
+
+/// Share of the tolerance with which a predicted pressure is taken as it is: the shear moves it
+/// further.
+const PREDICTED_SHARE: f64 = 0.8;
+/// Share of the tolerance that the normal solver iterates to.
+const NORMAL_SHARE: f64 = 0.4;
+/// Share of the tolerance that the tangential solver iterates to; nothing moves after it.
+const TANGENTIAL_SHARE: f64 = 0.9;
+
+impl Problem {
+    /// Fails once the flag is raised: [`Error::Interrupted`] after so many increments.
+    pub(super) fn unless_stopped(&self, increment: usize) -> Result<(), Error> {
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted { increment });
+        }
+        Ok(())
+    }
+
+    /// The approach at the loads of a point \[m\], about: that of a Hertz contact, which a coating makes as
+    /// much larger or smaller as it does the square of the contact radius.
+    pub(super) fn approach_at(&self, point: &LoadPoint) -> f64 {
+        point.loads.given.delta_z.unwrap_or_else(|| {
+            let radius = off_grid::expected_radius(&self.scene);
+            let coated = self
+                .scene
+                .hertz()
+                .map_or(1.0, |hertz| (radius / hertz.a).powi(2));
+            let part = point.loads.W / self.scene.path.W_max();
+            coated * self.approach * part.powf(2.0 / 3.0)
+        })
+    }
+
+    /// Area that a kept cell stands for \[m^2\].
+    pub(super) fn cell_area(&self) -> f64 {
+        self.scene.grid.cell_area() * self.plan.mirror.multiplicity()
+    }
+
+    /// Whether a load of [`RigidMotion::ALL`] is zero by symmetry.
+    pub(super) fn is_odd(&self, load: usize) -> bool {
+        self.plan.mirror != Mirror::None && RigidMotion::ALL[load].is_odd_in_y()
+    }
+
+    /// The settings of the loops, with lengths in metres, for a share of the tolerance.
+    pub(super) fn params(&self, share: f64) -> AlternationParams {
+        let solver = &self.scene.settings.solver;
+        let gap = share * self.scene.tolerance() * self.approach;
+        AlternationParams {
+            tolerance: gap,
+            normal: NormalParams {
+                enough: PREDICTED_SHARE * gap,
+                tolerance: NORMAL_SHARE * gap,
+                max_iterations: solver.max_iterations,
+            },
+            tangential: TangentialParams {
+                method: self.plan.methods.tangential,
+                // What the shear misses acts on the gap, however large mu is.
+                tolerance: TANGENTIAL_SHARE * self.scene.friction.scale().min(1.0) * gap,
+                max_iterations: solver.max_iterations,
+                forcing: 0.2,
+                max_passes: 12,
+            },
+            max_alternations: solver.max_alternations,
+            anderson: self.plan.methods.anderson,
+        }
+    }
+}

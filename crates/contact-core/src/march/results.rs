@@ -1,0 +1,174 @@
+//! What one increment ends with: the numbers a user reads, the residuals and the work done.
+
+use serde::{Deserialize, Serialize};
+
+use crate::scene::LoadPoint;
+
+/// Rigid-body motion of body 1 relative to body 2, from the unloaded state.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Motion {
+    /// Approach \[m\], positive when the bodies come together.
+    pub delta_z: f64,
+    /// Relative tangential shift along x \[m\], of the sign of the force T_x that drives it.
+    pub delta_x: f64,
+    /// Relative tangential shift along y \[m\].
+    pub delta_y: f64,
+    /// Tilt about x \[rad\]: the gap grows by -y phi_x.
+    pub phi_x: f64,
+    /// Tilt about y \[rad\]: the gap grows by x phi_y.
+    pub phi_y: f64,
+    /// Rotation about z \[rad\], of the sign of the moment M_z that drives it.
+    pub phi_z: f64,
+}
+
+impl Motion {
+    /// The motions in the order of [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
+    pub fn motions(&self) -> [f64; 6] {
+        [
+            self.delta_z,
+            self.phi_x,
+            self.phi_y,
+            self.delta_x,
+            self.delta_y,
+            self.phi_z,
+        ]
+    }
+}
+
+/// State of the interface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Status {
+    /// No cell transmits pressure.
+    #[default]
+    NoContact,
+    /// Every contact cell sticks.
+    FullStick,
+    /// Stick and slip cells.
+    PartialSlip,
+    /// Every contact cell slips: friction carries its limit. Under given forces the shift is that of
+    /// incipient sliding.
+    GrossSlip,
+}
+
+impl Status {
+    /// All, the more they slip the later.
+    pub const ALL: [Self; 4] = [
+        Self::NoContact,
+        Self::FullStick,
+        Self::PartialSlip,
+        Self::GrossSlip,
+    ];
+
+    /// Its number in result stores, 0 to 3; the higher, the more it slips.
+    pub fn code(self) -> u8 {
+        self as u8
+    }
+}
+
+/// Energy of one increment, with mid-increment (trapezoidal) tractions \[J\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Energy {
+    /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi), of the bulk stress on what the
+    /// contact moves, and of what makes the bodies roll.
+    pub work: f64,
+    /// Change of the elastic energy, 1/2 sum of traction times displacement.
+    pub elastic: f64,
+    /// Energy dissipated by friction, -sum of q . ds dA, >= 0 up to the solver's tolerance: a cell
+    /// slips at its bound, so that the shear is the mean bound of the increment against the slip.
+    pub dissipated: f64,
+    /// Work of the tractions on cells that close or open, -sum of p dh dA, and of the shear on what
+    /// cells moved before they closed; it vanishes with the increment.
+    pub opening: f64,
+    /// What `dissipated` is more than -sum of q . ds dA with the mean shear of the increment, the
+    /// rule of the other terms; it vanishes with the increment.
+    pub quadrature: f64,
+}
+
+impl Energy {
+    /// What the balance misses \[J\]: zero up to the solver's tolerance, for any size of the
+    /// increment.
+    pub fn imbalance(&self) -> f64 {
+        self.work - self.elastic - (self.dissipated - self.quadrature) - self.opening
+    }
+}
+
+/// How well the equations hold at the end of an increment, in physical terms.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Residuals {
+    /// Root-mean-square gap in the contact over the Hertz approach.
+    pub gap: f64,
+    /// Deepest penetration outside the contact over the Hertz approach.
+    pub penetration: f64,
+    /// Largest |q| - mu p over mu p_max; zero or below if Coulomb's law holds everywhere.
+    pub coulomb: f64,
+    /// Root-mean-square slip of stick cells, the residual slip of earlier increments included, over mu times
+    /// the Hertz approach.
+    pub stick: f64,
+    /// Root-mean-square part of the slip that is not opposite to q, over mu times the approach.
+    pub direction: f64,
+    /// Angle between the slip and the shear that it opposes, root mean square over the slip
+    /// cells, each with the square of its slip \[rad\].
+    pub angle: f64,
+    /// Largest relative error of the force balances.
+    pub balance: f64,
+    /// Energy imbalance over the work done so far.
+    pub energy: f64,
+}
+
+/// Work counters; they do not jitter as times do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Work {
+    /// Convolutions in units of three components (six two-dimensional transforms).
+    pub convolutions: f64,
+    /// Passes of the intermediate loop (normal, then tangential).
+    pub alternations: usize,
+    /// Conjugate-gradient iterations of the normal solver.
+    pub normal_iterations: usize,
+    /// Conjugate-gradient iterations of the tangential solver.
+    pub tangential_iterations: usize,
+    /// Pieces that the increment was solved in: more than one if it did not converge whole.
+    pub parts: usize,
+}
+
+/// One increment of the load path: scalars, residuals, work.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Increment {
+    /// Increment, from 1.
+    pub index: usize,
+    /// The place in the path and the loads, those of given motions as the solution says.
+    pub point: LoadPoint,
+    /// Rigid-body motion.
+    pub motion: Motion,
+    /// State of the interface.
+    pub status: Status,
+    /// Area of the contact \[m^2\], of cells at its rim the part within.
+    pub contact_area: f64,
+    /// Area of the stick zone \[m^2\], of cells at its border the part within.
+    pub stick_area: f64,
+    /// Largest pressure \[Pa\].
+    pub p_max: f64,
+    /// Largest shear traction |q| \[Pa\].
+    pub q_max: f64,
+    /// Energies of the increment.
+    pub energy: Energy,
+    /// How well the equations hold.
+    pub residuals: Residuals,
+    /// What it cost.
+    pub work: Work,
+}
+
+impl Increment {
+    /// Stick area over contact area; 1 where there is no contact.
+    pub fn stick_ratio(&self) -> f64 {
+        if self.contact_area > 0.0 {
+            self.stick_area / self.contact_area
+        } else {
+            1.0
+        }
+    }
+
+    /// Radius of the circle of the contact's area \[m\].
+    pub fn contact_radius(&self) -> f64 {
+        (self.contact_area / std::f64::consts::PI).sqrt()
+    }
+}

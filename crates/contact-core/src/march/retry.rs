@@ -1,0 +1,112 @@
+//! Increments that do not converge are retried, from the last tractions as they are, then in halves.
+//!
+//! A guess that goes too far may lead astray: where it is left out the answer is the same. Half of the
+//! way is an easier problem: the last state is nearer to the solution. It is also a finer path, so that
+//! the answer differs from that of one piece as that of twice the increments would.
+//! [`Work::parts`](super::Work::parts) says in how many pieces an increment was solved.
+
+use super::domain::Domain;
+use super::increment::{Failure, Workspace, increment};
+use super::problem::Problem;
+use super::{Energy, Increment, Residuals, State, Work};
+use crate::error::Error;
+use crate::scene::LoadPoint;
+
+/// Halvings of an increment before the run gives up.
+const HALVINGS: u32 = 5;
+
+/// The increment to `point`, whole if that can be, or in pieces; after a failure the state is as before.
+pub(super) fn reach(
+    problem: &Problem,
+    domain: &mut Domain,
+    state: &mut State,
+    ws: &mut Workspace,
+    point: &LoadPoint,
+) -> Result<Increment, Failure> {
+    let mut whole = |extrapolates| increment(problem, domain, state, ws, point, extrapolates);
+    let mut ended = whole(true);
+    if !problem.plan.methods.retries {
+        return ended;
+    }
+    if stalled(&ended) && problem.plan.methods.extrapolation {
+        ended = whole(false);
+    }
+    if !stalled(&ended) {
+        return ended;
+    }
+    let before = state.clone();
+    let ended = in_halves(problem, domain, state, ws, point, HALVINGS);
+    if ended.is_err() {
+        *state = before;
+    }
+    ended
+}
+
+fn stalled(ended: &Result<Increment, Failure>) -> bool {
+    matches!(ended, Err(Failure::Error(Error::NotConverged { .. })))
+}
+
+/// The increment to `point` in two halves, halved further if needed.
+fn in_halves(
+    problem: &Problem,
+    domain: &mut Domain,
+    state: &mut State,
+    ws: &mut Workspace,
+    point: &LoadPoint,
+    halvings: u32,
+) -> Result<Increment, Failure> {
+    let mut piece = |state: &mut State, point: &LoadPoint| {
+        let ended = increment(problem, domain, state, ws, point, true);
+        if halvings > 1 && stalled(&ended) {
+            return in_halves(problem, domain, state, ws, point, halvings - 1);
+        }
+        ended
+    };
+    let middle = point.middle(&state.loads, state.motion.motions());
+    let first = piece(state, &middle)?;
+    // Both halves are one increment of the path.
+    state.increments -= 1;
+    let second = piece(state, point)?;
+    let mut whole = first.followed_by(&second);
+    if state.work != 0.0 {
+        whole.residuals.energy = whole.energy.imbalance() / state.work;
+    }
+    Ok(whole)
+}
+
+impl Increment {
+    /// Both as one: the state at the end of the second, energies and work of both, the worse
+    /// residuals.
+    fn followed_by(self, second: &Self) -> Self {
+        let (e, f) = (self.energy, second.energy);
+        let (r, s) = (self.residuals, second.residuals);
+        let (w, v) = (self.work, second.work);
+        Self {
+            energy: Energy {
+                work: e.work + f.work,
+                elastic: e.elastic + f.elastic,
+                dissipated: e.dissipated + f.dissipated,
+                opening: e.opening + f.opening,
+                quadrature: e.quadrature + f.quadrature,
+            },
+            residuals: Residuals {
+                gap: r.gap.max(s.gap),
+                penetration: r.penetration.max(s.penetration),
+                coulomb: r.coulomb.max(s.coulomb),
+                stick: r.stick.max(s.stick),
+                direction: r.direction.max(s.direction),
+                angle: r.angle.max(s.angle),
+                balance: r.balance.max(s.balance),
+                energy: s.energy,
+            },
+            work: Work {
+                convolutions: w.convolutions + v.convolutions,
+                alternations: w.alternations + v.alternations,
+                normal_iterations: w.normal_iterations + v.normal_iterations,
+                tangential_iterations: w.tangential_iterations + v.tangential_iterations,
+                parts: w.parts + v.parts,
+            },
+            ..*second
+        }
+    }
+}

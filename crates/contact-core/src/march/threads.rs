@@ -1,0 +1,59 @@
+//! Keeping the threads of the pool awake while an increment is solved.
+//!
+//! An increment is hundreds of short parallel regions. A thread of the pool that finds nothing to
+//! do for some ten microseconds goes to sleep, and waking it takes longer than many a region lasts.
+
+use std::hint::spin_loop;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use rayon::Yield;
+
+/// How long the work waits for the other threads to come.
+const PATIENCE: Duration = Duration::from_micros(100);
+
+/// Does the work on a thread of the pool while the others look for parts of it without pause.
+///
+/// A thread that does not come in time, being busy with other work of the pool, stays out: it might
+/// else begin to watch in the middle of a part of this work, which would wait for it for ever. So
+/// whatever a watcher holds up was begun before the work it watches, and no two wait for each other.
+pub(super) fn with_busy_threads<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    let watchers: Vec<_> = (1..rayon::current_num_threads())
+        .map(|_| AtomicBool::new(false))
+        .collect();
+    let (closed, done) = (AtomicBool::new(false), AtomicBool::new(false));
+    rayon::scope(|scope| {
+        for came in &watchers {
+            let (closed, done) = (&closed, &done);
+            scope.spawn(move |_| {
+                came.store(true, Ordering::Relaxed);
+                if closed.load(Ordering::Acquire) {
+                    return;
+                }
+                while !done.load(Ordering::Acquire) {
+                    if rayon::yield_now() != Some(Yield::Executed) {
+                        spin_loop();
+                    }
+                }
+            });
+        }
+        let begin = Instant::now();
+        while !watchers.iter().all(|came| came.load(Ordering::Relaxed))
+            && begin.elapsed() < PATIENCE
+        {
+            spin_loop();
+        }
+        closed.store(true, Ordering::Release);
+        let _raise = RaiseOnDrop(&done);
+        work()
+    })
+}
+
+/// Raises a flag at the end, also when that is a panic.
+struct RaiseOnDrop<'a>(&'a AtomicBool);
+
+impl Drop for RaiseOnDrop<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Release);
+    }
+}

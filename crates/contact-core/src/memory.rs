@@ -1,0 +1,31 @@
+//! Memory that there is on this machine.
+
+use sysinfo::{MemoryRefreshKind, System};
+
+use crate::error::Error;
+
+/// Memory that a process may still take \[bytes\]: what the system has to give, or what the control
+/// group of the process leaves. Infinite where the system does not say.
+pub fn available_memory() -> f64 {
+    let mut system = System::new();
+    system.refresh_memory_specifics(MemoryRefreshKind::nothing().with_ram());
+    let of_group = system.cgroup_limits().map_or(u64::MAX, |l| l.free_memory);
+    match system.available_memory().min(of_group) {
+        // Systems that do not say report nothing.
+        0 => f64::INFINITY,
+        bytes => bytes as f64,
+    }
+}
+
+/// Fails if that many bytes are not to be had.
+pub(crate) fn fits(what: &'static str, needed: f64) -> Result<(), Error> {
+    let available = available_memory();
+    if needed <= available {
+        return Ok(());
+    }
+    Err(Error::TooLarge {
+        what,
+        needed,
+        available,
+    })
+}

@@ -1,0 +1,112 @@
+//! Branches of the load path that one increment does for.
+//!
+//! Pressure without shear depends on the loads alone. Shear depends on the way it came about, but
+//! where pressure stays, slips go along one line and the loads do not turn back, a cell that slips
+//! goes on to do so: the end of the branch is that of a single step (M. Ciavarella, Int. J. Solids
+//! Struct. 35 (1998) 2349-2362). Slips keep to a line only where the shear kernel is isotropic, which
+//! of half-spaces are those with nu = 0: otherwise what one increment leaves out is of the size of
+//! nu (for nu = 0.3 a hundredth of q).
+//!
+//! What is left out is the curve in between: the rows of the increments, the shape of a loop.
+
+use crate::scene::{Branch, Loads, RigidMotion, SaveFields, Scene};
+
+/// For every branch whether its increments may be left out, and why any or none are.
+pub(crate) fn direct_branches(
+    scene: &Scene,
+    coupling: bool,
+) -> (Vec<bool>, Result<&'static str, &'static str>) {
+    let branches = &scene.path.branches;
+    let none = |reason| (vec![false; branches.len()], Err(reason));
+    if !scene.settings.skip.path {
+        return none("skip.path is off: each has its row in the results");
+    }
+    if scene.settings.save != SaveFields::Branches {
+        return none("fields within the branches are to be kept");
+    }
+    if branches.iter().all(|b| b.increments == Some(1)) {
+        return none("every branch has one increment");
+    }
+    if scene.friction.mu == 0.0 {
+        let all = vec![true; branches.len()];
+        return (
+            all,
+            Ok("without friction pressure depends on the loads alone"),
+        );
+    }
+    if scene.friction.kinetic.is_some() || scene.friction.history.is_some() {
+        return none("friction depends on what cells have been through");
+    }
+    if branches.iter().any(|b| {
+        [b.to.sigma_B, b.to.sigma_B1, b.to.rolled]
+            .iter()
+            .any(|v| *v != 0.0)
+    }) {
+        return none("the bodies roll or are stretched meanwhile");
+    }
+    if coupling {
+        return none("pressure and shear act on each other, the way counts");
+    }
+    let without_shear = branches.iter().take_while(|b| is_normal(&b.to)).count();
+    let along_line = isotropic(scene) && on_a_line(branches);
+    let direct: Vec<bool> = (0..branches.len())
+        .map(|b| b < without_shear || (along_line && b > 0 && same_pressure(branches, b)))
+        .collect();
+    let verdict = match (direct.contains(&true), along_line) {
+        (true, true) => {
+            Ok("similar bodies under a constant W, shear along one line: one increment is exact")
+        }
+        (true, false) => {
+            Ok("without shear the pressure of similar bodies depends on the loads alone")
+        }
+        (false, _) => {
+            Err("W and T change together, or shear is not along one line: the way counts")
+        }
+    };
+    (direct, verdict)
+}
+
+/// Whether no shear is asked for.
+fn is_normal(to: &Loads) -> bool {
+    let in_plane = RigidMotion::ALL.into_iter().filter(|of| of.is_in_plane());
+    in_plane
+        .map(|of| to.prescribed(of))
+        .all(|p| p.value() == 0.0)
+}
+
+/// Whether shear along a line causes displacements along that line alone, and slip follows.
+fn isotropic(scene: &Scene) -> bool {
+    if scene.friction.mu_y.is_some() {
+        return false;
+    }
+    if scene.grid.plane_strain && scene.path.branches.iter().all(|b| b.to.T_y == 0.0) {
+        return true;
+    }
+    [&scene.body1, &scene.body2].iter().all(|body| {
+        body.is_homogeneous() && (body.substrate.is_rigid() || body.substrate.nu == 0.0)
+    })
+}
+
+/// Whether all tangential forces are along one line and nothing turns or is pushed in the plane.
+fn on_a_line(branches: &[Branch]) -> bool {
+    let mut line = (0.0_f64, 0.0_f64);
+    branches.iter().all(|b| {
+        let Loads { T_x, T_y, .. } = b.to;
+        if line == (0.0, 0.0) {
+            line = (T_x, T_y);
+        }
+        let across = (T_x * line.1 - T_y * line.0).abs();
+        let prescribed = |of: RigidMotion| b.to.prescribed(of);
+        let turns = prescribed(RigidMotion::PhiZ).value() != 0.0;
+        let pushed = [RigidMotion::DeltaX, RigidMotion::DeltaY]
+            .iter()
+            .any(|of| prescribed(*of).is_motion());
+        across <= 1e-12 * T_x.hypot(T_y) * line.0.hypot(line.1) && !turns && !pushed
+    })
+}
+
+/// Whether the loads across the plane stay as they are in branch `b`.
+fn same_pressure(branches: &[Branch], b: usize) -> bool {
+    let mut across = RigidMotion::ALL.into_iter().filter(|of| !of.is_in_plane());
+    across.all(|of| branches[b].to.prescribed(of) == branches[b - 1].to.prescribed(of))
+}

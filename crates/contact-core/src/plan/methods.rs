@@ -1,0 +1,120 @@
+//! The numerical methods of a run.
+
+use crate::scene::{KernelMethod, Preset, Scene};
+
+/// How the tangential problem is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TangentialMethod {
+    /// Semi-smooth Newton steps, [`tangential`](crate::solvers::inner::tangential()).
+    Newton,
+    /// Conjugate gradients of the Polonsky-Keer type, as in the paper.
+    Gradient,
+}
+
+/// The numerical methods of a run, decided once; each can be switched off alone to see what it buys
+/// (`docs/ablation.md`). `spinu2020` is the paper's own choice: none of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(clippy::struct_excessive_bools)] // one for each method
+pub struct Methods {
+    /// How the tangential problem is solved (default [`TangentialMethod::Newton`]).
+    pub tangential: TangentialMethod,
+    /// Precondition the conjugate gradients with a circulant inverse (default true).
+    pub preconditioner: bool,
+    /// Reckon the slip of cells that come into contact from their entry (default: the setting).
+    pub entry: bool,
+    /// Order the entry of the cells next to the contact one by one; without it their motion is summed from
+    /// cell to cell like that of cells farther off (default true).
+    pub order_of_entry: bool,
+    /// Let slip follow the turn of the shear within an increment (default: the setting).
+    pub turning: bool,
+    /// Correct the next increment by the residual slip that the last one left (default true).
+    pub residual_slip: bool,
+    /// Extrapolate the first guess along a path that keeps its direction (default true).
+    pub extrapolation: bool,
+    /// Begin a first contact from the pressure of a paraboloid (default true).
+    pub first_contact: bool,
+    /// Accelerate an alternation that is slow (default true).
+    pub anderson: bool,
+    /// Retry an increment that does not converge, without extrapolation and in halves (default true).
+    pub retries: bool,
+    /// Continue zones to their borders within the cells: areas and radii; without it whole cells count
+    /// (default true).
+    pub partial_cells: bool,
+    /// Keep the threads of the pool awake while an increment is solved (default true).
+    pub busy_threads: bool,
+    /// Solve in a window around the contact (default: the rule of the plan).
+    pub window: bool,
+    /// Answer changes of the tractions in single precision (default: the rule of the plan).
+    pub single_precision: bool,
+}
+
+impl Methods {
+    /// Those of a scene's preset and settings.
+    pub(super) fn new(scene: &Scene, window: bool, single_precision: bool) -> Self {
+        let solver = &scene.settings.solver;
+        let fast = solver.preset == Preset::Fast;
+        Self {
+            tangential: match solver.preset {
+                Preset::Fast => TangentialMethod::Newton,
+                Preset::Spinu2020 => TangentialMethod::Gradient,
+            },
+            preconditioner: fast,
+            entry: fast && solver.entering,
+            order_of_entry: fast,
+            turning: fast && solver.turning,
+            residual_slip: fast,
+            extrapolation: fast,
+            first_contact: true,
+            anderson: true,
+            retries: true,
+            partial_cells: true,
+            busy_threads: true,
+            window,
+            single_precision,
+        }
+    }
+}
+
+/// The finest tolerance that single precision serves: what it rounds is a tenth of that, or less.
+const SINGLE: f64 = 1e-6;
+
+/// Whether, and why, single precision is enough for the response to a change of the tractions: the
+/// response to what they add up to is computed anew in each increment.
+pub(super) fn single_precision(scene: &Scene) -> Result<&'static str, &'static str> {
+    if !scene.settings.skip.digits {
+        Err("skip.digits is off")
+    } else if scene.settings.solver.preset != Preset::Fast {
+        Err("the preset is plain")
+    } else if in_frequency_domain(scene) {
+        Err("the frequency-domain operator has double precision alone")
+    } else if scene.tolerance() < SINGLE {
+        Err("the tolerance is finer than 1e-6")
+    } else {
+        Ok("the tolerance is 1e-6 or more")
+    }
+}
+
+/// Whether, and why, a window around the contact is enough to solve on.
+pub(super) fn window(scene: &Scene) -> Result<&'static str, &'static str> {
+    if !scene.settings.skip.far {
+        return Err("skip.far is off");
+    }
+    if scene.settings.solver.preset != Preset::Fast {
+        return Err("the preset is plain");
+    }
+    if in_frequency_domain(scene) {
+        return Err("the frequency-domain operator works on the whole grid");
+    }
+    if scene.grid.plane_strain {
+        return Err("the grid is one row of cells");
+    }
+    if scene.path.branches.iter().any(|b| b.to.rolled != 0.0) {
+        return Err("the bodies roll over the grid");
+    }
+    Ok("a window goes with the contact; the gap beyond it is checked")
+}
+
+pub(super) fn in_frequency_domain(scene: &Scene) -> bool {
+    let method = &scene.settings.kernel.method;
+    matches!(method, KernelMethod::FrequencyDomain { .. })
+}

@@ -1,0 +1,73 @@
+//! The friction law of a scene file.
+
+use toml::Value;
+
+use super::files::Files;
+use super::measure;
+use super::section::{Fault, Section};
+use super::shape::surface_map;
+use crate::scene::{Friction, FrictionHistory, History};
+
+/// The friction law.
+pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction, Fault> {
+    let keys = ["mu", "mu_y", "kinetic", "map", "history"];
+    let section = root.need_section("friction", &keys)?;
+    let what = "a number >= 0, or \"stick\" for no slip";
+    let mu = match section.need("mu", what)? {
+        Value::String(word) if word == "stick" => f64::INFINITY,
+        Value::String(_) => {
+            return Err(Fault::value("friction.mu", section.need("mu", what)?, what));
+        }
+        _ => section.number("mu", what, &[])?,
+    };
+    if mu.is_infinite() && section.get("mu").is_some_and(|mu| !mu.is_str()) {
+        let finite = "a finite number >= 0, or \"stick\" for no slip";
+        return Err(Fault::value(
+            "friction.mu",
+            section.need("mu", what)?,
+            finite,
+        ));
+    }
+    let number = |key: &str| {
+        let given = section
+            .get(key)
+            .map(|_| section.number(key, "a positive number", &[]));
+        given.transpose()
+    };
+    let map = section.section("map", &["file", "z", "spacing", "missing"])?;
+    Ok(Friction {
+        mu,
+        mu_y: number("mu_y")?,
+        kinetic: number("kinetic")?,
+        map: map.map(|map| surface_map(&map, files)).transpose()?,
+        history: friction_history(&section)?,
+    })
+}
+
+fn friction_history(friction: &Section<'_>) -> Result<Option<FrictionHistory>, Fault> {
+    let Some(section) = friction.section("history", &["of", "table"])? else {
+        return Ok(None);
+    };
+    let of = section.choice(
+        "of",
+        &[
+            ("slip", History::Slip),
+            ("dissipated", History::Dissipated),
+            ("increment", History::Increment),
+        ],
+    )?;
+    let what = "a list of pairs [history, factor]";
+    let (key, value) = (section.path("table"), section.need("table", what)?);
+    let wrong = || Fault::value(&key, value, what);
+    let table = value.as_array().ok_or_else(wrong)?;
+    let pairs = table.iter().map(|row| {
+        let row = row
+            .as_array()
+            .filter(|row| row.len() == 2)
+            .ok_or_else(wrong)?;
+        let number = |i: usize| measure::number(&key, &row[i], &[]);
+        Ok((number(0)?, number(1)?))
+    });
+    let table = pairs.collect::<Result<_, Fault>>()?;
+    Ok(Some(FrictionHistory { of, table }))
+}

@@ -1,0 +1,120 @@
+//! The load path of a scene file.
+
+use toml::Value;
+
+use super::files::Files;
+use super::measure::Measure;
+use super::section::{Fault, Section, count};
+use crate::scene::{Branch, Increments, LoadPath, Loads, Prescribed, RigidMotion, Spacing};
+
+/// The branches; loads that one does not name keep their value.
+pub(super) fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<LoadPath, Fault> {
+    let own = [
+        "sigma_B",
+        "sigma_B1",
+        "rolled",
+        "increments",
+        "t",
+        "spacing",
+        "path_error",
+    ];
+    let keys = [&RigidMotion::names()[..], &own].concat();
+    if let Some(Value::Table(_)) = root.get("path") {
+        return measured(root, files);
+    }
+    let mut path = LoadPath::start();
+    let (mut at, mut t) = (Loads::default(), 0.0);
+    for section in root.sections("path", &keys)? {
+        at = loads(&section, at, mu)?;
+        let t_end = section.number_or("t", t + 1.0, &[])?;
+        t = t_end;
+        path = path.branch(Branch {
+            to: at,
+            increments: branch_increments(&section)?,
+            spacing: section.choice(
+                "spacing",
+                &[
+                    ("uniform", Spacing::Uniform),
+                    ("equal_radius", Spacing::EqualRadius),
+                ],
+            )?,
+            t_end,
+            path_error: section.number_if("path_error", &[])?,
+        });
+    }
+    Ok(path)
+}
+
+/// The increments of a branch, if they are given.
+fn branch_increments(section: &Section<'_>) -> Result<Option<usize>, Fault> {
+    match section.get("increments") {
+        None => Ok(None),
+        Some(Value::String(auto)) if auto == "auto" => Ok(None),
+        Some(n @ Value::Integer(_)) => count(&section.path("increments"), n, 1).map(Some),
+        Some(other) => {
+            let key = section.path("increments");
+            Err(Fault::value(
+                &key,
+                other,
+                "a whole number >= 1, or \"auto\"",
+            ))
+        }
+    }
+}
+
+/// The loads and motions of a branch.
+fn loads(section: &Section<'_>, at: Loads, mu: f64) -> Result<Loads, Fault> {
+    let mut to = at;
+    for motion in RigidMotion::ALL {
+        let (load, name) = (motion.load(), motion.name());
+        let mu_W = [Measure::mu_W(mu * to.W)];
+        let measures = match motion {
+            RigidMotion::DeltaX | RigidMotion::DeltaY => &mu_W[..],
+            _ => &[],
+        };
+        let prescribed = match (section.get(load), section.get(name)) {
+            (Some(_), Some(_)) => {
+                let key = section.path(name);
+                let message = format!(
+                    "{} and {key} are both given: the one follows from the other",
+                    section.path(load)
+                );
+                return Err(Fault::new(key, message));
+            }
+            (Some(_), None) => Prescribed::Load(section.number(load, "a load", measures)?),
+            (None, Some(_)) => Prescribed::Motion(section.number(name, "a motion", &[])?),
+            (None, None) => continue,
+        };
+        to.prescribe(motion, prescribed);
+    }
+    let number = |key: &str, default: f64| section.number_or(key, default, &[]);
+    Ok(Loads {
+        sigma_B: number("sigma_B", at.sigma_B)?,
+        sigma_B1: number("sigma_B1", at.sigma_B1)?,
+        rolled: number("rolled", at.rolled)?,
+        ..to
+    })
+}
+
+/// A measured history: a table of waypoints in a file.
+fn measured(root: &Section<'_>, files: &Files<'_>) -> Result<LoadPath, Fault> {
+    let section = root.need_section("path", &["file", "increments"])?;
+    let what = "the name of a .csv file";
+    let (key, value) = (section.path("file"), section.need("file", what)?);
+    let name = value
+        .as_str()
+        .ok_or_else(|| Fault::value(&key, value, what))?;
+    let what = "a whole number >= 1, or { per_range = number }";
+    let increments = match section.get("increments") {
+        None => Increments::Each(1),
+        Some(Value::Table(_)) => {
+            let auto = section.need_section("increments", &["per_range"])?;
+            Increments::PerRange(auto.count("per_range", 1)?)
+        }
+        Some(n @ Value::Integer(_)) => Increments::Each(count("path.increments", n, 1)?),
+        Some(other) => return Err(Fault::value("path.increments", other, what)),
+    };
+    let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
+    let path = files.find(name).map_err(|e| wrong(&e))?;
+    LoadPath::from_csv(&path, increments).map_err(|e| wrong(&e))
+}

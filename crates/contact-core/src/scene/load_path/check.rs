@@ -1,0 +1,112 @@
+//! Load paths that have no meaning, refused before anything is computed.
+
+use super::{Branch, LoadPath};
+use crate::error::Error;
+use crate::scene::{Friction, Grid, Prescribed, RigidMotion};
+
+/// Most increments of a path: the points alone take some 60 bytes each.
+const MOST_INCREMENTS: usize = 100_000_000;
+
+impl LoadPath {
+    /// Fails where the increments of a branch are yet to be chosen.
+    pub(crate) fn check_increments(&self) -> Result<(), Error> {
+        match self.branches.iter().position(|b| b.increments.is_none()) {
+            None => Ok(()),
+            Some(branch) => Err(Error::invalid(
+                format!("path.{branch}.increments"),
+                "auto",
+                "a number: estimate::choose_increments gives one to each branch",
+            )),
+        }
+    }
+
+    pub(crate) fn check(&self, friction: &Friction) -> Result<(), Error> {
+        if self.branches.is_empty() {
+            return Err(Error::invalid("path", "empty", "at least one branch"));
+        }
+        let total = self.branches.iter().map(Branch::count);
+        if total.fold(0, usize::saturating_add) > MOST_INCREMENTS {
+            return Err(Error::invalid(
+                "path",
+                "of more increments",
+                format!("at most {MOST_INCREMENTS} increments in all"),
+            ));
+        }
+        let mut t = 0.0;
+        for (i, b) in self.branches.iter().enumerate() {
+            let key = |name: &str| format!("path[{i}].{name}");
+            for (name, value) in [
+                ("sigma_B", b.to.sigma_B),
+                ("sigma_B1", b.to.sigma_B1),
+                ("rolled", b.to.rolled),
+            ] {
+                if !value.is_finite() {
+                    return Err(Error::invalid(key(name), value, "a finite number"));
+                }
+            }
+            if !(b.t_end > t && b.t_end.is_finite()) {
+                return Err(Error::invalid(
+                    key("t"),
+                    b.t_end,
+                    format!("a time after {t}, the end of the branch before"),
+                ));
+            }
+            t = b.t_end;
+            if b.increments == Some(0) {
+                return Err(Error::invalid(
+                    key("increments"),
+                    0,
+                    "at least one increment",
+                ));
+            }
+            b.to.check(&key, friction)?;
+        }
+        Ok(())
+    }
+
+    /// Fails if the grid cannot follow: the contact rolls whole cells in an increment, along x and so
+    /// about y, and a strip neither twists nor tilts about its length.
+    pub(crate) fn check_on(&self, grid: &Grid) -> Result<(), Error> {
+        let mut rolled = 0.0;
+        for (i, b) in self.branches.iter().enumerate() {
+            let key = |name: &str| format!("path[{i}].{name}");
+            let cells = (b.to.rolled - rolled) / grid.dx / b.count() as f64;
+            if (cells - cells.round()).abs() > 1e-6 * cells.abs().max(1.0) {
+                return Err(Error::invalid(
+                    key("rolled"),
+                    b.to.rolled,
+                    format!(
+                        "whole cells of {} m per increment further than before",
+                        grid.dx
+                    ),
+                ));
+            }
+            let rolls = cells.round() != 0.0;
+            for motion in RigidMotion::ALL {
+                let allowed = match motion {
+                    RigidMotion::PhiY if rolls => {
+                        "left out while the contact rolls, which is a turn about y itself"
+                    }
+                    RigidMotion::PhiX | RigidMotion::PhiZ if grid.plane_strain => {
+                        "left out in plane strain: nothing turns about x or z"
+                    }
+                    _ => continue,
+                };
+                let prescribed = b.to.prescribed(motion);
+                if prescribed != Prescribed::Motion(0.0) {
+                    let name = prescribed.name(motion);
+                    return Err(Error::invalid(key(name), prescribed.value(), allowed));
+                }
+            }
+            if rolls && b.increments.is_none() {
+                return Err(Error::invalid(
+                    key("increments"),
+                    "auto",
+                    "a number where the contact rolls: whole cells in each",
+                ));
+            }
+            rolled = b.to.rolled;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,114 @@
+//! The load history: branches, each cut into increments.
+
+mod build;
+mod check;
+mod point;
+mod waypoints;
+
+pub use point::LoadPoint;
+pub use waypoints::Increments;
+
+use super::{Loads, RigidMotion};
+
+/// How the increments of a branch are spaced.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Spacing {
+    /// Equal increments of force (default).
+    #[default]
+    Uniform,
+    /// Increments of equal contact radius for a paraboloid: the force grows with the cube of the
+    /// count, an approach that is given with the square. The natural spacing of an indentation.
+    EqualRadius,
+}
+
+impl Spacing {
+    /// Part of the branch covered after the part `s` of its increments.
+    fn covered(self, s: f64, approach_given: bool) -> f64 {
+        match (self, approach_given) {
+            (Self::Uniform, _) => s,
+            (Self::EqualRadius, false) => s.powi(3),
+            (Self::EqualRadius, true) => s.powi(2),
+        }
+    }
+}
+
+/// One straight piece of the load history.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Branch {
+    /// Loads at the end of the branch.
+    pub to: Loads,
+    /// Number of increments, at least one; `None`: as many as the tolerance on the path needs,
+    /// [`choose_increments`](crate::estimate::choose_increments).
+    pub increments: Option<usize>,
+    /// How they are spaced.
+    pub spacing: Spacing,
+    /// Path time at the end of the branch; only a label, the contact is quasi-static.
+    pub t_end: f64,
+    /// Estimated error of the shear at the end of the branch that its increments leave: relative to the
+    /// largest shear of the path (L2). `None` without an estimate.
+    pub path_error: Option<f64>,
+}
+
+impl Branch {
+    /// A branch of equal increments.
+    pub fn new(to: Loads, increments: impl Into<Option<usize>>, t_end: f64) -> Self {
+        Self {
+            to,
+            increments: increments.into(),
+            spacing: Spacing::Uniform,
+            t_end,
+            path_error: None,
+        }
+    }
+
+    /// Increments, one where the number is yet to be chosen.
+    pub(crate) fn count(&self) -> usize {
+        self.increments.unwrap_or(1)
+    }
+}
+
+/// The load history, from the unloaded state.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LoadPath {
+    /// Branches in the order they are run through.
+    pub branches: Vec<Branch>,
+}
+
+impl LoadPath {
+    /// Number of increments of the whole path; a branch whose number is yet to be chosen counts as one.
+    pub fn increments(&self) -> usize {
+        self.branches.iter().map(Branch::count).sum()
+    }
+
+    /// Whether nothing but normal forces and tilting moments, or their motions, act.
+    pub(crate) fn only_presses(&self) -> bool {
+        self.branches.iter().all(|Branch { to, .. }| {
+            let in_plane = |of: RigidMotion| of.is_in_plane() && to.prescribed(of).value() != 0.0;
+            let shears = RigidMotion::ALL.into_iter().any(in_plane);
+            let strains = [to.sigma_B, to.sigma_B1, to.rolled]
+                .iter()
+                .any(|s| *s != 0.0);
+            !(shears || strains)
+        })
+    }
+
+    /// Whether the increments of a branch are yet to be chosen.
+    pub fn is_open(&self) -> bool {
+        self.branches.iter().any(|b| b.increments.is_none())
+    }
+
+    /// The largest normal force that the path gives \[N\].
+    pub fn W_max(&self) -> f64 {
+        let given = self
+            .branches
+            .iter()
+            .filter(|b| b.to.given.delta_z.is_none());
+        given.fold(0.0, |m, b| m.max(b.to.W))
+    }
+
+    /// The largest approach that the path gives \[m\].
+    pub fn delta_z_max(&self) -> f64 {
+        let given = self.branches.iter().filter_map(|b| b.to.given.delta_z);
+        given.fold(0.0, f64::max)
+    }
+}

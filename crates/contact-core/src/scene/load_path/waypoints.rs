@@ -1,0 +1,216 @@
+//! Load paths from waypoints: measured histories, tables.
+
+use std::path::Path;
+
+use super::{Branch, LoadPath};
+use crate::error::Error;
+use crate::scene::{Loads, Prescribed, RigidMotion};
+
+/// How many increments lie between two waypoints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Increments {
+    /// The same number for each.
+    Each(usize),
+    /// As many as the change needs if the whole range of a load or motion takes this many; the one
+    /// that needs most decides.
+    PerRange(usize),
+}
+
+impl Increments {
+    /// The increments of each of the steps, whose changes are given by load or motion.
+    fn of(self, steps: &[Vec<f64>], ranges: &[f64]) -> Vec<usize> {
+        let per_range = match self {
+            Self::Each(n) => return vec![n; steps.len()],
+            Self::PerRange(n) => n as f64,
+        };
+        let needed = |change: f64, range: f64| {
+            if range > 0.0 {
+                // Rounding must not cost an increment.
+                (per_range * change.abs() / range - 1e-9).ceil() as usize
+            } else {
+                0
+            }
+        };
+        let of_step = |step: &Vec<f64>| {
+            let each = step.iter().zip(ranges).map(|(c, r)| needed(*c, *r));
+            each.max().unwrap_or(0).max(1)
+        };
+        steps.iter().map(of_step).collect()
+    }
+}
+
+/// A column of a table of waypoints.
+#[derive(Clone, Copy)]
+enum Column {
+    /// Path time.
+    Time,
+    /// A load, or the motion in its place.
+    Prescribed(RigidMotion, Prescribed),
+    /// `sigma_B`, `sigma_B1`, `rolled`.
+    Other(fn(&mut Loads) -> &mut f64),
+}
+
+/// Columns other than loads and motions.
+const OTHERS: [(&str, Column); 4] = [
+    ("sigma_B", Column::Other(|loads| &mut loads.sigma_B)),
+    ("sigma_B1", Column::Other(|loads| &mut loads.sigma_B1)),
+    ("rolled", Column::Other(|loads| &mut loads.rolled)),
+    ("t", Column::Time),
+];
+
+impl Column {
+    fn named(name: &str) -> Result<Self, Error> {
+        let other = OTHERS.iter().find(|(other, _)| *other == name);
+        let known = RigidMotion::of(name, 0.0).map(|(of, kind)| Self::Prescribed(of, kind));
+        known.or(other.map(|(_, column)| *column)).ok_or_else(|| {
+            let known = [&RigidMotion::names()[..], &OTHERS.map(|(name, _)| name)].concat();
+            let nearest = known
+                .iter()
+                .min_by_key(|known| strsim::damerau_levenshtein(name, known));
+            let nearest = nearest.copied().unwrap_or_default();
+            let allowed = format!("one of {}; the nearest is {nearest}", known.join(", "));
+            Error::invalid("path column", name, allowed)
+        })
+    }
+
+    /// Enters a value of the column; `t` is that of path time.
+    fn enter(self, loads: &mut Loads, t: &mut f64, value: f64) {
+        match self {
+            Self::Time => *t = value,
+            Self::Prescribed(of, kind) => loads.prescribe(of, kind.map(|_| value)),
+            Self::Other(field) => *field(loads) = value,
+        }
+    }
+
+    /// The value of the column at a waypoint; zero where a motion is not prescribed, and of path time.
+    fn value(self, mut loads: Loads) -> f64 {
+        match self {
+            Self::Time => 0.0,
+            Self::Prescribed(of, Prescribed::Load(_)) => loads.forces()[of.index()],
+            Self::Prescribed(of, Prescribed::Motion(_)) => {
+                loads.given.motions()[of.index()].unwrap_or(0.0)
+            }
+            Self::Other(field) => *field(&mut loads),
+        }
+    }
+}
+
+impl LoadPath {
+    /// Goes straight from waypoint to waypoint, a branch for each. `names` are those of loads and
+    /// motions, `sigma_B`, `sigma_B1`, `rolled` and the path time `t`; each row has a value for
+    /// each. What has no column stays as it is.
+    pub fn waypoints(
+        mut self,
+        names: &[&str],
+        rows: &[Vec<f64>],
+        increments: Increments,
+    ) -> Result<Self, Error> {
+        let columns: Vec<Column> = names
+            .iter()
+            .map(|name| Column::named(name))
+            .collect::<Result<_, _>>()?;
+        if let Some(row) = rows.iter().position(|row| row.len() != names.len()) {
+            return Err(Error::invalid(
+                format!("path row {}", row + 1),
+                format!("{} values", rows[row].len()),
+                format!(
+                    "{} values, one for each of {}",
+                    names.len(),
+                    names.join(", ")
+                ),
+            ));
+        }
+        let mut waypoints = vec![self.last()];
+        for row in rows {
+            let (mut to, t) = waypoints[waypoints.len() - 1];
+            let mut t_end = t + 1.0;
+            for (column, value) in columns.iter().zip(row) {
+                column.enter(&mut to, &mut t_end, *value);
+            }
+            waypoints.push((to, t_end));
+        }
+        let range = |column: &Column| {
+            let values = waypoints.iter().map(|(loads, _)| column.value(*loads));
+            let ends = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
+                [low.min(v), high.max(v)]
+            });
+            ends[1] - ends[0]
+        };
+        let ranges: Vec<f64> = columns.iter().map(range).collect();
+        let change = |pair: &[(Loads, f64)]| -> Vec<f64> {
+            let change = |column: &Column| column.value(pair[1].0) - column.value(pair[0].0);
+            columns.iter().map(change).collect()
+        };
+        let steps: Vec<Vec<f64>> = waypoints.windows(2).map(change).collect();
+        let counts = increments.of(&steps, &ranges);
+        for ((to, t_end), increments) in waypoints.into_iter().skip(1).zip(counts) {
+            self.branches.push(Branch::new(to, increments, t_end));
+        }
+        Ok(self)
+    }
+
+    /// A measured history: a table of numbers parted by commas, its first line the names of
+    /// [`Self::waypoints`].
+    pub fn from_csv(path: &Path, increments: Increments) -> Result<Self, Error> {
+        let failed = |message: String| Error::File {
+            path: path.display().to_string(),
+            message,
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .trim(csv::Trim::All)
+            .from_path(path)
+            .map_err(|e| failed(e.to_string()))?;
+        let names = reader.headers().map_err(|e| failed(e.to_string()))?.clone();
+        let rows = reader.deserialize::<Vec<f64>>();
+        let rows: Vec<Vec<f64>> = rows
+            .collect::<Result<_, _>>()
+            .map_err(|e| failed(e.to_string()))?;
+        let names: Vec<&str> = names.iter().collect();
+        Self::start()
+            .waypoints(&names, &rows, increments)
+            .map_err(|e| failed(e.to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Branch, Increments, LoadPath};
+
+    #[test]
+    fn a_table_is_a_path() {
+        let rows = [
+            vec![0.5, 100.0, 0.0],
+            vec![1.0, 100.0, 20.0],
+            vec![2.0, 50.0, -20.0],
+        ];
+        let names = ["t", "W", "T_x"];
+        let path = LoadPath::start().waypoints(&names, &rows, Increments::PerRange(8));
+        let path = path.expect("a path");
+        let counts: Vec<usize> = path.branches.iter().map(Branch::count).collect();
+        assert_eq!(counts, [8, 4, 8]);
+        let (points, end) = (path.points(), path.branches[2].to);
+        assert_eq!((points[7].loads.W, points[9].loads.T_x), (100.0, 10.0));
+        assert_eq!((end.W, end.T_x, points[19].t), (50.0, -20.0, 2.0));
+        for (names, rows, part) in [
+            (["t", "w", "T_x"], &rows[..], "the nearest is W"),
+            (["t", "W", "T_x"], &[vec![1.0]][..], "path row 1 = 1 values"),
+        ] {
+            let refused = LoadPath::start().waypoints(&names, rows, Increments::Each(1));
+            let text = refused.expect_err("refused").to_string();
+            assert!(text.contains(part), "{text}");
+        }
+    }
+
+    #[test]
+    fn an_ellipse_closes() {
+        let path = LoadPath::start().normal(10.0, 1).ellipse((2.0, 1.0), 2, 12);
+        let points = path.points();
+        assert_eq!(points.len(), 1 + 12 + 24);
+        for point in &points[12..] {
+            let (x, y) = (point.loads.T_x / 2.0, point.loads.T_y);
+            assert!((x.hypot(y) - 1.0).abs() < 1e-14 && (point.loads.W - 10.0).abs() < 1e-14);
+        }
+        let (first, last) = (points[12].loads, points[36].loads);
+        assert!((first.T_x - last.T_x).abs() + (first.T_y - last.T_y).abs() < 1e-13);
+    }
+}

@@ -1,0 +1,99 @@
+//! What friction can carry at most, and how the contact slides there.
+//!
+//! Under full sliding with the motion m, cell n carries the shear g along B m. Loads F are within
+//! the limit if F . m <= sum g |B m| for every m (the limit surface of S. Goyal, A. Ruina,
+//! J. Papadopoulos, Wear 143 (1991) 307-330), so the part of the limit that they use is the
+//! largest F . m / sum g |B m|.
+
+use super::TangentialProblem;
+use crate::cells::{add, inverse, product};
+use crate::cells::{size, sum};
+
+/// How near the loads are to full sliding.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Sliding {
+    /// Loads over the limit.
+    pub(crate) used: f64,
+    /// Motion of the sliding that they drive, of any size.
+    pub(crate) motion: [f64; 3],
+}
+
+/// Loads this close to the limit slide; rounding decides below that.
+const FULL: f64 = 1e-11;
+/// Loads above the limit by more have no equilibrium.
+const BEYOND: f64 = 1e-9;
+
+impl Sliding {
+    /// Whether every cell slips.
+    pub(crate) fn is_full(&self) -> bool {
+        self.used >= 1.0 - FULL
+    }
+}
+
+/// Whether friction cannot carry loads that use this part of its limit.
+pub(crate) fn exceeds(used: f64) -> bool {
+    used > 1.0 + BEYOND
+}
+
+/// Rounds that look for the motion under a force and a moment.
+const ROUNDS: usize = 200;
+
+/// The part of the limit that the loads of the free motions use.
+pub(crate) fn sliding(problem: &TangentialProblem<'_>) -> Sliding {
+    let drive = &problem.drive;
+    let F = drive.sums;
+    if F.iter().all(|&F| F == 0.0) || problem.bound.contains(&f64::INFINITY) {
+        return Sliding::default();
+    }
+    if !drive.free[2] {
+        // Without rotation all cells slide alike.
+        let force = F[0].hypot(F[1]);
+        return Sliding {
+            used: force / sum(problem.bound),
+            motion: [F[0] / force, F[1] / force, 0.0],
+        };
+    }
+    // Fixed points of the weights g/|B m| climb to the largest ratio.
+    let mut best = Sliding::default();
+    let mut m = turned_by(problem, |_| 1.0);
+    for _ in 0..ROUNDS {
+        let used = dot(F, m) / friction_power(problem, m);
+        let settled = used <= best.used * (1.0 + 1e-14);
+        if used > best.used {
+            best = Sliding { used, motion: m };
+        }
+        if settled {
+            break;
+        }
+        let slowest = 1e-12 * size([m[0], m[1]]).max(m[2].abs());
+        m = turned_by(problem, |n| {
+            1.0 / size(problem.arms.in_plane(m, n)).max(slowest)
+        });
+    }
+    best
+}
+
+/// The motion that the loads drive where each cell resists like a damper of g times `weight`.
+fn turned_by(problem: &TangentialProblem<'_>, weight: impl Fn(usize) -> f64) -> [f64; 3] {
+    let mut gram = [[0.0; 3]; 3];
+    for n in (0..problem.bound.len()).filter(|&n| problem.bound[n] > 0.0) {
+        let w = problem.bound[n] * weight(n);
+        let (x, y) = (problem.arms.turn_x(n), problem.arms.y[n]);
+        let rows = [[1.0, 0.0, -y], [0.0, 1.0, x], [-y, x, x * x + y * y]];
+        for k in 0..3 {
+            gram[k] = add(gram[k], rows[k].map(|r| w * r));
+        }
+    }
+    product(&inverse(gram, problem.drive.free), problem.drive.sums)
+}
+
+/// sum of g |B m|
+fn friction_power(problem: &TangentialProblem<'_>, m: [f64; 3]) -> f64 {
+    (0..problem.bound.len())
+        .map(|n| problem.bound[n] * size(problem.arms.in_plane(m, n)))
+        .sum()
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}

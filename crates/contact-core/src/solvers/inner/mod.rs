@@ -1,0 +1,21 @@
+//! The inner loops (figure 3 of the paper): pressure for known shear, shear for known pressure.
+
+mod admissible;
+mod contact_shear;
+mod limit;
+mod newton_system;
+mod normal;
+mod projected_gradient;
+mod shear;
+mod shear_gradient;
+mod tangent;
+mod tangential;
+
+pub(super) use admissible::admissible;
+pub(super) use limit::{Sliding, exceeds, sliding};
+pub(crate) use normal::assess;
+pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
+pub(super) use shear::first_shift;
+pub use shear::{Shear, TangentialInfo, TangentialParams, TangentialProblem};
+pub(super) use shear_gradient::shear_gradient;
+pub use tangential::{TangentialWorkspace, newton_step, tangential};

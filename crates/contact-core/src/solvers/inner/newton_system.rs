@@ -1,0 +1,363 @@
+//! One Newton step of the tangential problem: the linear system on the tangent space.
+
+use super::tangent::{Admitted, Pair, Tangent};
+use super::{Shear, TangentialProblem};
+use crate::cells::ContactCells;
+use crate::cells::{add, inverse, product, set, sweep};
+use crate::solvers::Response;
+use crate::solvers::no_slip::slip;
+
+/// The eigenvalue c_0 at which the guess of the inverse is right, over C_xx(0,0).
+const RIGHT: f64 = 2.0;
+
+/// The linear system
+///
+/// ```text
+/// find x in the tangent space, B^T x = 0:   Pi (C x + D x + ds) = Pi B d(delta)'
+/// ```
+///
+/// with B the rigid motions that are free, Pi the projection on the tangent space (stick cells:
+/// both components; slip cells: across q) and D the curvature |ds|/g of the circle, less the part of it
+/// by which u_0 turns with q ([`Self::set_turning`]). The unknowns are packed contact cells;
+/// what goes through the operator covers the grid.
+///
+/// With P the inverse of C, and c an eigenvalue of C, the guess of the inverse is S P S + A,
+///
+/// ```text
+/// 1/(c + D) ~ s^2 / c + (1 - s^2)/(c_0 + max(D, d)),    s^2 = max(0, (1 - D/d)/(1 + D/c_0))
+/// ```
+///
+/// with equality for c = c_0 = 2 C_xx(0,0), and d = 2 C_xx(0,0) times the root of the cells across the
+/// contact, about the geometric mean of the eigenvalues of the shortest and the longest waves; both factors
+/// are those that took the fewest passes. At the rim D has no bound, and there a cell must not hear of the
+/// others through P: the little that it would move too far is D times as much in the residual.
+#[derive(Debug)]
+pub(crate) struct NewtonSystem {
+    tangent: Tangent,
+    /// The part of a turn of the shear that u_0 takes over.
+    turning: Vec<f64>,
+    /// D \[m/Pa\].
+    diagonal: Vec<f64>,
+    /// S \[1\] and A \[Pa/m\] of the guess S P S + A of (C + D)^-1.
+    scale: Vec<f64>,
+    alone: Vec<f64>,
+    /// Solution, and the change of the shear after it that brings cells back to their circle \[Pa\].
+    x: Pair,
+    pub(super) change: Pair,
+    residual: Pair,
+    residual_norm: f64,
+    z: Pair,
+    direction: Pair,
+    /// C x, and C times what was added to x, \[m\] on the grid.
+    response_x: Pair,
+    /// Traction and displacement on the grid.
+    traction: Pair,
+    displacement: Pair,
+}
+
+impl NewtonSystem {
+    pub(crate) fn new(cells: usize) -> Self {
+        let field = || Vec::with_capacity(cells);
+        let pair = || [field(), field()];
+        let on_grid = || [vec![0.0; cells], vec![0.0; cells]];
+        Self {
+            tangent: Tangent::new(cells),
+            turning: field(),
+            diagonal: field(),
+            scale: field(),
+            alone: field(),
+            x: pair(),
+            change: pair(),
+            residual: pair(),
+            residual_norm: 0.0,
+            z: pair(),
+            direction: pair(),
+            response_x: on_grid(),
+            traction: on_grid(),
+            displacement: on_grid(),
+        }
+    }
+
+    /// Makes room for the contact cells.
+    pub(crate) fn set_contact(&mut self, problem: &TangentialProblem<'_>) {
+        let count = problem.bound.len();
+        let of_cells = [
+            &mut self.turning,
+            &mut self.diagonal,
+            &mut self.scale,
+            &mut self.alone,
+            &mut self.tangent.weight,
+        ];
+        for field in of_cells {
+            field.resize(count, 0.0);
+        }
+        for pair in [
+            &mut self.tangent.across,
+            &mut self.x,
+            &mut self.change,
+            &mut self.residual,
+            &mut self.z,
+            &mut self.direction,
+        ] {
+            for field in pair {
+                field.resize(count, 0.0);
+            }
+        }
+        let [arm_x, arm_y] = &mut self.tangent.arms;
+        arm_x.clear();
+        arm_y.clear();
+        if problem.drive.free[2] {
+            arm_x.extend((0..count).map(|i| problem.arms.turn_x(i)));
+            arm_y.extend_from_slice(&problem.arms.y);
+        }
+        clear(&mut self.traction);
+    }
+
+    /// Takes over the part of a turn of the shear that u_0 follows in each cell of the grid; none without.
+    pub(super) fn set_turning(&mut self, contact: &ContactCells, turning: Option<&[f64]>) {
+        match turning {
+            Some(turning) => contact.pack(turning, &mut self.turning),
+            None => self.turning.fill(0.0),
+        }
+    }
+
+    /// Tangent space, curvature and residual at the present shear and slip; x starts from zero.
+    /// Returns the shift that fits the tangent space best, which the residual is that of.
+    pub(crate) fn linearise(
+        &mut self,
+        problem: &TangentialProblem<'_>,
+        shear: &Shear<'_>,
+        shift: [f64; 3],
+        c_xx: f64,
+    ) -> [f64; 3] {
+        let t = &mut self.tangent;
+        let right = RIGHT * c_xx;
+        // The root of the contact cells is about the number across.
+        let limit = 2.0 * c_xx * (problem.bound.len() as f64).powf(0.25);
+        let ([x, y], [q_x, q_y], [u_x, u_y]) = (problem.no_slip, &shear.q, &shear.u);
+        let from = [u_x, u_y, x, y, q_x, q_y, problem.bound, &self.turning];
+        let [t_x, t_y] = &mut t.across;
+        let [r_x, r_y] = &mut self.residual;
+        let to = [
+            &mut t_x[..],
+            t_y,
+            &mut t.weight,
+            &mut self.diagonal,
+            &mut self.scale,
+            &mut self.alone,
+            r_x,
+            r_y,
+        ];
+        set((from, &*shear.slip), to, |n, (cell, slips), _| {
+            let [u_x, u_y, x, y, q_x, q_y, g, turning] = cell;
+            let slip = slip([u_x, u_y], [x, y], problem.arms.in_plane(shift, n));
+            let e = if slips { [q_x / g, q_y / g] } else { [0.0; 2] };
+            let against = -(slip[0] * e[0] + slip[1] * e[1]);
+            let curvature = if slips {
+                (1.0 - turning) * against.max(0.0) / g
+            } else {
+                0.0
+            };
+            let weight = 1.0 / (1.0 + curvature / c_xx);
+            let shared = ((1.0 - curvature / limit) / (1.0 + curvature / right)).max(0.0);
+            let alone = (1.0 - shared) / (right + curvature.max(limit));
+            let (scale, r) = (shared.sqrt(), [-slip[0], -slip[1]]);
+            [-e[1], e[0], weight, curvature, scale, alone, r[0], r[1]]
+        });
+        t.inverse_sum = inverse(t.gram(), problem.drive.free);
+        let [r_x, r_y] = &mut self.residual;
+        let sums = sweep(t.fields(), [r_x, r_y], |_, of_cell, r| {
+            let cell = Admitted::of(of_cell);
+            let r = cell.project(r);
+            (r, cell.weighted_motion_of(r))
+        });
+        let behind = product(&t.inverse_sum, sums);
+        let [squares] = sweep(t.fields(), [r_x, r_y], |_, of_cell, r| {
+            let r = Admitted::of(of_cell).without(behind, r);
+            (r, [r[0] * r[0] + r[1] * r[1]])
+        });
+        self.residual_norm = squares.sqrt();
+        add(shift, behind.map(|s| -s))
+    }
+
+    /// Norm of the residual \[m\], root of the sum of squares.
+    pub(crate) fn residual_norm(&self) -> f64 {
+        self.residual_norm
+    }
+
+    /// Conjugate gradients until the residual norm is below `target` or `max_passes` are done;
+    /// returns the passes.
+    pub(crate) fn solve(
+        &mut self,
+        response: &mut Response<'_>,
+        contact: &ContactCells,
+        target: f64,
+        max_passes: usize,
+    ) -> usize {
+        self.restart();
+        let mut last_product = 0.0;
+        for pass in 0..max_passes {
+            if self.residual_norm <= target || response.stopped() {
+                return pass;
+            }
+            let (rigid, product) = self.precondition(response, contact);
+            let beta = if pass == 0 {
+                0.0
+            } else {
+                product / last_product
+            };
+            last_product = product;
+            self.turn(rigid, beta);
+            contact.unpack_pair(&self.direction, &mut self.traction);
+            let [d_x, d_y] = &self.traction;
+            let [u_x, u_y] = &mut self.displacement;
+            response.tangential([d_x, d_y], [u_x, u_y]);
+            let (rigid, curvature) = self.curve(contact);
+            if !(curvature > 0.0 && product > 0.0) {
+                return pass + 1;
+            }
+            self.advance(rigid, product / curvature);
+        }
+        max_passes
+    }
+
+    /// z = Pi (S P S + A) r up to a rigid motion, which is returned, and r.z. With that motion taken out
+    /// r.z is the same, since B^T w r = 0.
+    fn precondition(
+        &mut self,
+        response: &mut Response<'_>,
+        contact: &ContactCells,
+    ) -> ([f64; 3], f64) {
+        let ([r_x, r_y], [z_x, z_y]) = (&self.residual, &mut self.z);
+        set(
+            [&self.scale[..], r_x, r_y],
+            [z_x, z_y],
+            |_, [s, x, y], _| [s * x, s * y],
+        );
+        contact.unpack_pair(&self.z, &mut self.traction);
+        let [s_x, s_y] = &self.traction;
+        let [z_x, z_y] = &mut self.displacement;
+        response.invert_tangential([s_x, s_y], [z_x, z_y]);
+        contact.pack_pair(&self.displacement, &mut self.z);
+        let from = [&self.scale[..], &self.alone, r_x, r_y];
+        let value =
+            |z: [f64; 2], [s, a, x, y]: [f64; 4]| ([s * z[0] + a * x, s * z[1] + a * y], [x, y]);
+        (self.tangent).project(&mut self.z, Admitted::motion_of, from, value)
+    }
+
+    /// d = z - w Pi B rigid + beta d
+    fn turn(&mut self, rigid: [f64; 3], beta: f64) {
+        let ([z_x, z_y], [d_x, d_y]) = (&self.z, &mut self.direction);
+        let from = (self.tangent.fields(), [&z_x[..], z_y]);
+        set(from, [d_x, d_y], |_, (of_cell, z), d| {
+            let cell = Admitted::of(of_cell);
+            let z = cell.without(rigid.map(|m| cell.weight * m), z);
+            [z[0] + beta * d[0], z[1] + beta * d[1]]
+        });
+    }
+
+    /// z = Pi (C + D) d up to a rigid motion, which is returned, and d.z. With that motion taken out d.z
+    /// is the same, since B^T d = 0.
+    fn curve(&mut self, contact: &ContactCells) -> ([f64; 3], f64) {
+        contact.pack_pair(&self.displacement, &mut self.z);
+        let [d_x, d_y] = &self.direction;
+        let from = [&self.diagonal[..], d_x, d_y];
+        let value = |u: [f64; 2], [d, x, y]: [f64; 3]| ([u[0] + d * x, u[1] + d * y], [x, y]);
+        (self.tangent).project(&mut self.z, Admitted::weighted_motion_of, from, value)
+    }
+
+    /// x += step d,  r -= step (z - Pi B rigid)
+    fn advance(&mut self, rigid: [f64; 3], step: f64) {
+        let ([x, y], [r_x, r_y]) = (&mut self.x, &mut self.residual);
+        let ([d_x, d_y], [z_x, z_y]) = (&self.direction, &self.z);
+        let from = (self.tangent.fields(), [&d_x[..], d_y, z_x, z_y]);
+        let to = [&mut x[..], y, r_x, r_y];
+        let [squares] = sweep(from, to, |_, (of_cell, from), [x, y, r_x, r_y]| {
+            let [d_x, d_y, z_x, z_y] = from;
+            let z = Admitted::of(of_cell).without(rigid, [z_x, z_y]);
+            let r = [r_x - step * z[0], r_y - step * z[1]];
+            let squares = r[0] * r[0] + r[1] * r[1];
+            ([x + step * d_x, y + step * d_y, r[0], r[1]], [squares])
+        });
+        self.residual_norm = squares.sqrt();
+        self.add_response(step);
+    }
+
+    /// Adds so many times the last displacement to what x causes.
+    fn add_response(&mut self, factor: f64) {
+        let ([u_x, u_y], [x, y]) = (&self.displacement, &mut self.response_x);
+        set([&u_x[..], u_y], [x, y], |_, u, x| {
+            [x[0] + factor * u[0], x[1] + factor * u[1]]
+        });
+    }
+
+    /// Adds C times a change of the shear, packed, to the displacements and to what x causes; the change is
+    /// that left in [`Self::change`].
+    pub(crate) fn respond(
+        &mut self,
+        response: &mut Response<'_>,
+        contact: &ContactCells,
+        shear: &mut Shear<'_>,
+    ) {
+        contact.unpack_pair(&self.change, &mut self.traction);
+        let [q_x, q_y] = &self.traction;
+        let [u_x, u_y] = &mut self.displacement;
+        response.tangential([q_x, q_y], [u_x, u_y]);
+        contact.pack_pair(&self.displacement, &mut self.z);
+        let ([z_x, z_y], [u_x, u_y]) = (&self.z, &mut shear.u);
+        set([&z_x[..], z_y], [u_x, u_y], |_, z, u| {
+            [u[0] + z[0], u[1] + z[1]]
+        });
+        self.add_response(1.0);
+    }
+
+    /// Adds C x and the responses added since to the displacements of the grid.
+    pub(crate) fn follow_on_grid(&self, grid: &mut Shear<'_>) {
+        let ([of_x, of_y], [u_x, u_y]) = (&self.response_x, &mut grid.u);
+        set([&of_x[..], of_y], [u_x, u_y], |_, of, u| {
+            [u[0] + of[0], u[1] + of[1]]
+        });
+    }
+
+    /// Begins anew: x = 0.
+    pub(crate) fn restart(&mut self) {
+        clear(&mut self.x);
+        clear(&mut self.response_x);
+    }
+
+    /// Adds x and C x to the shear; returns the shift that the equations of the tangent space ask
+    /// for there.
+    pub(crate) fn take(
+        &mut self,
+        contact: &ContactCells,
+        problem: &TangentialProblem<'_>,
+        shear: &mut Shear<'_>,
+    ) -> [f64; 3] {
+        let given = problem.drive.given;
+        contact.pack_pair(&self.response_x, &mut self.z);
+        let ([x, y], [z_x, z_y]) = (&self.x, &self.z);
+        let [x_0, y_0] = problem.no_slip;
+        let from = [&x[..], y, z_x, z_y, x_0, y_0, &self.diagonal];
+        let ([q_x, q_y], [u_x, u_y]) = (&mut shear.q, &mut shear.u);
+        let from = (self.tangent.fields(), from);
+        let sums = sweep(from, [q_x, q_y, u_x, u_y], |n, (of_cell, from), old| {
+            let [x, y, z_x, z_y, x_0, y_0, diagonal] = from;
+            let [q_x, q_y, u_x, u_y] = old;
+            let u = [u_x + z_x, u_y + z_y];
+            let slip = slip(u, [x_0, y_0], problem.arms.in_plane(given, n));
+            let cell = Admitted::of(of_cell);
+            let turned = cell.project([slip[0] + diagonal * x, slip[1] + diagonal * y]);
+            (
+                [q_x + x, q_y + y, u[0], u[1]],
+                cell.weighted_motion_of(turned),
+            )
+        });
+        add(given, product(&self.tangent.inverse_sum, sums))
+    }
+}
+
+/// Both fields become zero.
+fn clear(pair: &mut Pair) {
+    let [x, y] = pair;
+    set([], [x, y], |_, [], _| [0.0; 2]);
+}

@@ -1,0 +1,348 @@
+//! The normal problem: pressure for known shear.
+//!
+//! ```text
+//! minimise  1/2 p.C_zz p + p.h_0   over  p >= 0,  sum of p dA = W, moments of p dA = M_x, M_y
+//! ```
+//!
+//! with h_0 = h_init + C_zx q_x + C_zy q_y; its multipliers are the approach delta_z and the tilts
+//! phi_x, phi_y, its gradient the gap h = C_zz p + h_0 - (delta_z + y phi_x - x phi_y). A motion that
+//! is given enters h_0, and its load has no constraint. Conjugate gradients on the contact with the
+//! constraints projected out (I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219, eq. (5)-(6) of the paper),
+//! preconditioned, and kept going when the contact set changes: cells whose pressure would turn
+//! negative leave, cells that overlap enter, and the Polak-Ribiere factor forgets the old
+//! direction as far as the change makes it useless. The displacement is carried along, so an
+//! iteration costs one convolution, and a second one only when cells leave.
+
+use crate::cells::{Arms, Drive, add};
+use crate::cells::{add_scaled, copy};
+use crate::cells::{largest, set, sums, survey, sweep};
+use crate::solvers::{Response, SolverError};
+
+/// What is given: the gap and what drives the approach and the tilts.
+#[derive(Clone, Copy, Debug)]
+pub struct NormalProblem<'a> {
+    /// Gap between the undeformed surfaces h_init \[m\].
+    pub h_init: &'a [f64],
+    /// Where the cells are.
+    pub arms: &'a Arms,
+    /// Normal force and tilting moments, or the motions where these are given.
+    pub drive: Drive,
+}
+
+/// Settings of the normal solver.
+#[derive(Clone, Copy, Debug)]
+pub struct NormalParams {
+    /// Largest root-mean-square gap in the contact and deepest penetration outside with which a
+    /// guess is taken as it is \[m\].
+    pub enough: f64,
+    /// The same for the end of the iterations, once there are any \[m\].
+    pub tolerance: f64,
+    /// Most iterations.
+    pub max_iterations: usize,
+}
+
+/// What the normal solver ended with.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NormalInfo {
+    /// Approach, and the tilts phi_x, phi_y times the length \[m\].
+    pub motion: [f64; 3],
+    /// Root-mean-square gap in the contact \[m\].
+    pub gap: f64,
+    /// Deepest penetration outside the contact \[m\].
+    pub penetration: f64,
+    /// Iterations done.
+    pub iterations: usize,
+}
+
+/// Buffers of the normal solver.
+#[derive(Debug, Default)]
+pub struct NormalWorkspace {
+    residual: Vec<f64>,
+    last_residual: Vec<f64>,
+    z: Vec<f64>,
+    /// One in cells whose pressure the direction may change, zero elsewhere.
+    free: Vec<f64>,
+    direction: Vec<f64>,
+    response: Vec<f64>,
+}
+
+impl NormalWorkspace {
+    /// For fields of `cells` cells.
+    pub fn new(cells: usize) -> Self {
+        let field = || vec![0.0; cells];
+        Self {
+            residual: field(),
+            last_residual: field(),
+            z: field(),
+            free: field(),
+            direction: field(),
+            response: field(),
+        }
+    }
+}
+
+/// Iterations without a better gap after which the preconditioner is given up: it is made of a
+/// kernel cut at the border of the grid, and of one that reaches far beyond, that of a stiff plate
+/// on a soft ground, little is left.
+const PATIENCE: usize = 50;
+
+/// Solves for `p`, with `u_z` the total normal displacement, that under the shear included.
+///
+/// On entry `p` is >= 0, not all zero where the approach is free, and `u_z` belongs to it; on exit
+/// too, and p has the sums asked for up to rounding.
+pub fn normal(
+    response: &mut Response<'_>,
+    problem: &NormalProblem<'_>,
+    p: &mut [f64],
+    u_z: &mut [f64],
+    ws: &mut NormalWorkspace,
+    params: &NormalParams,
+) -> Result<NormalInfo, SolverError> {
+    copy(p, &mut ws.response);
+    balance(problem, p);
+    let off = |p: f64, before: f64| (p - before).abs() - SUMMED * p;
+    let [moved] = largest([&*p, &ws.response], |_, [p, before]| [off(p, before)]);
+    if moved > 0.0 {
+        add_response_of_change(response, p, u_z, ws);
+    }
+    let mut last_product = 0.0;
+    let mut iterations = 0;
+    let (mut best, mut since_best, mut preconditioned) = (f64::INFINITY, 0, true);
+    loop {
+        let mut info = assess(problem, p, u_z);
+        info.iterations = iterations;
+        let misfit = info.gap.max(info.penetration);
+        if misfit < best {
+            (best, since_best) = (misfit, 0);
+        } else {
+            since_best += 1;
+        }
+        if since_best == PATIENCE && preconditioned {
+            preconditioned = false;
+            last_product = 0.0;
+        }
+        let tolerance = if iterations == 0 {
+            params.enough
+        } else {
+            params.tolerance
+        };
+        let solved = misfit <= tolerance;
+        if solved && is_balanced(problem, p) {
+            return Ok(info);
+        }
+        if iterations == params.max_iterations || response.stopped() {
+            return Err(SolverError {
+                solver: "normal",
+                residual: misfit,
+                tolerance,
+                iterations,
+            });
+        }
+        iterations += 1;
+        if solved {
+            // The contact was too small for the moments when it was balanced last.
+            copy(p, &mut ws.response);
+            balance(problem, p);
+            add_response_of_change(response, p, u_z, ws);
+            continue;
+        }
+
+        let towards = Towards {
+            motion: info.motion,
+            preconditioned,
+            last_product,
+        };
+        let product = descend(response, problem, &towards, p, u_z, ws);
+        let (slope, curvature) = line(response, ws);
+        if !(slope > 0.0 && curvature > 0.0) {
+            ws.direction.fill(0.0);
+            last_product = 0.0;
+            continue;
+        }
+        last_product = product;
+        let step = slope / curvature;
+        let [pulled] = largest([&*p, &ws.direction], |_, [p, d]| [-(p + step * d)]);
+        if pulled <= 0.0 {
+            let changes = [&ws.direction[..], &ws.response];
+            set(changes, [p, u_z], |_, [d, u], [p, u_z]| {
+                [p + step * d, u_z + step * u]
+            });
+        } else {
+            set(
+                [&ws.direction[..]],
+                [p, &mut ws.response],
+                |_, [d], [p, _]| [(p + step * d).max(0.0), p],
+            );
+            balance(problem, p);
+            add_response_of_change(response, p, u_z, ws);
+        }
+    }
+}
+
+/// What rounding leaves of the sum of a pressure that has been brought to its load, over the sum.
+const SUMMED: f64 = 1e-13;
+
+/// Rounds of weighting and cutting that bring the pressure to its loads.
+const ROUNDS: usize = 20;
+
+/// Scales p to the force asked for, or weights it with a rigid motion, p (1 + B m), to the force
+/// and the moments.
+fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
+    let Drive {
+        free, sums: asked, ..
+    } = problem.drive;
+    if free == [false; 3] {
+        return;
+    }
+    if free[0] {
+        let [sum] = sums([&*p], |_, [p]| [p]);
+        let factor = asked[0] / sum;
+        set([], [p], |_, [], [p]| [p * factor]);
+    }
+    if free == [true, false, false] {
+        return;
+    }
+    let enough = 1e-14 * p.iter().sum::<f64>();
+    for _ in 0..ROUNDS {
+        let missing = missing(problem, p);
+        if missing.iter().all(|m| m.abs() <= enough) {
+            return;
+        }
+        let m = problem.arms.spread_across(free, p, missing);
+        for n in 0..p.len() {
+            p[n] *= (1.0 + problem.arms.across(m, n)).max(0.0);
+        }
+    }
+}
+
+/// The loads that the pressure lacks; zero for motions that are given.
+fn missing(problem: &NormalProblem<'_>, p: &[f64]) -> [f64; 3] {
+    let now = sums([p], |n, [p]| problem.arms.sums_across(p, n));
+    let drive = problem.drive;
+    let missing = |k: usize| drive.sums[k] - now[k];
+    std::array::from_fn(|k| if drive.free[k] { missing(k) } else { 0.0 })
+}
+
+/// Part of the load that may be missing at the end; rounding leaves far less.
+const BALANCED: f64 = 1e-10;
+
+/// Whether the pressure carries the moments; the force is met by construction.
+fn is_balanced(problem: &NormalProblem<'_>, p: &[f64]) -> bool {
+    if problem.drive.free[1..] == [false; 2] {
+        return true;
+    }
+    let enough = BALANCED * p.iter().sum::<f64>();
+    missing(problem, p).iter().all(|m| m.abs() <= enough)
+}
+
+/// Adds to `u_z` the response to the change of p from `ws.response`.
+fn add_response_of_change(
+    response: &mut Response<'_>,
+    p: &[f64],
+    u_z: &mut [f64],
+    ws: &mut NormalWorkspace,
+) {
+    let from = [p, &ws.response];
+    set(from, [&mut ws.z], |_, [p, before], _| [p - before]);
+    response.normal(&ws.z, &mut ws.response);
+    add_scaled(u_z, 1.0, &ws.response);
+}
+
+/// The motion (what fits h_init + u_z best over the contact) and what the equations miss.
+pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> NormalInfo {
+    let Drive { free, given, .. } = problem.drive;
+    let fields = [p, u_z, problem.h_init];
+    let fitted = |n: usize, [p, u_z, h]: [f64; 3]| {
+        let touches = f64::from(u8::from(p > 0.0));
+        (touches, u_z + h - problem.arms.across(given, n))
+    };
+    let motion = add(given, problem.arms.fit_across(free, fields, fitted));
+    let ([squares, contact], [penetration]) = survey(fields, |n, [p, u_z, h]| {
+        let gap = u_z + h - problem.arms.across(motion, n);
+        if p > 0.0 {
+            ([gap * gap, 1.0], [0.0])
+        } else {
+            ([0.0; 2], [-gap])
+        }
+    });
+    let gap = (squares / contact.max(1.0)).sqrt();
+    NormalInfo {
+        motion,
+        gap,
+        penetration,
+        iterations: 0,
+    }
+}
+
+/// What a search direction is made with.
+struct Towards {
+    motion: [f64; 3],
+    preconditioned: bool,
+    /// r.z of the last direction; zero to begin anew.
+    last_product: f64,
+}
+
+/// Next search direction on the contact and on the cells about to enter it; returns r.z.
+fn descend(
+    response: &mut Response<'_>,
+    problem: &NormalProblem<'_>,
+    towards: &Towards,
+    p: &[f64],
+    u_z: &[f64],
+    ws: &mut NormalWorkspace,
+) -> f64 {
+    let &Towards {
+        motion,
+        preconditioned,
+        last_product,
+    } = towards;
+    let NormalWorkspace {
+        residual,
+        last_residual,
+        z,
+        free,
+        direction,
+        ..
+    } = ws;
+    let arms = problem.arms;
+    std::mem::swap(residual, last_residual);
+    let from = [p, u_z, problem.h_init];
+    set(from, [residual], |n, [p, u_z, h], _| {
+        let gap = u_z + h - arms.across(motion, n);
+        [if p > 0.0 || gap < 0.0 { -gap } else { 0.0 }]
+    });
+    response.invert_normal(residual, z, preconditioned);
+    let from = [p, residual, z];
+    let touches = |_: usize, [p, r, z]: [f64; 3]| (f64::from(u8::from(p > 0.0 || r > 0.0)), z);
+    let of_all = arms.fit_across(problem.drive.free, from, touches);
+    // A cell without pressure that the direction would pull at stays out.
+    set(from, [free], |n, [p, r, z], _| {
+        let changes = p > 0.0 || (r > 0.0 && z > arms.across(of_all, n));
+        [f64::from(u8::from(changes))]
+    });
+    let weighted = |_: usize, [free, value]: [f64; 2]| (free, value);
+    let fit = |field: &[f64]| arms.fit_across(problem.drive.free, [free, field], weighted);
+    let (of_free, drift) = (fit(z), fit(direction));
+    let from = [&free[..], residual, last_residual];
+    let [product, fresh] = sweep(from, [z], |n, [free, now, last], [z]| {
+        let z = free * (z - arms.across(of_free, n));
+        ([z], [now * z, (now - last) * z])
+    });
+    let beta = if last_product > 0.0 {
+        (fresh / last_product).max(0.0)
+    } else {
+        0.0
+    };
+    set([&free[..], z], [direction], |n, [free, z], [d]| {
+        [z + beta * free * (d - arms.across(drift, n))]
+    });
+    product
+}
+
+/// Slope and curvature of the energy along the direction; its response goes to the workspace.
+fn line(response: &mut Response<'_>, ws: &mut NormalWorkspace) -> (f64, f64) {
+    response.normal(&ws.direction, &mut ws.response);
+    let fields = [&ws.residual[..], &ws.direction, &ws.response];
+    let [slope, curvature] = sums(fields, |_, [r, d, u]| [r * d, d * u]);
+    (slope, curvature)
+}

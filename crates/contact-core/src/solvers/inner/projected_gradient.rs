@@ -1,0 +1,139 @@
+//! Accelerated projected gradients for the tangential problem: slow, but every step goes down.
+//!
+//! The Newton method hands over here when a step would raise the energy, which happens when many
+//! cells change between stick and slip at once. Y. Nesterov's acceleration with restart
+//! (B. O'Donoghue, E. Candes, Found. Comput. Math. 15 (2015) 715-732) on the convex set
+//! |q| <= g, B^T q = loads.
+
+use super::admissible::{mark_circle, project};
+use super::{Shear, TangentialProblem};
+use crate::cells::add;
+use crate::solvers::Response;
+
+type Pair = [Vec<f64>; 2];
+
+/// Buffers of the projected gradients, of no size until they are needed.
+#[derive(Debug, Default)]
+pub(crate) struct ProjectedGradient {
+    /// Point that the gradient is taken at, ahead of q, and its displacement.
+    ahead: Pair,
+    u_ahead: Pair,
+    q_last: Pair,
+    u_last: Pair,
+}
+
+impl ProjectedGradient {
+    fn make_room(&mut self, cells: usize) {
+        for pair in [
+            &mut self.ahead,
+            &mut self.u_ahead,
+            &mut self.q_last,
+            &mut self.u_last,
+        ] {
+            for field in pair {
+                field.resize(cells, 0.0);
+            }
+        }
+    }
+
+    /// Does `passes` iterations, one convolution each, and one more; sets the slip set to the cells
+    /// on the circle and returns the rigid motion \[m\], the multiplier of the loads.
+    pub(crate) fn run(
+        &mut self,
+        response: &mut Response<'_>,
+        problem: &TangentialProblem<'_>,
+        shear: &mut Shear<'_>,
+        passes: usize,
+    ) -> [f64; 3] {
+        let cells = problem.bound.len();
+        let given = problem.drive.given;
+        let no_slip =
+            |c: usize, n: usize| problem.no_slip[c][n] + problem.arms.in_plane(given, n)[c];
+        let mut stiffness = 1.0 / self.largest_compliance(response, problem);
+        for c in 0..2 {
+            self.ahead[c].copy_from_slice(shear.q[c]);
+            self.u_ahead[c].copy_from_slice(shear.u[c]);
+        }
+        let mut momentum = 1.0_f64;
+        let mut shift = [0.0; 3];
+        for _ in 0..passes {
+            for c in 0..2 {
+                self.q_last[c].copy_from_slice(shear.q[c]);
+                self.u_last[c].copy_from_slice(shear.u[c]);
+                for n in 0..cells {
+                    let slip = self.u_ahead[c][n] - no_slip(c, n);
+                    shear.q[c][n] = self.ahead[c][n] - stiffness * slip;
+                }
+            }
+            project(problem, &mut shear.q, &mut shift);
+            let (q, u) = (&shear.q, &mut shear.u);
+            let [u_x, u_y] = u;
+            for c in 0..2 {
+                for n in 0..cells {
+                    self.ahead[c][n] = q[c][n] - self.q_last[c][n];
+                }
+            }
+            let [change_x, change_y] = &self.ahead;
+            response.tangential([change_x, change_y], [u_x, u_y]);
+            let (mut change_size, mut curvature, mut descent) = (0.0, 0.0, 0.0);
+            // The sum of the change is zero to rounding only: the shift stays out of the energy.
+            let rigid = shift.map(|s| s / stiffness);
+            for c in 0..2 {
+                for n in 0..cells {
+                    let (change, response) = (self.ahead[c][n], shear.u[c][n]);
+                    change_size += change * change;
+                    curvature += change * response;
+                    let rigid = problem.arms.in_plane(rigid, n)[c];
+                    let before = self.u_last[c][n] - no_slip(c, n) + rigid;
+                    descent += change * (before + 0.5 * response);
+                    shear.u[c][n] = self.u_last[c][n] + response;
+                }
+            }
+            if change_size == 0.0 || response.stopped() {
+                break;
+            }
+            // The step must not exceed the inverse of the compliance met.
+            stiffness = stiffness.min(change_size / curvature.max(f64::MIN_POSITIVE));
+            if descent > 0.0 {
+                // Uphill: go back and start anew without momentum.
+                for c in 0..2 {
+                    shear.q[c].copy_from_slice(&self.q_last[c]);
+                    shear.u[c].copy_from_slice(&self.u_last[c]);
+                }
+                momentum = 1.0;
+            }
+            let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
+            let beta = (momentum - 1.0) / next;
+            momentum = next;
+            for c in 0..2 {
+                for n in 0..cells {
+                    let (q, u) = (shear.q[c][n], shear.u[c][n]);
+                    self.ahead[c][n] = q + beta * (q - self.q_last[c][n]);
+                    self.u_ahead[c][n] = u + beta * (u - self.u_last[c][n]);
+                }
+            }
+        }
+        mark_circle(problem, &shear.q, shear.slip);
+        add(given, shift.map(|s| -s / stiffness))
+    }
+
+    /// Estimate of the largest eigenvalue of C_tt on the contact \[m/Pa\]: the largest displacement
+    /// under unit shear.
+    pub(crate) fn largest_compliance(
+        &mut self,
+        response: &mut Response<'_>,
+        problem: &TangentialProblem<'_>,
+    ) -> f64 {
+        self.make_room(problem.bound.len());
+        for (a, g) in self.ahead[0].iter_mut().zip(problem.bound) {
+            *a = f64::from(u8::from(*g > 0.0));
+        }
+        self.ahead[1].fill(0.0);
+        let [a_x, a_y] = &self.ahead;
+        let [u_x, u_y] = &mut self.u_ahead;
+        response.tangential([a_x, a_y], [u_x, u_y]);
+        self.u_ahead[0]
+            .iter()
+            .fold(f64::MIN_POSITIVE, |m, u| m.max(*u))
+    }
+}

@@ -1,0 +1,87 @@
+//! What the tangential solvers are given, work on and end with.
+
+use crate::cells::{Arms, Drive, add};
+use crate::plan::TangentialMethod;
+use crate::solvers::no_slip::slip;
+
+/// What is given: the friction bound, the reference of the slip, what drives the shift.
+#[derive(Clone, Copy, Debug)]
+pub struct TangentialProblem<'a> {
+    /// Largest shear g = mu p in each cell \[Pa\], zero outside the contact.
+    pub bound: &'a [f64],
+    /// The displacement that means no slip, u_0 \[m\].
+    pub no_slip: [&'a [f64]; 2],
+    /// Where the cells are.
+    pub arms: &'a Arms,
+    /// Forces and torsional moment, or the motions of this increment where these are given.
+    pub drive: Drive,
+}
+
+impl TangentialProblem<'_> {
+    /// The slip of cell n with the rigid motion `shift` \[m\].
+    pub(crate) fn slip(&self, u: &[&mut [f64]; 2], shift: [f64; 3], n: usize) -> [f64; 2] {
+        let at = |f: [&[f64]; 2]| [f[0][n], f[1][n]];
+        slip(
+            at([u[0], u[1]]),
+            at(self.no_slip),
+            self.arms.in_plane(shift, n),
+        )
+    }
+}
+
+/// Settings of the tangential solver.
+#[derive(Clone, Copy, Debug)]
+pub struct TangentialParams {
+    /// How the problem is solved.
+    pub method: TangentialMethod,
+    /// Largest root-mean-square misfit of the slip conditions over the contact \[m\].
+    pub tolerance: f64,
+    /// Most Newton steps.
+    pub max_iterations: usize,
+    /// Each linear system is solved to this fraction of its first residual.
+    pub forcing: f64,
+    /// Most conjugate-gradient passes of a Newton step.
+    pub max_passes: usize,
+}
+
+/// What the tangential solver ended with.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TangentialInfo {
+    /// Rigid motion of this increment: delta_x, delta_y, phi_z times the length \[m\].
+    pub shift: [f64; 3],
+    /// Root-mean-square misfit \[m\].
+    pub misfit: f64,
+    /// Newton steps; of a single step none where the shear was the solution already.
+    pub iterations: usize,
+    /// Conjugate-gradient passes, one convolution each.
+    pub passes: usize,
+}
+
+/// Shear, displacement and slip set, in and out.
+pub struct Shear<'a> {
+    /// q_x, q_y \[Pa\]; on entry a guess.
+    pub q: [&'a mut [f64]; 2],
+    /// Total u_x, u_y \[m\], belonging to q on entry and on exit.
+    pub u: [&'a mut [f64]; 2],
+    /// Contact cells that slip; on entry a guess.
+    pub slip: &'a mut [bool],
+}
+
+/// The shift that fits the stick cells best, or all contact cells where none sticks.
+pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 3] {
+    let cells = problem.bound.len();
+    let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slip[n];
+    let any_sticks = (0..cells).any(sticks);
+    let given = problem.drive.given;
+    let ([u_x, u_y], [x, y]) = (&shear.u, problem.no_slip);
+    let fields = ([u_x, u_y, x, y, problem.bound], &*shear.slip);
+    let of_cell = |n: usize, ([u_x, u_y, x, y, bound], slips): ([f64; 5], bool)| {
+        let counts = bound > 0.0 && !(slips && any_sticks);
+        let rigid = problem.arms.in_plane(given, n);
+        (f64::from(u8::from(counts)), slip([u_x, u_y], [x, y], rigid))
+    };
+    let fitted = problem
+        .arms
+        .fit_in_plane(problem.drive.free, fields, of_cell);
+    add(given, fitted)
+}

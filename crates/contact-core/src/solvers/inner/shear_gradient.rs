@@ -1,0 +1,159 @@
+//! The tangential problem as the paper solves it: conjugate gradients of the Polonsky-Keer type.
+//!
+//! The inner loop of figure 3, with the structure of the normal solver: a conjugate-gradient step
+//! on the cells taken to stick, while slip cells follow their slip, eq. (20); then cells beyond
+//! the bound are cut to it and slip, those that fall inside stick, the stick cells share the
+//! missing force. No preconditioner, no Newton steps: the baseline that
+//! [`tangential`](super::tangential()) is measured against.
+
+use super::TangentialWorkspace;
+use super::admissible;
+use super::{Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift};
+use crate::cells::{add_scaled, dot, size};
+use crate::solvers::{Response, SolverError};
+
+/// Buffers of the gradients, of no size until they are needed.
+#[derive(Debug, Default)]
+pub(crate) struct GradientBuffers {
+    residual: [Vec<f64>; 2],
+    direction: [Vec<f64>; 2],
+    q_before: [Vec<f64>; 2],
+    change: [Vec<f64>; 2],
+    response: [Vec<f64>; 2],
+}
+
+impl GradientBuffers {
+    fn make_room(&mut self, cells: usize) {
+        for pair in [
+            &mut self.residual,
+            &mut self.direction,
+            &mut self.q_before,
+            &mut self.change,
+            &mut self.response,
+        ] {
+            for field in pair {
+                field.resize(cells, 0.0);
+            }
+        }
+    }
+}
+
+/// Solves for the shear. On entry it must be admissible.
+pub(crate) fn shear_gradient(
+    response: &mut Response<'_>,
+    problem: &TangentialProblem<'_>,
+    shear: &mut Shear<'_>,
+    ws: &mut TangentialWorkspace,
+    params: &TangentialParams,
+) -> Result<TangentialInfo, SolverError> {
+    let cells = problem.bound.len();
+    // Slip cells take the longest step that cannot overshoot.
+    let slip_step = 1.0 / ws.descent.largest_compliance(response, problem);
+    let ws = &mut ws.gradient;
+    ws.make_room(cells);
+    let mut info = TangentialInfo::default();
+    let mut last_product = 0.0;
+    loop {
+        info.shift = first_shift(problem, shear);
+        let (misfit, product) = misfit(problem, shear, info.shift);
+        info.misfit = misfit;
+        if misfit <= params.tolerance {
+            return Ok(info);
+        }
+        if info.iterations == params.max_iterations || response.stopped() {
+            return Err(SolverError {
+                solver: "tangential",
+                residual: misfit,
+                tolerance: params.tolerance,
+                iterations: info.iterations,
+            });
+        }
+        info.iterations += 1;
+        info.passes += 1;
+
+        // Polak-Ribiere: the old direction is forgotten as far as the sets have changed.
+        let mut fresh = 0.0;
+        for n in 0..cells {
+            let slip = problem.slip(&shear.u, info.shift, n);
+            let sticks = problem.bound[n] > 0.0 && !shear.slip[n];
+            for c in 0..2 {
+                let residual = if sticks { -slip[c] } else { 0.0 };
+                fresh += residual * (residual - ws.residual[c][n]);
+                ws.residual[c][n] = residual;
+            }
+        }
+        let beta = if last_product > 0.0 {
+            (fresh / last_product).max(0.0)
+        } else {
+            0.0
+        };
+        last_product = product;
+        let mut slope = 0.0;
+        for n in 0..cells {
+            let sticks = problem.bound[n] > 0.0 && !shear.slip[n];
+            for c in 0..2 {
+                let direction = beta * ws.direction[c][n] + ws.residual[c][n];
+                ws.direction[c][n] = if sticks { direction } else { 0.0 };
+                slope += ws.direction[c][n] * ws.residual[c][n];
+            }
+        }
+        let [d_x, d_y] = &ws.direction;
+        let [r_x, r_y] = &mut ws.response;
+        response.tangential([d_x, d_y], [r_x, r_y]);
+        let curvature: f64 = (0..2).map(|c| dot(&ws.direction[c], &ws.response[c])).sum();
+        let step = if slope > 0.0 && curvature > 0.0 {
+            slope / curvature
+        } else {
+            0.0
+        };
+
+        for n in 0..cells {
+            let g = problem.bound[n];
+            let slip = problem.slip(&shear.u, info.shift, n);
+            for c in 0..2 {
+                ws.q_before[c][n] = shear.q[c][n];
+                shear.q[c][n] += if shear.slip[n] {
+                    -slip_step * slip[c]
+                } else {
+                    step * ws.direction[c][n]
+                };
+            }
+            shear.slip[n] = g > 0.0 && size([shear.q[0][n], shear.q[1][n]]) > g;
+        }
+        admissible(problem, &mut shear.q, shear.slip);
+        for c in 0..2 {
+            let terms = ws.change[c].iter_mut().zip(shear.q[c].iter());
+            for ((change, q), before) in terms.zip(&ws.q_before[c]) {
+                *change = q - before;
+            }
+        }
+        let [change_x, change_y] = &ws.change;
+        let [r_x, r_y] = &mut ws.response;
+        response.tangential([change_x, change_y], [r_x, r_y]);
+        for c in 0..2 {
+            add_scaled(shear.u[c], 1.0, &ws.response[c]);
+        }
+    }
+}
+
+/// Root-mean-square violation of the slip conditions \[m\]: the slip of stick cells; of slip cells
+/// the part across q, and along q where friction would push. Also the sum of squares on stick.
+fn misfit(problem: &TangentialProblem<'_>, shear: &Shear<'_>, shift: [f64; 3]) -> (f64, f64) {
+    let (mut stick, mut slipping, mut count) = (0.0, 0.0, 0);
+    for n in 0..problem.bound.len() {
+        let g = problem.bound[n];
+        if g <= 0.0 {
+            continue;
+        }
+        count += 1;
+        let slip = problem.slip(&shear.u, shift, n);
+        let squares = slip[0] * slip[0] + slip[1] * slip[1];
+        if shear.slip[n] {
+            let along = (slip[0] * shear.q[0][n] + slip[1] * shear.q[1][n]) / g;
+            slipping += squares - along.min(0.0).powi(2);
+        } else {
+            stick += squares;
+        }
+    }
+    (((stick + slipping) / f64::from(count.max(1))).sqrt(), stick)
+}

@@ -1,0 +1,129 @@
+//! The tangent space of the tangential problem: what the shear may change by, cell by cell.
+
+use crate::cells::{product, sums, sweep};
+
+/// A field of two components.
+pub(super) type Pair = [Vec<f64>; 2];
+
+/// The tangent space: the projection Pi on it, and what is left of tractions whose sums are to be zero
+/// and of displacements up to a rigid motion.
+///
+/// Where the curvature D is large a cell hardly gives way: a motion taken out of all cells alike would
+/// be far more than it can follow. It counts with the weight w = 1/(1 + D/C_xx(0,0)): tractions t become
+/// t - w Pi B m with B^T t = 0, displacements v become v - Pi B m with B^T w v = 0, and their products are
+/// what they were.
+#[derive(Debug)]
+pub(super) struct Tangent {
+    /// Direction across the shear of slip cells, along which alone it may change; zero in stick cells.
+    pub(super) across: Pair,
+    /// Lever arms of the contact cells; empty where the rotation is not free.
+    pub(super) arms: Pair,
+    /// w
+    pub(super) weight: Vec<f64>,
+    /// Inverse of B^T w Pi B.
+    pub(super) inverse_sum: [[f64; 3]; 3],
+}
+
+/// The same of one cell.
+#[derive(Clone, Copy)]
+pub(super) struct Admitted {
+    pub(super) across: [f64; 2],
+    pub(super) arm: [f64; 2],
+    pub(super) weight: f64,
+}
+
+impl Tangent {
+    pub(super) fn new(cells: usize) -> Self {
+        let field = || Vec::with_capacity(cells);
+        Self {
+            across: [field(), field()],
+            arms: [field(), field()],
+            weight: field(),
+            inverse_sum: [[0.0; 3]; 3],
+        }
+    }
+
+    /// Directions and lever arms. Where the rotation is not free any field does for the arms:
+    /// [`Self::inverse_sum`] has no part of it.
+    pub(super) fn fields(&self) -> [&[f64]; 5] {
+        let [t_x, t_y] = &self.across;
+        let [a_x, a_y] = if self.arms[0].is_empty() {
+            &self.across
+        } else {
+            &self.arms
+        };
+        [t_x, t_y, a_x, a_y, &self.weight]
+    }
+
+    /// B^T w Pi B
+    pub(super) fn gram(&self) -> [[f64; 3]; 3] {
+        let [xx, xy, yy, xr, yr, rr] = sums(self.fields(), |_, of_cell| {
+            let cell = Admitted::of(of_cell);
+            let [x, y] = cell.arm;
+            let (of_x, of_y) = (cell.project([1.0, 0.0]), cell.project([0.0, 1.0]));
+            let turn = cell.project([-y, x]);
+            let of_turn = x * turn[1] - y * turn[0];
+            [of_x[0], of_x[1], of_y[1], turn[0], turn[1], of_turn].map(|of| cell.weight * of)
+        });
+        [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]]
+    }
+
+    /// Projects the `value(v, from)` on the tangent space of each cell, into v; returns the motion m
+    /// to be taken out for which the sums of what `sums` makes of a cell's v are zero, and the sum of v
+    /// times what the values come with.
+    pub(super) fn project<const N: usize>(
+        &self,
+        v: &mut Pair,
+        sums: impl Fn(Admitted, [f64; 2]) -> [f64; 3] + Sync,
+        from: [&[f64]; N],
+        value: impl Fn([f64; 2], [f64; N]) -> ([f64; 2], [f64; 2]) + Sync,
+    ) -> ([f64; 3], f64) {
+        let [v_x, v_y] = v;
+        let from = (self.fields(), from);
+        let [x, y, turn, along] = sweep(from, [v_x, v_y], |_, (of_cell, from), v| {
+            let cell = Admitted::of(of_cell);
+            let (v, with) = value(v, from);
+            let v = cell.project(v);
+            let [x, y, turn] = sums(cell, v);
+            (v, [x, y, turn, v[0] * with[0] + v[1] * with[1]])
+        });
+        (product(&self.inverse_sum, [x, y, turn]), along)
+    }
+}
+
+impl Admitted {
+    pub(super) fn of([t_x, t_y, a_x, a_y, weight]: [f64; 5]) -> Self {
+        Self {
+            across: [t_x, t_y],
+            arm: [a_x, a_y],
+            weight,
+        }
+    }
+
+    /// Pi v. With 1 - e_x^2 in place of t_x^2, where few cells stick, rounding would hide what slip cells
+    /// whose shear is turned a little aside give way by.
+    pub(super) fn project(self, v: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.across;
+        let along = x * v[0] + y * v[1];
+        let sticks = x == 0.0 && y == 0.0;
+        if sticks { v } else { [along * x, along * y] }
+    }
+
+    /// B^T v
+    pub(super) fn motion_of(self, [a, b]: [f64; 2]) -> [f64; 3] {
+        let [x, y] = self.arm;
+        [a, b, x * b - y * a]
+    }
+
+    /// B^T w v
+    pub(super) fn weighted_motion_of(self, v: [f64; 2]) -> [f64; 3] {
+        self.motion_of(v).map(|m| self.weight * m)
+    }
+
+    /// v - Pi B m
+    pub(super) fn without(self, m: [f64; 3], v: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.arm;
+        let rigid = self.project([m[0] - y * m[2], m[1] + x * m[2]]);
+        [v[0] - rigid[0], v[1] - rigid[1]]
+    }
+}

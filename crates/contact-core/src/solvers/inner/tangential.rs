@@ -1,0 +1,284 @@
+//! The tangential problem: shear for known pressure.
+//!
+//! ```text
+//! minimise  1/2 q.C_tt q + q.w   over  |q| <= g = mu p,  sum of q dA = T, moment of q dA = M_z
+//! ```
+//!
+//! with w = C_tz p - u_0: convex, its multiplier is the rigid motion d(delta), its gradient the
+//! slip ds = u - u_0 - d(delta). A motion that is given enters w, and its force has
+//! no constraint. Eq. (7)-(8) and (20) of the paper are its optimality conditions.
+//!
+//! A semi-smooth Newton method: on stick cells both components are free; on slip cells q = g e and
+//! only the motion along the circle is, where the constraint adds the diagonal |ds|/g. Each step is
+//! a linear system on that tangent space with the force constraint projected out, solved by
+//! conjugate gradients preconditioned with an approximate inverse ([`newton_system`](super::newton_system)).
+//! Then q returns to the circle, stick cells beyond it start to slip, and slip cells whose slip would go
+//! along q stick again.
+//!
+//! [`tangential`] solves the problem for a u_0 that stays: a step that raises the energy is taken back and
+//! projected gradients, which cannot, go on from there; so they do where the slip set cycles.
+//! [`newton_step`] is one step for a u_0 that follows the solution, where there is no energy to lower.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::admissible::admissible;
+use super::contact_shear::{Before, ContactShear};
+use super::newton_system::NewtonSystem;
+use super::projected_gradient::ProjectedGradient;
+use super::shear::{Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift};
+use super::shear_gradient::GradientBuffers;
+use crate::cells::{ContactCells, set_cells, size, sweep};
+use crate::solvers::{Response, SolverError};
+
+/// Buffers of the tangential solver.
+#[derive(Debug)]
+pub struct TangentialWorkspace {
+    cells: ContactCells,
+    contact: ContactShear,
+    before: Before,
+    system: NewtonSystem,
+    pub(crate) descent: ProjectedGradient,
+    pub(crate) gradient: GradientBuffers,
+}
+
+impl TangentialWorkspace {
+    /// For fields of `cells` cells.
+    pub fn new(cells: usize) -> Self {
+        Self {
+            cells: ContactCells::default(),
+            contact: ContactShear::default(),
+            before: Before::default(),
+            system: NewtonSystem::new(cells),
+            descent: ProjectedGradient::default(),
+            gradient: GradientBuffers::default(),
+        }
+    }
+}
+
+/// A slip set counts as settled when no slip cell moves along its shear by more than this part of
+/// the tolerance, and a change of q is negligible when it moves no cell by more than that.
+const SETTLED: f64 = 0.1;
+
+/// Part of the tolerance that the last conjugate gradients aim at: returning to the circles adds to it.
+const AIM: f64 = 0.4;
+
+/// Iterations of projected gradients after a Newton step that would have raised the energy.
+const DESCENT: usize = 10;
+
+/// Newton steps without a smaller misfit after which the slip set is taken to cycle, and projected
+/// gradients go on; and after which the iteration has failed.
+const CYCLE: usize = 10;
+const STALLED: usize = 100;
+
+/// Solves for the shear. On entry it must be admissible: within the bound and balanced.
+pub fn tangential(
+    response: &mut Response<'_>,
+    problem: &TangentialProblem<'_>,
+    shear: &mut Shear<'_>,
+    ws: &mut TangentialWorkspace,
+    params: &TangentialParams,
+) -> Result<TangentialInfo, SolverError> {
+    let TangentialWorkspace {
+        cells,
+        contact,
+        before,
+        system,
+        descent,
+        ..
+    } = ws;
+    let mut newton = Newton::new(response, problem, shear, (cells, contact, system), params);
+    newton.system.set_turning(newton.cells, None);
+    let (mut least, mut stalled) = (f64::INFINITY, 0);
+    while !newton.holds() {
+        let misfit = newton.info.misfit;
+        stalled = if misfit < least { 0 } else { stalled + 1 };
+        least = least.min(misfit);
+        let ended = stalled == STALLED || newton.info.iterations == params.max_iterations;
+        if ended || response.stopped() {
+            return Err(newton.failure());
+        }
+        before.keep(&newton.now);
+        newton.step(response);
+        let cycles = stalled > 0 && stalled.is_multiple_of(CYCLE);
+        if cycles
+            || before.is_lower(
+                &newton.inside,
+                &newton.now,
+                newton.info.shift,
+                newton.settled,
+            )
+        {
+            before.restore(&mut newton.now);
+            newton.now.unpack(newton.cells, shear);
+            newton.info.shift = descent.run(response, problem, shear, DESCENT);
+            newton.info.passes += DESCENT;
+            newton.now.pack(newton.cells, shear);
+        } else {
+            newton.system.follow_on_grid(shear);
+        }
+    }
+    newton.now.unpack(newton.cells, shear);
+    Ok(newton.info)
+}
+
+/// One Newton step towards the shear, of which u_0 takes over the part `turning` of a turn in each cell.
+/// No step is done, and `iterations` is zero, where the conditions hold within the tolerance. On entry the
+/// shear must be admissible.
+pub fn newton_step(
+    response: &mut Response<'_>,
+    problem: &TangentialProblem<'_>,
+    turning: &[f64],
+    shear: &mut Shear<'_>,
+    ws: &mut TangentialWorkspace,
+    params: &TangentialParams,
+) -> TangentialInfo {
+    let workspace = (&mut ws.cells, &mut ws.contact, &mut ws.system);
+    let mut newton = Newton::new(response, problem, shear, workspace, params);
+    newton.system.set_turning(newton.cells, Some(turning));
+    if !newton.holds() {
+        newton.step(response);
+        newton.system.follow_on_grid(shear);
+    }
+    newton.now.unpack(newton.cells, shear);
+    newton.info
+}
+
+/// The iteration on the contact cells, packed.
+struct Newton<'a> {
+    cells: &'a ContactCells,
+    inside: TangentialProblem<'a>,
+    now: Shear<'a>,
+    system: &'a mut NewtonSystem,
+    info: TangentialInfo,
+    params: &'a TangentialParams,
+    c_xx: f64,
+    settled: f64,
+    /// Root of the number of contact cells: norms over it are root mean squares.
+    root: f64,
+}
+
+impl<'a> Newton<'a> {
+    fn new(
+        response: &Response<'_>,
+        problem: &TangentialProblem<'_>,
+        shear: &Shear<'_>,
+        (cells, contact, system): (
+            &'a mut ContactCells,
+            &'a mut ContactShear,
+            &'a mut NewtonSystem,
+        ),
+        params: &'a TangentialParams,
+    ) -> Self {
+        cells.find(problem.bound.len(), |n| problem.bound[n] > 0.0);
+        contact.pack(cells, problem, shear);
+        let (inside, now) = contact.parts(problem.drive);
+        system.set_contact(&inside);
+        Self {
+            info: TangentialInfo {
+                shift: first_shift(&inside, &now),
+                ..TangentialInfo::default()
+            },
+            inside,
+            now,
+            system,
+            params,
+            c_xx: response.op.self_coefficients().0,
+            settled: SETTLED * params.tolerance,
+            root: (cells.count() as f64).sqrt(),
+            cells,
+        }
+    }
+
+    /// Releases slip cells that should stick and linearises there; whether the conditions hold. Slip cells
+    /// that were judged by another shift than fits best are judged again.
+    fn holds(&mut self) -> bool {
+        for _ in 0..self.params.max_iterations {
+            let released = release(&self.inside, &mut self.now, self.info.shift, self.settled);
+            let fitted =
+                (self.system).linearise(&self.inside, &self.now, self.info.shift, self.c_xx);
+            self.info.misfit = self.system.residual_norm() / self.root;
+            if released || self.info.misfit > self.params.tolerance {
+                return false;
+            }
+            let ahead = |k: usize| (fitted[k] - self.info.shift[k]).abs();
+            if (0..3).all(|k| ahead(k) <= self.settled) {
+                return true;
+            }
+            self.info.shift = fitted;
+        }
+        false
+    }
+
+    /// Solves the linear system, moves on, and returns to the circles.
+    fn step(&mut self, response: &mut Response<'_>) {
+        let params = self.params;
+        self.info.iterations += 1;
+        let target = (params.forcing * self.info.misfit).max(AIM * params.tolerance);
+        let target = target * self.root;
+        self.info.passes += (self.system).solve(response, self.cells, target, params.max_passes);
+        self.info.shift = (self.system).take(self.cells, &self.inside, &mut self.now);
+        mark_slip(&self.inside, &mut self.now, self.info.shift);
+        let Self {
+            system, now, cells, ..
+        } = self;
+        let [x, y] = &mut system.change;
+        let [q_x, q_y] = &now.q;
+        let [] = sweep([&**q_x, q_y], [&mut x[..], y], |_, q, _| (q, []));
+        admissible(&self.inside, &mut now.q, now.slip);
+        let [q_x, q_y] = &now.q;
+        let [squares] = sweep([&**q_x, q_y], [&mut x[..], y], |_, q, before| {
+            let change = [q[0] - before[0], q[1] - before[1]];
+            (change, [change[0] * change[0] + change[1] * change[1]])
+        });
+        if squares.sqrt() > self.settled / self.c_xx {
+            system.respond(response, cells, now);
+        }
+    }
+
+    fn failure(&self) -> SolverError {
+        SolverError {
+            solver: "tangential",
+            residual: self.info.misfit,
+            tolerance: self.params.tolerance,
+            iterations: self.info.iterations,
+        }
+    }
+}
+
+/// Stick cells beyond the bound start to slip; slip cells whose slip goes along q stick.
+fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
+    let Shear { q, u, slip, .. } = shear;
+    set_cells(slip, |n, slips| {
+        let q = [q[0][n], q[1][n]];
+        if slips {
+            power(q, problem.slip(u, shift, n)) <= 0.0
+        } else {
+            size(q) > problem.bound[n]
+        }
+    });
+}
+
+/// Releases slip cells that move along their shear by more than `tolerance` \[m\]; whether any did.
+fn release(
+    problem: &TangentialProblem<'_>,
+    shear: &mut Shear<'_>,
+    shift: [f64; 3],
+    tolerance: f64,
+) -> bool {
+    let Shear { q, u, slip, .. } = shear;
+    let released = AtomicBool::new(false);
+    set_cells(slip, |n, slips| {
+        let along = |slip| power([q[0][n], q[1][n]], slip) > tolerance * problem.bound[n];
+        if slips && along(problem.slip(u, shift, n)) {
+            released.store(true, Ordering::Relaxed);
+            return false;
+        }
+        slips
+    });
+    released.into_inner()
+}
+
+/// q . ds, negative where friction dissipates \[Pa m\].
+fn power(q: [f64; 2], slip: [f64; 2]) -> f64 {
+    q[0] * slip[0] + q[1] * slip[1]
+}

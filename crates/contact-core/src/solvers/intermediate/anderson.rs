@@ -1,0 +1,193 @@
+//! Anderson acceleration of the intermediate loop, for contacts where plain alternation is slow.
+//!
+//! The unknown of the loop is the part s of u_z that the shear causes: the pressure is solved for a
+//! given s, the shear for that pressure, and this shear causes G(s). Plain alternation takes
+//! s = G(s); it contracts as long as friction times coupling is small. Where the misfit
+//! f = G(s) - s falls too slowly, the next s is the combination of the last ones whose misfit on
+//! the contact is least, plus that misfit, or less of it where that leads astray (D. G. Anderson, J. ACM 12 (1965) 547-560; H. F. Walker,
+//! P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715-1735).
+
+use std::collections::VecDeque;
+
+use crate::cells::{set, sums};
+
+/// Passes that are combined.
+const DEPTH: usize = 8;
+/// A pass that leaves more than this part of the misfit is slow.
+const SLOW: f64 = 0.5;
+/// Slow passes before the acceleration begins.
+const PATIENCE: usize = 2;
+/// Accelerated passes that leave more than [`SLOW`] of the least misfit before the steps are damped.
+const TRIALS: usize = 12;
+/// Least damping.
+const LEAST: f64 = 1.0 / 16.0;
+/// Regularisation of the least squares, relative to the mean square.
+const RIDGE: f64 = 1e-12;
+
+/// Memory of the loop over one increment.
+#[derive(Debug)]
+pub(crate) struct Anderson {
+    /// The present s less the s that the shear causes \[m\]; zero in plain alternation.
+    ahead: Vec<f64>,
+    /// Misfit of the last pass \[m\].
+    misfit: Vec<f64>,
+    /// Change of s after the last pass \[m\].
+    step: Vec<f64>,
+    /// Changes of misfit and of s in the last passes.
+    changes: VecDeque<[Vec<f64>; 2]>,
+    /// Root of the sum of squares of the last misfit on the contact.
+    size: f64,
+    slow_passes: usize,
+    enabled: bool,
+    /// Part of the misfit that is added to s: less than one where whole steps go astray.
+    damping: f64,
+    /// Least misfit that counted, and passes since.
+    least: f64,
+    since_least: usize,
+}
+
+impl Anderson {
+    pub(crate) fn new(cells: usize) -> Self {
+        let field = || vec![0.0; cells];
+        Self {
+            ahead: field(),
+            misfit: field(),
+            step: field(),
+            changes: VecDeque::new(),
+            size: f64::INFINITY,
+            slow_passes: 0,
+            enabled: true,
+            damping: 1.0,
+            least: f64::INFINITY,
+            since_least: 0,
+        }
+    }
+
+    /// Begins anew, in plain alternation; for good unless `enabled`.
+    pub(crate) fn restart(&mut self, enabled: bool) {
+        self.enabled = enabled;
+        set([], [&mut self.ahead], |_, [], _| [0.0]);
+        self.changes.clear();
+        self.size = f64::INFINITY;
+        self.slow_passes = 0;
+        self.damping = 1.0;
+        self.least = f64::INFINITY;
+        self.since_least = 0;
+    }
+
+    /// Whether the loop has turned out to be slow, and its passes are combined.
+    pub(crate) fn accelerates(&self) -> bool {
+        self.enabled && self.slow_passes >= PATIENCE
+    }
+
+    /// After a pass that changed what the shear causes by `change`: `u_z`, solved for with the
+    /// present s, becomes that of the tractions.
+    pub(crate) fn close_pass(&mut self, change: &[f64], u_z: &mut [f64]) {
+        let cells = u_z.len();
+        if self.accelerates() {
+            let oldest = if self.changes.len() == DEPTH {
+                self.changes.pop_front()
+            } else {
+                None
+            };
+            let oldest = oldest.unwrap_or_else(|| [vec![0.0; cells], vec![0.0; cells]]);
+            self.changes.push_back(oldest);
+        }
+        if let Some([of_misfit, of_s]) = self.changes.back_mut() {
+            let (ahead, last, step) = (&self.ahead, &self.misfit, &self.step);
+            let from = [change, ahead, last, step];
+            set(
+                from,
+                [of_misfit, of_s],
+                |_, [change, ahead, last, step], _| [change - ahead - last, step],
+            );
+        }
+        let to = [&mut self.misfit[..], u_z, &mut self.ahead];
+        set([change], to, |_, [change], [_, u_z, ahead]| {
+            let misfit = change - ahead;
+            [misfit, u_z + misfit, 0.0]
+        });
+    }
+
+    /// Takes the next s, for the contact of the pressure `p`, into `u_z`.
+    pub(crate) fn extrapolate(&mut self, p: &[f64], u_z: &mut [f64]) {
+        let on_contact = |a: &[f64], b: &[f64]| -> f64 {
+            let inside = |p: f64, product: f64| if p > 0.0 { product } else { 0.0 };
+            let [sum] = sums([p, a, b], |_, [p, a, b]| [inside(p, a * b)]);
+            sum
+        };
+        let size = on_contact(&self.misfit, &self.misfit).sqrt();
+        if !self.accelerates() {
+            self.slow_passes += usize::from(size > SLOW * self.size);
+        }
+        self.size = size;
+        self.since_least += 1;
+        if size < SLOW * self.least {
+            (self.least, self.since_least) = (size, 0);
+        } else if self.since_least == TRIALS {
+            self.damping = (0.5 * self.damping).max(LEAST);
+            self.since_least = 0;
+            self.changes.clear();
+        }
+        let damping = self.damping;
+        let misfit = &self.misfit;
+        set([&misfit[..]], [&mut self.step], |_, [misfit], _| {
+            [damping * misfit]
+        });
+        let count = self.changes.len();
+        let mut gram = [[0.0; DEPTH]; DEPTH];
+        let mut right = [0.0; DEPTH];
+        for (i, [of_misfit, _]) in self.changes.iter().enumerate() {
+            right[i] = on_contact(of_misfit, &self.misfit);
+            for (j, [other, _]) in self.changes.iter().enumerate().take(i + 1) {
+                gram[i][j] = on_contact(of_misfit, other);
+            }
+        }
+        let weights = least_squares(gram, right, count);
+        for (weight, [of_misfit, of_s]) in weights.iter().zip(&self.changes) {
+            let from = [&of_s[..], of_misfit];
+            set(from, [&mut self.step], |_, [s, misfit], [step]| {
+                [step - weight * (s + damping * misfit)]
+            });
+        }
+        let from = [&self.step[..], misfit];
+        set(
+            from,
+            [&mut self.ahead, u_z],
+            |_, [step, misfit], [_, u_z]| {
+                let ahead = step - misfit;
+                [ahead, u_z + ahead]
+            },
+        );
+    }
+}
+
+/// Solves gram x = right for the leading `count` unknowns by Cholesky's method, slightly
+/// regularised; `gram` is given by its lower half.
+fn least_squares(
+    mut gram: [[f64; DEPTH]; DEPTH],
+    mut right: [f64; DEPTH],
+    count: usize,
+) -> [f64; DEPTH] {
+    let trace: f64 = (0..count).map(|i| gram[i][i]).sum();
+    for i in 0..count {
+        gram[i][i] += RIDGE * trace;
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|k| gram[i][k] * gram[j][k]).sum();
+            gram[i][j] = if i == j {
+                (gram[i][i] - known).max(f64::MIN_POSITIVE).sqrt()
+            } else {
+                (gram[i][j] - known) / gram[j][j]
+            };
+        }
+    }
+    for i in 0..count {
+        let known: f64 = (0..i).map(|k| gram[i][k] * right[k]).sum();
+        right[i] = (right[i] - known) / gram[i][i];
+    }
+    for i in (0..count).rev() {
+        let known: f64 = (i + 1..count).map(|k| gram[k][i] * right[k]).sum();
+        right[i] = (right[i] - known) / gram[i][i];
+    }
+    right
+}

@@ -1,0 +1,193 @@
+//! Shear for known pressure: the bound mu p, the sliding that the loads may drive, the tangential solver.
+
+use super::alternation::{
+    AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem,
+};
+use crate::cells::{add, set, size};
+use crate::convolution::{Displacements, Tractions};
+use crate::plan::TangentialMethod;
+use crate::solvers::inner::{
+    Sliding, TangentialInfo, admissible, first_shift, newton_step, shear_gradient, sliding,
+    tangential,
+};
+use crate::solvers::no_slip::NoSlip;
+use crate::solvers::{Interface, Response, SolverError, friction_bound};
+
+/// Newton steps without a smaller misfit, each halving the part of the way that u_0 follows, after which
+/// u_0 stays in a pass, and passes after which it stays for good.
+const STALLED: usize = 5;
+const UNSETTLED: usize = 3;
+
+/// Brings the shear within the bound mu p of the present pressure and to the loads asked for; how near
+/// these are to sliding.
+pub(super) fn bring_within_bound(
+    problem: &IncrementProblem<'_>,
+    no_slip: &NoSlip<'_>,
+    now: &mut Interface,
+    ws: &mut AlternationWorkspace,
+) -> Sliding {
+    set([problem.mu, &now.p], [&mut ws.bound], |_, [mu, p], _| {
+        [friction_bound(mu, p)]
+    });
+    let shear = problem.tangential_problem(&ws.bound, no_slip.displacement());
+    let slides = sliding(&shear);
+    if slides.is_full() {
+        for n in 0..now.p.len() {
+            now.slip[n] = now.p[n] > 0.0;
+            let along = problem.arms.in_plane(slides.motion, n);
+            let size = size(along).max(f64::MIN_POSITIVE);
+            for c in 0..2 {
+                now.q[c][n] = ws.bound[n] * along[c] / size;
+            }
+        }
+    } else {
+        let [q_x, q_y] = &mut now.q;
+        admissible(&shear, &mut [q_x, q_y], &mut now.slip);
+    }
+    slides
+}
+
+/// u_t after the pressure changed from `p_before` and the shear from `q_before`.
+pub(super) fn follow_pressure(
+    response: &mut Response<'_>,
+    now: &mut Interface,
+    ws: &mut AlternationWorkspace,
+    coupled: bool,
+) {
+    let sheared = ws.change_of_shear(now);
+    set([&now.p[..]], [&mut ws.p_before], |_, [p], [before]| {
+        [p - before]
+    });
+    let pressed = coupled && ws.p_before.iter().any(|&change| change != 0.0);
+    if !sheared && !pressed {
+        return;
+    }
+    let [u_x, u_y] = &mut ws.response;
+    let tractions = Tractions {
+        q_x: sheared.then_some(&ws.change[0][..]),
+        q_y: sheared.then_some(&ws.change[1][..]),
+        p: pressed.then_some(&ws.p_before[..]),
+    };
+    response.respond(
+        tractions,
+        Displacements {
+            u_x: Some(u_x),
+            u_y: Some(u_y),
+            u_z: None,
+        },
+    );
+    let ([of_x, of_y], [u_x, u_y]) = (&ws.response, &mut now.u);
+    set([&of_x[..], of_y], [u_x, u_y], |_, of, u| {
+        [u[0] + of[0], u[1] + of[1]]
+    });
+}
+
+/// The shear that belongs to the present pressure, with its shift.
+pub(super) fn shear_for_known_pressure(
+    response: &mut Response<'_>,
+    problem: &IncrementProblem<'_>,
+    no_slip: &mut NoSlip<'_>,
+    now: &mut Interface,
+    ws: &mut AlternationWorkspace,
+    params: &AlternationParams,
+    info: &mut AlternationInfo,
+) -> Result<(), SolverError> {
+    if info.alternations == 1 {
+        let shear = problem.tangential_problem(&ws.bound, no_slip.displacement());
+        info.shift = first_shift(&shear, &now.shear());
+    }
+    if follow_the_turn(response, problem, no_slip, now, ws, params, info) {
+        return Ok(());
+    }
+    let shear = problem.tangential_problem(&ws.bound, no_slip.displacement());
+    let solve = match params.tangential.method {
+        TangentialMethod::Newton => tangential,
+        TangentialMethod::Gradient => shear_gradient,
+    };
+    let buffers = &mut ws.tangential;
+    let found = solve(
+        response,
+        &shear,
+        &mut now.shear(),
+        buffers,
+        &params.tangential,
+    )?;
+    take(info, &found);
+    Ok(())
+}
+
+/// Newton steps, between which u_0 follows the solution as long as the misfit falls; whether that ended with
+/// both in agreement.
+fn follow_the_turn(
+    response: &mut Response<'_>,
+    problem: &IncrementProblem<'_>,
+    no_slip: &mut NoSlip<'_>,
+    now: &mut Interface,
+    ws: &mut AlternationWorkspace,
+    params: &AlternationParams,
+    info: &mut AlternationInfo,
+) -> bool {
+    let (mut least, mut stalled, mut part) = (f64::INFINITY, 0, 1.0);
+    for _ in 0..params.tangential.max_iterations {
+        if ws.unsettled == UNSETTLED || response.stopped() {
+            return false;
+        }
+        if !no_slip.follow(now, info.shift, part) {
+            return false;
+        }
+        let shear = problem.tangential_problem(&ws.bound, no_slip.displacement());
+        let (turning, buffers) = (no_slip.turning(), &mut ws.tangential);
+        let found = newton_step(
+            response,
+            &shear,
+            turning,
+            &mut now.shear(),
+            buffers,
+            &params.tangential,
+        );
+        take(info, &found);
+        if found.iterations == 0 {
+            return true;
+        }
+        if found.misfit < least {
+            (least, stalled) = (found.misfit, 0);
+        } else {
+            stalled += 1;
+            part *= 0.5;
+        }
+        if stalled == STALLED {
+            break;
+        }
+    }
+    ws.unsettled += 1;
+    false
+}
+
+fn take(info: &mut AlternationInfo, found: &TangentialInfo) {
+    info.tangential_iterations += found.passes;
+    info.shift = found.shift;
+}
+
+/// The smallest motion of the kind `sliding` at which every contact cell slips \[m\].
+pub(super) fn incipient_shift(
+    problem: &IncrementProblem<'_>,
+    no_slip: &NoSlip<'_>,
+    sliding: [f64; 3],
+    now: &mut Interface,
+    ws: &AlternationWorkspace,
+) -> [f64; 3] {
+    let problem = problem.tangential_problem(&ws.bound, no_slip.displacement());
+    let given = problem.drive.given;
+    let u = now.shear().u;
+    let needed = |n: usize| -> f64 {
+        let along = problem.arms.in_plane(sliding, n);
+        let ahead = problem.slip(&u, given, n);
+        (ahead[0] * along[0] + ahead[1] * along[1]) / (along[0] * along[0] + along[1] * along[1])
+    };
+    let furthest = (0..problem.bound.len())
+        .filter(|&n| problem.bound[n] > 0.0)
+        .map(needed)
+        .filter(|needed| needed.is_finite())
+        .fold(f64::NEG_INFINITY, f64::max);
+    add(given, sliding.map(|s| furthest * s))
+}

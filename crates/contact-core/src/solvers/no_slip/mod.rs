@@ -1,0 +1,190 @@
+//! The displacement that means no slip, eq. (7): the noun of the slip increment.
+//!
+//! ```text
+//! ds = u - u_0 - B d(delta),     u_0 = u_start - r + m + t
+//! ```
+//!
+//! with terms in metres, each a field:
+//!
+//! - u_start: the displacement of the material of the cell at the start of the increment, rolled and
+//!   stretched with it;
+//! - r, the residual slip: what the last increment left of slip that should be zero (all of it in stick
+//!   cells, in slip cells the part that does not oppose the shear), within the tolerance. Taken off here
+//!   it does not add up along the path (defect correction);
+//! - m, the entry motion of cells outside the last contact: how far they move freely before they touch;
+//! - t, the turn of cells in it: eq. (8) holds the slip against the shear at the end of the increment,
+//!   where it opposed a shear that turned ([`turn`]).
+//!
+//! Slip is computed here and nowhere else: [`slip`] in one cell.
+
+mod turn;
+
+use rayon::prelude::*;
+
+pub use self::turn::Earlier;
+use self::turn::turn;
+use super::Interface;
+use crate::cells::{Arms, CHUNK, set, size};
+
+/// The slip increment of a cell \[m\], eq. (7), of the displacement u, with the displacement that means
+/// no slip u_0 and the rigid motion B d(delta).
+pub fn slip(u: [f64; 2], u_0: [f64; 2], rigid: [f64; 2]) -> [f64; 2] {
+    [u[0] - u_0[0] - rigid[0], u[1] - u_0[1] - rigid[1]]
+}
+
+/// The part of a slip that does not oppose the shear `q`, which is at its `bound` \[m\].
+pub fn not_opposite(slip: [f64; 2], q: [f64; 2], bound: f64) -> [f64; 2] {
+    let e = q.map(|q| q / bound.max(f64::MIN_POSITIVE));
+    let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
+    [slip[0] - along * e[0], slip[1] - along * e[1]]
+}
+
+/// The fields of the noun, kept from one increment to the next.
+#[derive(Debug)]
+pub struct NoSlipTerms {
+    /// u_0 \[m\].
+    sum: [Vec<f64>; 2],
+    /// m of cells outside the last contact, t of cells in it \[m\].
+    added: [Vec<f64>; 2],
+    /// Derivative of the part of the slip across the final shear by the angle of that shear, over the slip.
+    turning: Vec<f64>,
+}
+
+impl NoSlipTerms {
+    /// For fields of `cells` cells.
+    pub fn new(cells: usize) -> Self {
+        let pair = || [vec![0.0; cells], vec![0.0; cells]];
+        Self {
+            sum: pair(),
+            added: pair(),
+            turning: vec![0.0; cells],
+        }
+    }
+
+    /// m or t in cell n \[m\].
+    pub fn added(&self, n: usize) -> [f64; 2] {
+        [self.added[0][n], self.added[1][n]]
+    }
+
+    /// u_0 \[m\].
+    pub fn displacement(&self) -> [&[f64]; 2] {
+        [&self.sum[0], &self.sum[1]]
+    }
+}
+
+/// What the increment starts from.
+#[derive(Clone, Copy)]
+pub struct Start<'a> {
+    /// Tractions and displacements of the material that is now in each cell.
+    pub interface: &'a Interface,
+    /// r: the residual slip of the last increment \[m\].
+    pub residual: &'a [Vec<f64>; 2],
+    /// Where the cells are.
+    pub arms: &'a Arms,
+    /// The tractions an increment earlier, where the slip is to follow the turn of the shear.
+    pub earlier: Option<Earlier<'a>>,
+    /// How far the shear may move a surface before the bodies slide, about: mu times the approach \[m\].
+    pub elastic_slip: f64,
+}
+
+/// The displacement that means no slip in an increment.
+pub struct NoSlip<'a> {
+    start: Start<'a>,
+    terms: &'a mut NoSlipTerms,
+}
+
+impl<'a> NoSlip<'a> {
+    /// Without a turn; with the entry motion m of cells outside the contact \[m\], zero if not given.
+    pub fn new(
+        start: Start<'a>,
+        terms: &'a mut NoSlipTerms,
+        entry: Option<&[Vec<f64>; 2]>,
+    ) -> Self {
+        let [x, y] = &mut terms.added;
+        match entry {
+            Some([to_x, to_y]) => set([&to_x[..], to_y], [x, y], |_, to, _| to),
+            None => set([], [x, y], |_, [], _| [0.0; 2]),
+        }
+        let (u, r) = (&start.interface.u, start.residual);
+        let from = [&u[0][..], &u[1], &r[0], &r[1], x, y];
+        let [x, y] = &mut terms.sum;
+        set(from, [x, y], |_, [u_x, u_y, r_x, r_y, x, y], _| {
+            [u_x - r_x + x, u_y - r_y + y]
+        });
+        Self { start, terms }
+    }
+
+    /// u_0 \[m\].
+    pub fn displacement(&self) -> [&[f64]; 2] {
+        self.terms.displacement()
+    }
+
+    /// The part of a turn of the final shear that u_0 takes over from the slip, in each cell.
+    pub fn turning(&self) -> &[f64] {
+        &self.terms.turning
+    }
+
+    /// Whether the slip follows the turn of the shear at all.
+    pub fn turns(&self) -> bool {
+        self.start.earlier.is_some()
+    }
+
+    /// Takes t a `part` of the way to what the shear `now` and the `shift` d(delta) make of it \[m\]; false
+    /// where no cell sticks: bodies slide as they are moved, and the shear has turned into that direction
+    /// at the end.
+    pub fn follow(&mut self, now: &Interface, shift: [f64; 3], part: f64) -> bool {
+        let Some(earlier) = self.start.earlier else {
+            return false;
+        };
+        if !(0..now.p.len()).any(|n| now.p[n] > 0.0 && !now.slip[n]) {
+            return false;
+        }
+        let Start {
+            interface: last,
+            residual,
+            arms,
+            elastic_slip,
+            ..
+        } = self.start;
+        let turned = |n: usize| -> ([f64; 2], f64) {
+            if !(now.p[n] > 0.0 && now.slip[n]) {
+                return ([0.0; 2], 0.0);
+            }
+            let at = |u: &[Vec<f64>; 2]| [u[0][n], u[1][n]];
+            let slip = slip(at(&now.u), at(&last.u), arms.in_plane(shift, n));
+            // Where a cell slips by as much as the shear can move a surface the bodies slide.
+            let slides = (2.0 - 2.0 * size(slip) / elastic_slip).clamp(0.0, 1.0);
+            turn(last, &earlier, now, slip, n).map_or(([0.0; 2], 0.0), |(across, follows)| {
+                (across.map(|t| slides * t), part * slides * follows)
+            })
+        };
+        let NoSlipTerms {
+            sum: [u_x, u_y],
+            added: [x, y],
+            turning,
+        } = &mut *self.terms;
+        let chunks = (
+            x.par_chunks_mut(CHUNK),
+            y.par_chunks_mut(CHUNK),
+            turning.par_chunks_mut(CHUNK),
+            u_x.par_chunks_mut(CHUNK),
+            u_y.par_chunks_mut(CHUNK),
+        );
+        let chunks = chunks.into_par_iter().enumerate();
+        chunks.for_each(|(chunk, (x, y, turning, u_x, u_y))| {
+            for (i, n) in (chunk * CHUNK..).take(x.len()).enumerate() {
+                if last.p[n] <= 0.0 {
+                    turning[i] = 0.0;
+                    continue;
+                }
+                let (to, follows) = turned(n);
+                x[i] += part * (to[0] - x[i]);
+                y[i] += part * (to[1] - y[i]);
+                u_x[i] = last.u[0][n] - residual[0][n] + x[i];
+                u_y[i] = last.u[1][n] - residual[1][n] + y[i];
+                turning[i] = follows;
+            }
+        });
+        true
+    }
+}

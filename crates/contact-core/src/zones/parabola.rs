@@ -1,0 +1,78 @@
+//! The parabola that a level is continued along a line by.
+
+/// Largest second difference of the level along a line, and largest change of it from cell to cell,
+/// over the first change of the level: beyond, another border lies there (of the stick zone before
+/// a reversal).
+const FIRST_BEND: f64 = 0.4;
+const BEND: f64 = 0.15;
+/// How much a cubic may move the border, in cells, where the parabola holds.
+const MOVED: f64 = 0.2;
+
+/// f = c_0 + c_1 s + c_2 s^2 along a line, s in cells from the first one that is not skipped.
+#[derive(Clone, Copy)]
+pub(crate) struct Parabola([f64; 3]);
+
+impl Parabola {
+    /// Given the outermost cell and the next ones: least squares through five that are not skipped,
+    /// the parabola through three if there are no more, a straight line through two if these are all.
+    pub(crate) fn through(levels: &[f64], skipped: usize) -> Option<Self> {
+        // The last one skipped tells whether the next ones can be trusted.
+        let before = usize::from(skipped > 0);
+        let (checked, used) = (levels.get(skipped - before..)?, levels.get(skipped..)?);
+        let &[y_1, y_2, ..] = checked else {
+            return None;
+        };
+        let mut last = None;
+        let smooth = checked.windows(3).take_while(|y| {
+            let bend = y[2] - 2.0 * y[1] + y[0];
+            let (before, most) = match last.replace(bend) {
+                Some(before) => (before, BEND),
+                None => (0.0, FIRST_BEND),
+            };
+            (bend - before).abs() <= most * (y_2 - y_1).abs()
+        });
+        // Cells on the line before a bend that is too sharp; small zones bend, but like a parabola.
+        let cells = if Self::holds(levels, skipped) {
+            levels.len() - skipped
+        } else {
+            smooth.count() + 2 - before
+        };
+        Some(match (cells, used) {
+            // About the middle sample, with the orthogonal polynomials 1, s, s^2 - 2.
+            (5.., &[a, b, c, d, e, ..]) => {
+                let c_2 = (2.0 * (a + e) - (b + d) - 2.0 * c) / 14.0;
+                let c_1 = (2.0 * (e - a) + d - b) / 10.0;
+                let c_0 = (a + b + c + d + e) / 5.0 - 2.0 * c_2;
+                Self([c_0 - 2.0 * c_1 + 4.0 * c_2, c_1 - 4.0 * c_2, c_2])
+            }
+            (3.., &[a, b, c, ..]) => Self([a, 2.0 * b - 1.5 * a - 0.5 * c, 0.5 * (a + c) - b]),
+            (2.., &[a, b, ..]) => Self([a, b - a, 0.0]),
+            // With the last one skipped.
+            (_, &[a, ..]) => Self([a, y_2 - y_1, 0.0]),
+            (_, []) => return None,
+        })
+    }
+
+    /// Whether the cubic through five cells that are not skipped vanishes near where the parabola does, about
+    /// half a cell outside.
+    pub(crate) fn holds(levels: &[f64], skipped: usize) -> bool {
+        let Some(&[a, b, _, d, e, ..]) = levels.get(skipped..) else {
+            return false;
+        };
+        // About the middle sample; the orthogonal polynomial 5/6 (s^3 - 3.4 s).
+        let c_3 = (2.0 * (b - d) + e - a) / 10.0;
+        let s = -2.5 - skipped as f64;
+        let cubic = c_3 * 5.0 / 6.0 * s * (s * s - 3.4);
+        cubic.abs() <= MOVED * (b - a)
+    }
+
+    pub(crate) fn at(self, s: f64) -> f64 {
+        let Self([c_0, c_1, c_2]) = self;
+        c_0 + s * (c_1 + s * c_2)
+    }
+
+    pub(crate) fn slope(self, s: f64) -> f64 {
+        let Self([_, c_1, c_2]) = self;
+        c_1 + 2.0 * c_2 * s
+    }
+}

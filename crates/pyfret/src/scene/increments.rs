@@ -1,0 +1,105 @@
+//! Numbers of increments, and values to visit.
+
+use contact_core::scene as core;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::error::must_be;
+
+/// One value or several to visit in turn.
+pub(super) enum Values {
+    One(f64),
+    Several(Vec<f64>),
+}
+
+impl<'py> FromPyObject<'_, 'py> for Values {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(one) = value.extract::<f64>() {
+            return Ok(Self::One(one));
+        }
+        let wanted = "a number, or several to visit in turn, such as [100.0, -100.0, 100.0]";
+        let several = value.extract::<Vec<f64>>().ok().filter(|v| !v.is_empty());
+        several
+            .map(Self::Several)
+            .ok_or_else(|| must_be(&value, wanted))
+    }
+}
+
+impl Values {
+    pub(super) fn slice(&self) -> &[f64] {
+        match self {
+            Self::One(value) => std::slice::from_ref(value),
+            Self::Several(values) => values,
+        }
+    }
+}
+
+/// As many increments as a change needs if the whole range takes this many.
+#[pyclass(frozen, eq, hash, from_py_object, module = "pyfret")]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct PerRange(pub(super) usize);
+
+#[pymethods]
+impl PerRange {
+    #[new]
+    fn new(increments: usize) -> Self {
+        Self(increments)
+    }
+
+    /// Increments over the whole range of the load or motion that needs most.
+    #[getter]
+    fn increments(&self) -> usize {
+        self.0
+    }
+
+    fn __repr__(&self) -> String {
+        format!("PerRange({})", self.0)
+    }
+}
+
+/// Increments of a branch: a number, or "auto" for as many as the path tolerance asks for.
+pub(super) struct Count(pub(super) Option<usize>);
+
+impl<'py> FromPyObject<'_, 'py> for Count {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if value.extract::<&str>().is_ok_and(|word| word == "auto") {
+            return Ok(Self(None));
+        }
+        let wrong = |_| PyValueError::new_err("increments: a whole number >= 1, or \"auto\"");
+        value.extract().map(|n| Self(Some(n))).map_err(wrong)
+    }
+}
+
+/// Increments between two waypoints.
+pub(super) enum AnyIncrements {
+    Each(usize),
+    PerRange(PerRange),
+}
+
+impl<'py> FromPyObject<'_, 'py> for AnyIncrements {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(per_range) = value.extract::<PerRange>() {
+            return Ok(Self::PerRange(per_range));
+        }
+        let wanted = "a whole number of increments per branch, or PerRange(40)";
+        value
+            .extract()
+            .map(Self::Each)
+            .map_err(|_| must_be(&value, wanted))
+    }
+}
+
+impl From<AnyIncrements> for core::Increments {
+    fn from(increments: AnyIncrements) -> Self {
+        match increments {
+            AnyIncrements::Each(n) => Self::Each(n),
+            AnyIncrements::PerRange(PerRange(n)) => Self::PerRange(n),
+        }
+    }
+}
