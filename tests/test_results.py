@@ -110,10 +110,14 @@ def test_a_line_is_the_mean_of_the_rows_beside_it(coated: fret.Result) -> None:
 
 
 def test_the_summary_has_a_line_per_branch(coated: fret.Result) -> None:
-    title, header, *rows = coated.summary().splitlines()
+    title, header, *lines = coated.summary().splitlines()
+    rows = [line for line in lines if not line.startswith("cycle")]
+    cycles = [line for line in lines if line.startswith("cycle")]
     assert title == "E1/E2 = 2: done"
     assert "stick ratio" in header
     assert len(rows) == len(coated.scene.path.branches)
+    assert len(cycles) == coated.loops().sizes["cycle"]
+    assert all("partial slip" in line and "energy ratio" in line for line in cycles)
 
 
 def test_a_store_holds_what_memory_holds(coated: fret.Result, tmp_path: Path) -> None:
@@ -218,7 +222,8 @@ def test_ctrl_c_does_not_wait_for_the_end_of_an_increment(tmp_path: Path) -> Non
 def test_an_interrupted_run_is_resumed_to_the_same_bits(
     coated: fret.Result, tmp_path: Path
 ) -> None:
-    def stop(increment: int) -> None:
+    def stop(increment: int, of: int) -> None:
+        assert of == coated.dataset.sizes["increment"]
         if increment == 17:
             raise KeyboardInterrupt
 
@@ -234,7 +239,7 @@ def test_an_interrupted_run_is_resumed_to_the_same_bits(
 
 
 def test_an_exception_of_an_observer_stops_the_run(tmp_path: Path) -> None:
-    def stop(increment: int) -> None:
+    def stop(increment: int, _: int) -> None:
         if increment == 3:
             raise LookupError("enough")
 

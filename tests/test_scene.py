@@ -44,7 +44,7 @@ INDENTED = fret.LoadPath.start().normal(W, increments=1)
 @pytest.mark.parametrize(
     ("broken", "message"),
     [
-        (lambda: with_thickness(0.0), r"body2\.coatings\[0\]\.thickness = 0: must be a positive"),
+        (lambda: with_thickness(0.0), r"coating\.thickness = 0: must be a positive"),
         (lambda: sphere_on_flat().replace(mu=-0.1), r"friction\.mu = -0\.1: must be"),
         (lambda: sphere_on_flat().replace(mu=math.nan), r"friction\.mu = NaN"),
         (lambda: sphere_on_flat(n=0), r"grid\.nx = 0: must be at least one cell"),

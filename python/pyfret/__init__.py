@@ -60,6 +60,7 @@ from pyfret._core import (
     __version__,
     graded,
 )
+from pyfret.doubts import SceneWarning
 from pyfret.results import Result, Snapshot, open
 from pyfret.solving import Increment, march, resume, solve
 from pyfret.surfaces import read_surface
@@ -97,6 +98,7 @@ __all__ = [
     "Result",
     "Rough",
     "Scene",
+    "SceneWarning",
     "Settings",
     "Skip",
     "SlidingError",

@@ -66,6 +66,7 @@ __all__ = [
     "Waviness",
     "Wedge",
     "__version__",
+    "chosen_depths",
     "coated_indentation",
     "continued_pressure",
     "coupled_indentation",
@@ -97,6 +98,8 @@ __all__ = [
 ]
 
 _Array: TypeAlias = NDArray[np.float64]
+_Pitch: TypeAlias = float | tuple[float, float]
+_Missing: TypeAlias = Literal["refuse", "crop", "fill"]
 
 __version__: Final[str]
 
@@ -222,7 +225,7 @@ class Sphere:
         Radius [m]; negative for a hollow.
     """
 
-    def __new__(cls, *, R: float) -> Sphere: ...
+    def __new__(cls, R: float) -> Sphere: ...
     @property
     def R(self) -> float:
         """Radius [m]."""
@@ -490,14 +493,33 @@ class SurfaceMap:
     ----------
     values : array of shape (points along x, points along y)
         The numbers.
-    spacing : (float, float)
+    spacing : float or (float, float)
         Distance of the points along x and y [m]. In between they are interpolated linearly.
+    missing : "refuse", "crop" or "fill"
+        What becomes of points that are NaN: an error that says where they are; lines taken off the
+        edges; the mean of the neighbours.
     """
 
-    def __new__(cls, values: ArrayLike, *, spacing: tuple[float, float]) -> SurfaceMap: ...
+    def __new__(
+        cls, values: ArrayLike, *, spacing: _Pitch, missing: _Missing = "refuse"
+    ) -> SurfaceMap: ...
     @staticmethod
-    def from_file(path: str | PathLike[str], *, spacing: tuple[float, float]) -> SurfaceMap:
-        """Read numbers from a ``.npy`` array or a ``.csv`` table, one line per x."""
+    def from_file(
+        path: str | PathLike[str], *, spacing: _Pitch, missing: _Missing = "refuse"
+    ) -> SurfaceMap:
+        """Read numbers from a ``.npy`` array or from a table of text, one line per x.
+
+        Parameters
+        ----------
+        path : path
+            An array of real or whole numbers of any size and byte order, or a table parted by commas,
+            semicolons, tabs or blanks, with or without a line of titles.
+        spacing : float or (float, float)
+            Distance of the points, along x and y [m].
+        missing : "refuse", "crop" or "fill"
+            What becomes of points without a number (blank or NaN): an error that says where they are;
+            lines taken off the edges; the mean of the neighbours.
+        """
     @property
     def values(self) -> _Array:
         """The numbers."""
@@ -553,7 +575,7 @@ class Body:
     """
 
     def __new__(
-        cls, substrate: Elastic, *, coatings: Sequence[Coating] = ..., shape: _Shape = ...
+        cls, substrate: Elastic, *, coatings: Sequence[Coating] | Coating = ..., shape: _Shape = ...
     ) -> Body: ...
     @property
     def substrate(self) -> Elastic:
@@ -570,7 +592,11 @@ class Body:
 
 @final
 class History:
-    """What a cell has been through."""
+    """What a cell has been through.
+
+    ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the cell has
+    slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2].
+    """
 
     INCREMENT: ClassVar[History]
     """Increments done, the same for all cells."""
@@ -643,7 +669,7 @@ class Grid:
     def centred(*, extent: float, n: int) -> Grid:
         """`n` by `n` cells on a square of side `extent` [m]."""
     @staticmethod
-    def from_spacing(n: tuple[int, int], spacing: tuple[float, float]) -> Grid:
+    def from_spacing(n: int | tuple[int, int], spacing: _Pitch) -> Grid:
         """`n` = (nx, ny) cells of size `spacing` = (dx, dy) [m]."""
     @staticmethod
     def strip(*, extent: float, n: int, width: float = 1.0) -> Grid:
@@ -682,7 +708,11 @@ class Grid:
 
 @final
 class Spacing:
-    """How the increments of a branch are spaced."""
+    """How the increments of a branch are spaced.
+
+    ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius of a
+    paraboloid; natural for an indentation.
+    """
 
     UNIFORM: ClassVar[Spacing]
     """Equal increments of force."""
@@ -789,15 +819,15 @@ class LoadPath:
         """The path before its first branch."""
     def normal(self, W: float, *, increments: _Count = ...) -> LoadPath:
         """Go to the normal force `W` [N], the tangential forces kept, in one unit of path time."""
-    def tangential(self, T_x: float | Sequence[float], *, increments: _Count = ...) -> LoadPath:
+    def tangential(self, T_x: _Values, *, increments: _Count = ...) -> LoadPath:
         """Visit the tangential forces `T_x` [N] in turn.
 
         The increments are shared out in proportion to the change of force. Path time runs as in
         the first branch: one unit for as many increments as that one has.
         """
-    def torsion(self, M_z: float | Sequence[float], *, increments: _Count = ...) -> LoadPath:
+    def torsion(self, M_z: _Values, *, increments: _Count = ...) -> LoadPath:
         """Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces."""
-    def radial(self, W: float | Sequence[float], *, increments: _Count = ...) -> LoadPath:
+    def radial(self, W: _Values, *, increments: _Count = ...) -> LoadPath:
         """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
     def ellipse(self, *, T_x: float, T_y: float, turns: int = 1, increments: int) -> LoadPath:
         """Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
@@ -863,33 +893,82 @@ class LoadPath:
     def displace(
         self,
         *,
-        delta_z: float | None = None,
-        delta_x: float | None = None,
-        delta_y: float | None = None,
-        phi_x: float | None = None,
-        phi_y: float | None = None,
-        phi_z: float | None = None,
+        delta_z: _Values | None = None,
+        delta_x: _Values | None = None,
+        delta_y: _Values | None = None,
+        phi_x: _Values | None = None,
+        phi_y: _Values | None = None,
+        phi_z: _Values | None = None,
         increments: _Count = ...,
         spacing: Spacing = ...,
         t: float | None = None,
     ) -> LoadPath:
-        """Go to the given rigid motions of body 1 on a straight line.
+        """Go to the given rigid motions of body 1 on a straight line, or visit several in turn.
 
         A motion that is named is given from here on, and its load follows from the solution. What
         is not named stays as it was; without a word, rotations are given as zero.
 
         Parameters
         ----------
-        delta_z, delta_x, delta_y : float, optional
-            Approach and shifts [m].
-        phi_x, phi_y, phi_z : float, optional
+        delta_z, delta_x, delta_y : float or sequence of float, optional
+            Approach and shifts [m]. One of all the motions may be a sequence: its values are visited
+            in turn, and the increments shared out in proportion to the change, as `tangential` does.
+        phi_x, phi_y, phi_z : float or sequence of float, optional
             Tilts and rotation about z [rad].
         increments : int or "auto"
             Number of increments (default: as many as the path tolerance of the settings asks for).
         spacing : Spacing
             How they are spaced (default: equal increments).
         t : float, optional
-            Path time at the end (default: one unit later).
+            Path time at the end (default: one unit later); not with a sequence.
+
+        Examples
+        --------
+        >>> pressed = LoadPath.start().normal(10.0)
+        >>> pressed.displace(delta_x=[2e-6, -2e-6, 2e-6])
+        LoadPath(4 branches, increments to be chosen)
+        """
+    def cycles(
+        self,
+        n: int,
+        *,
+        T_x: float | None = None,
+        T_y: float | None = None,
+        M_z: float | None = None,
+        delta_x: float | None = None,
+        delta_y: float | None = None,
+        phi_z: float | None = None,
+        increments: _Count = ...,
+    ) -> LoadPath:
+        """Go through `n` cycles of one load or motion about zero, what is not named staying as it was.
+
+        The path goes to the amplitude, then `n` times to its opposite and back.
+
+        Parameters
+        ----------
+        n : int
+            Number of cycles.
+        T_x, T_y : float, optional
+            Amplitude of a tangential force [N].
+        M_z : float, optional
+            Amplitude of the torsional moment [N m].
+        delta_x, delta_y : float, optional
+            Amplitude of a shift [m].
+        phi_z : float, optional
+            Amplitude of the rotation [rad].
+        increments : int or "auto"
+            Number of increments of all branches together, shared out in proportion to the change
+            (default: as many as the path tolerance of the settings asks for).
+
+        Examples
+        --------
+        >>> LoadPath.start().normal(10.0).cycles(2, delta_x=2e-6)
+        LoadPath(6 branches, increments to be chosen)
+        """
+    def hold(self, *, increments: int = 1) -> LoadPath:
+        """Stay at the loads and motions reached for some increments, one unit of path time.
+
+        What friction makes of the history of a cell goes on meanwhile.
         """
     @property
     def branches(self) -> list[Branch]:
@@ -919,13 +998,18 @@ class LoadPath:
     def M_z(self) -> _Array:
         """Torsional moment at the end of every increment [N m]."""
     def __len__(self) -> int: ...
+    def __bool__(self) -> bool: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Preset:
-    """Families of algorithms."""
+    """Families of algorithms.
+
+    ``FAST``: preconditioned solvers; sets and fields carried over and extrapolated. ``SPINU2020``: the
+    paper's, plain conjugate gradients in both directions, plain alternation.
+    """
 
     FAST: ClassVar[Preset]
     """Preconditioned solvers; sets and fields carried over and extrapolated."""
@@ -990,6 +1074,7 @@ class FrequencyDomain:
 _Save: TypeAlias = Literal["branches", "all"] | Sequence[int]
 
 _Count: TypeAlias = int | Literal["auto"]
+_Values: TypeAlias = float | Sequence[float] | _Array
 _KernelMethod: TypeAlias = Hankel | InverseFft | FrequencyDomain
 
 @final
@@ -1211,6 +1296,29 @@ class Scene:
         InvalidSceneError
             With the key, the value and what is allowed.
         """
+    def interfaces(self, body_number: int = 2) -> list[float]:
+        """Depths of the interfaces of a body [m], from the surface down; none of a homogeneous one.
+
+        Parameters
+        ----------
+        body_number : 1 or 2
+            The upper body or the lower one (default 2).
+
+        Examples
+        --------
+        >>> scene.interfaces()  # doctest: +SKIP
+        [3e-06, 3.5e-06]
+        """
+    def length(self, p: ArrayLike) -> float:
+        """The length that results of an increment of pressure `p` [Pa], shape (nx, ny), are measured in [m].
+
+        a_H, or where there is no Hertz contact half the longer side of the box around the contact.
+        """
+    def doubts(self) -> list[str]:
+        """What is allowed but hardly meant: numbers that look like those of another unit.
+
+        One sentence for each, with what was understood; :func:`pyfret.solve` warns of them.
+        """
     @property
     def title(self) -> str:
         """One line that names the scene."""
@@ -1242,6 +1350,8 @@ class Scene:
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
+_Material: TypeAlias = Elastic | Body
+
 @final
 class Hertz:
     """Frictionless contact of two paraboloids of revolution.
@@ -1267,7 +1377,7 @@ class Hertz:
     def p(self, r: ArrayLike) -> _Array:
         """Pressure at distance `r` [m] from the middle [Pa], p0 sqrt(1 - r^2/a^2)."""
 
-def hertz(*, R: float, bodies: tuple[Elastic, Elastic], W: float) -> Hertz:
+def hertz(*, R: float, bodies: tuple[_Material, _Material], W: float) -> Hertz:
     """Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N]."""
 
 @final
@@ -1319,7 +1429,7 @@ class CattaneoMindlin:
     """
 
     def __new__(
-        cls, hertz: Hertz, *, bodies: tuple[Elastic, Elastic], mu: float
+        cls, hertz: Hertz, *, bodies: tuple[_Material, _Material], mu: float
     ) -> CattaneoMindlin: ...
     @property
     def hertz(self) -> Hertz:
@@ -1376,7 +1486,7 @@ class Lubkin:
         Friction coefficient.
     """
 
-    def __new__(cls, hertz: Hertz, *, bodies: tuple[Elastic, Elastic], mu: float) -> Lubkin: ...
+    def __new__(cls, hertz: Hertz, *, bodies: tuple[_Material, _Material], mu: float) -> Lubkin: ...
     @property
     def M_limit(self) -> float:
         """Moment of full slip [N m], (3 pi/16) mu W a."""
@@ -1443,7 +1553,7 @@ class LineContact:
     def stress(self, x: ArrayLike, z: float, *, T: float, mu: float) -> list[_Array]:
         """Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa]."""
 
-def line_contact(*, R: float, bodies: tuple[Elastic, Elastic], W: float) -> LineContact:
+def line_contact(*, R: float, bodies: tuple[_Material, _Material], W: float) -> LineContact:
     """Line contact of cylinders of relative radius `R` [m] under `W` [N/m]."""
 
 @final
@@ -1467,12 +1577,18 @@ class Springs:
     """
 
     def __new__(
-        cls, largest: Hertz, *, R: float, bodies: tuple[Elastic, Elastic], mu: float, n: int = 1500
+        cls,
+        largest: Hertz,
+        *,
+        R: float,
+        bodies: tuple[_Material, _Material],
+        mu: float,
+        n: int = 1500,
     ) -> Springs: ...
     def load(self, *, W: float, T: float, steps: int = 10) -> float:
         """Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m]."""
 
-def dundurs_beta(body1: Elastic, body2: Elastic) -> float:
+def dundurs_beta(body1: _Material, body2: _Material) -> float:
     """Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
 
     beta = [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2] / (2 [(1 - nu1)/G1 + (1 - nu2)/G2])
@@ -1526,7 +1642,7 @@ class CoatedIndentation:
         """Pressure at distance `r` [m] from the middle [Pa]."""
 
 def coated_indentation(
-    *, R: float, indenter: Elastic, coating: Coating, substrate: Elastic, W: float
+    *, R: float, indenter: _Material, coating: Coating, substrate: _Material, W: float
 ) -> CoatedIndentation:
     """Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction."""
 
@@ -1664,18 +1780,19 @@ def solve(
     store: str | PathLike[str],
     checkpoint: float = 5.0,
     error: bool = False,
-    on_increment: Callable[[int], object] | None = None,
+    on_increment: Callable[[int, int], object] | None = None,
 ) -> None:
     """Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
 
-    `on_increment` is called with the number of each increment solved.
+    `on_increment` is called with the number of each increment solved and their number in all, which is
+    known once they are chosen.
     """
 
 def resume(
     store: str | PathLike[str],
     *,
     checkpoint: float = 5.0,
-    on_increment: Callable[[int], object] | None = None,
+    on_increment: Callable[[int, int], object] | None = None,
 ) -> None:
     """Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it."""
 
@@ -1687,6 +1804,13 @@ def probe_labels() -> dict[str, tuple[str, str]]:
 
 def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
     """Depths [m] with their layers; on an interface both, the upper one first."""
+
+def chosen_depths(
+    body: Body, *, a: float, deepest: float, finer: float = 1.0
+) -> tuple[list[float], list[int]]:
+    """Depths [m] with their layers that the layers of a body ask for, to the depth `deepest` [m] under a
+    contact of the radius `a` [m]; `finer` times as many as the default.
+    """
 
 def measure(name: str, stress: ArrayLike) -> _Array:
     """Give what follows from stresses of shape (6, n), by its name."""
@@ -1700,8 +1824,8 @@ def maximum(
     z: Sequence[float],
     layer: Sequence[int],
     along: Sequence[float],
-) -> tuple[float, float, float, int] | None:
-    """Largest value on a section of stresses (6, depths, places): value, place, depth, layer."""
+) -> tuple[float, float, float, int, float] | None:
+    """Largest value on a section of stresses (6, depths, places): value, place, depth, layer, error."""
 
 def rims(stress: ArrayLike, along: Sequence[float]) -> tuple[list[float], _Array]:
     """Places of the rims on a line on the surface, and stresses (6, rims), from stresses (6, n)."""
@@ -1899,16 +2023,16 @@ def dang_van_path(stress: NDArray[np.float64]) -> _Array:
     """Give rows of tau and p_h of one point from its stress of shape (time, 6)."""
 
 class InvalidSceneError(ValueError):
-    """A scene, or a scene file, has no meaning."""
+    """A scene, or a scene file, has no meaning; the message names the key, the value and what is allowed."""
 
 class OffGridError(InvalidSceneError):
-    """The contact reaches the border of the grid."""
+    """The contact reaches the border of the grid; the message says how wide the grid should be."""
 
 class NoConvergenceError(RuntimeError):
-    """A solver stopped before its tolerance."""
+    """A solver stopped before its tolerance; the message gives the residual reached."""
 
 class SlidingError(RuntimeError):
-    """The tangential loads are more than friction can carry."""
+    """The tangential loads are more than friction can carry; give the shift instead."""
 
 class KernelInaccurateError(RuntimeError):
     """Influence or stress coefficients missed the tolerance asked for."""

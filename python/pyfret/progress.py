@@ -20,43 +20,38 @@ class Progress:
 
     Parameters
     ----------
-    total : int
-        Number of increments.
     title : str
         What is being run.
     shown : bool
         Whether to draw at all; without a terminal or a notebook nothing is drawn in any case.
     """
 
-    def __init__(self, total: int, *, title: str, shown: bool) -> None:
-        self.total = total
+    def __init__(self, *, title: str, shown: bool) -> None:
         self.title = title
         self.shown = shown and (sys.stderr.isatty() or "ipykernel" in sys.modules)
         self.started = self.drawn = time.monotonic()
-        self.done = 0
+        self.done = self.total = 0
 
     def __enter__(self) -> Progress:
         """Start counting time."""
         return self
 
-    def update(self, done: int) -> None:
-        """Say that `done` increments are solved."""
-        self.done = done
+    def update(self, done: int, total: int) -> None:
+        """Say that `done` of `total` increments are solved."""
+        self.done, self.total = done, total
         now = time.monotonic()
-        if self.shown and (now - self.drawn > INTERVAL or done == self.total):
+        if self.shown and (now - self.drawn > INTERVAL or done == total):
             self.drawn = now
-            self.draw(now - self.started)
+            sys.stderr.write("\r" + self.line(now - self.started))
+            sys.stderr.flush()
 
-    def draw(self, elapsed: float) -> None:
-        """Draw the bar over the last one."""
-        share = self.done / max(self.total, 1)
+    def line(self, elapsed: float) -> str:
+        """The bar, counts and times after `elapsed` seconds."""
+        share = min(self.done / max(self.total, 1), 1.0)
         bar = ("=" * round(WIDTH * share)).ljust(WIDTH)
         left = elapsed * (1 - share) / share if share > 0 else 0.0
-        text = (
-            f"\r{self.title} [{bar}] {self.done}/{self.total} {elapsed:.0f} s, {left:.0f} s left "
-        )
-        sys.stderr.write(text)
-        sys.stderr.flush()
+        counts = f"{self.done}/{max(self.total, self.done)}"
+        return f"{self.title} [{bar}] {counts} {elapsed:.0f} s, {left:.0f} s left "
 
     def __exit__(
         self,
@@ -66,5 +61,4 @@ class Progress:
     ) -> None:
         """Leave the last state of the bar on the screen."""
         if self.shown and self.done:
-            self.draw(time.monotonic() - self.started)
-            sys.stderr.write("\n")
+            sys.stderr.write("\r" + self.line(time.monotonic() - self.started) + "\n")

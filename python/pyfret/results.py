@@ -5,18 +5,20 @@ from __future__ import annotations
 import json
 import numbers
 from os import fspath
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import xarray as xr
 
-from pyfret import _core, subsurface
+from pyfret import _core, files, subsurface
 from pyfret._core import Scene, StoreError
-from pyfret.snapshot import Snapshot
+from pyfret.snapshot import Snapshot, friction, yardstick
+from pyfret.summary import summary
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from numpy.typing import ArrayLike
 
@@ -37,21 +39,6 @@ SUMMED = frozenset(
         "parts",
     )
 )
-
-#: Columns of the summary: title, variable, decimals, measure.
-COLUMNS: list[tuple[str, str, int, Callable[[Result], float]]] = [
-    ("t", "t", 3, lambda _: 1.0),
-    ("W [N]", "W", 1, lambda _: 1.0),
-    ("T_x [N]", "T_x", 1, lambda _: 1.0),
-    ("a/a_H", "contact_radius", 4, lambda r: 1.0 / r.a_H),
-    ("stick ratio", "stick_ratio", 4, lambda _: 1.0),
-    ("p_max/p_H", "p_max", 4, lambda r: 1.0 / r.p_H),
-    ("delta_z [um]", "delta_z", 4, lambda _: 1e6),
-    ("delta_x [um]", "delta_x", 4, lambda _: 1e6),
-    ("dissipated [uJ]", "dissipated", 3, lambda _: 1e6),
-    ("convolutions", "convolutions", 0, lambda _: 1.0),
-]
-
 
 #: What :meth:`Result.loops` gives: unit and meaning.
 LOOP = {
@@ -96,22 +83,31 @@ class Result:
     @property
     def a_H(self) -> float:
         """Hertz radius of the uncoated pair at the largest load [m]."""
-        return float(self.dataset.attrs["a_H"])
+        return yardstick(self.dataset.attrs, "a_H")
 
     @property
     def p_H(self) -> float:
         """Hertz peak pressure of the uncoated pair at the largest load [Pa]."""
-        return float(self.dataset.attrs["p_H"])
+        return yardstick(self.dataset.attrs, "p_H")
 
     @property
     def mu(self) -> float:
         """Friction coefficient."""
-        return float(self.dataset.attrs["mu"])
+        return friction(self.dataset.attrs)
+
+    @property
+    def length(self) -> float:
+        """The length that results are measured in [m].
+
+        a_H, or where there is no Hertz contact half the longer side of the box around the contact
+        of the last increment whose fields were kept.
+        """
+        return self.at(-1).length
 
     @property
     def delta_H(self) -> float:
         """Hertz approach of the uncoated pair at the largest load [m], a_H^2/R."""
-        return self.a_H**2 / float(self.dataset.attrs["R"])
+        return self.a_H**2 / yardstick(self.dataset.attrs, "R")
 
     @property
     def W_max(self) -> float:
@@ -246,7 +242,7 @@ class Result:
 
     def envelope(
         self,
-        z: ArrayLike,
+        z: ArrayLike | None = None,
         *,
         x: float | None = None,
         y: float | None = None,
@@ -265,19 +261,32 @@ class Result:
         )
 
     def summary(self) -> str:
-        """Tabulate what the run ended with, one line per branch."""
-        ends = self.branches()
-        columns = [
-            [title, *(f"{value:.{digits}f}" for value in np.asarray(scale(self) * ends[name]))]
-            for title, name, digits, scale in COLUMNS
-            if name in ends
-        ]
-        widths = [max(len(cell) for cell in column) for column in columns]
-        rows = [
-            "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))
-            for row in zip(*columns, strict=True)
-        ]
-        return "\n".join([f"{self.dataset.attrs['title']}: {self.status}", *rows])
+        """Tabulate what the run ended with: a line per branch, then one per cycle.
+
+        Lengths are over a_H and pressures over p_H where there is a Hertz contact, else in um and
+        MPa; in plane strain a is half the width of the contact.
+        """
+        return summary(self)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
+
+        :func:`pyfret.open` opens both. The place must be free. NetCDF needs the package h5netcdf or
+        netCDF4: ``pip install "pyfret[netcdf]"``.
+
+        Parameters
+        ----------
+        path : path
+            Where to write; its ending says in which format.
+
+        Raises
+        ------
+        FileExistsError
+            There is something at the place.
+        ValueError
+            The ending is another.
+        """
+        files.write(self.dataset, path)
 
     def __repr__(self) -> str:
         """Give the title and the size of the result."""
@@ -288,20 +297,37 @@ class Result:
         )
 
 
-def open(path: str | os.PathLike[str]) -> Result:
-    """Open a result store; its fields are read when they are asked for.
+def is_copy(path: str | os.PathLike[str]) -> bool:
+    """Whether a Zarr folder is one that :meth:`Result.save` wrote, which has no checksums.
 
-    Every file of it is checked before: what is read is what was written.
+    Those of schema 1 are stores: they had none either, and are refused as such.
+    """
+    try:
+        consolidated = json.loads((Path(path) / ".zmetadata").read_bytes())
+        schema = consolidated["metadata"][".zattrs"]["schema"]
+    except (OSError, ValueError, LookupError, TypeError):
+        return False
+    sums = {"checksums", "crc32"} & set(consolidated)
+    return not sums and isinstance(schema, int) and schema > 1
+
+
+def open(path: str | os.PathLike[str]) -> Result:
+    """Open a result: a Zarr store, or what :meth:`Result.save` wrote (``.zarr``, ``.nc``).
+
+    Fields are read when they are asked for. Every file of a store is checked before: what is read
+    is what was written. What :meth:`Result.save` wrote has no checksums and is not checked.
 
     Raises
     ------
     StoreError
         There is no store, or a file of it is missing or damaged; the message names both.
     """
+    if Path(path).suffix == ".nc":
+        return Result(files.read(path))
     # Zarr reads the attributes of the group from a file that no checksum covers.
-    attributes = json.loads(_core.verify(path))
+    attributes = {} if is_copy(path) else json.loads(_core.verify(path))
     try:
-        dataset = xr.open_zarr(path, chunks=None)
+        dataset = files.read(path)
     except Exception as error:
         message = " ".join(str(error).split())
         raise StoreError(f"{fspath(path)}: {type(error).__name__}: {message}") from error

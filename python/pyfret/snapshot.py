@@ -2,24 +2,41 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
 from pyfret import _core, subsurface
 from pyfret._core import Scene
+from pyfret.doubts import doubt_layers
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import ArrayLike
 
     from pyfret._core import Body
     from pyfret.subsurface import Stress
 
-__all__ = ["Snapshot"]
+__all__ = ["Snapshot", "friction", "yardstick"]
+
+
+def yardstick(attrs: Mapping[Any, Any], name: str) -> float:
+    """A Hertz yardstick of a run; a ValueError where there is no Hertz contact."""
+    if name not in attrs:
+        raise ValueError(
+            f"no {name}: these bodies have no Hertz contact (a flat, a punch, a rough surface, or "
+            "nothing presses); lengths are measured by .length, stresses in Pa"
+        )
+    return float(attrs[name])
+
+
+def friction(attrs: Mapping[Any, Any]) -> float:
+    """The friction coefficient of a run; infinite for a contact that never slips."""
+    mu = attrs["mu"]
+    return np.inf if mu is None or mu == "stick" else float(mu)
 
 
 class Snapshot:
@@ -27,6 +44,65 @@ class Snapshot:
 
     Every variable of :attr:`dataset` is an attribute as well, e.g. ``snapshot.p``.
     """
+
+    # The variables of a result store, for editors and type checkers.
+    x: xr.DataArray
+    y: xr.DataArray
+    increment: xr.DataArray
+    t: xr.DataArray
+    branch_of_increment: xr.DataArray
+    W: xr.DataArray
+    T_x: xr.DataArray
+    T_y: xr.DataArray
+    M_x: xr.DataArray
+    M_y: xr.DataArray
+    M_z: xr.DataArray
+    sigma_B: xr.DataArray
+    sigma_B1: xr.DataArray
+    rolled: xr.DataArray
+    delta_z: xr.DataArray
+    delta_x: xr.DataArray
+    delta_y: xr.DataArray
+    phi_x: xr.DataArray
+    phi_y: xr.DataArray
+    phi_z: xr.DataArray
+    status: xr.DataArray
+    contact_area: xr.DataArray
+    stick_area: xr.DataArray
+    stick_ratio: xr.DataArray
+    contact_radius: xr.DataArray
+    p_max: xr.DataArray
+    q_max: xr.DataArray
+    work: xr.DataArray
+    elastic: xr.DataArray
+    dissipated: xr.DataArray
+    opening: xr.DataArray
+    quadrature: xr.DataArray
+    residual_gap: xr.DataArray
+    residual_penetration: xr.DataArray
+    residual_coulomb: xr.DataArray
+    residual_stick: xr.DataArray
+    residual_direction: xr.DataArray
+    residual_angle: xr.DataArray
+    residual_balance: xr.DataArray
+    residual_energy: xr.DataArray
+    convolutions: xr.DataArray
+    alternations: xr.DataArray
+    normal_iterations: xr.DataArray
+    tangential_iterations: xr.DataArray
+    parts: xr.DataArray
+    p: xr.DataArray
+    q_x: xr.DataArray
+    q_y: xr.DataArray
+    u_x: xr.DataArray
+    u_y: xr.DataArray
+    u_z: xr.DataArray
+    gap: xr.DataArray
+    slip_x: xr.DataArray
+    slip_y: xr.DataArray
+    dissipated_density: xr.DataArray
+    contact: xr.DataArray
+    stick: xr.DataArray
 
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
@@ -49,22 +125,34 @@ class Snapshot:
     @property
     def a_H(self) -> float:
         """Hertz radius of the uncoated pair at the largest load [m]."""
-        return float(self.dataset.attrs["a_H"])
+        return yardstick(self.dataset.attrs, "a_H")
 
     @property
     def p_H(self) -> float:
         """Hertz peak pressure of the uncoated pair at the largest load [Pa]."""
-        return float(self.dataset.attrs["p_H"])
+        return yardstick(self.dataset.attrs, "p_H")
 
     @property
     def mu(self) -> float:
         """Friction coefficient."""
-        return float(self.dataset.attrs["mu"])
+        return friction(self.dataset.attrs)
 
     @property
     def scene(self) -> Scene:
         """The scene that was solved."""
         return Scene.from_toml(self.dataset.attrs["scene"])
+
+    @property
+    def length(self) -> float:
+        """The length that results are measured in [m].
+
+        a_H, or where there is no Hertz contact half the longer side of the box around the contact.
+        """
+        return self.scene.length(self.dataset["p"].values)
+
+    def __dir__(self) -> list[str]:
+        """The variables beside the methods."""
+        return sorted({*super().__dir__(), *self.names()})
 
     def _body(self, body_number: int) -> Body:
         scene = self.scene
@@ -79,7 +167,7 @@ class Snapshot:
 
     def stress(
         self,
-        z: ArrayLike,
+        z: ArrayLike | None = None,
         *,
         x: float | None = None,
         y: float | None = None,
@@ -91,11 +179,13 @@ class Snapshot:
 
         Parameters
         ----------
-        z : float or array
-            Depths [m]; those on an interface appear twice, once in each layer.
+        z : float or array, optional
+            Depths [m]; those on an interface appear twice, once in each layer (default: those that
+            the layers ask for, down to twice :attr:`length`).
         x, y : float, optional
             With `y`, the section along x at that y; with `x`, that along y; with both, the line
-            below a point; with neither, the whole plane at every depth.
+            below a point; with neither, the whole plane at every depth given, or where none is, the
+            section at y = 0.
         body_number : 1 or 2
             The body.
         bulk : bool
@@ -103,10 +193,21 @@ class Snapshot:
         rim : bool
             Whether tractions vary within the cells beside the rim and the stick zone, as in
             :func:`pyfret.subsurface.stress`.
+
+        Warns
+        -----
+        SceneWarning
+            The first interface is nearer to the surface than a cell is long.
+
+        Examples
+        --------
+        >>> below = result.at(-1).stress()  # doctest: +SKIP
+        >>> below.maximum("von_mises")  # doctest: +SKIP
         """
         body, grid = self._body(body_number), self.scene.grid
+        doubt_layers(subsurface.interfaces(body), grid)
         sigma_B = self.bulk_stress(body_number) if bulk else 0.0
-        return subsurface.stress(
+        below = subsurface.stress(
             body,
             grid,
             z,
@@ -116,8 +217,11 @@ class Snapshot:
             sigma_B=sigma_B,
             rim=rim,
             stick=self.dataset["stick"].values,
+            length=self.length,
             **self._tractions(),
         )
+        yardsticks = {k: v for k, v in self.dataset.attrs.items() if k in ("a_H", "p_H")}
+        return subsurface.Stress(below.dataset.assign_attrs(yardsticks))
 
     def p_continued(self) -> xr.DataArray:
         """Pressure at the centres of the cells [Pa], that at the rim continued from inside.
@@ -130,7 +234,7 @@ class Snapshot:
 
     def displacement(
         self,
-        z: ArrayLike,
+        z: ArrayLike | None = None,
         *,
         x: float | None = None,
         y: float | None = None,
@@ -139,12 +243,14 @@ class Snapshot:
         """Displacements u_x, u_y, u_z of a body below the contact [m], as in :meth:`stress`."""
         body, grid = self._body(body_number), self.scene.grid
         loads = self._tractions()
-        return subsurface.displacement(body, grid, z, x=x, y=y, body_number=body_number, **loads)
+        return subsurface.displacement(
+            body, grid, z, x=x, y=y, body_number=body_number, length=self.length, **loads
+        )
 
     def write_volume(
         self,
         out: str | os.PathLike[str],
-        z: ArrayLike,
+        z: ArrayLike | None = None,
         *,
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,

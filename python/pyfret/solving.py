@@ -11,19 +11,21 @@ from typing import TYPE_CHECKING, Literal
 import xarray as xr
 
 from pyfret import _core
+from pyfret._core import Scene
+from pyfret.doubts import doubt_scene
 from pyfret.progress import Progress
 from pyfret.results import Result, Snapshot, open
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from pyfret._core import LoadPath, Scene
+    from pyfret._core import LoadPath
 
 __all__ = ["march", "resume", "solve"]
 
 
 def solve(
-    scene: Scene,
+    scene: Scene | str | os.PathLike[str],
     path: LoadPath | None = None,
     *,
     save: Literal["branches", "all"] | Sequence[int] | None = None,
@@ -36,8 +38,8 @@ def solve(
 
     Parameters
     ----------
-    scene : Scene
-        What is in contact.
+    scene : Scene or path
+        What is in contact, or its scene file.
     path : LoadPath, optional
         Load history (default: that of the scene).
     save : "branches", "all" or sequence of int, optional
@@ -65,9 +67,15 @@ def solve(
         The contact reached the border of the grid.
     NoConvergenceError
         A solver stopped before its tolerance.
+
+    Warns
+    -----
+    SceneWarning
+        Something of the scene is allowed but hardly meant, such as a number in another unit.
     """
-    scene = scene.replace(path=path, save=save)
-    with Progress(len(scene.path), title=scene.title or "fretting", shown=progress) as bar:
+    scene = read(scene).replace(path=path, save=save)
+    doubt_scene(scene)
+    with Progress(title=scene.title or "fretting", shown=progress) as bar:
         if out is not None:
             _core.solve(
                 scene, store=out, checkpoint=checkpoint, error=error, on_increment=bar.update
@@ -105,10 +113,7 @@ def resume(
         There is no store, another process writes it, or its checkpoint is damaged or of another
         version of pyfret.
     """
-    # Where there is no store, the core says so.
-    there = (Path(store) / ".zmetadata").is_file()
-    total = len(open(store).scene.path) if there else 0
-    with Progress(total, title="resumed", shown=progress) as bar:
+    with Progress(title="resumed", shown=progress) as bar:
         _core.resume(store, checkpoint=checkpoint, on_increment=bar.update)
     return open(store)
 
@@ -129,12 +134,23 @@ def tidy() -> None:
             shutil.rmtree(folder, ignore_errors=True)
 
 
+#: Increments of a branch that are chosen, with room to spare.
+CHOSEN = 200
+
+
+def read(scene: Scene | str | os.PathLike[str]) -> Scene:
+    """The scene, read from its file if it is the name of one."""
+    return scene if isinstance(scene, Scene) else Scene.from_file(scene)
+
+
 def memory(scene: Scene) -> Path | None:
     """Where a passing store is written: in memory if it is small, else the usual folder."""
-    kept = len(scene.path) if scene.settings.save == "all" else len(scene.path.branches)
+    branches = scene.path.branches
+    increments = sum(CHOSEN if b.increments is None else b.increments for b in branches)
+    kept = increments if scene.settings.save == "all" else len(branches)
     if isinstance(scene.settings.save, list):
         kept = len(scene.settings.save)
-    size = 8 * (len(_core.labels()) * (len(scene.path) + kept * scene.grid.nx * scene.grid.ny))
+    size = 8 * (len(_core.labels()) * (increments + kept * scene.grid.nx * scene.grid.ny))
     try:
         free = shutil.disk_usage(SHARED_MEMORY).free
         return SHARED_MEMORY if size < min(SMALL, free / 2) else None
@@ -142,13 +158,15 @@ def memory(scene: Scene) -> Path | None:
         return None
 
 
-def march(scene: Scene, path: LoadPath | None = None) -> Iterator[Increment]:
+def march(
+    scene: Scene | str | os.PathLike[str], path: LoadPath | None = None
+) -> Iterator[Increment]:
     """Run through the load path one increment at a time, the careful way.
 
     Parameters
     ----------
-    scene : Scene
-        What is in contact.
+    scene : Scene or path
+        What is in contact, or its scene file.
     path : LoadPath, optional
         Load history (default: that of the scene).
 
@@ -158,7 +176,9 @@ def march(scene: Scene, path: LoadPath | None = None) -> Iterator[Increment]:
         The contact after each increment. Its fields are computed when they are asked for, which
         has to be before the next increment is.
     """
-    running = _core.March(scene.replace(path=path))
+    scene = read(scene).replace(path=path)
+    doubt_scene(scene)
+    running = _core.March(scene)
     for scalars in running:
         yield Increment(running, scalars)
 

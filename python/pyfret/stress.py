@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from pyfret import _core
+from pyfret.doubts import SceneWarning
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -29,6 +31,8 @@ class Maximum(NamedTuple):
     z: float
     #: Layer from the surface down; their number for the substrate.
     layer: int
+    #: What the distances of the depths leave of an error, estimated [Pa].
+    error: float
 
 
 class Stress:
@@ -87,13 +91,26 @@ class Stress:
         """Give the largest value on a section and its place, refined below the cell.
 
         A maximum at the surface or at an interface stays there. On the surface the rims of the
-        contact take part, as :meth:`rims` gives them.
+        contact take part, as :meth:`rims` gives them. ``interface_shear`` and ``interface_peel``
+        are those of the interfaces. The error is what the distances of the depths leave, estimated
+        by leaving out every other one.
+
+        Warns
+        -----
+        SceneWarning
+            A layer between the first and the last depth holds no depth, or not its borders: the
+            largest value may lie there. Depths are chosen from the layers where none are given.
         """
+        if of not in LABELS:
+            raise ValueError(f"{of!r}: must be one of {', '.join(sorted(LABELS))}")
+        self._doubt_depths()
         along = self._along()
         depths = self.dataset.z.values.tolist()
         layers = self.dataset.layer.values.tolist()
         stress = np.stack([self.dataset[c].values for c in COMPONENTS])
         found = _core.maximum(of, stress, depths, layers, self.dataset[along].values.tolist())
+        if found is None and of.startswith("interface"):
+            raise ValueError(f"{of}: no interface lies among the depths of the section")
         if found is None:
             raise ValueError("the section holds no number")
         return Maximum(*found)
@@ -116,6 +133,23 @@ class Stress:
         }
         coords = {k: v for k, v in surface.coords.items() if k != along}
         return Stress(xr.Dataset(variables, {**coords, along: ("rim", places, {"units": "m"})}))
+
+    def _doubt_depths(self) -> None:
+        """Warn of interfaces that the depths leave out."""
+        z = self.dataset.z.values
+        missed = [
+            depth
+            for depth in self.dataset.attrs.get("interfaces", ())
+            if z[0] < depth < z[-1] and np.count_nonzero(np.isclose(z, depth, rtol=1e-9)) < 2
+        ]
+        if missed:
+            places = ", ".join(f"{depth:.4g}" for depth in missed)
+            warnings.warn(
+                f"the interfaces at z = {places} m are not among the depths: the largest value may "
+                "lie there; leave z out, or add scene.interfaces()",
+                SceneWarning,
+                stacklevel=3,
+            )
 
     def _along(self) -> str:
         dims = self.dataset[COMPONENTS[0]].dims

@@ -22,13 +22,32 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from pyfret._core import Body, Grid, Scene
-    from pyfret.results import Snapshot
+    from pyfret.snapshot import Snapshot
 
 __all__ = ["Maximum", "Stress", "displacement", "envelope", "stress", "write_volume"]
 
 
-def _depths(body: Body, z: ArrayLike) -> tuple[list[float], list[int]]:
+def _depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float], list[int]]:
+    """Depths with their layers: those given, or those that the layers ask for."""
+    if z is None:
+        return _core.chosen_depths(body, a=length, deepest=2.0 * length)
     return _core.depths(body, np.atleast_1d(np.asarray(z, dtype=float)).tolist())
+
+
+def loaded_length(grid: Grid, *loads: ArrayLike | None) -> float:
+    """Half the longer side of the box around the cells that are loaded [m], or of the grid."""
+    given = [np.asarray(load, dtype=float) != 0.0 for load in loads if load is not None]
+    if not any(load.any() for load in given):
+        return grid.nx * grid.dx / 2
+    loaded = np.logical_or.reduce(given)
+    along_x, along_y = (np.ptp(np.flatnonzero(loaded.any(axis=axis))) + 1 for axis in (1, 0))
+    sides = (along_x * grid.dx, 0.0 if grid.plane_strain else along_y * grid.dy)
+    return float(max(sides)) / 2
+
+
+def interfaces(body: Body) -> list[float]:
+    """Depths of the interfaces of a body [m], from the surface down."""
+    return [float(depth) for depth in np.cumsum([c.thickness for c in body.coatings])]
 
 
 def _coords(
@@ -71,7 +90,7 @@ def _subsurface(
 def stress(
     body: Body,
     grid: Grid,
-    z: ArrayLike,
+    z: ArrayLike | None = None,
     *,
     p: ArrayLike | None = None,
     q_x: ArrayLike | None = None,
@@ -82,6 +101,7 @@ def stress(
     sigma_B: float = 0.0,
     rim: bool = False,
     stick: ArrayLike | None = None,
+    length: float | None = None,
 ) -> Stress:
     """Stress in a body under tractions on its surface.
 
@@ -91,13 +111,15 @@ def stress(
         The body; its shape does not matter.
     grid : Grid
         Cells on which the tractions are constant.
-    z : float or array
-        Depths [m].
+    z : float or array, optional
+        Depths [m] (default: those that the layers ask for, down to twice `length`, both sides of
+        every interface among them).
     p, q_x, q_y : array of shape (nx, ny), optional
         Pressure, and shear tractions on body 2 [Pa] (default: none).
     x, y : float, optional
         With `y`, the section along x at that y; with `x`, that along y; with both, the line
-        below a point; with neither, the whole plane at every depth.
+        below a point; with neither, the whole plane at every depth given, or where none is, the
+        section at y = 0.
     body_number : 1 or 2
         Whether `body` is the upper one, on which the shear acts reversed, or the lower one.
     sigma_B : float
@@ -108,6 +130,9 @@ def stress(
         and vanish at the rim like a root.
     stick : array of shape (nx, ny), optional
         With `rim`, the cells that stick (default: those at the rim slip).
+    length : float, optional
+        Radius of the contact [m], for the choice of depths (default: half the longer side of the
+        box around the cells that are loaded).
 
     Returns
     -------
@@ -116,13 +141,23 @@ def stress(
     """
     loads = (p, q_x, q_y)
     below = _subsurface(body, grid, loads, body_number, sigma_B, rim=rim, stick=stick)
-    return Stress(_sampled(below, body, grid, z, (x, y), displacement=False))
+    at = _line(z, x, y)
+    length = loaded_length(grid, *loads) if length is None else length
+    sampled = _sampled(below, body, grid, _depths(body, z, length), at, displacement=False)
+    return Stress(sampled.assign_attrs(interfaces=interfaces(body), length=length))
+
+
+def _line(
+    z: ArrayLike | None, x: float | None, y: float | None
+) -> tuple[float | None, float | None]:
+    """The line or point asked for; without a word, where no depths are given, y = 0."""
+    return (x, 0.0) if z is None and x is None and y is None else (x, y)
 
 
 def displacement(
     body: Body,
     grid: Grid,
-    z: ArrayLike,
+    z: ArrayLike | None = None,
     *,
     p: ArrayLike | None = None,
     q_x: ArrayLike | None = None,
@@ -130,26 +165,29 @@ def displacement(
     x: float | None = None,
     y: float | None = None,
     body_number: int = 2,
+    length: float | None = None,
 ) -> xr.Dataset:
     """Displacements u_x, u_y, u_z in a body relative to infinity [m], as in :func:`stress`.
 
     They are those that the tractions cause; what a bulk stress stretches comes on top.
     """
     below = _subsurface(body, grid, (p, q_x, q_y), body_number)
-    return _sampled(below, body, grid, z, (x, y), displacement=True)
+    length = loaded_length(grid, p, q_x, q_y) if length is None else length
+    depths = _depths(body, z, length)
+    return _sampled(below, body, grid, depths, _line(z, x, y), displacement=True)
 
 
 def _sampled(
     below: _core.Subsurface,
     body: Body,
     grid: Grid,
-    z: ArrayLike,
+    depths_and_layers: tuple[list[float], list[int]],
     at: tuple[float | None, float | None],
     *,
     displacement: bool,
 ) -> xr.Dataset:
     """Stress or displacement on planes, below a line or below a point."""
-    depths, layers = _depths(body, z)
+    depths, layers = depths_and_layers
     pairs = list(zip(depths, layers, strict=True))
     x, y = at
     if x is not None and y is not None:
@@ -173,7 +211,7 @@ def write_volume(
     body: Body,
     grid: Grid,
     out: str | os.PathLike[str],
-    z: ArrayLike,
+    z: ArrayLike | None = None,
     *,
     p: ArrayLike | None = None,
     q_x: ArrayLike | None = None,
@@ -199,7 +237,7 @@ def write_volume(
     title : str
         What the Zarr group calls itself.
     """
-    depths, layers = _depths(body, z)
+    depths, layers = _depths(body, z, loaded_length(grid, p, q_x, q_y))
     once = [n for n, depth in enumerate(depths) if n == 0 or depth != depths[n - 1]]
     loads = (p, q_x, q_y)
     below = _subsurface(body, grid, loads, body_number, sigma_B, rim=rim, stick=stick)
@@ -210,7 +248,7 @@ def write_volume(
 def envelope(
     scene: Scene,
     increments: Iterable[Snapshot],
-    z: ArrayLike,
+    z: ArrayLike | None = None,
     *,
     x: float | None = None,
     y: float | None = None,
@@ -249,7 +287,12 @@ def envelope(
     if x is not None and y is not None:
         raise ValueError("give x or y for a section, or neither for whole planes")
     body = scene.body1 if body_number == 1 else scene.body2
-    depths, layers = _depths(body, z)
+    hertz, grid = scene.hertz, scene.grid
+    # Without a yardstick, what a grid of the usual 2.4 radii has room for.
+    side = grid.nx * grid.dx if grid.plane_strain else min(grid.nx * grid.dx, grid.ny * grid.dy)
+    length = side / 2.4 if hertz is None else hertz.a
+    x, y = _line(z, x, y)
+    depths, layers = _depths(body, z, length)
     stream = _core.Envelope(
         body,
         scene.grid,
@@ -287,6 +330,9 @@ def envelope(
             result[f"{name}_{key}"] = (("cycle", *dims), values, attrs)
         if len(along) == 1:
             result = result.merge(_largest(name, kept["largest"], along[0]))
+    result.attrs |= {"length": length, "interfaces": interfaces(body)}
+    if hertz is not None:
+        result.attrs |= {"a_H": hertz.a, "p_H": hertz.p0}
     if stream.cycles:
         first, last = np.array(stream.cycles).T
         result = result.assign_coords(first_branch=("cycle", first), last_branch=("cycle", last))

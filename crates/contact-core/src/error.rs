@@ -51,6 +51,23 @@ pub enum Error {
         /// Recommended length \[m\].
         needed: f64,
     },
+    /// The contact is certain to leave the grid, before anything is solved.
+    #[error(
+        "the contact does not fit on the grid: under W = {W} N its radius is {a:.4e} m at least; the grid \
+         is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide"
+    )]
+    GridTooSmall {
+        /// Largest normal force \[N\].
+        W: f64,
+        /// Smallest radius that the contact can have \[m\].
+        a: f64,
+        /// Length of the grid along x \[m\].
+        extent_x: f64,
+        /// Length of the grid along y \[m\].
+        extent_y: f64,
+        /// Recommended length \[m\].
+        needed: f64,
+    },
     /// The tangential forces and the torsional moment are more than friction can carry.
     #[error(
         "increment {increment}: the tangential loads are {used:.6} times what friction can carry; \

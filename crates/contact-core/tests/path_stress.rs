@@ -215,7 +215,7 @@ fn planes_stream_as_lines_do_and_the_largest_values_are_known() {
     let (_, kept) = on_line.finish().unwrap();
     let (lines, tops): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
     let scale = 1e-9 * scene.hertz().unwrap().p0;
-    let found = Largest::over_depths(&tops);
+    let found = Largest::over_depths(&measures, &tops);
     assert_eq!(found.len(), expected.len());
     for ((moment, of), expected) in found.iter().zip(&expected) {
         let found = of[0].unwrap();
@@ -269,7 +269,7 @@ fn volumes_are_stored_and_drawn() {
         let image = ImageData::create(&file, &grid, side, &depths, &probes).unwrap();
         let group =
             StressStore::create(&store, "test", &grid, side, &depths, None, &probes).unwrap();
-        let largest = write_volume(&slices, &depths, &probes, &[&image, &group]).unwrap();
+        let largest = write_volume(&slices, &depths, &[], &probes, &[&image, &group]).unwrap();
         image.finish().unwrap();
         group.finish().unwrap();
         assert!(ImageData::create(&file, &grid, side, &depths, &probes).is_err());

@@ -1,24 +1,62 @@
 //! `fret check`.
 
+use clap::Args;
 use contact_core::Scene;
 use contact_core::memory::available_memory;
 use contact_core::plan::Plan;
+use contact_core::scene::{Body, Elastic};
+use serde_json::{Map, Value, json};
 
-use crate::{Failure, SceneOptions, print};
+use crate::{Failure, SceneOptions, print, say_doubts};
+
+/// Options of `fret check`.
+#[derive(Args)]
+pub(crate) struct Options {
+    #[command(flatten)]
+    scene: SceneOptions,
+    /// Print one JSON object, for programs
+    #[arg(long)]
+    json: bool,
+}
 
 /// Says what the scene means and what its solution needs.
-pub(crate) fn check(options: &SceneOptions) -> Result<(), Failure> {
-    let scene = options.read().map_err(Failure::BadInput)?;
+pub(crate) fn check(options: &Options) -> Result<(), Failure> {
+    let scene = options.scene.read().map_err(Failure::BadInput)?;
+    scene.check_fit().map_err(Failure::BadInput)?;
     let plan = Plan::new(&scene);
-    print(&description(&scene, &plan));
+    let lines = description(&scene, &plan);
+    if options.json {
+        let mut object = Map::new();
+        object.insert("title".into(), json!(scene.title));
+        object.insert("a_H".into(), json!(scene.hertz().map(|h| h.a)));
+        object.insert("p_H".into(), json!(scene.hertz().map(|h| h.p0)));
+        for (subject, text) in &lines {
+            let entry = object.entry(*subject).or_insert_with(|| json!([]));
+            if let Value::Array(list) = entry {
+                list.push(json!(text));
+            }
+        }
+        object.insert("doubts".into(), json!(scene.doubts()));
+        print(&format!("{:#}", Value::Object(object)));
+    } else {
+        let lines = lines
+            .iter()
+            .map(|(subject, text)| format!("{subject:<14}{text}"));
+        let all: Vec<String> = std::iter::once(scene.title.clone()).chain(lines).collect();
+        print(&all.join("\n"));
+    }
+    say_doubts(&scene);
     plan.check_memory(&scene).map_err(Failure::BadInput)
 }
 
-fn description(scene: &Scene, plan: &Plan) -> String {
+/// Subjects and what is to be said of them.
+fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
     let grid = &scene.grid;
     let (length_x, length_y) = grid.extent();
-    let mut lines = vec![scene.title.clone()];
-    let mut line = |subject: &str, text: String| lines.push(format!("{subject:<14}{text}"));
+    let mut lines = Vec::new();
+    let mut line = |subject: &'static str, text: String| lines.push((subject, text));
+    line("body 1", body(&scene.body1, grid.dx.min(grid.dy)));
+    line("body 2", body(&scene.body2, grid.dx.min(grid.dy)));
     match scene.hertz() {
         None => line(
             "a_H, p_H",
@@ -31,6 +69,10 @@ fn description(scene: &Scene, plan: &Plan) -> String {
             line(
                 "cells per a_H",
                 format!("{:.2} along x, {:.2} along y", cells.0, cells.1),
+            );
+            line(
+                "contact",
+                format!("about {:.0} cells across, uncoated", 2.0 * cells.0),
             );
         }
     }
@@ -50,6 +92,7 @@ fn description(scene: &Scene, plan: &Plan) -> String {
             scene.path.W_max()
         ),
     );
+    line("work", work(scene));
     let (needed, available) = (plan.memory(scene), available_memory());
     line(
         "memory",
@@ -58,7 +101,27 @@ fn description(scene: &Scene, plan: &Plan) -> String {
     for rule in &plan.lines {
         line("plan", rule.to_string());
     }
-    lines.join("\n")
+    lines
+}
+
+/// The materials of a body from the surface down, its layers in metres and in cells.
+fn body(body: &Body, cell: f64) -> String {
+    let material = |m: &Elastic| {
+        if m.is_rigid() {
+            "rigid".to_owned()
+        } else {
+            format!("E = {:.4} GPa, nu = {}", m.E / 1e9, m.nu)
+        }
+    };
+    let layers = body.coatings.iter().map(|c| {
+        format!(
+            "{} ({:.3} um = {:.2} cells) on ",
+            material(&c.material),
+            1e6 * c.thickness,
+            c.thickness / cell
+        )
+    });
+    layers.collect::<String>() + &material(&body.substrate)
 }
 
 /// The increments of the path, or what they are chosen for.
@@ -80,4 +143,26 @@ fn increments(scene: &Scene) -> String {
     } else {
         format!("{given} increments")
     }
+}
+
+/// Increments of a branch where they are chosen, as a rule.
+const CHOSEN: usize = 20;
+/// Convolutions of an increment, as a rule.
+const CONVOLUTIONS: (usize, usize) = (5, 12);
+
+/// What a solution takes, as a rule.
+fn work(scene: &Scene) -> String {
+    let branches = &scene.path.branches;
+    let count: usize = branches
+        .iter()
+        .map(|b| b.increments.unwrap_or(CHOSEN))
+        .sum();
+    let about = if scene.path.is_open() { "some " } else { "" };
+    let (few, many) = CONVOLUTIONS;
+    let (nx, ny) = (scene.grid.nx, scene.grid.ny);
+    format!(
+        "{about}{count} increments of {few} to {many} convolutions each, {} to {} of {nx} x {ny} cells",
+        count * few,
+        count * many
+    )
 }

@@ -12,7 +12,7 @@ use contact_core::output::{StoreWriter, write_error_bars};
 use contact_core::{Error, Scene};
 
 use crate::progress::Progress;
-use crate::{Failure, SceneOptions, print, say, summary};
+use crate::{Failure, SceneOptions, json, print, say, say_doubts, summary};
 
 /// Options of `fret run`.
 #[derive(Args)]
@@ -43,6 +43,12 @@ pub(crate) struct Manner {
     /// Number of threads (default: one per core); the result does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+    /// Print the summary as one JSON object, for programs
+    #[arg(long, conflicts_with = "quiet")]
+    json: bool,
+    /// A summary with the work of the solvers, wider than 100 columns
+    #[arg(long, conflicts_with_all = ["quiet", "json"])]
+    wide: bool,
     /// Show neither progress nor summary
     #[arg(short, long)]
     quiet: bool,
@@ -56,6 +62,8 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// Runs through the load path.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     let scene = options.scene.read().map_err(Failure::BadInput)?;
+    scene.check_fit().map_err(Failure::BadInput)?;
+    say_doubts(&scene);
     if options.error {
         coarsest(&scene).map_err(Failure::BadInput)?;
     }
@@ -73,7 +81,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     if options.error {
         let bars = error_bars(&scene, &increments, &tractions, &stop).map_err(ended)?;
         write_error_bars(&options.out, &bars).map_err(ended)?;
-        if !manner.quiet {
+        if !manner.quiet && !manner.json {
             print(&summary::error_table(&scene, &increments, &bars));
         }
     }
@@ -121,7 +129,12 @@ impl Manner {
         } = watcher;
         progress.end();
         if !self.quiet && !increments.is_empty() {
-            print(&summary::table(scene, &increments));
+            let text = if self.json {
+                format!("{:#}", json::run(scene, &increments))
+            } else {
+                summary::table(scene, &increments, self.wide)
+            };
+            print(&text);
             say(&summary::time(begun.elapsed(), writer.checkpoints()));
         }
         outcome.map(|_| stop).map_err(|error| {
@@ -141,9 +154,10 @@ impl Manner {
 /// What an error means for the exit code.
 fn ended(error: Error) -> Failure {
     match error {
-        Error::InvalidScene { .. } | Error::OffGrid { .. } | Error::TooLarge { .. } => {
-            Failure::BadInput(error)
-        }
+        Error::InvalidScene { .. }
+        | Error::OffGrid { .. }
+        | Error::GridTooSmall { .. }
+        | Error::TooLarge { .. } => Failure::BadInput(error),
         error => Failure::EndedEarly(error),
     }
 }

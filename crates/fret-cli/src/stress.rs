@@ -7,11 +7,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Args;
 use contact_core::Error;
 use contact_core::convolution::Tractions;
-use contact_core::fields::{Depth, Line, Maximum, Probe, Section, Side, Slices, States, depths};
+use contact_core::fields::{
+    Depth, Line, Maximum, Probe, Section, Side, Slices, States, chosen_depths, depths,
+};
 use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volume};
-use contact_core::scene::Scene;
-use ndarray::Array2;
+use contact_core::scene::{Body, Scene};
+use ndarray::Axis;
 
+use crate::loads::Loads;
 use crate::{Failure, print, say};
 
 /// Options of `fret stress`.
@@ -19,15 +22,15 @@ use crate::{Failure, print, say};
 pub(crate) struct Options {
     /// Result store of `fret run`
     store: PathBuf,
-    /// File to write: image data (.vti) of a volume, or a Zarr folder
+    /// File to write: image data (.vti) of a volume, or a Zarr folder (.zarr or no ending)
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Increment whose fields were kept; by default the last
     #[arg(long, value_name = "N")]
-    increment: Option<usize>,
+    pub(crate) increment: Option<usize>,
     /// Body below (2) or above (1) the contact plane
     #[arg(long, default_value = "2", value_parser = clap::value_parser!(u8).range(1..=2))]
-    body: u8,
+    pub(crate) body: u8,
     /// Section along x at this y, in metres
     #[arg(long, value_name = "Y", allow_hyphen_values = true, conflicts_with_all = ["along_y", "volume"])]
     along_x: Option<f64>,
@@ -42,18 +45,24 @@ pub(crate) struct Options {
     /// The whole volume under the grid, plane by plane (default: the section along x at y = 0)
     #[arg(long)]
     volume: bool,
+    /// Print one JSON object per measure, for programs
+    #[arg(long)]
+    json: bool,
     /// Leave out the bulk stress of the body
     #[arg(long)]
-    no_bulk: bool,
+    pub(crate) no_bulk: bool,
     /// Tractions constant on each cell up to the rim of the contact and the stick zone
     #[arg(long)]
     no_rim: bool,
-    /// Largest depth in metres; by default 2 a_H
+    /// Largest depth in metres; by default 2 a_H, or where there is no Hertz contact the width of the
+    /// contact
     #[arg(long, value_name = "Z")]
     depth: Option<f64>,
-    /// Number of depths, evenly from the surface
-    #[arg(long, value_name = "N", default_value = "256", value_parser = clap::value_parser!(u16).range(1..))]
-    depths: u16,
+    /// Number of depths to write, evenly from the surface; by default those that the layers ask for,
+    /// both sides of every interface among them, and 256 in image data. Largest values are looked for at
+    /// these and at those that the layers ask for
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    depths: Option<u16>,
     /// What to give, such as von_mises,s_xx,tresca,s_1,hydrostatic,u_z
     #[arg(
         long,
@@ -64,22 +73,16 @@ pub(crate) struct Options {
     of: Vec<String>,
 }
 
-/// The tractions of one increment.
-struct Loads {
-    increment: usize,
-    q_x: Array2<f64>,
-    q_y: Array2<f64>,
-    p: Array2<f64>,
-    stick: Array2<bool>,
-    /// Bulk stress of the body in Pa.
-    sigma_B: f64,
-}
-
 /// What is to be computed.
 struct Task {
     scene: Scene,
     side: Side,
+    /// What is written.
     depths: Vec<Depth>,
+    /// What the layers ask for; the largest values are looked for here as well.
+    chosen: Vec<Depth>,
+    /// Whether lines are for programs.
+    json: bool,
     probes: Vec<Probe>,
     loads: Loads,
     /// Raised by Ctrl-C.
@@ -88,6 +91,7 @@ struct Task {
 
 /// Computes the stress below the contact of a result.
 pub(crate) fn stress(options: &Options) -> Result<(), Failure> {
+    check_ending(options).map_err(Failure::BadInput)?;
     let task = Task::new(options, stop_on_interrupt()).map_err(Failure::BadInput)?;
     let line = match (options.along_x, options.along_y, options.volume) {
         (_, _, true) => None,
@@ -104,6 +108,23 @@ pub(crate) fn stress(options: &Options) -> Result<(), Failure> {
     })?;
     print(&lines.join("\n"));
     Ok(())
+}
+
+/// Refuses a file that is neither image data nor a Zarr folder, such as a figure.
+fn check_ending(options: &Options) -> Result<(), Error> {
+    let Some(out) = &options.out else {
+        return Ok(());
+    };
+    let ending = out.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match ending.as_deref() {
+        None | Some("zarr" | "vti") => Ok(()),
+        Some(_) => Err(Error::invalid(
+            "--out",
+            out.display(),
+            "a .vti file of a --volume or a Zarr folder (.zarr or no ending); figures are drawn by \
+             pyfret.plot.stress_map in Python",
+        )),
+    }
 }
 
 /// A flag that the first Ctrl-C raises; the second ends the process at once, and may leave what is
@@ -137,34 +158,40 @@ impl Task {
             &scene.body2
         };
         let probes = options.of.iter().map(|name| Probe::named(name, "--of"));
-        let deepest = match (options.depth, scene.hertz()) {
-            (Some(z), _) => z,
-            (None, Some(hertz)) => 2.0 * hertz.a,
-            (None, None) => {
-                let allowed = "given for a scene without a Hertz contact";
-                return Err(Error::invalid("--depth", "nothing", allowed));
-            }
+        let probes = probes.collect::<Result<Vec<_>, _>>()?;
+        check_interfaces(body, &probes)?;
+        let loads = Loads::of(&store, options)?;
+        let length = scene.length(&loads.p);
+        let deepest = options.depth.unwrap_or(2.0 * length);
+        let chosen = chosen_depths(body, length, deepest, 1.0)?;
+        let evenly = |n: u16| {
+            let steps = f64::from(n.max(2) - 1);
+            let z = (0..n).map(|i| deepest * f64::from(i) / steps);
+            depths(body, &z.collect::<Vec<_>>())
         };
-        let steps = f64::from(options.depths.max(2) - 1);
-        let z: Vec<f64> = (0..options.depths)
-            .map(|i| deepest * f64::from(i) / steps)
-            .collect();
-        let mut depths = depths(body, &z)?;
+        let mut written = match options.depths {
+            Some(n) => evenly(n)?,
+            None if is_image(options) => evenly(256)?,
+            None => chosen.clone(),
+        };
         if options.volume {
             // A volume has one value per place: that of the upper layer.
-            depths.dedup_by_key(|d| d.z.to_bits());
+            written.dedup_by_key(|d| d.z.to_bits());
         }
+        say_thin(&scene, body);
         Ok(Self {
-            probes: probes.collect::<Result<_, _>>()?,
-            loads: Loads::of(&store, options)?,
+            probes,
+            loads,
             scene,
             side,
-            depths,
+            depths: written,
+            chosen,
+            json: options.json,
             stop,
         })
     }
 
-    fn body(&self) -> &contact_core::scene::Body {
+    fn body(&self) -> &Body {
         match self.side {
             Side::Body1 => &self.scene.body1,
             Side::Body2 => &self.scene.body2,
@@ -217,15 +244,20 @@ impl Task {
             Line::AlongX(_) => ("x", (0..grid.nx).map(|i| grid.x(i)).collect()),
             Line::AlongY(_) => ("y", (0..grid.ny).map(|j| grid.y(j)).collect()),
         };
-        let found = section.probe(&self.depths, &along, &self.probes)?;
+        let mut all: Vec<Depth> = self.chosen.clone();
+        all.extend(self.depths.iter().filter(|d| !self.chosen.contains(d)));
+        all.sort_by(|a, b| a.z.total_cmp(&b.z).then(a.layer.cmp(&b.layer)));
+        let rows: Vec<usize> = (0..all.len())
+            .filter(|n| self.depths.contains(&all[*n]))
+            .collect();
+        let found = section.probe(&all, &along, &self.probes)?;
         let mut lines = Vec::new();
         for (n, (probe, (values, largest))) in self.probes.iter().zip(&found).enumerate() {
             if let Some(store) = &store {
-                store.put_section(n, values)?;
+                store.put_section(n, &values.select(Axis(0), &rows))?;
             }
             if let Some(m) = largest {
-                let place = format!("{axis} = {}", self.length(m.place[0]));
-                lines.push(self.line(probe, m.value, &place, m.depth));
+                lines.push(self.line(probe, m, &[(axis, m.place[0])]));
             }
         }
         store.map_or(Ok(()), StressStore::finish)?;
@@ -248,25 +280,56 @@ impl Task {
         let (tractions, stick) = ([self.loads.tractions()], self.loads.stick());
         let states = self.states(options, &tractions, &stick);
         let slices = Slices::new(self.body(), self.side, grid, states)?;
-        let largest = write_volume(&slices, &self.depths, &self.probes, &sinks)?;
+        let largest = write_volume(&slices, &self.depths, &self.chosen, &self.probes, &sinks)?;
         image.map_or(Ok(()), ImageData::finish)?;
         store.map_or(Ok(()), StressStore::finish)?;
         let line = |(probe, m): (&Probe, Option<Maximum<2>>)| {
             let m = m?;
-            let [x, y] = m.place.map(|v| self.length(v));
-            Some(self.line(probe, m.value, &format!("x = {x}, y = {y}"), m.depth))
+            let [x, y] = m.place;
+            Some(self.line(probe, &m, &[("x", x), ("y", y)]))
         };
         Ok(self.probes.iter().zip(largest).filter_map(line).collect())
     }
 
-    /// The largest value of a probe and where it is.
-    fn line(&self, probe: &Probe, value: f64, place: &str, depth: Depth) -> String {
-        let value = match (probe, self.scene.hertz()) {
-            (Probe::Stress(_), Some(hertz)) => format!("{:.5} p_H", value / hertz.p0),
-            _ => format!("{value:.5e} {}", probe.unit()),
-        };
+    /// The largest value of a probe with what the depths leave of an error, and where it is.
+    fn line<const D: usize>(
+        &self,
+        probe: &Probe,
+        m: &Maximum<D>,
+        places: &[(&str, f64)],
+    ) -> String {
+        let Maximum {
+            value,
+            depth,
+            error,
+            ..
+        } = *m;
+        if self.json {
+            let mut of = serde_json::json!({
+                "increment": self.loads.increment, "name": probe.name(), "unit": probe.unit(),
+                "value": value, "error": error, "z": depth.z, "layer": depth.layer,
+            });
+            for (axis, place) in places {
+                of[*axis] = (*place).into();
+            }
+            return of.to_string();
+        }
+        let places: Vec<_> = places
+            .iter()
+            .map(|(axis, place)| format!("{axis} = {}", self.length(*place)))
+            .collect();
+        let place = places.join(", ");
+        let hertz = self
+            .scene
+            .hertz()
+            .filter(|_| matches!(probe, Probe::Stress(_)));
+        let value = hertz.map_or_else(
+            || format!("{value:.5e} {} (+- {error:.1e})", probe.unit()),
+            |h| format!("{:.5} p_H (+- {:.1e})", value / h.p0, error / h.p0),
+        );
         let z = self.length(depth.z);
-        let layer = match (self.body().coatings.len(), depth.layer) {
+        let layers = self.body().coatings.len();
+        let layer = match (layers, depth.layer) {
             (0, _) => String::new(),
             (layers, n) if n == layers => ", in the substrate".into(),
             (_, n) => format!(", in coating {n}"),
@@ -284,63 +347,32 @@ impl Task {
     }
 }
 
-impl Loads {
-    /// Of the increment asked for, or of the last one kept.
-    fn of(store: &Store, options: &Options) -> Result<Self, Error> {
-        let increment = options.increment;
-        let kept: Vec<usize> = store
-            .column("saved_increment")?
-            .into_iter()
-            .map(|v| v as usize)
-            .collect();
-        let place = match increment {
-            None => kept.len().checked_sub(1),
-            Some(n) => kept.iter().position(|k| *k == n),
-        };
-        let Some(place) = place else {
-            let found = increment.map_or("nothing".into(), |n| n.to_string());
-            return Err(Error::invalid(
-                "--increment",
-                found,
-                format!("one whose fields were kept: {kept:?}"),
-            ));
-        };
-        let sigma_B = if options.no_bulk {
-            0.0
-        } else {
-            let name = if options.body == 1 {
-                "sigma_B1"
-            } else {
-                "sigma_B"
-            };
-            // Rows are increments from 1.
-            let row = kept[place].wrapping_sub(1);
-            let stress = store.column(name)?.get(row).copied();
-            stress.ok_or_else(|| {
-                let allowed = "one of the increments of the store";
-                Error::invalid("saved_increment", kept[place], allowed)
-            })?
-        };
-        Ok(Self {
-            increment: kept[place],
-            sigma_B,
-            q_x: store.field("q_x", place)?,
-            q_y: store.field("q_y", place)?,
-            p: store.field("p", place)?,
-            stick: store.field("stick", place)?.mapv(|v| v != 0.0),
-        })
-    }
-
-    fn tractions(&self) -> Tractions<'_> {
-        Tractions {
-            q_x: self.q_x.as_slice(),
-            q_y: self.q_y.as_slice(),
-            p: self.p.as_slice(),
+/// Refuses a measure of interfaces in a body that has none.
+fn check_interfaces(body: &Body, probes: &[Probe]) -> Result<(), Error> {
+    let of_interfaces = |p: &&Probe| matches!(p, Probe::Stress(m) if m.of_interfaces);
+    match probes.iter().find(of_interfaces) {
+        Some(probe) if body.coatings.is_empty() => {
+            let allowed = "another measure, or --body: this body has no coating and no interface";
+            Err(Error::invalid("--of", probe.name(), allowed))
         }
+        _ => Ok(()),
     }
+}
 
-    fn stick(&self) -> [&[bool]; 1] {
-        [self.stick.as_slice().unwrap_or_default()]
+/// Says if the first interface is nearer to the surface than a cell is long: the tractions are known per
+/// cell.
+fn say_thin(scene: &Scene, body: &Body) {
+    let cell = if scene.grid.plane_strain {
+        scene.grid.dx
+    } else {
+        scene.grid.dx.min(scene.grid.dy)
+    };
+    if let Some(first) = body.interfaces().first().filter(|first| **first < cell) {
+        say(&format!(
+            "fret: warning: the first interface is {first:.3e} m below the surface, {:.2} cells: the \
+             tractions are known per cell; a finer grid tells whether that matters",
+            first / cell
+        ));
     }
 }
 

@@ -5,11 +5,45 @@ use std::time::Duration;
 use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
 use contact_core::estimate::{Bar, ErrorBars};
-use contact_core::march::{BranchSummary, Increment, summarise};
+use contact_core::fields::{Cycle, Direction};
+use contact_core::march::{BranchSummary, Increment, Status, summarise};
 use contact_core::scene::{Branch, RigidMotion};
+
+use crate::json;
 
 /// Micrometres, or microjoules, per SI unit.
 const MICRO: f64 = 1e6;
+
+/// Digits of a number for people.
+const DIGITS: i32 = 4;
+
+/// A number with a few digits, without zeros that say nothing.
+pub(crate) fn short(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return x.to_string();
+    }
+    let size = x.abs().log10().floor() as i32;
+    if !(-4..=6).contains(&size) {
+        return format!("{x:.3e}");
+    }
+    let decimals = (DIGITS - 1 - size).max(0) as usize;
+    let text = format!("{x:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// The state of the interface in words.
+pub(crate) fn state(status: Status) -> &'static str {
+    match status {
+        Status::NoContact => "no contact",
+        Status::FullStick => "full stick",
+        Status::PartialSlip => "partial slip",
+        Status::GrossSlip => "gross slip",
+    }
+}
 
 /// Unit of length and pressure of a column: Hertz's where there is a Hertz contact.
 struct Measures {
@@ -41,16 +75,17 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
         match (loads.forces()[of.index()], held[of.index()]) {
             // What keeps the bodies from turning says little.
             (0.0, _) | (_, Some(0.0)) => text,
-            (load, _) => text + &format!(", {} = {load} {}", of.load(), units(*of).0),
+            (load, _) => text + &format!(", {} = {} {}", of.load(), short(load), units(*of).0),
         }
     });
     format!(
-        "branch {}/{}: t = {t}, W = {} N, T_x = {} N{others}: contact radius {:.4} {}, \
+        "branch {}/{}: t = {}, W = {} N, T_x = {} N{others}: contact radius {:.4} {}, \
          stick ratio {:.4}, p_max {:.4} {}",
         branch.branch + 1,
         scene.path.branches.len(),
-        loads.W,
-        loads.T_x,
+        short(t),
+        short(loads.W),
+        short(loads.T_x),
         branch.contact_radius / radius.1,
         radius.0,
         branch.stick_ratio,
@@ -76,73 +111,122 @@ fn units(of: RigidMotion) -> (&'static str, &'static str) {
     }
 }
 
-/// A column of the table: title, and its cell for a branch that ended at path time t.
-type Column = (String, Box<dyn Fn(&BranchSummary, f64) -> String>);
+/// What a row of the table is made of: a branch, its last increment.
+type Row<'a> = (&'a BranchSummary, &'a Increment);
+
+/// A column of the table: title, and its cell for a branch.
+type Column = (String, Box<dyn Fn(&Row<'_>) -> String>);
 
 fn column(
     title: impl Into<String>,
-    cell: impl Fn(&BranchSummary, f64) -> String + 'static,
+    cell: impl Fn(&BranchSummary, &Increment) -> String + 'static,
 ) -> Column {
-    (title.into(), Box::new(cell))
+    (
+        title.into(),
+        Box::new(move |(branch, last)| cell(branch, last)),
+    )
 }
 
-fn columns(scene: &Scene, increments: &[Increment]) -> Vec<Column> {
+fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
     let Measures { radius, pressure } = Measures::of(scene);
-    let micro = |x: f64| format!("{:.4}", x * MICRO);
+    let micro = |x: f64| short(x * MICRO);
+    // In plane strain half the width of the strips that touch.
+    let width = if scene.grid.plane_strain {
+        ("half-\nwidth", Some(scene.grid.dy))
+    } else {
+        ("radius", None)
+    };
     let mut columns = vec![
-        column("branch", |b, _| (b.branch + 1).to_string()),
-        column("t", |_, t| t.to_string()),
-        column("W\n[N]", |b, _| format!("{:.1}", b.loads.W)),
-        column("T_x\n[N]", |b, _| format!("{:.1}", b.loads.T_x)),
-        column(format!("contact\nradius\n[{}]", radius.0), move |b, _| {
-            format!("{:.4}", b.contact_radius / radius.1)
-        }),
-        column("stick\nratio", |b, _| format!("{:.4}", b.stick_ratio)),
-        column(format!("p_max\n\n[{}]", pressure.0), move |b, _| {
-            format!("{:.4}", b.p_max / pressure.1)
-        }),
-        column("approach\ndelta_z\n[um]", move |b, _| {
-            micro(b.motion.delta_z)
-        }),
-        column("shift\ndelta_x\n[um]", move |b, _| micro(b.motion.delta_x)),
+        column("#", |b, _| (b.branch + 1).to_string()),
+        column("t", |_, last| short(last.point.t)),
+        column("W\n[N]", |b, _| short(b.loads.W)),
+        column("T_x\n[N]", |b, _| short(b.loads.T_x)),
     ];
-    for of in OTHERS {
-        let (k, (unit, motion_unit)) = (of.index(), units(of));
-        let drives = |b: &Branch| b.to.prescribed(of).value() != 0.0;
-        if !scene.path.branches.iter().any(drives) {
-            continue;
-        }
-        let title = format!("{}\n[{unit}]", of.load());
-        columns.insert(
-            4,
-            column(title, move |b, _| format!("{:.4}", b.loads.forces()[k])),
-        );
-        let title = format!("{}\n[{motion_unit}]", of.name());
+    for of in driven(scene) {
+        let title = format!("{}\n[{}]", of.load(), units(of).0);
+        let k = of.index();
+        columns.push(column(title, move |b, _| short(b.loads.forces()[k])));
+    }
+    columns.extend([
+        column(format!("{}\n[{}]", width.0, radius.0), move |b, last| {
+            let a = width
+                .1
+                .map_or(b.contact_radius, |dy| last.contact_area / (2.0 * dy));
+            short(a / radius.1)
+        }),
+        column("stick\nratio", |b, _| short(b.stick_ratio)),
+        column("state", |_, last| state(last.status).replace(' ', "\n")),
+        column(format!("p_max\n[{}]", pressure.0), move |b, _| {
+            short(b.p_max / pressure.1)
+        }),
+        column("delta_z\n[um]", move |b, _| micro(b.motion.delta_z)),
+        column("delta_x\n[um]", move |b, _| micro(b.motion.delta_x)),
+    ]);
+    for of in driven(scene) {
+        let title = format!("{}\n[{}]", of.name(), units(of).1);
+        let k = of.index();
         columns.push(column(title, move |b, _| micro(b.motion.motions()[k])));
     }
     columns.extend([
-        column("dissipated\n\n[uJ]", |b, _| {
-            format!("{:.3}", b.dissipated * MICRO)
-        }),
+        column("dissip.\n[uJ]", move |b, _| micro(b.dissipated)),
         column("incre-\nments", |b, _| b.increments.to_string()),
+    ]);
+    let errors: Vec<Option<f64>> = scene.path.branches.iter().map(|b| b.path_error).collect();
+    if errors.iter().any(Option::is_some) {
+        columns.push(column("error\nof q", move |b, _| {
+            let error = errors.get(b.branch).copied().flatten();
+            error.map_or_else(String::new, |error| format!("{:.2} %", 100.0 * error))
+        }));
+    }
+    if wide {
+        columns.extend(work_columns());
+    }
+    if increments.iter().any(|i| i.work.parts > 1) {
+        columns.push(column("pieces", |b, _| b.work.parts.to_string()));
+    }
+    columns
+}
+
+/// What the solvers have done.
+fn work_columns() -> [Column; 4] {
+    [
         column("convo-\nlutions", |b, _| {
             format!("{:.0}", b.work.convolutions)
         }),
         column("passes\np, q", |b, _| b.work.alternations.to_string()),
         column("CG\np", |b, _| b.work.normal_iterations.to_string()),
         column("CG\nq", |b, _| b.work.tangential_iterations.to_string()),
-    ]);
-    let errors: Vec<Option<f64>> = scene.path.branches.iter().map(|b| b.path_error).collect();
-    if errors.iter().any(Option::is_some) {
-        columns.push(column("path\nerror\nof q", move |b, _| {
-            let error = errors.get(b.branch).copied().flatten();
-            error.map_or_else(String::new, |error| format!("{:.2} %", 100.0 * error))
-        }));
-    }
-    if increments.iter().any(|i| i.work.parts > 1) {
-        columns.push(column("pieces", |b, _| b.work.parts.to_string()));
-    }
-    columns
+    ]
+}
+
+/// Those of [`OTHERS`] that the path drives.
+fn driven(scene: &Scene) -> impl Iterator<Item = RigidMotion> {
+    OTHERS.into_iter().filter(|&of| {
+        let drives = |b: &Branch| b.to.prescribed(of).value() != 0.0;
+        scene.path.branches.iter().any(drives)
+    })
+}
+
+/// A line for every cycle: what the interface did, its energy and its stiffness.
+fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
+    let cycles = json::cycles(scene, increments);
+    let line = |(n, (direction, c)): (usize, &(Direction, Cycle))| {
+        let stiffness = if *direction == Direction::Torsion {
+            "N m/rad"
+        } else {
+            "N/m"
+        };
+        format!(
+            "cycle {} ({}): {}, {} uJ dissipated, energy ratio {}, stiffness {:.3e} {stiffness}",
+            n + 1,
+            json::word(*direction),
+            state(c.status),
+            short(c.dissipated * MICRO),
+            short(c.energy_ratio()),
+            c.stiffness
+        )
+    };
+    cycles.iter().enumerate().map(line).collect()
 }
 
 /// How long a run took, and what of that went to its checkpoints.
@@ -220,9 +304,9 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
     format!("errors, and the parts of them that cells and increments leave\n{table}")
 }
 
-/// One row per branch that has begun.
-pub(crate) fn table(scene: &Scene, increments: &[Increment]) -> String {
-    let columns = columns(scene, increments);
+/// One row per branch that has begun, and one line per cycle.
+pub(crate) fn table(scene: &Scene, increments: &[Increment], wide: bool) -> String {
+    let columns = columns(scene, increments, wide);
     let mut table = Table::new();
     table
         .load_style(presets::ASCII_BORDERS_ONLY_CONDENSED)
@@ -230,11 +314,16 @@ pub(crate) fn table(scene: &Scene, increments: &[Increment]) -> String {
     let mut done = 0;
     for branch in summarise(increments) {
         done += branch.increments;
-        let t = increments[done - 1].point.t;
-        table.add_row(columns.iter().map(|(_, cell)| cell(&branch, t)));
+        let row = (&branch, &increments[done - 1]);
+        table.add_row(columns.iter().map(|(_, cell)| cell(&row)));
     }
     for column in table.column_iter_mut() {
         column.set_cell_alignment(CellAlignment::Right);
+        column.set_padding((0, 1));
     }
-    table.to_string()
+    let lines = cycle_lines(scene, increments);
+    std::iter::once(table.to_string())
+        .chain(lines)
+        .collect::<Vec<_>>()
+        .join("\n")
 }

@@ -1,17 +1,17 @@
 //! The table from errors of the core to Python exceptions.
 
 use contact_core::Error;
-use pyo3::PyErr;
 use pyo3::create_exception;
 use pyo3::exceptions::{
-    PyKeyboardInterrupt, PyMemoryError, PyOSError, PyRuntimeError, PyValueError,
+    PyKeyboardInterrupt, PyMemoryError, PyOSError, PyRuntimeError, PyTypeError, PyValueError,
 };
+use pyo3::prelude::*;
 
 create_exception!(
     pyfret,
     InvalidSceneError,
     PyValueError,
-    "A scene, or a scene file, has no meaning; the message names the key, the value and what is allowed."
+    "A scene, or a scene file, has no meaning; the message says where and what is allowed."
 );
 create_exception!(
     pyfret,
@@ -51,7 +51,7 @@ pub(crate) fn to_python(error: Error) -> PyErr {
         Error::InvalidScene { .. } | Error::SceneFile { .. } | Error::Setting { .. } => {
             InvalidSceneError::new_err(text)
         }
-        Error::OffGrid { .. } => OffGridError::new_err(text),
+        Error::OffGrid { .. } | Error::GridTooSmall { .. } => OffGridError::new_err(text),
         Error::BeyondFriction { .. } => SlidingError::new_err(text),
         Error::NotConverged { .. } => NoConvergenceError::new_err(text),
         Error::KernelInaccurate { .. } | Error::StressInaccurate { .. } => {
@@ -63,3 +63,33 @@ pub(crate) fn to_python(error: Error) -> PyErr {
         _ => PyRuntimeError::new_err(text),
     }
 }
+
+/// Refuses an argument of another type: what was found, and what is wanted, with an example. The
+/// name of the argument is put before it by PyO3.
+pub(crate) fn must_be(value: &Bound<'_, PyAny>, wanted: &str) -> PyErr {
+    let shown = value
+        .repr()
+        .map_or_else(|_| "?".to_owned(), |r| r.to_string());
+    let shown: String = match shown.char_indices().nth(60) {
+        None => shown,
+        Some((end, _)) => format!("{}...", &shown[..end]),
+    };
+    PyTypeError::new_err(format!("{shown}: must be {wanted}"))
+}
+
+/// Takes a class as an argument; another type is refused with an example.
+macro_rules! takes {
+    ($class:ident, $wanted:literal) => {
+        impl<'py> pyo3::FromPyObject<'_, 'py> for $class {
+            type Error = pyo3::PyErr;
+
+            fn extract(value: pyo3::Borrowed<'_, 'py, pyo3::PyAny>) -> pyo3::PyResult<Self> {
+                match value.cast::<Self>() {
+                    Ok(found) => Ok(found.get().clone()),
+                    Err(_) => Err($crate::error::must_be(&value, $wanted)),
+                }
+            }
+        }
+    };
+}
+pub(crate) use takes;

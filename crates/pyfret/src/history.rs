@@ -18,8 +18,7 @@ use crate::scene::{Body, Grid, LoadPath};
 use crate::stress::measures;
 use crate::subsurface::{Field, Subsurface, line, side};
 
-/// Stress below a line or on planes over a load path; give it every increment, then take what it
-/// kept.
+/// Extremes of stress below a line; use :func:`pyfret.subsurface.envelope`.
 #[pyclass(module = "pyfret")]
 pub(crate) struct Envelope {
     stream: Option<Stream<(core::Envelope, core::Largest)>>,
@@ -84,11 +83,13 @@ impl Envelope {
         })
     }
 
+    /// First and last branch of every cycle.
     #[getter]
     fn cycles(&self) -> Vec<(usize, usize)> {
         self.cycles.clone()
     }
 
+    /// Take an increment: tractions [Pa], cells that stick, bulk stress of the body [Pa].
     #[pyo3(signature = (increment, branch, *, p, q_x, q_y, stick, sigma_B = 0.0))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn push(
@@ -117,16 +118,14 @@ impl Envelope {
         Ok(())
     }
 
-    /// For each name, arrays over (depth, place): max, min, increment of the largest value; lists
-    /// over cycles of amplitude and mean; below a line, rows of the largest values at each
-    /// increment: increment, value, place along the line, depth, layer.
+    /// Give the extremes of every measure.
     fn finish<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let mut stream = self.stream.take().ok_or_else(finished)?;
         let stop = Arc::<AtomicBool>::default();
         stream.stop_on(stop.clone());
         let (_, kept) = interruptible(py, &stop, || stream.finish())?.map_err(to_python)?;
         let (kept, tops): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
-        let largest = core::Largest::over_depths(&tops);
+        let largest = core::Largest::over_depths(&measures(&self.names)?, &tops);
         let result = PyDict::new(py);
         for (m, name) in self.names.iter().enumerate() {
             let rows = |of: &dyn Fn(&core::DepthEnvelope) -> Array1<f64>| {
@@ -172,7 +171,7 @@ fn finished() -> PyErr {
     PyValueError::new_err("the envelope has been finished, or was stopped on the way")
 }
 
-/// The loops of a history, one dictionary per cycle.
+/// Energy and stiffness of every cycle of a history; use :meth:`pyfret.Result.loops`.
 #[pyfunction]
 #[pyo3(signature = (path, *, branch, T, delta, dissipated, status))]
 pub(crate) fn loops(

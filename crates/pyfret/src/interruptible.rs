@@ -17,9 +17,9 @@ const LOOK: Duration = Duration::from_millis(50);
     clippy::redundant_closure_for_method_calls,
     reason = "the method is not general enough in its lifetime"
 )]
-/// Does `work` in a thread of its own while the interpreter's lock is free and the caller's thread
-/// hears signals. What a signal handler raises is returned; it raises `stop` too, on which the
-/// work is to end early.
+/// Does `work` in a thread of its own while the interpreter's lock is free and the caller's
+/// thread hears signals. What a signal handler raises is returned; it raises `stop` too, on
+/// which the work is to end early.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     stop: &Arc<AtomicBool>,

@@ -15,7 +15,7 @@ use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, Settings};
 
-/// One 3 x 3 matrix per wave vector.
+/// Surface response at one-dimensional arrays of wave numbers; see :mod:`pyfret.kernels`.
 #[pyfunction]
 pub(crate) fn surface_frf<'py>(
     py: Python<'py>,
@@ -37,6 +37,22 @@ pub(crate) fn surface_frf<'py>(
     Ok(frf.into_pyarray(py))
 }
 
+/// Surface displacement under unit traction on one cell, C_ij [m/Pa].
+///
+/// Parameters
+/// ----------
+/// body : Body
+///     Homogeneous or coated, taken as the lower body.
+/// grid : Grid
+///     The cells; only their number and size matter.
+/// settings : Settings, optional
+///     Its kernel settings are used.
+///
+/// Returns
+/// -------
+/// array of shape (3, 3, 2 nx - 1, 2 ny - 1)
+///     u_x, u_y, u_z under q_x, q_y, p at all offsets of the observed cell from the loaded one;
+///     the offset (0, 0) is in the middle.
 #[pyfunction]
 #[pyo3(signature = (body, grid, *, settings = None))]
 pub(crate) fn influence_coefficients(
@@ -55,6 +71,25 @@ pub(crate) fn influence_coefficients(
     Ok(matrix.map_err(to_python)?.into_pyarray(py))
 }
 
+/// Stress at the depth `z` [m] under unit traction on one cell, tension positive.
+///
+/// Parameters
+/// ----------
+/// body : Body
+///     Homogeneous or coated, taken as the lower body.
+/// grid : Grid
+///     The cells; only their number and size matter.
+/// z : float
+///     Depth [m].
+/// layer : int, optional
+///     Layer from the surface down (their number for the substrate); it decides at an interface,
+///     where stresses jump (default: the upper one).
+///
+/// Returns
+/// -------
+/// array of shape (6, 3, 2 nx - 1, 2 ny - 1)
+///     s_xx, s_yy, s_zz, s_xy, s_xz, s_yz under q_x, q_y, p at all offsets; the offset (0, 0) is in
+///     the middle.
 #[pyfunction]
 #[pyo3(signature = (body, grid, z, *, layer = None))]
 pub(crate) fn stress_coefficients(
@@ -72,6 +107,12 @@ pub(crate) fn stress_coefficients(
     Ok(matrix.map_err(to_python)?.into_pyarray(py))
 }
 
+/// Stress at a point under unit traction on the cell of sides `cell` [m] around the origin.
+///
+/// Returns
+/// -------
+/// array of shape (6, 3)
+///     s_xx, s_yy, s_zz, s_xy, s_xz, s_yz under q_x, q_y, p; tension is positive.
 #[pyfunction]
 #[pyo3(signature = (body, cell, point, *, layer = None))]
 pub(crate) fn stress_at(
@@ -86,7 +127,7 @@ pub(crate) fn stress_at(
     Ok(Array2::from_shape_fn((6, 3), |(i, j)| stress[i][j]).into_pyarray(py))
 }
 
-/// The paper's conversion of a user's own frequency response.
+/// The paper's conversion, planned; see :func:`pyfret.kernels.convert`.
 #[pyclass(frozen, module = "pyfret.kernels")]
 pub(crate) struct Conversion(core::Conversion);
 
@@ -100,6 +141,7 @@ impl Conversion {
             .map_err(to_python)
     }
 
+    /// Wave numbers k_x, k_y [1/m] at which the response is needed, never both zero.
     fn wave_vectors<'py>(
         &self,
         py: Python<'py>,
@@ -108,6 +150,7 @@ impl Conversion {
         (k_x.into_pyarray(py), k_y.into_pyarray(py))
     }
 
+    /// Influence coefficients from the response at the wave vectors, shape (n, 3, 3).
     fn convert<'py>(
         &self,
         py: Python<'py>,

@@ -1,8 +1,12 @@
 //! Python module `pyfret._core`: the public types of `contact-core` under the same names.
 //!
-//! Nothing is computed here. Each file translates one noun; what users read about it stands in
-//! `python/pyfret/_core.pyi`.
+//! Nothing is computed here. Each file translates one noun; the documentation of what Python
+//! sees is that of its docstrings; `tools/stub_docs.py` carries it into `python/pyfret/_core.pyi`.
 
+#![allow(
+    rustdoc::broken_intra_doc_links,
+    reason = "docstrings of Python give units in brackets"
+)]
 #![allow(
     clippy::fn_params_excessive_bools,
     clippy::needless_pass_by_value,
@@ -70,7 +74,7 @@ mod _core {
     #[pymodule_export]
     use crate::stress::{maximum, measure, principal, probe_labels, rims};
     #[pymodule_export]
-    use crate::subsurface::{Subsurface, depths};
+    use crate::subsurface::{Subsurface, chosen_depths, depths};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

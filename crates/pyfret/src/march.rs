@@ -17,6 +17,8 @@ use crate::interruptible::interruptible;
 use crate::scene::{Grid, Scene};
 
 /// A load path being run through; iterating solves one increment after the other.
+///
+/// Use :func:`pyfret.march`, which labels what this one gives.
 #[pyclass(module = "pyfret")]
 pub(crate) struct March {
     /// Python may hand the object to another thread.
@@ -33,6 +35,7 @@ impl March {
 impl March {
     #[new]
     fn new(py: Python<'_>, scene: Scene) -> PyResult<Self> {
+        scene.0.check_fit().map_err(to_python)?;
         let stop = Arc::default();
         let march = interruptible(py, &stop, || {
             let scene = choose_increments(&scene.0, &stop)?;
@@ -43,11 +46,13 @@ impl March {
         })
     }
 
+    /// Increments solved so far.
     #[getter]
     fn done(&mut self) -> usize {
         self.inner().state().increments
     }
 
+    /// The scene that is being solved.
     #[getter]
     fn scene(&mut self) -> Scene {
         Scene(self.inner().scene().clone())
@@ -57,6 +62,7 @@ impl March {
         slf
     }
 
+    /// Solve the next increment and give its scalars.
     fn __next__<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         py.check_signals()?;
         let march = self.inner();
@@ -79,6 +85,7 @@ impl March {
         }
     }
 
+    /// Fields after the last increment, shape (nx, ny).
     fn fields<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = self.inner().fields();
         let fields = PyDict::new(py);
@@ -92,7 +99,7 @@ impl March {
     }
 }
 
-/// The pressure at the centres of the cells, that at the rim continued from inside.
+/// Pressure [Pa], that at the rim continued from inside; use :meth:`Snapshot.p_continued`.
 #[pyfunction]
 pub(crate) fn continued_pressure<'py>(
     py: Python<'py>,

@@ -14,7 +14,16 @@ use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, Settings};
 
-/// The displacements that tractions cause on a pair of bodies.
+/// The displacements that tractions cause on a pair of bodies, u = C * q.
+///
+/// Parameters
+/// ----------
+/// body1, body2 : Body
+///     The upper body and the lower one; their shapes do not matter.
+/// grid : Grid
+///     Cells on which tractions are constant.
+/// settings : Settings, optional
+///     Its kernel settings are used.
 #[pyclass(frozen, module = "pyfret")]
 pub(crate) struct SurfaceOperator {
     shape: (usize, usize),
@@ -50,6 +59,14 @@ impl SurfaceOperator {
         })
     }
 
+    /// Relative displacement u(2) - u(1) [m], shape (3, nx, ny): along x, y and z.
+    ///
+    /// Parameters
+    /// ----------
+    /// p : array of shape (nx, ny), optional
+    ///     Pressure [Pa] (default: none).
+    /// q_x, q_y : array of shape (nx, ny), optional
+    ///     Shear tractions on body 2 [Pa] (default: none).
     #[pyo3(signature = (p = None, q_x = None, q_y = None))]
     fn displacement<'py>(
         &self,

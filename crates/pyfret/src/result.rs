@@ -30,7 +30,8 @@ impl Observer for Watch {
         let Some(call) = &self.on_increment else {
             return Ok(());
         };
-        let told = Python::attach(|py| call.call1(py, (increment.index,)).map(drop));
+        let of = march.scene().path.increments();
+        let told = Python::attach(|py| call.call1(py, (increment.index, of)).map(drop));
         told.map_err(|raised| {
             self.raised = Some(raised);
             Error::Interrupted {
@@ -76,7 +77,10 @@ fn watched(
     }
 }
 
-/// Runs a scene into a new result store; other Python threads go on meanwhile.
+/// Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
+///
+/// `on_increment` is called with the number of each increment solved and their number in all,
+/// which is known once they are chosen.
 #[pyfunction]
 #[pyo3(signature = (scene, *, store, checkpoint = 5.0, error = false, on_increment = None))]
 pub(crate) fn solve(
@@ -87,6 +91,7 @@ pub(crate) fn solve(
     error: bool,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {
+    scene.0.check_fit().map_err(to_python)?;
     if error {
         coarsest(&scene.0).map_err(to_python)?;
     }
@@ -113,7 +118,7 @@ pub(crate) fn verify(py: Python<'_>, store: PathBuf) -> PyResult<String> {
     Ok(store.map_err(to_python)?.attributes().to_string())
 }
 
-/// Goes on with the run of a store that ended early; nothing is done if it is done.
+/// Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it.
 #[pyfunction]
 #[pyo3(signature = (store, *, checkpoint = 5.0, on_increment = None))]
 pub(crate) fn resume(

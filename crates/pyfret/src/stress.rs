@@ -26,7 +26,7 @@ pub(crate) fn measures(names: &[String]) -> PyResult<Vec<Measure>> {
         .collect()
 }
 
-/// Name, unit and meaning of everything that can be asked of a place.
+/// Units and meaning of everything that follows from the stress.
 #[pyfunction]
 pub(crate) fn probe_labels() -> HashMap<&'static str, (&'static str, &'static str)> {
     let label = |p: core::Probe| (p.name(), (p.unit(), p.long_name()));
@@ -45,7 +45,7 @@ fn tensors(stress: &Field<'_>) -> PyResult<Vec<core::StressTensor>> {
     Ok(columns.map(|s| std::array::from_fn(|c| s[c])).collect())
 }
 
-/// A measure of stresses of shape (6, n).
+/// Give what follows from stresses of shape (6, n), by its name.
 #[pyfunction]
 pub(crate) fn measure<'py>(
     py: Python<'py>,
@@ -56,7 +56,7 @@ pub(crate) fn measure<'py>(
     Ok(stress.iter().map(of).collect::<Vec<_>>().into_pyarray(py))
 }
 
-/// Principal values and directions of stresses of shape (6, n).
+/// Principal values (n, 3), the largest first, and directions (n, 3, 3) of stresses (6, n).
 #[pyfunction]
 pub(crate) fn principal<'py>(
     py: Python<'py>,
@@ -77,8 +77,9 @@ pub(crate) fn principal<'py>(
     Ok((values.into_pyarray(py), directions.into_pyarray(py)))
 }
 
-/// The largest value of a measure on a section, from its stress of shape (6, depths, places):
-/// value, place along the line, depth, layer.
+/// Largest value on a section of stresses (6, depths, places).
+///
+/// The value, its place, depth and layer, and the error that the distances of the depths leave.
 #[pyfunction]
 pub(crate) fn maximum(
     name: String,
@@ -86,7 +87,7 @@ pub(crate) fn maximum(
     z: Vec<f64>,
     layer: Vec<usize>,
     along: Vec<f64>,
-) -> PyResult<Option<(f64, f64, f64, usize)>> {
+) -> PyResult<Option<(f64, f64, f64, usize, f64)>> {
     let stress = stress.as_array().to_owned();
     let depths = Subsurface::depths(&z, &layer)?;
     if stress.dim() != (6, depths.len(), along.len()) {
@@ -97,11 +98,10 @@ pub(crate) fn maximum(
         )));
     }
     let found = measures(&[name])?[0].maximum(&stress, &depths, &along);
-    Ok(found.map(|m| (m.value, m.place[0], m.depth.z, m.depth.layer)))
+    Ok(found.map(|m| (m.value, m.place[0], m.depth.z, m.depth.layer, m.error)))
 }
 
-/// The rims of the contact on a line on the surface, from the stress of shape (6, places): places,
-/// and stresses of shape (6, rims).
+/// Places of the rims on a line on the surface, and stresses (6, rims), from stresses (6, n).
 #[pyfunction]
 pub(crate) fn rims<'py>(
     py: Python<'py>,

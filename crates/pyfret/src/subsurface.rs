@@ -45,14 +45,32 @@ pub(crate) fn line(x: Option<f64>, y: Option<f64>) -> PyResult<Line> {
     }
 }
 
-/// The depths with their layers; on an interface both.
+/// Depths [m] with their layers; on an interface both, the upper one first.
 #[pyfunction]
 pub(crate) fn depths(body: Body, z: Vec<f64>) -> PyResult<(Vec<f64>, Vec<usize>)> {
     let depths = core::depths(&body.0, &z).map_err(to_python)?;
     Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
 }
 
+/// Depths [m] that the layers of a body ask for, with their layers.
+///
+/// They go to the depth `deepest` [m] under a contact of the radius `a` [m]; `finer` times as
+/// many as the default.
+#[pyfunction]
+#[pyo3(signature = (body, *, a, deepest, finer = 1.0))]
+pub(crate) fn chosen_depths(
+    body: Body,
+    a: f64,
+    deepest: f64,
+    finer: f64,
+) -> PyResult<(Vec<f64>, Vec<usize>)> {
+    let depths = core::chosen_depths(&body.0, a, deepest, finer).map_err(to_python)?;
+    Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
+}
+
 /// Tractions on a body, and what they cause below its surface.
+///
+/// Use :func:`pyfret.subsurface.stress`, which labels what this one gives.
 #[pyclass(frozen, module = "pyfret")]
 pub(crate) struct Subsurface {
     body: Body,
@@ -152,6 +170,7 @@ impl Subsurface {
         })
     }
 
+    /// Stress [Pa] or displacement [m] on a section, shape (6 or 3, depths, places).
     #[pyo3(signature = (z, layer, *, x = None, y = None, displacement = false))]
     fn section<'py>(
         &self,
@@ -177,6 +196,7 @@ impl Subsurface {
         Ok(found.map_err(to_python)?.swap_remove(0).into_pyarray(py))
     }
 
+    /// Stress [Pa] or displacement [m] on a plane, six or three arrays of shape (nx, ny).
     #[pyo3(signature = (z, layer, *, displacement = false))]
     fn slice<'py>(
         &self,
@@ -199,6 +219,7 @@ impl Subsurface {
         Ok(found.into_iter().map(|f| f.into_pyarray(py)).collect())
     }
 
+    /// Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer.
     fn points<'py>(
         &self,
         py: Python<'py>,
@@ -221,6 +242,7 @@ impl Subsurface {
         Ok((stress.into_pyarray(py), u.into_pyarray(py)))
     }
 
+    /// Write measures of stress, and displacements, to a .vti file or a Zarr folder.
     #[pyo3(signature = (out, z, layer, *, of, title = ""))]
     fn volume(
         &self,
@@ -237,8 +259,9 @@ impl Subsurface {
         let (grid, side, stop) = (&self.grid.0, self.side, Arc::default());
         let write = || {
             let slices = self.slices(&stop)?;
-            let write =
-                |sink: &dyn VolumeSink| write_volume(&slices, &depths, &probes, &[sink]).map(drop);
+            let write = |sink: &dyn VolumeSink| {
+                write_volume(&slices, &depths, &[], &probes, &[sink]).map(drop)
+            };
             if out
                 .extension()
                 .is_some_and(|e| e.eq_ignore_ascii_case("vti"))

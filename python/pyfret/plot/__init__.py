@@ -6,7 +6,7 @@ of the paper from its four runs in one call.
 """
 
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
-from pyfret.plot.maps import shear_streamlines, stick_slip
+from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
 from pyfret.plot.paper import paper_figures
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
 from pyfret.plot.stresses import (
@@ -27,12 +27,14 @@ __all__ = [
     "load_path",
     "loop_evolution",
     "paper_figures",
+    "pressure_map",
     "pressure_profile",
     "running_map",
     "section_map",
     "shear_profile",
     "shear_profiles",
     "shear_streamlines",
+    "slip_map",
     "stick_ratio",
     "stick_slip",
     "stress_along_depth",

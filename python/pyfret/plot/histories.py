@@ -2,36 +2,98 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from pyfret._core import LoadPath
+from pyfret.plot.scales import MICRO, Scale, Units, bears, scales
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from numpy.typing import NDArray
 
-    from pyfret._core import LoadPath
     from pyfret.results import Result
+
+Direction = Literal["x", "y", "torsion"]
+
+#: Load and motion of each direction, with their symbols.
+NAMES = {
+    "x": ("T_x", "delta_x", "T_x", r"\delta_x"),
+    "y": ("T_y", "delta_y", "T_y", r"\delta_y"),
+    "torsion": ("M_z", "phi_z", "M_z", r"\varphi_z"),
+}
+
+
+def driven(path: LoadPath) -> Direction:
+    """The direction that a path drives first; x if none."""
+    directions: tuple[Direction, ...] = ("x", "y", "torsion")
+    for branch in path.branches:
+        for direction in directions:
+            if any(getattr(branch, name) for name in NAMES[direction][:2]):
+                return direction
+    return "x"
 
 
 @styled
-def fretting_loop(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
-    r"""Tangential force over relative shift, :math:`T_x/(\mu W_{max})` over :math:`\delta_x`.
+def fretting_loop(
+    result: Result,
+    *,
+    direction: Direction | None = None,
+    units: Units = "auto",
+    ax: Axes | None = None,
+    **line: Any,
+) -> Axes:
+    r"""Tangential force over relative shift; in torsion the moment over the rotation.
 
-    The shift is counted from the end of indentation and given in units of
-    :math:`\mu a_H^2/R = \mu \delta_H`, the friction coefficient times the Hertz approach.
-    The area of the loop is the work dissipated in a cycle.
+    The shift is counted from the end of the first branch, the indentation. Dimensionless are
+    :math:`T_x/(\mu W_{max})` and :math:`\delta_x/(\mu \delta_H)` with the Hertz approach
+    :math:`\delta_H`, in torsion :math:`M_z/(\mu W_{max} a_H)` and
+    :math:`\varphi_z a_H/(\mu \delta_H)`. The area of the loop is the work dissipated in a cycle.
+
+    Parameters
+    ----------
+    result : Result
+        The run.
+    direction : "x", "y" or "torsion", optional
+        The motion (default: the first that the path drives).
+    units : "auto", "dimensionless" or "SI"
+        Dimensionless (default where there is a Hertz contact) or in N and um.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    **line
+        Passed on to ``plot``.
     """
     ax = axes(ax)
     d = result.dataset
+    force, shift, force_symbol, shift_symbol = NAMES[direction or driven(result.scene.path)]
     started = np.flatnonzero(d.branch_of_increment.values == 0)[-1]
-    shift = (d.delta_x - d.delta_x[started]) / (result.mu * result.delta_H)
-    force = d.T_x / (result.mu * result.W_max)
-    ax.plot(shift[started:], force[started:], **line)
-    ax.set_xlabel(r"$\delta_1 / (\mu\, \delta_H)$")
-    ax.set_ylabel(r"$T_1 / (\mu\, W_\mathrm{max})$")
+    by_force, by_shift = loop_scales(result, units, torsion=force == "M_z")
+    moved = (d[shift] - d[shift][started]) / by_shift.value
+    ax.plot(moved[started:], d[force][started:] / by_force.value, **line)
+    ax.set_xlabel(by_shift.label(shift_symbol))
+    ax.set_ylabel(by_force.label(force_symbol))
     return ax
+
+
+def loop_scales(result: Result, units: Units, *, torsion: bool) -> tuple[Scale, Scale]:
+    """Scales of the force, or moment, and of the shift, or rotation."""
+    W, mu = result.W_max, result.mu
+    if not (scales(result.dataset.attrs, units).dimensionless and bears(mu) and W > 0.0):
+        if torsion:
+            return Scale(1.0, "N m", is_unit=True), Scale(1e-6, "µrad", is_unit=True)
+        return Scale(1.0, "N", is_unit=True), MICRO
+    approach, a = mu * result.delta_H, result.a_H
+    if torsion:
+        return (
+            Scale(mu * W * a, r"(\mu\, W_\mathrm{max}\, a_H)", is_unit=False),
+            Scale(approach / a, r"(\mu\, \delta_H/a_H)", is_unit=False),
+        )
+    return (
+        Scale(mu * W, r"(\mu\, W_\mathrm{max})", is_unit=False),
+        Scale(approach, r"(\mu\, \delta_H)", is_unit=False),
+    )
 
 
 @styled
@@ -47,19 +109,68 @@ def stick_ratio(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
     return ax
 
 
+#: What a path may drive: symbol, yardstick of its own kind, unit.
+DRIVEN = {
+    "W": ("W", "N"),
+    "T_x": ("T_x", "N"),
+    "T_y": ("T_y", "N"),
+    "M_x": ("M_x", "N m"),
+    "M_y": ("M_y", "N m"),
+    "M_z": ("M_z", "N m"),
+    "delta_z": (r"\delta_z", "m"),
+    "delta_x": (r"\delta_x", "m"),
+    "delta_y": (r"\delta_y", "m"),
+    "phi_x": (r"\varphi_x", "rad"),
+    "phi_y": (r"\varphi_y", "rad"),
+    "phi_z": (r"\varphi_z", "rad"),
+    "sigma_B": (r"\sigma_B", "Pa"),
+    "sigma_B1": (r"\sigma_{B1}", "Pa"),
+}
+
+
 @styled
 def load_path(path: LoadPath | Result, *, mu: float = 1.0, ax: Axes | None = None) -> Axes:
-    r"""Normal and tangential force over :math:`t/\tau`.
+    r"""Loads and motions that a path drives over :math:`t/\tau`, the end of which is 1.
 
-    Both in units of the largest normal force; T over `mu` times it.
+    Normal forces are over their largest value, tangential ones over `mu` times that of the normal
+    force where that is given; everything else over its own largest value, which the legend gives.
+    Of a result every increment is drawn, of a path the ends of its branches.
     """
     ax = axes(ax)
-    loads = path.dataset if hasattr(path, "dataset") else path
-    t, W, T = (np.r_[0.0, np.asarray(v)] for v in (loads.t, loads.W, loads.T_x))
+    t, columns = histories(path)
     mu = getattr(path, "mu", mu)
-    ax.plot(t / t[-1], W / W.max(), label=r"$W/W_\mathrm{max}$")
-    ax.plot(t / t[-1], T / (mu * W.max()), label=r"$T_1/(\mu\, W_\mathrm{max})$")
+    W_max = np.nanmax(np.abs(columns["W"])) if "W" in columns else 0.0
+    for name, values in columns.items():
+        symbol, unit = DRIVEN[name]
+        largest = float(np.nanmax(np.abs(values)))
+        if name == "W":
+            label = r"$W/W_\mathrm{max}$"
+        elif unit == "N" and W_max > 0.0 and bears(mu):
+            largest, label = mu * W_max, rf"${symbol}/(\mu\, W_\mathrm{{max}})$"
+        else:
+            label = rf"${symbol}$ / {largest:.3g} {unit}"
+        ax.plot(t / t[-1], values / largest, label=label)
     ax.set_xlabel(r"$t/\tau$")
     ax.set_xlim(0, 1)
-    ax.legend(loc="lower left")
+    if columns:
+        ax.legend(loc="best")
     return ax
+
+
+def histories(
+    path: LoadPath | Result,
+) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
+    """Path time, and what the path drives, from the unloaded state."""
+    branches = path.branches if isinstance(path, LoadPath) else path.scene.path.branches
+    names = [name for name in DRIVEN if any(getattr(b, name) for b in branches)]
+    if isinstance(path, LoadPath):
+        of = {name: [getattr(b, name) for b in branches] for name in names}
+        columns = {
+            name: np.array([np.nan if v is None else v for v in values], dtype=float)
+            for name, values in of.items()
+        }
+        t = np.array([b.t for b in branches])
+    else:
+        columns = {name: path.dataset[name].values for name in names}
+        t = path.dataset.t.values
+    return np.r_[0.0, t], {name: np.r_[0.0, values] for name, values in columns.items()}

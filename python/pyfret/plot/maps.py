@@ -8,6 +8,8 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Circle, Patch
 
+from pyfret._core import Flat, Sphere
+from pyfret.plot.scales import MICRO, Scale, Units, last_of, of_snapshot
 from pyfret.plot.style import SLIP, STICK, axes, styled
 
 if TYPE_CHECKING:
@@ -15,25 +17,53 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
     from matplotlib.image import AxesImage
+    from numpy.typing import NDArray
 
-    from pyfret.results import Snapshot
+    from pyfret.results import Result, Snapshot
 
 
-def frame(ax: Axes, snapshot: Snapshot) -> tuple[float, float, float, float]:
-    """Label the axes, draw the Hertz circle and give the edges of the grid over a_H."""
-    x, y = (snapshot.dataset[k].values / snapshot.a_H for k in ("x", "y"))
-    dx, dy = (v[1] - v[0] if v.size > 1 else 1.0 for v in (x, y))
-    ax.add_patch(Circle((0, 0), 1.0, fill=False, ls=(0, (4, 3)), lw=0.7, ec="0.35", zorder=3))
-    ax.set_xlabel(r"$x_1/a_H$")
-    ax.set_ylabel(r"$x_2/a_H$")
+def frame(ax: Axes, snapshot: Snapshot, length: Scale) -> tuple[float, float, float, float]:
+    """Label the axes, draw the Hertz circle and give the edges of the grid over the length."""
+    grid = snapshot.scene.grid
+    x, y = (snapshot.dataset[k].values / length.value for k in ("x", "y"))
+    dx, dy = grid.dx / length.value, grid.dy / length.value
+    if "a_H" in snapshot.dataset.attrs and is_round(snapshot):
+        a_H = snapshot.a_H / length.value
+        ax.add_patch(Circle((0, 0), a_H, fill=False, ls=(0, (4, 3)), lw=0.7, ec="0.35", zorder=3))
+    ax.set_xlabel(length.label("x"))
+    if grid.plane_strain:
+        # One row of cells without end along y.
+        ax.set_aspect("auto")
+        ax.set_yticks([])
+        dy = 0.5 * (x[-1] - x[0])
+    else:
+        ax.set_ylabel(length.label("y"))
     return x[0] - dx / 2, x[-1] + dx / 2, y[0] - dy / 2, y[-1] + dy / 2
 
 
+def is_round(snapshot: Snapshot) -> bool:
+    """Whether the bodies are spheres or flats."""
+    scene = snapshot.scene
+    shapes = (scene.body1.shape, scene.body2.shape)
+    return not scene.grid.plane_strain and all(isinstance(s, (Sphere, Flat)) for s in shapes)
+
+
 @styled
-def stick_slip(snapshot: Snapshot, *, ax: Axes | None = None) -> Axes:
-    """Where the contact sticks and where it slips; dashed, the Hertz circle."""
+def stick_slip(shown: Snapshot | Result, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
+    """Where the contact sticks and where it slips; dashed, the Hertz circle of spheres.
+
+    Parameters
+    ----------
+    shown : Snapshot or Result
+        The contact; of a result the last increment that it has kept.
+    units : "auto", "dimensionless" or "SI"
+        Lengths over a_H (default where there is a Hertz contact) or in um.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    snapshot = last_of(shown)
     ax = axes(ax, square=True)
-    extent = frame(ax, snapshot)
+    extent = frame(ax, snapshot, of_snapshot(snapshot, units).length)
     contact, stick = (snapshot.dataset[k].values.astype(bool) for k in ("contact", "stick"))
     zone = np.where(contact, np.where(stick, 2, 1), 0)
     ax.imshow(
@@ -44,28 +74,92 @@ def stick_slip(snapshot: Snapshot, *, ax: Axes | None = None) -> Axes:
         vmin=0,
         vmax=2,
         interpolation="nearest",
+        aspect=ax.get_aspect(),
     )
-    handles = [Patch(color=STICK, label="stick"), Patch(color=SLIP, label="slip")]
-    ax.legend(handles=handles, loc="upper right", handlelength=1.0, borderpad=0.1)
+    zones = ((2, STICK, "stick"), (1, SLIP, "slip"))
+    handles = [Patch(color=color, label=label) for n, color, label in zones if (zone == n).any()]
+    if handles:
+        ax.legend(handles=handles, loc="upper right", handlelength=1.0, borderpad=0.1)
+    return ax
+
+
+def field_map(
+    ax: Axes | None,
+    snapshot: Snapshot,
+    values: NDArray[np.float64],
+    scale: Scale,
+    length: Scale,
+    **image: Any,
+) -> tuple[Axes, AxesImage]:
+    """A field on the contact, blank beside it."""
+    ax = axes(ax, square=True)
+    extent = frame(ax, snapshot, length)
+    contact = snapshot.dataset.contact.values.astype(bool)
+    shown = np.where(contact, values / scale.value, np.nan)
+    drawn = ax.imshow(
+        shown.T, origin="lower", extent=extent, cmap="YlGnBu", aspect=ax.get_aspect(), **image
+    )
+    ax.set_xlim(extent[:2])
+    ax.set_ylim(extent[2:])
+    return ax, drawn
+
+
+@styled
+def pressure_map(
+    shown: Snapshot | Result,
+    *,
+    units: Units = "auto",
+    ax: Axes | None = None,
+    colorbar: bool = True,
+) -> Axes:
+    """Pressure over the contact plane, over p_H or in MPa; parameters as in :func:`stick_slip`."""
+    snapshot = last_of(shown)
+    by = of_snapshot(snapshot, units)
+    values = snapshot.dataset.p.values
+    ax, image = field_map(ax, snapshot, values, by.stress, by.length, vmin=0)
+    if colorbar:
+        label_scale(ax.get_figure(), image, ax, by.stress.label("p"))
+    return ax
+
+
+@styled
+def slip_map(
+    shown: Snapshot | Result,
+    *,
+    units: Units = "auto",
+    ax: Axes | None = None,
+    colorbar: bool = True,
+) -> Axes:
+    """Size of the slip added up over the path, in um; parameters as in :func:`stick_slip`."""
+    snapshot = last_of(shown)
+    by = of_snapshot(snapshot, units)
+    slip = np.hypot(snapshot.dataset.slip_x.values, snapshot.dataset.slip_y.values)
+    ax, image = field_map(ax, snapshot, slip, MICRO, by.length, vmin=0)
+    if colorbar:
+        label_scale(ax.get_figure(), image, ax, MICRO.label("|s|"))
     return ax
 
 
 @styled
 def shear_streamlines(
-    snapshot: Snapshot,
+    shown: Snapshot | Result,
     *,
+    units: Units = "auto",
     ax: Axes | None = None,
     largest: float | None = None,
     colorbar: bool = True,
 ) -> Axes:
     r"""Streamlines of the shear vectors on body 2 over their size :math:`|q|/(\mu p_H)`.
 
-    Blue line: edge of the stick zone; dashed: the Hertz circle.
+    Blue line: edge of the stick zone; dashed: the Hertz circle of spheres. A line contact has no
+    streamlines: the size alone is drawn.
 
     Parameters
     ----------
-    snapshot : Snapshot
-        The contact to show.
+    shown : Snapshot or Result
+        The contact to show; of a result the last increment that it has kept.
+    units : "auto", "dimensionless" or "SI"
+        Over a_H and mu p_H (default where there is a Hertz contact), or in um and MPa.
     ax : matplotlib Axes, optional
         Where to draw.
     largest : float, optional
@@ -73,34 +167,32 @@ def shear_streamlines(
     colorbar : bool
         Whether to draw the scale beside the map.
     """
-    ax = axes(ax, square=True)
-    extent = frame(ax, snapshot)
+    snapshot = last_of(shown)
+    by = of_snapshot(snapshot, units)
     d = snapshot.dataset
     contact = d.contact.values.astype(bool)
-    x, y = (d[k].values / snapshot.a_H for k in ("x", "y"))
     q_x, q_y = (np.where(contact, d[k].values, np.nan) for k in ("q_x", "q_y"))
-    image = ax.imshow(
-        np.hypot(q_x, q_y).T / (snapshot.mu * snapshot.p_H),
-        origin="lower",
-        extent=extent,
-        cmap="YlGnBu",
-        alpha=0.75,
-        vmin=0,
-        vmax=largest,
-    )
+    size = np.hypot(q_x, q_y)
+    ax, image = field_map(ax, snapshot, size, by.shear, by.length, vmin=0, vmax=largest, alpha=0.75)
     if colorbar:
-        label_scale(ax.get_figure(), image, ax)
-    ax.streamplot(x, y, q_x.T, q_y.T, density=1.3, color="0.15", linewidth=0.6, arrowsize=0.6)
+        label_scale(ax.get_figure(), image, ax, by.shear.label("|q|"))
+    limits = ax.get_xlim(), ax.get_ylim()
+    x, y = (d[k].values / by.length.value for k in ("x", "y"))
+    if min(size.shape) > 1 and np.nanmax(size, initial=0.0) > 0.0:
+        ax.streamplot(x, y, q_x.T, q_y.T, density=1.3, color="0.15", linewidth=0.6, arrowsize=0.6)
     stick = np.where(contact, d.stick.values, np.nan)
-    if np.nanmin(stick) < np.nanmax(stick):
+    both = contact.any() and np.nanmin(stick) < np.nanmax(stick)
+    if min(size.shape) > 1 and both:
         ax.contour(x, y, stick.T, levels=[0.5], colors=[STICK], linewidths=1.2)
-    ax.set_xlim(extent[:2])
-    ax.set_ylim(extent[2:])
+    ax.set_xlim(*limits[0])
+    ax.set_ylim(*limits[1])
     return ax
 
 
-def label_scale(figure: Any, image: AxesImage, ax: Axes | Sequence[Axes]) -> None:
-    """Draw the colour scale of the size of the shear beside `ax`."""
+def label_scale(
+    figure: Any, image: AxesImage, ax: Axes | Sequence[Axes], label: str = r"$|q|/(\mu\, p_H)$"
+) -> None:
+    """Draw the colour scale of `image` beside `ax`."""
     bar = figure.colorbar(image, ax=ax, shrink=0.85, pad=0.02)
-    bar.set_label(r"$|q|/(\mu\, p_H)$")
+    bar.set_label(label)
     bar.outline.set_visible(False)

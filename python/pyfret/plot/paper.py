@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from pyfret.results import Result
+    from pyfret.results import Result, Snapshot
 
 #: Line of each ratio E1/E2 wherever several share the axes.
 COLOURS = {0.5: "#0072B2", 1.0: "#000000", 2.0: "#D55E00", 4.0: "#009E73"}
@@ -43,10 +43,11 @@ def loading_history(result: Result, jump: Result) -> Figure:
     figure, (left, right) = plt.subplots(1, 2, figsize=(7.6, 3.2))
     ends = result.dataset.branch_of_increment.values
     indented = int(np.flatnonzero(ends == ends[0])[-1]) + 1
-    for run, label, line in (
+    curves: list[tuple[Snapshot, str, dict[str, Any]]] = [
         (result.at(indented), f"{indented} increments", {"color": COLOURS[2.0]}),
         (jump.at(-1), "one increment", {"color": "0.25", "linestyle": "--"}),
-    ):
+    ]
+    for run, label, line in curves:
         pressure_profile(run, ax=left, label=label, **line)
         shear_profile(run, ax=right, label=label, **line)
     left.legend(loc="lower center")

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from matplotlib import colormaps
 
+from pyfret.plot.histories import NAMES, driven
+from pyfret.plot.scales import Units, last_of, of_snapshot
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
@@ -16,39 +18,75 @@ if TYPE_CHECKING:
 
 
 @styled
-def pressure_profile(snapshot: Snapshot, *, ax: Axes | None = None, **line: Any) -> Axes:
-    """Pressure over the Hertz peak pressure along y = 0."""
-    ax = axes(ax)
+def pressure_profile(
+    shown: Snapshot | Result, *, units: Units = "auto", ax: Axes | None = None, **line: Any
+) -> Axes:
+    """Pressure along y = 0, over p_H and a_H or in MPa and um.
+
+    Parameters
+    ----------
+    shown : Snapshot or Result
+        The contact; of a result the last increment that it has kept.
+    units : "auto", "dimensionless" or "SI"
+        Dimensionless (default where there is a Hertz contact) or SI.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    **line
+        Passed on to ``plot``.
+    """
+    snapshot = last_of(shown)
+    ax, by = axes(ax), of_snapshot(snapshot, units)
     cut = snapshot.along_x()
-    ax.plot(cut.x / snapshot.a_H, cut.p / snapshot.p_H, **line)
-    ax.set_xlabel(r"$x_1/a_H$")
-    ax.set_ylabel(r"$p/p_H$")
+    ax.plot(cut.x / by.length.value, cut.p / by.stress.value, **line)
+    ax.set_xlabel(by.length.label("x"))
+    ax.set_ylabel(by.stress.label("p"))
     return ax
 
 
 @styled
-def shear_profile(snapshot: Snapshot, *, ax: Axes | None = None, **line: Any) -> Axes:
-    r"""Shear traction :math:`q_1/(\mu p_H)` along y = 0."""
-    ax = axes(ax)
+def shear_profile(
+    shown: Snapshot | Result,
+    *,
+    of: Literal["q_x", "q_y"] | None = None,
+    units: Units = "auto",
+    ax: Axes | None = None,
+    **line: Any,
+) -> Axes:
+    r"""Shear traction along y = 0, :math:`q_x/(\mu p_H)` over :math:`x/a_H`, or in MPa over um.
+
+    Parameters
+    ----------
+    shown, units, ax, **line
+        As in :func:`pressure_profile`.
+    of : "q_x" or "q_y", optional
+        Which component (default: the larger one on the line, as q_y in torsion).
+    """
+    snapshot = last_of(shown)
+    ax, by = axes(ax), of_snapshot(snapshot, units)
     cut = snapshot.along_x()
-    ax.plot(cut.x / snapshot.a_H, cut.q_x / (snapshot.mu * snapshot.p_H), **line)
-    ax.set_xlabel(r"$x_1/a_H$")
-    ax.set_ylabel(r"$q_1/(\mu\, p_H)$")
+    name: str = of or max(("q_x", "q_y"), key=lambda component: float(abs(cut[component]).max()))
+    ax.plot(cut.x / by.length.value, cut[name] / by.shear.value, **line)
+    ax.set_xlabel(by.length.label("x"))
+    ax.set_ylabel(by.shear.label(name))
     return ax
 
 
 @styled
-def shear_profiles(result: Result, *, ax: Axes | None = None) -> Axes:
+def shear_profiles(result: Result, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
     """Shear traction along y = 0 for every increment whose fields were kept.
 
     A load state that was visited before is drawn as markers in the colour of its first visit:
     markers on a line show that the cycle has settled.
     """
     ax = axes(ax)
+    last = result.at(-1).along_x()
+    name: Literal["q_x", "q_y"] = "q_x" if abs(last.q_x).max() >= abs(last.q_y).max() else "q_y"
     tau = float(result.dataset.t[-1])
     visits = load_states(result)
     colours = colormaps["viridis"](np.linspace(0.0, 0.88, 1 + max(state for state, _ in visits)))
-    for t, (state, visit) in zip(result.dataset.saved_t.values, visits, strict=True):
+    kept = result.dataset.saved_increment.values
+    times = result.dataset.saved_t.values
+    for number, t, (state, visit) in zip(kept, times, visits, strict=True):
         line: dict[str, Any] = {"color": colours[state], "label": f"{round(float(t / tau), 3)}"}
         if visit > 0:
             n = result.dataset.sizes["x"]
@@ -60,7 +98,7 @@ def shear_profiles(result: Result, *, ax: Axes | None = None) -> Axes:
                 "markeredgewidth": 0.8,
                 "markevery": (((visit - 1) * every // 2) % every, every),
             }
-        shear_profile(result.at(float(t)), ax=ax, **line)
+        shear_profile(result.at(int(number)), of=name, units=units, ax=ax, **line)
     ax.legend(title=r"$t/\tau$", loc="center left", bbox_to_anchor=(1.0, 0.5), alignment="left")
     return ax
 
@@ -72,11 +110,12 @@ MARKERS = ("o", "x", "s", "^")
 def load_states(result: Result) -> list[tuple[int, int]]:
     """Number the load states of the kept increments and count the visits of each.
 
-    Two increments share a state if they have the same forces, reached in the same direction, to
-    1e-6 of the largest force.
+    Two increments share a state if they have the same loads, reached in the same direction, to
+    1e-6 of the largest one.
     """
     d = result.dataset
-    scale = 1e-6 * result.W_max
+    force, _, _, _ = NAMES[driven(result.scene.path)]
+    scales = {name: 1e-6 * float(abs(d[name]).max()) or 1.0 for name in ("W", force)}
     seen: list[tuple[float, ...]] = []
     counts: list[int] = []
     visits = []
@@ -84,8 +123,9 @@ def load_states(result: Result) -> list[tuple[int, int]]:
         i = int(increment) - 1
         before = max(i - 1, 0)
         here = d.isel(increment=i)
-        rise = float(here.T_x - d.T_x[before])
-        state = (round(float(here.W) / scale), round(float(here.T_x) / scale), np.sign(rise))
+        rise = float(here[force] - d[force][before])
+        loads = (round(float(here[name]) / scale) for name, scale in scales.items())
+        state = (*loads, np.sign(rise))
         if state not in seen:
             seen.append(state)
             counts.append(-1)

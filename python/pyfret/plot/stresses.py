@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -10,6 +10,10 @@ from matplotlib import colormaps
 from matplotlib.colors import ListedColormap
 from matplotlib.ticker import MaxNLocator
 
+from pyfret.plot.depth_axis import interfaces, thin
+from pyfret.plot.depth_axis import stretch as stretch_axis
+from pyfret.plot.histories import driven
+from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
@@ -20,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from pyfret.results import Result
-    from pyfret.subsurface import Stress
+    from pyfret.subsurface import Maximum, Stress
 
 #: Names of measures in figures.
 SYMBOLS = {
@@ -30,41 +34,45 @@ SYMBOLS = {
     "s_1": r"\sigma_1",
     "s_2": r"\sigma_2",
     "s_3": r"\sigma_3",
-    "s_xx": r"\sigma_{11}",
-    "s_yy": r"\sigma_{22}",
-    "s_zz": r"\sigma_{33}",
-    "s_xy": r"\sigma_{12}",
-    "s_xz": r"\sigma_{13}",
-    "s_yz": r"\sigma_{23}",
+    "s_xx": r"\sigma_{xx}",
+    "s_yy": r"\sigma_{yy}",
+    "s_zz": r"\sigma_{zz}",
+    "s_xy": r"\sigma_{xy}",
+    "s_xz": r"\sigma_{xz}",
+    "s_yz": r"\sigma_{yz}",
     "interface_shear": r"\tau_\mathrm{if}",
     "interface_peel": r"\sigma_\mathrm{peel}",
 }
 
 
-def _interfaces(z: xr.DataArray, layer: xr.DataArray) -> list[float]:
-    """Depths at which the layer changes."""
-    changes = np.flatnonzero(np.diff(layer.values))
-    return [float(z[n] + z[n + 1]) / 2 for n in changes]
+def _scales(attrs: Mapping[Any, Any], units: Units, a_H: float | None, p_H: float | None) -> Scales:
+    """Scales of a dataset, or those given."""
+    given = {k: v for k, v in (("a_H", a_H), ("p_H", p_H)) if v is not None}
+    return scales({**attrs, **given}, units)
 
 
-def _mark(
-    ax: Axes, place: tuple[float, float, float], *, a_H: float, p_H: float, marker: str = "x"
-) -> None:
-    """Mark a value [Pa] at a place along the section and a depth [m]."""
-    value, along, depth = place
-    at = (along / a_H, depth / a_H)
+def _mark(ax: Axes, largest: Maximum, by: Scales, *, marker: str = "x") -> None:
+    """Mark a value at its place along the section and its depth; one on the surface from above."""
+    at = (largest.along / by.length.value, largest.z / by.length.value)
     ax.plot(*at, marker, color=MARK, mfc="none", ms=7, mew=1.6, clip_on=False, zorder=4)
+    # Away from the border of the section, so that the number stays on it.
+    left, right = ax.get_xlim()
+    on_the_right = at[0] > (left + right) / 2
     ax.annotate(
-        f"{value / p_H:.3f}",
+        f"{largest.value / by.stress.value:.4g}",
         at,
-        xytext=(7, -11),
+        xytext=(0, 5) if at[1] == 0.0 else (-7 if on_the_right else 7, -11),
         textcoords="offset points",
+        ha="center" if at[1] == 0.0 else "right" if on_the_right else "left",
         color=MARK,
         fontsize=8,
         bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
+        zorder=5,
     )
 
 
+#: Length over depth of a section beyond which equal lengths leave it too low to be read.
+FLAT = 3.0
 #: Colour of largest values.
 MARK = "#D55E00"
 #: Light enough for black labels.
@@ -75,55 +83,82 @@ COLOURS = ListedColormap(colormaps["YlGnBu"](np.linspace(0.0, 0.62, 256)))
 def section_map(
     values: xr.DataArray,
     *,
-    a_H: float,
-    p_H: float,
+    a_H: float | None = None,
+    p_H: float | None = None,
+    units: Units = "auto",
     symbol: str | None = None,
     levels: int = 12,
-    maximum: tuple[float, float, float] | None = None,
+    maximum: Maximum | None = None,
+    aspect: Literal["equal", "auto"] | None = None,
+    stretch: bool | None = None,
+    colorbar: bool = True,
     ax: Axes | None = None,
 ) -> Axes:
-    """Contours of a field on a section over p_H, lengths over a_H, depth downwards.
+    """Contours of a field on a section, depth downwards.
 
     Parameters
     ----------
     values : DataArray of dims (depth, x) or (depth, y)
         The field [Pa].
-    a_H, p_H : float
-        Yardsticks of length and stress.
+    a_H, p_H : float, optional
+        Yardsticks of length and stress (default: those among the attributes of the field).
+    units : "auto", "dimensionless" or "SI"
+        Over the yardsticks (default where there are any), or in um and MPa.
     symbol : str, optional
         What the field is called (default: by its name).
     levels : int
         Number of contours, about.
-    maximum : (float, float, float), optional
-        Value [Pa], place along the section and depth [m] of a cross with its value beside it.
+    maximum : Maximum, optional
+        A largest value to mark by a cross with its value beside it.
+    aspect : "equal" or "auto", optional
+        Whether lengths are the same in both directions (default: unless the depth is stretched or
+        the section is much longer than deep).
+    stretch : bool, optional
+        Whether every layer gets room on the axis of depth, each on a scale of its own (default: if
+        one is too thin to be seen).
+    colorbar : bool
+        Whether to draw the scale beside the map.
     ax : matplotlib Axes, optional
         Where to draw.
     """
     if ax is None:
-        ax = plt.figure(figsize=(4.6, 3.8)).add_subplot()
+        ax = plt.figure(figsize=(4.8, 3.8)).add_subplot()
+    by = _scales(values.attrs, units, a_H, p_H)
     along = str(values.dims[1])
-    x, z = values[along].values / a_H, values.z.values / a_H
-    field = values.values / p_H
-    steps = MaxNLocator(levels).tick_values(np.nanmin(field), np.nanmax(field))
+    x, z = values[along].values / by.length.value, values.z.values / by.length.value
+    field = values.values / by.stress.value
     layer = values.layer.values
+    inner = [depth / by.length.value for depth in interfaces(values.z, values.layer)]
+    borders = np.array([z[0], *inner, z[-1]])
+    stretch = thin(borders) if stretch is None else stretch
+    if stretch and borders.size > 2:
+        stretch_axis(ax, borders, "y")
+    steps = MaxNLocator(levels).tick_values(np.nanmin(field), np.nanmax(field))
+    image = None
     for part in np.unique(layer):
         here = layer == part
         if np.count_nonzero(here) < 2:
             continue
-        ax.contourf(x, z[here], field[here], levels=steps, cmap=COLOURS)
-        lines = ax.contour(x, z[here], field[here], levels=steps, colors="0.2", linewidths=0.4)
-        ax.clabel(lines, steps[1::2], fontsize=6.5, inline_spacing=2)
-    for depth in _interfaces(values.z, values.layer):
-        ax.axhline(depth / a_H, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
+        image = ax.contourf(x, z[here], field[here], levels=steps, cmap=COLOURS)
+        ax.contour(x, z[here], field[here], levels=steps, colors="0.2", linewidths=0.4)
+    for depth in inner:
+        ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
+    ax.set_xlim(x[0], x[-1])
     if maximum is not None:
-        _mark(ax, maximum, a_H=a_H, p_H=p_H)
-    ax.set_xlabel(rf"${along}/a_H$" if along != "x" else r"$x_1/a_H$")
-    ax.set_ylabel(r"$x_3/a_H$")
-    ax.set_ylim(z[-1], z[0])
-    ax.set_aspect("equal")
-    ax.grid(visible=False)
+        _mark(ax, maximum, by)
     name = symbol if symbol is not None else SYMBOLS.get(str(values.name), str(values.name))
-    ax.set_title(rf"${name}/p_H$")
+    if colorbar and image is not None:
+        bar = ax.get_figure().colorbar(image, ax=ax, shrink=0.9, pad=0.02)  # type: ignore[union-attr]
+        bar.outline.set_visible(False)
+        bar.set_label(by.stress.label(name))
+    else:
+        ax.set_title(by.stress.label(name))
+    ax.set_xlabel(by.length.label(along))
+    ax.set_ylabel(by.length.label("z"))
+    ax.set_ylim(z[-1], z[0])
+    flat = x[-1] - x[0] > FLAT * (z[-1] - z[0])
+    ax.set_aspect(aspect or ("auto" if stretch or flat else "equal"))
+    ax.grid(visible=False)
     return ax
 
 
@@ -131,23 +166,38 @@ def section_map(
 def stress_map(
     stress: Stress,
     *,
-    a_H: float,
-    p_H: float,
+    a_H: float | None = None,
+    p_H: float | None = None,
+    units: Units = "auto",
     of: str = "von_mises",
     levels: int = 12,
+    aspect: Literal["equal", "auto"] | None = None,
+    stretch: bool | None = None,
+    colorbar: bool = True,
     ax: Axes | None = None,
 ) -> Axes:
-    """Contours of a measure of stress on a section over p_H.
+    """Contours of a measure of stress on a section; parameters as in :func:`section_map`.
 
     A cross marks the largest value, a circle the largest one on the surface if that is another.
     """
-    value, along, z, _ = stress.maximum(of)
-    values = stress.measure(of)
-    largest = (value, along, z)
-    ax = section_map(values, a_H=a_H, p_H=p_H, levels=levels, maximum=largest, ax=ax)
-    if float(values.z[0]) == 0.0 < z:
-        surface = type(stress)(stress.dataset.isel(depth=slice(1)))
-        _mark(ax, surface.maximum(of)[:3], a_H=a_H, p_H=p_H, marker="o")
+    largest = stress.maximum(of)
+    values = stress.measure(of).assign_attrs(stress.dataset.attrs)
+    ax = section_map(
+        values,
+        a_H=a_H,
+        p_H=p_H,
+        units=units,
+        levels=levels,
+        maximum=largest,
+        aspect=aspect,
+        stretch=stretch,
+        colorbar=colorbar,
+        ax=ax,
+    )
+    if float(values.z[0]) == 0.0 < largest.z and not of.startswith("interface"):
+        top = stress.dataset.isel(depth=slice(1)).assign_attrs(interfaces=[])
+        by = _scales(stress.dataset.attrs, units, a_H, p_H)
+        _mark(ax, type(stress)(top).maximum(of), by, marker="o")
     return ax
 
 
@@ -155,36 +205,50 @@ def stress_map(
 def stress_along_depth(
     stress: Stress,
     *,
-    a_H: float,
-    p_H: float,
+    a_H: float | None = None,
+    p_H: float | None = None,
+    units: Units = "auto",
     of: tuple[str, ...] = ("s_xx", "s_yy", "s_zz", "von_mises"),
+    stretch: bool | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Measures of the stress below one point over p_H, over the depth over a_H.
+    """Measures of the stress below one point over the depth; parameters as in :func:`section_map`.
 
     Broken at interfaces, where s_xx and s_yy jump.
     """
     ax = axes(ax)
-    z, layer = stress.dataset.z.values / a_H, stress.dataset.layer.values
+    by = _scales(stress.dataset.attrs, units, a_H, p_H)
+    z, layer = stress.dataset.z.values / by.length.value, stress.dataset.layer.values
     if stress.dataset.s_xx.ndim != 1:
-        raise ValueError("the line below one point is drawn: give stress(z, x=..., y=...)")
+        raise ValueError("the line below one point is drawn: give stress(x=..., y=...)")
+    inner = [d / by.length.value for d in interfaces(stress.dataset.z, stress.dataset.layer)]
+    borders = np.array([z[0], *inner, z[-1]])
+    if (thin(borders) if stretch is None else stretch) and borders.size > 2:
+        stretch_axis(ax, borders, "x")
     for n, name in enumerate(of):
-        values = stress.measure(name).values / p_H
+        values = stress.measure(name).values / by.stress.value
         for part in np.unique(layer):
             here = layer == part
             label = f"${SYMBOLS.get(name, name)}$" if part == layer[0] else None
             ax.plot(z[here], values[here], color=f"C{n}", label=label)
-    for depth in _interfaces(stress.dataset.z, stress.dataset.layer):
-        ax.axvline(depth / a_H, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)
-    ax.set_xlabel(r"$x_3/a_H$")
-    ax.set_ylabel(r"$\sigma/p_H$")
+    for depth in inner:
+        ax.axvline(depth, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)
+    ax.set_xlim(z[0], z[-1])
+    ax.set_xlabel(by.length.label("z"))
+    ax.set_ylabel(by.stress.label(r"\sigma"))
     ax.legend()
     return ax
 
 
 @styled
 def envelope_maps(
-    envelope: xr.Dataset, *, a_H: float, p_H: float, of: str = "von_mises", cycle: int = -1
+    envelope: xr.Dataset,
+    *,
+    a_H: float | None = None,
+    p_H: float | None = None,
+    units: Units = "auto",
+    of: str = "von_mises",
+    cycle: int = -1,
 ) -> Figure:
     """Largest value over the path, and amplitude and mean over a cycle, of a measure of stress."""
     name = SYMBOLS.get(of, of)
@@ -193,10 +257,11 @@ def envelope_maps(
         shown.append((envelope[f"{of}_amplitude"].isel(cycle=cycle), rf"\Delta {name}/2"))
         shown.append((envelope[f"{of}_mean"].isel(cycle=cycle), rf"\overline{{{name}}}"))
     figure, row = plt.subplots(
-        1, len(shown), figsize=(0.4 + 3.7 * len(shown), 3.7), squeeze=False, layout="constrained"
+        1, len(shown), figsize=(0.4 + 3.9 * len(shown), 3.7), squeeze=False, layout="constrained"
     )
     for ax, (values, symbol) in zip(row[0], shown, strict=True):
-        section_map(values, a_H=a_H, p_H=p_H, symbol=symbol, ax=ax)
+        field = values.assign_attrs(envelope.attrs)
+        section_map(field, a_H=a_H, p_H=p_H, units=units, symbol=symbol, ax=ax)
         ax.label_outer()
     return figure
 
@@ -205,25 +270,28 @@ def envelope_maps(
 def stress_history(
     envelope: xr.Dataset,
     *,
-    a_H: float,
-    p_H: float,
+    a_H: float | None = None,
+    p_H: float | None = None,
+    units: Units = "auto",
     of: str = "von_mises",
     ax: Axes | None = None,
     **line: Any,
 ) -> Axes:
-    """Largest value of a measure of stress on a section, over p_H, at every increment.
+    """Largest value of a measure of stress on a section at every increment.
 
-    The points are coloured by its depth over a_H.
+    The points are coloured by its depth.
     """
     ax = axes(ax)
-    value, z = envelope[f"{of}_largest"] / p_H, envelope[f"{of}_largest_z"] / a_H
+    by = _scales(envelope.attrs, units, a_H, p_H)
+    value = envelope[f"{of}_largest"] / by.stress.value
+    z = envelope[f"{of}_largest_z"] / by.length.value
     ax.plot(value.increment, value, color="0.7", zorder=1, **line)
     points = ax.scatter(value.increment, value, c=z, s=9, cmap="viridis", zorder=2)
     bar = ax.get_figure().colorbar(points, ax=ax)  # type: ignore[union-attr]
-    bar.set_label(r"$x_3/a_H$")
+    bar.set_label(by.length.label("z"))
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel("increment")
-    ax.set_ylabel(rf"$\max {SYMBOLS.get(of, of)}/p_H$")
+    ax.set_ylabel(by.stress.label(rf"\max {SYMBOLS.get(of, of)}"))
     return ax
 
 
@@ -253,10 +321,8 @@ def stress_maps(
         1, n, figsize=(0.4 + 3.7 * n, 3.7), squeeze=False, layout="constrained"
     )
     for ax, letter, (ratio, result) in zip(row[0], "abcdef", sorted(results.items()), strict=False):
-        interfaces = np.cumsum([c.thickness for c in result.scene.body2.coatings])
-        z = np.union1d(np.linspace(0.0, depth * result.a_H, layers), interfaces)
-        stress = result.at(-1).stress(z, y=0.0)
-        stress_map(stress, a_H=result.a_H, p_H=result.p_H, of=of, ax=ax)
+        z = np.union1d(np.linspace(0.0, depth * result.a_H, layers), result.scene.interfaces())
+        stress_map(result.at(-1).stress(z, y=0.0), of=of, ax=ax)
         ax.set_title(rf"({letter})  $E_1/E_2 = {ratio:g}$")
         ax.label_outer()
     return figure
@@ -264,12 +330,16 @@ def stress_maps(
 
 @styled
 def loop_evolution(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
-    """Energy ratio, sliding ratio and dissipated energy of each cycle, the last over its mean."""
+    """Energy ratio, sliding ratio and dissipated energy of each cycle, the last over its mean.
+
+    Of the first motion that the path drives: along x, along y or in torsion.
+    """
     ax = axes(ax)
-    loops = result.loops()
+    loops = result.loops(direction=driven(result.scene.path))
     number = np.arange(1, loops.sizes["cycle"] + 1)
     line = {"marker": "o", "markersize": 4, **line}
-    dissipated = loops.dissipated / loops.dissipated.mean()
+    mean = float(loops.dissipated.mean()) if number.size else 0.0
+    dissipated = loops.dissipated / (mean or 1.0)
     for values, label in (
         (loops.energy_ratio, "energy ratio"),
         (loops.sliding_ratio, "sliding ratio"),
@@ -279,7 +349,8 @@ def loop_evolution(result: Result, *, ax: Axes | None = None, **line: Any) -> Ax
     ax.set_xlabel("cycle")
     ax.set_xticks(number)
     ax.set_ylim(bottom=0.0)
-    ax.legend()
+    if number.size:
+        ax.legend()
     return ax
 
 

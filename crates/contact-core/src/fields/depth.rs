@@ -50,3 +50,87 @@ pub fn depths(body: &Body, z: &[f64]) -> Result<Vec<Depth>, Error> {
     }
     Ok(all)
 }
+
+/// Distance of neighbouring chosen depths over their depth.
+const STEP: f64 = 0.1;
+/// Depth below which the distance no longer falls, over the radius of the contact.
+const SHALLOW: f64 = 0.02;
+/// Fewest steps across a layer.
+const STEPS_OF_A_LAYER: f64 = 4.0;
+
+/// The depths at which the stress is looked at where none are named, with both sides of every
+/// interface: from the surface to the depth `deepest` \[m\] under a contact of the radius `a` \[m\].
+/// `finer` times as many as the default, 1.
+///
+/// What tractions on the surface cause at a depth z varies along z over lengths of the order of z, so
+/// that neighbours are a tenth of their depth apart, near the surface a five-hundredth of `a`; a layer
+/// has five of them at least, its borders among them.
+pub fn chosen_depths(body: &Body, a: f64, deepest: f64, finer: f64) -> Result<Vec<Depth>, Error> {
+    if !(deepest > 0.0 && deepest.is_finite()) {
+        return Err(Error::invalid("depth", deepest, "a positive length in m"));
+    }
+    let shallow = SHALLOW * a;
+    let mut z = vec![0.0];
+    let borders = body.interfaces().into_iter().filter(|b| *b < deepest);
+    for bottom in borders.chain([deepest]) {
+        let top = z[z.len() - 1];
+        let range = ((bottom + shallow) / (top + shallow)).ln();
+        let steps = (finer * (range / STEP).max(STEPS_OF_A_LAYER)).ceil();
+        // Even in the logarithm.
+        let inside = (1..steps as usize).map(|i| {
+            let at = (range * i as f64 / steps).exp() * (top + shallow) - shallow;
+            at.clamp(top, bottom)
+        });
+        z.extend(inside);
+        z.push(bottom);
+    }
+    depths(body, &z)
+}
+
+/// The places in `depths` that lie on an interface: the same depth in two layers, one after the other.
+pub(super) fn on_interfaces(depths: &[Depth]) -> Vec<bool> {
+    let same = |a: usize, b: usize| {
+        depths
+            .get(a)
+            .zip(depths.get(b))
+            .is_some_and(|(a, b)| a.z == b.z && a.layer != b.layer)
+    };
+    let one = |n: usize| same(n, n + 1) || (n > 0 && same(n - 1, n));
+    (0..depths.len()).map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{chosen_depths, on_interfaces};
+    use crate::scene::{Body, Coating, Elastic, Shape};
+
+    #[test]
+    fn every_layer_has_its_depths_and_both_sides_of_its_borders() {
+        let material = Elastic { E: 2e11, nu: 0.3 };
+        let coatings = [3e-6, 2e-7, 4e-5].map(|thickness| Coating {
+            material,
+            thickness,
+        });
+        let body = Body {
+            coatings: coatings.to_vec(),
+            ..Body::homogeneous(material, Shape::Flat)
+        };
+        let (a, deepest) = (8e-5, 1.6e-4);
+        let depths = chosen_depths(&body, a, deepest, 1.0).expect("depths");
+        let of_layer = |n| depths.iter().filter(move |d| d.layer == n).map(|d| d.z);
+        for layer in 0..4 {
+            assert!(of_layer(layer).count() >= 5, "layer {layer}: {depths:?}");
+        }
+        for (n, z) in body.interfaces().into_iter().enumerate() {
+            assert_eq!(of_layer(n).last(), Some(z));
+            assert_eq!(of_layer(n + 1).next(), Some(z));
+        }
+        assert!(depths[0].z == 0.0 && depths.last().is_some_and(|d| d.z == deepest));
+        assert!(depths.windows(2).all(|d| d[0].z <= d[1].z) && depths.len() < 80);
+        assert_eq!(on_interfaces(&depths).iter().filter(|on| **on).count(), 6);
+        // Interfaces below the deepest are not looked at.
+        let shallow = chosen_depths(&body, a, 1e-6, 1.0).expect("depths");
+        assert!(shallow.iter().all(|d| d.layer == 0));
+        assert!(chosen_depths(&body, a, 0.0, 1.0).is_err());
+    }
+}

@@ -14,6 +14,8 @@ pub struct Measure {
     pub long_name: &'static str,
     /// Its value.
     pub value: fn(&StressTensor) -> f64,
+    /// Whether it lives on interfaces: its largest value is looked for there alone.
+    pub of_interfaces: bool,
 }
 
 impl Measure {
@@ -35,6 +37,14 @@ const fn measure(
         name,
         long_name,
         value,
+        of_interfaces: false,
+    }
+}
+
+const fn of_interfaces(measure: Measure) -> Measure {
+    Measure {
+        of_interfaces: true,
+        ..measure
     }
 }
 
@@ -60,16 +70,16 @@ pub const MEASURES: &[Measure] = &[
         "hydrostatic stress, tension positive",
         hydrostatic,
     ),
-    measure(
+    of_interfaces(measure(
         "interface_shear",
-        "shear traction on planes z = const, size",
+        "shear traction on planes z = const, size; largest on an interface",
         |s| s[4].hypot(s[5]),
-    ),
-    measure(
+    )),
+    of_interfaces(measure(
         "interface_peel",
-        "tension across planes z = const, 0 where they are pressed",
+        "tension across planes z = const, 0 where they are pressed; largest on an interface",
         |s| s[2].max(0.0),
-    ),
+    )),
 ];
 
 /// The measure of a name.

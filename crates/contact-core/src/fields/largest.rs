@@ -2,7 +2,7 @@
 
 use ndarray::Array2;
 
-use super::maximum::{Maximum, Top, maximum_of_tops};
+use super::maximum::{Maximum, Top};
 use super::{Accumulate, Depth, Measure, Moment};
 
 /// Keeps the largest value of measures of stress below a line at every increment: a number and a
@@ -26,7 +26,10 @@ pub struct DepthTops {
 
 impl Largest {
     /// The largest values over all depths, by moment and measure, from the accumulators of the depths.
-    pub fn over_depths(kept: &[DepthTops]) -> Vec<(Moment, Vec<Option<Maximum<1>>>)> {
+    pub fn over_depths(
+        measures: &[Measure],
+        kept: &[DepthTops],
+    ) -> Vec<(Moment, Vec<Option<Maximum<1>>>)> {
         let depths: Vec<Depth> = kept.iter().map(|k| k.depth).collect();
         let Some(first) = kept.first() else {
             return Vec::new();
@@ -34,7 +37,7 @@ impl Largest {
         let moments = first.tops.iter().enumerate().map(|(n, (moment, tops))| {
             let of = |m: usize| {
                 let tops: Vec<_> = kept.iter().map(|k| k.tops[n].1[m]).collect();
-                maximum_of_tops(&tops, &depths)
+                measures[m].largest(&tops, &depths)
             };
             (*moment, (0..tops.len()).map(of).collect())
         });

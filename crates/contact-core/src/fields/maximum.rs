@@ -8,6 +8,7 @@
 use ndarray::{Array2, ArrayView1};
 
 use super::Depth;
+use super::depth::on_interfaces;
 
 /// Largest shift of the sample, in cells, between the tops of neighbouring lines or depths for
 /// them to belong to one hill.
@@ -35,6 +36,9 @@ pub struct Maximum<const D: usize> {
     pub depth: Depth,
     /// Index of the depth next to it.
     pub sample: usize,
+    /// What the distances of the depths leave of an error, estimated: what the value changes by if
+    /// every other depth of each layer is left out.
+    pub error: f64,
 }
 
 /// The largest value on a line of samples at the places `along` \[m\]; `None` without a number.
@@ -75,6 +79,49 @@ pub fn maximum_of_tops<const D: usize>(
     tops: &[Option<Top<D>>],
     depths: &[Depth],
 ) -> Option<Maximum<D>> {
+    let largest = summit_of_tops(tops, depths)?;
+    let mut thinned = tops.to_vec();
+    for (top, kept) in thinned.iter_mut().zip(every_other(depths)) {
+        *top = top.filter(|_| kept);
+    }
+    let coarser = summit_over(&thinned, depths, &every_other(depths));
+    let error = coarser.map_or(f64::INFINITY, |c| (largest.value - c.value).abs());
+    Some(Maximum { error, ..largest })
+}
+
+/// The same on the interfaces alone; `None` where there is none among the depths.
+pub fn maximum_on_interfaces<const D: usize>(
+    tops: &[Option<Top<D>>],
+    depths: &[Depth],
+) -> Option<Maximum<D>> {
+    let tops = tops.iter().zip(on_interfaces(depths));
+    let kept: Vec<_> = tops.map(|(top, kept)| top.filter(|_| kept)).collect();
+    // An interface is no sample of anything: there is nothing between two of them.
+    let largest = summit_over(&kept, depths, &vec![false; depths.len()])?;
+    Some(Maximum {
+        error: 0.0,
+        ..largest
+    })
+}
+
+/// Which depths stay if every other one of each layer is left out, its first and last kept.
+fn every_other(depths: &[Depth]) -> Vec<bool> {
+    let layers = depths.chunk_by(|a, b| a.layer == b.layer);
+    let kept = layers.flat_map(|of| (0..of.len()).map(|n| n % 2 == 0 || n + 1 == of.len()));
+    kept.collect()
+}
+
+fn summit_of_tops<const D: usize>(tops: &[Option<Top<D>>], depths: &[Depth]) -> Option<Maximum<D>> {
+    summit_over(tops, depths, &vec![true; depths.len()])
+}
+
+/// The largest value over the depths with a top; neighbours are those of one layer between which
+/// no depth lies that is `present`.
+fn summit_over<const D: usize>(
+    tops: &[Option<Top<D>>],
+    depths: &[Depth],
+    present: &[bool],
+) -> Option<Maximum<D>> {
     let (found, tops): (Vec<usize>, Vec<Top<D>>) = tops
         .iter()
         .enumerate()
@@ -82,7 +129,9 @@ pub fn maximum_of_tops<const D: usize>(
         .unzip();
     let beside = |n: usize, m: usize| {
         let (a, b) = (found[n], found[m]);
-        a.abs_diff(b) == 1 && depths[a].layer == depths[b].layer
+        let between = a.min(b) + 1..a.max(b);
+        let next = present[a] && present[b] && !present[between].contains(&true);
+        next && depths[a].layer == depths[b].layer
     };
     let (z, top) = summit(&tops, |n| depths[found[n]].z, &beside)?;
     let sample = found[largest(&tops)?];
@@ -94,6 +143,7 @@ pub fn maximum_of_tops<const D: usize>(
             layer: depths[sample].layer,
         },
         sample,
+        error: 0.0,
     })
 }
 
@@ -173,6 +223,45 @@ mod tests {
         let m = maximum(&field, &depths, &X).expect("numbers");
         assert!((m.value - 5.0).abs() < 1e-12, "{m:?}");
         assert!((m.place[0] - 0.2).abs() < 1e-12 && (m.depth.z - 1.6).abs() < 1e-12);
+    }
+
+    #[test]
+    fn its_error_is_what_half_of_the_depths_miss() {
+        let depths: Vec<Depth> = (0..=16)
+            .map(|k| Depth {
+                z: 0.25 * f64::from(k),
+                layer: 0,
+            })
+            .collect();
+        let field = |z: f64| (z - 1.6).powi(2) * (0.1 * z - 1.0);
+        let values = Array2::from_shape_fn((17, 6), |(k, i)| field(depths[k].z) - X[i].powi(2));
+        let m = maximum(&values, &depths, &X).expect("numbers");
+        let off = (m.value - field(1.6)).abs();
+        assert!(m.error > 0.0 && off < 1e-2, "{m:?}");
+        // One at a border is exact.
+        let at_border = Array2::from_shape_fn((17, 6), |(k, i)| depths[k].z - X[i].powi(2));
+        assert_eq!(
+            maximum(&at_border, &depths, &X).expect("numbers").error,
+            0.0
+        );
+    }
+
+    #[test]
+    fn what_lives_on_interfaces_is_looked_for_there_alone() {
+        let at = |z: f64, layer: usize| Depth { z, layer };
+        let depths = [at(0.0, 0), at(1.0, 0), at(1.0, 1), at(2.0, 1)];
+        let tops: Vec<_> = [9.0, 2.0, 3.0, 8.0]
+            .map(|value| {
+                Some(Top {
+                    value,
+                    place: [0.0],
+                    sample: [0],
+                })
+            })
+            .to_vec();
+        let m = maximum_on_interfaces(&tops, &depths).expect("an interface");
+        assert!(m.value == 3.0 && m.depth == at(1.0, 1), "{m:?}");
+        assert!(maximum_on_interfaces(&tops[..2], &depths[..2]).is_none());
     }
 
     #[test]

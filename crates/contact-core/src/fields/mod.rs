@@ -35,7 +35,7 @@ mod slices;
 mod states;
 mod stream;
 
-pub use depth::{Depth, Side, depths};
+pub use depth::{Depth, Side, chosen_depths, depths};
 pub use derived::{
     MEASURES, Measure, Principal, StressTensor, hydrostatic, measure_named, principal,
     principal_values, tresca, von_mises,
@@ -43,7 +43,9 @@ pub use derived::{
 pub use energy::{Cycle, Direction, LoopPoint, cycles, loops};
 pub use envelope::{DepthEnvelope, Envelope, Extremes};
 pub use largest::{DepthTops, Largest};
-pub use maximum::{Maximum, Top, maximum, maximum_of_tops, top_of_line, top_of_plane};
+pub use maximum::{
+    Maximum, Top, maximum, maximum_of_tops, maximum_on_interfaces, top_of_line, top_of_plane,
+};
 pub use points::{Point, Points};
 pub use probe::{Component, DISPLACEMENTS, Probe, Probed};
 pub use rim::{Rim, rims};

@@ -13,7 +13,7 @@ use ndarray::{Array3, ArrayView2, Axis};
 
 use super::Depth;
 use super::derived::{Measure, StressTensor};
-use super::maximum::{Maximum, Top, maximum_of_tops, top_of_line};
+use super::maximum::{Maximum, Top, maximum_of_tops, maximum_on_interfaces, top_of_line};
 
 /// Share of the largest pressure below which a cell carries none.
 const NOTHING: f64 = 1e-9;
@@ -165,6 +165,20 @@ impl Measure {
         let tops: Vec<_> = lines
             .map(|(line, depth)| self.top(&line, along, *depth))
             .collect();
-        maximum_of_tops(&tops, depths)
+        self.largest(&tops, depths)
+    }
+
+    /// Its largest value over depths, from the tops at each: that of the interfaces alone if it lives
+    /// there.
+    pub fn largest<const D: usize>(
+        &self,
+        tops: &[Option<Top<D>>],
+        depths: &[Depth],
+    ) -> Option<Maximum<D>> {
+        if self.of_interfaces {
+            maximum_on_interfaces(tops, depths)
+        } else {
+            maximum_of_tops(tops, depths)
+        }
     }
 }

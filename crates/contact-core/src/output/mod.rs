@@ -38,5 +38,7 @@ pub use stress_store::StressStore;
 pub use volume::{VolumeSink, write_volume};
 pub use writer::StoreWriter;
 
+/// The conventions that the names of attributes follow (https://cfconventions.org).
+const CONVENTIONS: &str = "CF-1.11";
 /// The version of the store's layout.
 const SCHEMA: u64 = 2;

@@ -273,6 +273,7 @@ fn group_attributes(scene: &Scene, plan: &Plan) -> Map<String, Value> {
     let plan: Vec<_> = plan.lines.iter().map(ToString::to_string).collect();
     let mut attributes = Map::new();
     let mut set = |key: &str, value: Value| attributes.insert(key.to_owned(), value);
+    set("Conventions", json!(super::CONVENTIONS));
     set("title", json!(scene.title));
     set("schema", json!(super::SCHEMA));
     set("version", json!(env!("CARGO_PKG_VERSION")));

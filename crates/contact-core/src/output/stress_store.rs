@@ -97,6 +97,7 @@ impl StressStore {
             )
         };
         let mut attributes = Map::new();
+        attributes.insert("Conventions".into(), json!(super::CONVENTIONS));
         attributes.insert("title".into(), json!(title));
         attributes.insert("schema".into(), json!(SCHEMA));
         attributes.insert("version".into(), json!(env!("CARGO_PKG_VERSION")));

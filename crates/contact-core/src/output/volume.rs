@@ -12,15 +12,18 @@ pub trait VolumeSink: Sync {
     fn put(&self, probe: usize, depth: usize, values: &Array2<f64>) -> Result<(), Error>;
 }
 
-/// Computes the probes under the first state of `slices` at every depth, hands them to the
-/// sinks and gives the largest value of each, refined between the cells. Only as many planes are
-/// in memory as there are threads.
+/// Computes the probes under the first state of `slices` at every depth of `written`, hands them to
+/// the sinks and gives the largest value of each, refined between the cells; for that alone the
+/// planes at the depths `between` are looked at too. Only as many planes are in memory as there are
+/// threads.
 pub fn write_volume(
     slices: &Slices,
-    depths: &[Depth],
+    written: &[Depth],
+    between: &[Depth],
     probes: &[Probe],
     sinks: &[&dyn VolumeSink],
 ) -> Result<Vec<Option<Maximum<2>>>, Error> {
+    let (depths, place) = merged(written, between);
     let grid = slices.grid();
     let x: Vec<f64> = (0..grid.nx).map(|i| grid.x(i)).collect();
     let y: Vec<f64> = (0..grid.ny).map(|j| grid.y(j)).collect();
@@ -30,8 +33,8 @@ pub fn write_volume(
         .map(|(at, depth)| {
             let mut tops = vec![None; probes.len()];
             slices.probe(*depth, probes, |n, values| {
-                for sink in sinks {
-                    sink.put(n, at, &values)?;
+                for sink in sinks.iter().filter(|_| place[at].is_some()) {
+                    sink.put(n, place[at].unwrap_or_default(), &values)?;
                 }
                 tops[n] = top_of_plane(&values, &x, &y);
                 Ok(())
@@ -41,7 +44,22 @@ pub fn write_volume(
         .collect::<Result<_, Error>>()?;
     let over_depths = |n: usize| {
         let tops: Vec<_> = tops.iter().map(|of: &Vec<_>| of[n]).collect();
-        maximum_of_tops(&tops, depths)
+        match &probes[n] {
+            Probe::Stress(measure) => measure.largest(&tops, &depths),
+            Probe::Displacement(_) => maximum_of_tops(&tops, &depths),
+        }
     };
     Ok((0..probes.len()).map(over_depths).collect())
+}
+
+/// The depths of both lists in their order, each once, with the place in the first.
+fn merged(written: &[Depth], between: &[Depth]) -> (Vec<Depth>, Vec<Option<usize>>) {
+    let named = written
+        .iter()
+        .enumerate()
+        .map(|(n, depth)| (*depth, Some(n)));
+    let others = between.iter().filter(|depth| !written.contains(depth));
+    let mut all: Vec<_> = named.chain(others.map(|depth| (*depth, None))).collect();
+    all.sort_by(|(a, _), (b, _)| a.z.total_cmp(&b.z).then(a.layer.cmp(&b.layer)));
+    all.into_iter().unzip()
 }

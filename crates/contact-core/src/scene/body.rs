@@ -23,6 +23,28 @@ pub struct Body {
     pub shape: Shape,
 }
 
+impl Coating {
+    /// Fails if the material or the thickness is out of its range; `key` says where it stands.
+    pub fn check(&self, key: &str) -> Result<(), Error> {
+        self.material.check(key)?;
+        if !(self.thickness > 0.0 && self.thickness.is_finite()) {
+            return Err(Error::invalid(
+                format!("{key}.thickness"),
+                self.thickness,
+                "a positive length in m",
+            ));
+        }
+        if self.material.is_rigid() {
+            return Err(Error::invalid(
+                format!("{key}.E"),
+                self.material.E,
+                "a finite modulus (a rigid layer makes the whole body rigid)",
+            ));
+        }
+        Ok(())
+    }
+}
+
 impl Body {
     /// A homogeneous body.
     pub fn homogeneous(material: Elastic, shape: Shape) -> Self {
@@ -41,6 +63,15 @@ impl Body {
     /// Whether every layer has the properties of the substrate.
     pub fn is_homogeneous(&self) -> bool {
         self.coatings.iter().all(|c| c.material == self.substrate)
+    }
+
+    /// Depths of the interfaces \[m\], from the surface down.
+    pub fn interfaces(&self) -> Vec<f64> {
+        let bottom = |depth: &mut f64, coating: &Coating| {
+            *depth += coating.thickness;
+            Some(*depth)
+        };
+        self.coatings.iter().scan(0.0, bottom).collect()
     }
 
     /// The elastic make-up: E, nu and thickness of each layer from the surface down, 0 for the
@@ -63,22 +94,7 @@ impl Body {
     pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
         self.substrate.check(key)?;
         for (i, coating) in self.coatings.iter().enumerate() {
-            let key = format!("{key}.coatings[{i}]");
-            coating.material.check(&key)?;
-            if !(coating.thickness > 0.0 && coating.thickness.is_finite()) {
-                return Err(Error::invalid(
-                    format!("{key}.thickness"),
-                    coating.thickness,
-                    "a positive length in m",
-                ));
-            }
-            if coating.material.is_rigid() {
-                return Err(Error::invalid(
-                    format!("{key}.E"),
-                    coating.material.E,
-                    "a finite modulus (a rigid layer makes the whole body rigid)",
-                ));
-            }
+            coating.check(&format!("{key}.coatings[{i}]"))?;
         }
         self.shape.check(&format!("{key}.shape"))
     }

@@ -73,7 +73,8 @@ impl Friction {
         plain.then_some(if W > 0.0 { self.mu * W } else { 0.0 })
     }
 
-    pub(crate) fn check(&self, grid: Option<&Grid>) -> Result<(), Error> {
+    /// Fails if a coefficient, map or history has no meaning, or, given a `grid`, does not cover it.
+    pub fn check(&self, grid: Option<&Grid>) -> Result<(), Error> {
         let positive = |mu: f64| mu > 0.0 && mu.is_finite();
         if self.mu < 0.0 || self.mu.is_nan() {
             return Err(Error::invalid("friction.mu", self.mu, "a number >= 0"));

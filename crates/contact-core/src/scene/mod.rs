@@ -6,13 +6,16 @@
 mod body;
 mod bulk_stress;
 mod case;
+mod doubts;
 mod friction;
 mod grid;
 mod load_path;
 mod loads;
 mod magnitude;
 mod material;
+mod missing;
 mod motion;
+mod number_files;
 mod settings;
 mod shape;
 mod surface_map;
@@ -25,6 +28,7 @@ pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
 pub use loads::{Given, Loads};
 pub(crate) use magnitude::{LARGEST, SMALLEST};
 pub use material::Elastic;
+pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
 pub use settings::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
@@ -119,6 +123,7 @@ impl Scene {
             }
         }
         self.check_yardsticks()?;
+        self.check_sense()?;
         self.settings.check()?;
         self.check_saved()
     }
@@ -192,6 +197,35 @@ impl Scene {
             p0: line.p0,
             delta_z: line.approach(1.0 / k, self.grid.extent().0),
         })
+    }
+
+    /// The length that results of an increment of pressure `p`, shape (nx, ny) \[Pa\], are measured in
+    /// \[m\]: a_H, or where there is no Hertz contact half the longer side of the box around the
+    /// contact, or of the grid where nothing touches.
+    pub fn length(&self, p: &ndarray::Array2<f64>) -> f64 {
+        if let Some(hertz) = self.hertz() {
+            return hertz.a;
+        }
+        let touching = p
+            .indexed_iter()
+            .filter(|(_, p)| **p > 0.0)
+            .map(|(at, _)| at);
+        let none = ((usize::MAX, 0), (usize::MAX, 0));
+        let ((left, right), (low, high)) = touching.fold(none, |((l, r), (b, t)), (i, j)| {
+            ((l.min(i), r.max(i)), (b.min(j), t.max(j)))
+        });
+        let grid = &self.grid;
+        if left > right {
+            return grid.extent().0 / 2.0;
+        }
+        let along_x = (right - left + 1) as f64 * grid.dx;
+        let along_y = (high - low + 1) as f64 * grid.dy;
+        let longer = if grid.plane_strain {
+            along_x
+        } else {
+            along_x.max(along_y)
+        };
+        longer / 2.0
     }
 
     /// The length that approaches are compared with \[m\]: Hertz's approach, or where there is none

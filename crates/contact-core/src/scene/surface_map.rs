@@ -1,15 +1,14 @@
 //! Numbers given on points of the contact plane: heights, friction.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
-use ndarray::{Array2, ArrayView2};
-use ndarray_npy::ViewNpyExt;
+use ndarray::Array2;
 
 use super::Grid;
 use super::case::files;
+use super::missing::{Missing, completed};
+use super::number_files::{read_npy, read_table};
 use crate::error::Error;
 
 /// Numbers over the contact plane on points of their own, the middle of the map over the origin.
@@ -22,9 +21,10 @@ pub struct SurfaceMap {
 }
 
 impl SurfaceMap {
-    /// Reads numbers from a `.npy` array of 64-bit numbers or from a table of numbers parted by
-    /// commas (`.csv`), one line per x.
-    pub fn from_file(path: &Path, spacing: (f64, f64)) -> Result<Self, Error> {
+    /// Reads numbers from a `.npy` array of real or whole numbers of any size and byte order, or from a
+    /// table of numbers, one line per x, parted by commas, semicolons, tabs or blanks, with or without
+    /// a line of titles. What becomes of points without a number, `missing` says.
+    pub fn from_file(path: &Path, spacing: (f64, f64), missing: Missing) -> Result<Self, Error> {
         // Readers may say it in several lines; an error is one sentence.
         let failed = |message: String| Error::File {
             path: path.display().to_string(),
@@ -34,12 +34,26 @@ impl SurfaceMap {
         let is_npy = path
             .extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("npy"));
-        let read = if is_npy { read_npy } else { read_csv };
-        let values = read(path).map_err(failed)?;
+        let read = if is_npy { read_npy } else { read_table };
+        let values = read(path)
+            .and_then(|values| completed(values, missing))
+            .map_err(failed)?;
         Ok(Self {
             values: Arc::new(values),
             spacing,
         })
+    }
+
+    /// Numbers on points with a `spacing` \[m\]; what becomes of those that are NaN, `missing` says.
+    pub fn new(values: Array2<f64>, spacing: (f64, f64), missing: Missing) -> Result<Self, Error> {
+        let values = completed(values, missing)
+            .map_err(|holes| Error::invalid("map", holes, "a number at every point"))?;
+        let map = Self {
+            values: Arc::new(values),
+            spacing,
+        };
+        map.check("map")?;
+        Ok(map)
     }
 
     /// The number at (x, y), linear between the points, level beyond the border.
@@ -53,7 +67,8 @@ impl SurfaceMap {
             + s * ((1.0 - t) * z[(k, j)] + t * z[(k, l)])
     }
 
-    pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
+    /// Fails if it holds no number, one that is not finite, or has no spacing; `key` says where it stands.
+    pub fn check(&self, key: &str) -> Result<(), Error> {
         if self.values.is_empty() {
             return Err(Error::invalid(
                 format!("{key}.z"),
@@ -97,47 +112,6 @@ impl SurfaceMap {
 fn place(at: f64, n: usize) -> (usize, f64) {
     let at = (at + (n - 1) as f64 / 2.0).clamp(0.0, (n - 1) as f64);
     (at.floor() as usize, at.fract())
-}
-
-/// A whole file is looked at before anything is made of it: what its header says of its length
-/// need not be true.
-fn read_npy(path: &Path) -> Result<Array2<f64>, String> {
-    let mut file = File::open(path).map_err(|e| e.to_string())?;
-    let length = file.metadata().map_err(|e| e.to_string())?.len() as usize;
-    // The numbers, which begin at a multiple of 16 bytes of the file, have to be in line.
-    let mut bytes = vec![0; length + align_of::<f64>()];
-    let start = bytes.as_ptr().align_offset(align_of::<f64>());
-    let bytes = bytes
-        .get_mut(start..start + length)
-        .ok_or("cannot be read on this machine")?;
-    file.read_exact(bytes).map_err(|e| e.to_string())?;
-    // Version 1 has two bytes for the length of its header, the later ones four.
-    let header = match *bytes {
-        [_, _, _, _, _, _, version, _, a, b, c, d, ..] if version > 1 => {
-            u32::from_le_bytes([a, b, c, d]) as usize
-        }
-        _ => 0,
-    };
-    if header > length {
-        return Err("is not whole: its header is longer than the file".into());
-    }
-    let view = ArrayView2::<f64>::view_npy(bytes);
-    view.map(|view| view.to_owned()).map_err(|e| e.to_string())
-}
-
-fn read_csv(path: &Path) -> Result<Array2<f64>, String> {
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .trim(csv::Trim::All)
-        .from_path(path)
-        .map_err(|e| e.to_string())?;
-    let (mut values, mut rows) = (Vec::new(), 0);
-    for record in reader.deserialize::<Vec<f64>>() {
-        values.extend(record.map_err(|e| e.to_string())?);
-        rows += 1;
-    }
-    let columns = values.len() / rows.max(1);
-    Array2::from_shape_vec((rows, columns), values).map_err(|e| e.to_string())
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use contact_core::scene::{Scene, SurfaceMap};
+use contact_core::scene::{Missing, Scene, SurfaceMap};
 use ndarray::Array2;
 use ndarray_npy::WriteNpyExt;
 use proptest::prelude::*;
@@ -60,7 +60,7 @@ fn heights_that_are_pickled_are_refused() {
     let mut bytes = npy("|O", false, "(2, 2)", 1);
     bytes.extend(b"\x80\x02cposix\nsystem\nU\x04true\x85R.");
     fs::write(&file, bytes).unwrap();
-    let error = SurfaceMap::from_file(&file, (1e-4, 1e-4)).map(|_| ());
+    let error = SurfaceMap::from_file(&file, (1e-4, 1e-4), Missing::Refuse).map(|_| ());
     let error = error.unwrap_err();
     crate::one_sentence(&error);
     assert!(error.to_string().contains("z.npy"), "{error}");
@@ -101,7 +101,7 @@ fn height_maps() {
     crate::fuzz("height maps", files, |(name, bytes)| {
         let file = folder.path().join(name);
         fs::write(&file, bytes).unwrap();
-        match SurfaceMap::from_file(&file, (1e-4, 1e-4)) {
+        match SurfaceMap::from_file(&file, (1e-4, 1e-4), Missing::Refuse) {
             Ok(map) => assert!(map.values.len() <= bytes.len(), "more heights than bytes"),
             Err(error) => crate::one_sentence(&error),
         }

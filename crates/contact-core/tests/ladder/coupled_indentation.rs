@@ -35,7 +35,8 @@ fn stick_radius_pressure_and_approach_of_every_pair() {
             let d = d / part;
             // A slip ring of fewer cells than tell a border leaves that to whole cells.
             let (rim, ring) = if 1.0 - truth.stick_ratio < 5.0 * d {
-                (WHOLE_CELLS * d, WHOLE_CELLS * d)
+                // What constant tractions spread a border by comes on top.
+                (WHOLE_CELLS * d, (WHOLE_CELLS + 0.5 * RIM) * d)
             } else {
                 (RIM * d, CLAIM / (part * part))
             };

@@ -59,7 +59,8 @@ fn leads_to_the_limit_of_short_increments(of: impl Fn(usize) -> Scene) {
     for increments in [5, 10, radius] {
         let error = distance(&shear(&of(increments)), &limit);
         let n = increments as f64;
-        let allowed = n.powf(-1.5) + FIELD * d;
+        // Coated flats and forces in proportion leave most: 1.6 times the 3/2 power.
+        let allowed = 2.0 * n.powf(-1.5) + FIELD * d;
         assert!(
             error < allowed,
             "{error:.1e} after {increments} increments, allowed {allowed:.1e}"

@@ -7,40 +7,48 @@ use pyo3::prelude::*;
 
 use super::{Numbers, map, pair};
 use crate::error::to_python;
-use crate::scene::Elastic;
+use crate::scene::Material;
 
-/// Hertz contact of two paraboloids of revolution.
+/// Frictionless contact of two paraboloids of revolution.
+///
+/// K. L. Johnson, Contact Mechanics (1985), eq. (4.22)-(4.24).
 #[pyclass(frozen, from_py_object, module = "pyfret.reference")]
 #[derive(Clone, Copy)]
 pub(crate) struct Hertz(pub(crate) core::Hertz);
 
 #[pymethods]
 impl Hertz {
+    /// Normal force [N].
     #[getter]
     fn W(&self) -> f64 {
         self.0.W
     }
 
+    /// Contact modulus [Pa], 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
     #[getter]
     fn E_star(&self) -> f64 {
         self.0.E_star
     }
 
+    /// Contact radius [m], a^3 = 3 W R / (4 E*).
     #[getter]
     fn a(&self) -> f64 {
         self.0.a
     }
 
+    /// Peak pressure [Pa], 3 W / (2 pi a^2).
     #[getter]
     fn p0(&self) -> f64 {
         self.0.p0
     }
 
+    /// Approach [m], a^2 / R.
     #[getter]
     fn delta_z(&self) -> f64 {
         self.0.delta_z
     }
 
+    /// Pressure at distance `r` [m] from the middle [Pa], p0 sqrt(1 - r^2/a^2).
     fn p<'py>(&self, py: Python<'py>, r: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
         map(py, &r, |r| self.0.p(r))
     }
@@ -57,51 +65,61 @@ impl Hertz {
     }
 }
 
+/// Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N].
 #[pyfunction]
 #[pyo3(signature = (*, R, bodies, W))]
-pub(crate) fn hertz(R: f64, bodies: (Elastic, Elastic), W: f64) -> PyResult<Hertz> {
+pub(crate) fn hertz(R: f64, bodies: (Material, Material), W: f64) -> PyResult<Hertz> {
     let (body1, body2) = pair(bodies)?;
     positive("R", R).and(positive("W", W)).map_err(to_python)?;
     Ok(Hertz(core::hertz(R, body1, body2, W)))
 }
 
-/// Elliptical Hertz contact.
+/// Elliptical Hertz contact, K. L. Johnson, Contact Mechanics (1985), sec. 4.2.
 #[pyclass(frozen, module = "pyfret.reference")]
 pub(crate) struct HertzEllipse(core::HertzEllipse);
 
 #[pymethods]
 impl HertzEllipse {
+    /// Normal force [N].
     #[getter]
     fn W(&self) -> f64 {
         self.0.W
     }
 
+    /// Contact modulus [Pa].
     #[getter]
     fn E_star(&self) -> f64 {
         self.0.E_star
     }
 
+    /// Semi-axis of the contact along x [m].
     #[getter]
     fn a_x(&self) -> f64 {
         self.0.a_x
     }
 
+    /// Semi-axis of the contact along y [m].
     #[getter]
     fn a_y(&self) -> f64 {
         self.0.a_y
     }
 
+    /// Peak pressure [Pa], 3 W / (2 pi a_x a_y).
     #[getter]
     fn p0(&self) -> f64 {
         self.0.p0
     }
 
+    /// Approach [m].
     #[getter]
     fn delta_z(&self) -> f64 {
         self.0.delta_z
     }
 }
 
+/// Hertz contact of relative principal radii `R_x`, `R_y` [m] along the axes.
+///
+/// 1/R_x is the sum of both bodies' curvatures along x; `E_star` [Pa], `W` [N].
 #[pyfunction]
 #[pyo3(signature = (*, R_x, R_y, E_star, W))]
 pub(crate) fn hertz_ellipse(R_x: f64, R_y: f64, E_star: f64, W: f64) -> PyResult<HertzEllipse> {

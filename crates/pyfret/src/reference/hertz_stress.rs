@@ -11,7 +11,14 @@ use crate::error::to_python;
 /// Farthest place over the radius of the loaded circle.
 const FAR: f64 = 1e30;
 
-/// A half-space under Hertz's distribution, as pressure or as shear.
+/// A half-space under sqrt(1 - r^2/a^2) of unit peak on r < a: Hamilton's stresses.
+///
+/// Parameters
+/// ----------
+/// a : float
+///     Radius of the loaded circle [m].
+/// nu : float
+///     Poisson's ratio.
 #[pyclass(frozen, module = "pyfret.reference")]
 pub(crate) struct HertzStress(core::HertzStress);
 
@@ -26,6 +33,7 @@ impl HertzStress {
         Ok(Self(core::HertzStress { a, nu }))
     }
 
+    /// Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure.
     fn pressure<'py>(
         &self,
         py: Python<'py>,
@@ -39,6 +47,7 @@ impl HertzStress {
         Ok(std::array::from_fn(row))
     }
 
+    /// The same under a shear traction that acts on the body along +x.
     fn shear<'py>(
         &self,
         py: Python<'py>,

@@ -7,14 +7,21 @@ use pyo3::prelude::*;
 
 use super::{Numbers, map, pair};
 use crate::error::to_python;
-use crate::scene::{Coating, Elastic};
+use crate::scene::{Coating, Material};
 
+/// Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
+///
+/// beta = [(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2] / (2 [(1 - nu1)/G1 + (1 - nu2)/G2])
 #[pyfunction]
-pub(crate) fn dundurs_beta(body1: Elastic, body2: Elastic) -> PyResult<f64> {
+pub(crate) fn dundurs_beta(body1: Material, body2: Material) -> PyResult<f64> {
     let (body1, body2) = pair((body1, body2))?;
     Ok(core::dundurs_beta(body1, body2))
 }
 
+/// Stick over contact radius of an indentation with friction, after Goodman and Spence.
+///
+/// (1/(2 c)) ln[(1 + c)/(1 - c)] = (mu/abs(beta)) K(sqrt(1 - c^2)); the effect of the shear on the
+/// pressure is neglected.
 #[pyfunction]
 #[pyo3(signature = (*, beta, mu))]
 pub(crate) fn goodman_stick_ratio(beta: f64, mu: f64) -> PyResult<f64> {
@@ -28,33 +35,41 @@ fn check(beta: f64, mu: f64) -> PyResult<()> {
     beta.and(positive("mu", mu)).map(drop).map_err(to_python)
 }
 
-/// Self-similar indentation with friction, fully coupled.
+/// Indentation with friction of dissimilar bodies, fully coupled, in numbers without load.
 #[pyclass(frozen, module = "pyfret.reference")]
 pub(crate) struct CoupledIndentation(core::CoupledIndentation);
 
 #[pymethods]
 impl CoupledIndentation {
+    /// Stick radius over contact radius.
     #[getter]
     fn stick_ratio(&self) -> f64 {
         self.0.stick_ratio
     }
 
+    /// Central pressure over 3 W / (2 pi a^2).
     #[getter]
     fn p0(&self) -> f64 {
         self.0.p0
     }
 
+    /// Approach over a^2/R.
     #[getter]
     fn delta_z(&self) -> f64 {
         self.0.delta_z
     }
 
+    /// Normal force over 4 E* a^3 / (3 R).
     #[getter]
     fn W(&self) -> f64 {
         self.0.W
     }
 }
 
+/// Indentation by a sphere for Dundurs' `beta` and friction `mu` > 0.
+///
+/// The problem is D. A. Spence's, J. Elasticity 5 (1975) 297: the contact grows without changing
+/// its shape.
 #[pyfunction]
 #[pyo3(signature = (*, beta, mu))]
 pub(crate) fn coupled_indentation(beta: f64, mu: f64) -> PyResult<CoupledIndentation> {
@@ -62,44 +77,49 @@ pub(crate) fn coupled_indentation(beta: f64, mu: f64) -> PyResult<CoupledIndenta
     Ok(CoupledIndentation(core::coupled_indentation(beta, mu)))
 }
 
-/// Frictionless contact of a sphere with a coated body.
+/// Frictionless contact of a sphere with a body that has one coating.
 #[pyclass(frozen, module = "pyfret.reference")]
 pub(crate) struct CoatedIndentation(core::CoatedIndentation);
 
 #[pymethods]
 impl CoatedIndentation {
+    /// Contact radius [m].
     #[getter]
     fn a(&self) -> f64 {
         self.0.a
     }
 
+    /// Normal force [N].
     #[getter]
     fn W(&self) -> f64 {
         self.0.W
     }
 
+    /// Approach [m].
     #[getter]
     fn delta_z(&self) -> f64 {
         self.0.delta_z
     }
 
+    /// Pressure at distance `r` [m] from the middle [Pa].
     fn p<'py>(&self, py: Python<'py>, r: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
         map(py, &r, |r| self.0.p(r))
     }
 }
 
+/// Contact of a sphere of radius `R` [m] with a coated body under `W` [N], without friction.
 #[pyfunction]
 #[pyo3(signature = (*, R, indenter, coating, substrate, W))]
 pub(crate) fn coated_indentation(
     R: f64,
-    indenter: Elastic,
+    indenter: Material,
     coating: Coating,
-    substrate: Elastic,
+    substrate: Material,
     W: f64,
 ) -> PyResult<CoatedIndentation> {
     positive("R", R).and(positive("W", W)).map_err(to_python)?;
-    pair((indenter, Elastic(coating.0.material)))?;
-    pair((Elastic(coating.0.material), substrate))?;
+    pair((indenter, Material(coating.0.material)))?;
+    pair((Material(coating.0.material), substrate))?;
     let (indenter, coating, substrate) = (indenter.0, coating.0, substrate.0);
     positive("coating.thickness", coating.thickness).map_err(to_python)?;
     core::coated_indentation(R, indenter, coating, substrate, W)

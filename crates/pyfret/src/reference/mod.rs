@@ -15,7 +15,7 @@ use numpy::{AllowTypeChange, PyArrayDyn, PyArrayLikeDyn, ToPyArray};
 use pyo3::prelude::*;
 
 use crate::error::to_python;
-use crate::scene::Elastic;
+use crate::scene::Material;
 
 pub(crate) use cattaneo_mindlin::CattaneoMindlin;
 pub(crate) use hertz_contact::{Hertz, HertzEllipse, hertz, hertz_ellipse};
@@ -61,6 +61,6 @@ fn checked(x: &Numbers<'_>, check: impl Fn(f64) -> Result<f64, Error>) -> PyResu
 }
 
 /// The materials of a pair, checked.
-fn pair((body1, body2): (Elastic, Elastic)) -> PyResult<(core::Elastic, core::Elastic)> {
+fn pair((body1, body2): (Material, Material)) -> PyResult<(core::Elastic, core::Elastic)> {
     domain::pair((body1.0, body2.0)).map_err(to_python)
 }

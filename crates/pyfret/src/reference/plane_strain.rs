@@ -7,22 +7,24 @@ use pyo3::prelude::*;
 
 use super::{Numbers, checked, map, pair};
 use crate::error::to_python;
-use crate::scene::Elastic;
+use crate::scene::Material;
 
 /// Farthest place over the half-width.
 const FAR: f64 = 1e30;
 
-/// Hertz, Cattaneo, Carter and McEwen in plane strain.
+/// Cylinders in plane strain: Hertz, Cattaneo, Carter, McEwen; from `line_contact`.
 #[pyclass(frozen, module = "pyfret.reference")]
 pub(crate) struct LineContact {
     line: core::LineContact,
+    /// Contact modulus [Pa].
     #[pyo3(get)]
     E_star: f64,
 }
 
+/// Line contact of cylinders of relative radius `R` [m] under `W` [N/m].
 #[pyfunction]
 #[pyo3(signature = (*, R, bodies, W))]
-pub(crate) fn line_contact(R: f64, bodies: (Elastic, Elastic), W: f64) -> PyResult<LineContact> {
+pub(crate) fn line_contact(R: f64, bodies: (Material, Material), W: f64) -> PyResult<LineContact> {
     let (body1, body2) = pair(bodies)?;
     positive("R", R).and(positive("W", W)).map_err(to_python)?;
     let E_star = core::hertz(R, body1, body2, 1.0).E_star;
@@ -34,31 +36,39 @@ pub(crate) fn line_contact(R: f64, bodies: (Elastic, Elastic), W: f64) -> PyResu
 
 #[pymethods]
 impl LineContact {
+    /// Normal force per length [N/m].
     #[getter]
     fn W(&self) -> f64 {
         self.line.W
     }
 
+    /// Half-width [m], a^2 = 4 W R/(pi E*).
     #[getter]
     fn a(&self) -> f64 {
         self.line.a
     }
 
+    /// Peak pressure [Pa].
     #[getter]
     fn p0(&self) -> f64 {
         self.line.p0
     }
 
+    /// Pressure at `x` [m] [Pa].
     fn p<'py>(&self, py: Python<'py>, x: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
         map(py, &x, |x| self.line.p(x))
     }
 
+    /// Half-width of the stick zone under `T` [N/m] [m].
     #[pyo3(signature = (*, T, mu))]
     fn stick_half_width(&self, T: f64, mu: f64) -> PyResult<f64> {
         self.check(T, mu)?;
         Ok(self.line.stick_half_width(T, mu))
     }
 
+    /// Middle of the stick zone [m] under the bulk strain `eps_x` of body 2.
+    ///
+    /// The strain is brought up together with T > 0.
     #[pyo3(signature = (*, eps_x, mu))]
     fn stick_middle(&self, eps_x: f64, mu: f64) -> PyResult<f64> {
         let strain = between("eps_x", eps_x, (-1.0, 1.0));
@@ -66,6 +76,9 @@ impl LineContact {
         Ok(self.line.stick_middle(eps_x, self.E_star, mu))
     }
 
+    /// Shear at `x` [m] under `T` [N/m] with the stick zone around `middle` [m] [Pa].
+    ///
+    /// Cattaneo's with the middle at 0, Carter's with it at a - c towards the leading edge.
     #[pyo3(signature = (x, *, T, mu, middle = 0.0))]
     fn q<'py>(
         &self,
@@ -80,6 +93,7 @@ impl LineContact {
         Ok(map(py, &x, |x| self.line.q_shifted(x, middle, T, mu)))
     }
 
+    /// Stress s_xx, s_zz, s_xz at (`x`, `z`) [m] in partial slip [Pa].
     #[pyo3(signature = (x, z, *, T, mu))]
     fn stress<'py>(
         &self,

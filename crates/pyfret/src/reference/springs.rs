@@ -6,12 +6,27 @@ use pyo3::prelude::*;
 
 use super::{Hertz, pair};
 use crate::error::to_python;
-use crate::scene::Elastic;
+use crate::scene::Material;
 
 /// Most springs, and most steps of a load.
 const MOST: usize = 10_000;
 
-/// Independent springs with friction.
+/// One-dimensional springs with friction: the shift for every path of W and T.
+///
+/// Exact for a sphere on a flat of like bodies with nu = 0 (method of dimensionality reduction).
+///
+/// Parameters
+/// ----------
+/// largest : Hertz
+///     The contact under the largest force of the path.
+/// R : float
+///     Radius [m].
+/// bodies : tuple of Elastic
+///     Materials of body 1 and body 2.
+/// mu : float
+///     Friction coefficient.
+/// n : int
+///     Springs on either side.
 #[pyclass(module = "pyfret.reference")]
 pub(crate) struct Springs {
     springs: core::Springs,
@@ -28,7 +43,7 @@ impl Springs {
     fn new(
         largest: Hertz,
         R: f64,
-        bodies: (Elastic, Elastic),
+        bodies: (Material, Material),
         mu: f64,
         n: usize,
     ) -> PyResult<Self> {
@@ -45,6 +60,7 @@ impl Springs {
         })
     }
 
+    /// Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m].
     #[pyo3(signature = (*, W, T, steps = 10))]
     fn load(&mut self, W: f64, T: f64, steps: usize) -> PyResult<f64> {
         // Rounding is no reason to refuse the largest forces.

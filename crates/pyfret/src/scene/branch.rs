@@ -4,6 +4,9 @@ use contact_core::scene::{self as core, Prescribed, RigidMotion};
 use pyo3::prelude::*;
 
 /// How the increments of a branch are spaced.
+///
+/// ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
+/// of a paraboloid; natural for an indentation.
 #[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Spacing {
@@ -31,7 +34,7 @@ impl From<core::Spacing> for Spacing {
     }
 }
 
-/// One straight piece of the load history.
+/// One straight piece of a load history.
 #[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Branch(pub(super) core::Branch);
@@ -56,96 +59,115 @@ impl Branch {
 
 #[pymethods]
 impl Branch {
+    /// Normal force at its end [N]; None where the approach is given.
     #[getter]
     fn W(&self) -> Option<f64> {
         self.load(RigidMotion::DeltaZ)
     }
 
+    /// Tilting moment about x at its end [N m]; None where the tilt is given.
     #[getter]
     fn M_x(&self) -> Option<f64> {
         self.load(RigidMotion::PhiX)
     }
 
+    /// Tilting moment about y at its end [N m]; None where the tilt is given.
     #[getter]
     fn M_y(&self) -> Option<f64> {
         self.load(RigidMotion::PhiY)
     }
 
+    /// Tangential force along x on body 2 at its end [N]; None where the shift is given.
     #[getter]
     fn T_x(&self) -> Option<f64> {
         self.load(RigidMotion::DeltaX)
     }
 
+    /// Tangential force along y on body 2 at its end [N]; None where the shift is given.
     #[getter]
     fn T_y(&self) -> Option<f64> {
         self.load(RigidMotion::DeltaY)
     }
 
+    /// Torsional moment on body 2 at its end [N m]; None where the rotation is given.
     #[getter]
     fn M_z(&self) -> Option<f64> {
         self.load(RigidMotion::PhiZ)
     }
 
+    /// Approach at its end [m]; None where W is given.
     #[getter]
     fn delta_z(&self) -> Option<f64> {
         self.motion(RigidMotion::DeltaZ)
     }
 
+    /// Shift along x at its end [m]; None where T_x is given.
     #[getter]
     fn delta_x(&self) -> Option<f64> {
         self.motion(RigidMotion::DeltaX)
     }
 
+    /// Shift along y at its end [m]; None where T_y is given.
     #[getter]
     fn delta_y(&self) -> Option<f64> {
         self.motion(RigidMotion::DeltaY)
     }
 
+    /// Tilt about x at its end [rad]; None where M_x is given.
     #[getter]
     fn phi_x(&self) -> Option<f64> {
         self.motion(RigidMotion::PhiX)
     }
 
+    /// Tilt about y at its end [rad]; None where M_y is given.
     #[getter]
     fn phi_y(&self) -> Option<f64> {
         self.motion(RigidMotion::PhiY)
     }
 
+    /// Rotation about z at its end [rad]; None where M_z is given.
     #[getter]
     fn phi_z(&self) -> Option<f64> {
         self.motion(RigidMotion::PhiZ)
     }
 
+    /// Bulk stress along x in body 2 at its end [Pa].
     #[getter]
     fn sigma_B(&self) -> f64 {
         self.0.to.sigma_B
     }
 
+    /// Bulk stress along x in body 1 at its end [Pa].
     #[getter]
     fn sigma_B1(&self) -> f64 {
         self.0.to.sigma_B1
     }
 
+    /// Way that the contact has rolled along x at its end [m].
     #[getter]
     fn rolled(&self) -> f64 {
         self.0.to.rolled
     }
 
+    /// Number of increments; None: as many as the path tolerance asks for.
     #[getter]
     fn increments(&self) -> Option<usize> {
         self.0.increments
     }
 
+    /// Estimated error that the increments leave in the shear, over the largest shear.
     #[getter]
     fn path_error(&self) -> Option<f64> {
         self.0.path_error
     }
 
+    /// How the increments are spaced.
     #[getter]
     fn spacing(&self) -> Spacing {
         self.0.spacing.into()
     }
 
+    /// Path time at its end.
     #[getter]
     fn t(&self) -> f64 {
         self.0.t_end

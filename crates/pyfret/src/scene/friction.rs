@@ -4,8 +4,12 @@ use contact_core::scene as core;
 use pyo3::prelude::*;
 
 use super::SurfaceMap;
+use crate::error::{must_be, to_python};
 
 /// What a cell has been through.
+///
+/// ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
+/// cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2].
 #[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum History {
@@ -38,6 +42,21 @@ impl From<core::History> for History {
 }
 
 /// Coulomb's law with a coefficient that depends on direction, place and history.
+///
+/// The coefficient of an increment is that of the state it starts from.
+///
+/// Parameters
+/// ----------
+/// mu : float
+///     Coefficient, >= 0; ``float("inf")`` for a contact that never slips.
+/// mu_y : float, optional
+///     Coefficient along y, mu being that along x: the bound is an ellipse.
+/// kinetic : float, optional
+///     Coefficient, along x, of cells that slipped in the increment before.
+/// map : SurfaceMap, optional
+///     Factor of the coefficient over the surface.
+/// history : (History, list of pairs), optional
+///     Factor of the coefficient, linear between the pairs (history, factor).
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Friction(pub(crate) core::Friction);
@@ -52,8 +71,8 @@ impl Friction {
         kinetic: Option<f64>,
         map: Option<SurfaceMap>,
         history: Option<(History, Vec<(f64, f64)>)>,
-    ) -> Self {
-        Self(core::Friction {
+    ) -> PyResult<Self> {
+        let law = core::Friction {
             mu,
             mu_y,
             kinetic,
@@ -62,29 +81,36 @@ impl Friction {
                 of: of.into(),
                 table,
             }),
-        })
+        };
+        law.check(None).map_err(to_python)?;
+        Ok(Self(law))
     }
 
+    /// Coefficient.
     #[getter]
     fn mu(&self) -> f64 {
         self.0.mu
     }
 
+    /// Coefficient along y, if it is another.
     #[getter]
     fn mu_y(&self) -> Option<f64> {
         self.0.mu_y
     }
 
+    /// Coefficient of cells that slipped in the increment before.
     #[getter]
     fn kinetic(&self) -> Option<f64> {
         self.0.kinetic
     }
 
+    /// Factor over the surface.
     #[getter]
     fn map(&self) -> Option<SurfaceMap> {
         self.0.map.clone().map(SurfaceMap)
     }
 
+    /// Factor as a function of the history.
     #[getter]
     fn history(&self) -> Option<(History, Vec<(f64, f64)>)> {
         let history = self.0.history.as_ref();
@@ -103,17 +129,22 @@ impl Friction {
 }
 
 /// A coefficient or a law.
-#[derive(FromPyObject)]
-pub(crate) enum AnyFriction {
-    Law(Friction),
-    Coefficient(f64),
-}
+pub(crate) struct AnyFriction(pub(crate) core::Friction);
 
-impl From<AnyFriction> for core::Friction {
-    fn from(friction: AnyFriction) -> Self {
-        match friction {
-            AnyFriction::Law(law) => law.0,
-            AnyFriction::Coefficient(mu) => Self::coulomb(mu),
+impl<'py> FromPyObject<'_, 'py> for AnyFriction {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(law) = value.extract::<Friction>() {
+            return Ok(Self(law.0));
         }
+        let Ok(mu) = value.extract::<f64>() else {
+            let wanted =
+                "a coefficient, such as 0.3, or a law, such as Friction(0.3, kinetic=0.25)";
+            return Err(must_be(&value, wanted));
+        };
+        let law = core::Friction::coulomb(mu);
+        law.check(None).map_err(to_python)?;
+        Ok(Self(law))
     }
 }

@@ -4,28 +4,74 @@ use contact_core::scene as core;
 use numpy::{PyArray1, ToPyArray};
 use pyo3::prelude::*;
 
-use crate::error::to_python;
+use crate::error::{must_be, takes, to_python};
 
-/// Rectangular cells around the initial point of contact.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+/// Distance of points or cells along x and y, or the same along both.
+pub(crate) struct Pitch(pub(crate) (f64, f64));
+
+impl<'py> FromPyObject<'_, 'py> for Pitch {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(both) = value.extract::<f64>() {
+            return Ok(Self((both, both)));
+        }
+        let wanted = "a length in m, or one along x and one along y, such as (2e-6, 2e-6)";
+        value
+            .extract()
+            .map(Self)
+            .map_err(|_| must_be(&value, wanted))
+    }
+}
+
+/// Number of cells along x and y, or the same along both.
+struct Cells((usize, usize));
+
+impl<'py> FromPyObject<'_, 'py> for Cells {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(both) = value.extract::<usize>() {
+            return Ok(Self((both, both)));
+        }
+        let wanted = "a number of cells, or one along x and one along y, such as (128, 128)";
+        value
+            .extract()
+            .map(Self)
+            .map_err(|_| must_be(&value, wanted))
+    }
+}
+
+/// Rectangular cells around the initial point of contact; tractions are constant on each.
+///
+/// Arrays over the grid have the shape (nx, ny), x first.
+#[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Grid(pub(crate) core::Grid);
 
+takes!(Grid, "a grid, such as Grid.centred(extent=1e-3, n=128)");
+
 #[pymethods]
 impl Grid {
+    /// `n` by `n` cells on a square of side `extent` [m].
     #[staticmethod]
     #[pyo3(signature = (*, extent, n))]
     fn centred(extent: f64, n: usize) -> PyResult<Self> {
         core::Grid::centred(extent, n).map(Self).map_err(to_python)
     }
 
+    /// `n` = (nx, ny) cells of size `spacing` = (dx, dy) [m].
     #[staticmethod]
-    fn from_spacing(n: (usize, usize), spacing: (f64, f64)) -> PyResult<Self> {
-        core::Grid::from_spacing(n, spacing)
+    fn from_spacing(n: Cells, spacing: Pitch) -> PyResult<Self> {
+        core::Grid::from_spacing(n.0, spacing.0)
             .map(Self)
             .map_err(to_python)
     }
 
+    /// Plane strain: `n` cells over the length `extent` [m] along x, without end along y.
+    ///
+    /// Forces, moments and energies are those on the width `width` [m]; displacements are
+    /// relative to the points at the distance `extent` from a load.
     #[staticmethod]
     #[pyo3(signature = (*, extent, n, width = 1.0))]
     fn strip(extent: f64, n: usize, width: f64) -> PyResult<Self> {
@@ -34,42 +80,50 @@ impl Grid {
             .map_err(to_python)
     }
 
+    /// Whether the cells are without end along y.
     #[getter]
     fn plane_strain(&self) -> bool {
         self.0.plane_strain
     }
 
+    /// Number of cells along x.
     #[getter]
     fn nx(&self) -> usize {
         self.0.nx
     }
 
+    /// Number of cells along y.
     #[getter]
     fn ny(&self) -> usize {
         self.0.ny
     }
 
+    /// Cell length along x [m].
     #[getter]
     fn dx(&self) -> f64 {
         self.0.dx
     }
 
+    /// Cell length along y [m].
     #[getter]
     fn dy(&self) -> f64 {
         self.0.dy
     }
 
+    /// Area of a cell [m^2].
     #[getter]
     fn cell_area(&self) -> f64 {
         self.0.cell_area()
     }
 
+    /// Centres of the cells along x [m], shape (nx,).
     #[getter]
     fn x<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         let x: Vec<f64> = (0..self.0.nx).map(|i| self.0.x(i)).collect();
         x.to_pyarray(py)
     }
 
+    /// Centres of the cells along y [m], shape (ny,).
     #[getter]
     fn y<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         let y: Vec<f64> = (0..self.0.ny).map(|j| self.0.y(j)).collect();

@@ -1,13 +1,45 @@
-//! Numbers of increments.
+//! Numbers of increments, and values to visit.
 
 use contact_core::scene as core;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// As many increments as the change needs if the whole range takes this many.
+use crate::error::must_be;
+
+/// One value or several to visit in turn.
+pub(super) enum Values {
+    One(f64),
+    Several(Vec<f64>),
+}
+
+impl<'py> FromPyObject<'_, 'py> for Values {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(one) = value.extract::<f64>() {
+            return Ok(Self::One(one));
+        }
+        let wanted = "a number, or several to visit in turn, such as [100.0, -100.0, 100.0]";
+        let several = value.extract::<Vec<f64>>().ok().filter(|v| !v.is_empty());
+        several
+            .map(Self::Several)
+            .ok_or_else(|| must_be(&value, wanted))
+    }
+}
+
+impl Values {
+    pub(super) fn slice(&self) -> &[f64] {
+        match self {
+            Self::One(value) => std::slice::from_ref(value),
+            Self::Several(values) => values,
+        }
+    }
+}
+
+/// As many increments as a change needs if the whole range takes this many.
 #[pyclass(frozen, eq, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct PerRange(usize);
+pub(crate) struct PerRange(pub(super) usize);
 
 #[pymethods]
 impl PerRange {
@@ -16,6 +48,7 @@ impl PerRange {
         Self(increments)
     }
 
+    /// Increments over the whole range of the load or motion that needs most.
     #[getter]
     fn increments(&self) -> usize {
         self.0
@@ -42,10 +75,24 @@ impl<'py> FromPyObject<'_, 'py> for Count {
 }
 
 /// Increments between two waypoints.
-#[derive(FromPyObject)]
 pub(super) enum AnyIncrements {
     Each(usize),
     PerRange(PerRange),
+}
+
+impl<'py> FromPyObject<'_, 'py> for AnyIncrements {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(per_range) = value.extract::<PerRange>() {
+            return Ok(Self::PerRange(per_range));
+        }
+        let wanted = "a whole number of increments per branch, or PerRange(40)";
+        value
+            .extract()
+            .map(Self::Each)
+            .map_err(|_| must_be(&value, wanted))
+    }
 }
 
 impl From<AnyIncrements> for core::Increments {

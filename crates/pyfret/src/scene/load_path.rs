@@ -6,32 +6,30 @@ use std::path::PathBuf;
 use contact_core::Error;
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
 use numpy::{PyArray1, ToPyArray};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::branch::{Branch, Spacing};
-use super::increments::{AnyIncrements, Count};
-use crate::error::to_python;
+use super::increments::{AnyIncrements, Count, Values};
+use crate::error::{takes, to_python};
 
 /// The load history, from two bodies just touching.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+///
+/// Built by chaining; every call gives a new path with more branches.
+///
+/// Examples
+/// --------
+/// >>> path = LoadPath.start().normal(1e3, increments=100)
+/// >>> path.tangential([270.0, -270.0, 270.0], increments=500)
+/// LoadPath(4 branches, 600 increments)
+#[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct LoadPath(pub(crate) core::LoadPath);
 
-/// One value or several to visit in turn.
-#[derive(FromPyObject)]
-enum Values {
-    One(f64),
-    Several(Vec<f64>),
-}
-
-impl Values {
-    fn list(self) -> Vec<f64> {
-        match self {
-            Self::One(value) => vec![value],
-            Self::Several(values) => values,
-        }
-    }
-}
+takes!(
+    LoadPath,
+    "a load path, such as LoadPath.start().normal(100.0).tangential([20.0, -20.0])"
+);
 
 impl LoadPath {
     /// Appends a branch that goes to the loads and motions which `change` makes of the present ones.
@@ -72,37 +70,58 @@ fn prescribe(to: &mut core::Loads, given: [Option<Prescribed>; 6]) {
 
 #[pymethods]
 impl LoadPath {
+    /// The path before its first branch.
     #[staticmethod]
     fn start() -> Self {
         Self(core::LoadPath::start())
     }
 
+    /// Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
     #[pyo3(signature = (W, *, increments = Count(None)))]
     fn normal(&self, W: f64, increments: Count) -> Self {
         Self(self.0.clone().normal(W, increments.0))
     }
 
+    /// Visit the tangential forces `T_x` [N] in turn.
+    ///
+    /// The increments are shared out in proportion to the change of force. Path time runs as in
+    /// the first branch: one unit for as many increments as that one has.
     #[pyo3(signature = (T_x, *, increments = Count(None)))]
     fn tangential(&self, T_x: Values, increments: Count) -> Self {
-        Self(self.0.clone().tangential(&T_x.list(), increments.0))
+        Self(self.0.clone().tangential(T_x.slice(), increments.0))
     }
 
+    /// Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces.
     #[pyo3(signature = (M_z, *, increments = Count(None)))]
     fn torsion(&self, M_z: Values, increments: Count) -> Self {
-        Self(self.0.clone().torsion(&M_z.list(), increments.0))
+        Self(self.0.clone().torsion(M_z.slice(), increments.0))
     }
 
+    /// Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II.
     #[pyo3(signature = (W, *, increments = Count(None)))]
     fn radial(&self, W: Values, increments: Count) -> Self {
-        Self(self.0.clone().radial(&W.list(), increments.0))
+        Self(self.0.clone().radial(W.slice(), increments.0))
     }
 
+    /// Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
+    ///
+    /// Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
+    /// for each turn towards (0, T_y), each a branch of its own.
     #[pyo3(signature = (*, T_x, T_y, turns = 1, increments))]
     fn ellipse(&self, T_x: f64, T_y: f64, turns: usize, increments: usize) -> PyResult<Self> {
         core::LoadPath::check_turns(turns, increments).map_err(to_python)?;
         Ok(Self(self.0.clone().ellipse((T_x, T_y), turns, increments)))
     }
 
+    /// Go straight from waypoint to waypoint, a branch for each.
+    ///
+    /// Parameters
+    /// ----------
+    /// increments : int or PerRange
+    ///     Increments per branch; or as many as the change needs.
+    /// **columns : array
+    ///     Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
+    ///     ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
     #[pyo3(signature = (*, increments = AnyIncrements::Each(1), **columns))]
     fn waypoints(
         &self,
@@ -123,6 +142,7 @@ impl LoadPath {
         path.map(Self).map_err(to_python)
     }
 
+    /// Read a measured history; the first line names the columns of `waypoints`.
     #[staticmethod]
     #[pyo3(signature = (path, *, increments = AnyIncrements::Each(1)))]
     fn from_csv(path: PathBuf, increments: AnyIncrements) -> PyResult<Self> {
@@ -131,6 +151,28 @@ impl LoadPath {
             .map_err(to_python)
     }
 
+    /// Go to the given loads on a straight line; what is not named stays as it was.
+    ///
+    /// A load that is named is given from here on, and the motion that goes with it is free.
+    ///
+    /// Parameters
+    /// ----------
+    /// W, T_x, T_y : float, optional
+    ///     Normal force and tangential forces on body 2 [N].
+    /// M_x, M_y, M_z : float, optional
+    ///     Tilting moments and torsional moment on body 2 [N m].
+    /// sigma_B : float, optional
+    ///     Bulk stress along x in body 2, tension positive: a fatigue load [Pa].
+    /// sigma_B1 : float, optional
+    ///     The same in body 1.
+    /// rolled : float, optional
+    ///     Way that the contact has rolled along x over both bodies [m], whole cells per increment.
+    /// increments : int or "auto"
+    ///     Number of increments (default: as many as the path tolerance of the settings asks for).
+    /// spacing : Spacing
+    ///     How they are spaced (default: equal increments of force).
+    /// t : float, optional
+    ///     Path time at the end (default: one unit later).
     #[pyo3(signature = (*, W = None, T_x = None, T_y = None, M_x = None, M_y = None, M_z = None, sigma_B = None, sigma_B1 = None, rolled = None, increments = Count(None), spacing = Spacing::Uniform, t = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn force(
@@ -157,65 +199,201 @@ impl LoadPath {
         })
     }
 
+    /// Go to the given rigid motions of body 1 on a straight line, or visit several in turn.
+    ///
+    /// A motion that is named is given from here on, and its load follows from the solution. What
+    /// is not named stays as it was; without a word, rotations are given as zero.
+    ///
+    /// Parameters
+    /// ----------
+    /// delta_z, delta_x, delta_y : float or sequence of float, optional
+    ///     Approach and shifts [m]. One of all the motions may be a sequence: its values are
+    ///     visited in turn, and the increments shared out in proportion to the change, as
+    ///     `tangential` does.
+    /// phi_x, phi_y, phi_z : float or sequence of float, optional
+    ///     Tilts and rotation about z [rad].
+    /// increments : int or "auto"
+    ///     Number of increments (default: as many as the path tolerance of the settings asks for).
+    /// spacing : Spacing
+    ///     How they are spaced (default: equal increments).
+    /// t : float, optional
+    ///     Path time at the end (default: one unit later); not with a sequence.
+    ///
+    /// Examples
+    /// --------
+    /// >>> pressed = LoadPath.start().normal(10.0)
+    /// >>> pressed.displace(delta_x=[2e-6, -2e-6, 2e-6])
+    /// LoadPath(4 branches, increments to be chosen)
     #[pyo3(signature = (*, delta_z = None, delta_x = None, delta_y = None, phi_x = None, phi_y = None, phi_z = None, increments = Count(None), spacing = Spacing::Uniform, t = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn displace(
         &self,
-        delta_z: Option<f64>,
-        delta_x: Option<f64>,
-        delta_y: Option<f64>,
-        phi_x: Option<f64>,
-        phi_y: Option<f64>,
-        phi_z: Option<f64>,
+        delta_z: Option<Values>,
+        delta_x: Option<Values>,
+        delta_y: Option<Values>,
+        phi_x: Option<Values>,
+        phi_y: Option<Values>,
+        phi_z: Option<Values>,
         increments: Count,
         spacing: Spacing,
         t: Option<f64>,
-    ) -> Self {
-        let motions = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
-        let motions = motions.map(|motion| motion.map(Prescribed::Motion));
-        self.branch(increments.0, spacing, t, |to| prescribe(to, motions))
+    ) -> PyResult<Self> {
+        let named = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
+        let several = |v: &Option<Values>| matches!(v, Some(Values::Several(_)));
+        let first = |v: &Option<Values>| v.as_ref().and_then(|v| v.slice().first().copied());
+        let motions = named.each_ref().map(|v| first(v).map(Prescribed::Motion));
+        if named.iter().filter(|v| several(v)).count() > 1 {
+            return Err(PyValueError::new_err(
+                "displace: one motion at a time may be a sequence; waypoints(delta_x=.., delta_y=..) \
+                 takes several",
+            ));
+        }
+        let Some(k) = named.iter().position(several) else {
+            return Ok(self.branch(increments.0, spacing, t, |to| prescribe(to, motions)));
+        };
+        if t.is_some() {
+            return Err(PyValueError::new_err(
+                "displace: t goes with a single value",
+            ));
+        }
+        let values = named[k].as_ref().map(Values::slice).unwrap_or_default();
+        let others = std::array::from_fn(|n| motions[n].filter(|_| n != k));
+        let (start, of) = (self.0.branches.len(), RigidMotion::ALL[k]);
+        let path = self.0.clone();
+        let mut path = path.through(of, Prescribed::Motion, values, increments.0);
+        for branch in &mut path.branches[start..] {
+            branch.spacing = spacing.into();
+            prescribe(&mut branch.to, others);
+        }
+        Ok(Self(path))
     }
 
+    /// Go through `n` cycles of one load or motion about zero.
+    ///
+    /// The path goes to the amplitude, then `n` times to its opposite and back; what is not named
+    /// stays as it was.
+    ///
+    /// Parameters
+    /// ----------
+    /// n : int
+    ///     Number of cycles.
+    /// T_x, T_y : float, optional
+    ///     Amplitude of a tangential force [N].
+    /// M_z : float, optional
+    ///     Amplitude of the torsional moment [N m].
+    /// delta_x, delta_y : float, optional
+    ///     Amplitude of a shift [m].
+    /// phi_z : float, optional
+    ///     Amplitude of the rotation [rad].
+    /// increments : int or "auto"
+    ///     Number of increments of all branches together, shared out in proportion to the change
+    ///     (default: as many as the path tolerance of the settings asks for).
+    ///
+    /// Examples
+    /// --------
+    /// >>> LoadPath.start().normal(10.0).cycles(2, delta_x=2e-6)
+    /// LoadPath(6 branches, increments to be chosen)
+    #[pyo3(signature = (n, *, T_x = None, T_y = None, M_z = None, delta_x = None, delta_y = None, phi_z = None, increments = Count(None)))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn cycles(
+        &self,
+        n: usize,
+        T_x: Option<f64>,
+        T_y: Option<f64>,
+        M_z: Option<f64>,
+        delta_x: Option<f64>,
+        delta_y: Option<f64>,
+        phi_z: Option<f64>,
+        increments: Count,
+    ) -> PyResult<Self> {
+        let named = [
+            (RigidMotion::DeltaX, T_x.map(Prescribed::Load)),
+            (RigidMotion::DeltaY, T_y.map(Prescribed::Load)),
+            (RigidMotion::PhiZ, M_z.map(Prescribed::Load)),
+            (RigidMotion::DeltaX, delta_x.map(Prescribed::Motion)),
+            (RigidMotion::DeltaY, delta_y.map(Prescribed::Motion)),
+            (RigidMotion::PhiZ, phi_z.map(Prescribed::Motion)),
+        ];
+        let named: Vec<_> = named
+            .into_iter()
+            .filter_map(|(of, p)| Some((of, p?)))
+            .collect();
+        let [(of, amplitude)] = named[..] else {
+            return Err(PyValueError::new_err(
+                "cycles: give the amplitude of one load or motion, such as T_x=100.0 or delta_x=2e-6",
+            ));
+        };
+        let kind: fn(f64) -> Prescribed = if amplitude.is_motion() {
+            Prescribed::Motion
+        } else {
+            Prescribed::Load
+        };
+        let values = core::LoadPath::cycle(amplitude.value(), n);
+        Ok(Self(self.0.clone().through(
+            of,
+            kind,
+            &values,
+            increments.0,
+        )))
+    }
+
+    /// Stay at the loads and motions reached for some increments, one unit of path time.
+    ///
+    /// What friction makes of the history of a cell goes on meanwhile.
+    #[pyo3(signature = (*, increments = 1))]
+    fn hold(&self, increments: usize) -> Self {
+        Self(self.0.clone().hold(increments))
+    }
+
+    /// The branches in their order.
     #[getter]
     fn branches(&self) -> Vec<Branch> {
         self.0.branches.iter().copied().map(Branch).collect()
     }
 
+    /// Path time at the end of every increment.
     #[getter]
     fn t<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.t)
     }
 
+    /// Normal force at the end of every increment [N]; NaN where only the solution can say.
     #[getter]
     fn W<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.W)
     }
 
+    /// Tangential force along x at the end of every increment [N].
     #[getter]
     fn T_x<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.T_x)
     }
 
+    /// Tangential force along y at the end of every increment [N].
     #[getter]
     fn T_y<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.T_y)
     }
 
+    /// Bulk stress of body 2 at the end of every increment [Pa].
     #[getter]
     fn sigma_B<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.sigma_B)
     }
 
+    /// Bulk stress of body 1 at the end of every increment [Pa].
     #[getter]
     fn sigma_B1<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.sigma_B1)
     }
 
+    /// Way rolled at the end of every increment [m].
     #[getter]
     fn rolled<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.rolled)
     }
 
+    /// Torsional moment at the end of every increment [N m].
     #[getter]
     fn M_z<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.column(py, |point| point.loads.M_z)
@@ -223,14 +401,31 @@ impl LoadPath {
 
     fn __len__(&self) -> PyResult<usize> {
         self.0.check_length().map_err(to_python)?;
-        Ok(self.0.increments())
+        let branches = &self.0.branches;
+        match branches.iter().filter(|b| b.increments.is_none()).count() {
+            0 => Ok(self.0.increments()),
+            open => Err(PyValueError::new_err(format!(
+                "the increments of {open} of {} branches are chosen when the path is solved; \
+                 len(path.branches) is the number of branches",
+                branches.len()
+            ))),
+        }
+    }
+
+    #[expect(clippy::unused_self, reason = "Python passes it")]
+    fn __bool__(&self) -> bool {
+        true
     }
 
     pub(crate) fn __repr__(&self) -> String {
-        format!(
-            "LoadPath({} branches, {} increments)",
-            self.0.branches.len(),
-            self.0.increments()
-        )
+        let branches = &self.0.branches;
+        let given: usize = branches.iter().filter_map(|b| b.increments).sum();
+        let open = branches.iter().filter(|b| b.increments.is_none()).count();
+        let increments = match (given, open) {
+            (given, 0) => format!("{given} increments"),
+            (0, _) => "increments to be chosen".to_owned(),
+            (given, open) => format!("{given} increments, those of {open} branches to be chosen"),
+        };
+        format!("LoadPath({} branches, {increments})", branches.len())
     }
 }

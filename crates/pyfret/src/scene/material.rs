@@ -3,12 +3,47 @@
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
-use crate::error::to_python;
+use super::Body;
+use crate::error::{must_be, takes, to_python};
 
 /// A homogeneous isotropic elastic material.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+///
+/// Parameters
+/// ----------
+/// E : float
+///     Young's modulus [Pa], positive.
+/// nu : float
+///     Poisson's ratio, -1 < nu < 0.5.
+///
+/// Examples
+/// --------
+/// >>> steel = Elastic(E=210e9, nu=0.3)
+/// >>> round(steel.G / 1e9, 2)
+/// 80.77
+#[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Elastic(pub(crate) core::Elastic);
+
+takes!(Elastic, "a material, such as Elastic(E=210e9, nu=0.3)");
+
+/// A material of a closed form: of a body, that of its substrate.
+#[derive(Clone, Copy)]
+pub(crate) struct Material(pub(crate) core::Elastic);
+
+impl<'py> FromPyObject<'_, 'py> for Material {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(material) = value.extract::<Elastic>() {
+            return Ok(Self(material.0));
+        }
+        let wanted =
+            "a material, such as Elastic(E=210e9, nu=0.3), or a Body, whose substrate is taken";
+        let body = value.extract::<Body>();
+        body.map(|body| Self(body.0.substrate))
+            .map_err(|_| must_be(&value, wanted))
+    }
+}
 
 impl Elastic {
     pub(crate) const RIGID: Self = Self(core::Elastic::RIGID);
@@ -22,16 +57,19 @@ impl Elastic {
         core::Elastic::new(E, nu).map(Self).map_err(to_python)
     }
 
+    /// Young's modulus [Pa]; infinite for :data:`RIGID`.
     #[getter]
     fn E(&self) -> f64 {
         self.0.E
     }
 
+    /// Poisson's ratio.
     #[getter]
     fn nu(&self) -> f64 {
         self.0.nu
     }
 
+    /// Shear modulus E / (2 (1 + nu)) [Pa].
     #[getter]
     fn G(&self) -> f64 {
         self.0.G()

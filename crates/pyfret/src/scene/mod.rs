@@ -15,10 +15,10 @@ mod whole;
 pub(crate) use body::{Body, Coating};
 pub(crate) use branch::{Branch, Spacing};
 pub(crate) use friction::{AnyFriction, Friction, History};
-pub(crate) use grid::Grid;
+pub(crate) use grid::{Grid, Pitch};
 pub(crate) use increments::PerRange;
 pub(crate) use load_path::LoadPath;
-pub(crate) use material::Elastic;
+pub(crate) use material::{Elastic, Material};
 pub(crate) use profile::{Profile, graded};
 pub(crate) use settings::{FrequencyDomain, Hankel, InverseFft, Preset, Save, Settings, Skip};
 pub(crate) use shape::{

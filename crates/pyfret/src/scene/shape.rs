@@ -1,30 +1,34 @@
 //! Shapes of the undeformed surfaces.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
+use contact_core::Error;
 use contact_core::scene as core;
-use numpy::{PyArray2, PyReadonlyArray2, ToPyArray};
+use numpy::{PyArray2, ToPyArray};
 use pyo3::prelude::*;
 
-use crate::error::to_python;
+use super::Pitch;
+use crate::error::{must_be, to_python};
+use crate::subsurface::Field;
 
 /// A shape class with numbers for fields, and its way to and from the core's variant.
 macro_rules! elementary {
-    ($(#[$doc:meta])* $name:ident { $($field:ident),* }, ($($signature:tt)*)) => {
+    ($(#[$doc:meta])* $name:ident { $($(#[$about:meta])* $field:ident),* }, ($($signature:tt)*)) => {
         $(#[$doc])*
         #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
         #[derive(Clone, Copy, PartialEq)]
         pub(crate) struct $name {
-            $(#[pyo3(get)] $field: f64,)*
+            $($(#[$about])* #[pyo3(get)] $field: f64,)*
         }
 
         #[pymethods]
         impl $name {
             #[new]
             #[pyo3(signature = ($($signature)*))]
-            fn new($($field: f64),*) -> Self {
-                Self { $($field),* }
+            fn new($($field: f64),*) -> PyResult<Self> {
+                let shape = Self { $($field),* };
+                core::Shape::from(shape).check("shape").map_err(to_python)?;
+                Ok(shape)
             }
 
             fn __add__(&self, other: Shape) -> Sum {
@@ -70,40 +74,173 @@ impl Flat {
 }
 
 elementary!(
-    /// A sphere, taken as a paraboloid.
-    Sphere { R }, (*, R)
+    /// A sphere, taken as the paraboloid r^2/(2 R) as in Hertz's theory.
+    ///
+    /// Parameters
+    /// ----------
+    /// R : float
+    ///     Radius [m]; negative for a hollow.
+    Sphere {
+        /// Radius [m].
+        R
+    },
+    (R)
 );
 elementary!(
-    /// Two principal radii.
-    Ellipsoid { R_x, R_y, angle }, (*, R_x, R_y, angle = 0.0)
+    /// Two principal radii, each a parabola as in Hertz's theory.
+    ///
+    /// Parameters
+    /// ----------
+    /// R_x : float
+    ///     Principal radius in the direction `angle` [m]; negative for a hollow.
+    /// R_y : float
+    ///     Principal radius across it [m].
+    /// angle : float
+    ///     Direction of the first one, from x towards y [rad].
+    Ellipsoid {
+        /// Principal radius in the direction `angle` [m]; negative for a hollow.
+        R_x,
+        /// Principal radius across it [m].
+        R_y,
+        /// Direction of the first one, from x towards y [rad].
+        angle
+    },
+    (*, R_x, R_y, angle = 0.0)
 );
 elementary!(
-    /// A cylinder with sharp ends.
-    Cylinder { R, length, angle }, (*, R, length = f64::INFINITY, angle = 0.0)
+    /// A cylinder with sharp ends; its axis is y turned by `angle`.
+    ///
+    /// Parameters
+    /// ----------
+    /// R : float
+    ///     Radius [m]; negative for a hollow.
+    /// length : float
+    ///     Length along the axis [m]; infinite for one that leaves the grid.
+    /// angle : float
+    ///     Turn of the axis from y [rad].
+    Cylinder {
+        /// Radius [m]; negative for a hollow.
+        R,
+        /// Length along the axis [m]; infinite for one that leaves the grid.
+        length,
+        /// Turn of the axis from y [rad].
+        angle
+    },
+    (*, R, length = f64::INFINITY, angle = 0.0)
 );
 elementary!(
-    /// A cylinder with rounded ends.
-    CrownedRoller { R, length, crown, angle }, (*, R, length, crown, angle = 0.0)
+    /// A cylinder with rounded ends; its axis is y turned by `angle`.
+    ///
+    /// Parameters
+    /// ----------
+    /// R : float
+    ///     Radius [m].
+    /// length : float
+    ///     Length of the straight part [m], 0 for a crown all along.
+    /// crown : float
+    ///     Radius along the axis beyond the straight part [m].
+    /// angle : float
+    ///     Turn of the axis from y [rad].
+    CrownedRoller {
+        /// Radius [m].
+        R,
+        /// Length of the straight part [m], 0 for a crown all along.
+        length,
+        /// Radius along the axis beyond the straight part [m].
+        crown,
+        /// Turn of the axis from y [rad].
+        angle
+    },
+    (*, R, length, crown, angle = 0.0)
 );
 elementary!(
-    /// A cone.
-    Cone { slope }, (*, slope)
+    /// A cone with its tip at the origin.
+    ///
+    /// Parameters
+    /// ----------
+    /// slope : float
+    ///     Tangent of the angle between flank and contact plane.
+    Cone {
+        /// Tangent of the angle between flank and contact plane.
+        slope
+    },
+    (*, slope)
 );
 elementary!(
-    /// Two flanks that meet in an edge.
-    Wedge { slope, angle }, (*, slope, angle = 0.0)
+    /// Two flanks that meet in an edge; it is y turned by `angle`.
+    ///
+    /// Parameters
+    /// ----------
+    /// slope : float
+    ///     Tangent of the angle between flank and contact plane.
+    /// angle : float
+    ///     Turn of the edge from y [rad].
+    Wedge {
+        /// Tangent of the angle between flank and contact plane.
+        slope,
+        /// Turn of the edge from y [rad].
+        angle
+    },
+    (*, slope, angle = 0.0)
 );
 elementary!(
     /// A round flat punch with a rounded edge.
-    FlatPunch { radius, edge }, (*, radius, edge)
+    ///
+    /// Parameters
+    /// ----------
+    /// radius : float
+    ///     Radius of the flat [m].
+    /// edge : float
+    ///     Radius of the rounding beyond it [m].
+    FlatPunch {
+        /// Radius of the flat [m].
+        radius,
+        /// Radius of the rounding beyond it [m].
+        edge
+    },
+    (*, radius, edge)
 );
 elementary!(
-    /// A wave.
-    Waviness { amplitude, wavelength, angle, phase },
+    /// A wave along the direction `angle`, a crest at the origin for phase 0; add it to a shape.
+    ///
+    /// Parameters
+    /// ----------
+    /// amplitude : float
+    ///     Height of a crest above the mean [m].
+    /// wavelength : float
+    ///     Distance of the crests [m].
+    /// angle : float
+    ///     Direction, from x towards y [rad].
+    /// phase : float
+    ///     Phase at the origin [rad].
+    Waviness {
+        /// Height of a crest above the mean [m].
+        amplitude,
+        /// Distance of the crests [m].
+        wavelength,
+        /// Direction, from x towards y [rad].
+        angle,
+        /// Phase at the origin [rad].
+        phase
+    },
     (*, amplitude, wavelength, angle = 0.0, phase = 0.0)
 );
 
-/// A random self-affine surface.
+/// A random self-affine surface; add it to a shape.
+///
+/// Its power falls like k^-(2 + 2 `hurst`) between two wavelengths and is level above the longer
+/// one. The same seed gives the same surface on every grid of the same size, however fine.
+///
+/// Parameters
+/// ----------
+/// rms : float
+///     Root-mean-square height [m].
+/// hurst : float
+///     Hurst exponent, above 0 and up to 1.
+/// longest, shortest : float
+///     Wavelengths between which it is self-affine [m]; the shortest is at least two cells.
+/// seed : int
+///     Seed of the phases (default 0).
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Rough(core::Rough);
@@ -112,36 +249,44 @@ pub(crate) struct Rough(core::Rough);
 impl Rough {
     #[new]
     #[pyo3(signature = (*, rms, hurst, longest, shortest, seed = 0))]
-    fn new(rms: f64, hurst: f64, longest: f64, shortest: f64, seed: u32) -> Self {
-        Self(core::Rough {
+    fn new(rms: f64, hurst: f64, longest: f64, shortest: f64, seed: u32) -> PyResult<Self> {
+        let rough = core::Rough {
             rms,
             hurst,
             longest,
             shortest,
             seed,
-        })
+        };
+        let shape = core::Shape::Rough(rough);
+        shape.check("shape").map_err(to_python)?;
+        Ok(Self(rough))
     }
 
+    /// Root-mean-square height [m].
     #[getter]
     fn rms(&self) -> f64 {
         self.0.rms
     }
 
+    /// Hurst exponent.
     #[getter]
     fn hurst(&self) -> f64 {
         self.0.hurst
     }
 
+    /// Longest wavelength of the self-affine range [m].
     #[getter]
     fn longest(&self) -> f64 {
         self.0.longest
     }
 
+    /// Shortest wavelength [m].
     #[getter]
     fn shortest(&self) -> f64 {
         self.0.shortest
     }
 
+    /// Seed of the phases.
     #[getter]
     fn seed(&self) -> u32 {
         self.0.seed
@@ -165,7 +310,20 @@ impl Rough {
     }
 }
 
-/// Numbers over the contact plane; as a shape, heights.
+/// Numbers over the contact plane, the middle of the map over the origin.
+///
+/// As the shape of a body they are heights out of it, towards the other one [m]; in a friction law
+/// they are factors of mu.
+///
+/// Parameters
+/// ----------
+/// values : array of shape (points along x, points along y)
+///     The numbers.
+/// spacing : float or (float, float)
+///     Distance of the points along x and y [m]. In between they are interpolated linearly.
+/// missing : "refuse", "crop" or "fill"
+///     What becomes of points that are NaN: an error that says where they are; lines taken off the
+///     edges; the mean of the neighbours.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct SurfaceMap(pub(crate) core::SurfaceMap);
@@ -173,27 +331,41 @@ pub(crate) struct SurfaceMap(pub(crate) core::SurfaceMap);
 #[pymethods]
 impl SurfaceMap {
     #[new]
-    #[pyo3(signature = (values, *, spacing))]
-    fn new(values: PyReadonlyArray2<'_, f64>, spacing: (f64, f64)) -> Self {
-        Self(core::SurfaceMap {
-            values: Arc::new(values.as_array().to_owned()),
-            spacing,
-        })
-    }
-
-    #[staticmethod]
-    #[pyo3(signature = (path, *, spacing))]
-    fn from_file(path: PathBuf, spacing: (f64, f64)) -> PyResult<Self> {
-        core::SurfaceMap::from_file(&path, spacing)
+    #[pyo3(signature = (values, *, spacing, missing = "refuse"))]
+    fn new(values: Field<'_>, spacing: Pitch, missing: &str) -> PyResult<Self> {
+        let values = values.as_array().to_owned();
+        core::SurfaceMap::new(values, spacing.0, word(missing)?)
             .map(Self)
             .map_err(to_python)
     }
 
+    /// Read numbers from a ``.npy`` array or from a table of text, one line per x.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : path
+    ///     An array of real or whole numbers of any size and byte order, or a table parted by
+    ///     commas, semicolons, tabs or blanks, with or without a line of titles.
+    /// spacing : float or (float, float)
+    ///     Distance of the points, along x and y [m].
+    /// missing : "refuse", "crop" or "fill"
+    ///     What becomes of points without a number (blank or NaN): an error that says where they
+    ///     are; lines taken off the edges; the mean of the neighbours.
+    #[staticmethod]
+    #[pyo3(signature = (path, *, spacing, missing = "refuse"))]
+    fn from_file(path: PathBuf, spacing: Pitch, missing: &str) -> PyResult<Self> {
+        core::SurfaceMap::from_file(&path, spacing.0, word(missing)?)
+            .map(Self)
+            .map_err(to_python)
+    }
+
+    /// The numbers.
     #[getter]
     fn values<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         self.0.values.to_pyarray(py)
     }
 
+    /// Distance of the points along x and y [m].
     #[getter]
     fn spacing(&self) -> (f64, f64) {
         self.0.spacing
@@ -212,7 +384,15 @@ impl SurfaceMap {
     }
 }
 
-/// Several shapes on top of one another.
+/// What becomes of points without a number.
+fn word(missing: &str) -> PyResult<core::Missing> {
+    core::Missing::named(missing).ok_or_else(|| {
+        let allowed = "\"refuse\", \"crop\" or \"fill\"";
+        to_python(Error::invalid("missing", missing, allowed))
+    })
+}
+
+/// Several shapes on top of one another, made by adding them.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Sum(Vec<core::Shape>);
@@ -229,6 +409,7 @@ impl Sum {
 
 #[pymethods]
 impl Sum {
+    /// The shapes.
     #[getter]
     fn parts(&self) -> Vec<Shape> {
         self.0.iter().map(Shape::from).collect()
@@ -245,7 +426,7 @@ impl Sum {
 }
 
 /// Any shape, on its way in or out.
-#[derive(FromPyObject, IntoPyObject)]
+#[derive(IntoPyObject)]
 pub(crate) enum Shape {
     Flat(Flat),
     Sphere(Sphere),
@@ -259,6 +440,30 @@ pub(crate) enum Shape {
     HeightMap(SurfaceMap),
     Rough(Rough),
     Sum(Sum),
+}
+
+impl<'py> FromPyObject<'_, 'py> for Shape {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        macro_rules! first_of {
+            ($($variant:ident: $class:ty),*) => {
+                $(if let Ok(shape) = value.extract::<$class>() {
+                    return Ok(Self::$variant(shape));
+                })*
+            };
+        }
+        first_of!(
+            Flat: Flat, Sphere: Sphere, Ellipsoid: Ellipsoid, Cylinder: Cylinder,
+            CrownedRoller: CrownedRoller, Cone: Cone, Wedge: Wedge, FlatPunch: FlatPunch,
+            Waviness: Waviness, HeightMap: SurfaceMap, Rough: Rough, Sum: Sum
+        );
+        Err(must_be(
+            &value,
+            "a shape, such as Sphere(R=5e-3), Flat(), Cylinder(R=5e-3), SurfaceMap(heights, spacing=1e-6), \
+             or a sum of them",
+        ))
+    }
 }
 
 impl Shape {

@@ -2,17 +2,39 @@
 
 use std::path::PathBuf;
 
+use contact_core::fields::Side;
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
 use super::{AnyFriction, Body, Friction, Grid, LoadPath, Save, Settings};
-use crate::error::to_python;
+use crate::error::{takes, to_python};
 use crate::reference::Hertz;
+use crate::subsurface::{Field, side};
 
 /// A fretting contact problem.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+///
+/// Parameters
+/// ----------
+/// body1, body2 : Body
+///     The upper body (the indenter) and the lower one.
+/// mu : float or Friction
+///     Friction coefficient, >= 0, or a friction law.
+/// grid : Grid
+///     Mesh of the contact plane; it has to hold the contact.
+/// path : LoadPath, optional
+///     Load history; it can be given when the scene is solved instead.
+/// settings : Settings, optional
+///     How the scene is solved.
+/// title : str
+///     One line that names the scene in results and figures.
+#[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Scene(pub(crate) core::Scene);
+
+takes!(
+    Scene,
+    "a scene, such as Scene(body1=.., body2=.., mu=0.3, grid=..) or Scene.from_file(\"scene.toml\")"
+);
 
 #[pymethods]
 impl Scene {
@@ -31,13 +53,29 @@ impl Scene {
             title,
             body1: body1.0,
             body2: body2.0,
-            friction: mu.into(),
+            friction: mu.0,
             grid: grid.0,
             path: path.map_or_else(core::LoadPath::start, |p| p.0),
             settings: settings.unwrap_or_default().0,
         })
     }
 
+    /// Read a scene file.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : path
+    ///     The file: TOML, ``schema = 1``, SI units.
+    /// set : sequence of str, optional
+    ///     Values to exchange, each ``"key=value"`` as after ``fret run --set``, e.g.
+    ///     ``"friction.mu=0.5"`` or ``"body2.coatings.0.E.E_substrate=4"``.
+    /// allow_outside : bool, optional
+    ///     Let the scene name files outside its own folder.
+    ///
+    /// Raises
+    /// ------
+    /// InvalidSceneError
+    ///     With the line, the key and what is allowed; an unknown key names the nearest valid one.
     #[staticmethod]
     #[pyo3(signature = (path, *, set = Vec::new(), allow_outside = false))]
     fn from_file(path: PathBuf, set: Vec<String>, allow_outside: bool) -> PyResult<Self> {
@@ -51,6 +89,7 @@ impl Scene {
             .map_err(to_python)
     }
 
+    /// Read a scene from the text of a scene file; see :meth:`from_file`.
     #[staticmethod]
     #[pyo3(signature = (text, *, set = Vec::new()))]
     fn from_toml(text: &str, set: Vec<String>) -> PyResult<Self> {
@@ -59,10 +98,12 @@ impl Scene {
             .map_err(to_python)
     }
 
+    /// Write the text of a scene file, all numbers in SI units.
     fn to_toml(&self) -> String {
         self.0.to_toml()
     }
 
+    /// The same scene with some of its parts exchanged.
     #[pyo3(signature = (*, path = None, settings = None, save = None, mu = None, title = None))]
     fn replace(
         &self,
@@ -83,7 +124,7 @@ impl Scene {
             scene.settings.save = save.into_core()?;
         }
         if let Some(mu) = mu {
-            scene.friction = mu.into();
+            scene.friction = mu.0;
         }
         if let Some(title) = title {
             scene.title = title;
@@ -91,50 +132,100 @@ impl Scene {
         Ok(Self(scene))
     }
 
+    /// Refuse a scene that has no meaning.
+    ///
+    /// Raises
+    /// ------
+    /// InvalidSceneError
+    ///     With the key, the value and what is allowed.
     fn check(&self) -> PyResult<()> {
-        self.0.check().map_err(to_python)
+        self.0.check().map_err(to_python)?;
+        self.0.check_fit().map_err(to_python)
     }
 
+    /// One line that names the scene.
     #[getter]
     fn title(&self) -> &str {
         &self.0.title
     }
 
+    /// The upper body.
     #[getter]
     fn body1(&self) -> Body {
         Body(self.0.body1.clone())
     }
 
+    /// The lower body.
     #[getter]
     fn body2(&self) -> Body {
         Body(self.0.body2.clone())
     }
 
+    /// Friction coefficient.
     #[getter]
     fn mu(&self) -> f64 {
         self.0.friction.mu
     }
 
+    /// Friction law.
     #[getter]
     fn friction(&self) -> Friction {
         Friction(self.0.friction.clone())
     }
 
+    /// Mesh of the contact plane.
     #[getter]
     fn grid(&self) -> Grid {
         Grid(self.0.grid)
     }
 
+    /// Load history.
     #[getter]
     fn path(&self) -> LoadPath {
         LoadPath(self.0.path.clone())
     }
 
+    /// How the scene is solved.
     #[getter]
     fn settings(&self) -> Settings {
         Settings(self.0.settings.clone())
     }
 
+    /// Depths of the interfaces of a body [m], from the surface down; none of a homogeneous one.
+    ///
+    /// Parameters
+    /// ----------
+    /// body_number : 1 or 2
+    ///     The upper body or the lower one (default 2).
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene.interfaces()  # doctest: +SKIP
+    /// [3e-06, 3.5e-06]
+    #[pyo3(signature = (body_number = 2))]
+    fn interfaces(&self, body_number: u8) -> PyResult<Vec<f64>> {
+        Ok(match side(body_number)? {
+            Side::Body1 => self.0.body1.interfaces(),
+            Side::Body2 => self.0.body2.interfaces(),
+        })
+    }
+
+    /// Length that results of an increment are measured in [m].
+    ///
+    /// That is a_H, or where there is no Hertz contact half the longer side of the box around the
+    /// cells under the pressure `p` [Pa], shape (nx, ny).
+    fn length(&self, p: Field<'_>) -> f64 {
+        self.0.length(&p.as_array().to_owned())
+    }
+
+    /// What is allowed but hardly meant: numbers that look like those of another unit.
+    ///
+    /// One sentence for each, with what was understood; :func:`pyfret.solve` warns of them.
+    fn doubts(&self) -> Vec<String> {
+        self.0.doubts()
+    }
+
+    /// The yardstick a_H, p_H: the uncoated pair at the largest normal force of the path.
     #[getter]
     fn hertz(&self) -> Option<Hertz> {
         self.0.hertz().map(Hertz)

@@ -34,7 +34,7 @@ pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction
             .map(|_| section.number(key, "a positive number", &[]));
         given.transpose()
     };
-    let map = section.section("map", &["file", "z", "spacing"])?;
+    let map = section.section("map", &["file", "z", "spacing", "missing"])?;
     Ok(Friction {
         mu,
         mu_y: number("mu_y")?,

@@ -58,6 +58,16 @@ impl Scene {
         Self::read(text, file, settings, Reach::Folder)
     }
 
+    /// [`Self::from_toml_str`], with files of the given reach.
+    pub fn from_toml_str_reaching(
+        text: &str,
+        file: &str,
+        settings: &[String],
+        reach: Reach,
+    ) -> Result<Self, Error> {
+        Self::read(text, file, settings, reach)
+    }
+
     fn read(text: &str, file: &str, settings: &[String], reach: Reach) -> Result<Self, Error> {
         let document = Document::parse(text, file, settings)?;
         let folder = Path::new(file).parent().unwrap_or_else(|| Path::new(""));

@@ -7,7 +7,7 @@ use toml::Value;
 
 use super::files::Files;
 use super::section::{Fault, Section, pair};
-use crate::scene::{Rough, Shape, SurfaceMap};
+use crate::scene::{Missing, Rough, Shape, SurfaceMap};
 
 const SHAPES: [&str; 11] = [
     "sphere",
@@ -124,7 +124,10 @@ fn one(shapes: &Section<'_>, name: &str, files: &Files<'_>) -> Result<Shape, Fau
                 })?,
             })
         }
-        "height_map" => Shape::HeightMap(surface_map(&numbers(&["file", "z", "spacing"])?, files)?),
+        "height_map" => Shape::HeightMap(surface_map(
+            &numbers(&["file", "z", "spacing", "missing"])?,
+            files,
+        )?),
         _ => sum(shapes, files)?,
     })
 }
@@ -142,6 +145,16 @@ fn sum(shapes: &Section<'_>, files: &Files<'_>) -> Result<Shape, Fault> {
         .map(Shape::Sum)
 }
 
+/// What becomes of points of a file without a number.
+fn missing(section: &Section<'_>) -> Result<Missing, Fault> {
+    let Some(value) = section.get("missing") else {
+        return Ok(Missing::default());
+    };
+    let what = "\"refuse\", \"crop\" or \"fill\"";
+    let word = value.as_str().and_then(Missing::named);
+    word.ok_or_else(|| Fault::value(&section.path("missing"), value, what))
+}
+
 /// Numbers from a file, or in the scene itself: a list along x of lists along y.
 pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<SurfaceMap, Fault> {
     let spacing = section.need("spacing", "the distance of the points in m, or two")?;
@@ -157,7 +170,7 @@ pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<Su
             .ok_or_else(|| Fault::value(&key, file, what))?;
         let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
         let path = files.find(name).map_err(|e| wrong(&e))?;
-        return SurfaceMap::from_file(&path, spacing).map_err(|e| wrong(&e));
+        return SurfaceMap::from_file(&path, spacing, missing(section)?).map_err(|e| wrong(&e));
     }
     let what = "a list along x of lists along y of numbers, all of one length";
     let (key, value) = (section.path("z"), section.need("z", what)?);

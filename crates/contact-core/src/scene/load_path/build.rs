@@ -62,6 +62,32 @@ impl LoadPath {
         self.visit(RigidMotion::DeltaZ, W, increments.into())
     }
 
+    /// Visits the loads of a motion, or the motion itself, in turn: what `prescribed` makes of the
+    /// values, as [`Self::tangential`] visits forces. A motion that was free counts from 0.
+    #[must_use]
+    pub fn through(
+        self,
+        of: RigidMotion,
+        prescribed: fn(f64) -> Prescribed,
+        values: &[f64],
+        increments: impl Into<Option<usize>>,
+    ) -> Self {
+        self.visit_as(of, prescribed, values, increments.into())
+    }
+
+    /// Stays where it is for some increments, one unit of path time: what friction makes of its
+    /// history goes on.
+    #[must_use]
+    pub fn hold(self, increments: usize) -> Self {
+        self.to(|_| (), increments)
+    }
+
+    /// The values of `n` cycles of an amplitude: to it, then `n` times to its opposite and back.
+    pub fn cycle(amplitude: f64, n: usize) -> Vec<f64> {
+        let cycles = std::iter::repeat_n([-amplitude, amplitude], n);
+        std::iter::once(amplitude).chain(cycles.flatten()).collect()
+    }
+
     /// Turns the tangential force around an ellipse of the semi-axes `T_x`, `T_y` \[N\] about its
     /// present value, from (T_x, 0) on towards (0, T_y), `turns` times. It goes there in `increments`
     /// and takes as many for a turn, each a branch of its own, since the path bends at each.
@@ -86,7 +112,18 @@ impl LoadPath {
     }
 
     /// Visits loads of a motion in turn, the increments in proportion to the change.
-    fn visit(mut self, of: RigidMotion, values: &[f64], increments: Option<usize>) -> Self {
+    fn visit(self, of: RigidMotion, values: &[f64], increments: Option<usize>) -> Self {
+        self.visit_as(of, Prescribed::Load, values, increments)
+    }
+
+    /// The same of what `prescribed` makes of the values.
+    fn visit_as(
+        mut self,
+        of: RigidMotion,
+        prescribed: fn(f64) -> Prescribed,
+        values: &[f64],
+        increments: Option<usize>,
+    ) -> Self {
         let per_unit = self
             .branches
             .first()
@@ -95,7 +132,9 @@ impl LoadPath {
             .unwrap_or(1)
             .max(1);
         let mut changes = Vec::with_capacity(values.len());
-        let mut from = self.last().0.forces()[of.index()];
+        let at = self.last().0.prescribed(of);
+        let same_kind = at.is_motion() == prescribed(0.0).is_motion();
+        let mut from = if same_kind { at.value() } else { 0.0 };
         for &value in values {
             changes.push((value - from).abs());
             from = value;
@@ -112,7 +151,7 @@ impl LoadPath {
                 n
             });
             let (mut to, t) = self.last();
-            to.prescribe(of, Prescribed::Load(value));
+            to.prescribe(of, prescribed(value));
             let t_end = t + n.map_or(1.0, |n| n as f64 / per_unit as f64);
             self.branches.push(Branch::new(to, n, t_end));
         }

@@ -183,7 +183,7 @@ impl Shape {
     }
 
     /// Fails with the key of a parameter that is out of its range.
-    pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
+    pub fn check(&self, key: &str) -> Result<(), Error> {
         let refuse = |name: &str, value: f64, allowed: &str| {
             Err(Error::invalid(format!("{key}.{name}"), value, allowed))
         };

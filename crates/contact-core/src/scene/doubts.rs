@@ -1,0 +1,208 @@
+//! Numbers that cannot be meant, and those that hardly can: another unit, a slip of the pen.
+//!
+//! Everything is compared with something else of the scene, never with what is usual, so that a scene
+//! in units of its own is a scene like any other.
+
+use super::shape::Shape;
+use super::{Body, Coating, Elastic, Prescribed, RigidMotion, Scene, SurfaceMap};
+use crate::error::Error;
+use crate::reference::Hertz;
+
+/// Peak pressure over the contact modulus, (2/pi) a/R, beyond which strains are no longer small.
+const LARGE_STRAIN: f64 = 0.1;
+/// Thickness over the contact radius beyond which a coating is all that the contact sees.
+const THICK: f64 = 1000.0;
+/// Root-mean-square slope of a measured surface beyond which its heights are hardly in metres.
+const STEEP: f64 = 0.5;
+/// Part of the Hertz radius that a contact reaches for certain.
+const CERTAIN: f64 = 0.97;
+
+const UNITS: &str = "lengths are in m, moduli in Pa, forces in N: 3 um is 3e-6, 114 GPa is 114e9";
+
+impl Scene {
+    /// Fails at what cannot be meant: an approach beyond the radius, heights beyond the length of
+    /// their map.
+    pub(crate) fn check_sense(&self) -> Result<(), Error> {
+        for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
+            for map in maps(&body.shape) {
+                let (nx, ny) = map.values.dim();
+                let length = (nx as f64 * map.spacing.0).max(ny as f64 * map.spacing.1);
+                let range = range_of(map);
+                if range > length {
+                    let allowed = format!("below the length of the map, {length:.3e} m: {UNITS}");
+                    let heights = format!("heights over a range of {range:.3e} m");
+                    return Err(Error::invalid(
+                        format!("{key}.shape.height_map"),
+                        heights,
+                        allowed,
+                    ));
+                }
+            }
+        }
+        let Some(hertz) = self.hertz() else {
+            return Ok(());
+        };
+        let radius = 1.0 / self.principal_curvatures().0;
+        if hertz.a > radius {
+            let contact = format!(
+                "a contact of radius {:.3e} m (W = {:.3e} N, E* = {:.3e} Pa)",
+                hertz.a, hertz.W, hertz.E_star
+            );
+            let allowed = format!("smaller than the bodies' radius R = {radius:.3e} m: {UNITS}");
+            return Err(Error::invalid("path", contact, allowed));
+        }
+        Ok(())
+    }
+
+    /// Fails if the contact is certain to leave the grid: even if each body were of its stiffest
+    /// material alone. A scene that passes may still leave it when it is solved.
+    pub fn check_fit(&self) -> Result<(), Error> {
+        let stiff = Self {
+            body1: stiffest(&self.body1),
+            body2: stiffest(&self.body2),
+            ..self.clone()
+        };
+        let Some(hertz) = stiff.hertz().filter(|_| self.is_plain()) else {
+            return Ok(());
+        };
+        let (extent_x, extent_y) = self.grid.extent();
+        let across = if self.grid.plane_strain {
+            extent_x
+        } else {
+            extent_x.min(extent_y)
+        };
+        // The axes of an ellipse lie on either side of the mean; its area decides.
+        let (k_1, k_2) = self.principal_curvatures();
+        let fits = if self.grid.plane_strain || k_1 - k_2 <= 1e-9 * k_1 {
+            2.0 * CERTAIN * hertz.a < across
+        } else {
+            std::f64::consts::PI * (CERTAIN * hertz.a).powi(2) < extent_x * extent_y
+        };
+        if fits {
+            return Ok(());
+        }
+        Err(Error::GridTooSmall {
+            W: hertz.W,
+            a: hertz.a,
+            extent_x,
+            extent_y,
+            needed: 2.4 * self.hertz().map_or(hertz.a, |h| h.a),
+        })
+    }
+
+    /// Whether both surfaces are sums of paraboloids alone, so that nothing keeps a contact small.
+    fn is_plain(&self) -> bool {
+        fn plain(shape: &Shape) -> bool {
+            match shape {
+                Shape::Flat | Shape::Sphere { .. } | Shape::Ellipsoid { .. } => true,
+                Shape::Cylinder { length, .. } => *length == f64::INFINITY,
+                Shape::Sum(parts) => parts.iter().all(plain),
+                _ => false,
+            }
+        }
+        plain(&self.body1.shape) && plain(&self.body2.shape)
+    }
+
+    /// What is allowed but hardly meant, one sentence each with what was understood.
+    pub fn doubts(&self) -> Vec<String> {
+        let hertz = self.hertz();
+        let mut doubts = Vec::new();
+        if let Some(Hertz {
+            p0, E_star, W, a, ..
+        }) = hertz
+            && p0 > LARGE_STRAIN * E_star
+        {
+            doubts.push(format!(
+                "the peak pressure is {:.2} E*, strains are not small (W = {W:.3e} N, \
+                 E* = {E_star:.3e} Pa, a_H = {a:.3e} m): {UNITS}",
+                p0 / E_star
+            ));
+        }
+        let (extent_x, extent_y) = self.grid.extent();
+        let wide = if self.grid.plane_strain {
+            extent_x
+        } else {
+            extent_x.max(extent_y)
+        };
+        let a = hertz.map_or(wide, |h| h.a);
+        for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
+            for (i, Coating { thickness, .. }) in body.coatings.iter().enumerate() {
+                if *thickness > THICK * a {
+                    doubts.push(format!(
+                        "{key}.coatings[{i}].thickness = {thickness:.3e} m is {:.0} times the contact: \
+                         what lies below it does not matter; {UNITS}",
+                        thickness / a
+                    ));
+                }
+            }
+            for map in maps(&body.shape) {
+                let slope = slope_of(map);
+                if slope > STEEP {
+                    doubts.push(format!(
+                        "{key}.shape.height_map has slopes of {slope:.2} (root mean square), {:.0} \
+                         degrees: {UNITS}",
+                        slope.atan().to_degrees()
+                    ));
+                }
+            }
+        }
+        for (i, branch) in self.path.branches.iter().enumerate() {
+            for of in [RigidMotion::DeltaX, RigidMotion::DeltaY] {
+                if let Prescribed::Motion(shift) = branch.to.prescribed(of)
+                    && shift.abs() > wide
+                {
+                    let name = of.name();
+                    doubts.push(format!(
+                        "path[{i}].{name} = {shift:.3e} m is beyond the grid, {wide:.3e} m: {UNITS}"
+                    ));
+                }
+            }
+        }
+        doubts
+    }
+}
+
+/// The body as if it were of its stiffest material.
+fn stiffest(body: &Body) -> Body {
+    let coatings = body.coatings.iter().map(|c| c.material);
+    let modulus = |m: &Elastic| m.E / (1.0 - m.nu * m.nu);
+    let substrate = coatings.fold(body.substrate, |s, m| {
+        if modulus(&m) > modulus(&s) { m } else { s }
+    });
+    Body::homogeneous(substrate, body.shape.clone())
+}
+
+/// The measured heights in a shape.
+fn maps(shape: &Shape) -> Vec<&SurfaceMap> {
+    match shape {
+        Shape::HeightMap(map) => vec![map],
+        Shape::Sum(parts) => parts.iter().flat_map(maps).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn range_of(map: &SurfaceMap) -> f64 {
+    let (low, high) = map
+        .values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| {
+            (l.min(*z), h.max(*z))
+        });
+    high - low
+}
+
+/// Root mean square of the slope between neighbouring points.
+fn slope_of(map: &SurfaceMap) -> f64 {
+    let (nx, ny) = map.values.dim();
+    let z = &map.values;
+    let (mut sum, mut n) = (0.0, 0_usize);
+    for i in 1..nx {
+        for j in 1..ny {
+            let along = (z[(i, j)] - z[(i - 1, j)]) / map.spacing.0;
+            let across = (z[(i, j)] - z[(i, j - 1)]) / map.spacing.1;
+            sum += along * along + across * across;
+            n += 1;
+        }
+    }
+    (sum / n.max(1) as f64).sqrt()
+}

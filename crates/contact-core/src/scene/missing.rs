@@ -1,0 +1,178 @@
+//! Points of a measured surface that have no number.
+
+use ndarray::{Array2, Axis, Slice};
+
+/// What becomes of points without a number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Missing {
+    /// An error says how many there are and where (default).
+    #[default]
+    Refuse,
+    /// Lines at the edges are left out until every point has a number; the middle moves with them.
+    Crop,
+    /// Each has the mean of its neighbours, those next to numbers first.
+    Fill,
+}
+
+impl Missing {
+    /// The choice of a word: "refuse", "crop" or "fill".
+    pub fn named(word: &str) -> Option<Self> {
+        match word {
+            "refuse" => Some(Self::Refuse),
+            "crop" => Some(Self::Crop),
+            "fill" => Some(Self::Fill),
+            _ => None,
+        }
+    }
+}
+
+/// The numbers without holes; the error says where the holes are.
+pub(super) fn completed(values: Array2<f64>, missing: Missing) -> Result<Array2<f64>, String> {
+    let holes = values.iter().filter(|v| v.is_nan()).count();
+    if holes == 0 {
+        return Ok(values);
+    }
+    if holes == values.len() {
+        return Err("holds no number".into());
+    }
+    match missing {
+        Missing::Refuse => Err(where_they_are(&values, holes)),
+        Missing::Crop => Ok(cropped(&values)),
+        Missing::Fill => Ok(filled(values)),
+    }
+}
+
+fn where_they_are(values: &Array2<f64>, holes: usize) -> String {
+    let (nx, ny) = values.dim();
+    let missing = values.indexed_iter().filter(|(_, v)| v.is_nan());
+    let (mut first, mut depth) = (None, 0);
+    for ((i, j), _) in missing {
+        first.get_or_insert((i, j));
+        depth = depth.max(1 + i.min(j).min(nx - 1 - i).min(ny - 1 - j));
+    }
+    let (i, j) = first.unwrap_or_default();
+    format!(
+        "{holes} of {} points have no number, the first in row {} and column {}, all within {depth} of \
+         the edges: missing = \"crop\" takes lines off the edges, \"fill\" takes the mean of the \
+         neighbours",
+        values.len(),
+        i + 1,
+        j + 1
+    )
+}
+
+/// Takes the line at the edge with the largest part of holes off, until there is none.
+fn cropped(values: &Array2<f64>) -> Array2<f64> {
+    let mut rest = values.view();
+    while rest.iter().any(|v| v.is_nan()) {
+        let (nx, ny) = rest.dim();
+        let part = |line: ndarray::ArrayView1<'_, f64>| {
+            line.iter().filter(|v| v.is_nan()).count() as f64 / line.len() as f64
+        };
+        let parts = [
+            part(rest.row(0)),
+            part(rest.row(nx - 1)),
+            part(rest.column(0)),
+            part(rest.column(ny - 1)),
+        ];
+        let worst = (0..4)
+            .max_by(|&a, &b| parts[a].total_cmp(&parts[b]))
+            .unwrap_or(0);
+        let worst = if parts[worst] > 0.0 {
+            worst
+        } else {
+            nearest_edge(&rest)
+        };
+        let (axis, slice) = match worst {
+            0 => (Axis(0), Slice::from(1..)),
+            1 => (Axis(0), Slice::from(..nx - 1)),
+            2 => (Axis(1), Slice::from(1..)),
+            _ => (Axis(1), Slice::from(..ny - 1)),
+        };
+        rest.slice_axis_inplace(axis, slice);
+    }
+    rest.to_owned()
+}
+
+/// The edge that is nearest to the first hole, in the order of [`cropped`].
+fn nearest_edge(values: &ndarray::ArrayView2<'_, f64>) -> usize {
+    let (nx, ny) = values.dim();
+    let hole = values.indexed_iter().find(|(_, v)| v.is_nan());
+    let (i, j) = hole.map_or((0, 0), |(at, _)| at);
+    let distances = [i, nx - 1 - i, j, ny - 1 - j];
+    (0..4).min_by_key(|&edge| distances[edge]).unwrap_or(0)
+}
+
+/// Fills from the borders of the holes inwards.
+fn filled(mut values: Array2<f64>) -> Array2<f64> {
+    let (nx, ny) = values.dim();
+    let mut holes: Vec<(usize, usize)> = values
+        .indexed_iter()
+        .filter(|(_, v)| v.is_nan())
+        .map(|(at, _)| at)
+        .collect();
+    while !holes.is_empty() {
+        let mean = |&(i, j): &(usize, usize)| {
+            let rows = i.saturating_sub(1)..(i + 2).min(nx);
+            let around = |row: usize| {
+                let columns = j.saturating_sub(1)..(j + 2).min(ny);
+                columns.map(move |column| (row, column))
+            };
+            let known = rows.flat_map(around).map(|at| values[at]);
+            let known = known.filter(|v| !v.is_nan());
+            let (sum, n) = known.fold((0.0, 0), |(sum, n), v| (sum + v, n + 1));
+            (n > 0).then(|| sum / f64::from(n))
+        };
+        let found: Vec<_> = holes.iter().map(|at| (*at, mean(at))).collect();
+        holes.clear();
+        for (at, value) in found {
+            match value {
+                Some(value) => values[at] = value,
+                None => holes.push(at),
+            }
+        }
+    }
+    values
+}
+
+#[cfg(test)]
+mod tests {
+    use ndarray::Array2;
+
+    use super::{Missing, completed};
+
+    /// A plane with holes at two edges.
+    fn with_holes() -> Array2<f64> {
+        let mut z = Array2::from_shape_fn((6, 5), |(i, j)| i as f64 + 2.0 * j as f64);
+        for at in [(0, 0), (0, 1), (0, 3), (4, 4)] {
+            z[at] = f64::NAN;
+        }
+        z
+    }
+
+    #[test]
+    fn holes_are_named() {
+        let error = completed(with_holes(), Missing::Refuse).expect_err("holes");
+        assert!(
+            error.starts_with("4 of 30 points have no number, the first in row 1"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn edges_with_holes_are_cut_off() {
+        let z = completed(with_holes(), Missing::Crop).expect("numbers");
+        assert!(
+            z.dim() == (5, 4) && z[(0, 0)] == 1.0 && z[(4, 3)] == 11.0,
+            "{z}"
+        );
+    }
+
+    #[test]
+    fn holes_are_filled_from_their_neighbours() {
+        let z = completed(with_holes(), Missing::Fill).expect("numbers");
+        assert!(z.iter().all(|v| v.is_finite()));
+        // The mean of the neighbours of a plane that lie on one side is off by a point at most.
+        assert!((z[(0, 3)] - 6.0).abs() <= 2.0 && (z[(4, 4)] - 12.0).abs() <= 2.0);
+    }
+}

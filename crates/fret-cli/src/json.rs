@@ -1,0 +1,104 @@
+//! What the commands print, for programs: SI units, names of the store.
+
+use contact_core::fields::{Cycle, Direction, LoopPoint, loops};
+use contact_core::march::{BranchSummary, Increment, summarise};
+use contact_core::scene::{RigidMotion, Scene};
+use serde_json::{Map, Value, json};
+
+use crate::summary::state;
+
+/// A run: its branches and its cycles.
+pub(crate) fn run(scene: &Scene, increments: &[Increment]) -> Value {
+    let mut done = 0;
+    let branches = summarise(increments);
+    let branches: Vec<Value> = branches
+        .iter()
+        .map(|b| {
+            done += b.increments;
+            branch(b, &increments[done - 1])
+        })
+        .collect();
+    let cycles: Vec<Value> = cycles(scene, increments)
+        .iter()
+        .map(|(direction, c)| cycle(*direction, c))
+        .collect();
+    let hertz = scene.hertz();
+    json!({
+        "title": scene.title,
+        "mu": scene.friction.mu,
+        "a_H": hertz.map(|h| h.a),
+        "p_H": hertz.map(|h| h.p0),
+        "increments": increments.len(),
+        "branches": branches,
+        "cycles": cycles,
+    })
+}
+
+fn branch(b: &BranchSummary, last: &Increment) -> Value {
+    let mut of = Map::new();
+    let mut set = |key: &str, value: Value| of.insert(key.to_owned(), value);
+    set("branch", json!(b.branch));
+    set("t", json!(last.point.t));
+    let (loads, motions) = (b.loads.forces(), b.motion.motions());
+    for of in RigidMotion::ALL {
+        set(of.load(), json!(loads[of.index()]));
+        set(of.name(), json!(motions[of.index()]));
+    }
+    set("contact_radius", json!(b.contact_radius));
+    set("stick_ratio", json!(b.stick_ratio));
+    set("status", json!(state(last.status).replace(' ', "_")));
+    set("p_max", json!(b.p_max));
+    set("dissipated", json!(b.dissipated));
+    set("increments", json!(b.increments));
+    set("convolutions", json!(b.work.convolutions));
+    Value::Object(of)
+}
+
+fn cycle(direction: Direction, c: &Cycle) -> Value {
+    json!({
+        "direction": word(direction),
+        "first_branch": c.branches.0,
+        "last_branch": c.branches.1,
+        "status": state(c.status).replace(' ', "_"),
+        "dissipated": c.dissipated,
+        "T": c.T,
+        "delta": c.delta,
+        "stiffness": c.stiffness,
+        "energy_ratio": c.energy_ratio(),
+        "sliding_ratio": c.sliding_ratio(),
+    })
+}
+
+/// The word of a direction, as in [`pyfret.Result.loops`].
+pub(crate) fn word(direction: Direction) -> &'static str {
+    match direction {
+        Direction::X => "x",
+        Direction::Y => "y",
+        Direction::Torsion => "torsion",
+    }
+}
+
+/// The cycles of the motions that the path drives.
+pub(crate) fn cycles(scene: &Scene, increments: &[Increment]) -> Vec<(Direction, Cycle)> {
+    let driven = |of: RigidMotion| {
+        let mut ends = scene.path.branches.iter().map(|b| &b.to);
+        ends.any(|to| to.prescribed(of).value() != 0.0)
+    };
+    [
+        (Direction::X, RigidMotion::DeltaX),
+        (Direction::Y, RigidMotion::DeltaY),
+        (Direction::Torsion, RigidMotion::PhiZ),
+    ]
+    .into_iter()
+    .filter(|(_, of)| driven(*of))
+    .flat_map(|(direction, _)| {
+        let points: Vec<_> = increments
+            .iter()
+            .map(|i| LoopPoint::new(i, direction))
+            .collect();
+        loops(&scene.path, &points)
+            .into_iter()
+            .map(move |c| (direction, c))
+    })
+    .collect()
+}

@@ -1,0 +1,79 @@
+//! The tractions of an increment, from a result store.
+
+use contact_core::Error;
+use contact_core::convolution::Tractions;
+use contact_core::output::Store;
+use ndarray::Array2;
+
+use crate::stress::Options;
+
+/// The tractions of one increment.
+pub(crate) struct Loads {
+    pub(crate) increment: usize,
+    q_x: Array2<f64>,
+    q_y: Array2<f64>,
+    pub(crate) p: Array2<f64>,
+    stick: Array2<bool>,
+    /// Bulk stress of the body in Pa.
+    pub(crate) sigma_B: f64,
+}
+
+impl Loads {
+    /// Of the increment asked for, or of the last one kept.
+    pub(crate) fn of(store: &Store, options: &Options) -> Result<Self, Error> {
+        let increment = options.increment;
+        let kept: Vec<usize> = store
+            .column("saved_increment")?
+            .into_iter()
+            .map(|v| v as usize)
+            .collect();
+        let place = match increment {
+            None => kept.len().checked_sub(1),
+            Some(n) => kept.iter().position(|k| *k == n),
+        };
+        let Some(place) = place else {
+            let found = increment.map_or("nothing".into(), |n| n.to_string());
+            return Err(Error::invalid(
+                "--increment",
+                found,
+                format!("one whose fields were kept: {kept:?}"),
+            ));
+        };
+        let sigma_B = if options.no_bulk {
+            0.0
+        } else {
+            let name = if options.body == 1 {
+                "sigma_B1"
+            } else {
+                "sigma_B"
+            };
+            // Rows are increments from 1.
+            let row = kept[place].wrapping_sub(1);
+            let stress = store.column(name)?.get(row).copied();
+            stress.ok_or_else(|| {
+                let allowed = "one of the increments of the store";
+                Error::invalid("saved_increment", kept[place], allowed)
+            })?
+        };
+        Ok(Self {
+            increment: kept[place],
+            sigma_B,
+            q_x: store.field("q_x", place)?,
+            q_y: store.field("q_y", place)?,
+            p: store.field("p", place)?,
+            stick: store.field("stick", place)?.mapv(|v| v != 0.0),
+        })
+    }
+
+    pub(crate) fn tractions(&self) -> Tractions<'_> {
+        Tractions {
+            q_x: self.q_x.as_slice(),
+            q_y: self.q_y.as_slice(),
+            p: self.p.as_slice(),
+        }
+    }
+
+    pub(crate) fn stick(&self) -> [&[bool]; 1] {
+        [self.stick.as_slice().unwrap_or_default()]
+    }
+}

@@ -1,0 +1,24 @@
+"""An alumina ball on titanium with hard carbon on chromium, under a given shift."""
+
+import matplotlib.pyplot as plt
+
+import pyfret as fret
+
+alumina, titanium = fret.Elastic(E=380e9, nu=0.23), fret.Elastic(E=114e9, nu=0.34)
+dlc = fret.Coating(fret.Elastic(E=200e9, nu=0.25), thickness=3e-6)
+chromium = fret.Coating(fret.Elastic(E=279e9, nu=0.21), thickness=0.5e-6)
+ball = fret.Body(alumina, shape=fret.Sphere(R=5e-3))
+flat = fret.Body(titanium, coatings=[dlc, chromium])
+hertz = fret.reference.hertz(R=5e-3, bodies=(ball, flat), W=10.0)
+grid = fret.Grid.centred(extent=2.4 * hertz.a, n=128)
+scene = fret.Scene(body1=ball, body2=flat, mu=0.15, grid=grid, title="DLC on titanium")
+path = fret.LoadPath.start().normal(10.0).cycles(1, delta_x=0.1e-6)
+result = fret.solve(scene, path)
+print(result.summary())  # states, energy per cycle, energy ratio, stiffness
+below = result.at(-1).stress()  # depths chosen from the layers
+for measure in ("von_mises", "interface_shear"):
+    print(measure, below.maximum(measure))
+figure, ((a, b), (c, d)) = plt.subplots(2, 2, figsize=(9.6, 7.6), layout="constrained")
+fret.plot.fretting_loop(result, ax=a), fret.plot.stick_slip(result, ax=b)
+fret.plot.stress_map(below, ax=c), fret.plot.pressure_profile(result, ax=d)
+figure.savefig("dlc_on_titanium.png")

@@ -1,0 +1,34 @@
+"""Warnings about what is allowed but hardly meant."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pyfret._core import Grid, Scene
+
+__all__ = ["SceneWarning", "doubt_layers", "doubt_scene"]
+
+
+class SceneWarning(UserWarning):
+    """Something of a scene is allowed but hardly meant; the message says what was understood."""
+
+
+def doubt_scene(scene: Scene) -> None:
+    """Warn of every number of a scene that looks like one of another unit."""
+    for doubt in scene.doubts():
+        warnings.warn(doubt, SceneWarning, stacklevel=3)
+
+
+def doubt_layers(interfaces: list[float], grid: Grid) -> None:
+    """Warn of an interface nearer to the surface than a cell is long."""
+    cell = grid.dx if grid.plane_strain else min(grid.dx, grid.dy)
+    if interfaces and interfaces[0] < cell:
+        warnings.warn(
+            f"the first interface is {interfaces[0]:.3g} m below the surface, "
+            f"{interfaces[0] / cell:.2f} cells: the tractions are known per cell, and the stress "
+            "there is that of tractions which hardly vary over a layer; a finer grid tells",
+            SceneWarning,
+            stacklevel=3,
+        )

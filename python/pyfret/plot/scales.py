@@ -1,0 +1,82 @@
+"""Units of figures: SI, or over the yardsticks of the Hertz contact and of Coulomb's law."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from pyfret.results import Result, Snapshot
+
+#: Dimensionless where there is a Hertz contact and SI elsewhere, or one of both.
+Units: TypeAlias = Literal["auto", "dimensionless", "SI"]
+
+
+@dataclass(frozen=True)
+class Scale:
+    """What numbers are divided by, and how that is written."""
+
+    #: The divisor, in SI units.
+    value: float
+    #: Symbol of the divisor, or the name of the unit.
+    name: str
+    #: Whether the divisor is a unit.
+    is_unit: bool
+
+    def label(self, symbol: str) -> str:
+        """The label of an axis that shows `symbol`."""
+        return f"${symbol}$ [{self.name}]" if self.is_unit else rf"${symbol}/{self.name}$"
+
+
+@dataclass(frozen=True)
+class Scales:
+    """Scales of lengths, stresses and shear."""
+
+    length: Scale
+    stress: Scale
+    shear: Scale
+
+    @property
+    def dimensionless(self) -> bool:
+        """Whether the yardsticks are those of the Hertz contact."""
+        return not self.length.is_unit
+
+
+MICRO = Scale(1e-6, "µm", is_unit=True)
+MEGA = Scale(1e6, "MPa", is_unit=True)
+
+
+def bears(mu: float) -> bool:
+    """Whether mu times a force is a yardstick."""
+    return bool(np.isfinite(mu)) and mu > 0.0
+
+
+def scales(attrs: Mapping[Any, Any], units: Units, *, mu: float = 1.0) -> Scales:
+    """Scales of a dataset that has the yardsticks a_H and p_H among its attributes, or has not."""
+    hertz = "a_H" in attrs and "p_H" in attrs
+    if units not in ("auto", "dimensionless", "SI"):
+        raise ValueError(f'units = {units!r}: must be "auto", "dimensionless" or "SI"')
+    if units == "dimensionless" and not hertz:
+        raise ValueError('units = "dimensionless": there is no Hertz contact; give "SI"')
+    if units == "SI" or not hertz:
+        return Scales(MICRO, MEGA, MEGA)
+    length = Scale(float(attrs["a_H"]), "a_H", is_unit=False)
+    stress = Scale(float(attrs["p_H"]), "p_H", is_unit=False)
+    shear = Scale(mu * stress.value, r"(\mu\, p_H)", is_unit=False) if bears(mu) else stress
+    return Scales(length, stress, shear)
+
+
+def of_snapshot(snapshot: Snapshot, units: Units) -> Scales:
+    """Scales of an increment."""
+    return scales(snapshot.dataset.attrs, units, mu=snapshot.mu)
+
+
+def last_of(shown: Result | Snapshot) -> Snapshot:
+    """The increment itself, or the last one that a result has kept."""
+    from pyfret.results import Result
+
+    return shown.at(-1) if isinstance(shown, Result) else shown

@@ -1,0 +1,104 @@
+"""Depths chosen from the layers find the largest stress, and say how well."""
+
+from __future__ import annotations
+
+import os
+import warnings
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import R, W, sphere_on_flat
+
+STEEL = fret.Elastic(E=210e9, nu=0.3)
+HERTZ = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)
+#: Random contacts (FRET_DEPTHS says how many), and largest difference to ten times the depths.
+CONTACTS, OFF = int(os.environ.get("FRET_DEPTHS", "4")), 0.02
+
+
+def layered(coatings: list[fret.Coating], *, n: int = 24) -> fret.Scene:
+    return fret.Scene(
+        body1=fret.Body(STEEL, shape=fret.Sphere(R=R)),
+        body2=fret.Body(STEEL, coatings=coatings),
+        mu=0.3,
+        grid=fret.Grid.centred(extent=3.0 * HERTZ.a, n=n),
+    )
+
+
+def random_coatings(random: np.random.Generator) -> list[fret.Coating]:
+    """One to three layers, a fiftieth of the contact radius to all of it thick."""
+    return [
+        fret.Coating(
+            fret.Elastic(
+                E=float(210e9 * 2 ** random.uniform(-1, 2)), nu=float(random.uniform(0.15, 0.4))
+            ),
+            thickness=float(HERTZ.a * 50 ** random.uniform(-1, 0)),
+        )
+        for _ in range(random.integers(1, 4))
+    ]
+
+
+PATH = fret.LoadPath.start().normal(W, increments=1).tangential(0.6 * 0.3 * W, increments=1)
+
+
+@pytest.mark.timeout(600)
+@pytest.mark.filterwarnings("ignore::pyfret.SceneWarning")
+def test_chosen_depths_find_the_largest_stress_of_random_layered_contacts() -> None:
+    random = np.random.default_rng(1)
+    covered, worst = [], 0.0
+    for _ in range(CONTACTS):
+        scene = layered(random_coatings(random))
+        last = fret.solve(scene, PATH, progress=False).at(-1)
+        many, _ = fret._core.chosen_depths(
+            scene.body2, a=last.length, deepest=2 * last.length, finer=10.0
+        )
+        chosen, finer = last.stress(), last.stress(np.unique(many), y=0.0)
+        for of in ("von_mises", "s_1", "interface_shear"):
+            found, truth = chosen.maximum(of), finer.maximum(of)
+            difference = abs(found.value - truth.value) / truth.value
+            assert difference <= OFF, (scene.body2, of, found, truth)
+            worst = max(worst, difference)
+            covered.append(difference <= found.error / truth.value + 1e-9)
+    print(f"{CONTACTS} contacts: off by {worst:.1e} at most, covered {np.mean(covered):.2f}")
+    assert np.mean(covered) >= 0.9
+
+
+def test_a_thin_layer_is_not_missed() -> None:
+    """A layer of a fiftieth of the contact radius, four times as stiff, below a thicker one."""
+    stiff = fret.Elastic(E=4 * STEEL.E, nu=0.3)
+    coatings = [
+        fret.Coating(STEEL, thickness=0.3 * HERTZ.a),
+        fret.Coating(stiff, thickness=HERTZ.a / 50),
+    ]
+    scene = layered(coatings)
+    assert scene.interfaces() == pytest.approx([0.3 * HERTZ.a, 0.32 * HERTZ.a])
+    assert scene.interfaces(1) == []
+    contact = fret.solve(scene, PATH, progress=False).at(-1)
+    below = contact.stress()
+    assert set(np.unique(below.dataset.layer)) == {0, 1, 2}
+    largest = below.maximum()
+    assert largest.layer == 1, largest
+    with pytest.warns(fret.SceneWarning, match="interfaces at z = .* are not among the depths"):
+        even = contact.stress(np.linspace(0.0, 2 * HERTZ.a, 18), y=0.0).maximum()
+    assert even.value < 0.9 * largest.value
+    shear = below.maximum("interface_shear")
+    assert shear.z in pytest.approx(scene.interfaces()[0]) or shear.z in scene.interfaces()
+
+
+def test_interface_measures_need_an_interface() -> None:
+    contact = fret.solve(sphere_on_flat(n=16), PATH, progress=False).at(-1)
+    with pytest.raises(ValueError, match="no interface lies among the depths"):
+        contact.stress().maximum("interface_shear")
+    with pytest.raises(ValueError, match="must be one of"):
+        contact.stress().maximum("mises")
+
+
+def test_a_layer_above_the_first_row_of_cells_is_told() -> None:
+    scene = layered([fret.Coating(STEEL, thickness=HERTZ.a / 50)], n=16)
+    contact = fret.solve(scene, fret.LoadPath.start().normal(W, increments=1), progress=False)
+    with pytest.warns(fret.SceneWarning, match="cells"):
+        contact.at(-1).stress()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        fret.solve(sphere_on_flat(n=16), PATH, progress=False).at(-1).stress()

@@ -1,0 +1,140 @@
+"""Every figure of every kind of scene: all shapes, all drives, in SI units and without."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import MU, R, W, sphere_on_flat
+
+STEEL = fret.Elastic(E=210e9, nu=0.3)
+HARD = fret.Elastic(E=420e9, nu=0.25)
+A = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W).a
+GRID = fret.Grid.centred(extent=2.6 * A, n=16)
+PRESSED = fret.LoadPath.start().normal(W, increments=2)
+GENTLE = fret.LoadPath.start().normal(W / 5, increments=2).cycles(1, T_x=20.0, increments=6)
+SHEARED = PRESSED.cycles(1, T_x=0.7 * MU * W, increments=6)
+
+
+def scene(
+    shape: object, path: fret.LoadPath = SHEARED, *, grid: fret.Grid = GRID, mu: float = MU
+) -> fret.Scene:
+    return fret.Scene(
+        body1=fret.Body(STEEL, shape=shape),  # type: ignore[arg-type]
+        body2=fret.Body(STEEL),
+        mu=mu,
+        grid=grid,
+        path=path,
+    )
+
+
+def thin_layers() -> fret.Scene:
+    layers = [fret.Coating(HARD, thickness=A / 30), fret.Coating(STEEL, thickness=A / 50)]
+    ball = fret.Body(STEEL, shape=fret.Sphere(R=R))
+    flat = fret.Body(STEEL, coatings=layers)
+    return fret.Scene(body1=ball, body2=flat, mu=MU, grid=GRID, path=SHEARED)
+
+
+ROUGH = fret.Rough(rms=1e-7, hurst=0.8, longest=A, shortest=0.4 * A, seed=2)
+PUNCH = fret.FlatPunch(radius=0.6 * A, edge=R)
+STRIP = fret.Grid.strip(extent=2.6 * A, n=32)
+LINE_LOAD = 1e5
+SCENES = {
+    "coated ball": sphere_on_flat(ratio=2.0, n=16).replace(path=SHEARED),
+    "thin layers": thin_layers(),
+    "shift": scene(fret.Sphere(R), PRESSED.cycles(1, delta_x=4e-6, increments=6)),
+    "along y": scene(fret.Sphere(R), PRESSED.cycles(1, T_y=0.5 * MU * W, increments=4)),
+    "torsion": scene(fret.Sphere(R), PRESSED.cycles(1, phi_z=2e-3, increments=6)),
+    "ellipsoid": scene(fret.Ellipsoid(R_x=0.8 * R, R_y=1.1 * R)),
+    "rough flat under a punch": scene(PUNCH + ROUGH, GENTLE),
+    "line": scene(
+        fret.Cylinder(R=R),
+        fret.LoadPath.start().normal(LINE_LOAD, increments=1).cycles(1, T_x=1e4, increments=3),
+        grid=STRIP,
+    ),
+    "approach given": scene(
+        fret.Sphere(R), fret.LoadPath.start().displace(delta_z=1e-5, increments=2)
+    ),
+    "frictionless": scene(fret.Sphere(R), PRESSED, mu=0.0),
+    "never slips": scene(fret.Sphere(R), PRESSED.tangential(0.1 * W, increments=1), mu=np.inf),
+    "cone": scene(fret.Cone(slope=0.01), fret.LoadPath.start().normal(W / 4, increments=2)),
+}
+
+
+@pytest.fixture(scope="module", params=SCENES, ids=str)
+def result(request: pytest.FixtureRequest) -> fret.Result:
+    return fret.solve(SCENES[request.param], progress=False)
+
+
+@pytest.fixture(autouse=True)
+def _close_figures() -> Iterator[None]:
+    yield
+    plt.close("all")
+
+
+pytestmark = pytest.mark.filterwarnings("ignore::pyfret.SceneWarning")
+
+
+@pytest.mark.parametrize("units", ["auto", "SI"])
+def test_every_figure_is_drawn(result: fret.Result, units: fret.plot.Units) -> None:
+    last = result.at(-1)
+    below = last.stress()
+    envelope = result.envelope(below.dataset.z.values[:1], y=0.0)
+    figures = [
+        fret.plot.fretting_loop(result, units=units),
+        fret.plot.stick_ratio(result),
+        fret.plot.load_path(result),
+        fret.plot.load_path(result.scene.path),
+        fret.plot.stick_slip(result, units=units),
+        fret.plot.pressure_map(last, units=units),
+        fret.plot.slip_map(last, units=units),
+        fret.plot.shear_streamlines(last, units=units),
+        fret.plot.pressure_profile(result, units=units),
+        fret.plot.shear_profile(last, units=units),
+        fret.plot.shear_profiles(result, units=units),
+        fret.plot.stress_map(below, units=units),
+        fret.plot.stress_along_depth(last.stress(x=0.0, y=0.0), units=units),
+        fret.plot.stress_history(envelope, units=units),
+        fret.plot.loop_evolution(result),
+    ]
+    assert all(ax.has_data() or ax.images for ax in figures)
+    if units == "SI":
+        for ax in figures:
+            ax.get_figure().canvas.draw()
+
+
+def test_every_number_is_told(result: fret.Result) -> None:
+    assert "state" in result.summary()
+    last = result.at(-1)
+    assert last.length > 0.0
+    assert last.stress().maximum().value > 0.0
+    if "a_H" not in result.dataset.attrs:
+        with pytest.raises(ValueError, match="no a_H: these bodies have no Hertz contact"):
+            _ = result.a_H
+        with pytest.raises(ValueError, match="there is no Hertz contact"):
+            fret.plot.pressure_profile(result, units="dimensionless")
+        assert result.summary().count("[MPa]") == 1
+
+
+def test_envelopes_of_a_cycle_are_drawn() -> None:
+    result = fret.solve(SCENES["thin layers"], progress=False)
+    fret.plot.envelope_maps(result.envelope(y=0.0)).canvas.draw()
+
+
+def test_a_legend_names_only_what_is_there() -> None:
+    result = fret.solve(SCENES["frictionless"], progress=False)
+    (label,) = fret.plot.stick_slip(result).get_legend().get_texts()
+    assert label.get_text() in ("stick", "slip")
+
+
+def test_thin_layers_have_room_on_the_axis_of_depth() -> None:
+    result = fret.solve(SCENES["thin layers"], progress=False)
+    ax = fret.plot.stress_map(result.at(-1).stress())
+    to_pixels = ax.transData.transform
+    depths = np.array([0.0, 1 / 30, 1 / 30 + 1 / 50, 2.0])
+    pixels = to_pixels(np.column_stack([np.zeros(4), depths]))[:, 1]
+    assert (-np.diff(pixels)).min() > 0.1 * (pixels[0] - pixels[-1])

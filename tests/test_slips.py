@@ -1,0 +1,213 @@
+"""Slips of the user are caught where they are made, and said in the user's words."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import R, W, pair, sphere_on_flat
+from pyfret.progress import Progress
+
+STEEL, _ = pair(0.3)
+BALL = fret.Body(STEEL, shape=fret.Sphere(R))
+FLAT = fret.Body(STEEL)
+GRID = fret.Grid.centred(extent=1e-3, n=8)
+PRESSED = fret.LoadPath.start().normal(W, increments=1)
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: fret.Elastic(E=210e9, nu=0.6), r"nu = 0.6: must be -1 < nu < 0.5"),
+        (
+            lambda: fret.Coating(STEEL, thickness=-3e-6),
+            r"thickness = -0.000003: must be a positive",
+        ),
+        (lambda: fret.Coating(fret.RIGID, thickness=1e-6), r"E = inf"),
+        (lambda: fret.Friction(-0.6), r"friction.mu = -0.6"),
+        (lambda: fret.Scene(body1=BALL, body2=FLAT, mu=-0.6, grid=GRID), r"friction.mu = -0.6"),
+        (lambda: fret.Sphere(0.0), r"sphere.R = 0: must be a finite radius"),
+        (lambda: fret.Rough(rms=1e-7, hurst=2.0, longest=1e-4, shortest=1e-5), r"hurst = 2"),
+        (lambda: fret.SurfaceMap([[0.0, math.inf]], spacing=1e-6), r"z = inf: must be finite"),
+    ],
+)
+def test_a_constructor_refuses_at_once(make: Callable[[], object], says: str) -> None:
+    with pytest.raises(fret.InvalidSceneError, match=says):
+        make()
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (
+            lambda: fret.Body(210e9),
+            r"(?s)210000000000.0: must be a material, such as Elastic.*'substrate'",
+        ),
+        (
+            lambda: fret.Body(STEEL, shape="flat"),
+            r"(?s)'flat': must be a shape, such as Sphere.*'shape'",
+        ),
+        (lambda: fret.Body(STEEL, coatings=3e-6), r"(?s).*must be a list of coatings.*'coatings'"),
+        (
+            lambda: fret.Body(STEEL, coatings=[STEEL]),
+            r"(?s)Elastic.*must be a coating, such as.*'coatings'",
+        ),
+        (
+            lambda: fret.Coating(210e9, thickness=1e-6),
+            r"(?s).*such as Elastic\(E=210e9.*'material'",
+        ),
+        (
+            lambda: fret.Scene(body1=STEEL, body2=FLAT, mu=0.3, grid=GRID),
+            r"(?s).*such as Body.*'body1'",
+        ),
+        (
+            lambda: fret.Scene(body1=BALL, body2=FLAT, mu="a", grid=GRID),
+            r"(?s)'a': must be a coeffic.*'mu'",
+        ),
+        (
+            lambda: fret.Scene(body1=BALL, body2=FLAT, mu=0.3, grid=128),
+            r"(?s)128: must be a grid.*'grid'",
+        ),
+        (
+            lambda: fret.reference.hertz(R=R, bodies=(R, STEEL), W=W),
+            r"(?s)must be a material.*'bodies'",
+        ),
+        (lambda: PRESSED.tangential("a"), r"(?s)'a': must be a number, or several.*'T_x'"),
+        (
+            lambda: fret.SurfaceMap([[0.0]], spacing="a"),
+            r"(?s)'a': must be a length in m.*'spacing'",
+        ),
+    ],
+)
+def test_an_argument_of_another_type_is_named_with_an_example(
+    make: Callable[[], object], says: str
+) -> None:
+    with pytest.raises(TypeError, match=says):
+        make()
+
+
+def test_what_is_plain_is_taken() -> None:
+    assert fret.Sphere(R) == fret.Sphere(R=R)
+    heights = np.zeros((3, 4), dtype=np.float32)
+    assert fret.SurfaceMap(heights, spacing=2e-6).spacing == (2e-6, 2e-6)
+    assert fret.Grid.from_spacing(8, 1e-6) == fret.Grid.from_spacing((8, 8), (1e-6, 1e-6))
+    one = fret.Coating(STEEL, thickness=1e-6)
+    assert fret.Body(STEEL, coatings=one) == fret.Body(STEEL, coatings=[one])
+    by_body = fret.reference.hertz(R=R, bodies=(BALL, FLAT), W=W)
+    assert by_body.a == fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W).a
+
+
+def flat_of(coatings: list[fret.Coating], shape: object = None) -> fret.Scene:
+    scene = sphere_on_flat()
+    body = fret.Body(STEEL, coatings=coatings, shape=shape or fret.Flat())  # type: ignore[arg-type]
+    return fret.Scene(body1=scene.body1, body2=body, mu=0.3, grid=scene.grid, path=PRESSED)
+
+
+def test_moduli_in_another_unit_are_refused_with_what_was_understood() -> None:
+    soft = fret.Elastic(E=114.0, nu=0.3)
+    scene = sphere_on_flat()
+    scene = fret.Scene(
+        body1=fret.Body(soft, shape=fret.Sphere(R)), body2=fret.Body(soft), mu=0.3, grid=scene.grid
+    )
+    with pytest.raises(fret.InvalidSceneError, match=r"E\* = 6.*114 GPa is 114e9"):
+        scene.replace(path=PRESSED).check()
+
+
+def test_heights_in_another_unit_are_refused() -> None:
+    heights = np.random.default_rng(1).normal(size=(32, 32))
+    scene = sphere_on_flat()
+    spacing = scene.grid.dx
+    with pytest.raises(
+        fret.InvalidSceneError, match=r"heights over a range of .* m: must be below"
+    ):
+        flat_of([], fret.SurfaceMap(heights, spacing=spacing)).check()
+    steep = fret.SurfaceMap(heights * spacing, spacing=spacing)
+    assert "slopes of" in " ".join(flat_of([], steep).doubts())
+
+
+@pytest.mark.parametrize(
+    ("scene", "says"),
+    [
+        (flat_of([fret.Coating(STEEL, thickness=3.0)]), r"thickness = 3.000e0 m is \d+ times"),
+        (
+            sphere_on_flat().replace(path=PRESSED.displace(delta_x=3.0, increments=1)),
+            r"path\[1\].delta_x = 3.000e0 m is beyond the grid",
+        ),
+    ],
+)
+def test_what_is_hardly_meant_is_warned_of(scene: fret.Scene, says: str) -> None:
+    scene.check()
+    with pytest.warns(fret.SceneWarning, match=says):
+        next(iter(fret.march(scene)))
+
+
+def test_a_scene_as_it_should_be_is_not_doubted() -> None:
+    for ratio in (0.5, 1.0, 4.0):
+        assert sphere_on_flat(ratio=ratio).replace(path=PRESSED).doubts() == []
+
+
+def test_a_contact_that_cannot_fit_is_refused_before_it_is_solved() -> None:
+    scene = sphere_on_flat()
+    tight = fret.Grid.centred(extent=0.5 * scene.grid.nx * scene.grid.dx, n=16)
+    scene = fret.Scene(body1=scene.body1, body2=scene.body2, mu=0.3, grid=tight, path=PRESSED)
+    with pytest.raises(fret.OffGridError, match="does not fit on the grid"):
+        scene.check()
+
+
+def test_paths_say_what_they_are() -> None:
+    path = fret.LoadPath.start().normal(10.0)
+    assert repr(path.cycles(2, delta_x=2e-6)) == "LoadPath(6 branches, increments to be chosen)"
+    with pytest.raises(ValueError, match="increments of 1 of 1 branches are chosen"):
+        len(path)
+    assert bool(path)
+    mixed = PRESSED.tangential([1.0, -1.0])
+    assert "1 increments, those of 2 branches to be chosen" in repr(mixed)
+    shifts = [2e-6, -2e-6, 2e-6]
+    displaced = PRESSED.displace(delta_x=shifts, increments=50)
+    assert [b.delta_x for b in displaced.branches[1:]] == shifts
+    assert [b.increments for b in displaced.branches] == [1, 10, 20, 20]
+    assert displaced == PRESSED.cycles(1, delta_x=2e-6, increments=50)
+    assert PRESSED.tangential([9.0, -9.0, 9.0], increments=5) == PRESSED.cycles(
+        1, T_x=9.0, increments=5
+    )
+    held = displaced.hold(increments=3).branches[-1]
+    assert (held.W, held.delta_x, held.increments) == (W, 2e-6, 3)
+    with pytest.raises(ValueError, match="one load or motion"):
+        path.cycles(1)
+    with pytest.raises(ValueError, match="one motion at a time"):
+        path.displace(delta_x=[1e-6, 2e-6], delta_y=[1e-6, 2e-6])
+
+
+def test_a_scene_file_is_solved_by_its_name(tmp_path: Path) -> None:
+    file = tmp_path / "scene.toml"
+    scene = sphere_on_flat(n=16).replace(path=PRESSED)
+    file.write_text(scene.to_toml(), encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert fret.solve(file, progress=False).scene.body2 == scene.body2
+        assert next(iter(fret.march(file))).W == W
+
+
+def test_the_bar_of_a_run_never_runs_over() -> None:
+    bar = Progress(title="run", shown=False)
+    bar.update(78, 90)
+    assert "78/90" in bar.line(10.0)
+    assert "2 s left" in bar.line(10.0)
+    # An increment more than there should be.
+    bar.update(91, 90)
+    assert len(bar.line(1.0)) < 60
+    assert "91/91 1 s, 0 s left" in bar.line(1.0)
+
+
+def test_a_run_with_chosen_increments_knows_how_many_there_are(tmp_path: Path) -> None:
+    told: list[tuple[int, int]] = []
+    scene = sphere_on_flat(n=16).replace(path=fret.LoadPath.start().normal(W))
+    fret._core.solve(scene, store=tmp_path / "run.zarr", on_increment=lambda *at: told.append(at))
+    count = fret.open(tmp_path / "run.zarr").dataset.sizes["increment"]
+    assert told == [(n, count) for n in range(1, count + 1)]

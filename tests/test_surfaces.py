@@ -1,0 +1,88 @@
+"""Measured surfaces as people have them, and results in the formats that people want."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import pyfret as fret
+
+HEIGHTS = np.arange(12.0).reshape(4, 3) - 5.0
+
+
+@pytest.mark.parametrize("kind", ["<f8", ">f8", "<f4", ">f4", "<i2", ">i4", "|i1"])
+def test_arrays_of_any_kind_are_read(kind: str, tmp_path: Path) -> None:
+    file = tmp_path / "heights.npy"
+    np.save(file, HEIGHTS.astype(kind))
+    for read in (fret.SurfaceMap.from_file, fret.read_surface):
+        found = read(file, spacing=2e-6)
+        np.testing.assert_array_equal(found.values, HEIGHTS)
+        assert found.spacing == (2e-6, 2e-6)
+
+
+@pytest.mark.parametrize(
+    ("delimiter", "header", "point"),
+    [
+        (",", "", "."),
+        (",", "a,b,c", "."),
+        (";", "a;b;c", ","),
+        ("\t", "", "."),
+        (" ", "", "."),
+    ],
+)
+def test_tables_of_any_kind_are_read(
+    delimiter: str, header: str, point: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "heights.csv"
+    np.savetxt(file, HEIGHTS, delimiter=delimiter, header=header, comments="")
+    file.write_text(file.read_text().replace(".", point))
+    np.testing.assert_array_equal(fret.SurfaceMap.from_file(file, spacing=1e-6).values, HEIGHTS)
+
+
+def test_holes_are_named_cut_off_or_filled(tmp_path: Path) -> None:
+    file = tmp_path / "heights.npy"
+    holed = HEIGHTS.copy()
+    holed[0, :] = np.nan
+    np.save(file, holed)
+    says = (
+        r"3 of 12 points have no number, the first in row 1 and column 1, all within 1 of the edges"
+    )
+    with pytest.raises(fret.StoreError, match=says):
+        fret.SurfaceMap.from_file(file, spacing=1e-6)
+    with pytest.raises(fret.InvalidSceneError, match="3 of 12 points have no number"):
+        fret.SurfaceMap(holed, spacing=1e-6)
+    cut = fret.SurfaceMap.from_file(file, spacing=1e-6, missing="crop")
+    np.testing.assert_array_equal(cut.values, HEIGHTS[1:])
+    filled = fret.SurfaceMap(holed, spacing=1e-6, missing="fill").values
+    np.testing.assert_allclose(filled[0], [-1.5, -1.0, -0.5])
+    with pytest.raises(fret.InvalidSceneError, match=r'missing = leave: must be "refuse", "crop"'):
+        fret.SurfaceMap(holed, spacing=1e-6, missing="leave")  # type: ignore[arg-type]
+
+
+def test_plain_numbers_need_a_spacing(tmp_path: Path) -> None:
+    np.save(tmp_path / "z.npy", HEIGHTS)
+    with pytest.raises(ValueError, match="need the distance of the points"):
+        fret.read_surface(tmp_path / "z.npy")
+
+
+@pytest.mark.parametrize("ending", ["zarr", "nc"])
+def test_a_result_is_saved_and_opened(coated: fret.Result, ending: str, tmp_path: Path) -> None:
+    place = tmp_path / f"copy.{ending}"
+    coated.save(place)
+    with pytest.raises(FileExistsError):
+        coated.save(place)
+    found = fret.open(place)
+    xr.testing.assert_equal(found.dataset.load(), coated.dataset)
+    assert found.scene == coated.scene
+    assert found.dataset.attrs["Conventions"] == "CF-1.11"
+    assert found.summary() == coated.summary()
+    assert found.at(-1).stress([0.0], y=0.0).von_mises.max() > 0
+    found.dataset.close()
+
+
+def test_a_result_is_saved_as_what_its_name_says(coated: fret.Result, tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"must end in \.zarr or \.nc"):
+        coated.save(tmp_path / "copy.csv")
