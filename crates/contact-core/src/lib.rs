@@ -30,6 +30,7 @@ pub mod reference;
 pub mod scene;
 pub mod solvers;
 mod stop;
+pub mod wear;
 
 pub use error::Error;
 pub use scene::Scene;

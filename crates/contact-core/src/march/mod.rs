@@ -35,6 +35,7 @@ mod tests;
 mod trial;
 mod view;
 mod window;
+mod worn;
 
 pub(crate) use continued::Continued;
 pub use error_bars::{Bar, BranchEnds, ErrorBars, Tractions, coarsest, error_bars, means};

@@ -1,0 +1,4 @@
+//! Wear against closed forms, finite elements and itself.
+
+mod gross;
+mod partial;
