@@ -11,6 +11,7 @@ mod resume;
 mod run;
 mod stress;
 mod summary;
+mod wear;
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -41,6 +42,8 @@ enum Command {
     Check(SceneOptions),
     /// Stress below the contact of a result: its largest values, and files of it
     Stress(stress::Options),
+    /// Wear the surfaces of a scene with a table [wear] over many cycles
+    Wear(wear::Options),
 }
 
 /// A scene file and what is changed in it.
@@ -96,6 +99,7 @@ fn main() -> ExitCode {
         Command::Resume(options) => resume::resume(&options),
         Command::Check(options) => check::check(&options),
         Command::Stress(options) => stress::stress(&options),
+        Command::Wear(options) => wear::wear(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

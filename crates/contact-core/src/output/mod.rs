@@ -25,6 +25,7 @@ mod resume;
 mod stress_store;
 mod variable;
 mod volume;
+mod wear_store;
 mod writer;
 
 pub use catalogue::{FIELDS, Field, FieldView, Kind, SCALARS, Scalar};
@@ -34,6 +35,7 @@ pub use reader::Store;
 pub use resume::{Resumed, resume, resume_until};
 pub use stress_store::StressStore;
 pub use volume::{VolumeSink, write_volume};
+pub use wear_store::{WearStore, resume_wear};
 pub use writer::StoreWriter;
 
 /// The version of the store's layout.

@@ -30,6 +30,11 @@ pub trait Law: Debug + Send + Sync {
     fn check(&self, _key: &str) -> Result<(), Error> {
         Ok(())
     }
+
+    /// The law as a table of a scene file; `None` if that cannot hold it.
+    fn written(&self) -> Option<String> {
+        None
+    }
 }
 
 /// J. F. Archard's law (J. Appl. Phys. 24 (1953) 981-988), taken cell by cell: `dh = k p |ds|`.
@@ -58,6 +63,13 @@ impl Law for Archard {
             self.threshold,
             "m of slip per cycle",
         )
+    }
+
+    fn written(&self) -> Option<String> {
+        Some(format!(
+            "{{ k = {:?}, threshold = {:?} }}",
+            self.k, self.threshold
+        ))
     }
 }
 
@@ -88,6 +100,13 @@ impl Law for DissipatedEnergy {
             self.threshold,
             "J/m^2 per cycle",
         )
+    }
+
+    fn written(&self) -> Option<String> {
+        Some(format!(
+            "{{ alpha = {:?}, threshold = {:?} }}",
+            self.alpha, self.threshold
+        ))
     }
 }
 

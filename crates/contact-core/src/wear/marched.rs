@@ -177,7 +177,8 @@ impl Marched {
                 .collect();
             let gap = self.gap(worn);
             let h: Vec<f64> = gap.iter().zip(&rates.u_q).map(|(g, u)| g + u).collect();
-            self.pressing.solve(&h, &compliance, rates.drive, &mut p)?;
+            self.pressing
+                .solve(&h, &compliance, rates.drive, &mut p, 1.0)?;
             if correction == CORRECTIONS || last.as_ref().is_some_and(|last| agree(last, &p)) {
                 break;
             }

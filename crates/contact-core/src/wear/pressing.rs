@@ -118,13 +118,14 @@ impl Pressing {
     }
 
     /// Solves `p >= 0, g = h + C p + D p - delta_z >= 0, p g = 0` for p from a guess, D being the
-    /// `compliance` of each cell \[m/Pa\].
+    /// `compliance` of each cell \[m/Pa\], to so many `times` the tolerance of the scene.
     pub(crate) fn solve(
         &mut self,
         h: &[f64],
         compliance: &[f64],
         drive: Drive,
         p: &mut [f64],
+        times: f64,
     ) -> Result<NormalInfo, Error> {
         let touching = p.iter().zip(compliance).filter(|(p, _)| **p > 0.0);
         let (sum, count) = touching.fold((0.0, 0.0), |(s, c), (_, d)| (s + d, c + 1.0));
@@ -161,13 +162,18 @@ impl Pressing {
             arms: &self.arms,
             drive,
         };
+        let params = NormalParams {
+            enough: times * self.params.enough,
+            tolerance: times * self.params.tolerance,
+            ..self.params
+        };
         let found = normal(
             &mut response,
             &problem,
             p,
             &mut self.u_z,
             &mut self.workspace,
-            &self.params,
+            &params,
         );
         found.map_err(|e| {
             match response

@@ -18,7 +18,10 @@ const CAUTIOUS: f64 = 0.9;
 const LONGER: f64 = 4.0;
 const SHORTER: f64 = 0.2;
 /// The first jump wears about this part of the approach.
-const FIRST: f64 = 0.1;
+const FIRST: f64 = 0.05;
+/// The pressure at the end of a jump may be off by so many times the tolerance: it is solved anew on
+/// the surfaces that are accepted, and tells only of jumps that miss how it moves.
+const PRESSURE: f64 = 20.0;
 /// Jumps are not cut below this part of all cycles.
 const SHORTEST: f64 = 1e-9;
 /// Tries of a jump: shorter ones for the error, others for the cycle of an event.
@@ -37,6 +40,9 @@ pub struct WearState {
     pub events: Vec<Event>,
     pub(crate) worn: Worn,
     pub(crate) model: ModelState,
+    /// Jumps so far, and the cycles of the last block that is kept.
+    pub(crate) history: Vec<Jump>,
+    pub(crate) kept_at: f64,
     /// Length of the next jump in cycles.
     pub(crate) next: f64,
     /// What extrapolation has added to the worn depth of both bodies in all jumps \[m\].
@@ -106,6 +112,8 @@ impl WearRun {
                 moved: worn.depth.clone(),
                 model: model.state(),
                 worn,
+                history: Vec::new(),
+                kept_at: 0.0,
                 next: 0.0,
                 ended: false,
             },
@@ -199,7 +207,7 @@ impl WearRun {
             self.model.restore(&self.state.model);
             let tried = self.attempt(n)?;
             if let Jumps::Tolerance(tolerance) = self.wear.jumps {
-                let error = tried.error.max(tried.pressure_error);
+                let error = tried.error.max(tried.pressure_error / PRESSURE);
                 let factor = CAUTIOUS * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt();
                 if error > tolerance && n > SHORTEST * self.wear.cycles {
                     n *= factor.clamp(SHORTER, CAUTIOUS);
@@ -295,7 +303,37 @@ impl WearRun {
         state.dissipated += tried.loss.dissipated;
         state.next = next;
         state.ended = ends;
-        Ok(self.summary(n, tried, retries))
+        let jump = self.summary(n, tried, retries);
+        self.state.history.push(jump.clone());
+        Ok(jump)
+    }
+
+    /// Every jump so far.
+    pub fn history(&self) -> &[Jump] {
+        &self.state.history
+    }
+
+    /// Whether the fields after the last jump are to be kept: where the cycles have grown by a fifth or
+    /// by a fiftieth of all, and at the end. Notes that they are.
+    pub fn keeps(&mut self) -> bool {
+        let (cycles, all) = (self.state.cycles, self.wear.cycles);
+        let ends = self.state.ended || all - cycles <= SHORTEST * all;
+        let keeps =
+            ends || cycles >= 1.2 * self.state.kept_at || cycles >= self.state.kept_at + all / 50.0;
+        if keeps {
+            self.state.kept_at = cycles;
+        }
+        keeps
+    }
+
+    /// The scene that wears.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// What wears it.
+    pub fn wear(&self) -> &Wear {
+        &self.wear
     }
 
     fn summary(&self, n: f64, tried: &Tried, retries: usize) -> Jump {

@@ -23,8 +23,8 @@ pub enum Cycling {
 /// How long the jumps over cycles are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Jumps {
-    /// Implicit, as long as the error of one stays below this part of the worn depth and of the
-    /// pressure (root mean squares); of second order.
+    /// Implicit, as long as the error of one stays below this part of the worn depth, and a
+    /// twentieth of that of the pressure (root mean squares); of second order.
     Tolerance(f64),
     /// Implicit, that many of equal length; of second order.
     Number(usize),

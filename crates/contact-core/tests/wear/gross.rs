@@ -121,7 +121,7 @@ fn mccoll_ding_leen() {
 
 #[test]
 fn late_gross_slip_of_a_cylinder_has_its_closed_form() {
-    let (R, W, stroke, k) = (6e-3, 18.5e3, 1e-6, 2e-13);
+    let (R, W, stroke, k): (f64, f64, f64, f64) = (6e-3, 18.5e3, 1e-6, 2e-13);
     let cycles = 200e3;
     // Both bodies together: k s with s = 4 stroke per cycle, W per length.
     let b = (1.5 * R * k * W * 4.0 * stroke * cycles).cbrt();

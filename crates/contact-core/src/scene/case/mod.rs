@@ -12,6 +12,7 @@ mod section;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod wear;
 mod write;
 
 use std::path::Path;

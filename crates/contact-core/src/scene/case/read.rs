@@ -14,9 +14,9 @@ use crate::scene::{
     Settings, SkipSettings, SolverSettings, Spacing,
 };
 
-const ROOT: [&str; 11] = [
+pub(super) const ROOT: [&str; 12] = [
     "schema", "title", "body1", "body2", "friction", "grid", "path", "kernel", "solver", "skip",
-    "output",
+    "output", "wear",
 ];
 const BODY: [&str; 4] = ["shape", "E", "nu", "coatings"];
 
