@@ -1,6 +1,7 @@
 //! What a user says about wear: laws, cycles, jumps, what is told.
 
 use super::law::BodyWear;
+use super::stroke::stroke;
 use crate::error::Error;
 use crate::scene::{Body, Scene};
 
@@ -136,6 +137,13 @@ impl Wear {
             return Err(Error::invalid("friction.mu", scene.friction.mu, allowed));
         }
         self.check_closed(scene)?;
+        if self.cycling == Cycling::Sliding {
+            stroke(scene, self)?;
+        }
+        if self.cycling == Cycling::March && self.rig_stiffness.is_finite() {
+            let allowed = "left out where wear.cycling = \"march\"";
+            return Err(Error::invalid("wear.rig_stiffness", self.rig_stiffness, allowed));
+        }
         self.jumps.check()
     }
 
