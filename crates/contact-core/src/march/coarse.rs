@@ -65,6 +65,7 @@ pub(super) fn coarse_start(
             t_end: 1.0,
             path_error: None,
         }],
+        rig_stiffness: None,
     };
     let mut march = March::until(&coarse, stop).ok()?;
     let increment = march.advance()?.ok()?;

@@ -59,6 +59,10 @@ const MOST_INCREMENTS: usize = 100_000_000;
 pub struct LoadPath {
     /// Branches in the order they are run through.
     pub branches: Vec<Branch>,
+    /// Stiffness along x of a rig, a spring in series with the contact through which the shift delta_x is
+    /// given or read \[N/m\]; `None`: the bodies themselves are moved. With the spring's end at u the
+    /// contact's own shift is u - T_x/K.
+    pub rig_stiffness: Option<f64>,
 }
 
 /// One point of the load history: the loads at the end of an increment.
@@ -346,6 +350,9 @@ impl LoadPath {
     pub(crate) fn check(&self, friction: &Friction) -> Result<(), Error> {
         if self.branches.is_empty() {
             return Err(Error::invalid("path", "empty", "at least one branch"));
+        }
+        if let Some(K) = self.rig_stiffness.filter(|K| !(*K > 0.0 && K.is_finite())) {
+            return Err(Error::invalid("path.rig_stiffness", K, "a positive stiffness in N/m"));
         }
         let total = self.branches.iter().map(Branch::count);
         if total.fold(0, usize::saturating_add) > MOST_INCREMENTS {
