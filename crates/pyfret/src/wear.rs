@@ -132,9 +132,10 @@ fn law(given: &Bound<'_, PyAny>) -> PyResult<Arc<dyn Law>> {
 fn body(given: Option<&Bound<'_, PyAny>>, share: Option<f64>) -> PyResult<BodyWear> {
     let laws = match given {
         None => Vec::new(),
-        Some(list) if list.is_instance_of::<pyo3::types::PyList>() => {
-            list.try_iter()?.map(|one| law(&one?)).collect::<PyResult<_>>()?
-        }
+        Some(list) if list.is_instance_of::<pyo3::types::PyList>() => list
+            .try_iter()?
+            .map(|one| law(&one?))
+            .collect::<PyResult<_>>()?,
         Some(one) => vec![law(one)?],
     };
     Ok(BodyWear { laws, share })
@@ -167,7 +168,11 @@ pub(crate) fn wear(
     let bodies = [body(body1.as_ref(), share1)?, body(body2.as_ref(), share2)?];
     let wear = core::Wear {
         first_branch,
-        cycling: if sliding { Cycling::Sliding } else { Cycling::March },
+        cycling: if sliding {
+            Cycling::Sliding
+        } else {
+            Cycling::March
+        },
         rig_stiffness,
         jumps: match (explicit_jumps, jumps, tolerance) {
             (Some(n), _, _) => Jumps::Explicit(n),
@@ -175,7 +180,11 @@ pub(crate) fn wear(
             (None, None, Some(tolerance)) => Jumps::Tolerance(tolerance),
             (None, None, None) => Jumps::default(),
         },
-        worn_through: if go_on { WornThrough::GoOn } else { WornThrough::Stop },
+        worn_through: if go_on {
+            WornThrough::GoOn
+        } else {
+            WornThrough::Stop
+        },
         tell_from,
         ..core::Wear::new(bodies, cycles)
     };

@@ -352,7 +352,11 @@ impl LoadPath {
             return Err(Error::invalid("path", "empty", "at least one branch"));
         }
         if let Some(K) = self.rig_stiffness.filter(|K| !(*K > 0.0 && K.is_finite())) {
-            return Err(Error::invalid("path.rig_stiffness", K, "a positive stiffness in N/m"));
+            return Err(Error::invalid(
+                "path.rig_stiffness",
+                K,
+                "a positive stiffness in N/m",
+            ));
         }
         let total = self.branches.iter().map(Branch::count);
         if total.fold(0, usize::saturating_add) > MOST_INCREMENTS {

@@ -105,6 +105,9 @@ impl Marched {
             branch.t_end = (i + 1) as f64;
         }
         scene.settings.skip.far = false;
+        if wear.rig_stiffness.is_finite() {
+            scene.path.rig_stiffness = Some(wear.rig_stiffness);
+        }
         let mut march = March::until(&scene, stop)?;
         let scene = march.scene().clone();
         let points = march.points();

@@ -36,7 +36,7 @@ pub enum Jumps {
 
 impl Default for Jumps {
     fn default() -> Self {
-        Self::Tolerance(0.005)
+        Self::Tolerance(0.01)
     }
 }
 
@@ -139,10 +139,6 @@ impl Wear {
         self.check_closed(scene)?;
         if self.cycling == Cycling::Sliding {
             stroke(scene, self)?;
-        }
-        if self.cycling == Cycling::March && self.rig_stiffness.is_finite() {
-            let allowed = "left out where wear.cycling = \"march\"";
-            return Err(Error::invalid("wear.rig_stiffness", self.rig_stiffness, allowed));
         }
         self.jumps.check()
     }

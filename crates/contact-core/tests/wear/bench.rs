@@ -15,15 +15,26 @@ pub(crate) fn archard(k: f64) -> BodyWear {
 /// Presses with W and slides to and fro by +-`stroke` in so many increments a way.
 pub(crate) fn to_and_fro(W: f64, stroke: f64, places: usize) -> LoadPath {
     let ways = [(stroke, 1), (-stroke, places), (stroke, places)];
-    ways.into_iter().fold(LoadPath::start().normal(W, 1), |path, (to, places)| {
-        path.to(|at| at.given = Given { delta_x: Some(to), ..at.given }, places)
-    })
+    ways.into_iter()
+        .fold(LoadPath::start().normal(W, 1), |path, (to, places)| {
+            path.to(
+                |at| {
+                    at.given = Given {
+                        delta_x: Some(to),
+                        ..at.given
+                    }
+                },
+                places,
+            )
+        })
 }
 
 /// Presses with W and pulls to and fro with +-T in so many increments a way.
 pub(crate) fn pulled(W: f64, T: f64, increments: usize) -> LoadPath {
     let path = LoadPath::start().normal(W, 1);
-    [T, -T, T].into_iter().fold(path, |path, T| path.tangential(&[T], increments))
+    [T, -T, T]
+        .into_iter()
+        .fold(path, |path, T| path.tangential(&[T], increments))
 }
 
 /// A steel body of a shape on a steel flat.
@@ -40,12 +51,20 @@ pub(crate) fn scene(shape: Shape, grid: Grid, path: LoadPath, mu: f64) -> Scene 
 }
 
 pub(crate) fn cylinder(R: f64) -> Shape {
-    Shape::Cylinder { R, length: f64::INFINITY, angle: 0.0 }
+    Shape::Cylinder {
+        R,
+        length: f64::INFINITY,
+        angle: 0.0,
+    }
 }
 
 /// The cycle is what follows the way to its first end.
 pub(crate) fn wear(bodies: [BodyWear; 2], cycles: f64, cycling: Cycling) -> Wear {
-    Wear { first_branch: 2, cycling, ..Wear::new(bodies, cycles) }
+    Wear {
+        first_branch: 2,
+        cycling,
+        ..Wear::new(bodies, cycles)
+    }
 }
 
 /// Runs to the end.

@@ -27,20 +27,30 @@ fn both_bodies_wear_as_in_finite_elements() {
             continue;
         }
         let area = 1e6 * last.volume[1];
-        assert!((area / 9.38e-4 - 1.0).abs() < 0.02, "worn area {area:e} mm^2");
+        assert!(
+            (area / 9.38e-4 - 1.0).abs() < 0.02,
+            "worn area {area:e} mm^2"
+        );
         let worn = run.block().worn2;
-        let scar: Vec<f64> =
-            (0..grid.nx).filter(|&i| worn[(i, 0)] > 1e-9).map(|i| 1e3 * grid.x(i)).collect();
+        let scar: Vec<f64> = (0..grid.nx)
+            .filter(|&i| worn[(i, 0)] > 1e-9)
+            .map(|i| 1e3 * grid.x(i))
+            .collect();
         for (end, asked) in [(scar[0], -0.26), (scar[scar.len() - 1], 0.26)] {
             assert!((end - asked).abs() < 0.02, "the scar ends at {end} mm");
         }
         for line in include_str!("../../../../tests/data/wear/mccoll_finite_elements.csv").lines() {
             let row: Vec<f64> = line.split(',').filter_map(|v| v.parse().ok()).collect();
-            let &[18_000.0, x, asked] = &row[..] else { continue };
+            let &[18_000.0, x, asked] = &row[..] else {
+                continue;
+            };
             let i = ((1e-3 * x - grid.x(0)) / grid.dx).round() as usize;
             let found = 1e6 * worn[(i, 0)];
             // Their elements are 0.03 mm wide.
-            assert!((found - asked).abs() < 0.1, "{found} um, not {asked} um at {x} mm");
+            assert!(
+                (found - asked).abs() < 0.1,
+                "{found} um, not {asked} um at {x} mm"
+            );
         }
     }
 }

@@ -3,21 +3,27 @@
 use std::sync::Arc;
 
 use contact_core::scene::{Coating, Elastic, Friction, Grid, Scene, Shape};
-use contact_core::wear::{Archard, BodyWear, Cycling, DissipatedEnergy, Jumps, Wear, WearRun, WornThrough};
+use contact_core::wear::{
+    Archard, BodyWear, Cycling, DissipatedEnergy, Jumps, Wear, WearRun, WornThrough,
+};
 
 use crate::bench::{archard, cylinder, pulled, scene, to_and_fro, wear};
 use crate::splitmix::Draw;
 
 /// Steps through a run and checks every jump; `volume_per_energy` of body 1 and 2 where that is known.
 fn audit(name: &str, scene: &Scene, wear: &Wear, volume_per_energy: Option<[f64; 2]>) {
-    let mut run = WearRun::new(scene, wear, &Arc::default()).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let mut run =
+        WearRun::new(scene, wear, &Arc::default()).unwrap_or_else(|e| panic!("{name}: {e}"));
     let mut last = run.block();
     let (mut volume, mut energy) = ([0.0; 2], 0.0);
     while let Some(jump) = run.advance() {
         let jump = jump.unwrap_or_else(|e| panic!("{name}: {e}"));
         let now = run.block();
         for (before, now) in [(&last.worn1, &now.worn1), (&last.worn2, &now.worn2)] {
-            let grows = before.iter().zip(now).any(|(a, b)| !(b >= a && b.is_finite()));
+            let grows = before
+                .iter()
+                .zip(now)
+                .any(|(a, b)| !(b >= a && b.is_finite()));
             assert!(!grows, "{name}: something grows in jump {}", jump.index);
         }
         let W: f64 = now.p.sum() * scene.grid.cell_area();
@@ -30,7 +36,10 @@ fn audit(name: &str, scene: &Scene, wear: &Wear, volume_per_energy: Option<[f64;
             if let Some(per) = volume_per_energy {
                 let (lost, spent) = (jump.volume[b] - volume[b], jump.dissipated - energy);
                 let off = (lost - per[b] * spent).abs();
-                assert!(off <= 1e-9 * jump.volume[b].max(lost), "{name}: {lost:e} m^3, {spent:e} J");
+                assert!(
+                    off <= 1e-9 * jump.volume[b].max(lost),
+                    "{name}: {lost:e} m^3, {spent:e} J"
+                );
             }
         }
         (volume, energy, last) = (jump.volume, jump.dissipated, now);
@@ -39,16 +48,36 @@ fn audit(name: &str, scene: &Scene, wear: &Wear, volume_per_energy: Option<[f64;
 
 #[test]
 fn worn_volume_is_alpha_times_the_energy_of_every_jump() {
-    let energy = |alpha| BodyWear::of(DissipatedEnergy { alpha, threshold: 0.0 });
+    let energy = |alpha| {
+        BodyWear::of(DissipatedEnergy {
+            alpha,
+            threshold: 0.0,
+        })
+    };
     let line = Grid::strip(0.5e-3, 128, 1.0).unwrap();
     let slides = scene(cylinder(6e-3), line, to_and_fro(18.5e3, 20e-6, 4), 0.9);
     let alphas = [2e-14, 3e-14];
-    audit("sliding", &slides, &wear(alphas.map(energy), 2e3, Cycling::Sliding), Some(alphas));
+    audit(
+        "sliding",
+        &slides,
+        &wear(alphas.map(energy), 2e3, Cycling::Sliding),
+        Some(alphas),
+    );
     let laws = [archard(2e-14), archard(3e-14)];
     let per = alphas.map(|k| k / 0.9);
-    audit("Archard", &slides, &wear(laws, 2e3, Cycling::Sliding), Some(per));
+    audit(
+        "Archard",
+        &slides,
+        &wear(laws, 2e3, Cycling::Sliding),
+        Some(per),
+    );
     let round = Grid::centred(0.5e-3, 16).unwrap();
-    let mut sticks = scene(Shape::Sphere { R: 10e-3 }, round, pulled(50.0, 20.0, 4), 0.6);
+    let mut sticks = scene(
+        Shape::Sphere { R: 10e-3 },
+        round,
+        pulled(50.0, 20.0, 4),
+        0.6,
+    );
     let mut marched = wear(alphas.map(energy), 2e4, Cycling::March);
     marched.jumps = Jumps::Number(4);
     audit("march", &sticks, &marched, Some(alphas));
@@ -56,7 +85,12 @@ fn worn_volume_is_alpha_times_the_energy_of_every_jump() {
     sticks.body1.substrate = Elastic { E: 400e9, nu: 0.2 };
     audit("coupled", &sticks, &marched, Some(alphas));
     marched.bodies = [archard(2e-14), archard(3e-14)];
-    audit("coupled, Archard", &sticks, &marched, Some(alphas.map(|k| k / 0.6)));
+    audit(
+        "coupled, Archard",
+        &sticks,
+        &marched,
+        Some(alphas.map(|k| k / 0.6)),
+    );
 }
 
 #[test]
@@ -74,23 +108,43 @@ fn random_wear_is_sound() {
             Grid::centred(1.2e-3, n).unwrap()
         };
         let path = if slides {
-            to_and_fro(W, draw.between(1e-7, 5e-5), 1 + (4.0 * draw.next()) as usize)
+            to_and_fro(
+                W,
+                draw.between(1e-7, 5e-5),
+                1 + (4.0 * draw.next()) as usize,
+            )
         } else {
             pulled(W, draw.between(0.1, 0.95) * mu * W, 2)
         };
-        let shape = if flat { cylinder(6e-3) } else { Shape::Sphere { R: 10e-3 } };
+        let shape = if flat {
+            cylinder(6e-3)
+        } else {
+            Shape::Sphere { R: 10e-3 }
+        };
         let mut scene = scene(shape, grid, path, mu);
         scene.friction = Friction::coulomb(mu);
         if draw.next() < 0.5 {
-            let material = Elastic { E: draw.between(50e9, 600e9), nu: 0.1 + 0.3 * draw.next() };
-            scene.body2.coatings = vec![Coating { material, thickness: draw.between(1e-7, 1e-4) }];
+            let material = Elastic {
+                E: draw.between(50e9, 600e9),
+                nu: 0.1 + 0.3 * draw.next(),
+            };
+            scene.body2.coatings = vec![Coating {
+                material,
+                thickness: draw.between(1e-7, 1e-4),
+            }];
         }
         let mut law = || {
             let size = draw.between(1e-16, 1e-12);
             match (4.0 * draw.next()) as usize {
                 0 => BodyWear::default(),
-                1 => BodyWear::of(Archard { k: size, threshold: draw.between(1e-9, 1e-6) }),
-                2 => BodyWear::of(DissipatedEnergy { alpha: size, threshold: draw.between(1.0, 1e4) }),
+                1 => BodyWear::of(Archard {
+                    k: size,
+                    threshold: draw.between(1e-9, 1e-6),
+                }),
+                2 => BodyWear::of(DissipatedEnergy {
+                    alpha: size,
+                    threshold: draw.between(1.0, 1e4),
+                }),
                 _ => archard(size),
             }
         };
@@ -100,7 +154,11 @@ fn random_wear_is_sound() {
         }
         // Until the scar is about as deep as the bodies have come together, at the most; then the same
         // cycles in jumps that are far too long.
-        let cycling = if slides { Cycling::Sliding } else { Cycling::March };
+        let cycling = if slides {
+            Cycling::Sliding
+        } else {
+            Cycling::March
+        };
         let mut wear = wear(bodies, draw.between(1.0, 1e3), cycling);
         wear.worn_through = WornThrough::GoOn;
         wear.jumps = match (3.0 * draw.next()) as usize {

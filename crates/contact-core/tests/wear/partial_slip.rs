@@ -63,7 +63,9 @@ fn a_cylinder_wears_until_it_rests_on_its_stick_zone() {
     let (W, q): (f64, f64) = (2e5, 0.5);
     let c = (1.0 - q).sqrt();
     let p = 0.5 * (1.0 / c + c);
-    let scene = alike(cylinder(R), W, q * MU * W, |a| Grid::strip(3.0 * a, 256, 1.0).unwrap());
+    let scene = alike(cylinder(R), W, q * MU * W, |a| {
+        Grid::strip(3.0 * a, 256, 1.0).unwrap()
+    });
     let hertz = scene.hertz().unwrap();
     let wear = wear([archard(5e-14), archard(5e-14)], 1e6, Cycling::March);
     let (run, jumps) = run(&scene, &wear);
@@ -71,7 +73,10 @@ fn a_cylinder_wears_until_it_rests_on_its_stick_zone() {
     let in_stick = block.stick.iter().filter(|s| **s).count() as f64;
     let found_c = 0.5 * in_stick * scene.grid.dx / hertz.a;
     let found_p = block.p[(128, 0)] / hertz.p0;
-    println!("cylinder: c/a {found_c:.4} ({c:.4}), p(0) {found_p:.4} ({p:.4}), {} jumps", jumps.len());
+    println!(
+        "cylinder: c/a {found_c:.4} ({c:.4}), p(0) {found_p:.4} ({p:.4}), {} jumps",
+        jumps.len()
+    );
     assert!((found_c - c).abs() * hertz.a < scene.grid.dx);
     assert!((found_p / p - 1.0).abs() < 0.01);
 }

@@ -15,7 +15,12 @@ fn cases() -> [(Scene, Wear); 2] {
     let slides = scene(cylinder(6e-3), line, to_and_fro(18.5e3, 20e-6, 3), 0.9);
     let laws = || [archard(2e-14), archard(3e-14)];
     let round = Grid::centred(0.5e-3, 16).unwrap();
-    let sticks = scene(Shape::Sphere { R: 10e-3 }, round, pulled(50.0, 20.0, 3), 0.6);
+    let sticks = scene(
+        Shape::Sphere { R: 10e-3 },
+        round,
+        pulled(50.0, 20.0, 3),
+        0.6,
+    );
     let mut all = [
         (slides, wear(laws(), 3e3, Cycling::Sliding)),
         (sticks, wear(laws(), 1e5, Cycling::March)),
@@ -85,18 +90,27 @@ fn a_store_taken_up_again_has_the_same_bytes() {
     };
     written("whole", usize::MAX);
     written("killed", 4);
-    let (mut run, mut store) = resume_wear(folder.path().join("killed"), &stop).unwrap().unwrap();
+    let (mut run, mut store) = resume_wear(folder.path().join("killed"), &stop)
+        .unwrap()
+        .unwrap();
     while let Some(jump) = run.advance() {
         jump.unwrap();
         store.write(&mut run).unwrap();
     }
     store.finish(&run, "done").unwrap();
-    let (whole, killed) = (files(&folder.path().join("whole")), files(&folder.path().join("killed")));
+    let (whole, killed) = (
+        files(&folder.path().join("whole")),
+        files(&folder.path().join("killed")),
+    );
     assert_eq!(whole.len(), killed.len());
     for ((name, a), (_, b)) in whole.iter().zip(&killed) {
         assert!(a == b, "{name} differs");
     }
-    assert!(resume_wear(folder.path().join("killed"), &stop).unwrap().is_none());
+    assert!(
+        resume_wear(folder.path().join("killed"), &stop)
+            .unwrap()
+            .is_none()
+    );
 }
 
 #[test]
@@ -107,6 +121,9 @@ fn a_stopped_run_keeps_its_last_jump() {
     run.advance().unwrap().unwrap();
     let before = run.state().clone();
     stop.store(true, Ordering::Relaxed);
-    assert!(matches!(run.advance(), Some(Err(contact_core::Error::Interrupted { .. }))));
+    assert!(matches!(
+        run.advance(),
+        Some(Err(contact_core::Error::Interrupted { .. }))
+    ));
     assert!(*run.state() == before);
 }
