@@ -106,7 +106,7 @@ def wear(
         "march" solves the increments of the cycle, with stick and slip; "sliding" is for gross slip
         along x under given shifts, whatever the stroke: the normal contact alone at each place.
     rig_stiffness : float
-        Stiffness of a spring through which the shifts are given,.
+        Stiffness of a spring through which the shifts are given, N/m.
     tolerance : float, optional
         Error that a jump may leave of the worn depth (default 0.01); jumps are as long as that lets.
     jumps, explicit_jumps : int, optional
