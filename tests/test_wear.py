@@ -24,7 +24,7 @@ def line(n: int = 96) -> fret.Scene:
         body1=fret.Body(STEEL, shape=fret.Cylinder(R=6e-3)),
         body2=fret.Body(STEEL),
         mu=0.9,
-        grid=fret.Grid.strip(0.5e-3, n, width=1.0),
+        grid=fret.Grid.strip(extent=0.5e-3, n=n),
         path=path,
     )
 

@@ -11,6 +11,7 @@
 
 mod block;
 mod compliant;
+mod cycled;
 mod events;
 mod law;
 mod loss;
