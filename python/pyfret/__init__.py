@@ -20,12 +20,14 @@ from typing import TYPE_CHECKING, Any
 from pyfret import fatigue, kernels, reference, subsurface, sweep
 from pyfret._core import (
     RIGID,
+    Archard,
     Body,
     Branch,
     Coating,
     Cone,
     CrownedRoller,
     Cylinder,
+    DissipatedEnergy,
     Elastic,
     Ellipsoid,
     Flat,
@@ -64,18 +66,21 @@ from pyfret.doubts import SceneWarning
 from pyfret.results import Result, Snapshot, open
 from pyfret.solving import Increment, march, resume, solve
 from pyfret.surfaces import read_surface
+from pyfret.wearing import WearResult, open_wear, resume_wear, wear
 
 if TYPE_CHECKING:
     from pyfret import plot
 
 __all__ = [
     "RIGID",
+    "Archard",
     "Body",
     "Branch",
     "Coating",
     "Cone",
     "CrownedRoller",
     "Cylinder",
+    "DissipatedEnergy",
     "Elastic",
     "Ellipsoid",
     "Flat",
@@ -110,6 +115,7 @@ __all__ = [
     "SurfaceMap",
     "SurfaceOperator",
     "Waviness",
+    "WearResult",
     "Wedge",
     "__version__",
     "fatigue",
@@ -117,13 +123,16 @@ __all__ = [
     "kernels",
     "march",
     "open",
+    "open_wear",
     "plot",
     "read_surface",
     "reference",
     "resume",
+    "resume_wear",
     "solve",
     "subsurface",
     "sweep",
+    "wear",
 ]
 
 

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "RIGID",
+    "Archard",
     "Assessment",
     "Body",
     "Branch",
@@ -24,6 +25,7 @@ __all__ = [
     "Criterion",
     "CrownedRoller",
     "Cylinder",
+    "DissipatedEnergy",
     "Elastic",
     "Ellipsoid",
     "Envelope",
@@ -89,11 +91,13 @@ __all__ = [
     "principal",
     "probe_labels",
     "resume",
+    "resume_wear",
     "rims",
     "solve",
     "stress_at",
     "stress_coefficients",
     "surface_frf",
+    "wear",
     "yielding_on",
 ]
 
@@ -2039,3 +2043,77 @@ class KernelInaccurateError(RuntimeError):
 
 class StoreError(OSError):
     """A file or a result store could not be read or written."""
+
+WearLaw: TypeAlias = (
+    Archard
+    | DissipatedEnergy
+    | Callable[
+        [NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], float],
+        ArrayLike,
+    ]
+)
+
+@final
+class Archard:
+    """Archard's law, cell by cell: a depth of k p for every metre slipped.
+
+    Parameters
+    ----------
+    k : float
+        Local wear coefficient, m^2/N (1e-8 per MPa is 1e-14).
+    threshold : float
+        Way slipped per cycle below which nothing wears, and beyond which only the rest counts, m.
+    """
+
+    def __new__(cls, k: float, *, threshold: float = 0.0) -> Archard: ...
+    @property
+    def k(self) -> float: ...
+    @property
+    def threshold(self) -> float: ...
+    def __eq__(self, other: object, /) -> bool: ...
+
+@final
+class DissipatedEnergy:
+    """Wear by the energy that friction dissipates, cell by cell: a depth of alpha times it per area.
+
+    Parameters
+    ----------
+    alpha : float
+        Energy wear coefficient, m^3/J.
+    threshold : float
+        Energy per area and cycle below which nothing wears, and beyond which only the rest counts,
+        J/m^2.
+    """
+
+    def __new__(cls, alpha: float, *, threshold: float = 0.0) -> DissipatedEnergy: ...
+    @property
+    def alpha(self) -> float: ...
+    @property
+    def threshold(self) -> float: ...
+    def __eq__(self, other: object, /) -> bool: ...
+
+def wear(
+    scene: Scene,
+    *,
+    body1: WearLaw | list[WearLaw] | None,
+    body2: WearLaw | list[WearLaw] | None,
+    cycles: float,
+    store: str | PathLike[str],
+    share1: float | None = None,
+    share2: float | None = None,
+    first_branch: int = 1,
+    sliding: bool = False,
+    rig_stiffness: float = ...,
+    tolerance: float | None = None,
+    jumps: int | None = None,
+    explicit_jumps: int | None = None,
+    go_on: bool = False,
+    tell_from: float = 0.1,
+    on_jump: Callable[[float], None] | None = None,
+) -> None:
+    """Run a scene over many cycles into a store; see :func:`pyfret.wear`."""
+
+def resume_wear(
+    store: str | PathLike[str], *, on_jump: Callable[[float], None] | None = None
+) -> None:
+    """Go on with a run of wear; see :func:`pyfret.resume_wear`."""

@@ -13,9 +13,9 @@
 //! and the sums of the tractions balance the applied forces. Axes, signs and words are fixed in
 //! `docs/conventions.md`. The modules stand in the order of the computation:
 //!
-//! [`scene`] -> [`kernels`] -> [`convolution`] -> [`solvers`] -> [`march`] -> [`fields`] ->
-//! [`output`], with [`mod@reference`] (closed forms) beside them, and [`fatigue`], criteria on plain
-//! stress histories, beside all of it. The method is that of S. Spinu,
+//! [`scene`] -> [`plan`] -> [`kernels`] -> [`convolution`] -> [`cells`] -> [`zones`] -> [`solvers`] ->
+//! [`march`] -> [`fields`] -> [`output`]; [`estimate`] and [`wear`] run marches, [`mod@reference`] (closed
+//! forms) and [`fatigue`] (criteria on plain stress histories) stand beside. The method is that of S. Spinu,
 //! Tribology in Industry 42 (2020) 131-145, doi:10.24874/ti.2020.42.01.13 ("the paper"); where we
 //! left it, the module says why.
 
@@ -36,6 +36,7 @@ pub mod reference;
 pub mod scene;
 pub mod solvers;
 mod stop;
+pub mod wear;
 pub mod zones;
 
 pub use error::Error;

@@ -14,6 +14,7 @@ mod resume;
 mod run;
 mod stress;
 mod summary;
+mod wear;
 
 use std::io::{IsTerminal, Read, Write};
 use std::path::PathBuf;
@@ -63,6 +64,8 @@ enum Command {
         /// Folder; it is made if it does not exist
         folder: PathBuf,
     },
+    /// Wear the surfaces of a scene with a table [wear] over many cycles
+    Wear(wear::Options),
 }
 
 /// A scene file and what is changed in it.
@@ -144,6 +147,7 @@ fn main() -> ExitCode {
             Ok(())
         }
         Command::Man { folder } => manual(&folder),
+        Command::Wear(options) => wear::wear(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -197,7 +197,7 @@ impl Observer for Watcher {
 
 /// A flag that the first Ctrl-C raises; the second ends the process, and so does the first as long
 /// as nothing is kept: then nothing is written either.
-fn stop_on_interrupt(kept: &Arc<AtomicBool>) -> Arc<AtomicBool> {
+pub(crate) fn stop_on_interrupt(kept: &Arc<AtomicBool>) -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let (flag, kept) = (stop.clone(), kept.clone());
     let handler = move || {

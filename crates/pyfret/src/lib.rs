@@ -27,6 +27,7 @@ mod result;
 mod scene;
 mod stress;
 mod subsurface;
+mod wear;
 
 use pyo3::prelude::*;
 
@@ -75,6 +76,8 @@ mod _core {
     use crate::stress::{maximum, measure, principal, probe_labels, rims};
     #[pymodule_export]
     use crate::subsurface::{Subsurface, chosen_depths, depths};
+    #[pymodule_export]
+    use crate::wear::{Archard, DissipatedEnergy, resume_wear, wear};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -20,8 +20,10 @@ from pyfret.plot.stresses import (
     stress_maps,
 )
 from pyfret.plot.style import style
+from pyfret.plot.wear import depth_map, wear_history, wear_loops, wear_profiles
 
 __all__ = [
+    "depth_map",
     "envelope_maps",
     "fretting_loop",
     "load_path",
@@ -42,4 +44,7 @@ __all__ = [
     "stress_map",
     "stress_maps",
     "style",
+    "wear_history",
+    "wear_loops",
+    "wear_profiles",
 ]

@@ -22,6 +22,7 @@ mod state;
 #[cfg(test)]
 mod tests;
 mod threads;
+mod worn;
 
 pub use fields::{Fields, Tractions};
 pub use results::{Energy, Increment, Motion, Residuals, Status, Work};

@@ -27,6 +27,7 @@ mod resume;
 mod stress_store;
 mod variable;
 mod volume;
+mod wear_store;
 mod writer;
 
 pub use catalogue::{FIELDS, Field, FieldView, Kind, SCALARS, Scalar};
@@ -36,6 +37,7 @@ pub use reader::Store;
 pub use resume::{Resumed, resume};
 pub use stress_store::StressStore;
 pub use volume::{VolumeSink, write_volume};
+pub use wear_store::{WearStore, resume_wear};
 pub use writer::StoreWriter;
 
 /// The conventions that the names of attributes follow (https://cfconventions.org).

@@ -76,7 +76,11 @@ impl Domain {
             plan.kernels(),
             Some(stop),
         )?;
-        let pair = pair.stretched(scene.friction.stretch());
+        let mut pair = pair.stretched(scene.friction.stretch());
+        if let Some(K) = scene.path.rig_stiffness.filter(|_| plan.friction) {
+            // A spring in series: the force sum of q_x dA moves every cell by as much, eq. (7).
+            pair.xx += scene.grid.cell_area() / K;
+        }
         let shear = plan.friction && plan.coupling;
         let norms = [(&pair.xz, shear), (&pair.yz, shear), (&pair.zz, true)];
         let kernels = Kernels {

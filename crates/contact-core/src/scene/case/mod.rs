@@ -15,6 +15,7 @@ mod settings;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod wear;
 mod write;
 
 use std::path::Path;

@@ -13,9 +13,9 @@ use super::settings::settings;
 use super::shape::shape;
 use crate::scene::{Body, Coating, Elastic, Grid, Scene};
 
-const ROOT: [&str; 11] = [
+pub(super) const ROOT: [&str; 12] = [
     "schema", "title", "body1", "body2", "friction", "grid", "path", "kernel", "solver", "skip",
-    "output",
+    "output", "wear",
 ];
 const BODY: [&str; 4] = ["shape", "E", "nu", "coatings"];
 

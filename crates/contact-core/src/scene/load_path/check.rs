@@ -45,6 +45,13 @@ impl LoadPath {
         if self.branches.is_empty() {
             return Err(Error::invalid("path", "empty", "at least one branch"));
         }
+        if let Some(K) = self.rig_stiffness.filter(|K| !(*K > 0.0 && K.is_finite())) {
+            return Err(Error::invalid(
+                "path.rig_stiffness",
+                K,
+                "a positive stiffness in N/m",
+            ));
+        }
         self.check_length()?;
         let mut t = 0.0;
         for (i, b) in self.branches.iter().enumerate() {

@@ -72,6 +72,10 @@ impl Branch {
 pub struct LoadPath {
     /// Branches in the order they are run through.
     pub branches: Vec<Branch>,
+    /// Stiffness along x of a rig, a spring in series with the contact through which the shift delta_x is
+    /// given or read \[N/m\]; `None`: the bodies themselves are moved. With the spring's end at u the
+    /// contact's own shift is u - T_x/K.
+    pub rig_stiffness: Option<f64>,
 }
 
 impl LoadPath {

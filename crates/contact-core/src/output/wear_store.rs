@@ -1,0 +1,389 @@
+//! A run of wear as a Zarr group: scalars over `jump`, fields over `block`, `x`, `y`, the friction loops
+//! of the blocks over `block`, `corner`.
+//!
+//! Beside the arrays the file `checkpoint/wear` holds the state after the last jump, with a checksum:
+//! [`resume_wear`] goes on from there. Fields of later blocks that a killed process has left are written
+//! again with the same bytes.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use serde_json::{Map, Value, json};
+
+use super::SCHEMA;
+use super::catalogue::Kind;
+use super::folder::Folder;
+use super::place::{Unfinished, mend};
+use super::reader::Store;
+use super::variable::{Column, Variable};
+use crate::error::Error;
+use crate::wear::{Block, EventKind, Jump, Wear, WearRun, WearState};
+
+const CHECKPOINT: &str = "checkpoint/wear";
+/// The first bytes of a checkpoint; the number is that of the layout.
+const MAGIC: &[u8] = b"fret wear checkpoint 1\n";
+
+type Scalar = (&'static str, &'static str, &'static str, fn(&Jump) -> f64);
+
+/// Name, unit, meaning and value of every scalar.
+const SCALARS: [Scalar; 16] = [
+    ("cycles", "1", "cycles at the end of the jump", |j| j.cycles),
+    ("length", "1", "cycles that the jump is long", |j| j.length),
+    ("volume1", "m^3", "volume that body 1 has lost", |j| {
+        j.volume[0]
+    }),
+    ("volume2", "m^3", "volume that body 2 has lost", |j| {
+        j.volume[1]
+    }),
+    ("depth1", "m", "deepest worn depth of body 1", |j| {
+        j.depth[0]
+    }),
+    ("depth2", "m", "deepest worn depth of body 2", |j| {
+        j.depth[1]
+    }),
+    (
+        "dissipated",
+        "J",
+        "energy dissipated by friction so far",
+        |j| j.dissipated,
+    ),
+    (
+        "dissipated_per_cycle",
+        "J",
+        "energy dissipated in one cycle on the worn surfaces",
+        |j| j.dissipated_per_cycle,
+    ),
+    ("p_max", "Pa", "largest pressure", |j| j.p_max),
+    ("contact_area", "m^2", "area of the contact", |j| {
+        j.contact_area
+    }),
+    (
+        "stick_ratio",
+        "1",
+        "area that sticks all through a cycle over that of the contact",
+        |j| j.stick_ratio,
+    ),
+    (
+        "error",
+        "1",
+        "estimated error of the depth that the jump adds, over the depth (root mean squares)",
+        |j| j.error,
+    ),
+    ("pressure_error", "1", "the same of the pressure", |j| {
+        j.pressure_error
+    }),
+    (
+        "depth_error",
+        "1",
+        "bound of the error that the jumps leave of the deepest depth, over it",
+        |j| j.depth_error,
+    ),
+    ("retries", "1", "times that the jump was tried anew", |j| {
+        j.retries as f64
+    }),
+    ("index", "1", "jump, from 1", |j| j.index as f64),
+];
+
+/// Writes a run of wear while it goes on.
+pub struct WearStore {
+    place: PathBuf,
+    overwrite: bool,
+    folder: Option<Arc<Folder>>,
+    /// Cycles of the blocks that are kept.
+    kept: Vec<f64>,
+}
+
+impl WearStore {
+    /// A new store at `path`; nothing is written before the first jump. Fails if there is something
+    /// already, unless it is a store and may be overwritten.
+    pub fn create(path: impl AsRef<Path>, overwrite: bool) -> Result<Self, Error> {
+        let place = path.as_ref().to_owned();
+        mend(&place);
+        let is_store = || Store::open(&place).is_ok() || place.join(".zmetadata").is_file();
+        if place.exists() && !(overwrite && is_store()) {
+            let message =
+                "exists: choose another path, or allow to overwrite a result store (--overwrite)";
+            return Err(Folder::new(&place).error(&message));
+        }
+        Ok(Self {
+            place,
+            overwrite,
+            folder: None,
+            kept: Vec::new(),
+        })
+    }
+
+    /// Keeps a block where the run says so, every scalar, and the state.
+    pub fn write(&mut self, run: &mut WearRun) -> Result<(), Error> {
+        let kept = run.keeps();
+        let block = run.block();
+        let begins = match &self.folder {
+            Some(_) => None,
+            None => Some(Unfinished::begin(&self.place)?),
+        };
+        let folder = match (&self.folder, &begins) {
+            (Some(folder), _) => folder.clone(),
+            (None, Some(begins)) => begins.folder().clone(),
+            (None, None) => return Ok(()),
+        };
+        if kept {
+            for (variable, values) in fields(run, &block, self.kept.len() + 1) {
+                let mut chunk = vec![0; variable.1];
+                chunk[0] = self.kept.len() as u64;
+                variable.0.store(&folder, &chunk, values.into_iter())?;
+            }
+            self.kept.push(block.cycles);
+        }
+        write_checkpoint(&folder, run.state(), &self.kept)?;
+        self.write_documents(&folder, run, &block, "running")?;
+        if let Some(begins) = begins {
+            self.folder = Some(begins.finish(self.overwrite)?);
+        }
+        Ok(())
+    }
+
+    /// Says how the run ended; the checkpoint of one that is done goes.
+    pub fn finish(&self, run: &WearRun, status: &str) -> Result<(), Error> {
+        let Some(folder) = &self.folder else {
+            return Ok(());
+        };
+        self.write_documents(folder, run, &run.block(), status)?;
+        if status == "done" {
+            // What cannot be removed is no reason to fail: the store is whole.
+            let _ = std::fs::remove_dir_all(folder.root().join("checkpoint"));
+        }
+        Ok(())
+    }
+
+    fn write_documents(
+        &self,
+        folder: &Arc<Folder>,
+        run: &WearRun,
+        block: &Block,
+        status: &str,
+    ) -> Result<(), Error> {
+        let jumps = run.history();
+        let mut documents = Map::new();
+        documents.insert(".zgroup".into(), json!({ "zarr_format": 2 }));
+        documents.insert(".zattrs".into(), attributes(run, status));
+        let grid = &run.scene().grid;
+        let scalar = |(name, unit, what, of): &Scalar| {
+            let kind = if matches!(*name, "retries" | "index") {
+                Kind::Count
+            } else {
+                Kind::Real
+            };
+            Column::new(name, kind, (unit, what), "jump", &[]).extend(jumps.iter().map(of))
+        };
+        let mut columns: Vec<Column> = SCALARS.iter().map(scalar).collect();
+        let along = |name, what, n: usize, at: &dyn Fn(usize) -> f64| {
+            Column::new(name, Kind::Real, ("m", what), name, &[]).extend((0..n).map(at))
+        };
+        columns.push(along("x", "position along x", grid.nx, &|i| grid.x(i)));
+        columns.push(along("y", "position along y", grid.ny, &|j| grid.y(j)));
+        let blocks = Column::new(
+            "block_cycles",
+            Kind::Real,
+            ("1", "cycles at the block"),
+            "block",
+            &[],
+        );
+        columns.push(blocks.extend(self.kept.iter().copied()));
+        for column in &mut columns {
+            column.flush(folder)?;
+        }
+        let arrays = fields(run, block, self.kept.len());
+        let variables = arrays.iter().map(|((variable, _), _)| variable);
+        for variable in columns.iter().map(Column::variable).chain(variables) {
+            let name = variable.name();
+            documents.insert(format!("{name}/.zarray"), variable.zarray());
+            documents.insert(format!("{name}/.zattrs"), variable.attributes());
+        }
+        let write = |key: &str, document: &Value| {
+            let bytes = format!("{document:#}");
+            folder
+                .write(key, bytes.as_bytes())
+                .map_err(|e| folder.error(&format!("{key}: {e}")))
+        };
+        for (key, document) in &documents {
+            write(key, document)?;
+        }
+        write(
+            ".zmetadata",
+            &json!({ "zarr_consolidated_format": 1, "metadata": documents }),
+        )
+    }
+}
+
+/// The variables over `block`, each with its number of dimensions, and the values of a block.
+fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<((Variable, usize), Vec<f64>)> {
+    let (nx, ny) = (run.scene().grid.nx as u64, run.scene().grid.ny as u64);
+    let field = |name, kind, words, values: Vec<f64>| {
+        let shape = vec![blocks as u64, nx, ny];
+        let dims = ["block", "x", "y"];
+        (
+            (
+                Variable::new(name, kind, words, &dims, shape, vec![1, nx, ny]),
+                3,
+            ),
+            values,
+        )
+    };
+    let corners = block.friction_loop.len() as u64;
+    let corner = |name, words, c: usize| {
+        let shape = vec![blocks as u64, corners];
+        let variable = Variable::new(
+            name,
+            Kind::Real,
+            words,
+            &["block", "corner"],
+            shape,
+            vec![1, corners],
+        );
+        (
+            (variable, 2),
+            block.friction_loop.iter().map(|at| at[c]).collect(),
+        )
+    };
+    let stick = block
+        .stick
+        .iter()
+        .map(|s| f64::from(u8::from(*s)))
+        .collect();
+    vec![
+        field(
+            "worn1",
+            Kind::Real,
+            ("m", "depth worn off body 1, in its own coordinates"),
+            block.worn1.iter().copied().collect(),
+        ),
+        field(
+            "worn2",
+            Kind::Real,
+            ("m", "depth worn off body 2, in its own coordinates"),
+            block.worn2.iter().copied().collect(),
+        ),
+        field(
+            "p",
+            Kind::Real,
+            (
+                "Pa",
+                "pressure: mean of the cycle, or that in the middle of the stroke",
+            ),
+            block.p.iter().copied().collect(),
+        ),
+        field(
+            "stick",
+            Kind::Flag,
+            ("1", "contact cells that slip nowhere in a cycle"),
+            stick,
+        ),
+        corner(
+            "loop_delta_x",
+            ("m", "shift along x in the friction loop"),
+            0,
+        ),
+        corner("loop_T_x", ("N", "force along x in the friction loop"), 1),
+        corner(
+            "loop_delta_y",
+            ("m", "shift along y in the friction loop"),
+            2,
+        ),
+        corner("loop_T_y", ("N", "force along y in the friction loop"), 3),
+    ]
+}
+
+fn attributes(run: &WearRun, status: &str) -> Value {
+    let events = run.state().events.iter().map(|e| {
+        let kind = match e.kind {
+            EventKind::Thinned => "thinned",
+            EventKind::WornThrough => "worn through",
+        };
+        json!({ "kind": kind, "cycles": e.cycles, "body": e.body, "coating": e.coating, "x": e.x, "y": e.y })
+    });
+    let (scene, hertz) = (run.scene(), run.scene().hertz());
+    json!({
+        "title": scene.title,
+        "schema": SCHEMA,
+        "version": env!("CARGO_PKG_VERSION"),
+        "scene": scene.to_toml(),
+        "wear": run.wear().to_toml(),
+        "a_H": hertz.map(|h| h.a),
+        "p_H": hertz.map(|h| h.p0),
+        "mu": scene.friction.mu,
+        "events": events.collect::<Vec<_>>(),
+        "coordinates": "cycles block_cycles",
+        "status": status,
+    })
+}
+
+fn write_checkpoint(folder: &Arc<Folder>, state: &WearState, kept: &[f64]) -> Result<(), Error> {
+    let failed = |e: &dyn std::fmt::Display| folder.error(&format!("{CHECKPOINT}: {e}"));
+    let mut bytes = MAGIC.to_vec();
+    let content =
+        postcard::to_stdvec(&(env!("CARGO_PKG_VERSION"), state, kept)).map_err(|e| failed(&e))?;
+    bytes.extend(crc32fast::hash(&content).to_le_bytes());
+    bytes.extend(content);
+    std::fs::create_dir_all(folder.root().join("checkpoint")).map_err(|e| failed(&e))?;
+    let write = |mut file: &std::fs::File| std::io::Write::write_all(&mut file, &bytes);
+    folder
+        .write_durably(CHECKPOINT, write)
+        .map_err(|e| failed(&e))
+}
+
+fn read_checkpoint(folder: &Arc<Folder>) -> Result<(WearState, Vec<f64>), Error> {
+    let damaged = |why: &str| folder.error(&format!("{CHECKPOINT} {why}"));
+    let bytes = folder
+        .read(CHECKPOINT)
+        .map_err(|e| damaged(&e.to_string()))?;
+    let bytes = bytes.ok_or_else(|| damaged("is missing"))?;
+    let rest = bytes
+        .strip_prefix(MAGIC)
+        .ok_or_else(|| damaged("is of another layout"))?;
+    let (crc, content) = rest
+        .split_at_checked(4)
+        .ok_or_else(|| damaged("is cut off"))?;
+    if crc != crc32fast::hash(content).to_le_bytes() {
+        return Err(damaged("is damaged: its checksum differs"));
+    }
+    let decoded: Result<(String, WearState, Vec<f64>), _> = postcard::from_bytes(content);
+    let (version, state, kept) = decoded.map_err(|e| damaged(&e.to_string()))?;
+    if version != env!("CARGO_PKG_VERSION") {
+        return Err(damaged(&format!("is of version {version}")));
+    }
+    Ok((state, kept))
+}
+
+/// Takes up a run of wear where its store left it, to the same bytes; `None` if it is done. Fails
+/// if `path` holds no run of wear, or one by a law of the user's own.
+pub fn resume_wear(
+    path: impl AsRef<Path>,
+    stop: &Arc<AtomicBool>,
+) -> Result<Option<(WearRun, WearStore)>, Error> {
+    let place = path.as_ref().to_owned();
+    let folder = Folder::new(&place);
+    let text = folder.read(".zattrs").map_err(|e| folder.error(&e))?;
+    let text = text.ok_or_else(|| folder.error(&"holds no run of wear"))?;
+    let attributes: Value = serde_json::from_slice(&text).map_err(|e| folder.error(&e))?;
+    if attributes["status"] == "done" {
+        return Ok(None);
+    }
+    let (Some(scene), Some(wear)) = (attributes["scene"].as_str(), attributes["wear"].as_str())
+    else {
+        return Err(folder.error(&"holds no run of wear whose laws a file can hold"));
+    };
+    let name = place.display().to_string();
+    let (scene, wear) = Wear::from_toml_str(&format!("{scene}{wear}"), &name, &[])?;
+    let (state, kept) = read_checkpoint(&folder)?;
+    let run = WearRun::resume(&scene, &wear, state, stop)?;
+    Ok(Some((
+        run,
+        WearStore {
+            place,
+            overwrite: false,
+            folder: Some(folder),
+            kept,
+        },
+    )))
+}

@@ -1,0 +1,190 @@
+//! The table `[wear]` of a scene file.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::document::Document;
+use super::files::{Files, Reach};
+use super::read;
+use super::section::{Fault, Section};
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::wear::{Archard, BodyWear, Cycling, DissipatedEnergy, Jumps, Law, Wear, WornThrough};
+
+const KEYS: [&str; 11] = [
+    "cycles",
+    "first_branch",
+    "cycling",
+    "rig_stiffness",
+    "tolerance",
+    "jumps",
+    "explicit_jumps",
+    "worn_through",
+    "tell_from",
+    "body1",
+    "body2",
+];
+const BODY: [&str; 5] = ["k", "alpha", "threshold", "laws", "share"];
+const LAW: [&str; 3] = ["k", "alpha", "threshold"];
+
+impl Wear {
+    /// Reads and checks a scene file with a table `[wear]`, as [`Scene::from_file_reaching`].
+    pub fn from_file(
+        path: impl AsRef<Path>,
+        settings: &[String],
+        reach: Reach,
+    ) -> Result<(Scene, Self), Error> {
+        let path = path.as_ref();
+        let text = std::fs::read_to_string(path).map_err(|e| Error::File {
+            path: path.display().to_string(),
+            message: e.to_string(),
+        })?;
+        Self::read(&text, &path.display().to_string(), settings, reach)
+    }
+
+    /// Reads and checks a scene with a table `[wear]`; `file` is its name in errors.
+    pub fn from_toml_str(
+        text: &str,
+        file: &str,
+        settings: &[String],
+    ) -> Result<(Scene, Self), Error> {
+        Self::read(text, file, settings, Reach::Folder)
+    }
+
+    fn read(
+        text: &str,
+        file: &str,
+        settings: &[String],
+        reach: Reach,
+    ) -> Result<(Scene, Self), Error> {
+        let document = Document::parse(text, file, settings)?;
+        let folder = Path::new(file).parent().unwrap_or_else(|| Path::new(""));
+        let files = Files { folder, reach };
+        let both = || -> Result<_, Fault> {
+            let scene = read::scene(document.root(), &files)?;
+            scene.check()?;
+            let root = Section::root(document.root(), &read::ROOT)?;
+            let wear = wear(&root)?;
+            wear.check(&scene)?;
+            Ok((scene, wear))
+        };
+        both().map_err(|fault| document.error(&fault))
+    }
+
+    /// The table `[wear]` in SI, every number in full; `None` with a law of the user's own, which no
+    /// file can hold.
+    pub fn to_toml(&self) -> Option<String> {
+        let mut text = format!(
+            "\n[wear]\ncycles = {:?}\nfirst_branch = {}\n",
+            self.cycles, self.first_branch
+        );
+        let cycling = match self.cycling {
+            Cycling::March => "march",
+            Cycling::Sliding => "sliding",
+        };
+        let through = match self.worn_through {
+            WornThrough::Stop => "stop",
+            WornThrough::GoOn => "go_on",
+        };
+        // Writing to a text cannot fail.
+        let _ = writeln!(
+            text,
+            "cycling = \"{cycling}\"\nworn_through = \"{through}\"\ntell_from = {:?}",
+            self.tell_from
+        );
+        if self.rig_stiffness.is_finite() {
+            let _ = writeln!(text, "rig_stiffness = {:?}", self.rig_stiffness);
+        }
+        let _ = match self.jumps {
+            Jumps::Tolerance(tolerance) => writeln!(text, "tolerance = {tolerance:?}"),
+            Jumps::Number(n) => writeln!(text, "jumps = {n}"),
+            Jumps::Explicit(n) => writeln!(text, "explicit_jumps = {n}"),
+        };
+        for (name, body) in ["body1", "body2"].into_iter().zip(&self.bodies) {
+            if body.laws.is_empty() {
+                continue;
+            }
+            let laws: Option<Vec<String>> = body.laws.iter().map(|law| law.written()).collect();
+            let _ = writeln!(text, "\n[wear.{name}]\nlaws = [{}]", laws?.join(", "));
+            if let Some(share) = body.share {
+                let _ = writeln!(text, "share = {share:?}");
+            }
+        }
+        Some(text)
+    }
+}
+
+fn wear(root: &Section<'_>) -> Result<Wear, Fault> {
+    let section = root.need_section("wear", &KEYS)?;
+    let bodies = [body(&section, "body1")?, body(&section, "body2")?];
+    let cycles = section.number("cycles", "a number of cycles above 0", &[])?;
+    let default = Wear::new(bodies, cycles);
+    let ways = ["tolerance", "jumps", "explicit_jumps"];
+    let mut given = ways.iter().filter(|key| section.get(key).is_some());
+    let jumps = match given.next() {
+        None => default.jumps,
+        Some(&"tolerance") => Jumps::Tolerance(section.number("tolerance", "a number", &[])?),
+        Some(&"jumps") => Jumps::Number(section.count("jumps", 1)?),
+        Some(_) => Jumps::Explicit(section.count("explicit_jumps", 1)?),
+    };
+    if let Some(other) = given.next() {
+        let key = section.path(other);
+        let message = format!("{key}: one of {} at most", ways.join(", "));
+        return Err(Fault::new(key, message));
+    }
+    Ok(Wear {
+        first_branch: section.count_or("first_branch", 1, default.first_branch)?,
+        cycling: section.choice(
+            "cycling",
+            &[("march", Cycling::March), ("sliding", Cycling::Sliding)],
+        )?,
+        rig_stiffness: section.number_or("rig_stiffness", default.rig_stiffness, &[])?,
+        jumps,
+        worn_through: section.choice(
+            "worn_through",
+            &[("stop", WornThrough::Stop), ("go_on", WornThrough::GoOn)],
+        )?,
+        tell_from: section.number_or("tell_from", default.tell_from, &[])?,
+        ..default
+    })
+}
+
+fn body(wear: &Section<'_>, name: &str) -> Result<BodyWear, Fault> {
+    let Some(section) = wear.section(name, &BODY)? else {
+        return Ok(BodyWear::default());
+    };
+    let share = section.number_if("share", &[])?;
+    let laws = section.sections("laws", &LAW)?;
+    if laws.is_empty() {
+        return Ok(BodyWear {
+            laws: vec![law(&section)?],
+            share,
+        });
+    }
+    if let Some(key) = LAW.iter().find(|key| section.get(key).is_some()) {
+        let key = section.path(key);
+        return Err(Fault::new(
+            &key,
+            format!("{key}: not beside `laws`, which has one law per layer"),
+        ));
+    }
+    let laws = laws.iter().map(law).collect::<Result<_, _>>()?;
+    Ok(BodyWear { laws, share })
+}
+
+fn law(section: &Section<'_>) -> Result<Arc<dyn Law>, Fault> {
+    let threshold = section.number_or("threshold", 0.0, &[])?;
+    match (
+        section.number_if("k", &[])?,
+        section.number_if("alpha", &[])?,
+    ) {
+        (Some(k), None) => Ok(Arc::new(Archard { k, threshold })),
+        (None, Some(alpha)) => Ok(Arc::new(DissipatedEnergy { alpha, threshold })),
+        _ => {
+            let key = section.path("k");
+            let what = "either k (Archard, m^2/N) or alpha (dissipated energy, m^3/J)";
+            Err(Fault::new(&key, format!("{key}: give {what}")))
+        }
+    }
+}

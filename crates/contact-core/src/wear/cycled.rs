@@ -1,0 +1,116 @@
+//! What one cycle does to every cell, summed over its increments.
+
+use serde::{Deserialize, Serialize};
+
+use super::pressing::Pressing;
+use crate::march::{Increment, State};
+
+/// What one cycle does to every kept cell.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Cycled {
+    /// Pressed way `int p |ds|` \[Pa m\].
+    pub(crate) pressed_way: Vec<f64>,
+    /// Way slipped \[m\].
+    pub(crate) way: Vec<f64>,
+    /// Energy dissipated per area \[J/m^2\].
+    pub(crate) dissipated: Vec<f64>,
+    /// Mean pressure \[Pa\].
+    pub(crate) p: Vec<f64>,
+    /// Mean normal displacement under the shear \[m\].
+    pub(crate) u_q: Vec<f64>,
+    /// Mean normal force \[N\] and approach \[m\].
+    pub(crate) mean: [f64; 2],
+    /// Shift delta_x \[m\], force T_x \[N\], shift delta_y, force T_y at the increments of the loop.
+    pub(crate) corners: Vec<[f64; 4]>,
+    /// Area that sticks all through the cycle over that of the contact.
+    pub(crate) stick_ratio: f64,
+    /// Cells in contact that slip nowhere in the cycle.
+    pub(crate) stick: Vec<bool>,
+}
+
+/// Sums over the increments of a cycle.
+pub(crate) struct Sums {
+    cycled: Cycled,
+    /// Sum of u_z, weighted \[J m\].
+    u_z: Vec<f64>,
+    weight: f64,
+    contact_area: f64,
+    shape: usize,
+}
+
+impl Sums {
+    pub(crate) fn new(cells: usize) -> Self {
+        let field = || vec![0.0; cells];
+        Self {
+            cycled: Cycled {
+                pressed_way: field(),
+                way: field(),
+                dissipated: field(),
+                p: field(),
+                u_q: field(),
+                stick: vec![true; cells],
+                ..Cycled::default()
+            },
+            u_z: field(),
+            weight: 0.0,
+            contact_area: 0.0,
+            shape: cells,
+        }
+    }
+
+    pub(crate) fn add(&mut self, before: &State, now: &State, increment: &Increment) {
+        let cycled = &mut self.cycled;
+        // An increment that dissipates nothing counts a little, so that a contact that sticks has a mean.
+        let weight = increment.energy.dissipated.max(0.0)
+            + 1e-12 * increment.energy.elastic.abs()
+            + f64::MIN_POSITIVE;
+        self.weight += weight;
+        for c in 0..self.shape {
+            let (p0, p1) = (before.interface.p[c], now.interface.p[c]);
+            let p = 0.5 * (p0 + p1);
+            let way = now.slip_length[c] - before.slip_length[c];
+            cycled.way[c] += way;
+            cycled.pressed_way[c] += p * way;
+            cycled.dissipated[c] += now.dissipated[c] - before.dissipated[c];
+            cycled.p[c] += weight * p;
+            self.u_z[c] += weight * 0.5 * (before.interface.u_z[c] + now.interface.u_z[c]);
+            if way > 0.0 || now.interface.p[c] <= 0.0 {
+                cycled.stick[c] = false;
+            }
+        }
+        let mean = |a: f64, b: f64| weight * 0.5 * (a + b);
+        cycled.mean[0] += mean(before.loads.W, now.loads.W);
+        cycled.mean[1] += mean(before.motion.delta_z, now.motion.delta_z);
+        let (loads, motion) = (&increment.point.loads, &increment.motion);
+        cycled
+            .corners
+            .push([motion.delta_x, loads.T_x, motion.delta_y, loads.T_y]);
+        self.contact_area = increment.contact_area;
+    }
+
+    pub(crate) fn cycled(self, pressing: &mut Pressing, coupled: bool, mu: Option<f64>) -> Cycled {
+        let mut cycled = self.cycled;
+        cycled.dissipated.iter_mut().for_each(|d| *d = d.max(0.0));
+        if let Some(mu) = mu {
+            // |q| = mu p wherever something slips: the energy, which the march reckons more closely, tells.
+            let ways = cycled.pressed_way.iter_mut().zip(&cycled.dissipated);
+            ways.for_each(|(way, dissipated)| *way = dissipated / mu);
+        }
+        let weight = self.weight;
+        cycled.p.iter_mut().for_each(|p| *p /= weight);
+        cycled.mean.iter_mut().for_each(|m| *m /= weight);
+        if coupled {
+            let u_p = pressing.response(&cycled.p);
+            for c in 0..u_p.len() {
+                cycled.u_q[c] = self.u_z[c] / weight - u_p[c];
+            }
+        }
+        let sticking = cycled.stick.iter().filter(|s| **s).count() as f64 * pressing.cell_area();
+        cycled.stick_ratio = if self.contact_area > 0.0 {
+            (sticking / self.contact_area).min(1.0)
+        } else {
+            1.0
+        };
+        cycled
+    }
+}

@@ -1,0 +1,297 @@
+//! Cycles of any load path, solved increment by increment.
+//!
+//! One cycle through [`March`] on given surfaces tells for every cell the pressed way `P = int p |ds|`,
+//! the way and the energy that it slips in a cycle. A jump of n cycles is implicit in the pressure:
+//!
+//! ```text
+//! w = n k sigma p,   sigma = P/p_m                      of the cycle
+//! g = h + w_0 + w + C p + u_q - delta_z >= 0,  p >= 0,  p g = 0
+//! ```
+//!
+//! p_m being the mean pressure of the cycle, weighted by what its increments dissipate, and u_q the mean of the
+//! normal displacement under the shear with the same weights; so for n = 0 p is p_m. The normal
+//! problem has the compliance n k sigma, whatever the loads do within the cycle. Sigma is that of the last
+//! cycle at first (predictor); then a cycle is solved on the surfaces so predicted, and the jump is made
+//! again with its sigma, until the pressure stays (corrector).
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use serde::{Deserialize, Serialize};
+
+use super::cycled::{Cycled, Sums};
+use super::law::CellCycle;
+use super::loss::{Loss, Worn};
+use super::outward::outward;
+use super::pressing::Pressing;
+use super::settings::{Wear, thicknesses};
+use crate::cells::Drive;
+use crate::error::Error;
+use crate::march::{Increment, March, State};
+use crate::scene::{Branch, Friction, Scene};
+
+/// Change of the pressure between two corrections (root mean square, over the pressure) that ends them.
+const AGREES: f64 = 0.02;
+/// Most corrections of a jump.
+const CORRECTIONS: usize = 3;
+
+/// All that the next jump depends on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct MarchedState {
+    /// The march at the beginning of a cycle.
+    start: State,
+    cycled: Cycled,
+}
+
+/// Cycles through the march.
+pub(crate) struct Marched {
+    pub(crate) pressing: Pressing,
+    march: March,
+    wear: Wear,
+    coatings: [Vec<f64>; 2],
+    /// Gap between the unworn surfaces \[m\].
+    h: Vec<f64>,
+    /// Increments before the cycle.
+    lead_in: usize,
+    gives_approach: bool,
+    /// The coefficient of friction where it is one.
+    plain_mu: Option<f64>,
+    pub(crate) state: MarchedState,
+    /// Mean pressure at the end of the last jump \[Pa\].
+    pub(crate) p: Vec<f64>,
+    /// Cycles solved so far.
+    pub(crate) cycles_solved: usize,
+}
+
+impl Marched {
+    /// Leads in and solves a cycle on the unworn surfaces, or goes on from a state.
+    pub(crate) fn new(
+        scene: &Scene,
+        wear: &Wear,
+        state: Option<MarchedState>,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        let mut scene = scene.clone();
+        let settles = Branch {
+            increments: Some(1),
+            path_error: None,
+            ..scene.path.branches[wear.first_branch - 1]
+        };
+        // A branch that changes no load: in it the contact goes over to surfaces that have worn.
+        scene.path.branches.insert(wear.first_branch, settles);
+        for (i, branch) in scene.path.branches.iter_mut().enumerate() {
+            branch.t_end = (i + 1) as f64;
+        }
+        scene.settings.skip.far = false;
+        if wear.rig_stiffness.is_finite() {
+            scene.path.rig_stiffness = Some(wear.rig_stiffness);
+        }
+        let mut march = March::until(&scene, stop)?;
+        let scene = march.scene().clone();
+        let points = march.points();
+        let lead_in = points
+            .iter()
+            .take_while(|p| p.branch < wear.first_branch)
+            .count();
+        let plan = march.plan().clone();
+        for _ in 0..if state.is_none() { lead_in } else { 0 } {
+            advance(&mut march)?;
+        }
+        let goes_on = state.is_some();
+        let begins = || MarchedState {
+            start: march.state().clone(),
+            cycled: Cycled::default(),
+        };
+        let state = state.unwrap_or_else(begins);
+        let pressing = Pressing::new(&scene, &plan, stop)?;
+        let mut marched = Self {
+            h: plan.mirror.fold(&scene.h_init()),
+            coatings: [thicknesses(&scene.body1), thicknesses(&scene.body2)],
+            gives_approach: scene.path.branches[wear.first_branch]
+                .to
+                .given
+                .delta_z
+                .is_some(),
+            plain_mu: (scene.friction == Friction::coulomb(scene.friction.mu))
+                .then_some(scene.friction.mu),
+            p: Vec::new(),
+            state,
+            wear: wear.clone(),
+            pressing,
+            march,
+            lead_in,
+            cycles_solved: 0,
+        };
+        if !goes_on {
+            let worn = Worn::none(marched.h.len());
+            marched.settle(&worn)?;
+        }
+        Ok(marched)
+    }
+
+    /// Solves a cycle on surfaces worn so far; the next one begins where it ends.
+    pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
+        let (cycled, mut start) = self.cycle(worn)?;
+        start.increments = self.lead_in;
+        self.state = MarchedState { start, cycled };
+        Ok(())
+    }
+
+    /// What n cycles take from both bodies.
+    pub(crate) fn jump(
+        &mut self,
+        worn: &Worn,
+        cycles: f64,
+        n: f64,
+        implicit: bool,
+    ) -> Result<Loss, Error> {
+        let mut rates = self.rates(worn, cycles, &self.state.cycled)?;
+        let mut p = self.state.cycled.p.clone();
+        if !implicit {
+            return Ok(self.loss(n, &rates, &p));
+        }
+        let mut last: Option<Vec<f64>> = None;
+        for correction in 0..=CORRECTIONS {
+            let cells = self.h.len();
+            let compliance: Vec<f64> = (0..cells)
+                .map(|c| n * (rates.k[0][c] + rates.k[1][c]) * rates.sigma[c])
+                .collect();
+            let gap = self.gap(worn);
+            let h: Vec<f64> = gap.iter().zip(&rates.u_q).map(|(g, u)| g + u).collect();
+            self.pressing
+                .solve(&h, &compliance, rates.drive, &mut p, 1.0)?;
+            if correction == CORRECTIONS || last.as_ref().is_some_and(|last| agree(last, &p)) {
+                break;
+            }
+            last = Some(p.clone());
+            let loss = self.loss(n, &rates, &p);
+            let mut end = worn.clone();
+            end.add(&loss);
+            let (cycled, _) = self.cycle(&end)?;
+            rates = self.rates(worn, cycles, &cycled)?;
+            self.state.cycled = cycled;
+        }
+        let loss = self.loss(n, &rates, &p);
+        self.p = p;
+        Ok(loss)
+    }
+
+    /// What the last cycle did.
+    pub(crate) fn cycled(&self) -> &Cycled {
+        &self.state.cycled
+    }
+
+    fn loss(&self, n: f64, rates: &Rates, p: &[f64]) -> Loss {
+        let way = |c: usize| n * rates.sigma[c] * p[c];
+        let depth = [0, 1].map(|b| (0..p.len()).map(|c| rates.k[b][c] * way(c)).collect());
+        let dissipated: f64 = (0..p.len()).map(|c| rates.mu[c] * way(c)).sum();
+        Loss {
+            depth,
+            dissipated: dissipated * self.pressing.cell_area(),
+        }
+    }
+
+    fn gap(&self, worn: &Worn) -> Vec<f64> {
+        let [one, two] = &worn.depth;
+        let cells = self.h.iter().zip(one.iter().zip(two));
+        cells.map(|(h, (one, two))| h + one + two).collect()
+    }
+
+    /// One cycle on worn surfaces, and the state of the march at its end.
+    fn cycle(&mut self, worn: &Worn) -> Result<(Cycled, State), Error> {
+        let gap = self.gap(worn);
+        self.march.go_on_from(self.state.start.clone(), &gap);
+        // The contact goes over to the worn surfaces; what slips thereby is of no cycle.
+        advance(&mut self.march)?;
+        let cells = self.h.len();
+        let mut sums = Sums::new(cells);
+        let increments = self.march.points().len() - self.lead_in - 1;
+        for _ in 0..increments {
+            let before = self.march.state().clone();
+            let increment = advance(&mut self.march)?;
+            sums.add(&before, self.march.state(), &increment);
+        }
+        self.cycles_solved += 1;
+        let state = self.march.state().clone();
+        let coupling = self.march.plan().coupling;
+        Ok((
+            sums.cycled(&mut self.pressing, coupling, self.plain_mu),
+            state,
+        ))
+    }
+
+    /// How fast every cell wears per pressure; cells outside the contact as those beside them.
+    fn rates(&self, worn: &Worn, cycles: f64, cycled: &Cycled) -> Result<Rates, Error> {
+        let cells = self.h.len();
+        let largest = cycled.p.iter().fold(0.0, |m: f64, p| m.max(*p));
+        let pressed = |c: usize| cycled.p[c] > 1e-6 * largest && cycled.pressed_way[c] >= 0.0;
+        let rows = self.pressing.rows();
+        let sigma = outward(rows, cells, |c| {
+            pressed(c).then(|| cycled.pressed_way[c] / cycled.p[c])
+        });
+        let mu = outward(rows, cells, |c| {
+            let slips = pressed(c) && cycled.pressed_way[c] > 0.0;
+            slips.then(|| cycled.dissipated[c] / cycled.pressed_way[c])
+        });
+        let way = outward(rows, cells, |c| pressed(c).then(|| cycled.way[c]));
+        let pressed_way: Vec<f64> = (0..cells)
+            .map(|c| sigma[c] * cycled.p[c].max(1e-6 * largest))
+            .collect();
+        let dissipated: Vec<f64> = (0..cells).map(|c| mu[c] * pressed_way[c]).collect();
+        let mut k = [vec![0.0; cells], vec![0.0; cells]];
+        for b in 0..2 {
+            let cycle = CellCycle {
+                pressed_way: &pressed_way,
+                way: &way,
+                dissipated: &dissipated,
+                worn: &worn.depth[b],
+                cycles,
+            };
+            self.wear.bodies[b].coefficients(&cycle, &self.coatings[b], &mut k[b])?;
+        }
+        let [W, approach] = cycled.mean;
+        let drive = if self.gives_approach {
+            Drive {
+                given: [approach, 0.0, 0.0],
+                ..Drive::default()
+            }
+        } else {
+            self.pressing.under(W)
+        };
+        Ok(Rates {
+            k,
+            sigma,
+            mu,
+            u_q: cycled.u_q.clone(),
+            drive,
+        })
+    }
+}
+
+/// How fast cells wear.
+struct Rates {
+    /// Coefficient of each body \[1/Pa\].
+    k: [Vec<f64>; 2],
+    /// Pressed way over the mean pressure \[m\].
+    sigma: Vec<f64>,
+    /// Energy dissipated over the pressed way.
+    mu: Vec<f64>,
+    u_q: Vec<f64>,
+    drive: Drive,
+}
+
+/// Whether two pressures agree.
+fn agree(last: &[f64], now: &[f64]) -> bool {
+    let (mut moved, mut size) = (0.0, 0.0);
+    for (last, now) in last.iter().zip(now) {
+        moved += (now - last).powi(2);
+        size += now * now;
+    }
+    moved <= AGREES * AGREES * size
+}
+
+fn advance(march: &mut March) -> Result<Increment, Error> {
+    march.advance().unwrap_or(Err(Error::Interrupted {
+        increment: march.state().increments,
+    }))
+}

@@ -1,0 +1,32 @@
+//! Wear: what cycles do to the surfaces. It stands above the march and runs marches.
+//!
+//! A cycle of the load path takes from each cell of each body a depth that a [`Law`] makes of the
+//! pressed way `int p |ds|`, the way and the energy dissipated there. Thousands of cycles are done in
+//! jumps: a jump of n cycles wears n times what one cycle would, with the pressure of its end, so that
+//! `n k s` is a compliance in series with the half-space in every cell (`compliant`) and no jump is too
+//! long to be stable. Two ways to solve a cycle ([`Cycling`]): increment by increment through the march
+//! (`marched`), or, in gross slip with any stroke, the normal problem alone at each place of the stroke, the
+//! worn surfaces read where they then lie (`sliding`). Each jump is made whole and in halves, extrapolated to
+//! second order, and as long as the difference of both allows (`run`).
+
+mod block;
+mod compliant;
+mod cycled;
+mod events;
+mod law;
+mod loss;
+mod marched;
+mod model;
+mod outward;
+mod pressing;
+mod run;
+mod settings;
+mod shift;
+mod sliding;
+mod stroke;
+
+pub use block::Block;
+pub use events::{Event, EventKind};
+pub use law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};
+pub use run::{Jump, WearRun, WearState};
+pub use settings::{Cycling, Jumps, Wear, WornThrough};

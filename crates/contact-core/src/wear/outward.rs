@@ -1,0 +1,52 @@
+//! A quantity that the cells of the contact have, carried on outwards.
+
+/// Gives cells without a value the mean of their neighbours that have one, row after row outwards; fields of
+/// `rows` cells per column. Zero where no cell has any.
+pub(crate) fn outward(rows: usize, cells: usize, known: impl Fn(usize) -> Option<f64>) -> Vec<f64> {
+    let mut values: Vec<Option<f64>> = (0..cells).map(known).collect();
+    let columns = cells / rows;
+    let around = |n: usize| {
+        let (i, j) = (n / rows, n % rows);
+        let near = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
+        near(i, columns).flat_map(move |a| near(j, rows).map(move |b| a * rows + b))
+    };
+    let mut front: Vec<usize> = (0..cells)
+        .filter(|&n| values[n].is_none() && around(n).any(|m| values[m].is_some()))
+        .collect();
+    while !front.is_empty() {
+        let mean = |&n: &usize| {
+            let (sum, count) = around(n)
+                .filter_map(|m| values[m])
+                .fold((0.0, 0.0), |(sum, count), v| (sum + v, count + 1.0));
+            sum / count
+        };
+        let means: Vec<f64> = front.iter().map(mean).collect();
+        front
+            .iter()
+            .zip(means)
+            .for_each(|(&n, mean)| values[n] = Some(mean));
+        let mut next: Vec<usize> = front
+            .iter()
+            .flat_map(|&n| around(n))
+            .filter(|&n| values[n].is_none())
+            .collect();
+        next.sort_unstable();
+        next.dedup();
+        front = next;
+    }
+    values.into_iter().map(|v| v.unwrap_or(0.0)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::outward;
+
+    #[test]
+    fn cells_outside_have_what_those_beside_them_have() {
+        let all = outward(3, 15, |n| (6..9).contains(&n).then(|| (n % 3) as f64));
+        assert_eq!(all[6..9], [0.0, 1.0, 2.0]);
+        assert_eq!(all[9..12], [0.5, 1.0, 1.5]);
+        assert!(all[12..].iter().all(|v| (0.5..=1.5).contains(v)));
+        assert_eq!(outward(3, 6, |_| None), [0.0; 6]);
+    }
+}

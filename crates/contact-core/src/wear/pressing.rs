@@ -1,0 +1,193 @@
+//! The normal problem of worn surfaces, with a compliance in every cell.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use super::compliant::{Compliant, inverse};
+use crate::cells::{Arms, Drive};
+use crate::convolution::{CirculantInverse, DcFft, Displacements, SurfaceOperator, Tractions};
+use crate::error::Error;
+use crate::kernels::{InfluenceCoefficients, pair_coefficients};
+use crate::plan::{KernelSet, Mirror, Plan};
+use crate::scene::{Grid, Scene};
+use crate::solvers::Response;
+use crate::solvers::inner::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
+
+/// The pair of bodies under pressure alone, on the kept cells of the whole grid.
+pub(crate) struct Pressing {
+    pub(crate) grid: Grid,
+    pub(crate) mirror: Mirror,
+    kernel: InfluenceCoefficients,
+    op: DcFft,
+    arms: Arms,
+    params: NormalParams,
+    workspace: NormalWorkspace,
+    /// The inverse for the compliance that it was last asked for \[m/Pa\].
+    inverse: Option<(f64, CirculantInverse)>,
+    u_z: Vec<f64>,
+    stop: Arc<AtomicBool>,
+}
+
+impl Pressing {
+    pub(crate) fn new(scene: &Scene, plan: &Plan, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
+        let (grid, settings, mirror) = (scene.grid, &scene.settings, plan.mirror);
+        let kernel = pair_coefficients(
+            (&scene.body1, &scene.body2),
+            &grid,
+            &settings.kernel,
+            settings.skip.equal_layers,
+            KernelSet::Normal,
+            Some(stop),
+        )?;
+        let (length, width) = grid.extent();
+        let length = 0.5
+            * if grid.plane_strain {
+                length
+            } else {
+                length.max(width)
+            };
+        let arms = Arms {
+            length,
+            x: mirror.fold(&grid.map(|x, _| x / length)),
+            y: mirror.fold(&grid.map(|_, y| y / length)),
+            stretch: 1.0,
+        };
+        let cells = arms.x.len();
+        let tolerance = scene.tolerance() * scene.approach();
+        Ok(Self {
+            grid,
+            mirror,
+            op: DcFft::until(&kernel, mirror, false, false, stop)?,
+            kernel,
+            arms,
+            params: NormalParams {
+                enough: 0.8 * tolerance,
+                tolerance: 0.4 * tolerance,
+                max_iterations: settings.solver.max_iterations,
+            },
+            workspace: NormalWorkspace::new(cells),
+            inverse: None,
+            u_z: vec![0.0; cells],
+            stop: stop.clone(),
+        })
+    }
+
+    pub(crate) fn cells(&self) -> usize {
+        self.u_z.len()
+    }
+
+    /// C p \[m\].
+    pub(crate) fn response(&mut self, p: &[f64]) -> Vec<f64> {
+        let mut u_z = vec![0.0; p.len()];
+        self.op.apply(
+            Tractions {
+                p: Some(p),
+                ..Tractions::default()
+            },
+            Displacements {
+                u_z: Some(&mut u_z),
+                ..Displacements::default()
+            },
+        );
+        u_z
+    }
+
+    /// Cells that follow one another along y.
+    pub(crate) fn rows(&self) -> usize {
+        self.mirror.rows(self.grid.ny)
+    }
+
+    /// Area that a kept cell stands for \[m^2\].
+    pub(crate) fn cell_area(&self) -> f64 {
+        self.grid.cell_area() * self.mirror.multiplicity()
+    }
+
+    /// What presses the bodies together with a force W \[N\], without tilting.
+    pub(crate) fn under(&self, W: f64) -> Drive {
+        Drive {
+            free: [true, false, false],
+            sums: [W / self.cell_area(), 0.0, 0.0],
+            given: [0.0; 3],
+        }
+    }
+
+    /// Two-dimensional transforms done so far.
+    pub(crate) fn transforms(&self) -> usize {
+        self.op.transforms()
+    }
+
+    /// Solves `p >= 0, g = h + C p + D p - delta_z >= 0, p g = 0` for p from a guess, D being the
+    /// `compliance` of each cell \[m/Pa\], to so many `times` the tolerance of the scene.
+    pub(crate) fn solve(
+        &mut self,
+        h: &[f64],
+        compliance: &[f64],
+        drive: Drive,
+        p: &mut [f64],
+        times: f64,
+    ) -> Result<NormalInfo, Error> {
+        let touching = p.iter().zip(compliance).filter(|(p, _)| **p > 0.0);
+        let (sum, count) = touching.fold((0.0, 0.0), |(s, c), (_, d)| (s + d, c + 1.0));
+        let mean = sum / f64::max(count, 1.0);
+        if self
+            .inverse
+            .as_ref()
+            .is_none_or(|(d, _)| d.to_bits() != mean.to_bits())
+        {
+            self.inverse = Some((mean, inverse(&self.kernel, self.mirror, mean)));
+        }
+        let mut op = Compliant {
+            op: &mut self.op,
+            compliance,
+        };
+        op.apply(
+            Tractions {
+                p: Some(p),
+                ..Tractions::default()
+            },
+            Displacements {
+                u_z: Some(&mut self.u_z),
+                ..Displacements::default()
+            },
+        );
+        let mut response = Response {
+            op: &mut op,
+            inverse: self.inverse.as_mut().map(|(_, inverse)| inverse as _),
+            stop: Some(&self.stop),
+            exact: true,
+        };
+        let problem = NormalProblem {
+            h_init: h,
+            arms: &self.arms,
+            drive,
+        };
+        let params = NormalParams {
+            enough: times * self.params.enough,
+            tolerance: times * self.params.tolerance,
+            ..self.params
+        };
+        let found = normal(
+            &mut response,
+            &problem,
+            p,
+            &mut self.u_z,
+            &mut self.workspace,
+            &params,
+        );
+        found.map_err(|e| {
+            match response
+                .stop
+                .is_some_and(|s| s.load(std::sync::atomic::Ordering::Relaxed))
+            {
+                true => Error::Interrupted { increment: 0 },
+                false => Error::NotConverged {
+                    increment: 0,
+                    solver: e.solver,
+                    residual: e.residual,
+                    tolerance: e.tolerance,
+                    iterations: e.iterations,
+                },
+            }
+        })
+    }
+}

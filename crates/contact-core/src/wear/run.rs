@@ -1,0 +1,385 @@
+//! The jumps of a run: how long they are, what their errors come to, where they end.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use serde::{Deserialize, Serialize};
+
+use super::events::{Event, crossing, events};
+use super::loss::{Loss, Worn};
+use super::model::{Model, ModelState};
+use super::settings::{Jumps, Wear, WornThrough};
+use crate::error::Error;
+use crate::scene::Scene;
+
+/// Part of the length that the estimate of the error asks for, and most that a jump is longer or shorter
+/// than the one before.
+const CAUTIOUS: f64 = 0.9;
+const LONGER: f64 = 4.0;
+const SHORTER: f64 = 0.2;
+/// The first jump wears about this part of the approach.
+const FIRST: f64 = 0.05;
+/// The pressure at the end of a jump may be off by so many times the tolerance: it is solved anew on
+/// the surfaces that are accepted, and tells only of jumps that miss how it moves.
+const PRESSURE: f64 = 20.0;
+/// Jumps are not cut below this part of all cycles.
+const SHORTEST: f64 = 1e-9;
+/// Tries of a jump: shorter ones for the error, others for the cycle of an event.
+const TRIES: usize = 60;
+
+/// All that the next jump depends on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WearState {
+    /// Jumps done.
+    pub jumps: usize,
+    /// Cycles done.
+    pub cycles: f64,
+    /// Energy dissipated by friction in them \[J\].
+    pub dissipated: f64,
+    /// What happened to the coatings.
+    pub events: Vec<Event>,
+    pub(crate) worn: Worn,
+    pub(crate) model: ModelState,
+    /// Jumps so far, and the cycles of the last block that is kept.
+    pub(crate) history: Vec<Jump>,
+    pub(crate) kept_at: f64,
+    /// Length of the next jump in cycles.
+    pub(crate) next: f64,
+    /// What extrapolation has added to the worn depth of both bodies in all jumps \[m\].
+    pub(crate) moved: [Vec<f64>; 2],
+    pub(crate) ended: bool,
+}
+
+/// One jump in numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Jump {
+    /// Jump, from 1.
+    pub index: usize,
+    /// Cycles at its end, and how many it is long.
+    pub cycles: f64,
+    /// Cycles that it is long.
+    pub length: f64,
+    /// Estimated error of what it adds to the worn depth, root mean square over the depth so far;
+    /// zero for explicit jumps, which have none.
+    pub error: f64,
+    /// The same of the pressure.
+    pub pressure_error: f64,
+    /// Times that it was tried anew.
+    pub retries: usize,
+    /// Volume that body 1 and body 2 have lost so far \[m^3\].
+    pub volume: [f64; 2],
+    /// Deepest worn depth of body 1 and body 2 \[m\].
+    pub depth: [f64; 2],
+    /// Energy dissipated so far \[J\].
+    pub dissipated: f64,
+    /// Energy dissipated in one cycle on the surfaces at the end \[J\].
+    pub dissipated_per_cycle: f64,
+    /// Largest pressure at the end \[Pa\].
+    pub p_max: f64,
+    /// Area of the contact at the end \[m^2\].
+    pub contact_area: f64,
+    /// Area that sticks all through the cycle over that of the contact.
+    pub stick_ratio: f64,
+    /// Estimated error of the deepest depth so far, over it.
+    pub depth_error: f64,
+}
+
+/// A run over all cycles, jump by jump.
+pub struct WearRun {
+    pub(crate) scene: Scene,
+    pub(crate) wear: Wear,
+    pub(crate) model: Model,
+    state: WearState,
+    stop: Arc<AtomicBool>,
+}
+
+impl WearRun {
+    /// Checks, leads in and solves the first cycle; ends when `stop` is raised.
+    pub fn new(scene: &Scene, wear: &Wear, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
+        scene.check()?;
+        wear.check(scene)?;
+        let mut model = Model::new(scene, wear, None, stop)?;
+        let worn = Worn::none(model.cells());
+        if matches!(model, Model::Sliding(_)) {
+            model.settle(&worn)?;
+        }
+        let mut run = Self {
+            state: WearState {
+                jumps: 0,
+                cycles: 0.0,
+                dissipated: 0.0,
+                events: Vec::new(),
+                moved: worn.depth.clone(),
+                model: model.state(),
+                worn,
+                history: Vec::new(),
+                kept_at: 0.0,
+                next: 0.0,
+                ended: false,
+            },
+            scene: scene.clone(),
+            wear: wear.clone(),
+            model,
+            stop: stop.clone(),
+        };
+        run.state.next = run.first_jump()?;
+        Ok(run)
+    }
+
+    /// Goes on from a state of the same scene and wear; what follows is what would have followed
+    /// without the interruption, bit by bit.
+    pub fn resume(
+        scene: &Scene,
+        wear: &Wear,
+        state: WearState,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        scene.check()?;
+        wear.check(scene)?;
+        let model = Model::new(scene, wear, Some(state.model.clone()), stop)?;
+        if state.worn.depth.iter().any(|d| d.len() != model.cells()) {
+            return Err(Error::invalid(
+                "state",
+                "of other cells",
+                "one of this scene",
+            ));
+        }
+        Ok(Self {
+            scene: scene.clone(),
+            wear: wear.clone(),
+            model,
+            state,
+            stop: stop.clone(),
+        })
+    }
+
+    /// The state after the last jump.
+    pub fn state(&self) -> &WearState {
+        &self.state
+    }
+
+    /// Cycles that one jump of a run of so many takes, or the first of a run that chooses.
+    fn first_jump(&mut self) -> Result<f64, Error> {
+        let all = self.wear.cycles;
+        match self.wear.jumps {
+            Jumps::Number(n) | Jumps::Explicit(n) => Ok(all / n as f64),
+            Jumps::Tolerance(_) => {
+                let before = self.model.state();
+                let one = self.model.jump(&self.state.worn, 0.0, 1.0, false)?;
+                self.model.restore(&before);
+                let rate = one.depth.iter().flatten().fold(0.0, |m: f64, w| m.max(*w));
+                let first = if rate > 0.0 {
+                    FIRST * self.scene.approach() / rate
+                } else {
+                    all
+                };
+                Ok(first.clamp(SHORTEST * all, all))
+            }
+        }
+    }
+
+    /// Does the next jump; `None` at the end. After an error the state is that of the last jump.
+    pub fn advance(&mut self) -> Option<Result<Jump, Error>> {
+        let left = self.wear.cycles - self.state.cycles;
+        if self.state.ended || left <= SHORTEST * self.wear.cycles {
+            return None;
+        }
+        let jump = self.jump(left);
+        if jump.is_err() {
+            self.model.restore(&self.state.model);
+        }
+        Some(jump)
+    }
+
+    fn jump(&mut self, left: f64) -> Result<Jump, Error> {
+        let mut n = self.state.next.min(left);
+        // What would be left is not worth a jump of its own.
+        if left - n < 1e-6 * n {
+            n = left;
+        }
+        let (mut for_error, mut for_event) = (n, None);
+        for retries in 0..TRIES {
+            if self.stop.load(Ordering::Relaxed) {
+                return Err(Error::Interrupted {
+                    increment: self.state.jumps,
+                });
+            }
+            self.model.restore(&self.state.model);
+            let tried = self.attempt(n)?;
+            if let Jumps::Tolerance(tolerance) = self.wear.jumps {
+                let error = tried.error.max(tried.pressure_error / PRESSURE);
+                let factor = CAUTIOUS * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt();
+                if error > tolerance && n > SHORTEST * self.wear.cycles {
+                    n *= factor.clamp(SHORTER, CAUTIOUS);
+                    for_event = None;
+                    continue;
+                }
+                for_error = n * factor.clamp(SHORTER, LONGER);
+            }
+            let stops = self.wear.worn_through == WornThrough::Stop;
+            if let Some(part) = crossing(
+                &self.scene,
+                &self.state.events,
+                &self.state.worn,
+                &tried.loss,
+            ) {
+                // Towards the cycle in which the first cell is through, from above and from below.
+                let last = for_event.replace(n);
+                if part < 1.0 - 1e-3 && retries + 1 < TRIES && last != Some(n * part) {
+                    n *= part * (1.0 + 1e-4);
+                    continue;
+                }
+                return self.accept(n, &tried, for_error, retries, stops);
+            }
+            return self.accept(n, &tried, for_error, retries, false);
+        }
+        Err(Error::NotConverged {
+            increment: self.state.jumps + 1,
+            solver: "wear",
+            residual: n,
+            tolerance: self.state.next,
+            iterations: TRIES,
+        })
+    }
+
+    /// A jump of n cycles whole and in two halves.
+    fn attempt(&mut self, n: f64) -> Result<Tried, Error> {
+        let (worn, cycles) = (&self.state.worn, self.state.cycles);
+        if matches!(self.wear.jumps, Jumps::Explicit(_)) {
+            let loss = self.model.jump(worn, cycles, n, false)?;
+            let none = loss.depth.each_ref().map(|d| vec![0.0; d.len()]);
+            return Ok(Tried {
+                loss,
+                error: 0.0,
+                pressure_error: 0.0,
+                moved: none,
+            });
+        }
+        let whole = self.model.jump(worn, cycles, n, true)?;
+        let pressure = self.model.pressures();
+        self.model.restore(&self.state.model);
+        let first = self.model.jump(worn, cycles, 0.5 * n, true)?;
+        let mut middle = worn.clone();
+        middle.add(&first);
+        let second = self.model.jump(&middle, cycles + 0.5 * n, 0.5 * n, true)?;
+        let pressure_error = distance(&pressure, &self.model.pressures());
+        let halves = first.with(&second);
+        let moved = [0, 1].map(|b| {
+            let both = halves.depth[b].iter().zip(&whole.depth[b]);
+            both.map(|(halves, whole)| halves - whole).collect()
+        });
+        let (loss, error) = halves.extrapolated(&whole, worn);
+        Ok(Tried {
+            loss,
+            error,
+            pressure_error,
+            moved,
+        })
+    }
+
+    fn accept(
+        &mut self,
+        n: f64,
+        tried: &Tried,
+        next: f64,
+        retries: usize,
+        ends: bool,
+    ) -> Result<Jump, Error> {
+        let mut worn = self.state.worn.clone();
+        worn.add(&tried.loss);
+        self.model.settle(&worn)?;
+        let cycles = self.state.cycles + n;
+        let new = events(&self.scene, &self.wear, &self.state.events, &worn, cycles);
+        let state = &mut self.state;
+        for (sum, moved) in state.moved.iter_mut().zip(&tried.moved) {
+            sum.iter_mut()
+                .zip(moved)
+                .for_each(|(sum, moved)| *sum += moved);
+        }
+        state.events.extend(new);
+        (state.worn, state.model) = (worn, self.model.state());
+        state.jumps += 1;
+        state.cycles = cycles;
+        state.dissipated += tried.loss.dissipated;
+        state.next = next;
+        state.ended = ends;
+        let jump = self.summary(n, tried, retries);
+        self.state.history.push(jump.clone());
+        Ok(jump)
+    }
+
+    /// Every jump so far.
+    pub fn history(&self) -> &[Jump] {
+        &self.state.history
+    }
+
+    /// Whether the fields after the last jump are to be kept: where the cycles have grown by a fifth or
+    /// by a fiftieth of all, and at the end. Notes that they are.
+    pub fn keeps(&mut self) -> bool {
+        let (cycles, all) = (self.state.cycles, self.wear.cycles);
+        let ends = self.state.ended || all - cycles <= SHORTEST * all;
+        let keeps =
+            ends || cycles >= 1.2 * self.state.kept_at || cycles >= self.state.kept_at + all / 50.0;
+        if keeps {
+            self.state.kept_at = cycles;
+        }
+        keeps
+    }
+
+    /// The scene that wears.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// What wears it.
+    pub fn wear(&self) -> &Wear {
+        &self.wear
+    }
+
+    fn summary(&self, n: f64, tried: &Tried, retries: usize) -> Jump {
+        let state = &self.state;
+        let area = self.model.pressing().cell_area();
+        let seen = self.model.seen();
+        let touches = seen.p.iter().filter(|p| **p > 0.0).count() as f64;
+        let largest = |field: &[f64]| field.iter().fold(0.0, |m: f64, w| m.max(*w));
+        let moved = state
+            .moved
+            .iter()
+            .flatten()
+            .fold(0.0, |m: f64, e| m.max(e.abs()));
+        Jump {
+            index: state.jumps,
+            cycles: state.cycles,
+            length: n,
+            error: tried.error,
+            pressure_error: tried.pressure_error,
+            retries,
+            volume: [0, 1].map(|b| state.worn.depth[b].iter().sum::<f64>() * area),
+            depth: [0, 1].map(|b| largest(&state.worn.depth[b])),
+            dissipated: state.dissipated,
+            dissipated_per_cycle: seen.dissipated_per_cycle,
+            p_max: largest(seen.p),
+            contact_area: touches * area,
+            stick_ratio: seen.stick_ratio,
+            depth_error: moved / state.worn.deepest().max(f64::MIN_POSITIVE),
+        }
+    }
+}
+
+/// A jump that may be taken or not.
+struct Tried {
+    loss: Loss,
+    error: f64,
+    pressure_error: f64,
+    moved: [Vec<f64>; 2],
+}
+
+/// Root mean square of the difference of two fields over that of the second.
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let (mut differs, mut size) = (0.0, 0.0);
+    for (a, b) in a.iter().zip(b) {
+        differs += (a - b).powi(2);
+        size += b * b;
+    }
+    (differs / f64::max(size, f64::MIN_POSITIVE)).sqrt()
+}

@@ -1,0 +1,206 @@
+//! What a user says about wear: laws, cycles, jumps, what is told.
+
+use super::law::BodyWear;
+use super::stroke::stroke;
+use crate::error::Error;
+use crate::scene::{Body, Scene};
+
+/// Most cycles of a run.
+const MOST_CYCLES: f64 = 1e15;
+
+/// How the contact of a cycle is solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Cycling {
+    /// Increment by increment through the load path, with stick, partial slip and gross slip
+    /// ([`March`](crate::march::March)) (default). The surfaces lie still: for slips that are small
+    /// against the contact.
+    #[default]
+    March,
+    /// Gross slip along x under given shifts: every cell slips by what the bodies move, |q| = mu p, and
+    /// the pressure is found at every place of the stroke, with the two worn surfaces where they then lie.
+    Sliding,
+}
+
+/// How long the jumps over cycles are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Jumps {
+    /// Implicit, as long as the error of one stays below this part of the worn depth, and a
+    /// twentieth of that of the pressure (root mean squares); of second order.
+    Tolerance(f64),
+    /// Implicit, that many of equal length; of second order.
+    Number(usize),
+    /// Explicit, that many of equal length, with the pressure of the start of each: of first
+    /// order, and unstable where they are long. The usual way, kept as a yardstick.
+    Explicit(usize),
+}
+
+impl Default for Jumps {
+    fn default() -> Self {
+        Self::Tolerance(0.01)
+    }
+}
+
+/// What a run does when a coating is worn through somewhere.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum WornThrough {
+    /// It ends there (default).
+    #[default]
+    Stop,
+    /// It goes on; where the next layer is bare it wears by that layer's law. The elastic response
+    /// stays that of the whole coating.
+    GoOn,
+}
+
+/// What wears, over how many cycles, and how this is computed.
+#[derive(Clone, Debug)]
+pub struct Wear {
+    /// How body 1 and body 2 wear.
+    pub bodies: [BodyWear; 2],
+    /// Cycles, > 0.
+    pub cycles: f64,
+    /// The first branch of the load path that belongs to the cycle, from 0 (default 1): what is
+    /// before leads in and is run through once, the rest is the cycle and ends where it begins.
+    pub first_branch: usize,
+    /// How the contact of a cycle is solved.
+    pub cycling: Cycling,
+    /// Stiffness of the rig along x, a spring in series with the contact through which shifts
+    /// are given \[N/m\]; infinite (default): the bodies themselves are moved.
+    pub rig_stiffness: f64,
+    /// How long the jumps are.
+    pub jumps: Jumps,
+    /// What happens when a coating is worn through.
+    pub worn_through: WornThrough,
+    /// Part of a coating's thickness from which a worn depth is told (default 0.1): the response is
+    /// that of a layer of constant thickness.
+    pub tell_from: f64,
+}
+
+impl Wear {
+    /// Wear of both bodies over so many cycles, all else by default.
+    pub fn new(bodies: [BodyWear; 2], cycles: f64) -> Self {
+        Self {
+            bodies,
+            cycles,
+            first_branch: 1,
+            cycling: Cycling::default(),
+            rig_stiffness: f64::INFINITY,
+            jumps: Jumps::default(),
+            worn_through: WornThrough::default(),
+            tell_from: 0.1,
+        }
+    }
+
+    /// Fails with the key, the value and what is allowed if this has no meaning for a scene.
+    pub fn check(&self, scene: &Scene) -> Result<(), Error> {
+        if !(self.cycles > 0.0 && self.cycles <= MOST_CYCLES) {
+            let allowed = format!("above 0, at most {MOST_CYCLES:e}");
+            return Err(Error::invalid("wear.cycles", self.cycles, allowed));
+        }
+        let bodies = [("body1", &scene.body1), ("body2", &scene.body2)];
+        for ((name, body), wear) in bodies.into_iter().zip(&self.bodies) {
+            wear.check(&format!("wear.{name}"), body.coatings.len() + 1)?;
+        }
+        if !self.bodies.iter().any(BodyWear::wears) {
+            return Err(Error::invalid(
+                "wear",
+                "no law",
+                "a law for one of the bodies at least",
+            ));
+        }
+        let branches = scene.path.branches.len();
+        if self.first_branch == 0 || self.first_branch >= branches {
+            return Err(Error::invalid(
+                "wear.first_branch",
+                self.first_branch,
+                format!(
+                    "1 to {}: a branch of the path after one that presses",
+                    branches.max(2) - 1
+                ),
+            ));
+        }
+        if !(self.rig_stiffness > 0.0) {
+            return Err(Error::invalid(
+                "wear.rig_stiffness",
+                self.rig_stiffness,
+                "above 0 N/m",
+            ));
+        }
+        if !(self.tell_from > 0.0 && self.tell_from <= 1.0) {
+            return Err(Error::invalid(
+                "wear.tell_from",
+                self.tell_from,
+                "above 0, at most 1",
+            ));
+        }
+        if scene.friction.mu == 0.0 || scene.friction.mu.is_infinite() {
+            let allowed = "a finite coefficient above 0 for wear";
+            return Err(Error::invalid("friction.mu", scene.friction.mu, allowed));
+        }
+        self.check_closed(scene)?;
+        if self.cycling == Cycling::Sliding {
+            stroke(scene, self)?;
+        }
+        self.jumps.check()
+    }
+
+    /// Fails if the cycle does not end where it begins.
+    fn check_closed(&self, scene: &Scene) -> Result<(), Error> {
+        let branches = &scene.path.branches;
+        let (before, last) = (
+            &branches[self.first_branch - 1].to,
+            &branches[branches.len() - 1].to,
+        );
+        if before.rolled != last.rolled {
+            return Err(Error::invalid(
+                "path.rolled",
+                last.rolled,
+                "the same at both ends of a cycle",
+            ));
+        }
+        let (from, to) = (before.forces(), last.forces());
+        let (given, ends) = (before.given.motions(), last.given.motions());
+        for k in 0..6 {
+            let name = if ends[k].is_some() {
+                crate::scene::RigidMotion::ALL.map(crate::scene::RigidMotion::name)
+            } else {
+                crate::scene::RigidMotion::ALL.map(crate::scene::RigidMotion::load)
+            }[k];
+            let same = match (given[k], ends[k]) {
+                (Some(a), Some(b)) => a == b,
+                (None, None) => from[k] == to[k],
+                _ => false,
+            };
+            if !same {
+                return Err(Error::invalid(
+                    format!("path[{}].{name}", branches.len() - 1),
+                    ends[k].unwrap_or(to[k]),
+                    format!(
+                        "what it is at the end of path[{}] ({}), where the cycle begins",
+                        self.first_branch - 1,
+                        given[k].unwrap_or(from[k]),
+                    ),
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Jumps {
+    fn check(self) -> Result<(), Error> {
+        match self {
+            Self::Tolerance(tolerance) if !(1e-6..=0.5).contains(&tolerance) => Err(
+                Error::invalid("wear.tolerance", tolerance, "between 1e-6 and 0.5"),
+            ),
+            Self::Number(n) | Self::Explicit(n) if !(1..=10_000_000).contains(&n) => {
+                Err(Error::invalid("wear.jumps", n, "1 to 10000000"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Thicknesses of the coatings of a body, the outermost first \[m\].
+pub(crate) fn thicknesses(body: &Body) -> Vec<f64> {
+    body.coatings.iter().map(|c| c.thickness).collect()
+}

@@ -1,0 +1,82 @@
+//! The worn surface of a body that lies a shift away from the cells of the grid.
+//!
+//! What cell n wears off is put on the two cells between which its place lies on the other body, in
+//! the parts of linear interpolation: S, whose columns sum to one, so that no volume is lost. The
+//! worn depth under cell n is read with the same parts, S^T. That both are one matrix makes the
+//! wear of a jump the gradient of a convex energy ([`sliding`](super::sliding)).
+
+/// A shift along x by a number of cells that need not be whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Shift {
+    whole: isize,
+    part: f64,
+}
+
+impl Shift {
+    pub(crate) fn new(cells: f64) -> Self {
+        let whole = cells.floor();
+        Self {
+            whole: whole as isize,
+            part: cells - whole,
+        }
+    }
+
+    /// Adds S times `field`, `factor` times, to `onto`; fields of `rows` cells per column.
+    pub(crate) fn put(self, field: &[f64], factor: f64, rows: usize, onto: &mut [f64]) {
+        self.pairs(field.len(), rows, |n, m, part| {
+            onto[m] += factor * part * field[n]
+        });
+    }
+
+    /// S^T times `field`.
+    pub(crate) fn read(self, field: &[f64], rows: usize, into: &mut [f64]) {
+        into.fill(0.0);
+        self.pairs(field.len(), rows, |n, m, part| into[n] += part * field[m]);
+    }
+
+    /// The cells n, the cells m where these lie on the other body, and the part of each; what
+    /// lies beyond the grid is left out.
+    fn pairs(self, cells: usize, rows: usize, mut each: impl FnMut(usize, usize, f64)) {
+        for (by, part) in [(self.whole, 1.0 - self.part), (self.whole + 1, self.part)] {
+            if part == 0.0 {
+                continue;
+            }
+            let by = by * rows as isize;
+            let from = (-by).clamp(0, cells as isize) as usize;
+            let to = (cells as isize - by).clamp(0, cells as isize) as usize;
+            for n in from..to {
+                each(n, (n as isize + by) as usize, part);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Shift;
+
+    #[test]
+    fn what_one_place_loses_is_put_on_two_cells_and_read_with_the_same_parts() {
+        let rows = 2;
+        let mut rng = fastrand::Rng::with_seed(5);
+        let mut field = || -> Vec<f64> { (0..40).map(|_| rng.f64()).collect() };
+        let (mut a, b) = (field(), field());
+        (a[..10].fill(0.0), a[30..].fill(0.0));
+        for cells in [0.0, 1.0, -2.0, 0.3, -3.7] {
+            let shift = Shift::new(cells);
+            let (mut put, mut read) = (vec![0.0; 40], vec![0.0; 40]);
+            shift.put(&a, 1.0, rows, &mut put);
+            shift.read(&b, rows, &mut read);
+            let sum = |f: &[f64]| f.iter().sum::<f64>();
+            assert!((sum(&put) - sum(&a)).abs() < 1e-13);
+            let product = |f: &[f64], g: &[f64]| f.iter().zip(g).map(|(f, g)| f * g).sum::<f64>();
+            assert!((product(&put, &b) - product(&a, &read)).abs() < 1e-13);
+            // The middle of what is put moves by the shift.
+            let middle = |f: &[f64]| {
+                let of = f.iter().enumerate().map(|(n, f)| (n / rows) as f64 * f);
+                of.sum::<f64>() / sum(f)
+            };
+            assert!((middle(&put) - middle(&a) - cells).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,295 @@
+//! Gross slip: the implicit jump of a stroke.
+//!
+//! With d_i the places of the stroke, s_i the way slipped at each per cycle and p_i the pressure there,
+//! n cycles take from body b (k_b being the coefficient of its law in its own coordinates, S_bi the
+//! shift of the grid against it, [`shift`](super::shift))
+//!
+//! ```text
+//! w_b = n k_b sum_i s_i S_bi p_i                                             depth
+//! g_i = h + C p_i + sum_b S_bi^T (w_b0 + w_b) - delta_i >= 0,  p_i >= 0,  p_i g_i = 0
+//! ```
+//!
+//! with the pressures of the end of the jump. These are the conditions of the minimum of
+//!
+//! ```text
+//! sum_i s_i [ 1/2 p_i.C p_i + p_i.(h + S_bi^T w_b0) ] + 1/2 n sum_b k_b |sum_i s_i S_bi p_i|^2
+//! ```
+//!
+//! over p_i >= 0 of given sums: convex for any n, so that no jump is too long to be solved. The places
+//! are solved one by one, each as if the pressure changed alike at all others: by Cauchy's
+//! inequality `|sum s_i x_i|^2 <= s sum s_i x_i^2` with s the sum of the s_i, that majorises the energy,
+//! which therefore falls with every round (D. R. Hunter, K. Lange, Am. Stat. 58 (2004) 30-37). The
+//! normal problem of a place has the compliance `n s sum_b S_bi^T k_b`. One place needs one round; for
+//! more the rounds are accelerated (Y. Nesterov; A. Beck, M. Teboulle, SIAM J. Imaging Sci. 2 (2009)
+//! 183-202), and begin anew where a step turns back (B. O'Donoghue, E. Candes, Found. Comput. Math. 15
+//! (2015) 715-732).
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use super::law::CellCycle;
+use super::loss::{Loss, Worn};
+use super::pressing::Pressing;
+use super::settings::{Wear, thicknesses};
+use super::shift::Shift;
+use super::stroke::{Corner, Place, stroke};
+use crate::error::Error;
+use crate::plan::Plan;
+use crate::scene::{Scene, Shape};
+
+/// Change of the pressures in a round (root mean square, over that of the pressures) that ends the rounds.
+const SETTLED: f64 = 1e-3;
+/// Times the tolerance of the scene to which the pressures of a round are solved.
+const ROUGH: f64 = 10.0;
+/// Most rounds: what is left then is seen by the estimate of the jump's error.
+const ROUNDS: usize = 60;
+
+/// The gross slip of a stroke.
+pub(crate) struct Sliding {
+    pub(crate) pressing: Pressing,
+    pub(crate) places: Vec<Place>,
+    pub(crate) corners: Vec<Corner>,
+    /// How the grid lies on body 1 and body 2 at each place.
+    shifts: Vec<[Shift; 2]>,
+    wear: Wear,
+    coatings: [Vec<f64>; 2],
+    mu: f64,
+    /// Gap between the unworn surfaces \[m\].
+    h: Vec<f64>,
+    /// Pressures at the places \[Pa\].
+    pub(crate) p: Vec<Vec<f64>>,
+}
+
+impl Sliding {
+    /// Of unworn surfaces, or with the pressures of a state.
+    pub(crate) fn new(
+        scene: &Scene,
+        wear: &Wear,
+        state: Option<Vec<Vec<f64>>>,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        let (places, corners) = stroke(scene, wear)?;
+        let plan = Plan::new(scene);
+        plan.check_memory(scene)?;
+        let pressing = Pressing::new(scene, &plan, stop)?;
+        let on_body2 = scene.body1.shape == Shape::Flat;
+        let of = |place: &Place| {
+            let cells = place.shift / scene.grid.dx;
+            let still = Shift::new(0.0);
+            if on_body2 {
+                [Shift::new(-cells), still]
+            } else {
+                [still, Shift::new(cells)]
+            }
+        };
+        let h = plan.mirror.fold(&scene.h_init());
+        // Hertz's pressure at first, up to a factor.
+        let lowest = h.iter().fold(f64::INFINITY, |m, h| m.min(*h));
+        let approach = scene.approach();
+        let guess: Vec<f64> = h
+            .iter()
+            .map(|h| (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt())
+            .collect();
+        Ok(Self {
+            shifts: places.iter().map(of).collect(),
+            p: state.unwrap_or_else(|| vec![guess; places.len()]),
+            places,
+            corners,
+            pressing,
+            wear: wear.clone(),
+            coatings: [thicknesses(&scene.body1), thicknesses(&scene.body2)],
+            mu: scene.friction.mu,
+            h,
+        })
+    }
+
+    /// Solves the pressures at all places of surfaces worn so far.
+    pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
+        let none = vec![0.0; self.h.len()];
+        for i in 0..self.places.len() {
+            let h = self.gap(worn, i);
+            self.press(i, &h, &none, 1.0)?;
+        }
+        Ok(())
+    }
+
+    /// What n cycles take from both bodies; the pressures become those of the end.
+    pub(crate) fn jump(
+        &mut self,
+        worn: &Worn,
+        cycles: f64,
+        n: f64,
+        implicit: bool,
+    ) -> Result<Loss, Error> {
+        let ways = self.pressed_ways();
+        let k = self.coefficients(worn, cycles, &ways)?;
+        if !implicit {
+            return Ok(self.loss(n, &k, &ways));
+        }
+        let mut momentum = 1.0_f64;
+        let mut around = self.p.clone();
+        for _ in 0..ROUNDS {
+            let last = self.p.clone();
+            self.round(worn, n, &k, &around)?;
+            let (mut left, mut size, mut turned) = (0.0, 0.0, 0.0);
+            for i in 0..self.places.len() {
+                for (c, p) in self.p[i].iter().enumerate() {
+                    let step = p - around[i][c];
+                    left += step * step;
+                    size += p * p;
+                    turned -= self.places[i].way * step * (p - last[i][c]);
+                }
+            }
+            if left <= SETTLED * SETTLED * size || self.places.len() == 1 {
+                break;
+            }
+            let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
+            let ahead = if turned > 0.0 {
+                0.0
+            } else {
+                (momentum - 1.0) / next
+            };
+            momentum = if turned > 0.0 { 1.0 } else { next };
+            for (around, (now, last)) in around.iter_mut().zip(self.p.iter().zip(&last)) {
+                for (around, (now, last)) in around.iter_mut().zip(now.iter().zip(last)) {
+                    *around = now + ahead * (now - last);
+                }
+            }
+        }
+        let ways = self.pressed_ways();
+        Ok(self.loss(n, &k, &ways))
+    }
+
+    /// One round over the places: the minimum of what majorises the energy around given pressures.
+    fn round(
+        &mut self,
+        worn: &Worn,
+        n: f64,
+        k: &[Vec<f64>; 2],
+        around: &[Vec<f64>],
+    ) -> Result<(), Error> {
+        let s: f64 = self.places.iter().map(|place| place.way).sum();
+        let ways = self.summed(|i| around[i].clone());
+        let mut end = worn.clone();
+        for b in 0..2 {
+            for (end, (k, way)) in end.depth[b].iter_mut().zip(k[b].iter().zip(&ways[b])) {
+                *end += n * k * way;
+            }
+        }
+        let mut compliance = vec![0.0; self.h.len()];
+        for i in 0..self.places.len() {
+            self.read(k, i, &mut compliance);
+            compliance.iter_mut().for_each(|d| *d *= n * s);
+            let mut h = self.gap(&end, i);
+            for (h, (d, p)) in h.iter_mut().zip(compliance.iter().zip(&around[i])) {
+                *h -= d * p;
+            }
+            self.press(i, &h, &compliance, ROUGH)?;
+        }
+        Ok(())
+    }
+
+    /// The place next to the middle of the stroke.
+    pub(crate) fn middle(&self) -> usize {
+        let off = |i: &usize| self.places[*i].shift.abs();
+        (0..self.places.len())
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
+            .unwrap_or(0)
+    }
+
+    /// Energy dissipated in a cycle with the present pressures \[J\].
+    pub(crate) fn dissipated_per_cycle(&self) -> f64 {
+        let slid = |i: usize| self.places[i].way * self.p[i].iter().sum::<f64>();
+        let slid: f64 = (0..self.places.len()).map(slid).sum();
+        self.mu * slid * self.pressing.cell_area()
+    }
+
+    fn loss(&self, n: f64, k: &[Vec<f64>; 2], ways: &[Vec<f64>; 2]) -> Loss {
+        let depth = [0, 1].map(|b| {
+            let cells = k[b].iter().zip(&ways[b]);
+            cells.map(|(k, way)| n * k * way).collect()
+        });
+        Loss {
+            depth,
+            dissipated: n * self.dissipated_per_cycle(),
+        }
+    }
+
+    /// The integral of the pressure over the way slipped in a cycle, in the coordinates of each body.
+    fn pressed_ways(&self) -> [Vec<f64>; 2] {
+        self.summed(|i| self.p[i].clone())
+    }
+
+    fn summed(&self, field: impl Fn(usize) -> Vec<f64>) -> [Vec<f64>; 2] {
+        let mut sums = [vec![0.0; self.h.len()], vec![0.0; self.h.len()]];
+        for (i, place) in self.places.iter().enumerate() {
+            let field = field(i);
+            for b in 0..2 {
+                self.shifts[i][b].put(&field, place.way, self.pressing.rows(), &mut sums[b]);
+            }
+        }
+        sums
+    }
+
+    fn coefficients(
+        &self,
+        worn: &Worn,
+        cycles: f64,
+        ways: &[Vec<f64>; 2],
+    ) -> Result<[Vec<f64>; 2], Error> {
+        let touched = self.summed(|i| {
+            self.p[i]
+                .iter()
+                .map(|p| f64::from(u8::from(*p > 0.0)))
+                .collect()
+        });
+        let mut k = [vec![0.0; self.h.len()], vec![0.0; self.h.len()]];
+        for b in 0..2 {
+            // A cell that is reached within the jump wears by the same law: as if it were pressed.
+            let least = 1e-9 * ways[b].iter().fold(0.0, |m: f64, w| m.max(*w));
+            let pressed: Vec<f64> = ways[b].iter().map(|w| w.max(least)).collect();
+            let s: f64 = self.places.iter().map(|place| place.way).sum();
+            let way: Vec<f64> = touched[b]
+                .iter()
+                .map(|w| if *w > 0.0 { *w } else { s })
+                .collect();
+            let dissipated: Vec<f64> = pressed.iter().map(|w| self.mu * w).collect();
+            let cycle = CellCycle {
+                pressed_way: &pressed,
+                way: &way,
+                dissipated: &dissipated,
+                worn: &worn.depth[b],
+                cycles,
+            };
+            self.wear.bodies[b].coefficients(&cycle, &self.coatings[b], &mut k[b])?;
+        }
+        Ok(k)
+    }
+
+    /// The sum of fields of both bodies as the grid finds them at a place.
+    fn read(&self, fields: &[Vec<f64>; 2], i: usize, into: &mut [f64]) {
+        let rows = self.pressing.rows();
+        let mut other = vec![0.0; into.len()];
+        self.shifts[i][0].read(&fields[0], rows, into);
+        self.shifts[i][1].read(&fields[1], rows, &mut other);
+        into.iter_mut()
+            .zip(other)
+            .for_each(|(sum, other)| *sum += other);
+    }
+
+    /// Gap between the worn surfaces at a place \[m\].
+    fn gap(&self, worn: &Worn, i: usize) -> Vec<f64> {
+        let mut gap = vec![0.0; self.h.len()];
+        self.read(&worn.depth, i, &mut gap);
+        gap.iter_mut().zip(&self.h).for_each(|(gap, h)| *gap += h);
+        gap
+    }
+
+    /// Solves the pressure at a place to so many times the tolerance of the scene.
+    fn press(&mut self, i: usize, h: &[f64], compliance: &[f64], times: f64) -> Result<(), Error> {
+        let drive = self.pressing.under(self.places[i].W);
+        self.pressing
+            .solve(h, compliance, drive, &mut self.p[i], times)?;
+        Ok(())
+    }
+}

@@ -1,0 +1,150 @@
+//! The places of a stroke: where the bodies slide past each other, and by how much.
+
+use super::settings::Wear;
+use crate::error::Error;
+use crate::scene::{Scene, Shape};
+
+/// Part of a cell within which two places are one.
+const SAME: f64 = 1e-9;
+
+/// A place of the stroke, the middle of an increment of the cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    /// Shift of body 1 against body 2 along x \[m\].
+    pub(crate) shift: f64,
+    /// Way slipped here per cycle \[m\].
+    pub(crate) way: f64,
+    /// Normal force \[N\].
+    pub(crate) W: f64,
+}
+
+/// The corners of the loop: shift of the rig \[m\], shift of the contact \[m\], force T_x \[N\].
+pub(crate) type Corner = [f64; 3];
+
+/// The places of the cycle and the corners of its loop.
+///
+/// A rig of stiffness K drives the contact through a spring, and the contact follows where the
+/// spring pulls with mu W: with u the shift of the rig and d that of the contact, each increment
+/// takes d to the nearest place with `|u - d| <= mu W/K` (a Prandtl element).
+pub(crate) fn stroke(scene: &Scene, wear: &Wear) -> Result<(Vec<Place>, Vec<Corner>), Error> {
+    check(scene, wear)?;
+    let mu = scene.friction.mu;
+    let points = scene.path.points();
+    let lead_in = points
+        .iter()
+        .take_while(|p| p.branch < wear.first_branch)
+        .count();
+    let cycle = points.len() - lead_in;
+    let u_of = |k: usize| {
+        points[k]
+            .loads
+            .given
+            .delta_x
+            .filter(|u| u.is_finite())
+            .unwrap_or(0.0)
+    };
+    let play = |d: f64, u: f64, W: f64| {
+        d.clamp(
+            u - mu * W / wear.rig_stiffness,
+            u + mu * W / wear.rig_stiffness,
+        )
+    };
+    let (mut d, mut W) = (0.0, 0.0);
+    for k in 0..lead_in {
+        W = points[k].loads.W;
+        d = play(d, u_of(k), W);
+    }
+    let mut places: Vec<Place> = Vec::new();
+    let mut corners = Vec::new();
+    // The first pass brings the contact to where every further cycle begins.
+    for pass in 0..2 {
+        for k in lead_in..points.len() {
+            let (before, W_before) = (d, W);
+            W = points[k].loads.W;
+            d = play(d, u_of(k), W);
+            if pass == 0 {
+                continue;
+            }
+            let force = if d > before {
+                mu * W
+            } else if d < before {
+                -mu * W
+            } else {
+                wear.rig_stiffness * (u_of(k) - d)
+            };
+            corners.push([u_of(k), d, force]);
+            let way = (d - before).abs();
+            let (shift, W) = (0.5 * (d + before), 0.5 * (W + W_before));
+            if way == 0.0 {
+                continue;
+            }
+            let near = SAME * scene.grid.dx;
+            let known = places
+                .iter_mut()
+                .find(|p| (p.shift - shift).abs() < near && (p.W - W).abs() <= 1e-12 * W);
+            match known {
+                Some(place) => place.way += way,
+                None => places.push(Place { shift, way, W }),
+            }
+        }
+    }
+    if places.is_empty() {
+        return Err(Error::invalid(
+            "wear.cycling",
+            format!("\"sliding\" with {cycle} increments in which nothing slides"),
+            "a stroke longer than the spring of the rig gives way under mu W",
+        ));
+    }
+    Ok((places, corners))
+}
+
+fn check(scene: &Scene, wear: &Wear) -> Result<(), Error> {
+    let refuse =
+        |key: String, value: String, allowed: &str| Err(Error::invalid(key, value, allowed));
+    let friction = &scene.friction;
+    if friction.map.is_some() || friction.history.is_some() || friction.kinetic.is_some() {
+        let allowed = "one coefficient mu where wear.cycling = \"sliding\"";
+        return refuse(
+            "friction".into(),
+            "a law of place or history".into(),
+            allowed,
+        );
+    }
+    if scene.body1.shape != Shape::Flat && scene.body2.shape != Shape::Flat {
+        let allowed = "flat where wear.cycling = \"sliding\" and body 1 is not";
+        return refuse(
+            "body2.shape".into(),
+            format!("{:?}", scene.body2.shape),
+            allowed,
+        );
+    }
+    for (b, branch) in scene.path.branches.iter().enumerate() {
+        let to = &branch.to;
+        let given = to.given.motions();
+        let allowed = "W and the shift delta_x alone where wear.cycling = \"sliding\"";
+        let others = [
+            to.T_y,
+            to.M_z,
+            to.M_x,
+            to.M_y,
+            to.sigma_B,
+            to.sigma_B1,
+            to.rolled,
+        ];
+        let moves = [1, 2, 4, 5].iter().any(|&k| given[k].unwrap_or(0.0) != 0.0);
+        if given[0].is_some() || moves || others.iter().any(|f| *f != 0.0) {
+            return refuse(format!("path[{b}]"), "other loads".into(), allowed);
+        }
+        if b >= wear.first_branch && given[3].is_none() {
+            return refuse(format!("path[{b}].T_x"), to.T_x.to_string(), allowed);
+        }
+        if b + 1 >= wear.first_branch && !(to.W > 0.0) {
+            return refuse(
+                format!("path[{b}].W"),
+                to.W.to_string(),
+                "above 0 all through the cycle",
+            );
+        }
+    }
+    Ok(())
+}

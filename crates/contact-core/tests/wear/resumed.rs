@@ -1,0 +1,129 @@
+//! A run that is stopped and taken up again is the same run.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use contact_core::output::{WearStore, resume_wear};
+use contact_core::scene::{Grid, Scene, Shape};
+use contact_core::wear::{Cycling, Jumps, Wear, WearRun, WearState};
+
+use crate::bench::{archard, cylinder, pulled, scene, to_and_fro, wear};
+use crate::splitmix::Draw;
+
+fn cases() -> [(Scene, Wear); 2] {
+    let line = Grid::strip(0.5e-3, 96, 1.0).unwrap();
+    let slides = scene(cylinder(6e-3), line, to_and_fro(18.5e3, 20e-6, 3), 0.9);
+    let laws = || [archard(2e-14), archard(3e-14)];
+    let round = Grid::centred(0.5e-3, 16).unwrap();
+    let sticks = scene(
+        Shape::Sphere { R: 10e-3 },
+        round,
+        pulled(50.0, 20.0, 3),
+        0.6,
+    );
+    let mut all = [
+        (slides, wear(laws(), 3e3, Cycling::Sliding)),
+        (sticks, wear(laws(), 1e5, Cycling::March)),
+    ];
+    all[1].1.jumps = Jumps::Number(5);
+    all
+}
+
+fn to_end(mut run: WearRun) -> WearState {
+    while let Some(jump) = run.advance() {
+        jump.unwrap();
+    }
+    run.state().clone()
+}
+
+#[test]
+fn a_run_taken_up_after_any_jump_ends_in_the_same_bits() {
+    let mut draw = Draw(7);
+    for (scene, wear) in cases() {
+        let stop = Arc::default();
+        let whole = to_end(WearRun::new(&scene, &wear, &stop).unwrap());
+        for _ in 0..6 {
+            let mut run = WearRun::new(&scene, &wear, &stop).unwrap();
+            for _ in 0..(draw.next() * whole.jumps as f64) as usize {
+                run.advance().unwrap().unwrap();
+            }
+            let bytes = postcard::to_stdvec(run.state()).unwrap();
+            drop(run);
+            let state: WearState = postcard::from_bytes(&bytes).unwrap();
+            let resumed = to_end(WearRun::resume(&scene, &wear, state, &stop).unwrap());
+            assert!(resumed == whole);
+        }
+    }
+}
+
+/// Every file of a folder, and its content.
+fn files(folder: &std::path::Path) -> Vec<(String, Vec<u8>)> {
+    let mut all = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            all.extend(files(&path));
+        } else {
+            all.push((path.display().to_string(), std::fs::read(&path).unwrap()));
+        }
+    }
+    all.sort();
+    all
+}
+
+#[test]
+fn a_store_taken_up_again_has_the_same_bytes() {
+    let (scene, wear) = cases()[0].clone();
+    let folder = tempfile::tempdir().unwrap();
+    let stop = Arc::<AtomicBool>::default();
+    let written = |name: &str, jumps: usize| {
+        let mut run = WearRun::new(&scene, &wear, &stop).unwrap();
+        let mut store = WearStore::create(folder.path().join(name), false).unwrap();
+        for _ in 0..jumps {
+            let Some(jump) = run.advance() else {
+                store.finish(&run, "done").unwrap();
+                return;
+            };
+            jump.unwrap();
+            store.write(&mut run).unwrap();
+        }
+    };
+    written("whole", usize::MAX);
+    written("killed", 4);
+    let (mut run, mut store) = resume_wear(folder.path().join("killed"), &stop)
+        .unwrap()
+        .unwrap();
+    while let Some(jump) = run.advance() {
+        jump.unwrap();
+        store.write(&mut run).unwrap();
+    }
+    store.finish(&run, "done").unwrap();
+    let (whole, killed) = (
+        files(&folder.path().join("whole")),
+        files(&folder.path().join("killed")),
+    );
+    assert_eq!(whole.len(), killed.len());
+    for ((name, a), (_, b)) in whole.iter().zip(&killed) {
+        assert!(a == b, "{name} differs");
+    }
+    assert!(
+        resume_wear(folder.path().join("killed"), &stop)
+            .unwrap()
+            .is_none()
+    );
+}
+
+#[test]
+fn a_stopped_run_keeps_its_last_jump() {
+    let (scene, wear) = cases()[0].clone();
+    let stop = Arc::<AtomicBool>::default();
+    let mut run = WearRun::new(&scene, &wear, &stop).unwrap();
+    run.advance().unwrap().unwrap();
+    let before = run.state().clone();
+    stop.store(true, Ordering::Relaxed);
+    assert!(matches!(
+        run.advance(),
+        Some(Err(contact_core::Error::Interrupted { .. }))
+    ));
+    assert!(*run.state() == before);
+}

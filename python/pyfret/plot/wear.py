@@ -1,0 +1,100 @@
+"""Figures of wear."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from pyfret.plot.style import axes, styled
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from pyfret.wearing import WearResult
+
+#: What is drawn of a worn pair.
+Which = Literal["body1", "body2", "both"]
+
+
+def _depth(result: WearResult, of: Which) -> np.ndarray:
+    d = result.dataset
+    fields = {"body1": d.worn1, "body2": d.worn2, "both": d.worn1 + d.worn2}
+    return np.asarray(fields[of])
+
+
+@styled
+def wear_profiles(
+    result: WearResult, *, of: Which = "body2", lines: int = 8, ax: Axes | None = None
+) -> Axes:
+    """Worn depth along y = 0 after several blocks of cycles, in um over x in mm, downwards."""
+    ax = axes(ax)
+    d = result.dataset
+    depth = _depth(result, of)
+    middle = depth[:, :, depth.shape[2] // 2]
+    last = len(middle) - 1
+    wanted = np.linspace(middle.max() / lines, middle.max(), lines)
+    chosen = sorted({min(int(np.searchsorted(middle.max(axis=1), w)), last) for w in wanted} | {last})
+    colours = plt.get_cmap("viridis")(np.linspace(0.9, 0.0, len(chosen)))
+    for block, colour in zip(chosen, colours, strict=True):
+        cycles = f"{float(d.block_cycles[block]):,.0f}".replace(",", " ")
+        ax.plot(1e3 * d.x, 1e6 * middle[block], color=colour, label=cycles)
+    ax.invert_yaxis()
+    worn = np.flatnonzero(middle[-1] > 1e-3 * middle.max())
+    if len(worn):
+        reach = 1.25e3 * np.abs(np.asarray(d.x)[worn]).max()
+        ax.set_xlim(-reach, reach)
+    ax.set_xlabel("$x$ [mm]")
+    ax.set_ylabel("worn depth [um]")
+    ax.legend(title="cycles", fontsize="small")
+    return ax
+
+
+@styled
+def depth_map(
+    result: WearResult, *, of: Which = "body2", block: int = -1, ax: Axes | None = None
+) -> Axes:
+    """Worn depth over the contact plane after a block of cycles, um."""
+    ax = axes(ax, square=True)
+    d = result.dataset
+    depth = 1e6 * _depth(result, of)[block].T
+    drawn = ax.pcolormesh(1e3 * d.x, 1e3 * d.y, depth, cmap="viridis", shading="nearest", rasterized=True)
+    ax.figure.colorbar(drawn, ax=ax, label="worn depth [um]", shrink=0.8)
+    ax.set_xlabel("$x$ [mm]")
+    ax.set_ylabel("$y$ [mm]")
+    return ax
+
+
+@styled
+def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
+    """Worn volume (left) and dissipated energy (right) over cycles."""
+    ax = axes(ax)
+    d = result.dataset
+    volume = 1e18 * (d.volume1 + d.volume2)
+    (line,) = ax.plot(np.r_[0, d.cycles], np.r_[0, volume])
+    ax.set_xlabel("cycles")
+    ax.set_ylabel("worn volume [um$^3$]")
+    other = ax.twinx()
+    other.grid(visible=False)
+    (energy,) = other.plot(np.r_[0, d.cycles], np.r_[0, d.dissipated], "--", color="C1")
+    other.set_ylabel("dissipated energy [J]")
+    ax.set_ylim(bottom=0)
+    other.set_ylim(bottom=0)
+    ax.legend([line, energy], ["volume", "energy"], loc="upper left")
+    return ax
+
+
+@styled
+def wear_loops(result: WearResult, *, ax: Axes | None = None) -> Axes:
+    """Friction loops at the first and at the last block of cycles."""
+    ax = axes(ax)
+    d = result.dataset
+    for block in (0, -1):
+        shift, force = (np.asarray(d[name][block]) for name in ("loop_delta_x", "loop_T_x"))
+        cycles = f"after {float(d.block_cycles[block]):,.0f} cycles".replace(",", " ")
+        ax.plot(1e6 * np.r_[shift[-1], shift], np.r_[force[-1], force], ".-", label=cycles)
+    ax.set_xlabel(r"$\delta_x$ [um]")
+    ax.set_ylabel("$T_x$ [N]")
+    ax.legend()
+    return ax
