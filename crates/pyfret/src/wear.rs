@@ -81,7 +81,7 @@ impl Law for Own {
         cycle: &core::CellCycle<'_>,
         depth: &mut [f64],
     ) -> Result<(), contact_core::Error> {
-        let call = |py: Python<'_>| -> PyResult<()> {
+        let mut call = |py: Python<'_>| -> PyResult<()> {
             let array = |field: &[f64]| field.to_pyarray(py);
             let given = (
                 array(cycle.pressed_way),
