@@ -60,23 +60,37 @@ impl Circles {
         loop {
             let far = self.distances_from(&circle, points);
             if far <= circle.square * (1.0 + OUTSIDE) {
-                return self.found(far);
+                return self.found(far, &point);
             }
             let k = place_of(&self.distances, far);
             let (larger, on) = joined(k, self.on, &point);
             if larger.square <= circle.square {
                 // Rounding: the circle is as large as it gets.
-                return self.found(far);
+                return self.found(far, &point);
             }
             (circle, self.on) = (larger, on);
         }
     }
 
-    fn found(&self, square: f64) -> Circle {
-        Circle {
-            radius: square.sqrt(),
-            on: self.on,
-        }
+    /// Of three points with a right or obtuse angle, two make the circle.
+    fn found(&self, square: f64, point: &impl Fn(usize) -> [f64; 2]) -> Circle {
+        let [a, b, c] = self.on;
+        let side = |i: usize, j: usize| {
+            let (p, q) = (point(i), point(j));
+            (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2)
+        };
+        let (ab, bc, ca) = (side(a, b), side(b, c), side(c, a));
+        let on = if ab >= bc + ca {
+            [a, b, b]
+        } else if bc >= ca + ab {
+            [b, c, c]
+        } else if ca >= ab + bc {
+            [c, a, a]
+        } else {
+            self.on
+        };
+        let radius = square.sqrt();
+        Circle { radius, on }
     }
 
     /// The squares of all distances from the centre; the largest is returned.
@@ -159,6 +173,13 @@ fn round_of_three([a, b, c]: [[f64; 2]; 3]) -> Round {
 /// Radius of the smallest circle round three points.
 pub(super) fn radius_of_three(points: [[f64; 2]; 3]) -> f64 {
     round_of_three(points).square.sqrt()
+}
+
+/// Radius of the circle through three points, or with two on a diameter: without the bend that the
+/// smallest circle has where the angle is right.
+pub(super) fn radius_through([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    let circle = through(a, b, c).unwrap_or_else(|| round_of_three([a, b, c]));
+    circle.square.sqrt()
 }
 
 /// The circle with two points at the ends of a diameter.

@@ -206,6 +206,12 @@ impl Room {
                 break;
             }
         }
+        let piece = f.deciding(best.0);
+        let (top, _) = refine(&|n| f.value(piece.smooth_parts(n)), best.0);
+        let value = f.at(top).value;
+        if value >= best.1 - 4.0 * f64::EPSILON * value.abs() {
+            best = (top, value);
+        }
         Peak {
             n: best.0,
             value: best.1,

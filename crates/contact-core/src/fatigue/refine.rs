@@ -1,6 +1,6 @@
 //! The top of a smooth function of the plane, by Newton's steps.
 
-use super::circle::radius_of_three;
+use super::circle::{radius_of_three, radius_through};
 use super::path::{Frame, normal_weights, shear_weights, unit};
 use crate::fields::StressTensor;
 
@@ -36,6 +36,16 @@ pub(super) enum First {
 impl Deciding {
     /// The two parts on the plane of a unit normal.
     pub(super) fn parts(&self, n: [f64; 3]) -> [f64; 2] {
+        self.with_circle(n, radius_of_three)
+    }
+
+    /// The same with the circle through all three points, which is as smooth as the rest, but the
+    /// smallest only where their angles are acute.
+    pub(super) fn smooth_parts(&self, n: [f64; 3]) -> [f64; 2] {
+        self.with_circle(n, radius_through)
+    }
+
+    fn with_circle(&self, n: [f64; 3], radius: impl Fn([[f64; 2]; 3]) -> f64) -> [f64; 2] {
         let normal = normal_weights(n);
         let of = |weights: &[f64; 6], s: &StressTensor| -> f64 {
             weights.iter().zip(s).map(|(w, s)| w * s).sum()
@@ -45,7 +55,7 @@ impl Deciding {
             First::Shear(factor, stresses) => {
                 let Frame { u, v, .. } = Frame::across(n);
                 let (u, v) = (shear_weights(n, u), shear_weights(n, v));
-                factor * radius_of_three(stresses.map(|s| [of(&u, &s), of(&v, &s)]))
+                factor * radius(stresses.map(|s| [of(&u, &s), of(&v, &s)]))
             }
         };
         [first, of(&normal, &self.second)]
