@@ -53,6 +53,9 @@ fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/re
 	FRET_FUZZ=600 FRET_FUZZ_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package contact-core --test fuzz -- --nocapture --test-threads=1
 
+circles: $(VENV)/.tools ## circles of imports among source files and folders
+	$(PY) tools/acyclic.py
+
 ablation: ## what each numerical method buys, switched off alone: docs/ablation.md
 	cargo run --release --locked --package contact-core --example ablation > docs/ablation.md
 
@@ -68,7 +71,7 @@ kill: ## a hundred kills of a running solve, and what checkpoints cost; the numb
 	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package fret-cli --test kill -- --nocapture --test-threads=1
 
-check: setup ## formats, lints, types, spelling, circles of imports
+check: setup ## formats, lints, types, spelling
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
@@ -78,7 +81,6 @@ check: setup ## formats, lints, types, spelling, circles of imports
 	$(PY) -m mypy.stubtest pyfret._core
 	$(PY) tools/stub_docs.py --check
 	$(BIN)/typos
-	$(PY) tools/acyclic.py
 
 stub: setup ## docstrings of the compiled module into its stub
 	$(PY) tools/stub_docs.py

@@ -18,7 +18,9 @@ STEEL = fret.Elastic(E=200e9, nu=0.3)
 HARD = fret.Elastic(E=400e9, nu=0.25)
 
 
-def contact(W: float, *, coating: float | None = None, n: int = 48, reach: float = 1.8) -> fret.Scene:
+def contact(
+    W: float, *, coating: float | None = None, n: int = 48, reach: float = 1.8
+) -> fret.Scene:
     """Give a steel sphere on a steel flat, which may have a hard coating of a thickness."""
     hertz = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)
     coatings = [] if coating is None else [fret.Coating(HARD, thickness=coating)]
@@ -68,7 +70,10 @@ def wear_rate(out: Path) -> None:
         gross = 2 * K * W * 4 * np.maximum(strokes - onset, 0)
         far = gross > 0
         ax.loglog(
-            1e6 * strokes[far], 1e18 * gross[far], "--", label=r"$2\,k\,W\,4(\delta-\delta_\mathrm{gross})$"
+            1e6 * strokes[far],
+            1e18 * gross[far],
+            "--",
+            label=r"$2\,k\,W\,4(\delta-\delta_\mathrm{gross})$",
         )
         ax.axvline(1e6 * onset, color="0.6", linewidth=1)
         ax.annotate("gross slip", (1e6 * onset * 1.05, 1e18 * min(r for r in rates if r > 0)))

@@ -49,7 +49,8 @@ def test_volume_follows_from_energy_and_depth() -> None:
     d = result.dataset
     assert np.allclose(d.volume2, 2e-14 * d.dissipated, rtol=1e-9)
     assert np.isclose(float(d.worn2[-1].max()), float(d.depth2[-1]))
-    assert float(d.cycles[-1]) == 2000 and d.worn1.max() == 0
+    assert float(d.cycles[-1]) == 2000
+    assert d.worn1.max() == 0
     assert "2000 cycles" in repr(result)
 
 
@@ -78,6 +79,7 @@ def test_bad_input_is_refused_by_name() -> None:
 def test_figures_are_drawn() -> None:
     result = worn([fret.Archard(2e-14)])
     axes = fret.plot.wear_profiles(result)
-    assert axes.get_ylabel() == "worn depth [um]" and len(axes.lines) > 2
+    assert axes.get_ylabel() == "worn depth [um]"
+    assert len(axes.lines) > 2
     assert fret.plot.wear_history(result).get_xlabel() == "cycles"
     assert len(fret.plot.wear_loops(result).lines) == 2

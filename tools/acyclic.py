@@ -1,7 +1,9 @@
 """Fails on a circle of imports among the source files, or among the folders that hold them.
 
-Read are the `use` statements and the paths of the Rust crates and the imports of the Python package. A name counts for
-the file that defines it: one that only hands it on (`pub use`, `__init__.py`) is no dependency. Within a folder, its
+Read are the `use` statements and the paths of the Rust crates and the imports of the Python
+package. A name counts for
+the file that defines it: one that only hands it on (`pub use`, `__init__.py`) is no dependency.
+Within a folder, its
 files and its folders must be without a circle too, each folder taken as one.
 """
 
@@ -24,7 +26,9 @@ ITEM = re.compile(
 USE = re.compile(r"\b(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);")
 PATH = re.compile(r"(?<![\w:])[A-Za-z_]\w*(?:::[A-Za-z_]\w*)+")
 TEST_MODULE = re.compile(r"#\[cfg\(test\)\]\s*(?:#\[[^\]]*\]\s*)*mod\s+\w+\s*(;|\{)")
-NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|r#*".*?"#*|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'', re.DOTALL)
+NOT_CODE = re.compile(
+    r'//[^\n]*|/\*.*?\*/|r#*".*?"#*|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'', re.DOTALL
+)
 
 
 def code_of(file: Path) -> str:
@@ -247,7 +251,14 @@ def main() -> int:
     graphs += [(root / src, package(root / src)) for src in PACKAGES]
     for src, graph in graphs:
         of_files = circles(graph)
-        folders = sorted({folder for file in graph for folder in file.parents if src in (folder, *folder.parents)})
+        folders = sorted(
+            {
+                folder
+                for file in graph
+                for folder in file.parents
+                if src in (folder, *folder.parents)
+            }
+        )
         of_folders = [
             circle
             for folder in folders
@@ -255,7 +266,11 @@ def main() -> int:
             if any(entry.is_dir() for entry in circle)
         ]
         for circle in of_files + of_folders:
-            print("circle:", " -> ".join(str(entry.relative_to(src)) for entry in circle), f"({src.relative_to(root)})")
+            print(
+                "circle:",
+                " -> ".join(str(entry.relative_to(src)) for entry in circle),
+                f"({src.relative_to(root)})",
+            )
         bad += len(of_files) + len(of_folders)
     return int(bad > 0)
 

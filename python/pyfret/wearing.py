@@ -24,8 +24,10 @@ class WearResult:
     """Worn surfaces over blocks of cycles, and the numbers of every jump.
 
     ``dataset`` has the scalars over ``jump`` (coordinate ``cycles``): ``volume1``, ``volume2``,
-    ``depth1``, ``depth2``, ``dissipated``, ``p_max``, ``stick_ratio``, ``depth_error``, ...; the fields
-    ``worn1``, ``worn2``, ``p``, ``stick`` over ``block``, ``x``, ``y`` (coordinate ``block_cycles``), and
+    ``depth1``, ``depth2``, ``dissipated``, ``p_max``, ``stick_ratio``, ``depth_error``, ...; the
+    fields
+    ``worn1``, ``worn2``, ``p``, ``stick`` over ``block``, ``x``, ``y`` (coordinate
+    ``block_cycles``), and
     the friction loops ``loop_delta_x``, ``loop_T_x``, ... over ``block``, ``corner``.
     """
 
@@ -95,7 +97,8 @@ def wear(
         How a body wears: one law, or one for each coating from the outermost on and one for the
         substrate; None: it does not wear. A callable takes arrays over the cells, of one cycle:
         ``pressed_way`` (integral of the pressure over the way slipped, Pa m), ``way`` (slipped, m),
-        ``dissipated`` (energy per area, J/m^2), ``worn`` (depth so far, m), and the number ``cycles`` so
+        ``dissipated`` (energy per area, J/m^2), ``worn`` (depth so far, m), and the number
+        ``cycles`` so
         far, and gives the depth that the cycle takes, m.
     share1, share2 : float, optional
         Part of what its law says that a body loses (default 1).
@@ -108,7 +111,8 @@ def wear(
     rig_stiffness : float
         Stiffness of a spring through which the shifts are given, N/m.
     tolerance : float, optional
-        Error that a jump may leave of the worn depth (default 0.01); jumps are as long as that lets.
+        Error that a jump may leave of the worn depth (default 0.01); jumps are as long as that
+        lets.
     jumps, explicit_jumps : int, optional
         That many jumps of equal length instead, implicit or explicit.
     worn_through : "stop" or "go_on"

@@ -35,7 +35,9 @@ def wear_profiles(
     middle = depth[:, :, depth.shape[2] // 2]
     last = len(middle) - 1
     wanted = np.linspace(middle.max() / lines, middle.max(), lines)
-    chosen = sorted({min(int(np.searchsorted(middle.max(axis=1), w)), last) for w in wanted} | {last})
+    chosen = sorted(
+        {min(int(np.searchsorted(middle.max(axis=1), w)), last) for w in wanted} | {last}
+    )
     colours = plt.get_cmap("viridis")(np.linspace(0.9, 0.0, len(chosen)))
     for block, colour in zip(chosen, colours, strict=True):
         cycles = f"{float(d.block_cycles[block]):,.0f}".replace(",", " ")
@@ -59,7 +61,9 @@ def depth_map(
     ax = axes(ax, square=True)
     d = result.dataset
     depth = 1e6 * _depth(result, of)[block].T
-    drawn = ax.pcolormesh(1e3 * d.x, 1e3 * d.y, depth, cmap="viridis", shading="nearest", rasterized=True)
+    drawn = ax.pcolormesh(
+        1e3 * d.x, 1e3 * d.y, depth, cmap="viridis", shading="nearest", rasterized=True
+    )
     ax.figure.colorbar(drawn, ax=ax, label="worn depth [um]", shrink=0.8)
     ax.set_xlabel("$x$ [mm]")
     ax.set_ylabel("$y$ [mm]")

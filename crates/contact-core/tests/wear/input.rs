@@ -45,8 +45,8 @@ fn what_has_no_meaning_is_refused_by_name() {
         ),
         ("wear.body1.alpha=1e-14", "wear.body1.k", "either k"),
         (
-            "wear.body2.treshold=1.0",
-            "wear.body2.treshold",
+            "wear.body2.thresholds=1.0",
+            "wear.body2.thresholds",
             "wear.body2.threshold",
         ),
         (
