@@ -1,8 +1,9 @@
 """Fails on a circle of imports among the source files, or among the folders that hold them.
 
-Read are the `use` statements and the paths of the Rust crates and the imports of the Python package. A name counts for
-the file that defines it: one that only hands it on (`pub use`, `__init__.py`) is no dependency. Within a folder, its
-files and its folders must be without a circle too, each folder taken as one.
+Read are the `use` statements and the paths of the Rust crates and the imports of the Python
+package that run. A name counts for the file that defines it: one that only hands it on (`pub use`,
+`__init__.py`) is no dependency. Within a folder, its files and its folders must be without a circle
+too, each folder taken as one.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import ast
 import re
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 CRATES = ("crates/contact-core/src", "crates/pyfret/src", "crates/fret-cli/src")
@@ -24,7 +26,9 @@ ITEM = re.compile(
 USE = re.compile(r"\b(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);")
 PATH = re.compile(r"(?<![\w:])[A-Za-z_]\w*(?:::[A-Za-z_]\w*)+")
 TEST_MODULE = re.compile(r"#\[cfg\(test\)\]\s*(?:#\[[^\]]*\]\s*)*mod\s+\w+\s*(;|\{)")
-NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|r#*".*?"#*|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'', re.DOTALL)
+NOT_CODE = re.compile(
+    r'//[^\n]*|/\*.*?\*/|r#*".*?"#*|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'', re.DOTALL
+)
 
 
 def code_of(file: Path) -> str:
@@ -156,6 +160,15 @@ class Crate:
         return graph
 
 
+def running(tree: ast.AST) -> Iterator[ast.AST]:
+    """The nodes of a Python file, but for what `if TYPE_CHECKING` keeps from running."""
+    yield tree
+    for node in ast.iter_child_nodes(tree):
+        test = node.test if isinstance(node, ast.If) else None
+        if not (isinstance(test, ast.Name) and test.id == "TYPE_CHECKING"):
+            yield from running(node)
+
+
 def package(root: Path) -> Graph:
     """Which files of a Python package each file imports from."""
     files = {}
@@ -166,7 +179,7 @@ def package(root: Path) -> Graph:
     trees = {name: ast.parse(file.read_text()) for name, file in files.items()}
     for name, tree in trees.items():
         parent = name if files[name].name == "__init__.py" else name[:-1]
-        for node in ast.walk(tree):
+        for node in running(tree):
             if isinstance(node, ast.ImportFrom):
                 base = parent[: len(parent) - node.level + 1] if node.level else ()
                 module = base + tuple((node.module or "").split(".") if node.module else ())
@@ -247,7 +260,14 @@ def main() -> int:
     graphs += [(root / src, package(root / src)) for src in PACKAGES]
     for src, graph in graphs:
         of_files = circles(graph)
-        folders = sorted({folder for file in graph for folder in file.parents if src in (folder, *folder.parents)})
+        folders = sorted(
+            {
+                folder
+                for file in graph
+                for folder in file.parents
+                if src in (folder, *folder.parents)
+            }
+        )
         of_folders = [
             circle
             for folder in folders
@@ -255,7 +275,11 @@ def main() -> int:
             if any(entry.is_dir() for entry in circle)
         ]
         for circle in of_files + of_folders:
-            print("circle:", " -> ".join(str(entry.relative_to(src)) for entry in circle), f"({src.relative_to(root)})")
+            print(
+                "circle:",
+                " -> ".join(str(entry.relative_to(src)) for entry in circle),
+                f"({src.relative_to(root)})",
+            )
         bad += len(of_files) + len(of_folders)
     return int(bad > 0)
 
