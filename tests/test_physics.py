@@ -30,8 +30,7 @@ def test_complementarity_and_coulomb(coated: fret.Result) -> None:
     assert (p[contact] > 0).all()
     assert (p[~contact] == 0).all()
     # Overlap is bounded in every cell, up to the rounding of u_z; the gap in the root mean square
-    # over the
-    # contact, and one cell may hold all of it.
+    # over the contact, and one cell may hold all of it.
     assert (gap[~contact] >= -1.001 * TOLERANCE * coated.delta_H).all()
     most = np.sqrt(contact.sum(axis=(1, 2)).max())
     assert np.abs(gap[contact]).max() < most * TOLERANCE * coated.delta_H

@@ -6,6 +6,7 @@ mod dissipation;
 mod energy;
 pub(crate) mod misfit;
 mod response;
+mod sector;
 mod slip;
 
 use std::fmt::{Debug, Formatter, Result};

@@ -15,18 +15,14 @@
 //! (sum |moved|^2)^(1/2) <= tol [N^(1/2) + (sum_j N_j)^(1/2)].
 //! ```
 //!
-//! A cell that slips does so against a shear that turns from where slip begins to that at the end: what it
-//! moved lies between the opposites of both, but for e - e_j of that one increment. In a cell that slips all the
-//! time slip begins with the shear at the start. In a cell that stuck then it begins on the way, with a shear at
-//! its bound that is nearer to the one at the end than the one at the start was.
-
-use std::f64::consts::FRAC_PI_2;
+//! A cell that slips moves against the shear ([`Sector`]), but for e - e_j of that one increment.
 
 use contact_core::march::{Increment, Status};
 use contact_core::scene::Scene;
 use ndarray::Array2;
 
-use super::{Audit, End, Law, Violations, dot, shear, size};
+use super::sector::Sector;
+use super::{Audit, End, Law, Violations, dot};
 
 /// Where cells have come to rest.
 pub(super) struct Rest {
@@ -85,17 +81,13 @@ impl Audit {
             if !known || p <= 0.0 {
                 continue;
             }
-            let (from, to) = (shear(&self.start.fields, n), shear(f, n));
-            let off = if enters {
-                // What it moved before it entered is no slip; the fields tell the rest.
-                let against = if f.stick[n] { [0.0; 2] } else { to };
-                Sector::about(against, 0.0).off(self.gain(f, n))
-            } else if self.start.fields.stick[n] {
-                let way = size([to[0] - from[0], to[1] - from[1]]);
-                Sector::about(to, way).off(self.moved(f, shift, n))
+            // What a cell moved before it entered is no slip; the fields tell the rest.
+            let by = if enters {
+                self.gain(f, n)
             } else {
-                Sector::between(from, to).off(self.moved(f, shift, n))
+                self.moved(f, shift, n)
             };
+            let off = Sector::of(&self.start.fields, f, n).off(by);
             slip += off * off;
         }
         if self.scene.friction.mu == 0.0 || contact == 0 || !known {
@@ -114,44 +106,4 @@ impl Audit {
             slip.sqrt() / (tolerance * (cells.sqrt() + before.sqrt())),
         );
     }
-}
-
-/// Directions within an angle of one.
-struct Sector {
-    middle: [f64; 2],
-    half: f64,
-}
-
-impl Sector {
-    /// Between two shears.
-    fn between(from: [f64; 2], to: [f64; 2]) -> Self {
-        let unit = |q: [f64; 2]| q.map(|c| c / size(q).max(f64::MIN_POSITIVE));
-        let (from, to) = (unit(from), unit(to));
-        Self {
-            middle: [from[0] + to[0], from[1] + to[1]],
-            half: 0.5 * angle(from, to),
-        }
-    }
-
-    /// Of the shears of the size of `to` that are no farther from it than `way`.
-    fn about(to: [f64; 2], way: f64) -> Self {
-        Self {
-            middle: to,
-            half: 2.0 * (0.5 * way / size(to)).min(1.0).asin(),
-        }
-    }
-
-    /// How far the opposite of a motion is from the sector \[m\].
-    fn off(&self, moved: [f64; 2]) -> f64 {
-        if size(self.middle) == 0.0 {
-            return size(moved);
-        }
-        let beyond = angle(self.middle, moved.map(|v| -v)) - self.half;
-        size(moved) * beyond.clamp(0.0, FRAC_PI_2).sin()
-    }
-}
-
-/// Between 0 and pi.
-fn angle(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] * b[1] - a[1] * b[0]).abs().atan2(dot(a, b))
 }

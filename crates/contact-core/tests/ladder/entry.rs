@@ -1,12 +1,11 @@
 //! Cells that enter the contact while it grows, against increments so short that it does not matter how.
 //!
 //! A cell that the contact reaches within an increment has moved freely until then, and its slip is reckoned
-//! from there (`solver.entering`). The truth does without that: increments of a part of a cell of radius, with
-//! slip reckoned from the start of the increment, are off by a part of that, and two of them tell the limit,
-//! since the error is of first order in the increment. An increment of the contact radius a over N steps has
-//! cells enter at every distance from its edge. What a cell moves as the edge comes nearer bends like a root
-//! of that distance at the edge, so that all that is known of it from an increment that goes from one edge to
-//! the next is good to the 3/2 power of its length.
+//! from there (`solver.entering`). What it moves as the edge of the contact comes nearer bends like a root of
+//! the distance to it. So what one increment of N that lead to the radius a tells of that way, from one edge to
+//! the next, is good to the 3/2 power of its length, 1/N; once an increment is as short as a cell, the cells
+//! are what is left. The truth are increments of half a cell, and slip reckoned from the start of the increment
+//! leads to the same limit, of first order in the increment.
 
 use contact_core::scene::{Branch, Elastic, LoadPath, Loads, Scene, Spacing};
 use ndarray::Array2;
@@ -44,28 +43,27 @@ fn distance(one: &[Array2<f64>; 2], other: &[Array2<f64>; 2]) -> f64 {
     size([0, 1].map(|c| norm(&(&one[c] - &other[c])))) / size([0, 1].map(|c| norm(&other[c])))
 }
 
-/// Whatever the number of increments, the shear of `of` so many is the limit of short ones.
+/// Few increments come as near to the limit of short ones as their length says, and so do short ones that
+/// reckon slip from the start.
 #[track_caller]
 fn leads_to_the_limit_of_short_increments(of: impl Fn(usize) -> Scene) {
     let d = cell(&of(1));
     let radius = (1.0 / d).round() as usize;
-    let uncorrected = |increments: usize| {
-        let mut scene = of(increments);
-        scene.settings.solver.entering = false;
-        shear(&scene)
-    };
-    let [long, short] = [2, 4].map(|parts| uncorrected(parts * radius));
-    let limit = [0, 1].map(|c| 2.0 * &short[c] - &long[c]);
+    let limit = shear(&of(2 * radius));
     for increments in [5, 10, radius] {
         let error = distance(&shear(&of(increments)), &limit);
-        let n = increments as f64;
-        // Coated flats and forces in proportion leave most: 1.6 times the 3/2 power.
-        let allowed = 2.0 * n.powf(-1.5) + FIELD * d;
+        let allowed = (increments as f64).powf(-1.5) + FIELD * d;
         assert!(
             error < allowed,
             "{error:.1e} after {increments} increments, allowed {allowed:.1e}"
         );
     }
+    let [long, short] = [2, 4].map(|parts| {
+        let mut scene = of(parts * radius);
+        scene.settings.solver.entering = false;
+        distance(&shear(&scene), &limit)
+    });
+    assert!(short < 0.5 * (long + FIELD * d), "{long:.1e} {short:.1e}");
 }
 
 #[test]
