@@ -134,7 +134,7 @@ def wear(
         scene = scene.replace(path=path)
 
     def run(store: str | os.PathLike[str]) -> None:
-        with Progress(round(cycles), title=scene.title or "wear", shown=progress) as bar:
+        with Progress(title=scene.title or "wear", shown=progress) as bar:
             _core.wear(
                 scene,
                 body1=body1,
@@ -151,7 +151,7 @@ def wear(
                 explicit_jumps=explicit_jumps,
                 go_on=worn_through == "go_on",
                 tell_from=tell_from,
-                on_jump=lambda done: bar.update(round(done)),
+                on_jump=lambda done: bar.update(round(done), round(cycles)),
             )
 
     if out is not None:
@@ -171,7 +171,7 @@ def resume_wear(store: str | os.PathLike[str], *, progress: bool = True) -> Wear
     StoreError
         There is no run of wear, or its checkpoint is damaged or of another version of pyfret.
     """
-    with Progress(0, title="resumed", shown=progress):
+    with Progress(title="resumed", shown=progress):
         _core.resume_wear(store)
     return open_wear(store)
 

@@ -19,6 +19,7 @@ use crate::{Failure, print, say};
 
 /// Options of `fret stress`.
 #[derive(Args)]
+#[expect(clippy::struct_excessive_bools, reason = "switches of the command")]
 pub(crate) struct Options {
     /// Result store of `fret run`
     store: PathBuf,

@@ -81,6 +81,7 @@ pub(crate) fn principal<'py>(
 ///
 /// The value, its place, depth and layer, and the error that the distances of the depths leave.
 #[pyfunction]
+#[expect(clippy::type_complexity, reason = "a tuple of Python")]
 pub(crate) fn maximum(
     name: String,
     stress: PyArrayLike3<'_, f64, AllowTypeChange>,

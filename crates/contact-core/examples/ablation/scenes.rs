@@ -36,7 +36,7 @@ path = [{ W = 1000.0, spacing = "equal_radius" }]
 "#;
 
 /// A coated sphere with two waves: contact in spots.
-const SPOTS: &str = r#"
+const SPOTS: &str = r"
 schema = 1
 friction.mu = 0.3
 grid = { n = 128, extent = { a_H = 2.6 } }
@@ -50,7 +50,7 @@ shape = { waviness = { amplitude = 1e-6, wavelength = 1e-4, angle = 1.5707963267
 E = 210e9
 nu = 0.3
 coatings = [{ E = { E_substrate = 2.0 }, nu = 0.3, thickness = 5e-5 }]
-"#;
+";
 
 /// Torsion of a Hertz contact to a stick zone of half its radius and back.
 const TORSION: &str = r#"
@@ -78,15 +78,14 @@ fn trial(
     increments: Option<&[usize]>,
     finer: &[usize],
 ) -> Result<Trial, Error> {
-    let scene = match increments {
-        Some(increments) => with(text, increments)?,
-        None => {
-            let open: Vec<String> = (0..finer.len())
-                .map(|branch| format!("path.{branch}.increments=\"auto\""))
-                .collect();
-            let scene = Scene::from_toml_str(text, "ablation", &open)?;
-            choose_increments(&scene, &std::sync::Arc::default())?
-        }
+    let scene = if let Some(increments) = increments {
+        with(text, increments)?
+    } else {
+        let open: Vec<String> = (0..finer.len())
+            .map(|branch| format!("path.{branch}.increments=\"auto\""))
+            .collect();
+        let scene = Scene::from_toml_str(text, "ablation", &open)?;
+        choose_increments(&scene, &std::sync::Arc::default())?
     };
     let mut reference = with(text, finer)?;
     reference.settings.solver.tolerance = Some(1e-7);

@@ -122,7 +122,7 @@ mod tests {
             assert!(of_layer(layer).count() >= 5, "layer {layer}: {depths:?}");
         }
         for (n, z) in body.interfaces().into_iter().enumerate() {
-            assert_eq!(of_layer(n).last(), Some(z));
+            assert_eq!(of_layer(n).next_back(), Some(z));
             assert_eq!(of_layer(n + 1).next(), Some(z));
         }
         assert!(depths[0].z == 0.0 && depths.last().is_some_and(|d| d.z == deepest));

@@ -54,8 +54,7 @@ impl Consolidated {
         // The bracket that closes the object comes after the checksum.
         text.truncate(text.len() - "\n}".len());
         let crc = crc32fast::hash(text.as_bytes());
-        text.push_str(&format!("{}{crc:08x}{}", TAIL.0, TAIL.1));
-        text
+        [&text, TAIL.0, &format!("{crc:08x}"), TAIL.1].concat()
     }
 
     /// What the file holds, and whether it is whole. An error if it is no consolidated metadata.

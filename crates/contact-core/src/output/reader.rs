@@ -62,11 +62,11 @@ impl Store {
             )));
         }
         Ok(Self {
+            folder,
+            consolidated,
+            scene,
             increments,
             saved,
-            consolidated,
-            folder,
-            scene,
         })
     }
 

@@ -43,7 +43,7 @@ mod tests {
 
     #[test]
     fn cells_outside_have_what_those_beside_them_have() {
-        let all = outward(3, 15, |n| (6..9).contains(&n).then(|| (n % 3) as f64));
+        let all = outward(3, 15, |n| (6..9).contains(&n).then_some((n % 3) as f64));
         assert_eq!(all[6..9], [0.0, 1.0, 2.0]);
         assert_eq!(all[9..12], [0.5, 1.0, 1.5]);
         assert!(all[12..].iter().all(|v| (0.5..=1.5).contains(v)));

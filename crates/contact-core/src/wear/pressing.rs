@@ -175,18 +175,19 @@ impl Pressing {
             &params,
         );
         found.map_err(|e| {
-            match response
+            if response
                 .stop
                 .is_some_and(|s| s.load(std::sync::atomic::Ordering::Relaxed))
             {
-                true => Error::Interrupted { increment: 0 },
-                false => Error::NotConverged {
+                Error::Interrupted { increment: 0 }
+            } else {
+                Error::NotConverged {
                     increment: 0,
                     solver: e.solver,
                     residual: e.residual,
                     tolerance: e.tolerance,
                     iterations: e.iterations,
-                },
+                }
             }
         })
     }

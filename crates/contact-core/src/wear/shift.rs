@@ -24,7 +24,7 @@ impl Shift {
     /// Adds S times `field`, `factor` times, to `onto`; fields of `rows` cells per column.
     pub(crate) fn put(self, field: &[f64], factor: f64, rows: usize, onto: &mut [f64]) {
         self.pairs(field.len(), rows, |n, m, part| {
-            onto[m] += factor * part * field[n]
+            onto[m] += factor * part * field[n];
         });
     }
 
@@ -61,7 +61,8 @@ mod tests {
         let mut rng = fastrand::Rng::with_seed(5);
         let mut field = || -> Vec<f64> { (0..40).map(|_| rng.f64()).collect() };
         let (mut a, b) = (field(), field());
-        (a[..10].fill(0.0), a[30..].fill(0.0));
+        a[..10].fill(0.0);
+        a[30..].fill(0.0);
         for cells in [0.0, 1.0, -2.0, 0.3, -3.7] {
             let shift = Shift::new(cells);
             let (mut put, mut read) = (vec![0.0; 40], vec![0.0; 40]);

@@ -179,7 +179,9 @@ impl Sliding {
         let mut compliance = vec![0.0; self.h.len()];
         for i in 0..self.places.len() {
             self.read(k, i, &mut compliance);
-            compliance.iter_mut().for_each(|d| *d *= n * s);
+            for d in &mut compliance {
+                *d *= n * s;
+            }
             let mut h = self.gap(&end, i);
             for (h, (d, p)) in h.iter_mut().zip(compliance.iter().zip(&around[i])) {
                 *h -= d * p;

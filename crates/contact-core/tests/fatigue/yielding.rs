@@ -48,7 +48,7 @@ fn first_yield_below_a_sphere() {
 /// E. McEwen's stress below a line contact of unit half-width and peak pressure.
 fn below_a_cylinder(x: f64, z: f64) -> Tensor {
     let root = ((1.0 - x * x + z * z).powi(2) + 4.0 * x * x * z * z).sqrt();
-    let m = ((root + 1.0 - x * x + z * z) / 2.0).sqrt();
+    let m = f64::midpoint(root + 1.0 - x * x, z * z).sqrt();
     let n = x.signum() * ((root - (1.0 - x * x + z * z)) / 2.0).max(0.0).sqrt();
     let share = (z * z + n * n) / (m * m + n * n);
     let (xx, zz) = (-m * (1.0 + share) + 2.0 * z, -m * (1.0 - share));

@@ -54,7 +54,7 @@ fn row(ratio: f64, h: f64, n: usize) -> (Scene, CoatedIndentation) {
         },
         thickness: h * bare.a,
     };
-    let truth = coated_indentation(R, Elastic::RIGID, layer, STEEL, W).unwrap();
+    let truth = coated_indentation(R, Elastic::RIGID, layer, STEEL, W).expect("a closed form");
     let path = LoadPath::start().normal(W, 1);
     let extent = 2.3 * truth.a / bare.a;
     let scene = sphere_on_flat(Elastic::RIGID, STEEL, 0.0, (extent, n), path);

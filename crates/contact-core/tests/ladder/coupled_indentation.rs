@@ -77,7 +77,7 @@ fn the_stick_radius_is_of_second_order_in_the_increments() {
     for pair in errors.windows(2) {
         // What the cells leave, some 2e-4, may take up to half of one from the order of the last.
         let order = (pair[0] / pair[1]).log2();
-        assert!(order > 1.5, "{order}: {errors:.1e?}");
+        assert!(order > 1.5, "{order}: {errors:?}");
     }
 }
 

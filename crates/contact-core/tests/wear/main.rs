@@ -1,4 +1,5 @@
 //! Wear against closed forms, finite elements and itself.
+#![allow(clippy::print_stdout, clippy::unwrap_used)] // figures with --nocapture; a test may fail
 
 mod bench;
 mod coatings;
