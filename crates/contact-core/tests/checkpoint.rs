@@ -264,7 +264,7 @@ fn a_checkpoint_of_another_version_or_scene_is_refused() {
     )
     .unwrap();
     let error = refusal(&path);
-    assert!(error.contains("belongs to another scene"), "{error}");
+    assert!(error.contains("is damaged"), "{error}");
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn cycle(direction: Direction, c: &Cycle) -> Value {
     })
 }
 
-/// The word of a direction, as in [`pyfret.Result.loops`].
+/// The word of a direction, as in `pyfret.Result.loops`.
 pub(crate) fn word(direction: Direction) -> &'static str {
     match direction {
         Direction::X => "x",

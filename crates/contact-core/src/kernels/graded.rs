@@ -5,7 +5,7 @@ use crate::scene::{Coating, Elastic};
 
 /// Most layers that stand for a coating: the error falls with the square of their number, and a
 /// thousand leave a millionth of it.
-const MOST_LAYERS: usize = 1000;
+const MOST_LAYERS: usize = 10_000;
 
 /// How a property changes from the surface of a graded coating to its bottom.
 #[derive(Clone, Debug, PartialEq)]

@@ -72,8 +72,14 @@ impl Checkpoints {
     pub(super) fn begin(folder: &Arc<Folder>, scene: &str) -> Result<Self, Error> {
         let failed = |e: io::Error| folder.error(&format!("{INCREMENTS}: {e}"));
         fs::create_dir_all(folder.root().join(FOLDER)).map_err(failed)?;
+        Self::open(folder, scene, true)
+    }
+
+    /// With the file of increments, which is made if it is to be a `new` one.
+    fn open(folder: &Arc<Folder>, scene: &str, new: bool) -> Result<Self, Error> {
+        let failed = |e: io::Error| folder.error(&format!("{INCREMENTS}: {e}"));
         let increments = OpenOptions::new()
-            .create(true)
+            .create(new)
             .append(true)
             .open(folder.root().join(INCREMENTS))
             .map_err(failed)?;
@@ -99,7 +105,7 @@ impl Checkpoints {
 
     /// The newest checkpoint of a run of the scene that is whole.
     pub(super) fn find(folder: &Arc<Folder>, scene: &str) -> Result<Found, Error> {
-        let mut checkpoints = Self::begin(folder, scene)?;
+        let mut checkpoints = Self::open(folder, scene, false)?;
         let log = checkpoints.read(INCREMENTS)?.unwrap_or_default();
         let (mut whole, mut damaged) = (Vec::new(), Vec::new());
         for (which, name) in STATES.into_iter().enumerate() {

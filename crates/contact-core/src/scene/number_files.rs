@@ -90,8 +90,13 @@ pub(super) fn read_table(path: &Path) -> Result<Array2<f64>, String> {
         .map(|(n, line)| (n + 1, line.trim()))
         .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
         .collect();
-    let last = lines.last().map_or("", |(_, line)| line);
-    let parting = [';', '\t', ','].into_iter().find(|c| last.contains(*c));
+    // The line with most of them: a short last line has none.
+    let partings = [';', '\t', ','];
+    let fullest = lines
+        .iter()
+        .max_by_key(|(_, line)| line.matches(partings).count());
+    let fullest = fullest.map_or("", |(_, line)| line);
+    let parting = partings.into_iter().find(|c| fullest.contains(*c));
     let mut rows: Vec<Vec<f64>> = Vec::with_capacity(lines.len());
     for (n, (number, line)) in lines.iter().enumerate() {
         match row(line, parting) {

@@ -15,6 +15,7 @@ impl Edge {
     /// The same border as that of the zone on its other side; `inside`: whether the cell is in that.
     pub(crate) fn other_side(self, inside: bool) -> Self {
         let level = self.level.map(|level| Level {
+            bias: -level.bias,
             middle: -level.middle,
             gradient: level.gradient.map(|g| -g),
             ..level
@@ -25,7 +26,10 @@ impl Edge {
     /// The part of the cell that belongs to the zone, 0 to 1; all or nothing without a level.
     pub(crate) fn share(&self) -> f64 {
         match self.level {
-            Some(level) => half_plane(level.middle, level.gradient),
+            Some(level) => {
+                let slope = level.gradient[0].hypot(level.gradient[1]);
+                half_plane(level.middle - level.bias * slope, level.gradient)
+            }
             None => f64::from(u8::from(self.inside)),
         }
     }

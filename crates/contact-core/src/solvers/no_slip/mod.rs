@@ -13,7 +13,7 @@
 //!   it does not add up along the path (defect correction);
 //! - m, the entry motion of cells outside the last contact: how far they move freely before they touch;
 //! - t, the turn of cells in it: eq. (8) holds the slip against the shear at the end of the increment,
-//!   where it opposed a shear that turned ([`turn`]).
+//!   where it opposed a shear that turned.
 //!
 //! Slip is computed here and nowhere else: [`slip`] in one cell.
 
