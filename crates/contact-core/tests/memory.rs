@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use cap::Cap;
 use contact_core::Scene;
-use contact_core::estimate::{BranchEnds, error_bars, finest};
+use contact_core::estimate::{BranchEnds, choose_increments, error_bars, finest};
 use contact_core::kernels::clear_cache;
 use contact_core::march::solve;
 use contact_core::output::StoreWriter;
@@ -93,6 +93,7 @@ fn a_run_takes_no_more_memory_than_announced() {
         clear_cache();
         let mut writer = StoreWriter::create(folder.path().join(run.to_string()), false).unwrap();
         let mut ends = BranchEnds::beside(&mut writer);
+        let scene = choose_increments(&scene, &Arc::default()).unwrap();
         let increments = solve(&scene, &mut ends).unwrap();
         let tractions = ends.tractions;
         if bars {

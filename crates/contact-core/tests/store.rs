@@ -265,7 +265,7 @@ fn damage_is_named() {
     assert!(text(store.column("F").unwrap_err()).contains("holds no F"));
 
     let metadata = fs::read_to_string(path.join(".zmetadata")).unwrap();
-    let other = metadata.replace("\"schema\": 1", "\"schema\": 9");
+    let other = metadata.replace("\"schema\": 2", "\"schema\": 9");
     fs::write(path.join(".zmetadata"), other).unwrap();
     let error = text(Store::open(&path).err().unwrap());
     assert!(
@@ -275,10 +275,7 @@ fn damage_is_named() {
     let endless = metadata.replace("      12\n", "      1200000000000\n");
     fs::write(path.join(".zmetadata"), endless).unwrap();
     let error = text(Store::open(&path).err().unwrap());
-    assert!(
-        error.contains("scalars of 1200000000000 increments"),
-        "{error}"
-    );
+    assert!(error.contains(".zmetadata is damaged"), "{error}");
     fs::write(path.join(".zmetadata"), &metadata[..metadata.len() / 2]).unwrap();
     let error = text(Store::open(&path).err().unwrap());
     assert!(error.contains(".zmetadata is damaged"), "{error}");

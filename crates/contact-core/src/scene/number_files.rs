@@ -115,7 +115,7 @@ pub(super) fn read_table(path: &Path) -> Result<Array2<f64>, String> {
     if rows
         .iter()
         .all(|row| row.len() > 1 && row[row.len() - 1].is_nan())
-        && last.ends_with([';', ','])
+        && fullest.ends_with([';', ','])
     {
         for row in &mut rows {
             row.pop();

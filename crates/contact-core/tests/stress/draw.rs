@@ -104,6 +104,9 @@ fn sphere(seed: u64) -> Drawn {
     if body1.substrate.is_rigid() && body2.substrate.is_rigid() {
         body2.substrate = Elastic { E: 2e11, nu: 0.3 };
     }
+    // A contact as large as the sphere is refused.
+    let a = hertz(R, body1.substrate, body2.substrate, W).a;
+    let W = W * (0.3 * R / a).powi(3).min(1.0);
     let a_H = hertz(R, body1.substrate, body2.substrate, W).a;
     if rng.f64() < 0.2 {
         coat(rng, &mut body1, a_H);
