@@ -516,13 +516,13 @@ class SurfaceMap:
         Parameters
         ----------
         path : path
-            An array of real or whole numbers of any size and byte order, or a table parted by commas,
-            semicolons, tabs or blanks, with or without a line of titles.
+            An array of real or whole numbers of any size and byte order, or a table parted by
+            commas, semicolons, tabs or blanks, with or without a line of titles.
         spacing : float or (float, float)
             Distance of the points, along x and y [m].
         missing : "refuse", "crop" or "fill"
-            What becomes of points without a number (blank or NaN): an error that says where they are;
-            lines taken off the edges; the mean of the neighbours.
+            What becomes of points without a number (blank or NaN): an error that says where they
+            are; lines taken off the edges; the mean of the neighbours.
         """
     @property
     def values(self) -> _Array:
@@ -598,8 +598,8 @@ class Body:
 class History:
     """What a cell has been through.
 
-    ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the cell has
-    slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2].
+    ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
+    cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2].
     """
 
     INCREMENT: ClassVar[History]
@@ -714,8 +714,8 @@ class Grid:
 class Spacing:
     """How the increments of a branch are spaced.
 
-    ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius of a
-    paraboloid; natural for an indentation.
+    ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
+    of a paraboloid; natural for an indentation.
     """
 
     UNIFORM: ClassVar[Spacing]
@@ -915,8 +915,9 @@ class LoadPath:
         Parameters
         ----------
         delta_z, delta_x, delta_y : float or sequence of float, optional
-            Approach and shifts [m]. One of all the motions may be a sequence: its values are visited
-            in turn, and the increments shared out in proportion to the change, as `tangential` does.
+            Approach and shifts [m]. One of all the motions may be a sequence: its values are
+            visited in turn, and the increments shared out in proportion to the change, as
+            `tangential` does.
         phi_x, phi_y, phi_z : float or sequence of float, optional
             Tilts and rotation about z [rad].
         increments : int or "auto"
@@ -944,9 +945,10 @@ class LoadPath:
         phi_z: float | None = None,
         increments: _Count = ...,
     ) -> LoadPath:
-        """Go through `n` cycles of one load or motion about zero, what is not named staying as it was.
+        """Go through `n` cycles of one load or motion about zero.
 
-        The path goes to the amplitude, then `n` times to its opposite and back.
+        The path goes to the amplitude, then `n` times to its opposite and back; what is not named
+        stays as it was.
 
         Parameters
         ----------
@@ -1011,8 +1013,8 @@ class LoadPath:
 class Preset:
     """Families of algorithms.
 
-    ``FAST``: preconditioned solvers; sets and fields carried over and extrapolated. ``SPINU2020``: the
-    paper's, plain conjugate gradients in both directions, plain alternation.
+    ``FAST``: preconditioned solvers; sets and fields carried over and extrapolated.
+    ``SPINU2020``: the paper's, plain conjugate gradients in both directions, plain alternation.
     """
 
     FAST: ClassVar[Preset]
@@ -1314,9 +1316,10 @@ class Scene:
         [3e-06, 3.5e-06]
         """
     def length(self, p: ArrayLike) -> float:
-        """The length that results of an increment of pressure `p` [Pa], shape (nx, ny), are measured in [m].
+        """Length that results of an increment are measured in [m].
 
-        a_H, or where there is no Hertz contact half the longer side of the box around the contact.
+        That is a_H, or where there is no Hertz contact half the longer side of the box around the
+        cells under the pressure `p` [Pa], shape (nx, ny).
         """
     def doubts(self) -> list[str]:
         """What is allowed but hardly meant: numbers that look like those of another unit.
@@ -1788,8 +1791,8 @@ def solve(
 ) -> None:
     """Run a scene into a new result store; use :func:`pyfret.solve`, which opens it.
 
-    `on_increment` is called with the number of each increment solved and their number in all, which is
-    known once they are chosen.
+    `on_increment` is called with the number of each increment solved and their number in all,
+    which is known once they are chosen.
     """
 
 def resume(
@@ -1801,7 +1804,7 @@ def resume(
     """Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it."""
 
 def verify(store: str | PathLike[str]) -> str:
-    """Check every file of a result store; give the attributes of its group as JSON."""
+    """Checks a store and gives the attributes of its group as JSON."""
 
 def probe_labels() -> dict[str, tuple[str, str]]:
     """Units and meaning of everything that follows from the stress."""
@@ -1812,8 +1815,10 @@ def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
 def chosen_depths(
     body: Body, *, a: float, deepest: float, finer: float = 1.0
 ) -> tuple[list[float], list[int]]:
-    """Depths [m] with their layers that the layers of a body ask for, to the depth `deepest` [m] under a
-    contact of the radius `a` [m]; `finer` times as many as the default.
+    """Depths [m] that the layers of a body ask for, with their layers.
+
+    They go to the depth `deepest` [m] under a contact of the radius `a` [m]; `finer` times as
+    many as the default.
     """
 
 def measure(name: str, stress: ArrayLike) -> _Array:
@@ -1829,7 +1834,10 @@ def maximum(
     layer: Sequence[int],
     along: Sequence[float],
 ) -> tuple[float, float, float, int, float] | None:
-    """Largest value on a section of stresses (6, depths, places): value, place, depth, layer, error."""
+    """Largest value on a section of stresses (6, depths, places).
+
+    The value, its place, depth and layer, and the error that the distances of the depths leave.
+    """
 
 def rims(stress: ArrayLike, along: Sequence[float]) -> tuple[list[float], _Array]:
     """Places of the rims on a line on the surface, and stresses (6, rims), from stresses (6, n)."""
@@ -1928,12 +1936,7 @@ class Envelope:
 
 @final
 class Criterion:
-    """A criterion of crack initiation with its numbers.
-
-    s_n is the normal stress on a plane, tau_a the shear amplitude there (radius of the smallest
-    circle round the path of the shear stress), p_h the hydrostatic stress, tension positive;
-    strains are those of the elastic stress. ``docs/fatigue.md`` has the sources.
-    """
+    """A criterion with its numbers."""
 
     @staticmethod
     def crossland(*, alpha: float) -> Criterion:
@@ -1972,14 +1975,14 @@ class Criterion:
 
 @final
 class Assessment:
-    """A criterion with the limit or the curve of lives of a material."""
+    """A criterion with its limit or its curve of lives."""
 
     @property
     def criterion(self) -> Criterion:
         """The criterion with the weights of the material."""
     @property
     def limit(self) -> float | None:
-        """Limit for endless life, in the unit of the value; None if the criterion gives lives."""
+        """The limit, or nothing where the criterion gives lives."""
     def safety_factor(self, value: float) -> float:
         """Limit over value; NaN for criteria that give lives."""
     def life(self, value: float) -> float:
@@ -1988,7 +1991,7 @@ class Assessment:
 
 @final
 class Material:
-    """What is known of a material, every number with its source."""
+    """A material and its numbers."""
 
     @property
     def name(self) -> str:
@@ -2005,15 +2008,15 @@ class Material:
     def __eq__(self, value: object, /) -> bool: ...
 
 def materials(file: str | PathLike[str] | None = None) -> list[Material]:
-    """Give the materials that come with the package, or those of a file."""
+    """The materials that come with the package, or those of a file."""
 
 def material_quantities() -> list[tuple[str, str, str]]:
-    """Give names, units and meanings of the numbers of materials."""
+    """Names, units and meanings of the numbers of materials."""
 
 def criterion_on(
     criterion: Criterion, stress: NDArray[np.float64], *, tolerance: float
 ) -> dict[str, _Array]:
-    """Evaluate a criterion on stresses of shape (time, points, 6); arrays over the points."""
+    """A criterion on stresses of shape (time, points, 6): arrays over the points."""
 
 def yielding_on(
     stress: NDArray[np.float64],
@@ -2021,13 +2024,15 @@ def yielding_on(
     s_y: float,
     constant: tuple[float, float, float, float, float, float],
 ) -> dict[str, _Array]:
-    """Give load factors of yield and shakedown of stresses of shape (time, points, 6)."""
+    """Load factors of first yield and shakedown of stresses of shape (time, points, 6)."""
 
 def dang_van_path(stress: NDArray[np.float64]) -> _Array:
-    """Give rows of tau and p_h of one point from its stress of shape (time, 6)."""
+    """The path of one point in Dang Van's plane, from its stress of shape (time, 6): tau and
+    hydrostatic stress at every instant.
+    """
 
 class InvalidSceneError(ValueError):
-    """A scene, or a scene file, has no meaning; the message names the key, the value and what is allowed."""
+    """A scene, or a scene file, has no meaning; the message says where and what is allowed."""
 
 class OffGridError(InvalidSceneError):
     """The contact reaches the border of the grid; the message says how wide the grid should be."""
@@ -2055,15 +2060,7 @@ WearLaw: TypeAlias = (
 
 @final
 class Archard:
-    """Archard's law, cell by cell: a depth of k p for every metre slipped.
-
-    Parameters
-    ----------
-    k : float
-        Local wear coefficient, m^2/N (1e-8 per MPa is 1e-14).
-    threshold : float
-        Way slipped per cycle below which nothing wears, and beyond which only the rest counts, m.
-    """
+    """Archard's law."""
 
     def __new__(cls, k: float, *, threshold: float = 0.0) -> Archard: ...
     @property
@@ -2074,16 +2071,7 @@ class Archard:
 
 @final
 class DissipatedEnergy:
-    """Wear by the energy that friction dissipates, cell by cell: a depth of alpha times it per area.
-
-    Parameters
-    ----------
-    alpha : float
-        Energy wear coefficient, m^3/J.
-    threshold : float
-        Energy per area and cycle below which nothing wears, and beyond which only the rest counts,
-        J/m^2.
-    """
+    """Wear by the energy dissipated."""
 
     def __new__(cls, alpha: float, *, threshold: float = 0.0) -> DissipatedEnergy: ...
     @property
@@ -2111,9 +2099,9 @@ def wear(
     tell_from: float = 0.1,
     on_jump: Callable[[float], None] | None = None,
 ) -> None:
-    """Run a scene over many cycles into a store; see :func:`pyfret.wear`."""
+    """Runs a scene over many cycles into a store."""
 
 def resume_wear(
     store: str | PathLike[str], *, on_jump: Callable[[float], None] | None = None
 ) -> None:
-    """Go on with a run of wear; see :func:`pyfret.resume_wear`."""
+    """Goes on with a run of wear that ended early."""

@@ -30,6 +30,10 @@ const GOES_ON: f64 = 0.8;
 /// the direction in between is not known.
 const FADE: [f64; 2] = [0.5, 0.7];
 
+/// Part of the way to the end that the onset of slip is nearer than the start from which the turn counts in
+/// full; it is faded in, so that rounding decides nothing.
+const NEARER: f64 = 0.1;
+
 /// The tractions an increment earlier.
 #[derive(Clone, Copy)]
 pub struct Earlier<'a> {
@@ -62,19 +66,22 @@ pub(super) fn turn(
     };
     // Slip begins with a shear that is nearer to the one at the end than the one at the start was.
     let far = |q: [f64; 2]| size([q[0] - end[0], q[1] - end[1]]);
-    if !last.slip[n] && far(begin) > far(at(&last.q)) {
-        return None;
-    }
+    let start = far(at(&last.q)).max(f64::MIN_POSITIVE);
+    let nearer = if last.slip[n] {
+        1.0
+    } else {
+        ((1.0 - far(begin) / start) / NEARER).clamp(0.0, 1.0)
+    };
     let (e_0, e_1) = (unit(begin), unit(end));
     let cos = dot(e_0, e_1).clamp(-1.0, 1.0);
     let part = (cos - FADE[0]) / (FADE[1] - FADE[0]);
-    let fade = part.clamp(0.0, 1.0);
+    let fade = nearer * part.clamp(0.0, 1.0);
     let mean = [0, 1].map(|c| w * e_0[c] + e_1[c]);
     let (length, m) = (size(mean), unit(mean));
     let along = dot(m, e_1);
     let across = [0, 1].map(|c| fade * size(slip) * (along * e_1[c] - m[c]));
     let of_fade = if (0.0..=1.0).contains(&part) {
-        w * (1.0 - cos * cos) / (length * (FADE[1] - FADE[0]))
+        nearer * w * (1.0 - cos * cos) / (length * (FADE[1] - FADE[0]))
     } else {
         0.0
     };
