@@ -2027,8 +2027,9 @@ def yielding_on(
     """Load factors of first yield and shakedown of stresses of shape (time, points, 6)."""
 
 def dang_van_path(stress: NDArray[np.float64]) -> _Array:
-    """The path of one point in Dang Van's plane, from its stress of shape (time, 6): tau and
-    hydrostatic stress at every instant.
+    """The path of one point in Dang Van's plane.
+
+    From its stress of shape (time, 6): tau and hydrostatic stress at every instant.
     """
 
 class InvalidSceneError(ValueError):

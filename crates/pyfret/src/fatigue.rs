@@ -236,8 +236,9 @@ pub(crate) fn yielding_on<'py>(
     Ok(found)
 }
 
-/// The path of one point in Dang Van's plane, from its stress of shape (time, 6): tau and
-/// hydrostatic stress at every instant.
+/// The path of one point in Dang Van's plane.
+///
+/// From its stress of shape (time, 6): tau and hydrostatic stress at every instant.
 #[pyfunction]
 pub(crate) fn dang_van_path<'py>(
     py: Python<'py>,
