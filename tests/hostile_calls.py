@@ -32,6 +32,7 @@ STEEL = fret.Elastic(E=210e9, nu=0.3)
 ALUMINIUM = fret.Elastic(E=70e9, nu=0.3)
 PAIR = (STEEL, ALUMINIUM)
 GRID = fret.Grid.from_spacing((6, 5), (1e-5, 2e-5))
+WIDE = fret.Grid.from_spacing((6, 5), (2e-4, 2e-4))
 COATED = fret.Body(STEEL, coatings=[fret.Coating(ALUMINIUM, thickness=3e-5)])
 HERTZ = reference.hertz(R=0.01, bodies=PAIR, W=100.0)
 TORN = np.zeros((12, 5))[::2]
@@ -221,7 +222,7 @@ CALLS: list[Call] = [
         {"0": 1e-5},
     ),
     ("coated bodies", with_body, {"0": COATED}),
-    ("grids", on_grid, {"0": GRID}),
+    ("grids", on_grid, {"0": WIDE}),
     (
         "Profile.linear",
         lambda a, b: _graded(E=fret.Profile.linear(top=a, bottom=b)),

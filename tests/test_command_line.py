@@ -114,7 +114,8 @@ def test_stress_below_is_that_of_python(coated: fret.Result, tmp_path: Path) -> 
 def test_stress_has_the_bulk_stress_unless_left_out(coated: fret.Result, tmp_path: Path) -> None:
     store = tmp_path / "out.zarr"
     path = fret.LoadPath.start().force(W=W, sigma_B=2e8, sigma_B1=-1e8, increments=3)
-    snapshot = fret.solve(coated.scene, path, out=store, progress=False).at(-1)
+    result = fret.solve(coated.scene, path, save="branches", out=store, progress=False)
+    snapshot = result.at(-1)
     z = [0.0, 1e-4, 2e-4]
     for body in (1, 2):
         for bulk in (True, False):

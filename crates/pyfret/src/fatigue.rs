@@ -72,16 +72,19 @@ impl Criterion {
         checked(core::Criterion::BrownMiller { E, nu, S })
     }
 
+    /// Name of the criterion.
     #[getter]
     fn name(&self) -> &'static str {
         self.0.name()
     }
 
+    /// Unit of its value: Pa, or 1 for strains.
     #[getter]
     fn unit(&self) -> &'static str {
         self.0.unit()
     }
 
+    /// Whether it has a critical plane.
     #[getter]
     fn has_plane(&self) -> bool {
         self.0.has_plane()
@@ -99,6 +102,7 @@ pub(crate) struct Assessment(core::Assessment);
 
 #[pymethods]
 impl Assessment {
+    /// The criterion whose value is judged.
     #[getter]
     fn criterion(&self) -> Criterion {
         Criterion(self.0.criterion)
@@ -113,10 +117,12 @@ impl Assessment {
         }
     }
 
+    /// Factor by which the history may grow until the limit, for values of the criterion.
     fn safety_factor(&self, value: f64) -> f64 {
         self.0.safety_factor(value)
     }
 
+    /// Cycles to failure for values of the criterion.
     fn life(&self, value: f64) -> f64 {
         self.0.life(value)
     }
@@ -129,11 +135,13 @@ pub(crate) struct Material(core::Material);
 
 #[pymethods]
 impl Material {
+    /// Key of the material in its table.
     #[getter]
     fn name(&self) -> &str {
         &self.0.name
     }
 
+    /// What the material is.
     #[getter]
     fn title(&self) -> &str {
         &self.0.title
@@ -147,10 +155,12 @@ impl Material {
             .collect()
     }
 
+    /// A number of the material by its key.
     fn number(&self, name: &str) -> PyResult<f64> {
         self.0.number(name).map_err(to_python)
     }
 
+    /// The criterion of that name with the limit or life curve of the material.
     fn assessment(&self, criterion: &str) -> PyResult<Assessment> {
         let found = core::Assessment::of(criterion, &self.0).map_err(to_python)?;
         Ok(Assessment(found))

@@ -77,6 +77,9 @@ pub(crate) fn principal<'py>(
     Ok((values.into_pyarray(py), directions.into_pyarray(py)))
 }
 
+/// Largest stress whose square is a number \[Pa\].
+const LARGEST: f64 = 1e150;
+
 /// Largest value on a section of stresses (6, depths, places).
 ///
 /// The value, its place, depth and layer, and the error that the distances of the depths leave.
@@ -96,6 +99,11 @@ pub(crate) fn maximum(
             "the stress has the shape {:?}: must be {:?}",
             stress.dim(),
             (6, depths.len(), along.len())
+        )));
+    }
+    if stress.iter().any(|s| s.abs() > LARGEST) {
+        return Err(PyValueError::new_err(format!(
+            "the stress is beyond {LARGEST:e} Pa: its measures have squares"
         )));
     }
     let found = measures(&[name])?[0].maximum(&stress, &depths, &along);

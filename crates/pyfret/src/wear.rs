@@ -27,11 +27,13 @@ impl Archard {
         Self(core::Archard { k, threshold })
     }
 
+    /// Worn depth over pressure times sliding distance [m^2/N].
     #[getter]
     fn k(&self) -> f64 {
         self.0.k
     }
 
+    /// Sliding distance in a cycle below which nothing wears [m].
     #[getter]
     fn threshold(&self) -> f64 {
         self.0.threshold
@@ -55,11 +57,13 @@ impl DissipatedEnergy {
         Self(core::DissipatedEnergy { alpha, threshold })
     }
 
+    /// Worn volume over dissipated energy [m^3/J].
     #[getter]
     fn alpha(&self) -> f64 {
         self.0.alpha
     }
 
+    /// Energy per area in a cycle below which nothing wears [J/m^2].
     #[getter]
     fn threshold(&self) -> f64 {
         self.0.threshold
