@@ -1964,13 +1964,13 @@ class Criterion:
         """Give tau_a/G + S times the range of the normal strain, where tau_a is largest."""
     @property
     def name(self) -> str:
-        """Name."""
+        """Name of the criterion."""
     @property
     def unit(self) -> str:
-        """Unit of the value: ``Pa``, or ``1`` for a strain."""
+        """Unit of its value: Pa, or 1 for strains."""
     @property
     def has_plane(self) -> bool:
-        """Whether it looks for a plane."""
+        """Whether it has a critical plane."""
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
@@ -1979,14 +1979,14 @@ class Assessment:
 
     @property
     def criterion(self) -> Criterion:
-        """The criterion with the weights of the material."""
+        """The criterion whose value is judged."""
     @property
     def limit(self) -> float | None:
         """The limit, or nothing where the criterion gives lives."""
     def safety_factor(self, value: float) -> float:
-        """Limit over value; NaN for criteria that give lives."""
+        """Factor by which the history may grow until the limit, for values of the criterion."""
     def life(self, value: float) -> float:
-        """Cycles until a crack has started; with a limit: infinite below it, NaN above."""
+        """Cycles to failure for values of the criterion."""
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
@@ -1995,16 +1995,16 @@ class Material:
 
     @property
     def name(self) -> str:
-        """Name in the table."""
+        """Key of the material in its table."""
     @property
     def title(self) -> str:
-        """What it is."""
+        """What the material is."""
     def numbers(self) -> list[tuple[str, float, str]]:
         """Name, value and source of every number."""
     def number(self, name: str) -> float:
-        """Give a number; a ValueError says what is known if that is not."""
+        """A number of the material by its key."""
     def assessment(self, criterion: str) -> Assessment:
-        """Give a criterion with the numbers of the material."""
+        """The criterion of that name with the limit or life curve of the material."""
     def __eq__(self, value: object, /) -> bool: ...
 
 def materials(file: str | PathLike[str] | None = None) -> list[Material]:
@@ -2065,9 +2065,11 @@ class Archard:
 
     def __new__(cls, k: float, *, threshold: float = 0.0) -> Archard: ...
     @property
-    def k(self) -> float: ...
+    def k(self) -> float:
+        """Worn depth over pressure times sliding distance [m^2/N]."""
     @property
-    def threshold(self) -> float: ...
+    def threshold(self) -> float:
+        """Sliding distance in a cycle below which nothing wears [m]."""
     def __eq__(self, other: object, /) -> bool: ...
 
 @final
@@ -2076,9 +2078,11 @@ class DissipatedEnergy:
 
     def __new__(cls, alpha: float, *, threshold: float = 0.0) -> DissipatedEnergy: ...
     @property
-    def alpha(self) -> float: ...
+    def alpha(self) -> float:
+        """Worn volume over dissipated energy [m^3/J]."""
     @property
-    def threshold(self) -> float: ...
+    def threshold(self) -> float:
+        """Energy per area in a cycle below which nothing wears [J/m^2]."""
     def __eq__(self, other: object, /) -> bool: ...
 
 def wear(
