@@ -93,7 +93,7 @@ def test_its_keywords_exist(document: Path) -> None:
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=ids)
 def test_its_options_exist(document: Path) -> None:
-    commands = ("new", "run", "resume", "check", "stress", "completions", "man")
+    commands = ("new", "run", "resume", "check", "stress", "wear", "completions", "man")
     helps = {
         command: subprocess.run(
             [FRET, command, "--help"], capture_output=True, text=True, check=True

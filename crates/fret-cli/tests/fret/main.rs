@@ -228,7 +228,7 @@ fn bad_input_is_refused_before_anything_is_written() {
         // The contact leaves the grid.
         (
             "grid.extent.a_H=1.0",
-            &["touches the border", "should be about"],
+            &["does not fit on the grid", "should be about"],
         ),
     ] {
         let output = run(&out, &["--quiet", "--set", setting]);
