@@ -97,6 +97,7 @@ __all__ = [
     "stress_at",
     "stress_coefficients",
     "surface_frf",
+    "verify",
     "wear",
     "yielding_on",
 ]
@@ -2050,7 +2051,7 @@ class KernelInaccurateError(RuntimeError):
 class StoreError(OSError):
     """A file or a result store could not be read or written."""
 
-WearLaw: TypeAlias = (
+_WearLaw: TypeAlias = (
     Archard
     | DissipatedEnergy
     | Callable[
@@ -2088,8 +2089,8 @@ class DissipatedEnergy:
 def wear(
     scene: Scene,
     *,
-    body1: WearLaw | list[WearLaw] | None,
-    body2: WearLaw | list[WearLaw] | None,
+    body1: _WearLaw | list[_WearLaw] | None,
+    body2: _WearLaw | list[_WearLaw] | None,
     cycles: float,
     store: str | PathLike[str],
     share1: float | None = None,
