@@ -15,7 +15,8 @@ from pyfret.progress import Progress
 if TYPE_CHECKING:
     import os
 
-    from pyfret._core import LoadPath, Scene, _WearLaw as WearLaw
+    from pyfret._core import LoadPath, Scene
+    from pyfret._core import _WearLaw as WearLaw
 
 __all__ = ["WearResult", "open_wear", "resume_wear", "wear"]
 
