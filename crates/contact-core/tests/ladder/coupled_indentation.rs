@@ -40,7 +40,7 @@ fn stick_radius_pressure_and_approach_of_every_pair() {
             let rim = if thin { WHOLE_CELLS } else { RIM } * d;
             let ring = if thin || part < 1.0 {
                 // A tenth of an increment comes on top.
-                WHOLE_CELLS * d + claim + 0.1 / (at + 1) as f64
+                WHOLE_CELLS * d + 0.1 / (at + 1) as f64
             } else {
                 // The border is known to a twentieth of a cell.
                 claim * truth.stick_ratio + RIM * d
