@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod files;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,6 +16,7 @@ use contact_core::estimate::{choose_increments, error_bars};
 use contact_core::march::{Increment, March, Observer, solve};
 use contact_core::output::{Resumed, Store, StoreWriter, resume};
 use contact_core::{Error, Scene};
+use files::files;
 
 /// Unlike bodies, forces in both directions: everything that a state has is in use.
 const SCENE: &str = r#"
@@ -97,20 +100,6 @@ fn go_on(run: Resumed, after: usize) -> Result<Vec<Increment>, Error> {
         dies: false,
     };
     run.march.run(run.increments, &mut writer)
-}
-
-fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            let name = PathBuf::from(path.file_name().unwrap());
-            found.extend(files(&path).into_iter().map(|(k, v)| (name.join(k), v)));
-        } else {
-            found.insert(path.file_name().unwrap().into(), fs::read(&path).unwrap());
-        }
-    }
-    found
 }
 
 fn undisturbed(name: &str) -> (Vec<Increment>, BTreeMap<PathBuf, Vec<u8>>) {

@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::float_cmp)]
 
+mod files;
 #[allow(dead_code, reason = "this test draws no logarithms")]
 mod splitmix;
 
@@ -14,6 +15,7 @@ use std::time::Duration;
 use contact_core::march::{Increment, March, Observer, solve};
 use contact_core::output::{FIELDS, SCALARS, Store, StoreWriter, resume};
 use contact_core::{Error, Scene};
+use files::files;
 use splitmix::Draw;
 
 const SCENE: &str = r#"
@@ -65,20 +67,6 @@ fn store(name: &str, after: usize) -> Files {
     let scene = Scene::from_toml_str(SCENE, "small.toml", &[]).unwrap();
     assert_eq!(solve(&scene, &mut writer).is_ok(), after == 0);
     files(&path)
-}
-
-fn files(folder: &Path) -> Files {
-    let mut found = Files::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = PathBuf::from(path.file_name().unwrap());
-        if path.is_dir() {
-            found.extend(files(&path).into_iter().map(|(n, b)| (name.join(n), b)));
-        } else {
-            found.insert(name, fs::read(&path).unwrap());
-        }
-    }
-    found
 }
 
 fn lay_out(folder: &Path, files: &Files) {

@@ -40,21 +40,21 @@ pub(crate) struct Options {
 pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
     let kept = Arc::new(AtomicBool::new(options.resume));
     let stop = stop_on_interrupt(&kept);
+    let reach = if options.scene.allow_outside {
+        Reach::Anywhere
+    } else {
+        Reach::Folder
+    };
+    let read = Wear::from_file(&options.scene.scene, &options.scene.settings, reach);
+    let (scene, wear) = read.map_err(Failure::BadInput)?;
     let (mut run, mut store) = if options.resume {
-        let found = resume_wear(&options.out, &stop).map_err(Failure::BadInput)?;
-        let Some(found) = found else {
+        let found = resume_wear(&options.out, Some((&scene, &wear)), &stop);
+        let Some(found) = found.map_err(Failure::BadInput)? else {
             say(&format!("fret: {} is done", options.out.display()));
             return Ok(());
         };
         found
     } else {
-        let reach = if options.scene.allow_outside {
-            Reach::Anywhere
-        } else {
-            Reach::Folder
-        };
-        let read = Wear::from_file(&options.scene.scene, &options.scene.settings, reach);
-        let (scene, wear) = read.map_err(Failure::BadInput)?;
         let store =
             WearStore::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
         (WearRun::new(&scene, &wear, &stop).map_err(ended)?, store)

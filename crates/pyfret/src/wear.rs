@@ -211,7 +211,7 @@ pub(crate) fn resume_wear(
     on_jump: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     let stop = Arc::<AtomicBool>::default();
-    let found = interruptible(py, &stop, || take_up(&store, &stop))?.map_err(to_python)?;
+    let found = interruptible(py, &stop, || take_up(&store, None, &stop))?.map_err(to_python)?;
     match found {
         None => Ok(()),
         Some((run, store)) => go(py, run, store, &stop, on_jump.as_ref()),

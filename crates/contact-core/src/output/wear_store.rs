@@ -18,6 +18,7 @@ use super::place::{Unfinished, mend};
 use super::reader::Store;
 use super::variable::{Column, Variable};
 use crate::error::Error;
+use crate::scene::Scene;
 use crate::wear::{Block, EventKind, Jump, Wear, WearRun, WearState};
 
 const CHECKPOINT: &str = "checkpoint/wear";
@@ -356,9 +357,11 @@ fn read_checkpoint(folder: &Arc<Folder>) -> Result<(WearState, Vec<f64>), Error>
 }
 
 /// Takes up a run of wear where its store left it, to the same bytes; `None` if it is done. Fails
-/// if `path` holds no run of wear, or one by a law of the user's own.
+/// if `path` holds no run of wear, one by a law of the user's own, or another one than that of a scene
+/// and its wear, where they are given.
 pub fn resume_wear(
     path: impl AsRef<Path>,
+    of: Option<(&Scene, &Wear)>,
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<(WearRun, WearStore)>, Error> {
     let place = path.as_ref().to_owned();
@@ -366,6 +369,14 @@ pub fn resume_wear(
     let text = folder.read(".zattrs").map_err(|e| folder.error(&e))?;
     let text = text.ok_or_else(|| folder.error(&"holds no run of wear"))?;
     let attributes: Value = serde_json::from_slice(&text).map_err(|e| folder.error(&e))?;
+    let differs = |key: &str, given: Option<String>| attributes[key].as_str() != given.as_deref();
+    if of.is_some_and(|(scene, wear)| {
+        differs("scene", Some(scene.to_toml())) || differs("wear", wear.to_toml())
+    }) {
+        return Err(
+            folder.error(&"belongs to another scene: go on with that one, or choose another store")
+        );
+    }
     if attributes["status"] == "done" {
         return Ok(None);
     }

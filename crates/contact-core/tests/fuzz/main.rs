@@ -9,6 +9,8 @@
 
 #[path = "../document/mod.rs"]
 mod document;
+#[path = "../files/mod.rs"]
+mod files;
 mod heights;
 mod mutate;
 mod scene;

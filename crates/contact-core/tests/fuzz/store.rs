@@ -1,6 +1,5 @@
 //! Result stores and their checkpoints.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -11,6 +10,7 @@ use contact_core::plan::Plan;
 use contact_core::{Error, Scene};
 use proptest::prelude::*;
 
+use crate::files::files;
 use crate::mutate::{Change, apply, change};
 
 const SCENE: &str = r#"
@@ -37,21 +37,6 @@ impl Observer for EndEarly {
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         self.0.on_end(march, failure)
     }
-}
-
-/// Every file of the store and its bytes.
-fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = PathBuf::from(path.file_name().unwrap());
-        if path.is_dir() {
-            found.extend(files(&path).into_iter().map(|(n, b)| (name.join(n), b)));
-        } else {
-            found.insert(name, fs::read(&path).unwrap());
-        }
-    }
-    found
 }
 
 /// A file is changed, or gone; a state may get a checksum that fits.

@@ -3,6 +3,8 @@
 
 mod bench;
 mod coatings;
+#[path = "../files/mod.rs"]
+mod files;
 mod finite_elements;
 mod gross_slip;
 mod input;

@@ -4,10 +4,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use contact_core::output::{WearStore, resume_wear};
-use contact_core::scene::{Grid, Scene, Shape};
+use contact_core::scene::{Friction, Grid, Scene, Shape};
 use contact_core::wear::{Cycling, Jumps, Wear, WearRun, WearState};
 
 use crate::bench::{archard, cylinder, pulled, scene, to_and_fro, wear};
+use crate::files::files;
 use crate::splitmix::Draw;
 
 fn cases() -> [(Scene, Wear); 2] {
@@ -56,21 +57,6 @@ fn a_run_taken_up_after_any_jump_ends_in_the_same_bits() {
     }
 }
 
-/// Every file of a folder, and its content.
-fn files(folder: &std::path::Path) -> Vec<(String, Vec<u8>)> {
-    let mut all = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            all.extend(files(&path));
-        } else {
-            all.push((path.display().to_string(), std::fs::read(&path).unwrap()));
-        }
-    }
-    all.sort();
-    all
-}
-
 #[test]
 fn a_store_taken_up_again_has_the_same_bytes() {
     let (scene, wear) = cases()[0].clone();
@@ -90,7 +76,20 @@ fn a_store_taken_up_again_has_the_same_bytes() {
     };
     written("whole", usize::MAX);
     written("killed", 4);
-    let (mut run, mut store) = resume_wear(folder.path().join("killed"), &stop)
+    let killed = folder.path().join("killed");
+    let (mut other, mut longer) = (scene.clone(), wear.clone());
+    other.friction = Friction::coulomb(0.5);
+    longer.cycles *= 2.0;
+    for (scene, wear) in [(&other, &wear), (&scene, &longer)] {
+        let refused = resume_wear(&killed, Some((scene, wear)), &stop)
+            .err()
+            .unwrap();
+        assert!(
+            refused.to_string().contains("belongs to another scene"),
+            "{refused}"
+        );
+    }
+    let (mut run, mut store) = resume_wear(&killed, Some((&scene, &wear)), &stop)
         .unwrap()
         .unwrap();
     while let Some(jump) = run.advance() {
@@ -98,19 +97,12 @@ fn a_store_taken_up_again_has_the_same_bytes() {
         store.write(&mut run).unwrap();
     }
     store.finish(&run, "done").unwrap();
-    let (whole, killed) = (
-        files(&folder.path().join("whole")),
-        files(&folder.path().join("killed")),
-    );
-    assert_eq!(whole.len(), killed.len());
-    for ((name, a), (_, b)) in whole.iter().zip(&killed) {
-        assert!(a == b, "{name} differs");
+    let (whole, resumed) = (files(&folder.path().join("whole")), files(&killed));
+    assert!(whole.keys().eq(resumed.keys()));
+    for (name, bytes) in &whole {
+        assert!(resumed[name] == *bytes, "{} differs", name.display());
     }
-    assert!(
-        resume_wear(folder.path().join("killed"), &stop)
-            .unwrap()
-            .is_none()
-    );
+    assert!(resume_wear(&killed, None, &stop).unwrap().is_none());
 }
 
 #[test]

@@ -3,14 +3,16 @@
 // What is read back is what was written: equality is meant to the bit.
 #![allow(clippy::unwrap_used, clippy::float_cmp)]
 
+#[path = "../../../contact-core/tests/files/mod.rs"]
+mod files;
 mod interrupted;
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use contact_core::output::Store;
+use files::files;
 
 /// A scene of the repository, made small enough for a moment.
 const SCENE: &str = concat!(
@@ -103,21 +105,6 @@ fn quiet_is_quiet() {
     let output = run(&free("quiet.zarr"), &["--quiet"]);
     assert!(output.status.success());
     assert!(output.stdout.is_empty() && output.stderr.is_empty());
-}
-
-/// Every file of a store and its bytes.
-fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = PathBuf::from(path.file_name().unwrap());
-        if path.is_dir() {
-            found.extend(files(&path).into_iter().map(|(n, b)| (name.join(n), b)));
-        } else {
-            found.insert(name, fs::read(&path).unwrap());
-        }
-    }
-    found
 }
 
 /// The same bits with one, two and four threads, and from run to run: unlike bodies, a coating, a
@@ -304,4 +291,28 @@ fn check_solves_nothing() {
     ] {
         assert!(told.contains(words), "{told:?} lacks {words:?}");
     }
+}
+
+/// A run of wear goes on as the scene that it was begun with, or not at all.
+#[test]
+fn wear_is_resumed_for_its_own_scene() {
+    let (out, scene) = (
+        free("wear.zarr"),
+        SCENE.replace("cattaneo_mindlin", "wear_mccoll"),
+    );
+    let wear = |more: &[&str]| {
+        let small = ["--set", "grid.n=64", "--set", "wear.cycles=500"];
+        let begins = ["wear", &scene, "-o", out.to_str().unwrap()];
+        fret(&[&begins[..], &small, more].concat())
+    };
+    let begun = wear(&[]);
+    assert!(begun.status.success(), "{}", text(&begun.stderr));
+    assert!(text(&begun.stdout).contains("500"));
+    let whole = files(&out);
+    let done = wear(&["--resume"]);
+    assert!(done.status.success() && text(&done.stderr).contains("is done"));
+    let other = wear(&["--resume", "--set", "friction.mu=0.5"]);
+    assert_eq!(other.status.code(), Some(2));
+    assert!(text(&other.stderr).contains("belongs to another scene"));
+    assert!(files(&out) == whole);
 }

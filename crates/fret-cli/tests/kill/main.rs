@@ -9,9 +9,10 @@
 
 #[path = "../../../contact-core/tests/document/mod.rs"]
 mod document;
+#[path = "../../../contact-core/tests/files/mod.rs"]
+mod files;
 mod victim;
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -19,6 +20,7 @@ use std::time::{Duration, Instant};
 
 use contact_core::output::Store;
 
+use files::files;
 use victim::{Chance, Moment, Victim};
 
 const SCENE: &str = concat!(
@@ -72,24 +74,6 @@ fn short(increments: usize) -> Vec<String> {
     branches
         .map(|n| format!("path.{n}.increments={increments}"))
         .collect()
-}
-
-/// Every file of the store and its bytes.
-fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            found.extend(files(&path).into_iter().map(|(name, bytes)| {
-                let below = Path::new(path.file_name().unwrap()).join(name);
-                (below, bytes)
-            }));
-        } else {
-            let name = path.file_name().unwrap().into();
-            found.insert(name, fs::read(&path).unwrap());
-        }
-    }
-    found
 }
 
 fn kills() -> usize {
