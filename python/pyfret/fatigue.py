@@ -13,7 +13,7 @@ in Pa. No contact is needed; ``docs/fatigue.md`` has the equations and their sou
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 import xarray as xr
@@ -60,16 +60,7 @@ CriterionName = Literal[
     "fatemi_socie",
     "brown_miller",
 ]
-CRITERIA: tuple[CriterionName, ...] = (
-    "crossland",
-    "dang_van",
-    "findley",
-    "matake",
-    "mcdiarmid",
-    "smith_watson_topper",
-    "fatemi_socie",
-    "brown_miller",
-)
+CRITERIA: tuple[CriterionName, ...] = get_args(CriterionName)
 
 
 class Materials(Mapping[str, Material]):

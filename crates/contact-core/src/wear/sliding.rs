@@ -168,8 +168,8 @@ impl Sliding {
         k: &[Vec<f64>; 2],
         around: &[Vec<f64>],
     ) -> Result<(), Error> {
-        let s: f64 = self.places.iter().map(|place| place.way).sum();
-        let ways = self.summed(|i| around[i].clone());
+        let s = self.way();
+        let ways = self.summed(around);
         let mut end = worn.clone();
         for b in 0..2 {
             for (end, (k, way)) in end.depth[b].iter_mut().zip(k[b].iter().zip(&ways[b])) {
@@ -219,15 +219,20 @@ impl Sliding {
 
     /// The integral of the pressure over the way slipped in a cycle, in the coordinates of each body.
     fn pressed_ways(&self) -> [Vec<f64>; 2] {
-        self.summed(|i| self.p[i].clone())
+        self.summed(&self.p)
     }
 
-    fn summed(&self, field: impl Fn(usize) -> Vec<f64>) -> [Vec<f64>; 2] {
+    /// Way slipped in a cycle \[m\].
+    fn way(&self) -> f64 {
+        self.places.iter().map(|place| place.way).sum()
+    }
+
+    /// The integral of a field over the way slipped in a cycle, in the coordinates of each body.
+    fn summed(&self, field: &[Vec<f64>]) -> [Vec<f64>; 2] {
         let mut sums = [vec![0.0; self.h.len()], vec![0.0; self.h.len()]];
         for (i, place) in self.places.iter().enumerate() {
-            let field = field(i);
             for b in 0..2 {
-                self.shifts[i][b].put(&field, place.way, self.pressing.rows(), &mut sums[b]);
+                self.shifts[i][b].put(&field[i], place.way, self.pressing.rows(), &mut sums[b]);
             }
         }
         sums
@@ -239,18 +244,18 @@ impl Sliding {
         cycles: f64,
         ways: &[Vec<f64>; 2],
     ) -> Result<[Vec<f64>; 2], Error> {
-        let touched = self.summed(|i| {
-            self.p[i]
-                .iter()
-                .map(|p| f64::from(u8::from(*p > 0.0)))
-                .collect()
-        });
+        let touches = |p: &f64| f64::from(u8::from(*p > 0.0));
+        let touched: Vec<Vec<f64>> = self
+            .p
+            .iter()
+            .map(|p| p.iter().map(touches).collect())
+            .collect();
+        let (touched, s) = (self.summed(&touched), self.way());
         let mut k = [vec![0.0; self.h.len()], vec![0.0; self.h.len()]];
         for b in 0..2 {
             // A cell that is reached within the jump wears by the same law: as if it were pressed.
             let least = 1e-9 * ways[b].iter().fold(0.0, |m: f64, w| m.max(*w));
             let pressed: Vec<f64> = ways[b].iter().map(|w| w.max(least)).collect();
-            let s: f64 = self.places.iter().map(|place| place.way).sum();
             let way: Vec<f64> = touched[b]
                 .iter()
                 .map(|w| if *w > 0.0 { *w } else { s })
