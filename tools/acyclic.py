@@ -25,7 +25,10 @@ ITEM = re.compile(
 )
 USE = re.compile(r"\b(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);")
 PATH = re.compile(r"(?<![\w:])[A-Za-z_]\w*(?:::[A-Za-z_]\w*)+")
-TEST_MODULE = re.compile(r"#\[cfg\(test\)\]\s*(?:#\[[^\]]*\]\s*)*mod\s+\w+\s*(;|\{)")
+VISIBILITY = re.compile(r"\bpub\(in [^)]*\)")
+TEST_MODULE = re.compile(
+    r"#\[cfg\(test\)\]\s*(?:#\[[^\]]*\]\s*)*(?:pub(?:\([^)]*\))?\s+)?mod\s+\w+\s*(;|\{)"
+)
 NOT_CODE = re.compile(
     r'//[^\n]*|/\*.*?\*/|r#*".*?"#*|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'', re.DOTALL
 )
@@ -33,7 +36,7 @@ NOT_CODE = re.compile(
 
 def code_of(file: Path) -> str:
     """A Rust file without comments, literals and tests."""
-    text = NOT_CODE.sub(" ", file.read_text())
+    text = VISIBILITY.sub("pub", NOT_CODE.sub(" ", file.read_text()))
     while found := TEST_MODULE.search(text):
         end = found.end()
         depth = 1 if found[1] == "{" else 0

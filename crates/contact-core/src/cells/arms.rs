@@ -11,6 +11,7 @@
 //! the length that x and y are divided by, so that every m is a length and every sum a traction.
 
 use super::{Fields, sums};
+use crate::scene::RigidMotion;
 
 /// Lever arms: where the cells are.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +29,15 @@ pub struct Arms {
 }
 
 impl Arms {
+    /// What motion k of [`RigidMotion::ALL`] is multiplied by, and its load divided by, for the solvers.
+    pub(crate) fn unit(&self, k: usize) -> f64 {
+        match RigidMotion::ALL[k] {
+            motion if motion.is_rotation() => self.length,
+            RigidMotion::DeltaY => self.stretch,
+            _ => 1.0,
+        }
+    }
+
     /// How far cell n moves along y in a unit rotation.
     pub(crate) fn turn_x(&self, n: usize) -> f64 {
         self.stretch * self.x[n]

@@ -27,9 +27,10 @@ use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 use super::finer::Finer;
+use super::numbers::numbers;
 use super::path_error::{choose_increments, path_errors};
 use crate::error::Error;
-use crate::march::{BranchSummary, Increment, March, Observer, Tractions, summarise};
+use crate::march::{Increment, March, Observer, Tractions, summarise};
 use crate::scene::{Grid, SaveFields, Scene};
 
 /// Cells of the coarser grids each way, over those of the grid.
@@ -96,20 +97,6 @@ pub struct ErrorBars {
     pub p: Bar,
     /// Of the shear as a field: L2 norm, over the largest of the path.
     pub q: Bar,
-}
-
-/// The numbers of a branch that have an error bar, in the order of [`ErrorBars`].
-pub(crate) fn numbers(branch: &BranchSummary) -> [f64; 8] {
-    [
-        branch.contact_radius,
-        branch.stick_ratio,
-        branch.p_max,
-        branch.motion.delta_z,
-        branch.motion.delta_x,
-        branch.motion.delta_y,
-        branch.motion.phi_z,
-        branch.dissipated,
-    ]
 }
 
 /// Keeps the tractions at the ends of the branches for an observer who watches the run.

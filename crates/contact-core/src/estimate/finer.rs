@@ -8,7 +8,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::error_bars::numbers;
+use super::numbers::numbers;
 use crate::error::Error;
 use crate::march::{March, summarise};
 use crate::scene::{Grid, SaveFields, Scene};

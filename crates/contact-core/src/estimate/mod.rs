@@ -2,6 +2,7 @@
 
 mod error_bars;
 mod finer;
+mod numbers;
 mod path_error;
 mod trial;
 

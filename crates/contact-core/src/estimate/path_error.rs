@@ -15,13 +15,10 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::trial::Trial;
+use super::trial::{PathError, Trial};
 use crate::error::Error;
 use crate::scene::{LoadPath, Scene, Spacing};
 
-/// Order of the error in the increments: between that of cells that enter one by one and that of
-/// turning slip.
-pub(crate) const ORDER: f64 = 1.5;
 /// Orders that a branch may show from one round to the next.
 const ORDERS: (f64, f64) = (1.25, 2.0);
 /// The order that is expected before two rounds tell, but of the growth of contact and of what is nearly
@@ -49,8 +46,6 @@ const GROWTH: f64 = 4.0;
 const NEAR: f64 = 2.0;
 /// Times the error of a growth of contact from nothing that an error has that is not inherited from it.
 const OWN: f64 = 2.0;
-/// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.
-pub(crate) const SOLVED: f64 = 4e-3;
 /// Rounds of choosing.
 const ROUNDS: usize = 8;
 /// Most increments of a path that are chosen.
@@ -158,34 +153,6 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
 fn order(before: (usize, f64), now: (usize, f64)) -> f64 {
     let fallen = (before.1 / now.1).ln() / (now.0 as f64 / before.0 as f64).ln();
     fallen.clamp(ORDERS.0, ORDERS.1)
-}
-
-/// What the increments leave at the end of a branch.
-#[derive(Default)]
-pub(crate) struct PathError {
-    /// In the shear: L2 norm, over the largest of the path.
-    pub(crate) q: f64,
-    /// In the pressure: L2 norm, over the largest of the path.
-    pub(crate) p: f64,
-    /// In the numbers of the branch, each in its unit, with its sign: what they are more than with many
-    /// increments.
-    pub(crate) numbers: [f64; 8],
-    /// The shear there over the largest of the path (L2).
-    pub(crate) reached: f64,
-    /// The shear that friction can bear there over the largest of the path (L2).
-    pub(crate) bearable: f64,
-}
-
-impl PathError {
-    /// So many times as large.
-    pub(crate) fn times(self, factor: f64) -> Self {
-        Self {
-            q: factor * self.q,
-            p: factor * self.p,
-            numbers: self.numbers.map(|n| factor * n),
-            ..self
-        }
-    }
 }
 
 /// The scene with the estimated error of the shear at the end of each branch.

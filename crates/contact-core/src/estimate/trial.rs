@@ -8,16 +8,48 @@ use std::sync::atomic::AtomicBool;
 
 use ndarray::Array2;
 
-use super::error_bars::numbers;
-use super::path_error::{ORDER, PathError, SOLVED};
+use super::numbers::numbers;
 use crate::error::Error;
 use crate::march::{BranchSummary, Increment, March, State, Tractions, summarise};
 use crate::scene::{Branch, Grid, LoadPath, Scene};
 
+/// Order of the error in the increments: between that of cells that enter one by one and that of
+/// turning slip.
+const ORDER: f64 = 1.5;
+/// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.
+const SOLVED: f64 = 4e-3;
 /// Cells of a grid that is not made coarser.
 const CELLS: usize = 64 * 64;
 /// Contact cells that a grid must have.
 const CONTACT: usize = 300;
+
+/// What the increments leave at the end of a branch.
+#[derive(Default)]
+pub(crate) struct PathError {
+    /// In the shear: L2 norm, over the largest of the path.
+    pub(crate) q: f64,
+    /// In the pressure: L2 norm, over the largest of the path.
+    pub(crate) p: f64,
+    /// In the numbers of the branch, each in its unit, with its sign: what they are more than with many
+    /// increments.
+    pub(crate) numbers: [f64; 8],
+    /// The shear there over the largest of the path (L2).
+    pub(crate) reached: f64,
+    /// The shear that friction can bear there over the largest of the path (L2).
+    pub(crate) bearable: f64,
+}
+
+impl PathError {
+    /// So many times as large.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        Self {
+            q: factor * self.q,
+            p: factor * self.p,
+            numbers: self.numbers.map(|n| factor * n),
+            ..self
+        }
+    }
+}
 
 /// The same scene twice, for few increments and for many.
 pub(crate) struct Trial {

@@ -1,8 +1,8 @@
 //! The criteria on invariants: the smallest sphere round the path of the deviatoric stress.
 
+use super::at_point::AtPoint;
 use super::ball::{Ball, Search as Balls};
 use super::criterion::Criterion;
-use super::evaluate::AtPoint;
 use super::lanes::{LANES, Lanes};
 use super::path::Path;
 use crate::fields::{StressTensor, hydrostatic, tresca};

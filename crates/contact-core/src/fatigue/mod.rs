@@ -6,6 +6,7 @@
 //! lives from a [`Material`]; [`yielding`] gives load factors of first yield and shakedown.
 
 mod assessment;
+mod at_point;
 mod ball;
 mod circle;
 mod criterion;
@@ -22,10 +23,11 @@ mod refine;
 mod shakedown;
 
 pub use assessment::{Assessment, CRITERIA, Judge, strain_life};
+pub use at_point::AtPoint;
 pub use ball::{Ball, smallest_ball};
 pub use criterion::Criterion;
 pub use critical_plane::Search;
-pub use evaluate::{AtPoint, evaluate};
+pub use evaluate::evaluate;
 pub use invariants::dang_van_path;
 pub use life::{Basquin, CoffinManson};
 pub use material::{Material, QUANTITIES, Quantity, Sourced, materials, materials_from, read};

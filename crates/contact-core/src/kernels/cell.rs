@@ -1,6 +1,6 @@
 //! Integrals over one rectangular cell.
 
-use super::gauss::gauss;
+use crate::gauss::gauss;
 
 /// Most Gauss nodes along one side; a cell that needs more is halved.
 const MOST: usize = 10;

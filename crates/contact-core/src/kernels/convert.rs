@@ -12,8 +12,8 @@ use realfft::RealFftPlanner;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 
-use super::gauss::gauss;
 use crate::error::Error;
+use crate::gauss::gauss;
 use crate::memory::fits;
 use crate::scene::{Grid, MOST_ALIASES};
 

@@ -15,7 +15,7 @@ use rustfft::num_complex::Complex64;
 use super::layered_frf::{HalfSpace, Stack, propagate_down, propagate_up};
 use super::matrix::Matrix2;
 use crate::error::Error;
-use crate::scene::{LARGEST, SMALLEST};
+use crate::magnitude::{LARGEST, SMALLEST};
 
 /// Share of the stack's height by which a depth may miss its layer, for rounded sums of thicknesses.
 const ROUNDING: f64 = 1e-12;

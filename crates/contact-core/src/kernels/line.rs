@@ -20,8 +20,8 @@ use ndarray::Array2;
 use rayon::prelude::*;
 
 use super::InfluenceCoefficients;
-use super::gauss::gauss;
 use super::layered_frf::{HalfSpace, RadialResponse, Stack};
+use crate::gauss::gauss;
 use crate::scene::Grid;
 
 /// Phase 2 k h beyond which the remainder, exp(-2 k h) times a low power, is below rounding.

@@ -12,7 +12,6 @@ mod convert;
 mod depth_frf;
 mod depth_kernel;
 mod displacement;
-pub(crate) mod gauss;
 mod graded;
 mod half_space;
 mod half_space_displacement;

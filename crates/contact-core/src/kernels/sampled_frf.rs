@@ -10,9 +10,9 @@
 
 use std::f64::consts::PI;
 
-use super::gauss::gauss;
 use super::half_space::Six;
 use super::layered_frf::{RadialResponse, Stack};
+use crate::gauss::gauss;
 use crate::scene::Grid;
 
 /// Gauss nodes in angle and radius of the mean at zero frequency: exact to rounding.

@@ -24,8 +24,9 @@ use super::depth_kernel::{DepthKernel, Quantity, quadrants};
 use super::half_space_stress::{self, StressResponse};
 use super::layered_frf::{HalfSpace, Stack};
 use crate::error::Error;
+use crate::magnitude::LARGEST;
 use crate::memory::fits;
-use crate::scene::{Body, Grid, LARGEST};
+use crate::scene::{Body, Grid};
 
 /// Memory that the stress coefficients of a body take per cell while they are made: eighteen quadrants,
 /// twice \[bytes\].

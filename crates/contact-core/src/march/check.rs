@@ -1,9 +1,9 @@
 //! How well the equations hold at the end of an increment, from the fields alone.
 
 use super::domain::{Domain, half_lengths};
-use super::increment::{Failure, Setup};
-use super::problem::unit;
-use super::{Increment, Residuals, Status, accounts, off_grid};
+use super::setup::{Failure, Setup};
+use super::transmitted::transmitted;
+use super::{Increment, Residuals, Status, off_grid};
 use crate::cells::{size, survey};
 use crate::error::Error;
 use crate::scene::{Given, LoadPoint, Loads};
@@ -113,11 +113,11 @@ fn missing_loads(setup: &Setup<'_>, now: &Interface, mu: f64) -> f64 {
         },
         ..*point
     };
-    let carried = accounts::transmitted(setup, &all_given, now).forces();
+    let carried = transmitted(setup, &all_given, now).forces();
     let (asked, motions) = (point.loads.forces(), point.loads.given.motions());
     let W = carried[0];
     let scale = |k: usize| {
-        let unit = unit(&setup.geometry.arms, k);
+        let unit = setup.geometry.arms.unit(k);
         if k < 3 { W * unit } else { mu * W * unit }
     };
     (0..6)

@@ -1,12 +1,10 @@
 //! The first guess of an increment.
 
-use ndarray::Array2;
 use rayon::prelude::*;
 
-use super::increment::Setup;
-use super::problem::Problem;
+use super::first_pressure::first_pressure;
+use super::setup::Setup;
 use crate::cells::{CHUNK, set, size, sweep};
-use crate::scene::LoadPoint;
 use crate::solvers::{Interface, friction_bound};
 
 /// Tractions and slip set to start from: the last increment's, extrapolated while the loads
@@ -17,7 +15,7 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
     let (problem, state) = (setup.problem, setup.state);
     let mut guess = state.interface.clone();
     if state.loads.W <= 0.0 {
-        let p = first_contact(problem, setup.point);
+        let p = first_pressure(problem, setup.point);
         guess.p = setup.geometry.cut(problem.plan.mirror, &p);
     }
     match setup.goes_on {
@@ -76,23 +74,4 @@ fn extrapolate_shear(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64]
             q_y[i] += part * change[1];
         }
     });
-}
-
-/// A pressure for bodies that have not touched, on the whole grid: that of a paraboloid of the approach
-/// expected at a point, up to a factor; everywhere the same without
-/// [`Methods::first_contact`](crate::plan::Methods::first_contact).
-pub(super) fn first_contact(problem: &Problem, point: &LoadPoint) -> Array2<f64> {
-    let h_init = problem.scene.h_init();
-    if !problem.plan.methods.first_contact {
-        return Array2::ones(h_init.dim());
-    }
-    let approach = problem.approach_at(point);
-    let lowest = h_init.iter().fold(f64::INFINITY, |m, h| m.min(*h));
-    h_init.map(|h| {
-        if approach > 0.0 {
-            (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt()
-        } else {
-            0.0
-        }
-    })
 }

@@ -8,7 +8,9 @@ mod check;
 mod direction;
 mod domain;
 mod entry;
+mod expected_radius;
 mod fields;
+mod first_pressure;
 mod friction;
 mod guess;
 mod increment;
@@ -18,10 +20,12 @@ mod results;
 mod retry;
 mod rolled;
 mod run;
+mod setup;
 mod state;
 #[cfg(test)]
 mod tests;
 mod threads;
+mod transmitted;
 mod worn;
 
 pub use fields::{Fields, Tractions};
@@ -33,9 +37,9 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use self::domain::Domain;
-use self::increment::{Failure, Workspace};
 use self::problem::Problem;
 use self::retry::reach;
+use self::setup::{Failure, Workspace};
 use self::threads::with_busy_threads;
 use crate::convolution::PARALLEL_FROM;
 use crate::error::Error;

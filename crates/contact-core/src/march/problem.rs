@@ -3,7 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::{State, off_grid};
+use super::State;
+use super::expected_radius::expected_radius;
 use crate::cells::{Arms, Drive};
 use crate::error::Error;
 use crate::plan::{Mirror, Plan};
@@ -40,7 +41,7 @@ impl Drives {
         let drive = |of: [usize; 3], from: [f64; 6]| {
             let mut drive = Drive::default();
             for (k, &load) in of.iter().enumerate() {
-                let unit = unit(arms, load);
+                let unit = arms.unit(load);
                 match given[load] {
                     _ if problem.is_odd(load) => {}
                     Some(motion) => drive.given[k] = (motion - from[load]) * unit,
@@ -61,16 +62,6 @@ impl Drives {
     /// Whether anything presses the bodies together.
     pub(super) fn press(&self) -> bool {
         !self.normal.free[0] || self.normal.sums[0] > 0.0
-    }
-}
-
-/// What a motion of [`RigidMotion::ALL`] is multiplied by, and its load divided by,
-/// for the solvers.
-pub(super) fn unit(arms: &Arms, k: usize) -> f64 {
-    match RigidMotion::ALL[k] {
-        motion if motion.is_rotation() => arms.length,
-        RigidMotion::DeltaY => arms.stretch,
-        _ => 1.0,
     }
 }
 
@@ -95,7 +86,7 @@ impl Problem {
     /// much larger or smaller as it does the square of the contact radius.
     pub(super) fn approach_at(&self, point: &LoadPoint) -> f64 {
         point.loads.given.delta_z.unwrap_or_else(|| {
-            let radius = off_grid::expected_radius(&self.scene);
+            let radius = expected_radius(&self.scene);
             let coated = self
                 .scene
                 .hertz()

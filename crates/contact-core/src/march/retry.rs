@@ -6,8 +6,9 @@
 //! [`Work::parts`](super::Work::parts) says in how many pieces an increment was solved.
 
 use super::domain::Domain;
-use super::increment::{Failure, Workspace, increment};
+use super::increment::increment;
 use super::problem::Problem;
+use super::setup::{Failure, Workspace};
 use super::{Energy, Increment, Residuals, State, Work};
 use crate::error::Error;
 use crate::scene::LoadPoint;

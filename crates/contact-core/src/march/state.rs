@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::Motion;
-use super::problem::unit;
 use crate::cells::Arms;
 use crate::plan::Mirror;
 use crate::scene::{Grid, LoadPoint, Loads};
@@ -88,7 +87,7 @@ impl State {
     /// Approach and tilts, as lengths \[m\].
     pub(super) fn approach(&self, arms: &Arms) -> [f64; 3] {
         let motions = self.motion.motions();
-        [0, 1, 2].map(|k| motions[k] * unit(arms, k))
+        [0, 1, 2].map(|k| motions[k] * arms.unit(k))
     }
 
     /// The factor by which the change of the loads to a point is that of the last increment, if both

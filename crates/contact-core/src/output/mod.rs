@@ -24,6 +24,7 @@ mod open;
 mod place;
 mod reader;
 mod resume;
+mod schema;
 mod stress_store;
 mod variable;
 mod volume;
@@ -39,8 +40,3 @@ pub use stress_store::StressStore;
 pub use volume::{VolumeSink, write_volume};
 pub use wear_store::{WearStore, resume_wear};
 pub use writer::StoreWriter;
-
-/// The conventions that the names of attributes follow (https://cfconventions.org).
-const CONVENTIONS: &str = "CF-1.11";
-/// The version of the store's layout.
-const SCHEMA: u64 = 2;

@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use serde_json::Value;
 use zarrs::array::ArraySubset;
 
-use super::SCHEMA;
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
+use super::schema::SCHEMA;
 use super::variable::Stored;
 use crate::error::Error;
 use crate::scene::Scene;

@@ -6,11 +6,11 @@ use std::sync::{Mutex, PoisonError};
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
 
-use super::SCHEMA;
 use super::catalogue::Kind;
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
 use super::place::Unfinished;
+use super::schema::{CONVENTIONS, SCHEMA};
 use super::variable::{Column, Variable};
 use super::volume::VolumeSink;
 use crate::error::Error;
@@ -97,7 +97,7 @@ impl StressStore {
             )
         };
         let mut attributes = Map::new();
-        attributes.insert("Conventions".into(), json!(super::CONVENTIONS));
+        attributes.insert("Conventions".into(), json!(CONVENTIONS));
         attributes.insert("title".into(), json!(title));
         attributes.insert("schema".into(), json!(SCHEMA));
         attributes.insert("version".into(), json!(env!("CARGO_PKG_VERSION")));

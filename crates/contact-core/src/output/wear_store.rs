@@ -11,11 +11,11 @@ use std::sync::atomic::AtomicBool;
 
 use serde_json::{Map, Value, json};
 
-use super::SCHEMA;
 use super::catalogue::Kind;
 use super::folder::Folder;
 use super::place::{Unfinished, mend};
 use super::reader::Store;
+use super::schema::SCHEMA;
 use super::variable::{Column, Variable};
 use crate::error::Error;
 use crate::scene::Scene;

@@ -1,7 +1,7 @@
 //! Cattaneo and Mindlin: a sphere pressed on, then sheared to and fro, with partial slip.
 
 use super::Hertz;
-use crate::scene::Elastic;
+use crate::material::Elastic;
 
 /// Tangential modulus G* of a pair \[Pa\], 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2.
 pub fn tangential_modulus(body1: Elastic, body2: Elastic) -> f64 {

@@ -8,7 +8,7 @@ use super::layered_response::layered_normal_remainder;
 use super::linear_system::solve;
 use super::quadrature::gauss_legendre;
 use crate::error::Error;
-use crate::scene::{Coating, Elastic};
+use crate::material::{Coating, Elastic};
 
 /// Widest contact over the thickness of the coating: the linear system has 700 unknowns there.
 const WIDEST: f64 = 200.0;

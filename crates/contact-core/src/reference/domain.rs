@@ -4,7 +4,8 @@
 //! arguments asks here first.
 
 use crate::error::Error;
-use crate::scene::{Elastic, LARGEST, SMALLEST};
+use crate::magnitude::{LARGEST, SMALLEST};
+use crate::material::Elastic;
 
 /// Fails unless a number is positive and of a size from 1e-75 to 1e75, which no product of a closed
 /// form leaves the range of a double with.

@@ -4,17 +4,6 @@ use std::f64::consts::PI;
 
 use super::elliptic::elliptic_integrals;
 use super::quadrature::bisect;
-use crate::scene::Elastic;
-
-/// Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
-///
-/// beta = \[(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2\] / (2 \[(1 - nu1)/G1 + (1 - nu2)/G2\]); zero for similar
-/// bodies, at most 1/2 in size, negative when the bodies change places.
-pub fn dundurs_beta(body1: Elastic, body2: Elastic) -> f64 {
-    let coupling = |m: Elastic| (1.0 - 2.0 * m.nu) / m.G();
-    let compliance = |m: Elastic| (1.0 - m.nu) / m.G();
-    (coupling(body1) - coupling(body2)) / (2.0 * (compliance(body1) + compliance(body2)))
-}
 
 /// Stick radius over contact radius, c/a, of an indentation with friction `mu` of bodies with
 /// Dundurs' parameter `beta`, the effect of the shear on the pressure neglected:

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::scene::Elastic;
+use crate::material::Elastic;
 
 /// The Hertz contact of a sphere of relative radius R.
 ///

@@ -1,6 +1,6 @@
 //! The normal surface frequency response of one coating on a substrate, in closed form.
 
-use crate::scene::Elastic;
+use crate::material::Elastic;
 
 /// Normal displacement over pressure, u_z/p \[m/Pa\], at wave number `k` > 0 \[1/m\] of a coating
 /// (1) of thickness `h` \[m\] bonded to a substrate (2):

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::Hertz;
 use super::elliptic::elliptic_integrals;
 use super::quadrature::{bisect, integrate};
-use crate::scene::Elastic;
+use crate::material::Elastic;
 
 /// Points of the Gauss rule; the integrands are smooth but for a logarithm at full slip.
 const NODES: usize = 64;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::scene::Elastic;
+use crate::material::Elastic;
 
 /// Surface displacement (u_x, u_y) \[m\] inside r <= `a` of one half-space loaded by
 /// q_x = `q0` sqrt(1 - r^2/a^2) on its surface, for any nu:

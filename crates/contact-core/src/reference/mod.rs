@@ -30,11 +30,12 @@ mod quadrature;
 mod springs;
 mod thin_layer;
 
+pub use crate::material::dundurs_beta;
 pub use cattaneo_mindlin::{CattaneoMindlin, tangential_modulus};
 pub use coated_indentation::{CoatedIndentation, coated_indentation};
 pub use coupled_indentation::{CoupledIndentation, coupled_indentation};
 pub use elliptic::{EllipticIntegrals, elliptic_integrals};
-pub use goodman::{dundurs_beta, goodman_rate, goodman_stick_ratio};
+pub use goodman::{goodman_rate, goodman_stick_ratio};
 pub use hamilton::{HertzStress, Stress};
 pub(crate) use hertz::contact_modulus;
 pub use hertz::{Hertz, hertz};

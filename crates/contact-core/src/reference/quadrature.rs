@@ -1,6 +1,6 @@
 //! Gauss-Legendre quadrature and a bracketed root, for the closed forms that end in one.
 
-use crate::kernels::gauss::rule;
+use crate::gauss::rule;
 
 /// Nodes and weights of the `n`-point Gauss-Legendre rule on (a, b).
 pub(crate) fn gauss_legendre(n: usize, a: f64, b: f64) -> Vec<(f64, f64)> {

@@ -1,7 +1,7 @@
 //! One-dimensional springs: the answer for every path of W and T, uncoupled and axisymmetric.
 
 use super::{Hertz, tangential_modulus};
-use crate::scene::Elastic;
+use crate::material::Elastic;
 
 /// Independent springs that carry, for a sphere, exactly the force-displacement relations of the
 /// three-dimensional contact under any path (W, T): method of dimensionality reduction,

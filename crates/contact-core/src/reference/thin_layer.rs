@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::scene::Elastic;
+use crate::material::Elastic;
 
 /// Axisymmetric indentation: what a sphere of radius R does to a thin layer.
 #[derive(Clone, Copy, Debug, PartialEq)]

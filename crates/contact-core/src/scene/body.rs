@@ -1,16 +1,8 @@
 //! Bodies: a substrate, the coatings bonded to it, and a surface shape.
 
-use super::{Elastic, Shape};
+use super::Shape;
 use crate::error::Error;
-
-/// A layer of constant thickness, perfectly bonded to what is below it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Coating {
-    /// Material of the layer.
-    pub material: Elastic,
-    /// Thickness h \[m\], positive.
-    pub thickness: f64,
-}
+use crate::material::{Coating, Elastic};
 
 /// One of the two bodies, an elastic half-space under a gently curved surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,28 +13,6 @@ pub struct Body {
     pub coatings: Vec<Coating>,
     /// Shape of the undeformed surface.
     pub shape: Shape,
-}
-
-impl Coating {
-    /// Fails if the material or the thickness is out of its range; `key` says where it stands.
-    pub fn check(&self, key: &str) -> Result<(), Error> {
-        self.material.check(key)?;
-        if !(self.thickness > 0.0 && self.thickness.is_finite()) {
-            return Err(Error::invalid(
-                format!("{key}.thickness"),
-                self.thickness,
-                "a positive length in m",
-            ));
-        }
-        if self.material.is_rigid() {
-            return Err(Error::invalid(
-                format!("{key}.E"),
-                self.material.E,
-                "a finite modulus (a rigid layer makes the whole body rigid)",
-            ));
-        }
-        Ok(())
-    }
 }
 
 impl Body {

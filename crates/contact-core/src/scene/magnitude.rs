@@ -1,20 +1,14 @@
-//! Magnitudes that double precision carries through a solution.
-//!
-//! Numbers of a scene meet in products of up to four (an area times a modulus, a square of a length
-//! over a radius), squared again where sums of squares are taken; between 1e-75 and 1e75 none of
-//! them leaves the range of a double, 1e-308 to 1e308, unless they conspire, and the approach that
-//! they result in is looked at too.
+//! Refusal of numbers that nothing could be computed from.
 
 use super::shape::Range;
 use super::{Body, Grid, RigidMotion, Scene, Shape};
 use crate::error::Error;
+use crate::magnitude::{LARGEST, SMALLEST};
 
 /// Largest factor of a coefficient of friction over the surface, in the other direction, in motion or
 /// over the history: six orders of magnitude are more than any surface has, and the equations of cells
 /// that differ by more can't be solved to six digits together.
 const FACTOR: f64 = 1e6;
-pub(crate) const SMALLEST: f64 = 1e-75;
-pub(crate) const LARGEST: f64 = 1e75;
 
 impl Body {
     /// The same checks as in a scene, but for the shape, where a body is used by itself.

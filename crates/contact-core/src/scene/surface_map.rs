@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ndarray::Array2;
 
 use super::Grid;
-use super::case::files;
+use super::files;
 use super::missing::{Missing, completed};
 use super::number_files::{read_npy, read_table};
 use crate::error::Error;

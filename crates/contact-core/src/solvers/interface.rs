@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Response, Shear};
+use super::Response;
 use crate::cells::sums;
 use crate::convolution::{Displacements, Tractions};
 
@@ -91,4 +91,19 @@ impl Interface {
         });
         squares.sqrt()
     }
+}
+
+/// Shear, displacement and slip set, in and out.
+pub struct Shear<'a> {
+    /// q_x, q_y \[Pa\]; on entry a guess.
+    pub q: [&'a mut [f64]; 2],
+    /// Total u_x, u_y \[m\], belonging to q on entry and on exit.
+    pub u: [&'a mut [f64]; 2],
+    /// Contact cells that slip; on entry a guess.
+    pub slip: &'a mut [bool],
+}
+
+/// Largest shear under the pressure p, mu p \[Pa\].
+pub(crate) fn friction_bound(mu: f64, p: f64) -> f64 {
+    if p > 0.0 { mu * p } else { 0.0 }
 }

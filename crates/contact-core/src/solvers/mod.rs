@@ -9,34 +9,14 @@
 //! Each takes Params and gives Info or an Error with numbers. Lengths are those of the scene; a
 //! tolerance is a length too, so that "how wrong" can be read off.
 
+mod error;
 pub mod inner;
 mod interface;
 pub mod intermediate;
 pub mod no_slip;
 mod response;
 
-pub use interface::Interface;
+pub use error::SolverError;
+pub(crate) use interface::friction_bound;
+pub use interface::{Interface, Shear};
 pub use response::Response;
-
-use self::inner::Shear;
-
-/// Largest shear under the pressure p, mu p \[Pa\].
-pub(crate) fn friction_bound(mu: f64, p: f64) -> f64 {
-    if p > 0.0 { mu * p } else { 0.0 }
-}
-
-/// A solver that stopped before its tolerance.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "the {solver} solver stopped at {residual:.2e} m (tolerance {tolerance:.2e} m) after {iterations} iterations"
-)]
-pub struct SolverError {
-    /// Which solver.
-    pub solver: &'static str,
-    /// Residual reached \[m\].
-    pub residual: f64,
-    /// Residual asked for \[m\].
-    pub tolerance: f64,
-    /// Iterations done.
-    pub iterations: usize,
-}

@@ -24,6 +24,7 @@ mod settings;
 mod shift;
 mod sliding;
 mod stroke;
+mod table;
 
 pub use block::Block;
 pub use events::{Event, EventKind};

@@ -138,7 +138,7 @@ impl Wear {
         }
         self.check_closed(scene)?;
         if self.cycling == Cycling::Sliding {
-            stroke(scene, self)?;
+            stroke(scene, self.first_branch, self.rig_stiffness)?;
         }
         self.jumps.check()
     }

@@ -68,7 +68,7 @@ impl Sliding {
         state: Option<Vec<Vec<f64>>>,
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
-        let (places, corners) = stroke(scene, wear)?;
+        let (places, corners) = stroke(scene, wear.first_branch, wear.rig_stiffness)?;
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
         let pressing = Pressing::new(scene, &plan, stop)?;

@@ -1,6 +1,5 @@
 //! The places of a stroke: where the bodies slide past each other, and by how much.
 
-use super::settings::Wear;
 use crate::error::Error;
 use crate::scene::{Scene, Shape};
 
@@ -21,18 +20,22 @@ pub(crate) struct Place {
 /// The corners of the loop: shift of the rig \[m\], shift of the contact \[m\], force T_x \[N\].
 pub(crate) type Corner = [f64; 3];
 
-/// The places of the cycle and the corners of its loop.
+/// The places of the cycle, which begins with the branch `first_branch`, and the corners of its loop.
 ///
-/// A rig of stiffness K drives the contact through a spring, and the contact follows where the
+/// A rig of stiffness K \[N/m\] drives the contact through a spring, and the contact follows where the
 /// spring pulls with mu W: with u the shift of the rig and d that of the contact, each increment
 /// takes d to the nearest place with `|u - d| <= mu W/K` (a Prandtl element).
-pub(crate) fn stroke(scene: &Scene, wear: &Wear) -> Result<(Vec<Place>, Vec<Corner>), Error> {
-    check(scene, wear)?;
+pub(crate) fn stroke(
+    scene: &Scene,
+    first_branch: usize,
+    rig_stiffness: f64,
+) -> Result<(Vec<Place>, Vec<Corner>), Error> {
+    check(scene, first_branch)?;
     let mu = scene.friction.mu;
     let points = scene.path.points();
     let lead_in = points
         .iter()
-        .take_while(|p| p.branch < wear.first_branch)
+        .take_while(|p| p.branch < first_branch)
         .count();
     let cycle = points.len() - lead_in;
     let u_of = |k: usize| {
@@ -43,12 +46,8 @@ pub(crate) fn stroke(scene: &Scene, wear: &Wear) -> Result<(Vec<Place>, Vec<Corn
             .filter(|u| u.is_finite())
             .unwrap_or(0.0)
     };
-    let play = |d: f64, u: f64, W: f64| {
-        d.clamp(
-            u - mu * W / wear.rig_stiffness,
-            u + mu * W / wear.rig_stiffness,
-        )
-    };
+    let play =
+        |d: f64, u: f64, W: f64| d.clamp(u - mu * W / rig_stiffness, u + mu * W / rig_stiffness);
     let (mut d, mut W) = (0.0, 0.0);
     for k in 0..lead_in {
         W = points[k].loads.W;
@@ -70,7 +69,7 @@ pub(crate) fn stroke(scene: &Scene, wear: &Wear) -> Result<(Vec<Place>, Vec<Corn
             } else if d < before {
                 -mu * W
             } else {
-                wear.rig_stiffness * (u_of(k) - d)
+                rig_stiffness * (u_of(k) - d)
             };
             corners.push([u_of(k), d, force]);
             let way = (d - before).abs();
@@ -98,7 +97,7 @@ pub(crate) fn stroke(scene: &Scene, wear: &Wear) -> Result<(Vec<Place>, Vec<Corn
     Ok((places, corners))
 }
 
-fn check(scene: &Scene, wear: &Wear) -> Result<(), Error> {
+fn check(scene: &Scene, first_branch: usize) -> Result<(), Error> {
     let refuse =
         |key: String, value: String, allowed: &str| Err(Error::invalid(key, value, allowed));
     let friction = &scene.friction;
@@ -135,10 +134,10 @@ fn check(scene: &Scene, wear: &Wear) -> Result<(), Error> {
         if given[0].is_some() || moves || others.iter().any(|f| *f != 0.0) {
             return refuse(format!("path[{b}]"), "other loads".into(), allowed);
         }
-        if b >= wear.first_branch && given[3].is_none() {
+        if b >= first_branch && given[3].is_none() {
             return refuse(format!("path[{b}].T_x"), to.T_x.to_string(), allowed);
         }
-        if b + 1 >= wear.first_branch && !(to.W > 0.0) {
+        if b + 1 >= first_branch && !(to.W > 0.0) {
             return refuse(
                 format!("path[{b}].W"),
                 to.W.to_string(),

@@ -9,7 +9,6 @@
 //! from those next to its border. Where the extrapolated f is zero runs the border, a straight line within
 //! a cell.
 
-use super::edge::Edge;
 use super::laws::Power;
 use super::parabola::Parabola;
 use crate::cells::Lattice;
@@ -189,36 +188,8 @@ pub(crate) struct Level {
 }
 
 impl Lattice {
-    /// Every cell at the border of a zone, in it or next to it, in order.
-    ///
-    /// `laws` of a line of cells gives K powers and the value of a cell on it: the value to one of
-    /// them vanishes linearly at the border, the straightest counts, extrapolated from its stencil.
-    pub(crate) fn edges<const K: usize, V: Fn(usize) -> f64>(
-        self,
-        zone: &[bool],
-        stencils: [Stencil; K],
-        laws: impl Fn(&mut Line) -> ([Power; K], V),
-    ) -> Vec<(usize, Edge)> {
-        let edge = |n: usize| (n, self.edge(n, zone, stencils, &laws));
-        self.border(zone).into_iter().map(edge).collect()
-    }
-
-    /// One of these cells.
-    pub(crate) fn edge<const K: usize, V: Fn(usize) -> f64>(
-        self,
-        n: usize,
-        zone: &[bool],
-        stencils: [Stencil; K],
-        laws: &impl Fn(&mut Line) -> ([Power; K], V),
-    ) -> Edge {
-        Edge {
-            level: self.level(n, zone, stencils, laws),
-            inside: zone[n],
-        }
-    }
-
     /// The straightest level at the centre of a cell, extrapolated from inside.
-    fn level<const K: usize, V: Fn(usize) -> f64>(
+    pub(super) fn level<const K: usize, V: Fn(usize) -> f64>(
         self,
         n: usize,
         zone: &[bool],
@@ -286,56 +257,4 @@ fn bend(levels: &[f64]) -> f64 {
     let near = &levels[..levels.len().min(4)];
     let bends = near.windows(3).map(|y| (y[2] - 2.0 * y[1] + y[0]).abs());
     bends.sum::<f64>() / (near.last().unwrap_or(&0.0) - near.first().unwrap_or(&0.0)).abs()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::plan::Mirror;
-    use crate::scene::Grid;
-
-    /// Area over that of the true zone for a level sampled at the centres.
-    fn area(n: usize, (a, b): (f64, f64), mirror: Mirror) -> f64 {
-        let grid = Grid::centred(2.4, n).expect("a grid");
-        let f = mirror.fold(&grid.map(|x, y| 1.0 - (x / a).powi(2) - (y / b).powi(2)));
-        let zone: Vec<bool> = f.iter().map(|&f| f > 0.0).collect();
-        let lattice = Lattice::new(&grid, mirror);
-        let whole = zone.iter().filter(|&&inside| inside).count() as f64;
-        let edges = lattice.edges(&zone, [Stencil::ROOT], |_| ([Power::One], |n: usize| f[n]));
-        let partial: f64 = edges
-            .iter()
-            .map(|(n, edge)| {
-                // Sampled at the centres there is no bias.
-                let level = edge.level.map(|level| Level { bias: 0.0, ..level });
-                Edge { level, ..*edge }.share() - f64::from(u8::from(zone[*n]))
-            })
-            .sum();
-        (whole + partial) * grid.cell_area() * mirror.multiplicity()
-            / (std::f64::consts::PI * a * b)
-    }
-
-    #[test]
-    fn ellipses_keep_their_area() {
-        for n in [32, 33, 64, 65, 128] {
-            // Within a cell the border is straight: its sagitta is d^2/(8 a).
-            let d = 2.4 / n as f64;
-            for axes in [(1.0, 1.0), (0.9, 0.5)] {
-                // Within seven cells the border bends too much, and whole cells count at some places.
-                let part = d / axes.1;
-                let allowed = if part > 1.0 / 8.0 {
-                    0.25 * part
-                } else {
-                    part * part
-                };
-                let error = (area(n, axes, Mirror::None) - 1.0).abs();
-                assert!(error < allowed, "{n} {axes:?} {error:e}");
-            }
-        }
-    }
-
-    #[test]
-    fn half_the_grid_gives_the_same_area() {
-        let [whole, half] = [Mirror::None, Mirror::Y].map(|m| area(64, (1.0, 0.7), m));
-        assert!((whole - half).abs() < 1e-12, "{whole} {half}");
-    }
 }

@@ -21,8 +21,8 @@
 
 use super::energy::slip_of;
 use crate::cells::{Lattice, size};
-use crate::march::increment::Setup;
-use crate::reference::dundurs_beta;
+use crate::march::setup::Setup;
+use crate::material::dundurs_beta;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::NoSlipTerms;
 use crate::solvers::{Interface, friction_bound};

@@ -1,8 +1,7 @@
 //! Energies of an increment.
 
 use crate::cells::sums;
-use crate::march::increment::Setup;
-use crate::march::problem::unit;
+use crate::march::setup::Setup;
 use crate::march::{Energy, Motion};
 use crate::scene::LoadPoint;
 use crate::solvers::intermediate::AlternationInfo;
@@ -29,7 +28,7 @@ pub(super) fn energies(
     let of_loads: f64 = (0..6)
         .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
         .sum();
-    let approach = [0, 1, 2].map(|k| (ended[k] - started[k]) * unit(arms, k));
+    let approach = [0, 1, 2].map(|k| (ended[k] - started[k]) * arms.unit(k));
     let sums = sums([&now.p[..], &last.p], |n, [p, p_before]| {
         if p <= 0.0 && p_before <= 0.0 {
             return [0.0; 6];

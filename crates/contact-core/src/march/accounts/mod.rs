@@ -5,11 +5,11 @@ mod energy;
 mod history;
 
 pub(super) use self::history::{Closing, close};
-use super::increment::{Setup, count};
-use super::problem::unit;
+use super::setup::{Setup, count};
+use super::transmitted::transmitted;
 use super::{Increment, Motion, Status, Work, check};
-use crate::cells::{both, sums};
-use crate::scene::{LoadPoint, Loads};
+use crate::cells::both;
+use crate::scene::LoadPoint;
 use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::NoSlipTerms;
@@ -72,29 +72,10 @@ fn motion(setup: &Setup<'_>, info: &AlternationInfo) -> Motion {
     let (approach, shift) = (info.approach, info.shift);
     Motion {
         delta_z: given.delta_z.unwrap_or(approach[0]),
-        phi_x: given.phi_x.unwrap_or(approach[1] / unit(arms, 1)),
-        phi_y: given.phi_y.unwrap_or(approach[2] / unit(arms, 2)),
+        phi_x: given.phi_x.unwrap_or(approach[1] / arms.unit(1)),
+        phi_y: given.phi_y.unwrap_or(approach[2] / arms.unit(2)),
         delta_x: given.delta_x.unwrap_or(last.delta_x + shift[0]),
-        delta_y: (given.delta_y).unwrap_or(last.delta_y + shift[1] / unit(arms, 4)),
-        phi_z: (given.phi_z).unwrap_or(last.phi_z + shift[2] / unit(arms, 5)),
+        delta_y: (given.delta_y).unwrap_or(last.delta_y + shift[1] / arms.unit(4)),
+        phi_z: (given.phi_z).unwrap_or(last.phi_z + shift[2] / arms.unit(5)),
     }
-}
-
-/// The loads of an increment to `point`: those given, and for given motions what the tractions come to.
-pub(super) fn transmitted(setup: &Setup<'_>, point: &LoadPoint, now: &Interface) -> Loads {
-    let (problem, arms) = (setup.problem, &setup.geometry.arms);
-    let cell_area = problem.cell_area();
-    let sums = [
-        sums([&now.p[..]], |n, [p]| arms.sums_across(p, n)),
-        sums([&now.q[0][..], &now.q[1]], |n, q| arms.sums_in_plane(q, n)),
-    ];
-    let (forces, given) = (point.loads.forces(), point.loads.given);
-    let motions = given.motions();
-    let transmitted = std::array::from_fn(|k| match motions[k] {
-        None => forces[k],
-        // The other half has the opposite.
-        Some(_) if problem.is_odd(k) => 0.0,
-        Some(_) => sums[k / 3][k % 3] * cell_area * unit(arms, k),
-    });
-    point.loads.with_forces(transmitted, given)
 }

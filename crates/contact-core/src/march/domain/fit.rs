@@ -2,15 +2,13 @@
 
 use std::sync::PoisonError;
 
-use super::{Domain, embed, shape_of};
-use crate::convolution::good_size;
+use super::shape::{shape_for, shape_of};
+use super::{AROUND, Domain, embed};
 use crate::error::Error;
 use crate::march::State;
-use crate::march::entry::AROUND;
-use crate::march::guess::first_contact;
+use crate::march::first_pressure::first_pressure;
 use crate::march::problem::Problem;
-use crate::plan::Plan;
-use crate::scene::{Grid, LoadPoint, Scene};
+use crate::scene::LoadPoint;
 use crate::solvers::Response;
 
 /// Least cells between the contact and the border of the window.
@@ -18,20 +16,6 @@ const MARGIN: usize = 2;
 /// What the contact is expected to grow by until the next, wider window, if the loads still grow by as
 /// much.
 const GROWTH: f64 = 1.08;
-/// Part of the grid's length from which a window is not worth it.
-const WHOLE: f64 = 0.9;
-/// The least cells along an axis of a window.
-const LEAST: usize = 32;
-
-/// The shape of the window to begin with: the whole grid where cells have to be kept everywhere.
-pub(super) fn first(scene: &Scene, plan: &Plan) -> (usize, usize) {
-    if plan.methods.window {
-        shape_for(&scene.grid, [LEAST, LEAST])
-    } else {
-        shape_of(&scene.grid)
-    }
-}
-
 impl Domain {
     /// Puts the state into a window wide enough for the contact that is expected in the increment to
     /// `point`; returns it as it was in another one. Fails where the run is stopped meanwhile; nothing is changed then.
@@ -57,7 +41,7 @@ impl Domain {
             half_lengths(&state.interface.p, mirror.rows(ny), (nx, ny))
         } else if presses {
             let (nx, ny) = shape_of(&problem.scene.grid);
-            let p = first_contact(problem, point);
+            let p = first_pressure(problem, point);
             half_lengths(&mirror.fold(&p), mirror.rows(ny), (nx, ny))
         } else {
             return Ok(None);
@@ -162,11 +146,7 @@ impl Domain {
 /// Cells between the contact and the border of the window: those that enter it need their neighbours.
 fn margin(problem: &Problem, state: &State, point: &LoadPoint) -> usize {
     let [within, _] = growth(problem, state, point);
-    if within > 1.0 {
-        AROUND as usize
-    } else {
-        MARGIN
-    }
+    if within > 1.0 { AROUND } else { MARGIN }
 }
 
 /// What the contact is expected to grow by in an increment to `point`, and on the rest of the path:
@@ -185,23 +165,6 @@ fn growth(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
         }
     };
     [grows(steps[0], steps[1]), grows(steps[1], steps[2])]
-}
-
-/// The shape of a window in which so many cells along x and y fit, the longest that transforms take
-/// no longer for.
-fn shape_for(grid: &Grid, cells: [usize; 2]) -> (usize, usize) {
-    let along = |whole: usize, cells: usize| {
-        // A window of an odd grid is odd, too, so that it has the same middle.
-        let odd = whole % 2;
-        let longest = good_size(2 * (cells + odd)) / 2;
-        let length = longest - (longest + odd) % 2;
-        if length as f64 >= WHOLE * whole as f64 {
-            whole
-        } else {
-            length
-        }
-    };
-    (along(grid.nx, cells[0]), along(grid.ny, cells[1]))
 }
 
 /// Cells along x and along y from the middle of a grid to the far side of the outermost that touches; the
@@ -229,20 +192,7 @@ pub(in crate::march) fn half_lengths(
 
 #[cfg(test)]
 mod tests {
-    use super::{half_lengths, shape_for};
-    use crate::scene::Grid;
-
-    #[test]
-    fn what_a_window_is_laid_out_for_fits_in_it() {
-        for whole in 40..260 {
-            let grid = Grid::centred(1.0, whole).unwrap();
-            for cells in (10..whole).step_by(2) {
-                let (nx, ny) = shape_for(&grid, [cells, cells]);
-                let fits = cells <= nx && nx <= whole && (whole - nx) % 2 == 0;
-                assert!(fits && nx == ny, "{nx} x {ny} for {cells} of {whole}");
-            }
-        }
-    }
+    use super::half_lengths;
 
     #[test]
     fn the_outermost_cell_that_touches_counts() {

@@ -8,6 +8,7 @@
 mod beyond;
 mod embed;
 mod fit;
+mod shape;
 
 use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
@@ -15,6 +16,7 @@ use std::sync::{Mutex, PoisonError};
 use ndarray::Array2;
 
 pub(super) use self::fit::half_lengths;
+use self::shape::{first, shape_of};
 use super::State;
 use super::problem::Problem;
 use crate::cells::Arms;
@@ -26,6 +28,10 @@ use crate::kernels::{InfluenceCoefficients, norm, pair_coefficients};
 use crate::plan::{Half, Mirror, Plan};
 use crate::scene::{Grid, Scene};
 use crate::solvers::Response;
+
+/// Cells between the contact and the border of a window in which cells may enter: the motion of those is
+/// found from the cells so far around.
+pub(super) const AROUND: usize = 7;
 
 /// Where the cells are that are solved on, and what is given on them.
 pub(super) struct Geometry {
@@ -87,7 +93,7 @@ impl Domain {
             norms: norms.map(|(kernel, acts)| if acts { norm(kernel) } else { 0.0 }),
             pair,
         };
-        let window = kernels.window(scene, plan, fit::first(scene, plan), stop)?;
+        let window = kernels.window(scene, plan, first(scene, plan), stop)?;
         Ok(Self {
             kernels,
             window,
@@ -237,10 +243,6 @@ impl Geometry {
     pub(super) fn cut(&self, mirror: Mirror, field: &Array2<f64>) -> Vec<f64> {
         mirror.fold(&middle(field, shape_of(&self.grid)))
     }
-}
-
-fn shape_of(grid: &Grid) -> (usize, usize) {
-    (grid.nx, grid.ny)
 }
 
 /// The nx x ny entries in the middle of a field.

@@ -4,9 +4,9 @@
 //! theta = h_init/delta_z of the increment, and its motion is -theta d(delta), which the solution has yet
 //! to show.
 
-use super::entered;
+use super::asked::entered;
 use crate::error::Error;
-use crate::march::increment::{Setup, Solution, Solver};
+use crate::march::setup::{Setup, Solution, Solver};
 use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 

@@ -6,9 +6,11 @@
 //! means no slip. A cell that leaves the contact needs nothing of the kind: its shear ends with its
 //! pressure, and nothing remembers it.
 
+mod asked;
 mod first_contact;
 mod kept_contact;
 mod least_squares;
+mod motion;
 mod neighbours;
 mod order;
 mod screened;
@@ -16,20 +18,9 @@ mod view;
 
 use self::first_contact::solve_first_contact;
 use self::kept_contact::KeptContact;
-use self::neighbours::Neighbours;
-pub(super) use self::order::AROUND;
-use self::screened::Screened;
-use self::view::REACH;
-use super::increment::{Asked, Setup, Solution, Solver};
+use super::setup::{Setup, Solution, Solver};
 use crate::error::Error;
 use crate::solvers::Interface;
-use crate::solvers::intermediate::AlternationInfo;
-use crate::solvers::no_slip::slip;
-
-/// Shares of the tolerance that increments in which cells enter are solved to, on the old cells alone
-/// and with the new ones: where these stick their residual slip stays.
-const KEPT_SHARE: f64 = 0.5;
-const ENTERED_SHARE: f64 = 0.25;
 
 /// Solves the increment from a first guess, its new cells with the motion before their entry.
 pub(super) fn solve(
@@ -38,36 +29,20 @@ pub(super) fn solve(
     guess: Interface,
 ) -> Result<Solution, Error> {
     if !cells_enter(setup) {
-        let asked = Asked {
-            h_init: &setup.geometry.h_init,
-            share: 1.0,
-            turns: true,
-            entry: None,
-        };
-        return solver.solve(setup, &asked, guess);
+        return solver.solve(setup, &asked::whole(setup), guess);
     }
     if setup.state.interface.p.iter().all(|&p| p <= 0.0) {
         return solve_first_contact(setup, solver, guess);
     }
     let (kept, info) = solve_kept(setup, solver, on_old_cells(setup, &guess))?;
     let last = setup.last();
-    let motion = kept_contact(setup, &kept, &info).motion_before_entry(|n| last.p[n] <= 0.0);
+    let motion = KeptContact::new(setup, &kept, &info).motion_before_entry(|n| last.p[n] <= 0.0);
     // The new cells are all that is missing, unless the old ones alone had no solution.
     let solved = !info.exceeds_friction() && kept.p.iter().any(|&p| p > 0.0);
     let guess = if solved { kept } else { guess };
-    let (now, mut found) = solver.solve(setup, &entered(setup, &motion), guess)?;
+    let (now, mut found) = solver.solve(setup, &asked::entered(setup, &motion), guess)?;
     found.add_work(&info);
     Ok((now, found))
-}
-
-/// All cells, of which those outside the last contact enter it after a motion \[m\].
-fn entered<'a>(setup: &'a Setup<'_>, motion: &'a [Vec<f64>; 2]) -> Asked<'a> {
-    Asked {
-        h_init: &setup.geometry.h_init,
-        share: ENTERED_SHARE,
-        turns: true,
-        entry: Some(motion),
-    }
 }
 
 /// Solves with the contact kept to its old cells: the others are far apart.
@@ -83,13 +58,7 @@ fn solve_kept(
     let apart: Vec<f64> = cells
         .map(|(h, &p)| if p > 0.0 { *h } else { h + far })
         .collect();
-    let asked = Asked {
-        h_init: &apart,
-        share: KEPT_SHARE,
-        turns: false,
-        entry: None,
-    };
-    solver.solve(setup, &asked, guess)
+    solver.solve(setup, &asked::kept(&apart), guess)
 }
 
 /// The first guess on the old cells alone: pressure as predicted, scaled to the load, shear as it was.
@@ -109,35 +78,6 @@ fn on_old_cells(setup: &Setup<'_>, guess: &Interface) -> Interface {
         kept.p.iter_mut().for_each(|p| *p *= factor);
     }
     kept
-}
-
-/// What an increment with the contact kept to its old cells has done.
-fn kept_contact(setup: &Setup<'_>, kept: &Interface, info: &AlternationInfo) -> KeptContact {
-    let (geometry, mirror) = (setup.geometry, setup.problem.plan.mirror);
-    let (last, arms) = (setup.last(), &geometry.arms);
-    let approach = setup.state.approach(arms);
-    let cells = 0..geometry.h_init.len();
-    let gap = |u_z: &[f64], approach: [f64; 3], n: usize| {
-        u_z[n] + geometry.h_init[n] - arms.across(approach, n)
-    };
-    let before = |n: usize| {
-        let wider = setup.roll.gap_at(geometry, mirror, n);
-        (gap(&last.u_z, approach, n) - wider).max(0.0)
-    };
-    let motion = |n: usize| {
-        let at = |u: &[Vec<f64>; 2]| [u[0][n], u[1][n]];
-        slip(at(&kept.u), at(&last.u), arms.in_plane(info.shift, n))
-    };
-    KeptContact {
-        motion: [0, 1].map(|c| cells.clone().map(|n| motion(n)[c]).collect()),
-        gap: cells.clone().map(before).collect(),
-        closing: cells
-            .map(|n| before(n) - gap(&kept.u_z, info.approach, n))
-            .collect(),
-        cells: Neighbours::new(&geometry.grid, mirror, REACH, setup.kernel),
-        screened: Screened::new(&geometry.grid, setup.kernel),
-        ordered: setup.problem.plan.methods.order_of_entry,
-    }
 }
 
 /// Whether contact grows or rolls on in the increment and it matters how a cell moved before.

@@ -6,6 +6,9 @@ use crate::kernels::Quadrant;
 use crate::plan::Mirror;
 use crate::scene::Grid;
 
+/// Fewest cells whose neighbours are worth a task of their own.
+pub(super) const TASK: usize = 256;
+
 /// The ways to the cells around a kept one.
 pub(super) struct Neighbours {
     lattice: Lattice,

@@ -25,13 +25,14 @@ use std::collections::BinaryHeap;
 
 use rayon::prelude::*;
 
-use super::kept_contact::{KeptContact, TASK};
+use super::kept_contact::KeptContact;
 use super::least_squares::{LeastSquares, RIDGE};
-use super::neighbours::Neighbour;
+use super::neighbours::{Neighbour, TASK};
 use super::view::{REACH, View};
+use crate::march::domain::AROUND;
 
 /// How far the cells around reach that the rates are fitted to, in cells.
-pub(in crate::march) const AROUND: isize = 7;
+pub(super) const FITTED: isize = AROUND as isize;
 /// Least rate at which a gap closes, over that with the contact kept.
 const SLOWEST: f64 = 1e-3;
 
@@ -253,11 +254,11 @@ fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> 
     // Of the motion and of e/s, both times the closing.
     let mut ratios = LeastSquares::<5, 4>::new();
     let (mut motion_e, mut e_e) = (0.0, 0.0);
-    for near in contact.cells.of(n, AROUND) {
+    for near in contact.cells.of(n, FITTED) {
         let (m, [x, y]) = (near.cell, near.off);
         let Some(view) = &views[m] else { continue };
         let (s, way) = (view.root(), along[0] * x + along[1] * y);
-        let weight = near.nearness(AROUND);
+        let weight = near.nearness(FITTED);
         let closing = contact.closing[m] / unit;
         let [e_x, e_y] = view.toward().map(|e| closing * e / s);
         let [x, y] = [0, 1].map(|c| contact.motion[c][m] / unit);

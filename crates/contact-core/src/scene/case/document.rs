@@ -3,8 +3,8 @@
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
+use super::fault::Fault;
 use super::measure;
-use super::section::Fault;
 use crate::error::Error;
 
 /// A scene file with the settings applied.

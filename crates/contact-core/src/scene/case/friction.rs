@@ -2,10 +2,11 @@
 
 use toml::Value;
 
-use super::files::Files;
+use super::fault::Fault;
 use super::measure;
-use super::section::{Fault, Section};
+use super::section::Section;
 use super::shape::surface_map;
+use crate::scene::files::Files;
 use crate::scene::{Friction, FrictionHistory, History};
 
 /// The friction law.

@@ -2,11 +2,11 @@
 
 use toml::Value;
 
-use super::section::Fault;
+use super::fault::Fault;
 
 /// A measure that a number may be given in.
 #[derive(Clone, Copy)]
-pub(super) struct Measure {
+pub(crate) struct Measure {
     /// Name, such as `a_H`.
     name: &'static str,
     /// Its value in SI, or why it has none.

@@ -5,7 +5,7 @@
 //! names the key and its line, and an unknown key the nearest valid one.
 
 mod document;
-pub(in crate::scene) mod files;
+mod fault;
 mod friction;
 mod measure;
 mod path;
@@ -15,22 +15,18 @@ mod settings;
 mod shape;
 #[cfg(test)]
 mod tests;
-mod wear;
 mod write;
 
 use std::path::Path;
 
-pub use files::Reach;
+pub(crate) use fault::Fault;
+pub(crate) use section::Section;
 
 use document::Document;
-use files::Files;
-use section::Fault;
 
 use super::Scene;
+use super::files::{self, Files, Reach};
 use crate::error::Error;
-
-/// The version of the scene file that is read and written.
-const SCHEMA: i64 = 1;
 
 impl Scene {
     /// Reads and checks a scene file. Each of `settings` is a `key=value` that replaces a value of
@@ -46,17 +42,13 @@ impl Scene {
         settings: &[String],
         reach: Reach,
     ) -> Result<Self, Error> {
-        let path = path.as_ref();
-        let text = String::from_utf8(files::read(path)?).map_err(|e| Error::File {
-            path: path.display().to_string(),
-            message: format!("is not UTF-8 text: {e}"),
-        })?;
-        Self::read(&text, &path.display().to_string(), settings, reach)
+        let (text, file) = text_of(path.as_ref())?;
+        Self::from_toml_str_reaching(&text, &file, settings, reach)
     }
 
     /// Reads and checks a scene in the format of the scene file; `file` is its name in errors.
     pub fn from_toml_str(text: &str, file: &str, settings: &[String]) -> Result<Self, Error> {
-        Self::read(text, file, settings, Reach::Folder)
+        Self::from_toml_str_reaching(text, file, settings, Reach::Folder)
     }
 
     /// [`Self::from_toml_str`], with files of the given reach.
@@ -66,31 +58,38 @@ impl Scene {
         settings: &[String],
         reach: Reach,
     ) -> Result<Self, Error> {
-        Self::read(text, file, settings, reach)
-    }
-
-    fn read(text: &str, file: &str, settings: &[String], reach: Reach) -> Result<Self, Error> {
-        let document = Document::parse(text, file, settings)?;
-        let folder = Path::new(file).parent().unwrap_or_else(|| Path::new(""));
-        let files = Files { folder, reach };
-        read::scene(document.root(), &files)
-            .and_then(|scene| {
-                scene.check()?;
-                Ok(scene)
-            })
-            .map_err(|fault| document.error(&fault))
+        Ok(read_with(text, file, settings, reach, |_, _| Ok(()))?.0)
     }
 }
 
-impl From<Error> for Fault {
-    fn from(error: Error) -> Self {
-        let message = error.to_string();
-        match error {
-            Error::InvalidScene { key, .. } => Self { key, message },
-            _ => Self {
-                key: String::new(),
-                message,
-            },
-        }
+/// The text of a scene file, and its name in errors.
+pub(crate) fn text_of(path: &Path) -> Result<(String, String), Error> {
+    let file = path.display().to_string();
+    match String::from_utf8(files::read(path)?) {
+        Ok(text) => Ok((text, file)),
+        Err(e) => Err(Error::File {
+            path: file,
+            message: format!("is not UTF-8 text: {e}"),
+        }),
     }
+}
+
+/// Reads and checks a scene, and what else its file says of it: `more` gets the file's root and the scene.
+pub(crate) fn read_with<T>(
+    text: &str,
+    file: &str,
+    settings: &[String],
+    reach: Reach,
+    more: impl FnOnce(&Section<'_>, &Scene) -> Result<T, Fault>,
+) -> Result<(Scene, T), Error> {
+    let document = Document::parse(text, file, settings)?;
+    let folder = Path::new(file).parent().unwrap_or_else(|| Path::new(""));
+    let both = || -> Result<_, Fault> {
+        let scene = read::scene(document.root(), &Files { folder, reach })?;
+        scene.check()?;
+        let root = Section::root(document.root(), &read::ROOT)?;
+        let more = more(&root, &scene)?;
+        Ok((scene, more))
+    };
+    both().map_err(|fault| document.error(&fault))
 }

@@ -2,9 +2,10 @@
 
 use toml::Value;
 
-use super::files::Files;
+use super::fault::Fault;
 use super::measure::Measure;
-use super::section::{Fault, Section, count};
+use super::section::{Section, count};
+use crate::scene::files::Files;
 use crate::scene::{Branch, Increments, LoadPath, Loads, Prescribed, RigidMotion, Spacing};
 
 /// The branches; loads that a branch does not name do not change.

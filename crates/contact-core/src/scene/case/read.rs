@@ -3,16 +3,18 @@
 
 use toml::{Table, Value};
 
-use super::SCHEMA;
-use super::files::Files;
+use super::fault::Fault;
 use super::friction::friction;
 use super::measure::{self, Measure};
 use super::path::path;
-use super::section::{Fault, Section, count, pair};
+use super::section::{Section, count, pair};
 use super::settings::settings;
 use super::shape::shape;
+use crate::scene::files::Files;
 use crate::scene::{Body, Coating, Elastic, Grid, Scene};
 
+/// The version of the scene file that is read and written.
+pub(super) const SCHEMA: i64 = 1;
 pub(super) const ROOT: [&str; 12] = [
     "schema", "title", "body1", "body2", "friction", "grid", "path", "kernel", "solver", "skip",
     "output", "wear",

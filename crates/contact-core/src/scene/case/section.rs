@@ -2,47 +2,18 @@
 
 use toml::{Table, Value};
 
+use super::fault::Fault;
 use super::measure::{self, Measure};
 
-/// What is wrong, and at which key.
-#[derive(Debug)]
-pub(super) struct Fault {
-    /// The key, `body2.coatings[0].E`; it may be missing from the file.
-    pub(super) key: String,
-    /// One sentence.
-    pub(super) message: String,
-}
-
-impl Fault {
-    pub(super) fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
-        Self {
-            key: key.into(),
-            message: message.into(),
-        }
-    }
-
-    /// A value that is not what it must be.
-    pub(super) fn value(key: &str, value: &Value, allowed: &str) -> Self {
-        let shown = match value {
-            Value::Table(table) => {
-                let keys: Vec<_> = table.iter().map(|(k, v)| format!("{k} = {v}")).collect();
-                format!("{{ {} }}", keys.join(", "))
-            }
-            value => value.to_string(),
-        };
-        Self::new(key, format!("{key} = {shown}: must be {allowed}"))
-    }
-}
-
 /// A table of the file with its place in it.
-pub(super) struct Section<'a> {
+pub(crate) struct Section<'a> {
     key: String,
     table: &'a Table,
 }
 
 impl<'a> Section<'a> {
     /// The whole file.
-    pub(super) fn root(table: &'a Table, allowed: &[&str]) -> Result<Self, Fault> {
+    pub(crate) fn root(table: &'a Table, allowed: &[&str]) -> Result<Self, Fault> {
         Self::new(String::new(), table, allowed)
     }
 
@@ -63,7 +34,7 @@ impl<'a> Section<'a> {
     }
 
     /// The value as a table.
-    pub(super) fn from_value(
+    pub(crate) fn from_value(
         key: String,
         value: &'a Value,
         allowed: &[&str],
@@ -93,7 +64,7 @@ impl<'a> Section<'a> {
     }
 
     /// The full key of an entry.
-    pub(super) fn path(&self, name: &str) -> String {
+    pub(crate) fn path(&self, name: &str) -> String {
         if self.key.is_empty() {
             name.to_owned()
         } else {
@@ -101,12 +72,12 @@ impl<'a> Section<'a> {
         }
     }
 
-    pub(super) fn get(&self, name: &str) -> Option<&'a Value> {
+    pub(crate) fn get(&self, name: &str) -> Option<&'a Value> {
         self.table.get(name)
     }
 
     /// The entry, which must be there.
-    pub(super) fn need(&self, name: &str, what: &str) -> Result<&'a Value, Fault> {
+    pub(crate) fn need(&self, name: &str, what: &str) -> Result<&'a Value, Fault> {
         self.get(name).ok_or_else(|| {
             let key = self.path(name);
             Fault::new(&key, format!("{key} is missing: it must be {what}"))
@@ -114,20 +85,20 @@ impl<'a> Section<'a> {
     }
 
     /// A table inside; the empty one where it is missing.
-    pub(super) fn section(&self, name: &str, allowed: &[&str]) -> Result<Option<Self>, Fault> {
+    pub(crate) fn section(&self, name: &str, allowed: &[&str]) -> Result<Option<Self>, Fault> {
         self.get(name)
             .map(|value| Self::from_value(self.path(name), value, allowed))
             .transpose()
     }
 
     /// A table inside, which must be there.
-    pub(super) fn need_section(&self, name: &str, allowed: &[&str]) -> Result<Self, Fault> {
+    pub(crate) fn need_section(&self, name: &str, allowed: &[&str]) -> Result<Self, Fault> {
         let value = self.need(name, &format!("a table of {}", allowed.join(", ")))?;
         Self::from_value(self.path(name), value, allowed)
     }
 
     /// The tables of a list; none where it is missing.
-    pub(super) fn sections(&self, name: &str, allowed: &[&str]) -> Result<Vec<Self>, Fault> {
+    pub(crate) fn sections(&self, name: &str, allowed: &[&str]) -> Result<Vec<Self>, Fault> {
         let Some(value) = self.get(name) else {
             return Ok(Vec::new());
         };
@@ -141,7 +112,7 @@ impl<'a> Section<'a> {
             .collect()
     }
 
-    pub(super) fn number(
+    pub(crate) fn number(
         &self,
         name: &str,
         what: &str,
@@ -150,7 +121,7 @@ impl<'a> Section<'a> {
         measure::number(&self.path(name), self.need(name, what)?, measures)
     }
 
-    pub(super) fn number_or(
+    pub(crate) fn number_or(
         &self,
         name: &str,
         default: f64,
@@ -159,23 +130,23 @@ impl<'a> Section<'a> {
         Ok(self.number_if(name, measures)?.unwrap_or(default))
     }
 
-    pub(super) fn number_if(&self, name: &str, measures: &[Measure]) -> Result<Option<f64>, Fault> {
+    pub(crate) fn number_if(&self, name: &str, measures: &[Measure]) -> Result<Option<f64>, Fault> {
         let number = |value| measure::number(&self.path(name), value, measures);
         self.get(name).map(number).transpose()
     }
 
     /// A whole number of at least `least`.
-    pub(super) fn count(&self, name: &str, least: i64) -> Result<usize, Fault> {
+    pub(crate) fn count(&self, name: &str, least: i64) -> Result<usize, Fault> {
         let what = format!("a whole number >= {least}");
         count(&self.path(name), self.need(name, &what)?, least)
     }
 
-    pub(super) fn count_or(&self, name: &str, least: i64, default: usize) -> Result<usize, Fault> {
+    pub(crate) fn count_or(&self, name: &str, least: i64, default: usize) -> Result<usize, Fault> {
         self.get(name)
             .map_or(Ok(default), |value| count(&self.path(name), value, least))
     }
 
-    pub(super) fn flag_or(&self, name: &str, default: bool) -> Result<bool, Fault> {
+    pub(crate) fn flag_or(&self, name: &str, default: bool) -> Result<bool, Fault> {
         self.get(name).map_or(Ok(default), |value| {
             value
                 .as_bool()
@@ -184,7 +155,7 @@ impl<'a> Section<'a> {
     }
 
     /// One of several words; the first stands for a missing key.
-    pub(super) fn choice<T: Copy>(&self, name: &str, choices: &[(&str, T)]) -> Result<T, Fault> {
+    pub(crate) fn choice<T: Copy>(&self, name: &str, choices: &[(&str, T)]) -> Result<T, Fault> {
         let Some(value) = self.get(name) else {
             return Ok(choices[0].1);
         };
@@ -199,7 +170,7 @@ impl<'a> Section<'a> {
 }
 
 /// A whole number of at least `least`.
-pub(super) fn count(key: &str, value: &Value, least: i64) -> Result<usize, Fault> {
+pub(crate) fn count(key: &str, value: &Value, least: i64) -> Result<usize, Fault> {
     value
         .as_integer()
         .filter(|n| *n >= least)
@@ -208,7 +179,7 @@ pub(super) fn count(key: &str, value: &Value, least: i64) -> Result<usize, Fault
 }
 
 /// One value for both directions, or a pair along x and y.
-pub(super) fn pair<T: Copy>(
+pub(crate) fn pair<T: Copy>(
     key: &str,
     value: &Value,
     read: impl Fn(&str, &Value) -> Result<T, Fault>,

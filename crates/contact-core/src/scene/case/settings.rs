@@ -2,7 +2,8 @@
 
 use toml::Value;
 
-use super::section::{Fault, Section, count};
+use super::fault::Fault;
+use super::section::{Section, count};
 use crate::scene::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
 };

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use ndarray::Array2;
 use toml::Value;
 
-use super::files::Files;
-use super::section::{Fault, Section, pair};
+use super::fault::Fault;
+use super::section::{Section, pair};
+use crate::scene::files::Files;
 use crate::scene::{Missing, Rough, Shape, SurfaceMap};
 
 const SHAPES: [&str; 11] = [

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use toml::Value;
 
-use super::SCHEMA;
+use super::read::SCHEMA;
 use crate::scene::{
     Body, Elastic, Friction, FrictionHistory, History, KernelMethod, Loads, Preset, RigidMotion,
     SaveFields, Scene, Spacing,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::{Branch, LoadPath};
 use crate::error::Error;
-use crate::scene::case::files;
+use crate::scene::files;
 use crate::scene::{Loads, Prescribed, RigidMotion};
 
 /// How many increments lie between two waypoints.

@@ -1,10 +1,11 @@
 //! The tangential problem on the contact cells alone, packed.
 
-use super::{Shear, TangentialProblem};
+use super::TangentialProblem;
 use crate::cells::ContactCells;
 use crate::cells::sums;
 use crate::cells::{Arms, Drive};
 use crate::cells::{copy, copy_to};
+use crate::solvers::Shear;
 
 type Pair = [Vec<f64>; 2];
 

@@ -16,6 +16,6 @@ pub(super) use limit::{Sliding, exceeds, sliding};
 pub(crate) use normal::assess;
 pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub(super) use shear::first_shift;
-pub use shear::{Shear, TangentialInfo, TangentialParams, TangentialProblem};
+pub use shear::{TangentialInfo, TangentialParams, TangentialProblem};
 pub(super) use shear_gradient::shear_gradient;
 pub use tangential::{TangentialWorkspace, newton_step, tangential};

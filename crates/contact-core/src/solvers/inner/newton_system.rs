@@ -1,11 +1,11 @@
 //! One Newton step of the tangential problem: the linear system on the tangent space.
 
+use super::TangentialProblem;
 use super::tangent::{Admitted, Pair, Tangent};
-use super::{Shear, TangentialProblem};
 use crate::cells::ContactCells;
 use crate::cells::{add, inverse, product, set, sweep};
-use crate::solvers::Response;
 use crate::solvers::no_slip::slip;
+use crate::solvers::{Response, Shear};
 
 /// The eigenvalue c_0 at which the guess of the inverse is right, over C_xx(0,0).
 const RIGHT: f64 = 2.0;

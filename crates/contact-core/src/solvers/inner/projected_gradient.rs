@@ -5,10 +5,10 @@
 //! (B. O'Donoghue, E. Candes, Found. Comput. Math. 15 (2015) 715-732) on the convex set
 //! |q| <= g, B^T q = loads.
 
+use super::TangentialProblem;
 use super::admissible::{mark_circle, project};
-use super::{Shear, TangentialProblem};
 use crate::cells::add;
-use crate::solvers::Response;
+use crate::solvers::{Response, Shear};
 
 type Pair = [Vec<f64>; 2];
 

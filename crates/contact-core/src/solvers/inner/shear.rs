@@ -2,6 +2,7 @@
 
 use crate::cells::{Arms, Drive, add};
 use crate::plan::TangentialMethod;
+use crate::solvers::Shear;
 use crate::solvers::no_slip::slip;
 
 /// What is given: the friction bound, the reference of the slip, what drives the shift.
@@ -55,16 +56,6 @@ pub struct TangentialInfo {
     pub iterations: usize,
     /// Conjugate-gradient passes, one convolution each.
     pub passes: usize,
-}
-
-/// Shear, displacement and slip set, in and out.
-pub struct Shear<'a> {
-    /// q_x, q_y \[Pa\]; on entry a guess.
-    pub q: [&'a mut [f64]; 2],
-    /// Total u_x, u_y \[m\], belonging to q on entry and on exit.
-    pub u: [&'a mut [f64]; 2],
-    /// Contact cells that slip; on entry a guess.
-    pub slip: &'a mut [bool],
 }
 
 /// The shift that fits the stick cells best, or all contact cells where none sticks.

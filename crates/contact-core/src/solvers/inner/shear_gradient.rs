@@ -6,11 +6,11 @@
 //! missing force. No preconditioner, no Newton steps: the baseline that
 //! [`tangential`](super::tangential()) is measured against.
 
-use super::TangentialWorkspace;
 use super::admissible;
-use super::{Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift};
+use super::projected_gradient::ProjectedGradient;
+use super::{TangentialInfo, TangentialParams, TangentialProblem, first_shift};
 use crate::cells::{add_scaled, dot, size};
-use crate::solvers::{Response, SolverError};
+use crate::solvers::{Response, Shear, SolverError};
 
 /// Buffers of the gradients, of no size until they are needed.
 #[derive(Debug, Default)]
@@ -43,13 +43,12 @@ pub(crate) fn shear_gradient(
     response: &mut Response<'_>,
     problem: &TangentialProblem<'_>,
     shear: &mut Shear<'_>,
-    ws: &mut TangentialWorkspace,
+    (descent, ws): (&mut ProjectedGradient, &mut GradientBuffers),
     params: &TangentialParams,
 ) -> Result<TangentialInfo, SolverError> {
     let cells = problem.bound.len();
     // Slip cells take the longest step that cannot overshoot.
-    let slip_step = 1.0 / ws.descent.largest_compliance(response, problem);
-    let ws = &mut ws.gradient;
+    let slip_step = 1.0 / descent.largest_compliance(response, problem);
     ws.make_room(cells);
     let mut info = TangentialInfo::default();
     let mut last_product = 0.0;

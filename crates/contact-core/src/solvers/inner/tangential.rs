@@ -25,10 +25,10 @@ use super::admissible::admissible;
 use super::contact_shear::{Before, ContactShear};
 use super::newton_system::NewtonSystem;
 use super::projected_gradient::ProjectedGradient;
-use super::shear::{Shear, TangentialInfo, TangentialParams, TangentialProblem, first_shift};
+use super::shear::{TangentialInfo, TangentialParams, TangentialProblem, first_shift};
 use super::shear_gradient::GradientBuffers;
 use crate::cells::{ContactCells, set_cells, size, sweep};
-use crate::solvers::{Response, SolverError};
+use crate::solvers::{Response, Shear, SolverError};
 
 /// Buffers of the tangential solver.
 #[derive(Debug)]

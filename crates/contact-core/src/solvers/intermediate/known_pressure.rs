@@ -1,8 +1,6 @@
 //! Shear for known pressure: the bound mu p, the sliding that the loads may drive, the tangential solver.
 
-use super::alternation::{
-    AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem,
-};
+use super::problem::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};
 use crate::cells::{add, set, size};
 use crate::convolution::{Displacements, Tractions};
 use crate::plan::TangentialMethod;
@@ -101,18 +99,15 @@ pub(super) fn shear_for_known_pressure(
     }
     no_slip.straighten();
     let shear = problem.tangential_problem(&ws.bound, no_slip.displacement());
-    let solve = match params.tangential.method {
-        TangentialMethod::Newton => tangential,
-        TangentialMethod::Gradient => shear_gradient,
-    };
+    let (mut unknown, params) = (now.shear(), &params.tangential);
     let buffers = &mut ws.tangential;
-    let found = solve(
-        response,
-        &shear,
-        &mut now.shear(),
-        buffers,
-        &params.tangential,
-    )?;
+    let found = match params.method {
+        TangentialMethod::Newton => tangential(response, &shear, &mut unknown, buffers, params),
+        TangentialMethod::Gradient => {
+            let buffers = (&mut buffers.descent, &mut buffers.gradient);
+            shear_gradient(response, &shear, &mut unknown, buffers, params)
+        }
+    }?;
     take(info, &found);
     Ok(())
 }

@@ -4,6 +4,7 @@ mod alternation;
 mod anderson;
 mod known_pressure;
 mod precision;
+mod problem;
 
-pub use alternation::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};
 pub use precision::alternation;
+pub use problem::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};

@@ -4,9 +4,8 @@
 //! ties the displacements to the tractions again; where it keeps the iteration from its end, all is
 //! answered in double precision.
 
-use super::alternation::{
-    AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem, alternate,
-};
+use super::alternation::alternate;
+use super::problem::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};
 use crate::solvers::no_slip::NoSlip;
 use crate::solvers::{Interface, Response, SolverError};
 

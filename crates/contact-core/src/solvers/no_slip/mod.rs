@@ -17,27 +17,16 @@
 //!
 //! Slip is computed here and nowhere else: [`slip`] in one cell.
 
+mod slip;
 mod turn;
 
 use rayon::prelude::*;
 
+pub use self::slip::{not_opposite, slip};
 pub use self::turn::Earlier;
 use self::turn::turn;
 use super::Interface;
 use crate::cells::{Arms, CHUNK, set, size};
-
-/// The slip increment of a cell \[m\], eq. (7), of the displacement u, with the displacement that means
-/// no slip u_0 and the rigid motion B d(delta).
-pub fn slip(u: [f64; 2], u_0: [f64; 2], rigid: [f64; 2]) -> [f64; 2] {
-    [u[0] - u_0[0] - rigid[0], u[1] - u_0[1] - rigid[1]]
-}
-
-/// The part of a slip that does not oppose the shear `q`, which is at its `bound` \[m\].
-pub fn not_opposite(slip: [f64; 2], q: [f64; 2], bound: f64) -> [f64; 2] {
-    let e = q.map(|q| q / bound.max(f64::MIN_POSITIVE));
-    let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
-    [slip[0] - along * e[0], slip[1] - along * e[1]]
-}
 
 /// The fields of the noun, kept from one increment to the next.
 #[derive(Debug)]

@@ -4,13 +4,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::document::Document;
-use super::files::{Files, Reach};
-use super::read;
-use super::section::{Fault, Section};
+use super::law::{Archard, BodyWear, DissipatedEnergy, Law};
+use super::settings::{Cycling, Jumps, Wear, WornThrough};
 use crate::error::Error;
-use crate::scene::Scene;
-use crate::wear::{Archard, BodyWear, Cycling, DissipatedEnergy, Jumps, Law, Wear, WornThrough};
+use crate::scene::{Fault, Reach, Scene, Section, read_with, text_of};
 
 const KEYS: [&str; 11] = [
     "cycles",
@@ -35,12 +32,8 @@ impl Wear {
         settings: &[String],
         reach: Reach,
     ) -> Result<(Scene, Self), Error> {
-        let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|e| Error::File {
-            path: path.display().to_string(),
-            message: e.to_string(),
-        })?;
-        Self::read(&text, &path.display().to_string(), settings, reach)
+        let (text, file) = text_of(path.as_ref())?;
+        read(&text, &file, settings, reach)
     }
 
     /// Reads and checks a scene with a table `[wear]`; `file` is its name in errors.
@@ -49,27 +42,7 @@ impl Wear {
         file: &str,
         settings: &[String],
     ) -> Result<(Scene, Self), Error> {
-        Self::read(text, file, settings, Reach::Folder)
-    }
-
-    fn read(
-        text: &str,
-        file: &str,
-        settings: &[String],
-        reach: Reach,
-    ) -> Result<(Scene, Self), Error> {
-        let document = Document::parse(text, file, settings)?;
-        let folder = Path::new(file).parent().unwrap_or_else(|| Path::new(""));
-        let files = Files { folder, reach };
-        let both = || -> Result<_, Fault> {
-            let scene = read::scene(document.root(), &files)?;
-            scene.check()?;
-            let root = Section::root(document.root(), &read::ROOT)?;
-            let wear = wear(&root)?;
-            wear.check(&scene)?;
-            Ok((scene, wear))
-        };
-        both().map_err(|fault| document.error(&fault))
+        read(text, file, settings, Reach::Folder)
     }
 
     /// The table `[wear]` in SI, every number in full; `None` with a law of the user's own, which no
@@ -113,6 +86,14 @@ impl Wear {
         }
         Some(text)
     }
+}
+
+fn read(text: &str, file: &str, settings: &[String], reach: Reach) -> Result<(Scene, Wear), Error> {
+    read_with(text, file, settings, reach, |root, scene| {
+        let wear = wear(root)?;
+        wear.check(scene)?;
+        Ok(wear)
+    })
 }
 
 fn wear(root: &Section<'_>) -> Result<Wear, Fault> {

@@ -47,15 +47,15 @@ pub enum Reach {
 
 /// The files that a scene may read.
 #[derive(Clone, Copy)]
-pub(super) struct Files<'a> {
+pub(in crate::scene) struct Files<'a> {
     /// The folder of the scene file; relative names start there.
-    pub(super) folder: &'a Path,
-    pub(super) reach: Reach,
+    pub(in crate::scene) folder: &'a Path,
+    pub(in crate::scene) reach: Reach,
 }
 
 impl Files<'_> {
     /// The path of the file of that name; the error is what is wrong with the name.
-    pub(super) fn find(&self, name: &str) -> Result<PathBuf, String> {
+    pub(in crate::scene) fn find(&self, name: &str) -> Result<PathBuf, String> {
         let path = self.folder.join(name);
         if self.reach == Reach::Anywhere {
             return Ok(path);

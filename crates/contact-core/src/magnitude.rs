@@ -1,0 +1,11 @@
+//! Magnitudes that double precision carries through a solution.
+//!
+//! Numbers of a scene meet in products of up to four (an area times a modulus, a square of a length
+//! over a radius), squared again where sums of squares are taken; between 1e-75 and 1e75 none of
+//! them leaves the range of a double, 1e-308 to 1e308, unless they conspire, and the approach that
+//! they result in is looked at too.
+
+/// The smallest size of a number that counts.
+pub(crate) const SMALLEST: f64 = 1e-75;
+/// The largest.
+pub(crate) const LARGEST: f64 = 1e75;

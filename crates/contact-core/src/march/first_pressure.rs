@@ -1,0 +1,25 @@
+//! The pressure that the first increment of a contact starts from.
+
+use ndarray::Array2;
+
+use super::problem::Problem;
+use crate::scene::LoadPoint;
+
+/// A pressure for bodies that have not touched, on the whole grid: that of a paraboloid of the approach
+/// expected at a point, up to a factor; everywhere the same without
+/// [`Methods::first_contact`](crate::plan::Methods::first_contact).
+pub(super) fn first_pressure(problem: &Problem, point: &LoadPoint) -> Array2<f64> {
+    let h_init = problem.scene.h_init();
+    if !problem.plan.methods.first_contact {
+        return Array2::ones(h_init.dim());
+    }
+    let approach = problem.approach_at(point);
+    let lowest = h_init.iter().fold(f64::INFINITY, |m, h| m.min(*h));
+    h_init.map(|h| {
+        if approach > 0.0 {
+            (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt()
+        } else {
+            0.0
+        }
+    })
+}

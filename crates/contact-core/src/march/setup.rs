@@ -1,0 +1,198 @@
+//! What an increment is given, works on, and what solves its equations.
+
+use super::State;
+use super::domain::Geometry;
+use super::problem::{Drives, Problem};
+use super::rolled::{Roll, Rolled};
+use crate::error::Error;
+use crate::kernels::Quadrant;
+use crate::scene::LoadPoint;
+use crate::solvers::intermediate::{
+    AlternationInfo, AlternationWorkspace, IncrementProblem, alternation,
+};
+use crate::solvers::no_slip::{Earlier, NoSlip, NoSlipTerms, Start};
+use crate::solvers::{Interface, Response};
+
+/// Why an increment has not come to its end.
+pub(super) enum Failure {
+    /// The contact has these half-lengths, in cells, and the window no margin around it.
+    Narrow([usize; 2]),
+    /// Cells beyond the window overlap.
+    Beyond,
+    Error(Error),
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Error(error)
+    }
+}
+
+/// Fields that an increment works on, kept from one to the next.
+pub(super) struct Workspace {
+    /// Friction coefficient of the kept cells.
+    pub(super) mu: Vec<f64>,
+    pub(super) no_slip: NoSlipTerms,
+    pub(super) alternation: AlternationWorkspace,
+}
+
+impl Workspace {
+    /// For fields of `cells` cells.
+    pub(super) fn new(cells: usize, mu: f64) -> Self {
+        Self {
+            mu: vec![mu; cells],
+            no_slip: NoSlipTerms::new(cells),
+            alternation: AlternationWorkspace::new(cells),
+        }
+    }
+
+    /// Takes another number of cells.
+    pub(super) fn fit(&mut self, cells: usize, mu: f64) {
+        if self.mu.len() != cells {
+            *self = Self::new(cells, mu);
+        }
+    }
+}
+
+/// What is given in an increment.
+pub(super) struct Setup<'a> {
+    pub(super) problem: &'a Problem,
+    pub(super) geometry: &'a Geometry,
+    /// C_zz on the whole grid \[m/Pa\].
+    pub(super) kernel: &'a Quadrant,
+    /// The state after the last increment.
+    pub(super) state: &'a State,
+    pub(super) roll: Roll,
+    pub(super) rolled: Option<&'a Rolled>,
+    /// Friction coefficient of the kept cells.
+    pub(super) mu: &'a [f64],
+    pub(super) point: &'a LoadPoint,
+    pub(super) drives: Drives,
+    /// The factor by which the change of the loads is that of the last increment, if both go the same way.
+    pub(super) goes_on: Option<f64>,
+}
+
+impl Setup<'_> {
+    /// The interface that the material brings along.
+    pub(super) fn last(&self) -> &Interface {
+        self.rolled
+            .map_or(&self.state.interface, |rolled| &rolled.interface)
+    }
+
+    /// The residual slip of the last increment \[m\].
+    fn residual(&self) -> &[Vec<f64>; 2] {
+        self.rolled
+            .map_or(&self.state.residual, |rolled| &rolled.residual)
+    }
+
+    /// Tractions an increment earlier.
+    fn earlier(&self) -> Earlier<'_> {
+        match self.rolled {
+            Some(rolled) => Earlier {
+                p: &rolled.p_before,
+                q: &rolled.q_before,
+            },
+            None => Earlier {
+                p: &self.state.p_before,
+                q: &self.state.q_before,
+            },
+        }
+    }
+
+    /// What the slip is reckoned from; with the shear an increment earlier where it is to follow its turn.
+    fn start(&self, turns: bool) -> Start<'_> {
+        let turns = turns && self.problem.plan.methods.turning && self.goes_on.is_some();
+        Start {
+            interface: self.last(),
+            residual: self.residual(),
+            arms: &self.geometry.arms,
+            earlier: turns.then(|| self.earlier()),
+            elastic_slip: self.problem.scene.friction.scale() * self.problem.approach,
+        }
+    }
+
+    /// Fails once the flag is raised.
+    pub(super) fn unless_stopped(&self) -> Result<(), Error> {
+        self.problem.unless_stopped(self.state.increments)
+    }
+}
+
+/// A solution of an increment.
+pub(super) type Solution = (Interface, AlternationInfo);
+
+/// What solves the equations of an increment.
+pub(super) struct Solver<'a> {
+    pub(super) response: Response<'a>,
+    pub(super) no_slip: &'a mut NoSlipTerms,
+    pub(super) workspace: &'a mut AlternationWorkspace,
+}
+
+/// What one solution of the equations is asked for.
+pub(super) struct Asked<'a> {
+    /// Gap between the undeformed surfaces \[m\].
+    pub(super) h_init: &'a [f64],
+    /// Share of the tolerance.
+    pub(super) share: f64,
+    /// Whether the slip follows the turn of the shear.
+    pub(super) turns: bool,
+    /// Motion of cells before they enter the contact \[m\].
+    pub(super) entry: Option<&'a [Vec<f64>; 2]>,
+}
+
+impl Solver<'_> {
+    /// Solves the equations from a guess of the tractions.
+    pub(super) fn solve(
+        &mut self,
+        setup: &Setup<'_>,
+        asked: &Asked<'_>,
+        mut now: Interface,
+    ) -> Result<Solution, Error> {
+        setup.unless_stopped()?;
+        let equations = IncrementProblem {
+            h_init: asked.h_init,
+            mu: setup.mu,
+            arms: &setup.geometry.arms,
+            normal: setup.drives.normal,
+            tangential: setup.drives.tangential,
+        };
+        let params = setup.problem.params(asked.share);
+        let mut no_slip = NoSlip::new(setup.start(asked.turns), self.no_slip, asked.entry);
+        let (response, ws) = (&mut self.response, &mut *self.workspace);
+        match alternation(response, &equations, &mut no_slip, &mut now, ws, &params) {
+            Ok(info) => Ok((now, info)),
+            Err(failed) => {
+                setup.unless_stopped()?;
+                Err(Error::NotConverged {
+                    increment: setup.state.increments + 1,
+                    solver: failed.solver,
+                    residual: failed.residual,
+                    tolerance: failed.tolerance,
+                    iterations: failed.iterations,
+                })
+            }
+        }
+    }
+
+    /// Bodies that nothing presses together do not touch.
+    pub(super) fn apart(&mut self, setup: &Setup<'_>) -> Solution {
+        let apart = Interface::unloaded(setup.geometry.h_init.len());
+        let info = AlternationInfo {
+            approach: setup.drives.normal.given,
+            shift: setup.drives.tangential.given,
+            ..AlternationInfo::default()
+        };
+        let start = Start {
+            interface: &apart,
+            residual: &apart.q,
+            ..setup.start(false)
+        };
+        NoSlip::new(start, self.no_slip, None);
+        (apart, info)
+    }
+}
+
+/// Cells in contact, and those of them that slip.
+pub(super) fn count(now: &Interface) -> (usize, usize) {
+    let contact = now.p.iter().filter(|&&p| p > 0.0).count();
+    (contact, now.slip.iter().filter(|&&slips| slips).count())
+}

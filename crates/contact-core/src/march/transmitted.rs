@@ -1,0 +1,25 @@
+//! The loads that the tractions of an increment transmit.
+
+use super::setup::Setup;
+use crate::cells::sums;
+use crate::scene::{LoadPoint, Loads};
+use crate::solvers::Interface;
+
+/// The loads of an increment to `point`: those given, and for given motions what the tractions come to.
+pub(super) fn transmitted(setup: &Setup<'_>, point: &LoadPoint, now: &Interface) -> Loads {
+    let (problem, arms) = (setup.problem, &setup.geometry.arms);
+    let cell_area = problem.cell_area();
+    let sums = [
+        sums([&now.p[..]], |n, [p]| arms.sums_across(p, n)),
+        sums([&now.q[0][..], &now.q[1]], |n, q| arms.sums_in_plane(q, n)),
+    ];
+    let (forces, given) = (point.loads.forces(), point.loads.given);
+    let motions = given.motions();
+    let transmitted = std::array::from_fn(|k| match motions[k] {
+        None => forces[k],
+        // The other half has the opposite.
+        Some(_) if problem.is_odd(k) => 0.0,
+        Some(_) => sums[k / 3][k % 3] * cell_area * arms.unit(k),
+    });
+    point.loads.with_forces(transmitted, given)
+}

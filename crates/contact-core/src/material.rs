@@ -1,0 +1,97 @@
+//! Elastic materials, alone, as layers and in pairs.
+
+use crate::error::Error;
+
+/// A homogeneous isotropic elastic material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Elastic {
+    /// Young's modulus E \[Pa\], positive; infinite for a rigid material.
+    pub E: f64,
+    /// Poisson's ratio nu, -1 < nu < 1/2.
+    pub nu: f64,
+}
+
+impl Elastic {
+    /// A material that does not deform.
+    pub const RIGID: Self = Self {
+        E: f64::INFINITY,
+        nu: 0.0,
+    };
+
+    /// A material, checked: `E > 0` and `-1 < nu < 1/2`.
+    pub fn new(E: f64, nu: f64) -> Result<Self, Error> {
+        let material = Self { E, nu };
+        material.check("material")?;
+        Ok(material)
+    }
+
+    /// Shear modulus G = E / (2 (1 + nu)) \[Pa\].
+    pub fn G(&self) -> f64 {
+        self.E / (2.0 * (1.0 + self.nu))
+    }
+
+    /// Whether the material does not deform.
+    pub fn is_rigid(&self) -> bool {
+        self.E == f64::INFINITY
+    }
+
+    /// Fails if a property is out of its range; `key` says where the material stands in the scene.
+    pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
+        if self.E.is_nan() || self.E <= 0.0 {
+            return Err(Error::invalid(
+                format!("{key}.E"),
+                self.E,
+                "a positive modulus in Pa",
+            ));
+        }
+        if !(self.nu > -1.0 && self.nu < 0.5) {
+            return Err(Error::invalid(
+                format!("{key}.nu"),
+                self.nu,
+                "-1 < nu < 0.5",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A layer of constant thickness, perfectly bonded to what is below it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coating {
+    /// Material of the layer.
+    pub material: Elastic,
+    /// Thickness h \[m\], positive.
+    pub thickness: f64,
+}
+
+impl Coating {
+    /// Fails if the material or the thickness is out of its range; `key` says where it stands.
+    pub fn check(&self, key: &str) -> Result<(), Error> {
+        self.material.check(key)?;
+        if !(self.thickness > 0.0 && self.thickness.is_finite()) {
+            return Err(Error::invalid(
+                format!("{key}.thickness"),
+                self.thickness,
+                "a positive length in m",
+            ));
+        }
+        if self.material.is_rigid() {
+            return Err(Error::invalid(
+                format!("{key}.E"),
+                self.material.E,
+                "a finite modulus (a rigid layer makes the whole body rigid)",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
+///
+/// beta = \[(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2\] / (2 \[(1 - nu1)/G1 + (1 - nu2)/G2\]); zero for similar
+/// bodies, at most 1/2 in size, negative when the bodies change places.
+pub fn dundurs_beta(body1: Elastic, body2: Elastic) -> f64 {
+    let coupling = |m: Elastic| (1.0 - 2.0 * m.nu) / m.G();
+    let compliance = |m: Elastic| (1.0 - m.nu) / m.G();
+    (coupling(body1) - coupling(body2)) / (2.0 * (compliance(body1) + compliance(body2)))
+}

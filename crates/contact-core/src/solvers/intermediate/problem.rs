@@ -1,0 +1,161 @@
+//! What the intermediate loop is given, works on and ends with.
+
+use super::anderson::Anderson;
+use crate::cells::{Arms, Drive, copy, set};
+use crate::solvers::Interface;
+use crate::solvers::Response;
+use crate::solvers::inner::{
+    NormalParams, NormalProblem, NormalWorkspace, TangentialParams, TangentialProblem,
+    TangentialWorkspace, exceeds,
+};
+
+/// What is given in one increment.
+#[derive(Clone, Copy, Debug)]
+pub struct IncrementProblem<'a> {
+    /// Gap between the undeformed surfaces h_init \[m\].
+    pub h_init: &'a [f64],
+    /// Friction coefficient of each cell.
+    pub mu: &'a [f64],
+    /// Where the cells are.
+    pub arms: &'a Arms,
+    /// What drives approach and tilts, from the unloaded state.
+    pub normal: Drive,
+    /// What drives shifts and torsion in this increment.
+    pub tangential: Drive,
+}
+
+impl<'a> IncrementProblem<'a> {
+    pub(super) fn normal_problem(&self) -> NormalProblem<'a> {
+        NormalProblem {
+            h_init: self.h_init,
+            arms: self.arms,
+            drive: self.normal,
+        }
+    }
+
+    /// The tangential problem under a friction bound \[Pa\], with the displacement that means no slip \[m\].
+    pub(super) fn tangential_problem<'b>(
+        &'b self,
+        bound: &'b [f64],
+        no_slip: [&'b [f64]; 2],
+    ) -> TangentialProblem<'b> {
+        TangentialProblem {
+            bound,
+            no_slip,
+            arms: self.arms,
+            drive: self.tangential,
+        }
+    }
+}
+
+/// Settings of the intermediate loop.
+#[derive(Clone, Copy, Debug)]
+pub struct AlternationParams {
+    /// Largest root-mean-square gap in the contact and deepest penetration outside at the end \[m\].
+    pub tolerance: f64,
+    /// Settings of the normal solver.
+    pub normal: NormalParams,
+    /// Settings of the tangential solver.
+    pub tangential: TangentialParams,
+    /// Most passes.
+    pub max_alternations: usize,
+    /// Whether slow alternation is accelerated (default true).
+    pub anderson: bool,
+}
+
+/// What the intermediate loop ended with.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AlternationInfo {
+    /// Approach, and the tilts phi_x, phi_y times the length \[m\].
+    pub approach: [f64; 3],
+    /// Shifts of this increment, and the rotation phi_z times the length \[m\].
+    pub shift: [f64; 3],
+    /// What the loads ask for over what friction can carry; full sliding from 1 on.
+    pub friction_used: f64,
+    /// Passes.
+    pub alternations: usize,
+    /// Iterations of the normal solver.
+    pub normal_iterations: usize,
+    /// Conjugate-gradient passes of the tangential solver.
+    pub tangential_iterations: usize,
+}
+
+impl AlternationInfo {
+    /// Whether the loads are more than friction can carry: there is no equilibrium, and the shear
+    /// was not solved for.
+    pub fn exceeds_friction(&self) -> bool {
+        exceeds(self.friction_used)
+    }
+
+    pub(super) fn iterations(&self) -> usize {
+        self.normal_iterations + self.tangential_iterations
+    }
+
+    /// Adds the work of another solution that this one took.
+    pub(crate) fn add_work(&mut self, other: &Self) {
+        self.alternations += other.alternations;
+        self.normal_iterations += other.normal_iterations;
+        self.tangential_iterations += other.tangential_iterations;
+    }
+}
+
+/// Buffers of the intermediate loop.
+#[derive(Debug)]
+pub struct AlternationWorkspace {
+    pub(super) normal: NormalWorkspace,
+    pub(super) tangential: TangentialWorkspace,
+    /// mu p \[Pa\].
+    pub(super) bound: Vec<f64>,
+    /// Pressure before the normal solver.
+    pub(super) p_before: Vec<f64>,
+    /// The shear that u_z answers to.
+    pub(super) q_before: [Vec<f64>; 2],
+    pub(super) change: [Vec<f64>; 2],
+    pub(super) response: [Vec<f64>; 2],
+    /// Tractions q_x, q_y, p at the last convolution in double precision.
+    pub(super) evaluated: [Vec<f64>; 3],
+    pub(super) anderson: Anderson,
+    /// Passes in which u_0 did not settle.
+    pub(super) unsettled: usize,
+}
+
+impl AlternationWorkspace {
+    /// For fields of `cells` cells.
+    pub fn new(cells: usize) -> Self {
+        let field = || vec![0.0; cells];
+        let pair = || [field(), field()];
+        Self {
+            normal: NormalWorkspace::new(cells),
+            tangential: TangentialWorkspace::new(cells),
+            bound: field(),
+            p_before: field(),
+            q_before: pair(),
+            change: pair(),
+            response: pair(),
+            evaluated: [field(), field(), field()],
+            anderson: Anderson::new(cells),
+            unsettled: 0,
+        }
+    }
+
+    /// Computes the displacements of a guess in double precision.
+    pub(super) fn evaluate(
+        &mut self,
+        response: &mut Response<'_>,
+        now: &mut Interface,
+        friction: bool,
+    ) {
+        now.evaluate(response, friction);
+        for (evaluated, traction) in self.evaluated.iter_mut().zip(now.tractions()) {
+            copy(traction, evaluated);
+        }
+    }
+
+    /// The change of the shear since `q_before`; whether there is one.
+    pub(super) fn change_of_shear(&mut self, now: &Interface) -> bool {
+        let ([x, y], before) = (&mut self.change, &self.q_before);
+        let from = [&now.q[0][..], &now.q[1], &before[0], &before[1]];
+        set(from, [x, y], |_, [q_x, q_y, x, y], _| [q_x - x, q_y - y]);
+        self.change.iter().flatten().any(|&change| change != 0.0)
+    }
+}
