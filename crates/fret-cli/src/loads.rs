@@ -5,8 +5,6 @@ use contact_core::convolution::Tractions;
 use contact_core::output::Store;
 use ndarray::Array2;
 
-use crate::stress::Options;
-
 /// The tractions of one increment.
 pub(crate) struct Loads {
     pub(crate) increment: usize,
@@ -19,9 +17,14 @@ pub(crate) struct Loads {
 }
 
 impl Loads {
-    /// Of the increment asked for, or of the last one kept.
-    pub(crate) fn of(store: &Store, options: &Options) -> Result<Self, Error> {
-        let increment = options.increment;
+    /// Of the increment asked for, or of the last one kept, on a body 1 or 2, with its bulk stress or
+    /// without.
+    pub(crate) fn of(
+        store: &Store,
+        increment: Option<usize>,
+        body: u8,
+        bulk: bool,
+    ) -> Result<Self, Error> {
         let kept: Vec<usize> = store
             .column("saved_increment")?
             .into_iter()
@@ -39,14 +42,8 @@ impl Loads {
                 format!("one whose fields were kept: {kept:?}"),
             ));
         };
-        let sigma_B = if options.no_bulk {
-            0.0
-        } else {
-            let name = if options.body == 1 {
-                "sigma_B1"
-            } else {
-                "sigma_B"
-            };
+        let sigma_B = if bulk {
+            let name = if body == 1 { "sigma_B1" } else { "sigma_B" };
             // Rows are increments from 1.
             let row = kept[place].wrapping_sub(1);
             let stress = store.column(name)?.get(row).copied();
@@ -54,6 +51,8 @@ impl Loads {
                 let allowed = "one of the increments of the store";
                 Error::invalid("saved_increment", kept[place], allowed)
             })?
+        } else {
+            0.0
         };
         Ok(Self {
             increment: kept[place],

@@ -6,24 +6,29 @@
 #![forbid(unsafe_code)]
 
 mod check;
+mod failure;
 mod json;
 mod loads;
 mod new;
 mod progress;
 mod resume;
 mod run;
+mod scene_options;
 mod stress;
 mod summary;
+mod terminal;
 mod wear;
+mod words;
 
-use std::io::{IsTerminal, Read, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::builder::styling::{AnsiColor, Styles};
-use clap::{Args, CommandFactory, Parser, Subcommand};
-use contact_core::scene::Reach;
-use contact_core::{Error, Scene};
+use clap::{CommandFactory, Parser, Subcommand};
+use contact_core::Error;
+
+use crate::failure::Failure;
+use crate::terminal::print;
 
 /// Fretting contact of elastic bodies, homogeneous or coated.
 #[derive(Parser)]
@@ -68,71 +73,6 @@ enum Command {
     Wear(wear::Options),
 }
 
-/// A scene file and what is changed in it.
-#[derive(Args)]
-struct SceneOptions {
-    /// Scene file (TOML); - reads it from the standard input
-    scene: PathBuf,
-    /// Replace a value of the scene file, such as friction.mu=0.5 or
-    /// body2.coatings.0.E.E_substrate=4
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    settings: Vec<String>,
-    /// Let the scene name files outside its own folder
-    #[arg(long)]
-    allow_outside: bool,
-}
-
-impl SceneOptions {
-    fn read(&self) -> Result<Scene, Error> {
-        let reach = if self.allow_outside {
-            Reach::Anywhere
-        } else {
-            Reach::Folder
-        };
-        if self.scene.as_os_str() == "-" {
-            let mut text = String::new();
-            std::io::stdin()
-                .read_to_string(&mut text)
-                .map_err(|e| Error::File {
-                    path: "standard input".into(),
-                    message: e.to_string(),
-                })?;
-            return Scene::from_toml_str_reaching(&text, "standard input", &self.settings, reach);
-        }
-        Scene::from_file_reaching(&self.scene, &self.settings, reach)
-    }
-}
-
-/// How a command that failed ends.
-enum Failure {
-    /// The run ended early; what it had is kept.
-    EndedEarly(Error),
-    /// The scene or the command line has no meaning.
-    BadInput(Error),
-    /// Ctrl-C, and nothing is kept.
-    Stopped,
-}
-
-impl Failure {
-    fn report(&self) -> ExitCode {
-        let (error, code) = match self {
-            Self::EndedEarly(error) => (error.to_string(), 1),
-            Self::BadInput(error) => (error.to_string(), 2),
-            Self::Stopped => ("stopped, nothing was written".to_owned(), 1),
-        };
-        let stderr = std::io::stderr();
-        // Colours for people, plain text for files and pipes (https://no-color.org).
-        let coloured = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none();
-        let red = AnsiColor::Red.on_default().bold();
-        if coloured {
-            say(&format!("{red}fret:{red:#} {error}"));
-        } else {
-            say(&format!("fret: {error}"));
-        }
-        ExitCode::from(code)
-    }
-}
-
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::New(options) => new::new(&options),
@@ -165,21 +105,4 @@ fn manual(folder: &std::path::Path) -> Result<(), Failure> {
             message: e.to_string(),
         })
     })
-}
-
-/// Says what is allowed in a scene but hardly meant.
-fn say_doubts(scene: &Scene) {
-    for doubt in scene.doubts() {
-        say(&format!("fret: warning: {doubt}"));
-    }
-}
-
-/// Writes a line to the standard error; if nobody listens, nobody is told.
-fn say(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
-}
-
-/// Writes to the standard output, the same way.
-fn print(text: &str) {
-    let _ = writeln!(std::io::stdout(), "{text}");
 }

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use contact_core::Error;
 
-use crate::{Failure, print, say};
+use crate::failure::Failure;
+use crate::terminal::{print, say};
 
 /// Options of `fret new`.
 #[derive(Args)]

@@ -6,7 +6,8 @@ use contact_core::Scene;
 use contact_core::march::{Increment, summarise};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::{say, summary};
+use crate::summary;
+use crate::terminal::say;
 
 const TEMPLATE: &str = "{bar:20} {pos}/{len} increments, {elapsed} elapsed, {eta} left  {msg}";
 const TICK: Duration = Duration::from_millis(200);

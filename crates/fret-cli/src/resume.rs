@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use contact_core::output::{Resumed, resume as take_up};
 
+use crate::failure::Failure;
 use crate::run::Manner;
-use crate::{Failure, say};
+use crate::terminal::say;
 
 /// Options of `fret resume`.
 #[derive(Args)]

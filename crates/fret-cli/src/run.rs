@@ -11,8 +11,11 @@ use contact_core::march::{Increment, March, Observer, solve};
 use contact_core::output::{StoreWriter, write_error_bars};
 use contact_core::{Error, Scene};
 
+use crate::failure::Failure;
 use crate::progress::Progress;
-use crate::{Failure, SceneOptions, json, print, say, say_doubts, summary};
+use crate::scene_options::{SceneOptions, say_doubts};
+use crate::terminal::{print, say};
+use crate::{json, summary};
 
 /// Options of `fret run`.
 #[derive(Args)]

@@ -14,8 +14,9 @@ use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volu
 use contact_core::scene::{Body, Scene};
 use ndarray::Axis;
 
+use crate::failure::Failure;
 use crate::loads::Loads;
-use crate::{Failure, print, say};
+use crate::terminal::{print, say};
 
 /// Options of `fret stress`.
 #[derive(Args)]
@@ -28,10 +29,10 @@ pub(crate) struct Options {
     out: Option<PathBuf>,
     /// Increment whose fields were kept; by default the last
     #[arg(long, value_name = "N")]
-    pub(crate) increment: Option<usize>,
+    increment: Option<usize>,
     /// Body below (2) or above (1) the contact plane
     #[arg(long, default_value = "2", value_parser = clap::value_parser!(u8).range(1..=2))]
-    pub(crate) body: u8,
+    body: u8,
     /// Section along x at this y, in metres
     #[arg(long, value_name = "Y", allow_hyphen_values = true, conflicts_with_all = ["along_y", "volume"])]
     along_x: Option<f64>,
@@ -51,7 +52,7 @@ pub(crate) struct Options {
     json: bool,
     /// Leave out the bulk stress of the body
     #[arg(long)]
-    pub(crate) no_bulk: bool,
+    no_bulk: bool,
     /// Tractions constant on each cell up to the rim of the contact and the stick zone
     #[arg(long)]
     no_rim: bool,
@@ -161,7 +162,7 @@ impl Task {
         let probes = options.of.iter().map(|name| Probe::named(name, "--of"));
         let probes = probes.collect::<Result<Vec<_>, _>>()?;
         check_interfaces(body, &probes)?;
-        let loads = Loads::of(&store, options)?;
+        let loads = Loads::of(&store, options.increment, options.body, !options.no_bulk)?;
         let length = scene.length(&loads.p);
         let deepest = options.depth.unwrap_or(2.0 * length);
         let chosen = chosen_depths(body, length, deepest, 1.0)?;

@@ -6,10 +6,11 @@ use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
 use contact_core::estimate::{Bar, ErrorBars};
 use contact_core::fields::{Cycle, Direction};
-use contact_core::march::{BranchSummary, Increment, Status, summarise};
+use contact_core::march::{BranchSummary, Increment, summarise};
 use contact_core::scene::{Branch, RigidMotion};
 
 use crate::json;
+use crate::words::{state, word};
 
 /// Micrometres, or microjoules, per SI unit.
 const MICRO: f64 = 1e6;
@@ -32,16 +33,6 @@ pub(crate) fn short(x: f64) -> String {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
         text
-    }
-}
-
-/// The state of the interface in words.
-pub(crate) fn state(status: Status) -> &'static str {
-    match status {
-        Status::NoContact => "no contact",
-        Status::FullStick => "full stick",
-        Status::PartialSlip => "partial slip",
-        Status::GrossSlip => "gross slip",
     }
 }
 
@@ -219,7 +210,7 @@ fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
         format!(
             "cycle {} ({}): {}, {} uJ dissipated, energy ratio {}, stiffness {:.3e} {stiffness}",
             n + 1,
-            json::word(*direction),
+            word(*direction),
             state(c.status),
             short(c.dissipated * MICRO),
             short(c.energy_ratio()),

@@ -12,8 +12,10 @@ use contact_core::scene::Reach;
 use contact_core::wear::{Event, EventKind, Jump, Wear, WearRun};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::failure::Failure;
 use crate::run::stop_on_interrupt;
-use crate::{Failure, SceneOptions, print, say};
+use crate::scene_options::SceneOptions;
+use crate::terminal::{print, say};
 
 const TEMPLATE: &str = "{bar:20} {pos}/{len} cycles, {elapsed} elapsed, {eta} left  {msg}";
 

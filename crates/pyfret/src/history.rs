@@ -12,11 +12,12 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::arguments::{Field, side};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, LoadPath};
 use crate::stress::measures;
-use crate::subsurface::{Field, Subsurface, line, side};
+use crate::subsurface::{Subsurface, line};
 
 /// Extremes of stress below a line; use :func:`pyfret.subsurface.envelope`.
 #[pyclass(module = "pyfret")]

@@ -14,6 +14,7 @@
     reason = "PyO3 hands keyword arguments over one by one and by value"
 )]
 
+mod arguments;
 mod error;
 mod fatigue;
 mod forked;
@@ -21,6 +22,7 @@ mod history;
 mod interruptible;
 mod kernels;
 mod march;
+mod material;
 mod operator;
 mod reference;
 mod result;

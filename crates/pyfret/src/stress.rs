@@ -9,7 +9,8 @@ use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayL
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::subsurface::{Field, Subsurface};
+use crate::arguments::Field;
+use crate::subsurface::Subsurface;
 
 /// Numbers for Python, one row per point.
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;

@@ -10,30 +10,19 @@ use contact_core::fields::{Depth, Line, Side};
 use contact_core::output::{ImageData, StressStore, VolumeSink, write_volume};
 use contact_core::scene;
 use ndarray::Array2;
-use numpy::{AllowTypeChange, IntoPyArray, PyArray2, PyArray3, PyArrayLike2, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::arguments::{Field, side};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 
-/// A field on the grid.
-pub(crate) type Field<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 /// x, y, z and the layer of a point.
 type Place = (f64, f64, f64, usize);
 /// Numbers for Python, one row per point.
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
-
-pub(crate) fn side(body_number: u8) -> PyResult<Side> {
-    match body_number {
-        1 => Ok(Side::Body1),
-        2 => Ok(Side::Body2),
-        n => Err(PyValueError::new_err(format!(
-            "body_number = {n}: must be 1 or 2"
-        ))),
-    }
-}
 
 pub(crate) fn line(x: Option<f64>, y: Option<f64>) -> PyResult<Line> {
     match (x, y) {

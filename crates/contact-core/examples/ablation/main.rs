@@ -37,6 +37,7 @@ const METHODS: [Method; 12] = [
         off: |m| m.window = false,
         files: &[
             "march/domain/fit.rs",
+            "march/domain/shape.rs",
             "march/domain/embed.rs",
             "march/domain/beyond.rs",
         ],
@@ -62,7 +63,7 @@ const METHODS: [Method; 12] = [
     Method {
         name: "first contact of a paraboloid",
         off: |m| m.first_contact = false,
-        files: &[],
+        files: &["march/first_pressure.rs"],
     },
     Method {
         name: "entry of cells",
@@ -70,7 +71,9 @@ const METHODS: [Method; 12] = [
         files: &[
             "march/entry/mod.rs",
             "march/entry/first_contact.rs",
+            "march/entry/asked.rs",
             "march/entry/kept_contact.rs",
+            "march/entry/motion.rs",
         ],
     },
     Method {

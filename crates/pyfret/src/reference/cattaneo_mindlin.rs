@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use super::{Hertz, Numbers, map, map_checked, pair};
 use crate::error::to_python;
-use crate::scene::Material;
+use crate::material::Material;
 
 /// Partial slip of a sphere under constant normal force and a force T along x.
 ///

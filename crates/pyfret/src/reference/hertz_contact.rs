@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use super::{Numbers, map, pair};
 use crate::error::to_python;
-use crate::scene::Material;
+use crate::material::Material;
 
 /// Frictionless contact of two paraboloids of revolution.
 ///

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use super::{Numbers, map, pair};
 use crate::error::to_python;
-use crate::scene::{Coating, Material};
+use crate::material::{Coating, Material};
 
 /// Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
 ///

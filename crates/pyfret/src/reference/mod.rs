@@ -15,7 +15,7 @@ use numpy::{AllowTypeChange, PyArrayDyn, PyArrayLikeDyn, ToPyArray};
 use pyo3::prelude::*;
 
 use crate::error::to_python;
-use crate::scene::Material;
+use crate::material::Material;
 
 pub(crate) use cattaneo_mindlin::CattaneoMindlin;
 pub(crate) use hertz_contact::{Hertz, HertzEllipse, hertz, hertz_ellipse};

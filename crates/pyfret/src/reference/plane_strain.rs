@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use super::{Numbers, checked, map, pair};
 use crate::error::to_python;
-use crate::scene::Material;
+use crate::material::Material;
 
 /// Farthest place over the half-width.
 const FAR: f64 = 1e30;

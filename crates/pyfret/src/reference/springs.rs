@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use super::{Hertz, pair};
 use crate::error::to_python;
-use crate::scene::Material;
+use crate::material::Material;
 
 /// Most springs, and most steps of a load.
 const MOST: usize = 10_000;

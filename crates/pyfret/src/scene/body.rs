@@ -1,62 +1,11 @@
-//! Bodies and their coatings.
+//! Bodies.
 
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
-use super::material::Elastic;
 use super::shape::{Flat, Shape};
-use crate::error::{must_be, takes, to_python};
-
-/// A layer of constant thickness, perfectly bonded to what is below it.
-///
-/// Parameters
-/// ----------
-/// material : Elastic
-///     Material of the layer.
-/// thickness : float
-///     Thickness [m], positive.
-#[pyclass(frozen, eq, module = "pyfret")]
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) struct Coating(pub(crate) core::Coating);
-
-takes!(
-    Coating,
-    "a coating, such as Coating(Elastic(E=300e9, nu=0.25), thickness=3e-6)"
-);
-
-#[pymethods]
-impl Coating {
-    #[new]
-    #[pyo3(signature = (material, *, thickness))]
-    fn new(material: Elastic, thickness: f64) -> PyResult<Self> {
-        let coating = core::Coating {
-            material: material.0,
-            thickness,
-        };
-        coating.check("coating").map_err(to_python)?;
-        Ok(Self(coating))
-    }
-
-    /// Material of the layer.
-    #[getter]
-    fn material(&self) -> Elastic {
-        Elastic(self.0.material)
-    }
-
-    /// Thickness [m].
-    #[getter]
-    fn thickness(&self) -> f64 {
-        self.0.thickness
-    }
-
-    fn __repr__(&self) -> String {
-        format!(
-            "Coating({}, thickness={:?})",
-            self.material().__repr__(),
-            self.0.thickness
-        )
-    }
-}
+use crate::error::{must_be, takes};
+use crate::material::{Coating, Elastic};
 
 /// An elastic half-space under its coatings and a gently curved surface.
 ///

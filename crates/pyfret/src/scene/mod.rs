@@ -6,19 +6,18 @@ mod friction;
 mod grid;
 mod increments;
 mod load_path;
-mod material;
 mod profile;
 mod settings;
 mod shape;
 mod whole;
 
-pub(crate) use body::{Body, Coating};
+pub(crate) use crate::material::{Coating, Elastic};
+pub(crate) use body::Body;
 pub(crate) use branch::{Branch, Spacing};
 pub(crate) use friction::{AnyFriction, Friction, History};
 pub(crate) use grid::{Grid, Pitch};
 pub(crate) use increments::PerRange;
 pub(crate) use load_path::LoadPath;
-pub(crate) use material::{Elastic, Material};
 pub(crate) use profile::{Profile, graded};
 pub(crate) use settings::{FrequencyDomain, Hankel, InverseFft, Preset, Save, Settings, Skip};
 pub(crate) use shape::{

@@ -3,8 +3,8 @@
 use contact_core::kernels as core;
 use pyo3::prelude::*;
 
-use super::body::Coating;
 use crate::error::to_python;
+use crate::material::Coating;
 
 /// How a property changes from the surface of a graded coating to its bottom, s = z/h.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]

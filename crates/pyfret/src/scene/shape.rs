@@ -8,8 +8,8 @@ use numpy::{PyArray2, ToPyArray};
 use pyo3::prelude::*;
 
 use super::Pitch;
+use crate::arguments::Field;
 use crate::error::{must_be, to_python};
-use crate::subsurface::Field;
 
 /// A shape class with numbers for fields, and its way to and from the core's variant.
 macro_rules! elementary {

@@ -7,9 +7,9 @@ use contact_core::scene as core;
 use pyo3::prelude::*;
 
 use super::{AnyFriction, Body, Friction, Grid, LoadPath, Save, Settings};
+use crate::arguments::{Field, side};
 use crate::error::{takes, to_python};
 use crate::reference::Hertz;
-use crate::subsurface::{Field, side};
 
 /// A fretting contact problem.
 ///

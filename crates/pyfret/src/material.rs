@@ -1,9 +1,8 @@
-//! Elastic materials.
+//! Elastic materials, alone and as layers.
 
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
-use super::Body;
 use crate::error::{must_be, takes, to_python};
 
 /// A homogeneous isotropic elastic material.
@@ -39,8 +38,11 @@ impl<'py> FromPyObject<'_, 'py> for Material {
         }
         let wanted =
             "a material, such as Elastic(E=210e9, nu=0.3), or a Body, whose substrate is taken";
-        let body = value.extract::<Body>();
-        body.map(|body| Self(body.0.substrate))
+        let substrate = value
+            .getattr("substrate")
+            .and_then(|of| of.extract::<Elastic>());
+        substrate
+            .map(|of| Self(of.0))
             .map_err(|_| must_be(&value, wanted))
     }
 }
@@ -81,5 +83,56 @@ impl Elastic {
         } else {
             format!("Elastic(E={:?}, nu={:?})", self.0.E, self.0.nu)
         }
+    }
+}
+
+/// A layer of constant thickness, perfectly bonded to what is below it.
+///
+/// Parameters
+/// ----------
+/// material : Elastic
+///     Material of the layer.
+/// thickness : float
+///     Thickness [m], positive.
+#[pyclass(frozen, eq, module = "pyfret")]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct Coating(pub(crate) core::Coating);
+
+takes!(
+    Coating,
+    "a coating, such as Coating(Elastic(E=300e9, nu=0.25), thickness=3e-6)"
+);
+
+#[pymethods]
+impl Coating {
+    #[new]
+    #[pyo3(signature = (material, *, thickness))]
+    fn new(material: Elastic, thickness: f64) -> PyResult<Self> {
+        let coating = core::Coating {
+            material: material.0,
+            thickness,
+        };
+        coating.check("coating").map_err(to_python)?;
+        Ok(Self(coating))
+    }
+
+    /// Material of the layer.
+    #[getter]
+    fn material(&self) -> Elastic {
+        Elastic(self.0.material)
+    }
+
+    /// Thickness [m].
+    #[getter]
+    fn thickness(&self) -> f64 {
+        self.0.thickness
+    }
+
+    pub(crate) fn __repr__(&self) -> String {
+        format!(
+            "Coating({}, thickness={:?})",
+            self.material().__repr__(),
+            self.0.thickness
+        )
     }
 }

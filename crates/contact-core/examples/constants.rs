@@ -1,0 +1,121 @@
+//! Work and errors of the scenes of `examples/ablation`, for a scan of the constants in the methods.
+//!
+//! `constants FOLDER` prints a line per scene: name, convolutions, errors of the shear after the first branch
+//! and at the ends, of the radii of contact and stick zone in cells; or what failed. The finer runs that these
+//! are measured against are kept in the folder, so that a build with another constant finds those of the
+//! present ones. `tools/constants.py` makes the builds (`make constants`).
+#![allow(clippy::print_stdout)]
+
+#[path = "ablation/scenes.rs"]
+mod scenes;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use contact_core::Error;
+use contact_core::march::March;
+use contact_core::scene::{Grid, Scene};
+
+use scenes::trials;
+
+/// The cells each way: errors of the path hardly depend on them.
+const CELLS: usize = 64;
+
+/// The ends of the branches: contact and stick area, then q_x and q_y of every cell.
+type Ends = Vec<Vec<f64>>;
+
+/// The convolutions of a run, and the ends of its branches.
+fn run(scene: &Scene) -> Result<(f64, Ends), Error> {
+    let mut march = March::until(scene, &Arc::default())?;
+    let (mut convolutions, mut ends) = (0.0, Ends::new());
+    while let Some(increment) = march.advance() {
+        let increment = increment?;
+        convolutions += increment.work.convolutions;
+        if increment.point.ends_branch {
+            let [_, q_x, q_y] = march.tractions();
+            let areas = [increment.contact_area, increment.stick_area];
+            ends.push(areas.into_iter().chain(q_x).chain(q_y).collect());
+        }
+    }
+    Ok((convolutions, ends))
+}
+
+/// The finer run of a scene, kept in a file.
+fn reference(scene: &Scene, file: &Path) -> Result<Ends, Error> {
+    if let Ok(bytes) = std::fs::read(file) {
+        let numbers = bytes
+            .as_chunks::<8>()
+            .0
+            .iter()
+            .map(|b| f64::from_le_bytes(*b));
+        let numbers: Vec<f64> = numbers.collect();
+        return Ok(numbers
+            .chunks(2 + 2 * CELLS * CELLS)
+            .map(<[f64]>::to_vec)
+            .collect());
+    }
+    let (_, ends) = run(scene)?;
+    let bytes: Vec<u8> = ends
+        .iter()
+        .flatten()
+        .flat_map(|v| v.to_le_bytes())
+        .collect();
+    std::fs::write(file, bytes).map_err(|e| Error::File {
+        path: file.display().to_string(),
+        message: e.to_string(),
+    })?;
+    Ok(ends)
+}
+
+/// Errors as in `examples/ablation`.
+fn errors(ends: &Ends, truth: &Ends, cell: f64) -> [f64; 4] {
+    let norm = |v: &[f64]| v[2..].iter().map(|q| q * q).sum::<f64>().sqrt();
+    let largest = truth.iter().map(|end| norm(end)).fold(0.0, f64::max);
+    let pairs: Vec<(&Vec<f64>, &Vec<f64>)> = ends.iter().zip(truth).collect();
+    let off = |(a, b): &(&Vec<f64>, &Vec<f64>)| {
+        let change: Vec<f64> = a.iter().zip(*b).map(|(a, b)| a - b).collect();
+        norm(&change) / largest
+    };
+    let radius = |k: usize| {
+        let of = |area: f64| (area / std::f64::consts::PI).sqrt() / cell;
+        let off = pairs.iter().map(|(a, b)| (of(a[k]) - of(b[k])).abs());
+        off.fold(0.0, f64::max)
+    };
+    let later = pairs.iter().skip(1).map(off).fold(0.0, f64::max);
+    [off(&pairs[0]), later, radius(0), radius(1)]
+}
+
+fn coarse(scene: &Scene) -> Scene {
+    let (along_x, along_y) = scene.grid.extent();
+    let mut coarse = scene.clone();
+    coarse.grid = Grid {
+        nx: CELLS,
+        ny: CELLS,
+        dx: along_x / CELLS as f64,
+        dy: along_y / CELLS as f64,
+        ..scene.grid
+    };
+    coarse
+}
+
+fn main() -> Result<(), Error> {
+    let folder = std::env::args().nth(1).unwrap_or_else(|| ".".into());
+    for (k, trial) in trials()?.iter().enumerate() {
+        if trial.name.contains("1000") {
+            continue;
+        }
+        let (scene, finer) = (coarse(&trial.scene), coarse(&trial.reference));
+        let truth = reference(&finer, &Path::new(&folder).join(format!("{k}.bin")))?;
+        match run(&scene) {
+            Ok((convolutions, ends)) => {
+                let [first, later, a, c] = errors(&ends, &truth, scene.grid.dx);
+                println!(
+                    "{}|{convolutions:.1}|{first:.3e}|{later:.3e}|{a:.4}|{c:.4}",
+                    trial.name
+                );
+            }
+            Err(failure) => println!("{}|{failure}", trial.name),
+        }
+    }
+    Ok(())
+}

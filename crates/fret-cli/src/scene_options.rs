@@ -1,0 +1,52 @@
+//! The scene that a command works on.
+
+use std::io::Read;
+use std::path::PathBuf;
+
+use clap::Args;
+use contact_core::scene::Reach;
+use contact_core::{Error, Scene};
+
+use crate::terminal::say;
+
+/// A scene file and what is changed in it.
+#[derive(Args)]
+pub(crate) struct SceneOptions {
+    /// Scene file (TOML); - reads it from the standard input
+    pub(crate) scene: PathBuf,
+    /// Replace a value of the scene file, such as friction.mu=0.5 or
+    /// body2.coatings.0.E.E_substrate=4
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) settings: Vec<String>,
+    /// Let the scene name files outside its own folder
+    #[arg(long)]
+    pub(crate) allow_outside: bool,
+}
+
+impl SceneOptions {
+    pub(crate) fn read(&self) -> Result<Scene, Error> {
+        let reach = if self.allow_outside {
+            Reach::Anywhere
+        } else {
+            Reach::Folder
+        };
+        if self.scene.as_os_str() == "-" {
+            let mut text = String::new();
+            std::io::stdin()
+                .read_to_string(&mut text)
+                .map_err(|e| Error::File {
+                    path: "standard input".into(),
+                    message: e.to_string(),
+                })?;
+            return Scene::from_toml_str_reaching(&text, "standard input", &self.settings, reach);
+        }
+        Scene::from_file_reaching(&self.scene, &self.settings, reach)
+    }
+}
+
+/// Says what is allowed in a scene but hardly meant.
+pub(crate) fn say_doubts(scene: &Scene) {
+    for doubt in scene.doubts() {
+        say(&format!("fret: warning: {doubt}"));
+    }
+}
