@@ -1,4 +1,4 @@
-//! Keeping the threads of the pool awake while an increment is solved.
+//! Threads of the pool that do not sleep while an increment is solved.
 //!
 //! An increment is hundreds of short parallel regions. A thread of the pool that finds nothing to
 //! do for some ten microseconds goes to sleep, and waking it takes longer than many a region lasts.

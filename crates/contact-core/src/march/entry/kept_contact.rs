@@ -1,4 +1,4 @@
-//! An increment with the contact kept to its old cells: how gaps outside close and cells there move.
+//! The solution of an increment on the old contact: closing of gaps and motion of the cells outside.
 
 use super::neighbours::Neighbours;
 use super::screened::Screened;
@@ -8,11 +8,11 @@ use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::slip;
 
-/// An increment with the contact kept to its old cells.
+/// Gaps, closings and motions of all cells outside the old contact, with the contact held as it was.
 pub(super) struct KeptContact {
     /// Gap at the start \[m\].
     pub(super) gap: Vec<f64>,
-    /// How far the gap closes \[m\].
+    /// Closing of the gap in the increment \[m\].
     pub(super) closing: Vec<f64>,
     /// Motion relative to the rigid shift \[m\].
     pub(super) motion: [Vec<f64>; 2],
@@ -23,7 +23,7 @@ pub(super) struct KeptContact {
 }
 
 impl KeptContact {
-    /// Of a solution on the old cells alone.
+    /// From a solution on the old contact alone.
     pub(super) fn new(setup: &Setup<'_>, kept: &Interface, info: &AlternationInfo) -> Self {
         let (geometry, mirror) = (setup.geometry, setup.problem.plan.mirror);
         let (last, arms) = (setup.last(), &geometry.arms);

@@ -2,7 +2,7 @@
 
 use crate::cells::{inverse, product};
 
-/// Regularisation of the terms but the first, which few values need not tell apart.
+/// Regularisation of the terms after the first, which few values may not determine.
 pub(super) const RIDGE: f64 = 1e-6;
 
 /// Least squares of N terms, of which the first is preferred, to V kinds of values.
@@ -46,7 +46,7 @@ impl<const N: usize, const V: usize> LeastSquares<N, V> {
     }
 
     /// The sum of the product of the terms with these factors and a kind of values.
-    pub(super) fn told(&self, factors: &[f64; N], kind: usize) -> f64 {
+    pub(super) fn fitted(&self, factors: &[f64; N], kind: usize) -> f64 {
         let terms = factors.iter().zip(self.right[kind]);
         terms.map(|(factor, right)| factor * right).sum()
     }

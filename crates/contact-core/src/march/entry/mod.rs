@@ -1,10 +1,9 @@
 //! Cells that come into contact within an increment, because it grows or because it rolls on.
 //!
-//! Such a cell has moved freely before it stuck: its slip is reckoned from its entry, not from the
-//! start of the increment. Solved with the contact kept to the old cells first, the increment shows
-//! how far a new cell has moved by then ([`KeptContact`]); that is added to the displacement that
-//! means no slip. A cell that leaves the contact needs nothing of the kind: its shear ends with its
-//! pressure, and nothing remembers it.
+//! Such a cell moves freely until it touches: its slip counts from its entry, not from the start of the
+//! increment. A first solution on the old contact gives the motion of each new cell before its entry
+//! ([`KeptContact`]), which is added to the displacement that means no slip. A cell that leaves the contact
+//! needs no such term: its shear ends with its pressure.
 
 mod asked;
 mod first_contact;

@@ -1,19 +1,18 @@
-//! What cells outside the contact move before they enter it, from a contact kept to its old cells.
+//! The motion of cells outside the contact before they enter it, from the solution on the old contact.
 //!
-//! With the contact kept, in p and in q, the gap over a cell outside closes by c in the increment
-//! and the cell moves by m relative to the rigid shift. Both depend on how far the cell is from the
-//! edge of the contact, and the edge comes nearer: what closes the gap by dg moves the cell by
-//! (m/c) dg, with the m/c of the cells between it and the edge through whose gaps its own goes. When
-//! it enters, a cell of gap g has moved by
+//! On the old contact (eq. (5)-(8) solved with p = q = 0 in all other cells) the gap of a cell outside closes
+//! by c in the increment, and the cell moves by m relative to the rigid shift. Both depend on its distance from
+//! the edge of the contact, which approaches as cells enter: a closing dg goes with a motion (m/c) dg, with the
+//! m/c of the distance at that stage. A cell of gap g has moved before entry by
 //!
 //! ```text
 //! M = int_0^g (m/c) dg
 //! ```
 //!
 //! Near the contact, where the edge moves in steps of cells, this is the sum over the entries of the cells
-//! between ([`order`](super::order)). Farther off it is summed from cell to cell outwards. Where
-//! gap and motion are alike (proportional loads on similar bodies of nu = 0) m/c is the same everywhere, and
-//! M exact in increments of any size.
+//! between ([`order`](super::order)); farther off it is integrated outwards from cell to cell. Where gap
+//! and motion are proportional (similar bodies of nu = 0 under proportional loads) m/c is uniform, and M exact
+//! in increments of any size.
 
 use rayon::prelude::*;
 
@@ -54,8 +53,8 @@ impl KeptContact {
         [moved(0), moved(1)]
     }
 
-    /// M of cell n from those of the cells beside it that enter before: M + the mean of both m/c times
-    /// what the gaps differ by, where the gap is steep with more weight.
+    /// M of cell n from its neighbours that enter before: theirs plus the mean of both m/c times the difference
+    /// of the gaps, weighted by the squared slope of the gap.
     fn moved_farther_off(&self, n: usize, known: &[Option<[f64; 2]>]) -> [f64; 2] {
         let ratio = |n: usize| [0, 1].map(|c| self.motion[c][n] / self.closing[n]);
         let (own, gap) = (ratio(n), self.gap[n]);
@@ -80,7 +79,7 @@ impl KeptContact {
         }
     }
 
-    /// What those that enter and the cells outside around them see of the contact, if they see it.
+    /// The contact as seen from the cells that enter and from the cells outside around them.
     fn views(
         &self,
         entering: &[usize],

@@ -50,11 +50,11 @@ pub(super) struct Neighbour {
     pub(super) square: isize,
     /// The direction of the way.
     pub(super) direction: [f64; 2],
-    /// How much it counts in a [`View`](super::view::View).
+    /// Its weight in a [`View`](super::view::View).
     pub(super) weight: f64,
     /// The response u_z of one to pressure on the other, over that to its own.
     pub(super) response: f64,
-    /// What its components along y count as: it may be a mirror image.
+    /// Sign of its components along y: -1 of a mirror image.
     pub(super) sign: f64,
 }
 
@@ -74,7 +74,7 @@ impl Neighbour {
         size(self.off)
     }
 
-    /// One, and falling to nothing beyond the reach.
+    /// A weight that falls from one to zero at the radius.
     pub(super) fn nearness(&self, reach: isize) -> f64 {
         1.0 - self.square as f64 / (reach as f64 + 0.5).powi(2)
     }

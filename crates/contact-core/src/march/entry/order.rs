@@ -1,24 +1,25 @@
-//! Cells near the contact enter it one after another.
+//! The order in which cells near the contact enter it within an increment.
 //!
-//! The contact kept to its old cells tells at what rates c and m the gaps of cells outside close and the
-//! cells move. A cell n that enters closes no more: the pressure on it that holds it back holds back the
-//! others too,
+//! The solution on the old contact gives the rates of all cells outside over the increment: the gap of cell n
+//! closes by c_n, the cell moves by m_n. These rates hold until the first cell enters. From then on the
+//! pressure on that cell keeps its gap closed, and reduces the closing rate of every other cell,
 //!
 //! ```text
-//! c_m - S_mn/S_nn c_n,
+//! c_m -> c_m - (S_mn/S_nn) c_n,
 //! ```
 //!
-//! S the response of the cells outside to each other while the contact is held ([`Screened`]). What the cells
-//! move while their gaps close depends on what they see of the contact ([`View`]),
+//! S the response of cells outside while the contact is held ([`Screened`]). The motion per closing is taken
+//! as a function of the distance d to the contact ([`View`]), with e the direction towards it,
 //!
 //! ```text
 //! m/c = A + B/s + C s + D s^2 + E e/s,   s = d^(1/2),
 //! ```
 //!
-//! with coefficients from least squares over the cells around; it also changes along the edge. As a cell
-//! enters, those beyond see more contact. A cell enters when its gap has closed; what it has moved by then is
-//! the sum over the stages: nearly what increments of one cell each would make of it. Where gap and motion
-//! are alike m/c = A everywhere, and the motion exact.
+//! fitted by least squares to the cells around (a further term, linear along the edge, is fitted and left
+//! out). Each entry brings the contact nearer to the cells beyond, which changes their m/c. A cell enters when
+//! its gap has closed; its motion before entry is the sum over the stages. The result is close to that of a
+//! path with one increment per entering cell. Where gap and motion are proportional, m/c = A everywhere and
+//! the motion is exact.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -31,15 +32,15 @@ use super::neighbours::{Neighbour, TASK};
 use super::view::{REACH, View};
 use crate::march::domain::AROUND;
 
-/// How far the cells around reach that the rates are fitted to, in cells.
+/// Radius within which cells count in the fit of m/c, in cells.
 pub(super) const FITTED: isize = AROUND as isize;
-/// Least rate at which a gap closes, over that with the contact kept.
+/// Lower bound of a closing rate, over that of the old contact.
 const SLOWEST: f64 = 1e-3;
 
-/// Cells that enter within such a part of the increment do so at once, as twins in a symmetric scene.
+/// Cells that enter within this part of the increment enter together, as mirror images do.
 const AT_ONCE: f64 = 1e-4;
 
-/// How the motion of a cell over its closing depends on what it sees.
+/// The motion of a cell per closing, as a function of the contact around it.
 struct Law {
     /// A, B, C, D for each component.
     ratio: [[f64; 4]; 2],
@@ -58,20 +59,20 @@ impl Law {
     }
 }
 
-/// A cell on its way into the contact.
+/// A cell that enters in the increment.
 struct Entering {
     cell: usize,
     view: View,
     law: Law,
-    /// How far the gap would close in the increment \[m\], and at least.
+    /// Closing rate and its lower bound, over a whole increment \[m\].
     closing: f64,
     slowest: f64,
-    /// What the cell would move \[m\].
+    /// Rate of its motion, over a whole increment \[m\].
     motion: [f64; 2],
-    /// What is left of its gap \[m\].
+    /// Its gap at `time` \[m\].
     gap: f64,
     moved: [f64; 2],
-    /// The part of the increment that has passed.
+    /// Part of the increment up to which gap and motion are advanced.
     time: f64,
     stage: Stage,
 }
@@ -84,7 +85,7 @@ enum Stage {
 }
 
 impl Entering {
-    /// When it enters if nothing else does.
+    /// The part of the increment at which it enters at its present rate.
     fn entry(&self) -> f64 {
         self.time + (self.gap / self.closing).max(0.0)
     }
@@ -98,7 +99,7 @@ impl Entering {
         self.time = time;
     }
 
-    /// Sees one more cell of contact, which holds its closing back by so much.
+    /// Takes in a new contact cell, which reduces the closing rate by `held_back` \[m\].
     fn sees(&mut self, near: &Neighbour, held_back: f64) {
         self.view.add(near);
         self.closing = (self.closing - held_back).max(self.slowest);
@@ -106,8 +107,8 @@ impl Entering {
     }
 }
 
-/// The motion before their entry of those `cells` that enter in the increment, `views` what the cells
-/// outside see whose rates are told from.
+/// The motion before entry of the `cells` that enter in the increment \[m\]; `views`: the contact as seen
+/// from the cells outside that the fits use.
 pub(super) fn moved(
     contact: &KeptContact,
     views: &[Option<View>],
@@ -161,10 +162,10 @@ pub(super) fn moved(
     entering.iter().map(|cell| cell.moved).collect()
 }
 
-/// The cells that are to enter, by when.
+/// The cells that are yet to enter, ordered by time of entry.
 struct Queue {
     cells: BinaryHeap<Reverse<(u64, usize)>>,
-    /// The earliest that each is there for; nothing once it has left. Times are not negative: their bits
+    /// Earliest queued time of each cell, 0 once it has entered. Times are not negative, so that their bits
     /// have their order.
     due: Vec<u64>,
 }
@@ -181,7 +182,7 @@ impl Queue {
         queue
     }
 
-    /// Where it is there for later than `time`, it is now for that.
+    /// Queues a cell, unless it is queued for an earlier time.
     fn put(&mut self, k: usize, time: f64) {
         if time.to_bits() < self.due[k] {
             self.due[k] = time.to_bits();
@@ -189,7 +190,7 @@ impl Queue {
         }
     }
 
-    /// Takes out the cell that enters next, if it does so until `time`.
+    /// Removes the cell that enters next, if it does so before `time`.
     fn next(&mut self, entering: &[Entering], time: f64) -> Option<usize> {
         while let Some(&Reverse((due, k))) = self.cells.peek() {
             if f64::from_bits(due) > time {
@@ -199,7 +200,7 @@ impl Queue {
             if due != self.due[k] {
                 continue;
             }
-            // Cells that entered meanwhile may have slowed it down.
+            // Entries since it was queued may have reduced its rate.
             let entry = entering[k].entry();
             self.due[k] = 0;
             if entry.to_bits() <= due {
@@ -212,8 +213,8 @@ impl Queue {
     }
 }
 
-/// What cells that enter `together` hold back the others around: the pressure on each is as its closing, so
-/// much that all of them close no more.
+/// The reductions of the closing rates around cells that enter `together`. The pressures on these are taken
+/// proportional to their closing rates, and so large that the rates vanish.
 fn hold_back(
     contact: &KeptContact,
     entering: &[Entering],
@@ -236,8 +237,8 @@ fn hold_back(
             })
         };
         let with = around(Stage::Enters).map(|(k, _, response)| response * entering[k].closing);
-        // Pressure may lift what is beside it, as on a thin soft layer: at most half of what a cell responds
-        // with is taken off for that.
+        // Pressure lifts neighbours on a thin soft layer: their (negative) response counts for at most half of
+        // the cell's own.
         let closing = with.sum::<f64>().max(0.5 * own * next.closing);
         let pressure = next.closing * next.closing / closing;
         held_back.extend(
@@ -246,12 +247,12 @@ fn hold_back(
     }
 }
 
-/// The law of a cell, by least squares over those around that tell, nearer ones with more weight.
+/// The fit of m/c at a cell, by least squares over the cells around, weighted by nearness.
 fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> Law {
     let unit = contact.closing[n];
     let [e_x, e_y] = view.toward();
     let along = [-e_y, e_x];
-    // Of the motion and of e/s, both times the closing.
+    // Of the motion and of e/s, both times the closing rate.
     let mut ratios = LeastSquares::<5, 4>::new();
     let (mut motion_e, mut e_e) = (0.0, 0.0);
     for near in contact.cells.of(n, FITTED) {
@@ -269,9 +270,10 @@ fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> 
         e_e += weight * (values[2] * values[2] + values[3] * values[3]);
     }
     let factors = ratios.factors();
-    // What the other terms leave of the motion and of e tells E.
-    let left =
-        |x: usize, all: f64| all - ratios.told(&factors[x], 2) - ratios.told(&factors[x + 1], 3);
+    // E from the residuals of the motion and of e after the other terms (Frisch-Waugh).
+    let left = |x: usize, all: f64| {
+        all - ratios.fitted(&factors[x], 2) - ratios.fitted(&factors[x + 1], 3)
+    };
     let toward = left(0, motion_e) / left(2, e_e * (1.0 + RIDGE)).max(f64::MIN_POSITIVE);
     let ratio = |c: usize| [0, 1, 2, 3].map(|k| factors[c][k] - toward * factors[c + 2][k]);
     Law {

@@ -1,4 +1,4 @@
-//! How cells outside the contact respond to pressure on each other while the contact is held.
+//! The response of cells outside the contact to pressure on each other while the contact is held.
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
@@ -6,7 +6,7 @@ use super::neighbours::Neighbour;
 use crate::kernels::Quadrant;
 use crate::scene::Grid;
 
-/// d of a cell with contact all around: no other sees more of it.
+/// Least d: that of a cell with contact all around.
 const NEAREST: f64 = 0.35;
 /// Least S_nn/C_nn, for cells far longer than wide; of square ones it is 0.74 at `NEAREST`.
 const LEAST: f64 = 0.5;

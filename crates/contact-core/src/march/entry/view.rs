@@ -1,31 +1,30 @@
-//! The contact as a cell outside sees it.
+//! The distance and the direction of the contact from a cell outside.
 
 use std::f64::consts::PI;
 
 use super::neighbours::{Neighbour, Neighbours};
 use crate::cells::size;
 
-/// How far a cell sees, in columns and rows.
+/// Radius within which contact cells count, in columns and rows.
 pub(super) const REACH: isize = 8;
-/// A cell that sees less than this part of what lies beyond its reach sees no contact.
+/// A sum below this part of that of the half-plane beyond the radius means no contact nearby.
 const ONSET: f64 = 0.03;
 /// The S of a half-plane at the distance d times d^(1/4): 4 pi^(1/2) Gamma(5/8)/Gamma(9/8).
 const EDGE: f64 = 10.799_631_181_215_187;
 /// The same in plane strain.
 const FLAT_EDGE: f64 = 4.0;
 
-/// What a cell n outside sees of the contact:
+/// Sums over the contact cells around a cell n outside:
 ///
 /// ```text
 /// S = sum_m r_nm^(-9/4),   e ~ sum_m r_nm^(-9/4) (x_m - x_n)/r_nm, |e| = 1
 /// ```
 ///
-/// over the cells m of the contact within its reach, with half of the plane beyond added to S; lengths in
+/// over the contact cells m within the radius, with half of the plane beyond added to S; lengths in
 /// those of a cell, (dx dy)^(1/2) or dx in plane strain, where the power is -5/4. A straight edge of a
-/// continuum at the distance d has an S that goes with d^(-1/4). What a kept contact makes of the gaps and
-/// motions of cells outside is nearly a function of the d that their S stands for, whatever steps the edge
-/// makes between the cells. The power, the reach and the onset are by trial, on a sphere that is pressed on
-/// a harder coating; the inverse cube of r tells less.
+/// continuum at the distance d has S ~ d^(-1/4), which defines d for any edge. Closing and motion of cells
+/// outside are nearly functions of this d, whatever steps the edge makes between the cells. Power, radius and
+/// onset were set on a sphere pressed on a harder coating; `docs/constants.md` shows what they do elsewhere.
 #[derive(Clone, Copy)]
 pub(super) struct View {
     sum: f64,
@@ -34,7 +33,7 @@ pub(super) struct View {
 }
 
 impl View {
-    /// What cell n sees of the cells that are in contact, if it sees any.
+    /// From cell n; none without contact nearby.
     pub(super) fn of(
         n: usize,
         cells: &Neighbours,
@@ -51,7 +50,7 @@ impl View {
         (view.sum > (1.0 + ONSET) * beyond).then_some(view)
     }
 
-    /// Sees one more cell of contact.
+    /// Adds a contact cell.
     pub(super) fn add(&mut self, near: &Neighbour) {
         self.sum += near.weight;
         for (toward, way) in self.toward.iter_mut().zip(near.direction) {
@@ -72,7 +71,7 @@ impl View {
     }
 }
 
-/// The S of what lies beyond the reach of a cell at a straight edge.
+/// The S of the half-plane beyond the radius.
 fn beyond(flat: bool) -> f64 {
     let side = if flat { 1.0 } else { PI };
     side * 4.0 / (REACH as f64 + 0.5).powf(0.25)
