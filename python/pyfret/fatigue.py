@@ -105,7 +105,7 @@ def _points(stress: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
     return stress.reshape(stress.shape[0], -1, stress.shape[-1]), shape
 
 
-def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3) -> xr.Dataset:
+def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 5e-3) -> xr.Dataset:
     """Give the value of a criterion at every point, and the critical plane.
 
     Parameters
@@ -140,6 +140,7 @@ def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3
     dims = tuple(f"dim_{n}" for n in range(len(shape)))
     labels = {
         "value": (criterion.unit, f"value of the criterion {criterion.name}"),
+        "planes": ("1", "planes looked at"),
         "missed": (criterion.unit, "most that another plane may have more"),
         "shear_amplitude": ("Pa", "shear amplitude, radius of the smallest circle"),
         "shear_chord": ("Pa", "half of the longest chord of the shear path"),
@@ -165,7 +166,7 @@ def assess(
     material: Material,
     criterion: CriterionName,
     *,
-    tolerance: float = 1e-3,
+    tolerance: float = 5e-3,
 ) -> xr.Dataset:
     """Evaluate a criterion with the numbers of a material: safety factors and lives.
 

@@ -36,20 +36,24 @@ fn main() {
     let never = AtomicBool::new(false);
     for smooth in [false, true] {
         for criterion in &criteria {
-            let (mut seconds, mut sum) = (0.0, 0.0);
+            let (mut seconds, mut sum, mut planes) = (0.0, 0.0, 0);
             for chunk in 0..points.div_ceil(CHUNK) {
                 let here = CHUNK.min(points - chunk * CHUNK);
                 let stress = histories(here, chunk as u64, smooth);
                 let start = Instant::now();
                 let found = evaluate(criterion, &stress.view(), &Search::default(), &never);
                 seconds += start.elapsed().as_secs_f64();
-                sum += found.map_or(f64::NAN, |f| f.iter().map(|p| p.value).sum::<f64>());
+                let found = found.expect("random histories are histories");
+                sum += found.iter().map(|p| p.value).sum::<f64>();
+                planes += found.iter().map(|p| p.planes).sum::<usize>();
             }
             let kind = if smooth { "smooth" } else { "random" };
             let each = 1e6 * seconds / points as f64;
             let mean = sum / points as f64;
+            let planes = planes as f64 / points as f64;
             println!(
-                "{} {kind}: {points} points {seconds:.2} s, {each:.2} us each, mean {mean:.4e}",
+                "{} {kind}: {points} points {seconds:.2} s, {each:.2} us and {planes:.1} planes \
+                 each, mean {mean:.4e}",
                 criterion.name()
             );
         }

@@ -212,6 +212,7 @@ pub(crate) fn criterion_on<'py>(
     let found = PyDict::new(py);
     found.set_item("value", of(&|p| p.value))?;
     found.set_item("missed", of(&|p| p.missed))?;
+    found.set_item("planes", of(&|p| p.planes as f64))?;
     found.set_item("shear_amplitude", of(&|p| p.shear_amplitude))?;
     found.set_item("shear_chord", of(&|p| p.shear_chord))?;
     found.set_item("normal_max", of(&|p| p.normal_max))?;

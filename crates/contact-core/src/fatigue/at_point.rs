@@ -11,6 +11,8 @@ pub struct AtPoint {
     pub value: f64,
     /// No plane has more than value + missed, in the unit of the value; 0 without a plane.
     pub missed: f64,
+    /// Planes looked at, which is what the search costs; 0 without a plane.
+    pub planes: usize,
     /// Unit normal of the critical plane, z >= 0; NaN where there is no stress.
     pub normal: [f64; 3],
     /// Shear amplitude there, by the smallest circle \[Pa\].
@@ -29,6 +31,7 @@ impl AtPoint {
     pub(super) const NOTHING: Self = Self {
         value: 0.0,
         missed: 0.0,
+        planes: 0,
         normal: [f64::NAN; 3],
         shear_amplitude: 0.0,
         shear_chord: 0.0,

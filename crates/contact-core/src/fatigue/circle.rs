@@ -11,7 +11,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::lanes::{LANES, Lanes, largest, place_of};
+use super::lanes::{LANES, Lanes};
 
 /// A point is outside if the square of its distance is larger by this share.
 const OUTSIDE: f64 = 1e-14;
@@ -35,7 +35,6 @@ struct Round {
 #[derive(Clone, Debug)]
 pub(super) struct Circles {
     on: [usize; 3],
-    distances: Vec<Lanes>,
     arch: Arch,
 }
 
@@ -43,7 +42,6 @@ impl Default for Circles {
     fn default() -> Self {
         Self {
             on: [0; 3],
-            distances: Vec::new(),
             arch: Arch::new(),
         }
     }
@@ -58,11 +56,10 @@ impl Circles {
         let mut circle = round_of_three(on.map(point));
         self.on = on;
         loop {
-            let far = self.distances_from(&circle, points);
+            let (far, k) = self.farthest_from(&circle, points);
             if far <= circle.square * (1.0 + OUTSIDE) {
                 return self.found(far, &point);
             }
-            let k = place_of(&self.distances, far);
             let (larger, on) = joined(k, self.on, &point);
             if larger.square <= circle.square {
                 // Rounding: the circle is as large as it gets.
@@ -93,37 +90,53 @@ impl Circles {
         Circle { radius, on }
     }
 
-    /// The squares of all distances from the centre; the largest is returned.
-    fn distances_from(&mut self, from: &Round, points: &[[Lanes; 2]]) -> f64 {
-        let distances = &mut self.distances;
-        distances.resize(points.len(), [0.0; LANES]);
-        self.arch.dispatch(Distances {
-            from: *from,
-            points,
-            distances,
-        })
+    /// The square of the largest distance from the centre, and whose it is.
+    fn farthest_from(&self, circle: &Round, points: &[[Lanes; 2]]) -> (f64, usize) {
+        let from = *circle;
+        self.arch.dispatch(Farthest { from, points })
     }
 }
 
-/// [`Circles::distances_from`], compiled for the processor.
-struct Distances<'a> {
+/// [`Circles::farthest_from`], compiled for the processor.
+struct Farthest<'a> {
     from: Round,
     points: &'a [[Lanes; 2]],
-    distances: &'a mut [Lanes],
 }
 
-impl WithSimd for Distances<'_> {
-    type Output = f64;
+impl WithSimd for Farthest<'_> {
+    type Output = (f64, usize);
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
-        for (square, [x, y]) in self.distances.iter_mut().zip(self.points) {
-            for l in 0..LANES {
-                let (a, b) = (x[l] - self.from.x, y[l] - self.from.y);
-                square[l] = a * a + b * b;
+    fn with_simd<S: Simd>(self, simd: S) -> (f64, usize) {
+        let Round { x, y, .. } = self.from;
+        let (x, y) = (simd.splat_f64s(x), simd.splat_f64s(y));
+        // The vectors of the farthest, as numbers that blend with the distances.
+        let mut most = simd.splat_f64s(f64::NEG_INFINITY);
+        let mut at = simd.splat_f64s(0.0);
+        let mut vectors = 0;
+        for [xs, ys] in self.points {
+            let (xs, ys) = (S::as_simd_f64s(xs).0, S::as_simd_f64s(ys).0);
+            for (a, b) in xs.iter().zip(ys) {
+                let (a, b) = (simd.sub_f64s(*a, x), simd.sub_f64s(*b, y));
+                let square = simd.add_f64s(simd.mul_f64s(a, a), simd.mul_f64s(b, b));
+                let farther = simd.greater_than_f64s(square, most);
+                most = simd.select_f64s_m64s(farther, square, most);
+                at = simd.select_f64s_m64s(farther, simd.splat_f64s(f64::from(vectors)), at);
+                vectors += 1;
             }
         }
-        largest(self.distances)
+        let far = simd.reduce_max_f64s(most);
+        let its = simd.equal_f64s(most, simd.splat_f64s(far));
+        let none = simd.splat_f64s(f64::INFINITY);
+        let vector = simd.reduce_min_f64s(simd.select_f64s_m64s(its, at, none)) as usize;
+        let of = vector * S::F64_LANES..(vector + 1) * S::F64_LANES;
+        let square = |k: &usize| {
+            let [xs, ys] = &self.points[k / LANES];
+            let (a, b) = (xs[k % LANES] - self.from.x, ys[k % LANES] - self.from.y);
+            a * a + b * b
+        };
+        let k = of.max_by(|i, j| square(i).total_cmp(&square(j)));
+        (far, k.unwrap_or(0))
     }
 }
 

@@ -25,8 +25,7 @@ use super::refine::{Deciding, refine};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Search {
     /// Largest part of the value by which a plane may be proved better than the one found
-    /// (default: 1e-3). While few triangles are left the search goes on beyond it, so that of hills
-    /// of nearly the same height the highest is found.
+    /// (default: 5e-3). The plane found is usually the best one to rounding.
     pub tolerance: f64,
     /// Times the first 160 triangles may be cut into four (default: 12).
     pub cuts: usize,
@@ -35,7 +34,7 @@ pub struct Search {
 impl Default for Search {
     fn default() -> Self {
         Self {
-            tolerance: 1e-3,
+            tolerance: 5e-3,
             cuts: 12,
         }
     }
@@ -64,6 +63,9 @@ pub(super) trait PlaneFunction {
     /// The bounds, from the largest parts on the first planes and the largest 1/cos r - 1 of their
     /// triangles.
     fn bend(&self, largest: [f64; 2], sag: f64) -> Bend;
+    /// Whether a second quantity chooses between planes of equal first ones: complementary planes
+    /// have the same shear.
+    fn has_ties(&self) -> bool;
     /// The piece of the instants that decide on the plane of a unit normal.
     fn deciding(&mut self, n: [f64; 3]) -> Deciding;
 
@@ -82,6 +84,8 @@ pub(super) struct Peak {
     pub(super) value: f64,
     /// No plane has more than value + missed.
     pub(super) missed: f64,
+    /// Planes looked at.
+    pub(super) planes: usize,
 }
 
 /// Room for the search.
@@ -93,7 +97,7 @@ pub(super) struct Room {
     /// Middles of edges: the other end, the number of the middle, the next edge of the same end.
     edges: Vec<[usize; 3]>,
     corners: Vec<usize>,
-    tried: Vec<[usize; 6]>,
+    tried: Vec<([usize; 6], [f64; 3])>,
 }
 
 /// A plane that was looked at.
@@ -107,8 +111,10 @@ struct Known {
 
 /// No edge.
 const NONE: usize = usize::MAX;
-/// Triangles that are so few that cutting them costs little.
+/// Triangles that are so few that they are cut on beyond the tolerance where planes may tie.
 const FEW: usize = 48;
+/// Planes nearer to each other than this cosine, 18 degrees, lead to the same top of a piece.
+const NEAR: f64 = 0.95;
 /// Pieces whose top is refined at most.
 const PIECES: usize = 24;
 
@@ -139,7 +145,8 @@ impl Search {
                 bound > best.value
             });
             missed = most - best.value;
-            let done = missed <= self.tolerance * best.value.abs() && faces.len() > FEW;
+            let few = if f.has_ties() { FEW } else { 0 };
+            let done = missed <= self.tolerance * best.value.abs() && faces.len() > few;
             if faces.is_empty() || done || cuts == self.cuts {
                 break;
             }
@@ -157,6 +164,7 @@ impl Search {
         room.try_the_rest(f, &mut best);
         Peak {
             missed: (proved - best.value).max(0.0),
+            planes: room.planes.len(),
             ..best
         }
     }
@@ -194,7 +202,7 @@ impl Room {
         let mut best = (n, on.value);
         for _ in 0..8 {
             let piece = f.deciding(best.0);
-            self.tried.push(piece.instants);
+            self.tried.push((piece.instants, best.0));
             let (top, of_piece) = refine(&|n| f.value(piece.parts(n)), best.0);
             let value = f.at(top).value;
             let rounding = 4.0 * f64::EPSILON * value.abs();
@@ -216,6 +224,7 @@ impl Room {
             n: best.0,
             value: best.1,
             missed: 0.0,
+            planes: 0,
         }
     }
 
@@ -230,10 +239,13 @@ impl Room {
             let plane = self.corners[k];
             let n = self.planes[plane].n;
             let piece = f.deciding(n);
-            if self.tried.contains(&piece.instants) || self.tried.len() > PIECES {
+            let again = |(instants, m): &([usize; 6], [f64; 3])| {
+                *instants == piece.instants && dot(*m, n).abs() > NEAR
+            };
+            if self.tried.iter().any(again) || self.tried.len() > PIECES {
                 continue;
             }
-            self.tried.push(piece.instants);
+            self.tried.push((piece.instants, n));
             let (_, top) = refine(&|n| f.value(piece.parts(n)), n);
             if top > best.value {
                 let other = self.refined(f, plane);

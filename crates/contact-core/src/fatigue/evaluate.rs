@@ -129,6 +129,7 @@ fn at_point(criterion: &Criterion, path: &Path, search: &Search, worker: &mut Wo
     AtPoint {
         value,
         missed: peak.missed,
+        planes: peak.planes,
         normal: n,
         shear_amplitude: acting.shear_amplitude,
         shear_chord: acting.shear_chord,

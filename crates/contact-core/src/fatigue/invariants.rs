@@ -57,6 +57,7 @@ pub(super) fn at_point(criterion: &Criterion, path: &Path, balls: &mut Balls<5>)
     AtPoint {
         value,
         missed: 0.0,
+        planes: 0,
         normal: [f64::NAN; 3],
         shear_amplitude: shear,
         shear_chord: f64::NAN,

@@ -130,6 +130,10 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
+    fn has_ties(&self) -> bool {
+        matches!(self.law, Law::Sum(weight) if weight == TIE)
+    }
+
     fn deciding(&mut self, n: [f64; 3]) -> Deciding {
         let [most, _] = self.path.extremes(&normal_weights(n));
         let range = self.strain.map(|strain| self.strain_range(n, strain));

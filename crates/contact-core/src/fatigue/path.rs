@@ -288,7 +288,7 @@ fn weighted(block: &[Lanes; 6], weights: &[f64; 6]) -> Lanes {
     let mut sum = [0.0; LANES];
     for c in 0..6 {
         for l in 0..LANES {
-            sum[l] += weights[c] * block[c][l];
+            sum[l] = weights[c].mul_add(block[c][l], sum[l]);
         }
     }
     sum

@@ -22,7 +22,9 @@ fn below_a_sphere(z: f64, nu: f64) -> Tensor {
     [lateral, lateral, -inverse, 0.0, 0.0, 0.0]
 }
 
-/// K. L. Johnson, Contact Mechanics (1985), eq. (4.49): p_0 = 1.60 Y at z = 0.48 a for nu = 0.3.
+/// p_0 = 1.6128 Y at z = 0.4809 a for nu = 0.3: 1.5/(1 + z^2) - (1 + nu)(1 - z atan(1/z)), the
+/// difference of the principal stresses on the axis in p_0 (K. L. Johnson, Contact Mechanics (1985),
+/// eq. (3.45)), is largest there, 0.62004. Johnson's 1.60 Y at 0.48 a, eq. (4.49), is rounded.
 #[test]
 fn first_yield_below_a_sphere() {
     let z: Vec<f64> = (1..400).map(|i| 0.005 * f64::from(i)).collect();
@@ -36,8 +38,9 @@ fn first_yield_below_a_sphere() {
             .map(|k| (k, of(&found[k])))
             .min_by(|a, b| a.1.total_cmp(&b.1))
             .unwrap();
-        assert!((least / 1.61 - 1.0).abs() < 5e-3, "{least}");
-        assert!((z[k] - 0.48).abs() < 5e-3, "{}", z[k]);
+        assert!((least / 1.6128 - 1.0).abs() < 1e-4, "{least}");
+        assert!((least / 1.60 - 1.0).abs() < 1e-2, "{least}");
+        assert!((z[k] - 0.4809).abs() < 2.5e-3, "{}", z[k]);
     }
     // A stress that comes and goes shakes down to twice the load of first yield.
     for f in &found {
