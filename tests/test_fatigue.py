@@ -34,7 +34,7 @@ def test_numbers_of_the_literature() -> None:
     assert found.value.dims == ("dim_0", "dim_1")
     assert found.normal.shape == (2, 1, 3)
     np.testing.assert_allclose(np.linalg.norm(found.normal, axis=-1), 1.0)
-    assert (found.missed <= 1.01e-3 * found.value).all()
+    assert (found.missed <= 5.01e-3 * found.value).all()
     bent = np.zeros((2, 6))
     bent[:, 0], bent[:, 3] = [411 * MPA, -411 * MPA], [205 * MPA, -205 * MPA]
     alpha = (352 - 540.97 / np.sqrt(3)) / (540.97 / 3)
