@@ -22,12 +22,7 @@ pub(super) fn energies(
     let (problem, geometry, roll) = (setup.problem, setup.geometry, &setup.roll);
     let (cell_area, mirror) = (problem.cell_area(), problem.plan.mirror);
     let (last, arms) = (setup.last(), &geometry.arms);
-    let mean = |a: f64, b: f64| 0.5 * (a + b);
-    let (from, to) = (setup.state.loads.forces(), point.loads.forces());
     let (started, ended) = (setup.state.motion.motions(), motion.motions());
-    let of_loads: f64 = (0..6)
-        .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
-        .sum();
     let approach = [0, 1, 2].map(|k| (ended[k] - started[k]) * arms.unit(k));
     let sums = sums([&now.p[..], &last.p], |n, [p, p_before]| {
         if p <= 0.0 && p_before <= 0.0 {
@@ -70,12 +65,25 @@ pub(super) fn energies(
         of_rolling,
     ] = sums;
     Energy {
-        work: of_loads + (of_bulk + of_rolling) * cell_area,
+        work: work_of_loads(setup, point, motion) + (of_bulk + of_rolling) * cell_area,
         elastic: elastic * cell_area,
         dissipated: dissipated * cell_area,
         opening: opening * cell_area,
         quadrature: quadrature * cell_area,
     }
+}
+
+/// Work of the loads in the increment \[J\], by the trapezoidal rule.
+fn work_of_loads(setup: &Setup<'_>, point: &LoadPoint, motion: &Motion) -> f64 {
+    let (from, to) = (setup.state.loads.forces(), point.loads.forces());
+    let (started, ended) = (setup.state.motion.motions(), motion.motions());
+    (0..6)
+        .map(|k| mean(from[k], to[k]) * (ended[k] - started[k]))
+        .sum()
+}
+
+fn mean(a: f64, b: f64) -> f64 {
+    0.5 * (a + b)
 }
 
 /// The slip of cell n in the increment, from where its material started or entered the contact, and how far

@@ -105,22 +105,15 @@ pub fn normal(
     if moved > 0.0 {
         add_response_of_change(response, p, u_z, ws);
     }
-    let mut last_product = 0.0;
+    let mut descent = Descent::new();
     let mut iterations = 0;
-    let (mut best, mut since_best, mut preconditioned) = (f64::INFINITY, 0, true);
     loop {
-        let mut info = assess(problem, p, u_z);
-        info.iterations = iterations;
+        let info = NormalInfo {
+            iterations,
+            ..assess(problem, p, u_z)
+        };
         let misfit = info.gap.max(info.penetration);
-        if misfit < best {
-            (best, since_best) = (misfit, 0);
-        } else {
-            since_best += 1;
-        }
-        if since_best == PATIENCE && preconditioned {
-            preconditioned = false;
-            last_product = 0.0;
-        }
+        descent.watch(misfit);
         let tolerance = if iterations == 0 {
             params.enough
         } else {
@@ -144,22 +137,63 @@ pub fn normal(
             copy(p, &mut ws.response);
             balance(problem, p);
             add_response_of_change(response, p, u_z, ws);
-            continue;
+        } else {
+            descent.step(response, problem, info.motion, p, u_z, ws);
         }
+    }
+}
 
-        let towards = Towards {
-            motion: info.motion,
-            preconditioned,
-            last_product,
-        };
-        let product = descend(response, problem, &towards, p, u_z, ws);
+/// The conjugate gradients: what one step hands to the next.
+struct Descent {
+    /// Smallest misfit \[m\], and the steps since.
+    best: f64,
+    since_best: usize,
+    preconditioned: bool,
+    /// r.z of the last direction; zero to begin anew.
+    last_product: f64,
+}
+
+impl Descent {
+    fn new() -> Self {
+        Self {
+            best: f64::INFINITY,
+            since_best: 0,
+            preconditioned: true,
+            last_product: 0.0,
+        }
+    }
+
+    /// Gives the preconditioner up where the misfit stalls.
+    fn watch(&mut self, misfit: f64) {
+        if misfit < self.best {
+            (self.best, self.since_best) = (misfit, 0);
+        } else {
+            self.since_best += 1;
+        }
+        if self.since_best == PATIENCE && self.preconditioned {
+            self.preconditioned = false;
+            self.last_product = 0.0;
+        }
+    }
+
+    /// A step to the least energy along the next direction; pressures that would pull are cut.
+    fn step(
+        &mut self,
+        response: &mut Response<'_>,
+        problem: &NormalProblem<'_>,
+        motion: [f64; 3],
+        p: &mut [f64],
+        u_z: &mut [f64],
+        ws: &mut NormalWorkspace,
+    ) {
+        let product = self.direct(response, problem, motion, p, u_z, ws);
         let (slope, curvature) = line(response, ws);
         if !(slope > 0.0 && curvature > 0.0) {
             ws.direction.fill(0.0);
-            last_product = 0.0;
-            continue;
+            self.last_product = 0.0;
+            return;
         }
-        last_product = product;
+        self.last_product = product;
         let step = slope / curvature;
         let [pulled] = largest([&*p, &ws.direction], |_, [p, d]| [-(p + step * d)]);
         if pulled <= 0.0 {
@@ -176,6 +210,59 @@ pub fn normal(
             balance(problem, p);
             add_response_of_change(response, p, u_z, ws);
         }
+    }
+
+    /// Next search direction on the contact and on the cells about to enter it; returns r.z.
+    fn direct(
+        &self,
+        response: &mut Response<'_>,
+        problem: &NormalProblem<'_>,
+        motion: [f64; 3],
+        p: &[f64],
+        u_z: &[f64],
+        ws: &mut NormalWorkspace,
+    ) -> f64 {
+        let NormalWorkspace {
+            residual,
+            last_residual,
+            z,
+            free,
+            direction,
+            ..
+        } = ws;
+        let arms = problem.arms;
+        std::mem::swap(residual, last_residual);
+        let from = [p, u_z, problem.h_init];
+        set(from, [residual], |n, [p, u_z, h], _| {
+            let gap = u_z + h - arms.across(motion, n);
+            [if p > 0.0 || gap < 0.0 { -gap } else { 0.0 }]
+        });
+        response.invert_normal(residual, z, self.preconditioned);
+        let from = [p, residual, z];
+        let touches = |_: usize, [p, r, z]: [f64; 3]| (f64::from(u8::from(p > 0.0 || r > 0.0)), z);
+        let of_all = arms.fit_across(problem.drive.free, from, touches);
+        // A cell without pressure that the direction would pull at stays out.
+        set(from, [free], |n, [p, r, z], _| {
+            let changes = p > 0.0 || (r > 0.0 && z > arms.across(of_all, n));
+            [f64::from(u8::from(changes))]
+        });
+        let weighted = |_: usize, [free, value]: [f64; 2]| (free, value);
+        let fit = |field: &[f64]| arms.fit_across(problem.drive.free, [free, field], weighted);
+        let (of_free, drift) = (fit(z), fit(direction));
+        let from = [&free[..], residual, last_residual];
+        let [product, fresh] = sweep(from, [z], |n, [free, now, last], [z]| {
+            let z = free * (z - arms.across(of_free, n));
+            ([z], [now * z, (now - last) * z])
+        });
+        let beta = if self.last_product > 0.0 {
+            (fresh / self.last_product).max(0.0)
+        } else {
+            0.0
+        };
+        set([&free[..], z], [direction], |n, [free, z], [d]| {
+            [z + beta * free * (d - arms.across(drift, n))]
+        });
+        product
     }
 }
 
@@ -272,71 +359,6 @@ pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> Nor
         penetration,
         iterations: 0,
     }
-}
-
-/// What a search direction is made with.
-struct Towards {
-    motion: [f64; 3],
-    preconditioned: bool,
-    /// r.z of the last direction; zero to begin anew.
-    last_product: f64,
-}
-
-/// Next search direction on the contact and on the cells about to enter it; returns r.z.
-fn descend(
-    response: &mut Response<'_>,
-    problem: &NormalProblem<'_>,
-    towards: &Towards,
-    p: &[f64],
-    u_z: &[f64],
-    ws: &mut NormalWorkspace,
-) -> f64 {
-    let &Towards {
-        motion,
-        preconditioned,
-        last_product,
-    } = towards;
-    let NormalWorkspace {
-        residual,
-        last_residual,
-        z,
-        free,
-        direction,
-        ..
-    } = ws;
-    let arms = problem.arms;
-    std::mem::swap(residual, last_residual);
-    let from = [p, u_z, problem.h_init];
-    set(from, [residual], |n, [p, u_z, h], _| {
-        let gap = u_z + h - arms.across(motion, n);
-        [if p > 0.0 || gap < 0.0 { -gap } else { 0.0 }]
-    });
-    response.invert_normal(residual, z, preconditioned);
-    let from = [p, residual, z];
-    let touches = |_: usize, [p, r, z]: [f64; 3]| (f64::from(u8::from(p > 0.0 || r > 0.0)), z);
-    let of_all = arms.fit_across(problem.drive.free, from, touches);
-    // A cell without pressure that the direction would pull at stays out.
-    set(from, [free], |n, [p, r, z], _| {
-        let changes = p > 0.0 || (r > 0.0 && z > arms.across(of_all, n));
-        [f64::from(u8::from(changes))]
-    });
-    let weighted = |_: usize, [free, value]: [f64; 2]| (free, value);
-    let fit = |field: &[f64]| arms.fit_across(problem.drive.free, [free, field], weighted);
-    let (of_free, drift) = (fit(z), fit(direction));
-    let from = [&free[..], residual, last_residual];
-    let [product, fresh] = sweep(from, [z], |n, [free, now, last], [z]| {
-        let z = free * (z - arms.across(of_free, n));
-        ([z], [now * z, (now - last) * z])
-    });
-    let beta = if last_product > 0.0 {
-        (fresh / last_product).max(0.0)
-    } else {
-        0.0
-    };
-    set([&free[..], z], [direction], |n, [free, z], [d]| {
-        [z + beta * free * (d - arms.across(drift, n))]
-    });
-    product
 }
 
 /// Slope and curvature of the energy along the direction; its response goes to the workspace.

@@ -45,10 +45,6 @@ impl ProjectedGradient {
         shear: &mut Shear<'_>,
         passes: usize,
     ) -> [f64; 3] {
-        let cells = problem.bound.len();
-        let given = problem.drive.given;
-        let no_slip =
-            |c: usize, n: usize| problem.no_slip[c][n] + problem.arms.in_plane(given, n)[c];
         let mut stiffness = 1.0 / self.largest_compliance(response, problem);
         for c in 0..2 {
             self.ahead[c].copy_from_slice(shear.q[c]);
@@ -57,38 +53,10 @@ impl ProjectedGradient {
         let mut momentum = 1.0_f64;
         let mut shift = [0.0; 3];
         for _ in 0..passes {
-            for c in 0..2 {
-                self.q_last[c].copy_from_slice(shear.q[c]);
-                self.u_last[c].copy_from_slice(shear.u[c]);
-                for n in 0..cells {
-                    let slip = self.u_ahead[c][n] - no_slip(c, n);
-                    shear.q[c][n] = self.ahead[c][n] - stiffness * slip;
-                }
-            }
-            project(problem, &mut shear.q, &mut shift);
-            let (q, u) = (&shear.q, &mut shear.u);
-            let [u_x, u_y] = u;
-            for c in 0..2 {
-                for n in 0..cells {
-                    self.ahead[c][n] = q[c][n] - self.q_last[c][n];
-                }
-            }
-            let [change_x, change_y] = &self.ahead;
-            response.tangential([change_x, change_y], [u_x, u_y]);
-            let (mut change_size, mut curvature, mut descent) = (0.0, 0.0, 0.0);
+            self.step(response, problem, shear, stiffness, &mut shift);
             // The sum of the change is zero to rounding only: the shift stays out of the energy.
             let rigid = shift.map(|s| s / stiffness);
-            for c in 0..2 {
-                for n in 0..cells {
-                    let (change, response) = (self.ahead[c][n], shear.u[c][n]);
-                    change_size += change * change;
-                    curvature += change * response;
-                    let rigid = problem.arms.in_plane(rigid, n)[c];
-                    let before = self.u_last[c][n] - no_slip(c, n) + rigid;
-                    descent += change * (before + 0.5 * response);
-                    shear.u[c][n] = self.u_last[c][n] + response;
-                }
-            }
+            let [change_size, curvature, descent] = self.add_response(problem, shear, rigid);
             if change_size == 0.0 || response.stopped() {
                 break;
             }
@@ -105,16 +73,71 @@ impl ProjectedGradient {
             let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
             let beta = (momentum - 1.0) / next;
             momentum = next;
-            for c in 0..2 {
-                for n in 0..cells {
-                    let (q, u) = (shear.q[c][n], shear.u[c][n]);
-                    self.ahead[c][n] = q + beta * (q - self.q_last[c][n]);
-                    self.u_ahead[c][n] = u + beta * (u - self.u_last[c][n]);
-                }
-            }
+            self.look_ahead(shear, beta);
         }
         mark_circle(problem, &shear.q, shear.slip);
-        add(given, shift.map(|s| -s / stiffness))
+        add(problem.drive.given, shift.map(|s| -s / stiffness))
+    }
+
+    /// A projected step along the gradient from the point ahead; the response to the change of the shear, which
+    /// is left in `ahead`, is left in `shear.u` \[m\].
+    fn step(
+        &mut self,
+        response: &mut Response<'_>,
+        problem: &TangentialProblem<'_>,
+        shear: &mut Shear<'_>,
+        stiffness: f64,
+        shift: &mut [f64; 3],
+    ) {
+        for c in 0..2 {
+            self.q_last[c].copy_from_slice(shear.q[c]);
+            self.u_last[c].copy_from_slice(shear.u[c]);
+            for n in 0..problem.bound.len() {
+                let slip = self.u_ahead[c][n] - no_slip(problem, c, n);
+                shear.q[c][n] = self.ahead[c][n] - stiffness * slip;
+            }
+        }
+        project(problem, &mut shear.q, shift);
+        for c in 0..2 {
+            for n in 0..problem.bound.len() {
+                self.ahead[c][n] = shear.q[c][n] - self.q_last[c][n];
+            }
+        }
+        let ([change_x, change_y], [u_x, u_y]) = (&self.ahead, &mut shear.u);
+        response.tangential([change_x, change_y], [u_x, u_y]);
+    }
+
+    /// Makes the displacements of the response to the change of a step; sums of the squares of the change, of
+    /// its product with the response, and the change of the energy, without the `rigid` motion \[m\].
+    fn add_response(
+        &self,
+        problem: &TangentialProblem<'_>,
+        shear: &mut Shear<'_>,
+        rigid: [f64; 3],
+    ) -> [f64; 3] {
+        let (mut squares, mut curvature, mut descent) = (0.0, 0.0, 0.0);
+        for c in 0..2 {
+            for n in 0..problem.bound.len() {
+                let (change, response) = (self.ahead[c][n], shear.u[c][n]);
+                squares += change * change;
+                curvature += change * response;
+                let rigid = problem.arms.in_plane(rigid, n)[c];
+                let before = self.u_last[c][n] - no_slip(problem, c, n) + rigid;
+                descent += change * (before + 0.5 * response);
+                shear.u[c][n] = self.u_last[c][n] + response;
+            }
+        }
+        [squares, curvature, descent]
+    }
+
+    /// The point from which the next step goes, `beta` of the last change further.
+    fn look_ahead(&mut self, shear: &Shear<'_>, beta: f64) {
+        for c in 0..2 {
+            for (n, (&q, &u)) in shear.q[c].iter().zip(&*shear.u[c]).enumerate() {
+                self.ahead[c][n] = q + beta * (q - self.q_last[c][n]);
+                self.u_ahead[c][n] = u + beta * (u - self.u_last[c][n]);
+            }
+        }
     }
 
     /// Estimate of the largest eigenvalue of C_tt on the contact \[m/Pa\]: the largest displacement
@@ -136,4 +159,9 @@ impl ProjectedGradient {
             .iter()
             .fold(f64::MIN_POSITIVE, |m, u| m.max(*u))
     }
+}
+
+/// The displacement of a cell that means no slip, with the motions that are given \[m\].
+fn no_slip(problem: &TangentialProblem<'_>, c: usize, n: usize) -> f64 {
+    problem.no_slip[c][n] + problem.arms.in_plane(problem.drive.given, n)[c]
 }
