@@ -11,6 +11,7 @@ mod json;
 mod loads;
 mod new;
 mod progress;
+mod python;
 mod resume;
 mod run;
 mod scene_options;
@@ -71,6 +72,14 @@ enum Command {
     },
     /// Wear the surfaces of a scene with a table [wear] over many cycles
     Wear(wear::Options),
+    /// Solve a scene for many values of its parameters (needs the Python package)
+    Study(python::Options),
+    /// Write a result as one page for a browser (needs the Python package)
+    Report(python::Options),
+    /// Check this installation against closed forms in minutes (needs the Python package)
+    Verify(python::Options),
+    /// Say what to cite for a result (needs the Python package)
+    Cite(python::Options),
 }
 
 fn main() -> ExitCode {
@@ -88,11 +97,20 @@ fn main() -> ExitCode {
         }
         Command::Man { folder } => manual(&folder),
         Command::Wear(options) => wear::wear(&options),
+        Command::Study(options) => return in_python("study", &options),
+        Command::Report(options) => return in_python("report", &options),
+        Command::Verify(options) => return in_python("verify", &options),
+        Command::Cite(options) => return in_python("cite", &options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
+}
+
+/// Ends as the command of the Python package does.
+fn in_python(command: &str, options: &python::Options) -> ExitCode {
+    python::run(command, options).unwrap_or_else(|failure| failure.report())
 }
 
 /// Writes the manual pages.

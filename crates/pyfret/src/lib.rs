@@ -24,6 +24,7 @@ mod kernels;
 mod march;
 mod material;
 mod operator;
+mod parts;
 mod reference;
 mod result;
 mod scene;

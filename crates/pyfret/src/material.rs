@@ -4,13 +4,14 @@ use contact_core::scene as core;
 use pyo3::prelude::*;
 
 use crate::error::{must_be, takes, to_python};
+use crate::parts::parts;
 
 /// A homogeneous isotropic elastic material.
 ///
 /// Parameters
 /// ----------
 /// E : float
-///     Young's modulus [Pa], positive.
+///     Young's modulus [Pa], positive; infinite, with nu = 0, for :data:`RIGID`.
 /// nu : float
 ///     Poisson's ratio, -1 < nu < 0.5.
 ///
@@ -23,6 +24,7 @@ use crate::error::{must_be, takes, to_python};
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Elastic(pub(crate) core::Elastic);
 
+parts!(Elastic: E, nu);
 takes!(Elastic, "a material, such as Elastic(E=210e9, nu=0.3)");
 
 /// A material of a closed form: of a body, that of its substrate.
@@ -56,6 +58,9 @@ impl Elastic {
     #[new]
     #[pyo3(signature = (*, E, nu))]
     fn new(E: f64, nu: f64) -> PyResult<Self> {
+        if (Self(core::Elastic { E, nu })) == Self::RIGID {
+            return Ok(Self::RIGID);
+        }
         core::Elastic::new(E, nu).map(Self).map_err(to_python)
     }
 
@@ -98,6 +103,7 @@ impl Elastic {
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Coating(pub(crate) core::Coating);
 
+parts!(Coating: material, thickness);
 takes!(
     Coating,
     "a coating, such as Coating(Elastic(E=300e9, nu=0.25), thickness=3e-6)"

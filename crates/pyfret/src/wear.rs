@@ -12,12 +12,15 @@ use pyo3::prelude::*;
 
 use crate::error::to_python;
 use crate::interruptible::interruptible;
+use crate::parts::parts;
 use crate::scene::Scene;
 
 /// Archard's law.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Archard(core::Archard);
+
+parts!(Archard: k, threshold);
 
 #[pymethods]
 impl Archard {
@@ -48,6 +51,8 @@ impl Archard {
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct DissipatedEnergy(core::DissipatedEnergy);
+
+parts!(DissipatedEnergy: alpha, threshold);
 
 #[pymethods]
 impl DissipatedEnergy {

@@ -85,7 +85,8 @@ impl Grid {
         Array2::from_shape_fn((self.nx, self.ny), |(i, j)| f(self.x(i), self.y(j)))
     }
 
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    /// Refuses a grid that has no meaning: no cells, too many, or of no size.
+    pub fn check(&self) -> Result<(), Error> {
         for (key, n) in [("grid.nx", self.nx), ("grid.ny", self.ny)] {
             if n == 0 {
                 return Err(Error::invalid(key, n, "at least one cell"));

@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use super::shape::{Flat, Shape};
 use crate::error::{must_be, takes};
 use crate::material::{Coating, Elastic};
+use crate::parts::parts;
 
 /// An elastic half-space under its coatings and a gently curved surface.
 ///
@@ -21,6 +22,7 @@ use crate::material::{Coating, Elastic};
 #[derive(Clone, PartialEq)]
 pub(crate) struct Body(pub(crate) core::Body);
 
+parts!(Body: substrate, coatings, shape);
 takes!(
     Body,
     "a body, such as Body(Elastic(E=210e9, nu=0.3), shape=Sphere(R=5e-3))"

@@ -3,6 +3,9 @@
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
 use pyo3::prelude::*;
 
+use super::increments::Count;
+use crate::parts::{members, parts};
+
 /// How the increments of a branch are spaced.
 ///
 /// ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
@@ -15,6 +18,8 @@ pub(crate) enum Spacing {
     #[pyo3(name = "EQUAL_RADIUS")]
     EqualRadius,
 }
+
+members!(Spacing);
 
 impl From<Spacing> for core::Spacing {
     fn from(spacing: Spacing) -> Self {
@@ -34,10 +39,33 @@ impl From<core::Spacing> for Spacing {
     }
 }
 
-/// One straight piece of a load history.
-#[pyclass(frozen, eq, module = "pyfret")]
+/// One straight piece of a load history; most are made by the methods of :class:`LoadPath`.
+///
+/// Parameters
+/// ----------
+/// W, M_x, M_y, T_x, T_y, M_z : float, optional
+///     Loads at its end [N, N m].
+/// delta_z, phi_x, phi_y, delta_x, delta_y, phi_z : float, optional
+///     Motions at its end [m, rad], in place of their loads. Without both the forces are 0 and
+///     the bodies do not rotate.
+/// sigma_B, sigma_B1, rolled : float
+///     Bulk stresses [Pa] and the way rolled [m] at its end (default 0).
+/// increments : int, optional
+///     Their number (default: chosen).
+/// spacing : Spacing
+///     How they are spaced (default uniform).
+/// t : float
+///     Path time at its end.
+/// path_error : float, optional
+///     Estimated error that the increments leave in the shear.
+#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Branch(pub(super) core::Branch);
+
+parts!(
+    Branch: W, M_x, M_y, T_x, T_y, M_z, delta_z, phi_x, phi_y, delta_x, delta_y, phi_z, sigma_B,
+    sigma_B1, rolled, increments, spacing, t, path_error
+);
 
 impl Branch {
     /// A load, `None` where its motion is prescribed.
@@ -59,6 +87,55 @@ impl Branch {
 
 #[pymethods]
 impl Branch {
+    #[new]
+    #[pyo3(signature = (
+        *, W = None, M_x = None, M_y = None, T_x = None, T_y = None, M_z = None, delta_z = None,
+        phi_x = None, phi_y = None, delta_x = None, delta_y = None, phi_z = None, sigma_B = 0.0,
+        sigma_B1 = 0.0, rolled = 0.0, increments = None, spacing = Spacing::Uniform, t,
+        path_error = None,
+    ))]
+    fn new(
+        W: Option<f64>,
+        M_x: Option<f64>,
+        M_y: Option<f64>,
+        T_x: Option<f64>,
+        T_y: Option<f64>,
+        M_z: Option<f64>,
+        delta_z: Option<f64>,
+        phi_x: Option<f64>,
+        phi_y: Option<f64>,
+        delta_x: Option<f64>,
+        delta_y: Option<f64>,
+        phi_z: Option<f64>,
+        sigma_B: f64,
+        sigma_B1: f64,
+        rolled: f64,
+        increments: Option<Count>,
+        spacing: Spacing,
+        t: f64,
+        path_error: Option<f64>,
+    ) -> Self {
+        let mut to = core::Loads {
+            sigma_B,
+            sigma_B1,
+            rolled,
+            ..core::Loads::default()
+        };
+        let loads = [W, M_x, M_y, T_x, T_y, M_z];
+        let motions = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
+        for (of, (load, motion)) in RigidMotion::ALL.into_iter().zip(loads.into_iter().zip(motions)) {
+            let load = load.map(Prescribed::Load);
+            if let Some(prescribed) = motion.map(Prescribed::Motion).or(load) {
+                to.prescribe(of, prescribed);
+            }
+        }
+        Self(core::Branch {
+            spacing: spacing.into(),
+            path_error,
+            ..core::Branch::new(to, increments.and_then(|count| count.0), t)
+        })
+    }
+
     /// Normal force at its end [N]; None where the approach is given.
     #[getter]
     fn W(&self) -> Option<f64> {

@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 
 use super::SurfaceMap;
 use crate::error::{must_be, to_python};
+use crate::parts::{members, parts};
 
 /// What a cell has been through.
 ///
@@ -20,6 +21,8 @@ pub(crate) enum History {
     #[pyo3(name = "DISSIPATED")]
     Dissipated,
 }
+
+members!(History);
 
 impl From<History> for core::History {
     fn from(history: History) -> Self {
@@ -60,6 +63,8 @@ impl From<core::History> for History {
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Friction(pub(crate) core::Friction);
+
+parts!(Friction: mu, mu_y, kinetic, map, history);
 
 #[pymethods]
 impl Friction {

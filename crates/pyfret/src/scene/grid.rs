@@ -5,6 +5,7 @@ use numpy::{PyArray1, ToPyArray};
 use pyo3::prelude::*;
 
 use crate::error::{must_be, takes, to_python};
+use crate::parts::parts;
 
 /// Distance of points or cells along x and y, or the same along both.
 pub(crate) struct Pitch(pub(crate) (f64, f64));
@@ -45,14 +46,38 @@ impl<'py> FromPyObject<'_, 'py> for Cells {
 /// Rectangular cells around the initial point of contact; tractions are constant on each.
 ///
 /// Arrays over the grid have the shape (nx, ny), x first.
+///
+/// Parameters
+/// ----------
+/// nx, ny : int
+///     Number of cells along x and along y.
+/// dx, dy : float
+///     Cell length along x and along y [m].
+/// plane_strain : bool
+///     Whether the cells are without end along y (default False): `ny` is 1 and `dy` the width that
+///     forces are those on.
 #[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Grid(pub(crate) core::Grid);
 
+parts!(Grid: nx, ny, dx, dy, plane_strain);
 takes!(Grid, "a grid, such as Grid.centred(extent=1e-3, n=128)");
 
 #[pymethods]
 impl Grid {
+    #[new]
+    #[pyo3(signature = (*, nx, ny, dx, dy, plane_strain = false))]
+    fn new(nx: usize, ny: usize, dx: f64, dy: f64, plane_strain: bool) -> PyResult<Self> {
+        let grid = core::Grid {
+            nx,
+            ny,
+            dx,
+            dy,
+            plane_strain,
+        };
+        grid.check().map(|()| Self(grid)).map_err(to_python)
+    }
+
     /// `n` by `n` cells on a square of side `extent` [m].
     #[staticmethod]
     #[pyo3(signature = (*, extent, n))]

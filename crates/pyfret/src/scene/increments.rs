@@ -5,6 +5,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::must_be;
+use crate::parts::parts;
 
 /// One value or several to visit in turn.
 pub(super) enum Values {
@@ -40,6 +41,8 @@ impl Values {
 #[pyclass(frozen, eq, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct PerRange(pub(super) usize);
+
+parts!(PerRange: increments);
 
 #[pymethods]
 impl PerRange {

@@ -12,10 +12,16 @@ use pyo3::prelude::*;
 use super::branch::{Branch, Spacing};
 use super::increments::{AnyIncrements, Count, Values};
 use crate::error::{takes, to_python};
+use crate::parts::parts;
 
 /// The load history, from two bodies just touching.
 ///
 /// Built by chaining; every call gives a new path with more branches.
+///
+/// Parameters
+/// ----------
+/// branches : list of Branch
+///     Its branches, where they are at hand.
 ///
 /// Examples
 /// --------
@@ -26,6 +32,7 @@ use crate::error::{takes, to_python};
 #[derive(Clone, PartialEq)]
 pub(crate) struct LoadPath(pub(crate) core::LoadPath);
 
+parts!(LoadPath: branches);
 takes!(
     LoadPath,
     "a load path, such as LoadPath.start().normal(100.0).tangential([20.0, -20.0])"
@@ -70,6 +77,16 @@ fn prescribe(to: &mut core::Loads, given: [Option<Prescribed>; 6]) {
 
 #[pymethods]
 impl LoadPath {
+    #[new]
+    #[pyo3(signature = (branches = Vec::new()))]
+    fn new(branches: Vec<Branch>) -> Self {
+        let branches = branches.into_iter().map(|branch| branch.0).collect();
+        Self(core::LoadPath {
+            branches,
+            rig_stiffness: None,
+        })
+    }
+
     /// The path before its first branch.
     #[staticmethod]
     fn start() -> Self {

@@ -5,6 +5,7 @@ use contact_core::scene as core;
 use pyo3::prelude::*;
 
 use crate::error::to_python;
+use crate::parts::{members, parts};
 
 /// Families of algorithms.
 ///
@@ -19,10 +20,14 @@ pub(crate) enum Preset {
     Spinu2020,
 }
 
+members!(Preset);
+
 /// Influence coefficients by Hankel integrals: exact to round-off.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Hankel;
+
+parts!(Hankel:);
 
 #[pymethods]
 impl Hankel {
@@ -49,6 +54,8 @@ pub(crate) struct InverseFft {
     aliases: usize,
 }
 
+parts!(InverseFft: enlargement, aliases);
+
 #[pymethods]
 impl InverseFft {
     #[new]
@@ -73,6 +80,8 @@ pub(crate) struct FrequencyDomain {
     /// How many times larger the domain is.
     enlargement: usize,
 }
+
+parts!(FrequencyDomain: enlargement);
 
 #[pymethods]
 impl FrequencyDomain {
@@ -145,6 +154,8 @@ impl From<core::KernelMethod> for Method {
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Skip(core::SkipSettings);
+
+parts!(Skip: equal_layers, coupling, mirror, digits, far, path);
 
 #[pymethods]
 impl Skip {
@@ -274,6 +285,11 @@ impl From<&core::SaveFields> for Save {
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, Default, PartialEq)]
 pub(crate) struct Settings(pub(crate) core::Settings);
+
+parts!(
+    Settings: preset, tolerance, entering, turning, path_tolerance, max_alternations,
+    max_iterations, kernel, kernel_tolerance, skip, save
+);
 
 #[pymethods]
 impl Settings {

@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 use super::Pitch;
 use crate::arguments::Field;
 use crate::error::{must_be, to_python};
+use crate::parts::parts;
 
 /// A shape class with numbers for fields, and its way to and from the core's variant.
 macro_rules! elementary {
@@ -41,6 +42,8 @@ macro_rules! elementary {
             }
         }
 
+        parts!($name: $($field),*);
+
         impl From<$name> for core::Shape {
             fn from(shape: $name) -> Self {
                 let $name { $($field),* } = shape;
@@ -54,6 +57,8 @@ macro_rules! elementary {
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Flat;
+
+parts!(Flat:);
 
 #[pymethods]
 impl Flat {
@@ -245,6 +250,8 @@ elementary!(
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Rough(core::Rough);
 
+parts!(Rough: rms, hurst, longest, shortest, seed);
+
 #[pymethods]
 impl Rough {
     #[new]
@@ -328,6 +335,8 @@ impl Rough {
 #[derive(Clone, PartialEq)]
 pub(crate) struct SurfaceMap(pub(crate) core::SurfaceMap);
 
+parts!(SurfaceMap: values, spacing);
+
 #[pymethods]
 impl SurfaceMap {
     #[new]
@@ -397,6 +406,8 @@ fn word(missing: &str) -> PyResult<core::Missing> {
 #[derive(Clone, PartialEq)]
 pub(crate) struct Sum(Vec<core::Shape>);
 
+parts!(Sum: parts);
+
 impl Sum {
     fn of(one: Shape, other: Shape) -> Self {
         let parts = |shape| match core::Shape::from(shape) {
@@ -409,6 +420,11 @@ impl Sum {
 
 #[pymethods]
 impl Sum {
+    #[new]
+    fn new(parts: Vec<Shape>) -> Self {
+        Self(parts.into_iter().map(core::Shape::from).collect())
+    }
+
     /// The shapes.
     #[getter]
     fn parts(&self) -> Vec<Shape> {

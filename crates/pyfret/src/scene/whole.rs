@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use super::{AnyFriction, Body, Friction, Grid, LoadPath, Save, Settings};
 use crate::arguments::{Field, side};
 use crate::error::{takes, to_python};
+use crate::parts::parts;
 use crate::reference::Hertz;
 
 /// A fretting contact problem.
@@ -31,6 +32,7 @@ use crate::reference::Hertz;
 #[derive(Clone, PartialEq)]
 pub(crate) struct Scene(pub(crate) core::Scene);
 
+parts!(pickled Scene: body1, body2, mu = friction, grid, path, settings, title);
 takes!(
     Scene,
     "a scene, such as Scene(body1=.., body2=.., mu=0.3, grid=..) or Scene.from_file(\"scene.toml\")"
@@ -104,9 +106,13 @@ impl Scene {
     }
 
     /// The same scene with some of its parts exchanged.
-    #[pyo3(signature = (*, path = None, settings = None, save = None, mu = None, title = None))]
+    #[pyo3(signature = (*, body1 = None, body2 = None, grid = None, path = None, settings = None,
+                        save = None, mu = None, title = None))]
     fn replace(
         &self,
+        body1: Option<Body>,
+        body2: Option<Body>,
+        grid: Option<Grid>,
         path: Option<LoadPath>,
         settings: Option<Settings>,
         save: Option<Save>,
@@ -114,6 +120,15 @@ impl Scene {
         title: Option<String>,
     ) -> PyResult<Self> {
         let mut scene = self.0.clone();
+        if let Some(body1) = body1 {
+            scene.body1 = body1.0;
+        }
+        if let Some(body2) = body2 {
+            scene.body2 = body2.0;
+        }
+        if let Some(grid) = grid {
+            scene.grid = grid.0;
+        }
         if let Some(path) = path {
             scene.path = path.0;
         }
