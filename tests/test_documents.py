@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import inspect
+import os
 import re
 import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -23,6 +25,8 @@ OWNERS: list[Any] = [
     fret,
     plot,
     fret.sweep,
+    fret.studies,
+    fret.Study,
     fret.subsurface,
     fret.kernels,
     fret.reference,
@@ -94,9 +98,11 @@ def test_its_keywords_exist(document: Path) -> None:
 @pytest.mark.parametrize("document", DOCUMENTS, ids=ids)
 def test_its_options_exist(document: Path) -> None:
     commands = ("new", "run", "resume", "check", "stress", "wear", "completions", "man")
+    commands += ("study", "cite")
+    environment = {**os.environ, "FRET_PYTHON": sys.executable}
     helps = {
         command: subprocess.run(
-            [FRET, command, "--help"], capture_output=True, text=True, check=True
+            [FRET, command, "--help"], capture_output=True, text=True, check=True, env=environment
         ).stdout
         for command in commands
     }
@@ -127,7 +133,7 @@ def store(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_its_python_runs(document: Path, store: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     blocks = re.findall(r"```python\n(.*?)```", text(document), flags=re.DOTALL)
     monkeypatch.chdir(store)
-    names: dict[str, Any] = {}
+    names: dict[str, Any] = {"__name__": "__main__"}
     for n, block in enumerate(blocks):
         exec(compile(block, f"{document.name}, block {n + 1}", "exec"), names)
     plt.close("all")

@@ -32,7 +32,16 @@ def public(module: ModuleType) -> Iterator[tuple[str, Any]]:
 
 
 def test_every_public_name_has_its_docstring() -> None:
-    modules = (fret, _core, plot, fret.kernels, fret.reference, fret.subsurface, fret.sweep)
+    modules = (
+        fret,
+        _core,
+        plot,
+        fret.kernels,
+        fret.reference,
+        fret.subsurface,
+        fret.sweep,
+        fret.studies,
+    )
     empty = []
     for module in modules:
         for name, thing in public(module):

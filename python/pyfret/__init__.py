@@ -17,7 +17,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from pyfret import fatigue, kernels, reference, subsurface, sweep
+from pyfret import fatigue, kernels, reference, studies, subsurface, sweep
 from pyfret._core import (
     RIGID,
     Archard,
@@ -62,9 +62,11 @@ from pyfret._core import (
     __version__,
     graded,
 )
+from pyfret.citing import cite
 from pyfret.doubts import SceneWarning
 from pyfret.results import Result, Snapshot, open
 from pyfret.solving import Increment, march, resume, solve
+from pyfret.studies import Study, open_study, study, varied
 from pyfret.surfaces import read_surface
 from pyfret.wearing import WearResult, open_wear, resume_wear, wear
 
@@ -111,6 +113,7 @@ __all__ = [
     "Spacing",
     "Sphere",
     "StoreError",
+    "Study",
     "Sum",
     "SurfaceMap",
     "SurfaceOperator",
@@ -118,11 +121,13 @@ __all__ = [
     "WearResult",
     "Wedge",
     "__version__",
+    "cite",
     "fatigue",
     "graded",
     "kernels",
     "march",
     "open",
+    "open_study",
     "open_wear",
     "plot",
     "read_surface",
@@ -130,8 +135,11 @@ __all__ = [
     "resume",
     "resume_wear",
     "solve",
+    "studies",
+    "study",
     "subsurface",
     "sweep",
+    "varied",
     "wear",
 ]
 

@@ -114,7 +114,9 @@ class Snapshot:
 
     def __getattr__(self, name: str) -> xr.DataArray:
         """Give the variable `name` of the dataset."""
-        if not name.startswith("_") and name in self.dataset.variables:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if name in self.dataset.variables:
             return self.dataset[name]
         raise AttributeError(f"a snapshot has no {name!r}; it has {self.names()}")
 

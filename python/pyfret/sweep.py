@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
-from pyfret._core import LoadPath, OffGridError
-from pyfret.solving import solve
+from pyfret._core import LoadPath, Scene
+from pyfret.studies import study
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import ArrayLike
-
-    from pyfret._core import Scene
 
 __all__ = ["running_map"]
 
@@ -23,8 +22,18 @@ __all__ = ["running_map"]
 SLIDES = 3
 STATUS = "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"
 
-#: What the map shows of the last cycle.
-SHOWN = ("energy_ratio", "sliding_ratio", "dissipated", "T", "delta", "stiffness")
+#: What the map shows of the last cycle: its names, and those of the measures.
+SHOWN = {
+    "status": "regime",
+    "energy_ratio": "energy_ratio",
+    "sliding_ratio": "sliding_ratio",
+    "dissipated": "loop_energy",
+    "T": "T",
+    "delta": "delta",
+    "stiffness": "stiffness",
+}
+#: Name of a parameter of the map whose measure is called the same.
+AMPLITUDE = "amplitude"
 
 
 def running_map(
@@ -35,9 +44,10 @@ def running_map(
     delta: ArrayLike | None = None,
     cycles: int = 1,
     increments: tuple[int, int] = (20, 20),
+    executor: Any = None,
     on_point: Callable[[int, int], object] | None = None,
 ) -> xr.Dataset:
-    """Running conditions of fretting cycles under the normal force W.
+    """Running conditions of fretting cycles under the normal force W: a study of the load path.
 
     Every combination is solved: indentation, first loading, then `cycles` cycles between -T and T,
     or between the shifts -delta and delta.
@@ -45,7 +55,7 @@ def running_map(
     Parameters
     ----------
     scene : Scene
-        The contact; its grid must hold the contact at the largest W.
+        The contact; a grid that is too small for the largest W grows.
     W : array
         Normal forces [N].
     T : array, optional
@@ -57,6 +67,8 @@ def running_map(
         Number of cycles; the map shows the last.
     increments : (int, int)
         Increments of the indentation and of a full stroke.
+    executor : int, Executor or distributed.Client, optional
+        Who solves, as in :func:`pyfret.study`.
     on_point : callable, optional
         Told how many points are done, and how many there are.
 
@@ -67,56 +79,70 @@ def running_map(
         slip), ``energy_ratio``, ``sliding_ratio``, ``dissipated`` [J], ``stiffness`` [N/m], and
         ``delta`` [m] or ``T`` [N], half of their ranges; NaN where a force slides, except the
         status.
+
+    Raises
+    ------
+    RuntimeError
+        A point could not be solved; the message says which and why.
     """
     if (T is None) == (delta is None):
         raise ValueError("give the amplitudes T or delta, one of them")
     driven = "T" if delta is None else "delta"
     given = T if delta is None else delta
     normal, tangential = (np.atleast_1d(np.asarray(v, dtype=float)) for v in (W, given))
-    shape = (normal.size, tangential.size)
-    shown = [name for name in SHOWN if name != driven]
-    table = {name: np.full(shape, np.nan) for name in shown}
-    status = np.full(shape, SLIDES)
-    attrs: dict[str, dict[str, object]] = {"status": {"long_name": STATUS}}
-    for done, (i, j) in enumerate(np.ndindex(*shape)):
-        load, amplitude = float(normal[i]), float(tangential[j])
-        if driven == "delta" or amplitude <= scene.mu * load * (1 - 1e-9):
-            path = _path(load, {driven: amplitude}, cycles, increments)
-            try:
-                last = solve(scene, path, save=[len(path)], progress=False).loops().isel(cycle=-1)
-            except OffGridError as error:
-                raise OffGridError(f"W = {load} N: {error}") from None
-            status[i, j] = last["status"]
-            for name in shown:
-                table[name][i, j] = last[name]
-                attrs[name] = dict(last[name].attrs)
-        if on_point is not None:
-            on_point(done + 1, int(np.prod(shape)))
-    units = {"T": ("N", "amplitude of the force"), "delta": ("m", "amplitude of the shift")}
-    unit, meaning = units[driven]
-    return xr.Dataset(
-        {
-            name: (("W", driven), values, attrs.get(name, {}))
-            for name, values in {"status": status, **table}.items()
-        },
-        coords={
-            "W": ("W", normal, {"units": "N", "long_name": "normal force"}),
-            driven: (driven, tangential, {"units": unit, "long_name": meaning}),
-        },
-        attrs={"title": scene.title, "mu": scene.mu},
+    found = study(
+        Cycles(scene, driven, cycles, increments),
+        {"W": normal, AMPLITUDE: tangential},
+        measure=[name for shown, name in SHOWN.items() if shown != driven],
+        executor=executor,
+        progress=False,
+        on_point=on_point,
     )
+    for point, reason in found.failed():
+        if not reason.startswith(Slides.__name__):
+            raise RuntimeError(f"W = {point['W']} N, {driven} = {point[AMPLITUDE]}: {reason}")
+    return labelled(found.dataset, scene, driven)
 
 
-def _path(
-    W: float, amplitude: dict[str, float], cycles: int, increments: tuple[int, int]
-) -> LoadPath:
-    indentation, stroke = increments
-    path = LoadPath.start().normal(W, increments=indentation)
-    ((driven, value),) = amplitude.items()
-    for n, turn in enumerate([value, *([-value, value] * cycles)]):
-        part = max(stroke // 2, 1) if n == 0 else stroke
-        if driven == "T":
-            path = path.force(T_x=turn, increments=part)
-        else:
-            path = path.displace(delta_x=turn, increments=part)
-    return path
+def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
+    """The study of the loads with the names of the map."""
+    units = {"T": ("N", "amplitude of the force"), "delta": ("m", "amplitude of the shift")}
+    kept = {name: shown for shown, name in SHOWN.items() if name in found}
+    table = found[list(kept)].rename(kept).drop_vars(AMPLITUDE).rename({AMPLITUDE: driven})
+    table["status"] = table["status"].fillna(SLIDES).assign_attrs(long_name=STATUS)
+    unit, meaning = units[driven]
+    amplitude = found[AMPLITUDE].values
+    table = table.assign_coords(
+        {driven: (driven, amplitude, {"units": unit, "long_name": meaning})}
+    )
+    table["W"] = table["W"].assign_attrs(units="N", long_name="normal force")
+    return table.assign_attrs({"title": scene.title, "mu": scene.mu})
+
+
+class Slides(Exception):
+    """The force is more than friction can bear."""
+
+
+@dataclass(frozen=True)
+class Cycles:
+    """Makes the scene of a point: indentation, first loading, cycles."""
+
+    scene: Scene
+    driven: str
+    cycles: int
+    increments: tuple[int, int]
+
+    def __call__(self, point: dict[str, float]) -> Scene:
+        """The scene under the normal force and the amplitude of a point."""
+        W, amplitude = point["W"], point[AMPLITUDE]
+        if self.driven == "T" and amplitude > self.scene.mu * W * (1 - 1e-9):
+            raise Slides(f"T = {amplitude} N is more than mu W = {self.scene.mu * W} N")
+        indentation, stroke = self.increments
+        path = LoadPath.start().normal(W, increments=indentation)
+        for n, turn in enumerate([amplitude, *([-amplitude, amplitude] * self.cycles)]):
+            part = max(stroke // 2, 1) if n == 0 else stroke
+            if self.driven == "T":
+                path = path.force(T_x=turn, increments=part)
+            else:
+                path = path.displace(delta_x=turn, increments=part)
+        return self.scene.replace(path=path, save=[len(path)])

@@ -49,7 +49,11 @@ fn interpreter() -> PathBuf {
     if let Some(named) = std::env::var_os(INTERPRETER) {
         return named.into();
     }
-    let name = if cfg!(windows) { "python.exe" } else { "python3" };
+    let name = if cfg!(windows) {
+        "python.exe"
+    } else {
+        "python3"
+    };
     let beside = std::env::current_exe()
         .ok()
         .map(|fret| fret.with_file_name(name));

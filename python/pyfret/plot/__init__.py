@@ -19,6 +19,7 @@ from pyfret.plot.stresses import (
     stress_map,
     stress_maps,
 )
+from pyfret.plot.studies import study_map
 from pyfret.plot.style import style
 from pyfret.plot.wear import depth_map, wear_history, wear_loops, wear_profiles
 
@@ -43,6 +44,7 @@ __all__ = [
     "stress_history",
     "stress_map",
     "stress_maps",
+    "study_map",
     "style",
     "wear_history",
     "wear_loops",

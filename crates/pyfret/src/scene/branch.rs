@@ -123,7 +123,10 @@ impl Branch {
         };
         let loads = [W, M_x, M_y, T_x, T_y, M_z];
         let motions = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
-        for (of, (load, motion)) in RigidMotion::ALL.into_iter().zip(loads.into_iter().zip(motions)) {
+        for (of, (load, motion)) in RigidMotion::ALL
+            .into_iter()
+            .zip(loads.into_iter().zip(motions))
+        {
             let load = load.map(Prescribed::Load);
             if let Some(prescribed) = motion.map(Prescribed::Motion).or(load) {
                 to.prescribe(of, prescribed);

@@ -1,0 +1,88 @@
+"""The commands that need Python: ``fret study`` is ``python -m pyfret study``, and so on."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import TYPE_CHECKING
+
+import pyfret as fret
+from pyfret.studies.file import run_file
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+#: Exit codes, those of ``fret``: done; ended early or with failures; bad input.
+DONE, ENDED_EARLY, BAD_INPUT = 0, 1, 2
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    top = argparse.ArgumentParser(
+        prog="fret", description="The commands of fret that need Python: python -m pyfret ..."
+    )
+    commands = top.add_subparsers(dest="command", required=True)
+    study = commands.add_parser("study", help="solve a scene for many values of its parameters")
+    study.add_argument("file", help="study file (TOML)")
+    study.add_argument("-o", "--out", help="store (default: that of the file, or NAME.zarr)")
+    study.add_argument("--workers", type=int, help="processes (default: one for each processor)")
+    study.add_argument("--scheduler", help="address of a Dask cluster, such as tcp://host:8786")
+    study.add_argument("--again", action="store_true", help="also points that failed before")
+    study.add_argument("--map", metavar="FILE", help="figure of the first measure (.png, .svg)")
+    cite = commands.add_parser("cite", help="say what to cite for a result")
+    cite.add_argument("store", nargs="?", help="result (default: all methods)")
+    return top
+
+
+def study(options: argparse.Namespace) -> int:
+    """Run the study of a file and say what came out."""
+    client = None
+    if options.scheduler:
+        from distributed import Client
+
+        client = Client(options.scheduler)
+    try:
+        found, place = run_file(
+            options.file,
+            out=options.out,
+            executor=client or options.workers,
+            again=options.again,
+        )
+    except KeyboardInterrupt:
+        print("fret: stopped; the same command goes on", file=sys.stderr)
+        return ENDED_EARLY
+    finally:
+        if client is not None:
+            client.close()
+    print(f"{place}: {found!r}")
+    failed = found.failed()
+    for values, reason in failed:
+        print(f"{', '.join(f'{k} = {v}' for k, v in values.items())}: {reason}")
+    if options.map:
+        import matplotlib.pyplot as plt
+
+        figure, ax = plt.subplots(layout="constrained")
+        found.map(ax=ax)
+        figure.savefig(options.map)
+    return ENDED_EARLY if failed else DONE
+
+
+def cite(options: argparse.Namespace) -> int:
+    """Say what to cite."""
+    print(fret.cite(fret.open(options.store) if options.store else None))
+    return DONE
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; its exit code."""
+    options = parser().parse_args(arguments)
+    commands = {"study": study, "cite": cite}
+    try:
+        return commands[options.command](options)
+    except (ValueError, OSError, ImportError) as error:
+        print(f"fret: {' '.join(str(error).split())}", file=sys.stderr)
+        return BAD_INPUT
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,203 @@
+"""Figures of studies."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+
+from pyfret.plot.style import REFERENCE, axes, styled
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+    from pyfret.studies import Study
+
+#: Values along both parameters from which on contours are drawn.
+CONTOURED = 4
+COLOURS = "YlGnBu"
+
+
+@styled
+def study_map(
+    study: Study,
+    of: str | None = None,
+    *,
+    at: Mapping[str, float] | None = None,
+    kind: Literal["auto", "contour", "cells"] = "auto",
+    levels: int = 10,
+    colorbar: bool = True,
+    ax: Axes | None = None,
+) -> Axes:
+    """A measure of a study over its parameters; crosses mark points that failed.
+
+    Over one parameter a line, over two contours or cells; samples of several parameters are points
+    over the first two. An axis is logarithmic if the values are in geometric steps.
+
+    Parameters
+    ----------
+    study : Study
+        The study.
+    of : str, optional
+        The measure (default: the first).
+    at : mapping of str to float, optional
+        Values of further parameters, the nearest ones are taken.
+    kind : "auto", "contour" or "cells"
+        Contours or a cell for each point (default: contours from four values along both on).
+    levels : int
+        Number of contours, about.
+    colorbar : bool
+        Whether to draw the scale beside the map.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    d = study.dataset
+    if at:
+        d = d.sel(dict(at), method="nearest")
+    names = study.measures
+    chosen = names[0] if of is None and names else of
+    if chosen not in names:
+        raise ValueError(f"of = {of!r}: must be one of {', '.join(names)}")
+    values = d[chosen]
+    extra = [k for k in values.dims if k not in d["status"].dims]
+    if extra:
+        raise ValueError(f"{chosen} is a field over {', '.join(map(str, extra))}: draw one point")
+    ax = axes(ax)
+    values, label = in_figures(values)
+    if "point" in values.dims:
+        scattered(ax, study.parameters, values, label)
+    elif values.ndim == 1:
+        line(ax, values, label)
+    elif values.ndim == 2:
+        plane(ax, values, kind, levels, label if colorbar else None)
+    else:
+        raise ValueError(
+            f"{values.ndim} parameters: give the values of {values.ndim - 2} of "
+            f"{', '.join(map(str, values.dims))} as at={{name: value}}"
+        )
+    if "point" not in values.dims:
+        crosses(ax, d["status"])
+    return ax
+
+
+#: Powers of ten of the prefixes of units.
+PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+
+
+def in_figures(values: xr.DataArray) -> tuple[xr.DataArray, str]:
+    """A measure in a unit that its numbers are short in, and its meaning with that unit."""
+    unit = str(values.attrs.get("units", "1"))
+    name = str(values.attrs.get("long_name", values.name))
+    if unit not in ("J", "Pa", "m", "N", "N/m"):
+        return values, name if unit == "1" else f"{name} [{unit}]"
+    largest = float(np.abs(values).max())
+    power = 3 * int(np.floor(np.log10(largest) / 3 + 1e-12)) if largest > 0 else 0
+    power = min(max(power, min(PREFIXES)), max(PREFIXES))
+    return values / 10.0**power, f"{name} [{PREFIXES[power]}{unit}]"
+
+
+def parameter_label(name: str) -> str:
+    """The key of a parameter, broken at a point if it is long."""
+    if len(name) <= 32:
+        return name
+    middle = name.index(".", len(name) // 2) if "." in name[len(name) // 2 :] else len(name)
+    return f"{name[:middle]}\n{name[middle:]}"
+
+
+def geometric(values: np.ndarray) -> bool:
+    """Whether numbers are in geometric rather than in equal steps."""
+    if values.dtype.kind not in "if" or values.size < 3 or (values <= 0).any():
+        return False
+    steps, ratios = np.diff(values), np.diff(np.log(values))
+    return bool(np.ptp(ratios) / abs(ratios.mean()) < np.ptp(steps) / abs(steps.mean()))
+
+
+def scale_axis(ax: Axes, which: Literal["x", "y"], coordinate: xr.DataArray) -> np.ndarray:
+    """Label an axis, and give where the values of a parameter lie on it."""
+    values = np.asarray(coordinate.values)
+    label = parameter_label(str(coordinate.name))
+    ax.set_xlabel(label) if which == "x" else ax.set_ylabel(label)
+    if values.dtype.kind not in "ifb":
+        places = np.arange(values.size, dtype=float)
+        (ax.set_xticks if which == "x" else ax.set_yticks)(places, [str(v) for v in values])
+        return places
+    if geometric(values):
+        scale = ax.set_xscale if which == "x" else ax.set_yscale
+        scale("log")
+        axis = ax.xaxis if which == "x" else ax.yaxis
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
+        axis.set_minor_formatter(NullFormatter())
+    return values.astype(float)
+
+
+def line(ax: Axes, values: xr.DataArray, label: str) -> None:
+    """A measure over one parameter."""
+    places = scale_axis(ax, "x", values[str(values.dims[0])])
+    ax.plot(places, values.values, "o-", markersize=4)
+    ax.set_ylabel(label)
+
+
+def plane(ax: Axes, values: xr.DataArray, kind: str, levels: int, label: str | None) -> None:
+    """A measure over two parameters."""
+    first, second = (str(name) for name in values.dims)
+    x, y = scale_axis(ax, "x", values[first]), scale_axis(ax, "y", values[second])
+    field = np.ma.masked_invalid(values.values.T)
+    fine = min(field.shape) >= CONTOURED
+    drawn: Any
+    if kind == "contour" or (kind == "auto" and fine and field.count() > 3):
+        steps = MaxNLocator(levels).tick_values(float(field.min()), float(field.max()))
+        # The darkest colours are left out: numbers on them could not be read.
+        light = {"vmin": steps[0], "vmax": steps[-1] + 0.4 * (steps[-1] - steps[0])}
+        drawn = ax.contourf(x, y, field, levels=steps, cmap=COLOURS, **light)
+        lines = ax.contour(x, y, field, levels=steps, colors="0.25", linewidths=0.5)
+        ax.clabel(lines, fontsize=7, fmt="%g")
+    else:
+        drawn = ax.pcolormesh(x, y, field, cmap=COLOURS, shading="nearest")
+    ax.grid(visible=False)
+    if label is not None:
+        bar = ax.get_figure().colorbar(drawn, ax=ax)  # type: ignore[union-attr]
+        bar.set_label(label)
+        bar.outline.set_visible(False)
+
+
+def scattered(ax: Axes, parameters: list[str], values: xr.DataArray, label: str) -> None:
+    """A measure at samples: over the only parameter, or by colour over the first two."""
+    x = values[parameters[0]].values
+    ax.set_xlabel(parameter_label(parameters[0]))
+    if len(parameters) == 1:
+        ax.plot(x, values.values, "o", markersize=4)
+        ax.set_ylabel(label)
+        return
+    ax.set_ylabel(parameter_label(parameters[1]))
+    drawn = ax.scatter(
+        x,
+        values[parameters[1]].values,
+        c=values.values,
+        cmap=COLOURS,
+        s=26,
+        edgecolors=REFERENCE,
+        linewidths=0.4,
+    )
+    bar = ax.get_figure().colorbar(drawn, ax=ax)  # type: ignore[union-attr]
+    bar.set_label(label)
+    bar.outline.set_visible(False)
+
+
+def crosses(ax: Axes, status: xr.DataArray) -> None:
+    """Mark the points that failed."""
+    lost = np.argwhere(status.values == 2)
+    if not lost.size:
+        return
+    coordinates = [np.asarray(status[str(name)].values) for name in status.dims]
+    places = [
+        (c if c.dtype.kind in "ifb" else np.arange(c.size))[lost[:, k]]
+        for k, c in enumerate(coordinates)
+    ]
+    y = places[1] if len(places) > 1 else np.full(len(lost), ax.get_ylim()[0])
+    ax.plot(places[0], y, "x", color="#D55E00", markersize=5, clip_on=False, label="failed")
+    ax.legend(loc="upper right")

@@ -1,0 +1,285 @@
+"""Studies: every point once, whoever is killed on the way."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import pyfret as fret
+from conftest import MU, ROOT, R, W, sphere_on_flat
+
+#: A cycle, small.
+PATH = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=150.0, increments=6)
+SCENE = sphere_on_flat(ratio=2.0, n=16).replace(path=PATH, title="study")
+PARAMETERS = {"body2.coatings.0.E": [1e11, 4e11], "mu": [0.2, 0.3, 0.4]}
+MEASURES = ["loop_energy", "stick_ratio", "p_max"]
+HERE = ThreadPoolExecutor(1)
+
+
+def run(*, measure: Any = MEASURES, executor: Any = HERE, **options: Any) -> fret.Study:
+    return fret.study(
+        SCENE, PARAMETERS, measure=measure, executor=executor, progress=False, **options
+    )
+
+
+def numbers(study: fret.Study) -> xr.Dataset:
+    """All but the times."""
+    return study.dataset.drop_vars("seconds")
+
+
+@pytest.fixture(scope="module")
+def whole() -> fret.Study:
+    return run()
+
+
+def test_a_point_is_the_solution_of_its_scene(whole: fret.Study) -> None:
+    assert whole.count() == {"open": 0, "done": 6, "failed": 0}
+    point = whole.dataset.isel({"body2.coatings.0.E": 1, "mu": 2})
+    coat = fret.Coating(fret.Elastic(E=4e11, nu=0.3), thickness=SCENE.body2.coatings[0].thickness)
+    scene = SCENE.replace(mu=0.4, body2=SCENE.body2.replace(coatings=[coat]))
+    result = fret.solve(scene, progress=False)
+    assert float(point.p_max) == float(result.dataset.p_max.max())
+    assert float(point.stick_ratio) == float(result.stick_ratio[-1])
+    assert float(point.loop_energy) == float(result.loops().dissipated[-1])
+    assert int(point.nx) == 16
+    assert point.p_max.attrs["units"] == "Pa"
+    assert float(point.seconds) > 0
+
+
+def test_values_in_step_and_samples(whole: fret.Study) -> None:
+    sample = {"body2.coatings.0.E": np.array([1e11, 4e11]), "mu": np.array([0.3, 0.2])}
+    study = fret.study(
+        SCENE, sample, combine="zip", measure=MEASURES, executor=HERE, progress=False
+    )
+    assert study.dataset.sizes == {"point": 2}
+    there = whole.dataset.p_max
+    assert study.dataset.p_max.values.tolist() == [float(there[0, 1]), float(there[1, 0])]
+    with pytest.raises(ValueError, match="must be the same"):
+        fret.study(SCENE, {"mu": [0.1, 0.2], "grid.n": [16]}, combine="zip")
+
+
+def tractions(result: fret.Result) -> dict[str, Any]:
+    """A number and a field."""
+    return {"cells": int(result.at(-1).contact.sum()), "pressure": result.at(-1).p}
+
+
+def test_a_function_of_the_user_gives_numbers_and_fields() -> None:
+    stiff = {"body2.coatings.0.E": [3e11, 4e11], "mu": [0.2, 0.3]}
+    study = fret.study(SCENE, stiff, measure=["p_max", tractions], executor=HERE)
+    assert study.dataset.pressure.dims == ("body2.coatings.0.E", "mu", "x", "y")
+    assert (study.dataset.pressure.max(("x", "y")) <= study.dataset.p_max).all()
+    assert (study.dataset.cells > 100).all()
+    soft = fret.study(SCENE, {"body2.coatings.0.E": [3e11, 1e11]}, measure=tractions, executor=HERE)
+    assert "{'x': 22, 'y': 22}" in soft.failed()[0][1]
+    with pytest.raises(ValueError, match="field over x, y"):
+        study.map("pressure")
+    bad = run(measure=lambda result: np.zeros(3))
+    assert "give an xarray.DataArray" in bad.failed()[0][1]
+
+
+def test_failed_points_say_why_and_are_solved_again_if_asked(tmp_path: Path) -> None:
+    where = {"mu": [0.1, 0.3]}  # 150 N are more than 0.1 of 1000 N
+    options: dict[str, Any] = {"measure": MEASURES, "executor": HERE, "out": tmp_path / "s.zarr"}
+    study = fret.study(SCENE, where, **options)
+    ((values, reason),) = study.failed()
+    assert values == {"mu": 0.1}
+    assert "mu W" in reason
+    assert np.isnan(study.dataset.p_max[0])
+    solved: list[int] = []
+    fret.study(SCENE, where, **options, on_point=lambda n, _: solved.append(n))
+    assert solved == []
+    fret.study(SCENE, where, **options, again=True, on_point=lambda n, _: solved.append(n))
+    assert solved == [2]
+
+
+def test_an_interrupted_study_goes_on(whole: fret.Study, tmp_path: Path) -> None:
+    def stop(done: int, total: int) -> None:
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run(out=tmp_path / "s.zarr", on_point=stop)
+    half = fret.open_study(tmp_path / "s.zarr")
+    assert half.count() == {"open": 4, "done": 2, "failed": 0}
+    assert "4 open, 2 done" in repr(half)
+    told: list[tuple[int, int]] = []
+    study = run(out=tmp_path / "s.zarr", on_point=lambda *n: told.append(n))
+    assert told == [(3, 6), (4, 6), (5, 6), (6, 6)]
+    assert numbers(study).identical(numbers(whole))
+
+
+def test_the_store_of_another_study_is_refused(tmp_path: Path) -> None:
+    place = tmp_path / "s.zarr"
+    fret.study(SCENE, {"mu": [0.3]}, measure="p_max", executor=HERE, out=place)
+    with pytest.raises(fret.StoreError, match="differ in parameters"):
+        fret.study(SCENE, {"mu": [0.4]}, measure="p_max", executor=HERE, out=place)
+    with pytest.raises(fret.StoreError, match="it measures p_max, not q_max"):
+        fret.study(SCENE, {"mu": [0.3]}, measure="q_max", executor=HERE, out=place)
+    fret.solve(SCENE, out=tmp_path / "run.zarr", progress=False)
+    with pytest.raises(fret.StoreError, match="not the store of a study"):
+        fret.open_study(tmp_path / "run.zarr")
+
+
+def test_a_grid_that_is_too_small_grows() -> None:
+    small = SCENE.replace(grid=SCENE.grid.replace(dx=SCENE.grid.dx / 2.5, dy=SCENE.grid.dy / 2.5))
+    softer = {"body2.coatings.0.E": [1e11]}
+    study = fret.study(small, softer, measure="p_max", executor=HERE)
+    assert study.count()["done"] == 1
+    assert study.dataset.nx.item() > 16
+    assert study.dataset.nx.item() == study.dataset.ny.item()
+    kept = fret.study(small, softer, measure="p_max", executor=HERE, grow=False)
+    assert kept.failed()[0][1].startswith("OffGridError")
+
+
+def dies_once(flag: Path, result: fret.Result) -> float:
+    """Kill the process that measures the point of mu = 0.3 for the first time."""
+    if result.mu == MU and not flag.exists():
+        flag.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return float(result.dataset.p_max.max())
+
+
+def dies(result: fret.Result) -> float:
+    """Kill the process that measures the point of mu = 0.3."""
+    if result.mu == MU:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return float(result.dataset.p_max.max())
+
+
+def named(measure: Any, name: str) -> Any:
+    """A function with its arguments, and a name."""
+    measure.__name__ = name
+    return measure
+
+
+def test_processes_share_the_points_and_one_may_die(whole: fret.Study, tmp_path: Path) -> None:
+    measure = named(partial(dies_once, tmp_path / "died"), "largest")
+    study = run(measure=[*MEASURES, measure], executor=2, out=tmp_path / "s.zarr")
+    assert (tmp_path / "died").exists()
+    assert numbers(study)[MEASURES].equals(numbers(whole)[MEASURES])
+    assert (study.dataset.largest == study.dataset.p_max).all()
+
+
+def test_a_point_that_kills_its_process_is_given_up() -> None:
+    study = fret.study(SCENE, {"mu": [0.2, MU, 0.4]}, measure=dies, executor=1)
+    assert study.dataset.status.values.tolist() == [1, 2, 1]
+    assert "killed 3 times" in study.failed()[0][1]
+
+
+def test_a_cluster_of_dask_loses_nothing_with_a_worker(whole: fret.Study, tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    measure = named(partial(dies_once, tmp_path / "died"), "largest")
+    cluster = distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    )
+    told: list[int] = []
+    with cluster, distributed.Client(cluster) as client:
+        study = run(
+            measure=[*MEASURES, measure],
+            executor=client,
+            out=tmp_path / "s.zarr",
+            on_point=lambda n, _: told.append(n),
+        )
+    assert (tmp_path / "died").exists()
+    assert told == [1, 2, 3, 4, 5, 6]
+    assert numbers(study)[MEASURES].equals(numbers(whole)[MEASURES])
+
+
+def test_a_study_file_is_the_same_study(whole: fret.Study, tmp_path: Path) -> None:
+    (tmp_path / "scene.toml").write_text(SCENE.to_toml())
+    file = tmp_path / "study.toml"
+    file.write_text(
+        'scene = "scene.toml"\nmeasure = ["loop_energy", "stick_ratio", "p_max"]\n[parameters]\n'
+        '"body2.coatings.0.E" = [1e11, 4e11]\n"mu" = { from = 0.2, to = 0.4, n = 3 }\n'
+    )
+    fret_binary = ROOT / "target" / "release" / "fret"
+    command = [fret_binary, "study", file, "--workers", "1", "--map", tmp_path / "map.png"]
+    environment = {**os.environ, "FRET_PYTHON": sys.executable}
+    ran = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    assert ran.returncode == 0, ran.stderr
+    assert "6 done" in ran.stdout
+    assert (tmp_path / "map.png").stat().st_size > 10_000
+    found = fret.open_study(tmp_path / "study.zarr")
+    np.testing.assert_allclose(found.dataset.mu, whole.dataset.mu)
+    assert np.array_equal(found.dataset.p_max[:, 0], whole.dataset.p_max[:, 0])
+    file.write_text('scene = "scene.toml"\nparameter = 1\n')
+    ran = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    assert ran.returncode == 2
+    assert "nearest valid key is `parameters`" in ran.stderr
+    assert len(ran.stderr.strip().splitlines()) == 1
+
+
+def test_stresses_wear_and_a_scene_file_with_its_measures(tmp_path: Path) -> None:
+    text = (ROOT / "scenes" / "coated_small.toml").read_text()
+    start = text.index("[[path]]\nT_x = { mu_W = -0.9 }\nincrements = 40\nt = 0.8")
+    (tmp_path / "scene.toml").write_text(text[:start])
+    thick = {"body2.coatings.0.thickness.a_H": [0.5, 1.0], "grid.n": [24]}
+    worn = fret.studies.Wear(1e4, body2=fret.Archard(1e-14), first_branch=2)
+    study = fret.study(
+        tmp_path / "scene.toml",
+        thick,
+        measure=["von_mises", "interface_shear", worn],
+        executor=HERE,
+    )
+    assert study.count()["done"] == 2, study.failed()
+    d = study.dataset
+    assert (d.von_mises > d.interface_shear).all()
+    assert (d.worn_depth2 > 0).all()
+    assert (d.worn_depth1 == 0).all()
+    hertz = fret.reference.hertz(R=R, bodies=(SCENE.body1, SCENE.body1), W=W)
+    varied = fret.varied(tmp_path / "scene.toml", {"body2.coatings.0.thickness.a_H": 0.5})
+    assert varied.body2.coatings[0].thickness == pytest.approx(0.5 * hertz.a, rel=1e-12)
+
+
+def test_maps_of_studies(whole: fret.Study) -> None:
+    ax = whole.map("p_max")
+    assert ax.get_ylabel() == "mu"
+    line = fret.plot.study_map(whole, "p_max", at={"mu": 0.21})
+    assert "largest pressure of the path [GPa]" in line.get_ylabel()
+    with pytest.raises(ValueError, match="must be one of"):
+        whole.map("life")
+    fine = fret.Study(
+        whole.dataset.interp(
+            mu=np.linspace(0.2, 0.4, 5), **{"body2.coatings.0.E": np.geomspace(1e11, 4e11, 5)}
+        )
+    )
+    drawn = fine.map("p_max")
+    assert drawn.get_xscale() == "log"
+    assert len(drawn.collections) > 1
+
+
+def test_what_is_no_study_is_refused() -> None:
+    with pytest.raises(ValueError, match="no parameters"):
+        fret.study(SCENE, {})
+    with pytest.raises(ValueError, match="has no values"):
+        fret.study(SCENE, {"mu": []})
+    with pytest.raises(ValueError, match="must be a list"):
+        fret.study(SCENE, {"mu": 0.3})
+    with pytest.raises(ValueError, match="loop_energy"):
+        fret.study(SCENE, {"mu": [0.3]}, measure="energy")
+    with pytest.raises(TypeError, match="number of processes"):
+        fret.study(SCENE, {"mu": [0.3]}, executor="many")
+    unknown = fret.study(SCENE, {"body2.coatings.0.hight": [1e-5]}, executor=HERE)
+    assert "nearest valid key" in unknown.failed()[0][1]
+
+
+def test_a_study_can_be_pickled(whole: fret.Study) -> None:
+    assert pickle.loads(pickle.dumps(whole)).dataset.identical(whole.dataset)
+
+
+def test_sources_are_those_of_the_bibliography() -> None:
+    known = (ROOT / "references.bib").read_text()
+    assert all(source.doi in known for source in fret.citing.sources())
+    assert "10.1115/1.3261591" in fret.cite(SCENE)
+    assert "10.1115/1.3261591" not in fret.cite(sphere_on_flat())
