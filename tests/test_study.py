@@ -157,18 +157,12 @@ def dies(result: fret.Result) -> float:
     return float(result.dataset.p_max.max())
 
 
-def named(measure: Any, name: str) -> Any:
-    """A function with its arguments, and a name."""
-    measure.__name__ = name
-    return measure
-
-
 def test_processes_share_the_points_and_one_may_die(whole: fret.Study, tmp_path: Path) -> None:
-    measure = named(partial(dies_once, tmp_path / "died"), "largest")
+    measure = partial(dies_once, tmp_path / "died")
     study = run(measure=[*MEASURES, measure], executor=2, out=tmp_path / "s.zarr")
     assert (tmp_path / "died").exists()
     assert numbers(study)[MEASURES].equals(numbers(whole)[MEASURES])
-    assert (study.dataset.largest == study.dataset.p_max).all()
+    assert (study.dataset.dies_once == study.dataset.p_max).all()
 
 
 def test_a_point_that_kills_its_process_is_given_up() -> None:
@@ -179,7 +173,7 @@ def test_a_point_that_kills_its_process_is_given_up() -> None:
 
 def test_a_cluster_of_dask_loses_nothing_with_a_worker(whole: fret.Study, tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")
-    measure = named(partial(dies_once, tmp_path / "died"), "largest")
+    measure = partial(dies_once, tmp_path / "died")
     cluster = distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
     )

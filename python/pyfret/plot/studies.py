@@ -152,8 +152,8 @@ def plane(ax: Axes, values: xr.DataArray, kind: str, levels: int, label: str | N
     if kind == "contour" or (kind == "auto" and fine and field.count() > 3):
         steps = MaxNLocator(levels).tick_values(float(field.min()), float(field.max()))
         # The darkest colours are left out: numbers on them could not be read.
-        light = {"vmin": steps[0], "vmax": steps[-1] + 0.4 * (steps[-1] - steps[0])}
-        drawn = ax.contourf(x, y, field, levels=steps, cmap=COLOURS, **light)
+        darkest = steps[-1] + 0.4 * (steps[-1] - steps[0])
+        drawn = ax.contourf(x, y, field, levels=steps, cmap=COLOURS, vmin=steps[0], vmax=darkest)
         lines = ax.contour(x, y, field, levels=steps, colors="0.25", linewidths=0.5)
         ax.clabel(lines, fontsize=7, fmt="%g")
     else:

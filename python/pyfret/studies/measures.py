@@ -140,7 +140,13 @@ class Wear:
 
 def names_of(measures: Sequence[Measure]) -> list[str]:
     """Names of measures, to tell studies apart."""
-    return [m if isinstance(m, str) else getattr(m, "__qualname__", repr(m)) for m in measures]
+    return [m if isinstance(m, str) else name_of(m) for m in measures]
+
+
+def name_of(function: Any) -> str:
+    """Name of a function, of that which a partial one was made of, or of a class."""
+    function = getattr(function, "func", function)
+    return str(getattr(function, "__name__", type(function).__name__))
 
 
 def checked(measure: Measure | Sequence[Measure]) -> list[Measure]:
@@ -160,8 +166,7 @@ def measured(result: Result, measures: Sequence[Measure]) -> dict[str, xr.Variab
             units, meaning, of = MEASURES[one]
             found[one] = xr.Variable((), of(result), {"units": units, "long_name": meaning})
         else:
-            name = getattr(one, "__name__", type(one).__name__)
-            found |= variables(one(result), name)
+            found |= variables(one(result), name_of(one))
     return found
 
 
