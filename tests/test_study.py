@@ -264,7 +264,7 @@ def test_what_is_no_study_is_refused() -> None:
         fret.study(SCENE, {"mu": [0.3]}, measure="energy")
     with pytest.raises(TypeError, match="number of processes"):
         fret.study(SCENE, {"mu": [0.3]}, executor="many")
-    unknown = fret.study(SCENE, {"body2.coatings.0.hight": [1e-5]}, executor=HERE)
+    unknown = fret.study(SCENE, {"body2.coatings.0.modulus": [1e-5]}, executor=HERE)
     assert "nearest valid key" in unknown.failed()[0][1]
 
 
