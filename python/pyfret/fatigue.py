@@ -38,6 +38,7 @@ __all__ = [
     "Material",
     "Materials",
     "assess",
+    "cycle_increments",
     "dang_van_path",
     "evaluate",
     "first_yield",
@@ -250,6 +251,26 @@ def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.fl
     return path[:, 0], path[:, 1]
 
 
+def cycle_increments(result: Result, cycle: int = -1) -> NDArray[np.int64]:
+    """Give the kept increments of a closed cycle of the load path, from 1.
+
+    A ValueError says where there is no closed cycle or fewer than two of its increments were kept.
+    """
+    cycles = result.loops()
+    if cycles.sizes["cycle"] == 0:
+        raise ValueError("the load path has no closed cycle: fatigue needs one")
+    ends = cycles.isel(cycle=cycle)
+    first, last = int(ends.first_branch), int(ends.last_branch)
+    saved = result.dataset.saved_increment.values
+    branch = result.dataset.branch_of_increment.sel(increment=saved).values
+    kept = saved[(branch >= first) & (branch <= last)]
+    if kept.size < 2:
+        raise ValueError(
+            f"{kept.size} increments of the cycle were kept: solve with save='all' or more of them"
+        )
+    return np.asarray(kept)
+
+
 def history(
     result: Result,
     z: ArrayLike,
@@ -279,18 +300,7 @@ def history(
     DataArray of dims (increment, ..., component)
         Stress [Pa] with the coordinates of the places, ``layer`` among them.
     """
-    cycles = result.loops()
-    if cycles.sizes["cycle"] == 0:
-        raise ValueError("the load path has no closed cycle: fatigue needs one")
-    ends = cycles.isel(cycle=cycle)
-    first, last = int(ends.first_branch), int(ends.last_branch)
-    saved = result.dataset.saved_increment.values
-    branch = result.dataset.branch_of_increment.sel(increment=saved).values
-    kept = saved[(branch >= first) & (branch <= last)]
-    if kept.size < 2:
-        raise ValueError(
-            f"{kept.size} increments of the cycle were kept: solve with save='all' or more of them"
-        )
+    kept = cycle_increments(result, cycle)
     snapshots = (result.at(int(n)).stress(z, x=x, y=y, body_number=body_number) for n in kept)
     # Its scalars differ from increment to increment; the places are the same.
     stresses = [stress.dataset[list(COMPONENTS)].to_array("component") for stress in snapshots]

@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from pyfret import _core, files, subsurface
+from pyfret import life as lives
 from pyfret._core import Scene, StoreError
 from pyfret.snapshot import Snapshot, friction, yardstick
 from pyfret.summary import summary
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike
+
+    from pyfret.fatigue import CriterionName
 
 __all__ = ["Result", "Snapshot", "open"]
 
@@ -258,6 +261,34 @@ class Result:
         kept = (self.at(int(n)) for n in self.dataset.saved_increment.values)
         return subsurface.envelope(
             self.scene, kept, z, x=x, y=y, of=of, body_number=body_number, bulk=bulk
+        )
+
+    def life(
+        self,
+        materials: lives.Materials,
+        criterion: CriterionName,
+        z: ArrayLike | None = None,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        body_number: int = 2,
+        cycle: int = -1,
+        residual: Sequence[float] | None = None,
+    ) -> lives.Life:
+        """Judge a section below the contact over a closed cycle by a fatigue criterion.
+
+        Parameters and result are those of :func:`pyfret.life.life`.
+        """
+        return lives.life(
+            self,
+            materials,
+            criterion,
+            z,
+            x=x,
+            y=y,
+            body_number=body_number,
+            cycle=cycle,
+            residual=residual,
         )
 
     def summary(self) -> str:

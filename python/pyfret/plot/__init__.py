@@ -6,6 +6,7 @@ of the paper from its four runs in one call.
 """
 
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
+from pyfret.plot.life import criterion_map, critical_plane_rose, dang_van_diagram
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
 from pyfret.plot.paper import paper_figures
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
@@ -24,6 +25,9 @@ from pyfret.plot.style import style
 from pyfret.plot.wear import depth_map, wear_history, wear_loops, wear_profiles
 
 __all__ = [
+    "criterion_map",
+    "critical_plane_rose",
+    "dang_van_diagram",
     "depth_map",
     "envelope_maps",
     "fretting_loop",

@@ -1,0 +1,221 @@
+"""Figures of fatigue: where it cracks, on which plane, how near to the limit."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from pyfret import fatigue
+from pyfret.plot.depth_axis import interfaces, thin
+from pyfret.plot.depth_axis import stretch as stretch_axis
+from pyfret.plot.scales import scales
+from pyfret.plot.stresses import COLOURS, FLAT, MARK
+from pyfret.plot.style import axes, styled
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike, NDArray
+
+    from pyfret._core import Material
+    from pyfret.life import Life
+    from pyfret.plot.scales import Units
+
+#: How criteria are written in figures.
+NAMES = {
+    "crossland": "Crossland",
+    "dang_van": "Dang Van",
+    "findley": "Findley",
+    "matake": "Matake",
+    "mcdiarmid": "McDiarmid",
+    "smith_watson_topper": "Smith-Watson-Topper",
+    "fatemi_socie": "Fatemi-Socie",
+    "brown_miller": "Brown-Miller",
+}
+#: Lives beyond this are drawn as endless [cycles].
+ENDLESS = 1e9
+
+
+def _shown(life: Life) -> tuple[NDArray[np.float64], str]:
+    """The field of a map and what it is called."""
+    name = NAMES[life.dataset.attrs["criterion"]]
+    margin = life.margin.values
+    if life.margin.name == "safety_factor":
+        return 1.0 / margin, f"{name}: value over limit"
+    with np.errstate(invalid="ignore"):
+        return np.log10(
+            np.where(margin > ENDLESS, np.nan, margin)
+        ), rf"{name}: $\log_{{10}}$ cycles"
+
+
+@styled
+def criterion_map(
+    life: Life,
+    *,
+    units: Units = "auto",
+    levels: int = 12,
+    stretch: bool | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Contours of a criterion on a section, with the worst point and its margin.
+
+    For criteria with a limit the value over the limit, the bold contour being the limit itself; for
+    the others the decimal logarithm of the life, empty beyond 1e9 cycles. Layers without a material
+    stay empty.
+
+    Parameters
+    ----------
+    life : Life
+        From :meth:`Result.life`.
+    units : "auto", "dimensionless" or "SI"
+        Of the lengths: over a_H (default where there is one), or in um.
+    levels : int
+        Number of contours, about.
+    stretch : bool, optional
+        Whether every layer gets room on the axis of depth (default: if one is too thin to be seen).
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    if ax is None:
+        ax = plt.figure(figsize=(5.4, 3.8)).add_subplot()
+    d = life.dataset
+    length = scales(d.attrs, units).length
+    along = str(d.value.dims[1])
+    x, z = d[along].values / length.value, d.z.values / length.value
+    field, label = _shown(life)
+    inner = [depth / length.value for depth in interfaces(d.z, d.layer)]
+    borders = np.array([z[0], *inner, z[-1]])
+    stretch = thin(borders) if stretch is None else stretch
+    if stretch and borders.size > 2:
+        stretch_axis(ax, borders, "y")
+    ax.set_facecolor("0.93")
+    image = None
+    safety = life.margin.name == "safety_factor"
+    # Dark is near to a crack.
+    colours = COLOURS if safety else COLOURS.reversed()
+    if np.isfinite(field).any():
+        steps = np.asarray(MaxNLocator(levels).tick_values(np.nanmin(field), np.nanmax(field)))
+        for part in np.unique(d.layer.values):
+            here = d.layer.values == part
+            if np.count_nonzero(here) < 2 or not np.isfinite(field[here]).any():
+                continue
+            image = ax.contourf(x, z[here], field[here], levels=steps, cmap=colours)
+            lines = steps[steps > 0.0]
+            ax.contour(x, z[here], field[here], levels=lines, colors="0.2", linewidths=0.4)
+            if safety and field[here].min() < 1 < field[here].max():
+                ax.contour(x, z[here], field[here], levels=[1.0], colors="0.1", linewidths=1.8)
+    for depth in inner:
+        ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
+    ax.set_xlim(x[0], x[-1])
+    ax.set_ylim(z[-1], z[0])
+    _mark_worst(ax, life, length.value)
+    if image is not None:
+        bar = ax.get_figure().colorbar(image, ax=ax, shrink=0.9, pad=0.02)  # type: ignore[union-attr]
+        bar.outline.set_visible(False)
+        bar.set_label(label)
+    ax.set_xlabel(length.label(along))
+    ax.set_ylabel(length.label("z"))
+    flat = x[-1] - x[0] > FLAT * (z[-1] - z[0])
+    ax.set_aspect("auto" if stretch or flat else "equal")
+    ax.grid(visible=False)
+    return ax
+
+
+def _mark_worst(ax: Axes, life: Life, length: float) -> None:
+    """A cross at the worst point, with the margin beside it."""
+    worst = life.worst
+    safety = life.margin.name == "safety_factor"
+    margin = f"safety {worst.margin:.3g}" if safety else f"{worst.margin:.2g} cycles"
+    at = (worst.along / length, worst.z / length)
+    ax.plot(*at, "x", color=MARK, ms=7, mew=1.6, clip_on=False, zorder=4)
+    left, right = ax.get_xlim()
+    on_the_right = at[0] > (left + right) / 2
+    ax.annotate(
+        margin,
+        at,
+        xytext=(-7 if on_the_right else 7, -14),
+        textcoords="offset points",
+        ha="right" if on_the_right else "left",
+        color=MARK,
+        fontsize=8,
+        bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
+        zorder=5,
+    )
+
+
+@styled
+def critical_plane_rose(stress: ArrayLike, criterion: fatigue.Criterion) -> Axes:
+    """What acts on the planes through one point whose normal lies in the x-z plane.
+
+    Over the angle of the normal from x towards z, downwards as in a section: the largest normal
+    stress where it is tension, half of the range of the shear within the x-z plane, and the normal
+    of the critical plane as a bar. For sections at y = 0 of contacts that are symmetric there, that
+    is all shear there is on these planes.
+
+    Parameters
+    ----------
+    stress : array of shape (time, 6)
+        Stress history of the point [Pa].
+    criterion : Criterion
+        One that has a critical plane.
+    """
+    if not criterion.has_plane:
+        raise ValueError(f"{criterion.name} has no critical plane")
+    stress = np.asarray(stress, dtype=float)
+    normal = fatigue.evaluate(stress, criterion).normal.values
+    angle = np.radians(np.arange(0.0, 360.5, 1.0))
+    c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+    xx, zz, xz = stress[:, 0], stress[:, 2], stress[:, 4]
+    s_n = np.maximum((c * c * xx + s * s * zz + 2 * s * c * xz).max(axis=1), 0.0) / 1e6
+    shear = s * c * (zz - xx) + (c * c - s * s) * xz
+    tau = (shear.max(axis=1) - shear.min(axis=1)) / 2e6
+    ax = plt.figure(figsize=(4.4, 4.4)).add_subplot(projection="polar")
+    ax.set_theta_direction(-1)  # type: ignore[attr-defined]
+    ax.plot(angle, s_n, color="C0", label=r"$\sigma_\mathrm{n,max}$ [MPa]")
+    ax.plot(angle, tau, color="C1", label=r"$\tau_\mathrm{a}$ [MPa]")
+    reach = 1.05 * max(s_n.max(), tau.max())
+    # Of a normal and its opposite, the one within a right angle of x.
+    at = float(np.arctan2(normal[2], normal[0]))
+    at = (at + np.pi / 2) % np.pi - np.pi / 2
+    share = np.hypot(normal[0], normal[2])
+    ax.plot(
+        [at, at + np.pi], [share * reach] * 2, color=MARK, linewidth=1.6, label="critical normal"
+    )
+    ax.set_rmax(reach)  # type: ignore[attr-defined]
+    ax.set_rlabel_position(67.5)  # type: ignore[attr-defined]
+    ax.set_title(
+        f"{NAMES[criterion.name]}, normal {np.degrees(at):.1f}° from x towards z", fontsize=9
+    )
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=3, fontsize=8)
+    return ax
+
+
+@styled
+def dang_van_diagram(
+    stress: ArrayLike, *, material: Material | None = None, ax: Axes | None = None
+) -> Axes:
+    """Path of one point in Dang Van's plane: mesoscopic shear over hydrostatic stress.
+
+    With a material that has ``s_D`` and ``t_D``, the limit tau = t_D - alpha p_h, and the instant
+    that is nearest to it or farthest beyond. `stress` has the shape (time, 6) [Pa].
+    """
+    ax = axes(ax)
+    tau, p_h = (v / 1e6 for v in fatigue.dang_van_path(stress))
+    ax.plot(np.r_[p_h, p_h[0]], np.r_[tau, tau[0]], color="C0", marker=".", markersize=3)
+    if material is not None:
+        t_D, s_D = (material.number(name) / 1e6 for name in ("t_D", "s_D"))
+        alpha = 3.0 * t_D / s_D - 1.5
+        low = min(p_h.min(), 0.0)
+        ends = np.array([low, t_D / alpha]) if alpha > 0.0 else np.array([low, p_h.max()])
+        ax.plot(ends, t_D - alpha * ends, color="0.2", linestyle="--", label="limit")
+        worst = int(np.argmax(tau + alpha * p_h))
+        factor = t_D / (tau[worst] + alpha * p_h[worst])
+        label = f"safety {factor:.3g}" if factor > 0.0 else "never"
+        ax.plot(p_h[worst], tau[worst], "x", color=MARK, ms=7, mew=1.6, label=label)
+        ax.legend()
+    ax.set_xlabel(r"hydrostatic stress $p_\mathrm{h}$ [MPa]")
+    ax.set_ylabel(r"mesoscopic shear $\tau$ [MPa]")
+    ax.set_ylim(bottom=0.0)
+    return ax

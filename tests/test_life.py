@@ -1,0 +1,157 @@
+"""Criteria along the cycle of a contact: streaming, layers, critical distances, Ruiz, figures."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import T_MAX, sphere_on_flat
+from conftest import W as LOAD
+from pyfret import averages, cycle_stress, fatigue, life
+
+STEEL = fatigue.Materials()["steel_42CrMo4"]
+
+
+@pytest.fixture(scope="module")
+def cycled() -> fret.Result:
+    """A coated sphere contact over one closed cycle, all increments kept."""
+    path = fret.LoadPath.start().normal(LOAD, increments=4)
+    path = path.tangential([T_MAX, -T_MAX, T_MAX], increments=15)
+    return fret.solve(sphere_on_flat(ratio=2.0, n=32), path, save="all", progress=False)
+
+
+def test_streamed_is_what_the_whole_history_gives(
+    cycled: fret.Result, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cycle_stress, "CHUNK", 1e6)
+    streamed = cycled.life(STEEL, "findley", residual=[-3e8, 1e8])
+    z = np.unique(streamed.dataset.z)
+    history = fatigue.history(cycled, z, y=0.0, residual=[-3e8, 1e8])
+    whole = fatigue.assess(history, STEEL, "findley")
+    np.testing.assert_allclose(streamed.dataset.value, whole.value, rtol=1e-12)
+    np.testing.assert_allclose(streamed.margin, whole.safety_factor, rtol=1e-12)
+    assert streamed.dataset.value.dims == ("depth", "x")
+    # Both sides of the interface are judged, each with its own stress.
+    at_interface = streamed.dataset.z.values == cycled.scene.interfaces()[0]
+    assert streamed.dataset.layer.values[at_interface].tolist() == [0, 1]
+
+
+def test_worst_point_lies_between_the_cells(cycled: fret.Result) -> None:
+    found = cycled.life(STEEL, "dang_van")
+    worst = found.worst
+    largest = float(found.dataset.value.max())
+    assert worst.value >= largest
+    assert worst.value == pytest.approx(largest, rel=0.1)
+    assert worst.margin == pytest.approx(STEEL.number("t_D") / worst.value, rel=1e-12)
+    # The trailing edge, on the surface: fretting cracks start there.
+    assert worst.z == 0.0
+    assert 0.8 < abs(worst.along) / cycled.a_H < 1.1
+    assert worst == found.worst_of(0)
+    assert "safety factor" in repr(found)
+
+
+def test_each_layer_with_its_own_material(cycled: fret.Result) -> None:
+    only = cycled.life([None, STEEL], "crossland", [0.0, 2e-4, 7e-4])
+    judged = np.isfinite(only.dataset.value.values)
+    assert judged[only.dataset.layer.values == 1].all()
+    assert not judged[only.dataset.layer.values == 0].any()
+    assert only.worst.layer == 1
+    with pytest.raises(ValueError, match="layer 0 is not judged"):
+        only.worst_of(0)
+    with pytest.raises(ValueError, match="1 materials: must be one for all layers"):
+        cycled.life([STEEL], "crossland")
+    with pytest.raises(ValueError, match="no layer has a material"):
+        cycled.life([None, None], "crossland")
+    with pytest.raises(ValueError, match="residual has 1 numbers"):
+        cycled.life(STEEL, "crossland", residual=[1e6])
+    with pytest.raises(ValueError, match=r"aluminium_7075_T6`\.s_D"):
+        cycled.life(fatigue.Materials()["aluminium_7075_T6"], "crossland")
+
+
+def test_averages_are_those_of_the_stress(cycled: fret.Result) -> None:
+    L = 3e-5
+    point = averages.average(cycled, STEEL, "crossland", L=L, method="point")
+    there = cycled.life(STEEL, "crossland", [L / 2])
+    np.testing.assert_allclose(point.value, there.dataset.value[0], rtol=1e-12)
+    # The mean of the stress over the line, by the midpoint rule on many depths.
+    line = averages.average(cycled, STEEL, "crossland", L=L, method="line")
+    z = (np.arange(60) + 0.5) / 60 * 2 * L
+    mean = fatigue.history(cycled, z, y=0.0).mean("depth")
+    brute = fatigue.assess(mean.transpose("increment", "x", "component"), STEEL, "crossland")
+    np.testing.assert_allclose(line.safety_factor, brute.safety_factor, rtol=2e-3)
+    # A distance far below the cell leaves the stress of the surface.
+    surface = cycled.life(STEEL, "crossland", [0.0]).dataset.value[0]
+    for method in ("point", "line", "area"):
+        tiny = averages.average(cycled, STEEL, "crossland", L=1e-9, method=method)
+        inside = np.isfinite(tiny.value.values)
+        assert inside.sum() >= surface.size - 2
+        # At the rim the stress of the surface has a cusp.
+        off = np.abs(tiny.value.values - surface.values)[inside]
+        assert off.max() < 2e-2 * float(surface.max())
+    area = averages.average(cycled, STEEL, "crossland", L=L, method="area")
+    assert float(area.value.max()) < float(surface.max())
+    with pytest.raises(ValueError, match="beyond the outermost layer"):
+        averages.average(cycled, STEEL, "crossland", L=1.0)
+    with pytest.raises(ValueError, match="dK_th"):
+        averages.average(cycled, STEEL, "crossland")
+    with pytest.raises(ValueError, match="positive length"):
+        averages.average(cycled, STEEL, "crossland", L=0.0)
+
+
+def test_the_mean_over_a_disc_of_a_linear_field_is_that_of_its_centroid() -> None:
+    x = np.linspace(-1.0, 1.0, 21)
+    history = np.broadcast_to((3.0 + 2.0 * x)[None, None, :, None], (2, 3, 21, 6))
+    mean = averages._over_width(np.array(history), x, np.array([0.05, 0.23, 0.4]))
+    inside = np.isfinite(mean)
+    assert inside.any(axis=(0, 2, 3)).all()
+    np.testing.assert_allclose(mean[inside], history[inside], rtol=1e-12)
+
+
+def test_ruiz_work_adds_up_to_the_energy_of_the_loop(cycled: fret.Result) -> None:
+    grid = cycled.scene.grid
+    ends = fatigue.cycle_increments(cycled)[[0, -1]]
+    start, end = (cycled.at(int(n)).dissipated_density for n in (ends[0] - 1, ends[1]))
+    work = end.drop_vars("increment", errors="ignore") - start.values
+    whole = float(work.sum()) * grid.dx * grid.dy
+    assert whole == pytest.approx(float(cycled.loops().dissipated[-1]), rel=1e-6)
+    y = float(grid.y[16])
+    ruiz = life.ruiz(cycled, y=y)
+    np.testing.assert_allclose(ruiz.F1, work.values[:, 16], rtol=1e-12)
+    tension = fatigue.history(cycled, [0.0], y=y).sel(component="s_xx").max("increment")[0]
+    np.testing.assert_allclose(ruiz.F2, ruiz.F1 * np.maximum(tension, 0.0))
+
+
+def test_what_was_not_kept_is_refused() -> None:
+    path = fret.LoadPath.start().normal(LOAD, increments=2)
+    path = path.tangential([T_MAX, -T_MAX, T_MAX], increments=6)
+    result = fret.solve(sphere_on_flat(n=16), path, save="branches", progress=False)
+    # The ends are enough for the work of the cycle.
+    whole = fret.solve(sphere_on_flat(n=16), path, save="all", progress=False)
+    F1 = life.ruiz(result).F1
+    np.testing.assert_allclose(F1, life.ruiz(whole).F1, rtol=1e-9, atol=1e-9 * float(F1.max()))
+    last = fret.solve(sphere_on_flat(n=16), path, save=[4, 8], progress=False)
+    with pytest.raises(ValueError, match=r"increment \d was not kept"):
+        life.ruiz(last)
+    short = fret.LoadPath.start().normal(LOAD, increments=2)
+    with pytest.raises(ValueError, match="no closed cycle"):
+        fret.solve(sphere_on_flat(n=16), short, progress=False).life(STEEL, "crossland")
+
+
+def test_figures(cycled: fret.Result) -> None:
+    aluminium = fatigue.Materials()["aluminium_7075_T6"]
+    for found in (
+        cycled.life(STEEL, "dang_van"),
+        cycled.life([None, aluminium], "smith_watson_topper"),
+    ):
+        ax = fret.plot.criterion_map(found)
+        assert ax.lines
+        assert ax.get_ylim()[0] > ax.get_ylim()[1]
+    stress = fatigue.history(cycled, [0.0], y=0.0)[:, 0, 2].values
+    criterion = aluminium.assessment("smith_watson_topper").criterion
+    assert len(fret.plot.critical_plane_rose(stress, criterion).lines) == 3
+    with pytest.raises(ValueError, match="no critical plane"):
+        fret.plot.critical_plane_rose(stress, fatigue.Criterion.dang_van(alpha=0.4))
+    assert len(fret.plot.dang_van_diagram(stress, material=STEEL).lines) == 3
+    plt.close("all")
