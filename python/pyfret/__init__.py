@@ -17,7 +17,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from pyfret import fatigue, kernels, reference, studies, subsurface, sweep
+from pyfret import averages, fatigue, kernels, life, reference, studies, subsurface, sweep
 from pyfret._core import (
     RIGID,
     Archard,
@@ -121,10 +121,12 @@ __all__ = [
     "WearResult",
     "Wedge",
     "__version__",
+    "averages",
     "cite",
     "fatigue",
     "graded",
     "kernels",
+    "life",
     "march",
     "open",
     "open_study",

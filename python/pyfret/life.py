@@ -71,7 +71,7 @@ class Life:
         return self.dataset[margin_name(self._assessments)[0]]
 
     def worst_of(self, layer: int) -> Worst:
-        """Give the worst point of a layer; a ValueError where it is not judged or not on the map."""
+        """Give the worst point of a layer; a ValueError where it is not judged."""
         assessment = self._assessments[layer]
         of_layer = self.dataset.layer.values == layer
         if assessment is None or not of_layer.any():
