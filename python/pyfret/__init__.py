@@ -17,7 +17,17 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from pyfret import averages, fatigue, kernels, life, reference, studies, subsurface, sweep
+from pyfret import (
+    averages,
+    fatigue,
+    interface,
+    kernels,
+    life,
+    reference,
+    studies,
+    subsurface,
+    sweep,
+)
 from pyfret._core import (
     RIGID,
     Archard,
@@ -125,6 +135,7 @@ __all__ = [
     "cite",
     "fatigue",
     "graded",
+    "interface",
     "kernels",
     "life",
     "march",

@@ -1,0 +1,82 @@
+"""Stress on interfaces over a cycle, and what coatings release, against closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import T_MAX, sphere_on_flat
+from conftest import W as LOAD
+from pyfret import fatigue, interface
+
+COATING = fret.Coating(fret.Elastic(E=300e9, nu=0.2), thickness=3e-6)
+
+
+def cycled(*, ratio: float) -> fret.Result:
+    """A sphere contact over one closed cycle, all increments kept."""
+    path = fret.LoadPath.start().normal(LOAD, increments=2)
+    path = path.tangential([T_MAX, -T_MAX, T_MAX], increments=10)
+    return fret.solve(sphere_on_flat(ratio=ratio, n=24), path, save="all", progress=False)
+
+
+def test_interface_over_a_cycle_is_the_largest_of_its_increments() -> None:
+    result = cycled(ratio=2.0)
+    Z, S = 150e6, 400e6
+    found = interface.over_cycle(result, peel_strength=Z, shear_strength=S)
+    kept = fatigue.cycle_increments(result)
+    depths = result.scene.interfaces()
+    below = [result.at(int(n)).stress(depths, y=0.0) for n in kept]
+    peel = np.stack([s.interface_peel.values[0] for s in below])
+    shear = np.stack([s.interface_shear.values[0] for s in below])
+    np.testing.assert_allclose(found.shear[0], shear.max(axis=0), rtol=1e-9)
+    np.testing.assert_allclose(found.peel[0], np.maximum(peel, 0.0).max(axis=0), rtol=1e-9)
+    square = (np.maximum(peel, 0.0) / Z) ** 2 + (shear / S) ** 2
+    np.testing.assert_allclose(found.criterion[0], square.max(axis=0), rtol=1e-9)
+    assert (found.shear_amplitude <= found.shear * (1 + 1e-12)).all()
+    assert float(found.shear.max()) > 0.0
+    assert found.z.values.tolist() == depths
+    with pytest.raises(ValueError, match="peel_strength is given alone"):
+        interface.over_cycle(result, peel_strength=Z)
+    with pytest.raises(ValueError, match="shear_strength = -1"):
+        interface.over_cycle(result, peel_strength=Z, shear_strength=-1.0)
+
+
+def test_a_body_without_a_coating_has_no_interface() -> None:
+    with pytest.raises(ValueError, match="body 2 has no coating"):
+        interface.over_cycle(cycled(ratio=1.0))
+
+
+def test_edge_release_is_the_energy_of_plane_strain() -> None:
+    E, nu, h, s = 300e9, 0.2, 3e-6, 1e9
+    # Energy per area of a layer under s with no strain along the front, less that without s.
+    strain = s * (1 - nu**2) / E
+    assert interface.edge_release(COATING, s) == pytest.approx(s * strain / 2 * h, rel=1e-12)
+    assert interface.edge_release(COATING, -s) == interface.edge_release(COATING, s)
+
+
+def test_buckling_releases_what_the_energy_loses() -> None:
+    plane, h, s = 300e9 / (1 - 0.2**2), 3e-6, 2e9
+
+    def energy(b: float) -> float:
+        """Of the strip over that of the bonded coating, per length: the mean stress stays s_c."""
+        s_c = np.pi**2 / 12 * plane * (h / b) ** 2
+        return 2 * b * h / (2 * plane) * (2 * s * s_c - s_c**2 - s**2)
+
+    for b in (40e-6, 60e-6, 200e-6):
+        found = interface.buckling_release(COATING, -s, 2 * b)
+        d = 1e-5 * b
+        # Two fronts take up what the energy loses.
+        loss = -(energy(b + d) - energy(b - d)) / (2 * d) / 2
+        assert found.release == pytest.approx(loss, rel=1e-6)
+        assert found.deflection > 0.0
+    wide = interface.buckling_release(COATING, -s, 1e-2)
+    assert wide.release == pytest.approx(interface.edge_release(COATING, s), rel=1e-4)
+    # A strip of half width b is a clamped column of length 2 b: s_c = 4 pi^2 EI/(h (2 b)^2).
+    column = 4 * np.pi**2 * plane * h**2 / 12 / (2e-2 / 2) ** 2
+    assert wide.critical_stress == pytest.approx(column, rel=1e-12)
+    narrow = interface.buckling_release(COATING, -s, 10e-6)
+    assert (narrow.deflection, narrow.release) == (0.0, 0.0)
+    assert interface.buckling_release(COATING, s, 1e-3).release == 0.0
+    with pytest.raises(ValueError, match="width = 0"):
+        interface.buckling_release(COATING, -s, 0.0)
