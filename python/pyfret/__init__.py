@@ -74,10 +74,13 @@ from pyfret._core import (
 )
 from pyfret.citing import cite
 from pyfret.doubts import SceneWarning
+from pyfret.notebook import show_in_notebooks
+from pyfret.reporting import report
 from pyfret.results import Result, Snapshot, open
 from pyfret.solving import Increment, march, resume, solve
 from pyfret.studies import Study, open_study, study, varied
 from pyfret.surfaces import read_surface
+from pyfret.verifying import Verification, verify
 from pyfret.wearing import WearResult, open_wear, resume_wear, wear
 
 if TYPE_CHECKING:
@@ -127,6 +130,7 @@ __all__ = [
     "Sum",
     "SurfaceMap",
     "SurfaceOperator",
+    "Verification",
     "Waviness",
     "WearResult",
     "Wedge",
@@ -145,6 +149,7 @@ __all__ = [
     "plot",
     "read_surface",
     "reference",
+    "report",
     "resume",
     "resume_wear",
     "solve",
@@ -153,8 +158,12 @@ __all__ = [
     "subsurface",
     "sweep",
     "varied",
+    "verify",
     "wear",
 ]
+
+
+show_in_notebooks()
 
 
 def __getattr__(name: str) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pyfret as fret
@@ -29,6 +30,11 @@ def parser() -> argparse.ArgumentParser:
     study.add_argument("--scheduler", help="address of a Dask cluster, such as tcp://host:8786")
     study.add_argument("--again", action="store_true", help="also points that failed before")
     study.add_argument("--map", metavar="FILE", help="figure of the first measure (.png, .svg)")
+    report = commands.add_parser("report", help="write a result as one page for a browser")
+    report.add_argument("store", help="result")
+    report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
+    report.add_argument("--wear", metavar="STORE", help="result of fret wear, shown as well")
+    commands.add_parser("verify", help="check this installation against closed forms, in minutes")
     cite = commands.add_parser("cite", help="say what to cite for a result")
     cite.add_argument("store", nargs="?", help="result (default: all methods)")
     return top
@@ -67,6 +73,22 @@ def study(options: argparse.Namespace) -> int:
     return ENDED_EARLY if failed else DONE
 
 
+def report(options: argparse.Namespace) -> int:
+    """Write the page of a result."""
+    place = Path(options.out or Path(options.store).with_suffix(".html").name)
+    worn = fret.open_wear(options.wear) if options.wear else None
+    fret.open(options.store).report(place, wear=worn)
+    print(f"{place}: {place.stat().st_size / 1e6:.1f} MB")
+    return DONE
+
+
+def verify(_: argparse.Namespace) -> int:
+    """Compare with closed forms, a line for every number."""
+    found = fret.verify()
+    print(found)
+    return DONE if found.passed else ENDED_EARLY
+
+
 def cite(options: argparse.Namespace) -> int:
     """Say what to cite."""
     print(fret.cite(fret.open(options.store) if options.store else None))
@@ -76,7 +98,7 @@ def cite(options: argparse.Namespace) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; its exit code."""
     options = parser().parse_args(arguments)
-    commands = {"study": study, "cite": cite}
+    commands = {"study": study, "report": report, "verify": verify, "cite": cite}
     try:
         return commands[options.command](options)
     except (ValueError, OSError, ImportError) as error:

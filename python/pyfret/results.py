@@ -19,11 +19,13 @@ from pyfret.summary import summary
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
+    from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
 
     from pyfret.fatigue import CriterionName
+    from pyfret.wearing import WearResult
 
 __all__ = ["Result", "Snapshot", "open"]
 
@@ -318,6 +320,24 @@ class Result:
             The ending is another.
         """
         files.write(self.dataset, path)
+
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        wear: WearResult | None = None,
+        figures: Mapping[str, Figure] | None = None,
+    ) -> None:
+        """Write one page for a browser, for people without pyfret: :func:`pyfret.report`."""
+        from pyfret.reporting import report
+
+        report(self, path, wear=wear, figures=figures)
+
+    def _repr_html_(self) -> str:
+        """Tables for notebooks."""
+        from pyfret.reporting.tables import result_html
+
+        return result_html(self)
 
     def __repr__(self) -> str:
         """Give the title and the size of the result."""

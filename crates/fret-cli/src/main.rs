@@ -74,6 +74,10 @@ enum Command {
     Wear(wear::Options),
     /// Solve a scene for many values of its parameters (needs the Python package)
     Study(python::Options),
+    /// Write a result as one page for a browser (needs the Python package)
+    Report(python::Options),
+    /// Check this installation against closed forms in minutes (needs the Python package)
+    Verify(python::Options),
     /// Say what to cite for a result (needs the Python package)
     Cite(python::Options),
 }
@@ -94,6 +98,8 @@ fn main() -> ExitCode {
         Command::Man { folder } => manual(&folder),
         Command::Wear(options) => wear::wear(&options),
         Command::Study(options) => return in_python("study", &options),
+        Command::Report(options) => return in_python("report", &options),
+        Command::Verify(options) => return in_python("verify", &options),
         Command::Cite(options) => return in_python("cite", &options),
     };
     match outcome {

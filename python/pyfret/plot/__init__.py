@@ -5,6 +5,7 @@ results can be laid over each other and figures composed. :func:`paper_figures` 
 of the paper from its four runs in one call.
 """
 
+from pyfret.plot.animation import animate
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
 from pyfret.plot.life import criterion_map, critical_plane_rose, dang_van_diagram
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
@@ -25,6 +26,7 @@ from pyfret.plot.style import style
 from pyfret.plot.wear import depth_map, wear_history, wear_loops, wear_profiles
 
 __all__ = [
+    "animate",
     "criterion_map",
     "critical_plane_rose",
     "dang_van_diagram",

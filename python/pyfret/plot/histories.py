@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from pyfret.results import Result
+    from pyfret.results import Result, Snapshot
 
 Direction = Literal["x", "y", "torsion"]
 
@@ -75,6 +75,16 @@ def fretting_loop(
     ax.set_xlabel(by_shift.label(shift_symbol))
     ax.set_ylabel(by_force.label(force_symbol))
     return ax
+
+
+def loop_point(result: Result, at: Snapshot) -> tuple[list[float], list[float]]:
+    """Where an increment lies on the drawn loop of :func:`fretting_loop`."""
+    force, shift, *_ = NAMES[driven(result.scene.path)]
+    d = result.dataset
+    started = np.flatnonzero(d.branch_of_increment.values == 0)[-1]
+    by_force, by_shift = loop_scales(result, "auto", torsion=force == "M_z")
+    moved = (float(at.dataset[shift]) - float(d[shift][started])) / by_shift.value
+    return [moved], [float(at.dataset[force]) / by_force.value]
 
 
 def loop_scales(result: Result, units: Units, *, torsion: bool) -> tuple[Scale, Scale]:

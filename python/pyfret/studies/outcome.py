@@ -65,6 +65,12 @@ class Study:
 
         return study_map(self, of, ax=ax, **options)
 
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        from pyfret.reporting.tables import study_html
+
+        return study_html(self)
+
     def __repr__(self) -> str:
         """Give the parameters, the measures and how many points are done."""
         counts = ", ".join(f"{n} {name}" for name, n in self.count().items() if n)

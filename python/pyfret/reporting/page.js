@@ -1,0 +1,101 @@
+"use strict";
+(async () => {
+  // Numbers and the program that draws lie in the page, compressed.
+  const unpacked = async (id) => {
+    const letters = document.getElementById(id).textContent.trim();
+    const bytes = Uint8Array.from(atob(letters), (c) => c.charCodeAt(0));
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return new Response(stream).text();
+  };
+  const program = document.createElement("script");
+  program.textContent = await unpacked("packed-plotly");
+  document.head.append(program);
+  const data = JSON.parse(await unpacked("packed-numbers"));
+  const fields = data.fields;
+  const colours = { stick: "#0072B2", slip: "#F2C9A9", first: "#0072B2", second: "#D55E00", bound: "#9A9A9A" };
+  const options = { responsive: true, displaylogo: false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
+  const layout = (x, y, more = {}) => ({
+    margin: { l: 60, r: 12, t: 10, b: 46 },
+    font: { size: 12 },
+    xaxis: { title: { text: x }, zeroline: false },
+    yaxis: { title: { text: y }, zeroline: false },
+    legend: { orientation: "h", y: 1.12 },
+    ...more,
+  });
+  const square = () => {
+    const plane = layout("x [µm]", fields.flat ? "" : "y [µm]");
+    if (fields.flat) plane.yaxis.visible = false;
+    else plane.yaxis = { ...plane.yaxis, scaleanchor: "x", constrain: "domain" };
+    plane.xaxis.constrain = "domain";
+    return plane;
+  };
+  const map = (id, values, more) =>
+    Plotly.react(id, [{ type: "heatmap", x: fields.x, y: fields.y, z: values, ...more }], square(), options);
+
+  const show = (n) => {
+    const at = fields.shown[n];
+    document.getElementById("number").textContent = at.increment;
+    document.getElementById("says").textContent = at.says;
+    const bar = (title) => ({ title: { text: title, side: "right" }, thickness: 12 });
+    map("p", at.p, { zmin: 0, zmax: fields.largest.p, colorscale: "YlGnBu", reversescale: true, colorbar: bar("p [MPa]") });
+    map("q", at.q, { zmin: 0, zmax: fields.largest.q || 1, colorscale: "YlGnBu", reversescale: true, colorbar: bar("|q| [MPa]") });
+    map("zone", at.zone, {
+      zmin: 1, zmax: 2, showscale: false,
+      colorscale: [[0, colours.slip], [0.5, colours.slip], [0.5, colours.stick], [1, colours.stick]],
+      hovertemplate: "x %{x}, y %{y}<extra></extra>",
+    });
+    const line = at.line;
+    const lines = [
+      { x: fields.x, y: line.p, name: "p", line: { color: colours.first } },
+      { x: fields.x, y: line.q_x, name: "q<sub>x</sub>", line: { color: colours.second } },
+    ];
+    if (line.bound) {
+      const below = line.bound.map((v) => (v === null ? null : -v));
+      const grey = { color: colours.bound, dash: "dot", width: 1 };
+      lines.push({ x: fields.x, y: line.bound, name: "±µp", line: grey });
+      lines.push({ x: fields.x, y: below, showlegend: false, line: grey });
+    }
+    Plotly.react("profile", lines, layout("x [µm]", "[MPa]"), options);
+    const place = data.loop.increment.indexOf(at.increment);
+    const dot = place < 0 ? [[], []] : [[data.loop.x[place]], [data.loop.y[place]]];
+    Plotly.react("loop", [
+      { x: data.loop.x, y: data.loop.y, mode: "lines+markers", marker: { size: 4 }, line: { color: colours.first }, showlegend: false },
+      { x: dot[0], y: dot[1], mode: "markers", marker: { size: 12, color: colours.second }, showlegend: false },
+    ], layout(data.loop.labels[0], data.loop.labels[1]), options);
+  };
+
+  const which = document.getElementById("which");
+  which.max = fields.shown.length - 1;
+  which.value = which.max;
+  which.addEventListener("input", () => show(Number(which.value)));
+  show(fields.shown.length - 1);
+
+  const stress = data.stress;
+  if (stress) {
+    const section = layout("x [µm]", "z [µm]");
+    section.yaxis.autorange = "reversed";
+    section.shapes = stress.interfaces.map((z) => ({
+      type: "line", xref: "paper", x0: 0, x1: 1, y0: z, y1: z, line: { dash: "dash", width: 1 },
+    }));
+    const [x, z, value] = stress.largest;
+    Plotly.newPlot("stress", [
+      { type: "heatmap", x: stress.x, y: stress.z, z: stress.values, colorscale: "YlGnBu", reversescale: true, colorbar: { title: { text: "[MPa]", side: "right" }, thickness: 12 } },
+      { x: [x], y: [z], mode: "markers", marker: { symbol: "x-thin", size: 10, line: { width: 2, color: "black" } }, hoverinfo: "skip" },
+    ], section, options);
+    document.getElementById("largest").textContent =
+      `the cross marks the largest, ${value.toPrecision(4)} MPa at x = ${x.toPrecision(3)} µm, z = ${z.toPrecision(3)} µm.`;
+  } else {
+    document.getElementById("below").remove();
+  }
+  if (data.wear) {
+    const bodies = ["upper body", "lower body"];
+    const pair = (x, of) => bodies.map((name, n) => ({ x, y: of[n], name }));
+    const downwards = layout("x [µm]", "worn depth [µm]");
+    downwards.yaxis.autorange = "reversed";
+    Plotly.newPlot("depths", pair(data.wear.cycles, data.wear.depth), layout("cycles", "depth [µm]"), options);
+    Plotly.newPlot("profiles", pair(data.wear.x, data.wear.profile), downwards, options);
+  } else {
+    document.getElementById("worn").remove();
+  }
+  document.body.dataset.drawn = "yes";
+})();

@@ -1,0 +1,189 @@
+"""The page of a result: everything inside, nothing fetched, drawn at laptop and phone width."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import ROOT, W, sphere_on_flat
+from pyfret.reporting import content
+
+PATH = fret.LoadPath.start().normal(W, increments=3).cycles(1, T_x=200.0, increments=8)
+#: Widths and heights of a laptop and of a phone.
+SCREENS = {"laptop": (1280, 800), "phone": (390, 844)}
+
+
+@pytest.fixture(scope="module")
+def result() -> fret.Result:
+    scene = sphere_on_flat(ratio=2.0, n=24)
+    return fret.solve(scene, PATH, save="all", error=True, progress=False)
+
+
+@pytest.fixture(scope="module")
+def worn() -> fret.WearResult:
+    scene = sphere_on_flat(ratio=2.0, n=16)
+    return fret.wear(
+        scene, PATH, cycles=1e4, first_branch=2, body2=fret.Archard(1e-14), progress=False
+    )
+
+
+@pytest.fixture(scope="module")
+def page(result: fret.Result, worn: fret.WearResult, tmp_path_factory: Any) -> Path:
+    place: Path = tmp_path_factory.mktemp("page") / "run.html"
+    figure = fret.plot.load_path(result).figure
+    result.report(place, wear=worn, figures={"Load path": figure})
+    plt.close("all")
+    return place
+
+
+def test_the_page_has_it_all_in_one_small_file(page: Path, result: fret.Result) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert page.stat().st_size < 5e6
+    assert not re.findall(r"(?:src|href)=\"(?!data:)", text)
+    for part in (
+        "E1/E2 = 2",
+        "coating 1",
+        "Ends of the branches",
+        "&plusmn;",
+        "What was left out",
+        "mirror-symmetric",
+        "10.24874/ti.2020.42.01.13",
+        "[[body2.coatings]]",
+        "Load path",
+        "data:image/png",
+    ):
+        assert part in text, part
+    assert result.scene.to_toml().splitlines()[0] in text
+
+
+def test_the_numbers_of_the_figures_are_those_of_the_result(result: fret.Result) -> None:
+    numbers = content.figures(result, None)
+    last = numbers["fields"]["shown"][-1]
+    assert last["increment"] == int(result.at(-1).increment)
+    assert numbers["fields"]["largest"]["p"] == pytest.approx(
+        1e-6 * float(result.dataset.p.max()), rel=1e-2
+    )
+    largest = 1e-6 * result.at(-1).stress().maximum().value
+    assert numbers["stress"]["largest"][2] == largest
+    assert numbers["loop"]["y"][-1] == pytest.approx(200.0, rel=1e-4)
+    assert content.short([1.23456, np.nan, 0.0, np.inf]) == [1.235, None, 0.0, None]
+
+
+def test_scenes_without_increments_of_interest_have_their_page(tmp_path: Path) -> None:
+    strip = fret.Grid.strip(extent=1e-3, n=64)
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    scene = fret.Scene(
+        body1=fret.Body(steel, shape=fret.Cylinder(R=0.01)),
+        body2=fret.Body(fret.RIGID),
+        mu=float("inf"),
+        grid=strip,
+        path=fret.LoadPath.start().normal(1e4, increments=2),
+    )
+    fret.solve(scene, progress=False).report(tmp_path / "strip.html")
+    text = (tmp_path / "strip.html").read_text(encoding="utf-8")
+    assert "plane strain" in text
+    assert "rigid" in text
+    with pytest.raises(ValueError, match="must end in"):
+        fret.solve(scene, progress=False).report(tmp_path / "page.pdf")
+
+
+def browser(play: Any) -> Any:
+    """Chromium, or the test is skipped."""
+    found = shutil.which("chromium") or shutil.which("chromium-browser")
+    try:
+        return play.chromium.launch(executable_path=found, args=["--no-sandbox"])
+    except Exception as absent:
+        pytest.skip(f"no browser: {str(absent).splitlines()[0]}")
+
+
+@pytest.mark.timeout(180)
+def test_it_is_drawn_in_a_browser_without_errors_or_requests(page: Path) -> None:
+    api = pytest.importorskip("playwright.sync_api")
+    with api.sync_playwright() as play:
+        chromium = browser(play)
+        for width, height in SCREENS.values():
+            view = chromium.new_page(viewport={"width": width, "height": height})
+            said: list[str] = []
+            asked: list[str] = []
+            view.on("console", lambda m, said=said: said.append(m.text))
+            view.on("pageerror", lambda e, said=said: said.append(str(e)))
+            view.on("request", lambda r, asked=asked: asked.append(r.url))
+            view.goto(page.as_uri())
+            view.wait_for_selector("body[data-drawn=yes]", timeout=60_000)
+            first = view.inner_text("#says")
+            view.fill("#which", "4")
+            assert view.inner_text("#number") == "5"
+            assert view.inner_text("#says") != first
+            assert said == []
+            assert [url for url in asked if not url.startswith(("file:", "data:"))] == []
+            assert view.evaluate("document.documentElement.scrollWidth") <= width
+            for name in ("loop", "p", "q", "zone", "profile", "stress", "depths", "profiles"):
+                assert view.locator(f"#{name} .main-svg").count() > 0, name
+            view.close()
+        chromium.close()
+
+
+def test_notebooks_show_tables(result: fret.Result) -> None:
+    scene, path = result.scene, result.scene.path
+    assert "coating 1" in scene._repr_html_()
+    assert "T_x = -200 N" in path._repr_html_()
+    assert "partial slip" in result._repr_html_()
+    study = fret.study(scene, {"mu": [0.3]}, measure="p_max", executor=1)
+    assert "p_max" in study._repr_html_()
+
+
+def test_the_command_writes_the_page(result: fret.Result, tmp_path: Path) -> None:
+    result.save(tmp_path / "run.zarr")
+    command = [sys.executable, "-m", "pyfret", "report", "run.zarr"]
+    ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+    assert (tmp_path / "run.html").stat().st_size > 1e6
+    command[-1] = "none.zarr"
+    ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ran.returncode == 2
+    assert "none.zarr" in ran.stderr
+
+
+def test_a_film_of_a_cycle(result: fret.Result, tmp_path: Path) -> None:
+    from PIL import Image
+
+    fret.plot.animate(result, tmp_path / "cycle.gif", increments=[3, 7, 11], dpi=40)
+    with Image.open(tmp_path / "cycle.gif") as film:
+        assert film.n_frames == 3
+    with pytest.raises(ValueError, match="must end in"):
+        fret.plot.animate(result, tmp_path / "cycle.avi")
+    with pytest.raises(ValueError, match="needs more"):
+        fret.plot.animate(result, tmp_path / "cycle.gif", increments=[3])
+
+
+def test_verification_ships_with_the_package() -> None:
+    found = fret.verify()
+    assert found.passed, str(found)
+    assert len(found.checks) >= 15
+    told = str(found)
+    assert "Lubkin" in told
+    assert "all passed" in told
+    worse = fret.verifying.Check("x", "y", ours=1.1, truth=1.0, scale=1.0, last=0.01)
+    assert not worse.passed
+    assert "1 FAILED" in str(fret.Verification([worse], 1.0))
+
+
+def test_fret_hands_over_to_python() -> None:
+    environment = {**os.environ, "FRET_PYTHON": sys.executable}
+    command = [ROOT / "target" / "release" / "fret", "cite"]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    assert ran.stdout.strip() == fret.cite()
+    environment["FRET_PYTHON"] = "no-such-python"
+    ran = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    assert ran.returncode == 2
+    assert "FRET_PYTHON" in ran.stderr
