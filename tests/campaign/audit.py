@@ -46,6 +46,8 @@ def fall(shape: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray | None:
     along, across = (x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle))
     if kind == "sphere":
         return (x**2 + y**2) / (2 * of["R"])
+    if kind == "cylinder" and "length" not in of:
+        return along**2 / (2 * of["R"])
     if kind == "ellipsoid":
         return along**2 / (2 * of["R_x"]) + across**2 / (2 * of["R_y"])
     if kind == "cone":
@@ -74,7 +76,8 @@ class Audit:
         grid = self.scene.grid
         self.x, self.y = np.meshgrid(grid.x, grid.y, indexing="ij")
         self.operator = fret.SurfaceOperator(self.scene.body1, self.scene.body2, grid)
-        self.h_init = fall(self.file["body1"]["shape"], self.x, self.y)
+        surfaces = [fall(self.file[body]["shape"], self.x, self.y) for body in ("body1", "body2")]
+        self.h_init = None if any(s is None for s in surfaces) else sum(surfaces)
         self.before: dict[str, Any] | None = None
         # What displacements are compared with: the approach that the grid is drawn for, or more.
         wide = 0.27 * grid.dx * grid.nx

@@ -118,9 +118,10 @@ def friction(rng: random.Random, extent: float, slip: float) -> dict[str, object
         z = [[rng.choice(factors) for _ in range(n)] for _ in range(n)]
         made["map"] = {"spacing": 1.01 * extent / n, "z": z}
     if rng.random() < 0.2:
-        of = rng.choice(["slip", "increment"])
-        far = slip if of == "slip" else 5.0
-        made["history"] = {"of": of, "table": [[0.0, 1.0], [far, rng.choice([0.5, 2.0])]]}
+        of = rng.choice(["slip", "increment", "dissipated"])
+        far = {"slip": slip, "increment": 5.0, "dissipated": 1e8 * slip}[of]
+        end = rng.choice([0.0, 0.5, 2.0])
+        made["history"] = {"of": of, "table": [[0.0, 1.0], [far, end]]}
     return made
 
 
@@ -136,7 +137,8 @@ def branches(rng: random.Random, made: dict[str, object], W: float, extent: floa
         path = [{"W": W, "increments": count()}]
     for _ in range(rng.randrange(1, 4)):
         kind = rng.choice(
-            ["T"] * 4 + ["shift", "shift", "M_z", "phi_z", "tilt", "W", "lift", "bulk", "roll"]
+            ["T"] * 4
+            + ["shift", "shift", "far", "M_z", "phi_z", "tilt", "W", "lift", "bulk", "roll", "both"]
         )
         part, sign = rng.uniform(0.1, 0.9), rng.choice([-1, 1])
         branch: dict[str, object] = {"increments": count()}
@@ -144,6 +146,13 @@ def branches(rng: random.Random, made: dict[str, object], W: float, extent: floa
             branch |= {"T_x": sign * part * mu_W * 0.7, "T_y": rng.choice([0.0, 0.3]) * mu_W}
         elif kind == "shift":
             branch |= {"delta_x": sign * depth * power(rng, -2.0, 0.5)}
+        elif kind == "far":
+            branch |= {rng.choice(["delta_x", "delta_y"]): sign * depth * power(rng, 0.5, 1.5)}
+        elif kind == "both":
+            branch |= {
+                "W": W * rng.uniform(0.3, 1.0),
+                "delta_y": sign * depth * power(rng, -2.0, 0.0),
+            }
         elif kind == "M_z":
             branch |= {"M_z": sign * part * 0.3 * mu_W * a}
         elif kind == "phi_z":
@@ -170,6 +179,7 @@ def draw(seed: int) -> str:
     """The scene of a seed, as the text of its file."""
     rng = random.Random(seed)
     n = rng.choice([16, 20, 24, 32])
+    cells: object = n if rng.random() < 0.7 else [n, n + rng.choice([-3, 1, 4])]
     extent = power(rng, -4.0, -2.5)
     cell = extent / n
     one, two = body(rng, extent, 0.25), body(rng, extent, 0.5)
@@ -177,6 +187,10 @@ def draw(seed: int) -> str:
         two = one | ({} if rng.random() < 0.5 else {"nu": one["nu"]})
     if rng.random() < 0.05:
         one = {"E": "rigid"}
+    below: object = "flat"
+    if rng.random() < 0.15:
+        far = R * power(rng, 0.5, 1.5)
+        below = {"sphere": {"R": far}} if rng.random() < 0.5 else {"cylinder": {"R": far}}
     made = friction(rng, extent, 0.01 * extent)
     stiff = [b["E"] for b in (one, two) if isinstance(b["E"], float)]
     E_star = 1.0 / sum(1.0 / E for E in stiff)
@@ -192,9 +206,9 @@ def draw(seed: int) -> str:
         "schema = 1",
         f'title = "campaign {seed}"',
         f"body1 = {value({'shape': shape(rng, extent, cell), **one})}",
-        f"body2 = {value({'shape': 'flat', **two})}",
+        f"body2 = {value({'shape': below, **two})}",
         f"friction = {value(made)}",
-        f"grid = {value({'n': n, 'spacing': cell})}",
+        f"grid = {value({'n': cells, 'spacing': cell})}",
         "path = [",
         *(f"    {value(branch)}," for branch in path),
         "]",

@@ -1,6 +1,7 @@
 """Runs scenes of the campaign: ``python tests/campaign/run.py FIRST COUNT``.
 
-Each line is a scene: its seed, what became of it, the seconds it took. Scenes run in processes of
+Says what became of them, and names the scenes that failed or violate an equation; with ``--json``
+each line is a scene: its seed, what became of it, the seconds it took. Scenes run in processes of
 their own, so that one that does not end can be ended.
 """
 
@@ -12,6 +13,7 @@ import select
 import subprocess
 import sys
 import time
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -126,9 +128,37 @@ def campaign(first: int, count: int, limit: float = LIMIT) -> Iterator[dict[str,
                 starts.append(worker.seed + stride)
 
 
+#: Fates that are right wherever they come from what a scene asks for.
+RIGHT = ("solved", "off grid", "refused", "beyond friction")
+
+
+def told(outcomes: list[dict[str, object]]) -> tuple[list[str], bool]:
+    """What became of all scenes, in lines; and whether all is right."""
+    fates = Counter(str(of["fate"]) for of in outcomes)
+    lines = [f"{n:6d} {fate}" for fate, n in fates.most_common()]
+    wrong = [of for of in outcomes if of["fate"] not in RIGHT]
+    lines += [f"scene {of['seed']}: {of['fate']}: {of.get('why', '')}" for of in wrong]
+    for of in outcomes:
+        worst = of["worst"]
+        assert isinstance(worst, dict)
+        off = {name: at for name, at in worst.items() if at[0] > 1}
+        lines += [
+            f"scene {of['seed']}: {name} {by:.3g} times what is allowed, increment {number}"
+            for name, (by, number) in off.items()
+        ]
+        wrong += [of] if off else []
+    return lines, not wrong
+
+
 if __name__ == "__main__":
     if sys.argv[1] == "work":
         work(*(int(n) for n in sys.argv[2:5]))
     else:
+        outcomes = []
         for outcome in campaign(int(sys.argv[1]), int(sys.argv[2])):
-            print(json.dumps(outcome), flush=True)
+            outcomes.append(outcome)
+            if "--json" in sys.argv:
+                print(json.dumps(outcome), flush=True)
+        lines, right = told(outcomes)
+        print("\n".join(lines))
+        sys.exit(not right)

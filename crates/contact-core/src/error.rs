@@ -79,10 +79,27 @@ pub enum Error {
         /// Loads over the limit.
         used: f64,
     },
+    /// A load whose motion is free is carried by nothing.
+    #[error(
+        "increment {increment}: nothing resists {load} = {value}: {why}, and {motion} is free; \
+         give {motion} instead of {load}"
+    )]
+    Unresisted {
+        /// Increment, from 1.
+        increment: usize,
+        /// The load, by its name in the scene.
+        load: &'static str,
+        /// Its value \[N, N m\].
+        value: f64,
+        /// What is missing.
+        why: &'static str,
+        /// The motion that is free, by its name in the scene.
+        motion: &'static str,
+    },
     /// A solver stopped before its tolerance.
     #[error(
         "increment {increment}: the {solver} solver stopped at residual {residual:.2e} \
-         (tolerance {tolerance:.2e}) after {iterations} iterations"
+         (tolerance {tolerance:.2e}) after {iterations} iterations{why}"
     )]
     NotConverged {
         /// Increment, from 1.
@@ -95,6 +112,8 @@ pub enum Error {
         tolerance: f64,
         /// Iterations done.
         iterations: usize,
+        /// What in the physics makes it hard, as the end of a sentence; empty where nothing is known.
+        why: String,
     },
     /// The conversion of a frequency response missed its tolerance.
     #[error(

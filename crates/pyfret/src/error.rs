@@ -29,7 +29,7 @@ create_exception!(
     pyfret,
     SlidingError,
     PyRuntimeError,
-    "The tangential loads are more than friction can carry; give the shift instead."
+    "The loads are more than friction can carry, or nothing carries them; give the motion instead."
 );
 create_exception!(
     pyfret,
@@ -52,7 +52,7 @@ pub(crate) fn to_python(error: Error) -> PyErr {
             InvalidSceneError::new_err(text)
         }
         Error::OffGrid { .. } | Error::GridTooSmall { .. } => OffGridError::new_err(text),
-        Error::BeyondFriction { .. } => SlidingError::new_err(text),
+        Error::BeyondFriction { .. } | Error::Unresisted { .. } => SlidingError::new_err(text),
         Error::NotConverged { .. } => NoConvergenceError::new_err(text),
         Error::KernelInaccurate { .. } | Error::StressInaccurate { .. } => {
             KernelInaccurateError::new_err(text)

@@ -4,15 +4,18 @@ use super::domain::{Domain, half_lengths};
 use super::setup::{Failure, Setup};
 use super::transmitted::transmitted;
 use super::{Increment, Residuals, Status, off_grid};
-use crate::cells::{size, survey};
+use crate::cells::{size, sums, survey};
 use crate::error::Error;
-use crate::scene::{Given, LoadPoint, Loads};
+use crate::scene::{Given, LoadPoint, Loads, RigidMotion};
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::{NoSlipTerms, not_opposite, slip};
 use crate::solvers::{Interface, friction_bound};
 
 /// What sums in another order may differ by.
 const ROUNDING: f64 = 1e-9;
+/// What balances and Coulomb's law may be off by, over what they are measured against: they hold by
+/// construction, moments to 1e-10.
+const EXACT: f64 = 1e-9;
 
 /// Whether the solution is one of the whole problem: loads that friction carries, a contact within window
 /// and grid, and cells beyond that stay clear; how far they do at least \[m\].
@@ -30,6 +33,9 @@ pub(super) fn admissible(
         ..
     } = *setup;
     setup.unless_stopped()?;
+    if let Some(unresisted) = unresisted(setup, now) {
+        return Err(unresisted.into());
+    }
     if info.exceeds_friction() {
         let (increment, used) = (state.increments + 1, info.friction_used);
         return Err(Error::BeyondFriction { increment, used }.into());
@@ -73,7 +79,7 @@ pub(super) fn residuals(
         if !slips {
             return ([1.0, 0.0, gap * gap, square(slip), 0.0, 0.0], largest);
         }
-        let off = not_opposite(slip, [q_x, q_y], bound);
+        let off = not_opposite(slip, [q_x, q_y]);
         let squares = [1.0, 1.0, gap * gap, 0.0, square(off), square(slip)];
         (squares, largest)
     });
@@ -84,10 +90,8 @@ pub(super) fn residuals(
         ..Residuals::default()
     };
     let rms = |squares: f64, count: f64| (squares / count.max(1.0)).sqrt();
-    if contact > 0.0 {
-        r.gap = rms(gap_squares, contact) / approach;
-        r.penetration = overlap / approach;
-    }
+    r.gap = rms(gap_squares, contact) / approach;
+    r.penetration = overlap / approach;
     if slipped > 0.0 {
         r.angle = (direction / slipped).sqrt().min(1.0).asin();
     }
@@ -95,16 +99,16 @@ pub(super) fn residuals(
         r.stick = rms(stick, contact - slipping) / (mu * approach);
         r.direction = rms(direction, slipping) / (mu * approach);
     }
-    if mu * p_max > 0.0 {
-        r.coulomb /= mu * p_max;
+    if excess > 0.0 {
+        r.coulomb = excess / (mu * p_max);
     }
-    r.balance = missing_loads(setup, now, mu);
+    r.balance = missing_loads(setup, now);
     (r, [p_max, q_max])
 }
 
-/// Largest error of the balances of the loads that are given: across the plane over W, in it
-/// over mu W, moments over these times the grid's half-length.
-fn missing_loads(setup: &Setup<'_>, now: &Interface, mu: f64) -> f64 {
+/// Largest error of the balances of the loads that are given, over what the contact could carry of them:
+/// across the plane W, in it what friction bears at most, moments times the grid's half-length.
+fn missing_loads(setup: &Setup<'_>, now: &Interface) -> f64 {
     let point = setup.point;
     let all_given = LoadPoint {
         loads: Loads {
@@ -115,20 +119,59 @@ fn missing_loads(setup: &Setup<'_>, now: &Interface, mu: f64) -> f64 {
     };
     let carried = transmitted(setup, &all_given, now).forces();
     let (asked, motions) = (point.loads.forces(), point.loads.given.motions());
-    let W = carried[0];
-    let scale = |k: usize| {
-        let unit = setup.geometry.arms.unit(k);
-        if k < 3 { W * unit } else { mu * W * unit }
-    };
+    let [pressed, friction] = bearable(setup, now);
     (0..6)
-        .filter(|&k| motions[k].is_none() && scale(k) > 0.0)
+        .filter(|&k| motions[k].is_none() && carried[k] != asked[k])
         .fold(0.0, |worst, k| {
-            ((carried[k] - asked[k]) / scale(k)).abs().max(worst)
+            let bears = if k < 3 { pressed } else { friction };
+            let scale = bears * setup.geometry.arms.unit(k);
+            ((carried[k] - asked[k]) / scale).abs().max(worst)
         })
 }
 
+/// The normal force, and the largest force that friction bears under it, the normal force where that has
+/// no limit \[N\].
+fn bearable(setup: &Setup<'_>, now: &Interface) -> [f64; 2] {
+    let [p, bounds, unbounded] = sums([&now.p[..], setup.mu], |_, [p, mu]| {
+        let bound = friction_bound(mu, p);
+        if bound.is_finite() {
+            [p, bound, 0.0]
+        } else {
+            [p, 0.0, 1.0]
+        }
+    });
+    let cell_area = setup.problem.cell_area();
+    let friction = if unbounded > 0.0 { p } else { bounds };
+    [p * cell_area, friction * cell_area]
+}
+
+/// Says which load nothing in the contact carries: its motion is free, and without friction or contact
+/// nothing resists it.
+fn unresisted(setup: &Setup<'_>, now: &Interface) -> Option<Error> {
+    let [pressed, friction] = bearable(setup, now);
+    let (asked, motions) = (
+        setup.point.loads.forces(),
+        setup.point.loads.given.motions(),
+    );
+    let bears = |k: usize| if k < 3 { pressed } else { friction };
+    let k = (0..6).find(|&k| motions[k].is_none() && asked[k] != 0.0 && bears(k) <= 0.0)?;
+    let motion = RigidMotion::ALL[k];
+    Some(Error::Unresisted {
+        increment: setup.state.increments + 1,
+        load: motion.load(),
+        value: asked[k],
+        why: if pressed > 0.0 {
+            "no cell in contact has friction"
+        } else {
+            "the bodies do not touch"
+        },
+        motion: motion.name(),
+    })
+}
+
 /// Whatever a solver took for solved: gap and overlap, and the slip that should not be over all contact
-/// cells, are within the tolerance, or the increment is not.
+/// cells, are within the tolerance, loads are balanced and no shear is beyond its bound, or the increment is
+/// not converged.
 pub(super) fn within_tolerance(
     setup: &Setup<'_>,
     increment: &Increment,
@@ -145,16 +188,22 @@ pub(super) fn within_tolerance(
         let direction = r.direction.powi(2) * slipping as f64;
         mu.max(1.0) * ((stick + direction) / contact.max(1) as f64).sqrt()
     };
-    let worst = r.gap.max(r.penetration).max(slips);
+    let lengths = r.gap.max(r.penetration).max(slips);
+    let forces = r.balance.max(r.coulomb);
     let tolerance = scene.tolerance();
-    if worst <= tolerance * (1.0 + ROUNDING) {
+    let (residual, allowed) = if !(lengths <= tolerance * (1.0 + ROUNDING)) {
+        (lengths * approach, tolerance * approach)
+    } else if !(forces <= EXACT) {
+        (forces, EXACT)
+    } else {
         return Ok(());
-    }
+    };
     Err(Error::NotConverged {
         increment: increment.index,
         solver: "coupled",
-        residual: worst * approach,
-        tolerance: tolerance * approach,
+        residual,
+        tolerance: allowed,
         iterations: increment.work.alternations,
+        why: String::new(),
     })
 }

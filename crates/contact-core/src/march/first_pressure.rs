@@ -13,8 +13,8 @@ pub(super) fn first_pressure(problem: &Problem, point: &LoadPoint) -> Array2<f64
     if !problem.plan.methods.first_contact {
         return Array2::ones(h_init.dim());
     }
-    let approach = problem.approach_at(point);
     let lowest = h_init.iter().fold(f64::INFINITY, |m, h| m.min(*h));
+    let approach = problem.approach_at(point, lowest);
     h_init.map(|h| {
         if approach > 0.0 {
             (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt()

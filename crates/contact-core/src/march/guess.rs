@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::first_pressure::first_pressure;
 use super::setup::Setup;
-use crate::cells::{CHUNK, set, size, sweep};
+use crate::cells::{CHUNK, copy, set, size, sweep};
 use crate::solvers::{Interface, friction_bound};
 
 /// Tractions and slip set to start from: the last increment's, extrapolated while the loads
@@ -32,7 +32,10 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
     let [sum] = sweep([], [&mut guess.p], |_, [], [p]| {
         ([p.max(0.0)], [p.max(0.0)])
     });
-    if setup.drives.normal.free[0] {
+    if setup.drives.normal.free[0] && sum <= 0.0 {
+        // Extrapolated out of contact.
+        copy(&state.interface.p, &mut guess.p);
+    } else if setup.drives.normal.free[0] {
         let factor = setup.drives.normal.sums[0] / sum;
         set([], [&mut guess.p], |_, [], [p]| [p * factor]);
     }

@@ -39,6 +39,8 @@ pub(super) fn increment(
         drives: Drives::new(problem, &geometry.arms, state, point),
         goes_on: state.going_on(point),
     };
+    let last_transform = domain.last_transform();
+    alternation.begin_increment();
     let mut solver = Solver {
         response: Response {
             op: &mut *domain.window.op,
@@ -48,6 +50,7 @@ pub(super) fn increment(
                 .as_mut()
                 .map(|inverse| &mut **inverse as _),
             stop: Some(&problem.stop),
+            last_transform,
             exact: false,
         },
         no_slip,
@@ -57,7 +60,8 @@ pub(super) fn increment(
         let guess = guess::first_guess(&setup, extrapolates);
         entry::solve(&setup, &mut solver, guess)?
     } else {
-        solver.apart(&setup)
+        let touching = geometry.touching(&problem.scene, setup.drives.normal.given);
+        solver.apart(&setup, touching)
     };
     let clear = check::admissible(&setup, domain, &now, &info)?;
     let (mut increment, without_slip) = accounts::draw_up(&setup, no_slip, &now, &info);

@@ -38,7 +38,7 @@ use std::sync::atomic::AtomicBool;
 
 use self::domain::Domain;
 use self::problem::Problem;
-use self::retry::reach;
+use self::retry::{CONVOLUTIONS, reach};
 use self::setup::{Failure, Workspace};
 use self::threads::with_busy_threads;
 use crate::convolution::PARALLEL_FROM;
@@ -79,7 +79,7 @@ impl March {
         solved.settings.solver.tolerance = Some(scene.tolerance());
         Ok(Self {
             points: plan.points(scene),
-            state: State::unloaded(domain.shape(), domain.cells()),
+            state: unloaded(scene, &domain),
             workspace: Workspace::new(domain.cells(), scene.friction.mu),
             problem: Problem {
                 approach: scene.approach(),
@@ -127,7 +127,7 @@ impl March {
     pub(crate) fn go_along(&mut self, path: &LoadPath, state: Option<State>) {
         self.problem.scene.path = path.clone();
         self.points = self.problem.plan.points(&self.problem.scene);
-        let unloaded = || State::unloaded(self.domain.shape(), self.domain.cells());
+        let unloaded = || unloaded(&self.problem.scene, &self.domain);
         self.state = state.unwrap_or_else(unloaded);
     }
 
@@ -161,6 +161,7 @@ impl March {
         let (forces, motions) = (self.state.loads.forces(), self.state.motion.motions());
         let point = point.resolved(end, forces, motions);
         let transforms = self.domain.transforms();
+        self.domain.allow(6 * CONVOLUTIONS);
         // The state in the window that it was found in, once that has changed.
         let mut found = None;
         let mut ended = self.in_a_window(&point, &mut found);
@@ -170,9 +171,12 @@ impl March {
                 let transforms = self.domain.transforms() - transforms;
                 increment.work.convolutions = transforms as f64 / 6.0;
             }
-            Err(_) => {
+            Err(error) => {
                 if let Some(found) = found {
                     self.state = found;
+                }
+                if let Error::NotConverged { why, .. } = error {
+                    *why = retry::why(&self.problem, &self.domain);
                 }
             }
         }
@@ -212,4 +216,10 @@ impl March {
             };
         }
     }
+}
+
+/// The state before the first increment.
+fn unloaded(scene: &Scene, domain: &Domain) -> State {
+    let touching = domain.window.geometry.touching(scene, [0.0; 3]);
+    State::unloaded(domain.shape(), domain.cells(), touching)
 }

@@ -82,10 +82,10 @@ impl Problem {
         Ok(())
     }
 
-    /// The approach at the loads of a point \[m\], about: that of a Hertz contact, which a coating makes as
-    /// much larger or smaller as it does the square of the contact radius.
-    pub(super) fn approach_at(&self, point: &LoadPoint) -> f64 {
-        point.loads.given.delta_z.unwrap_or_else(|| {
+    /// The approach at the loads of a point from that at which the bodies touch \[m\], about: that of a Hertz
+    /// contact, which a coating makes as much larger or smaller as it does the square of the contact radius.
+    pub(super) fn approach_at(&self, point: &LoadPoint, touching: f64) -> f64 {
+        let hertz = || {
             let radius = expected_radius(&self.scene);
             let coated = self
                 .scene
@@ -93,7 +93,9 @@ impl Problem {
                 .map_or(1.0, |hertz| (radius / hertz.a).powi(2));
             let part = point.loads.W / self.scene.path.W_max();
             coated * self.approach * part.powf(2.0 / 3.0)
-        })
+        };
+        let given = point.loads.given.delta_z;
+        given.map_or_else(hertz, |delta_z| delta_z - touching)
     }
 
     /// Area that a kept cell stands for \[m^2\].

@@ -109,7 +109,7 @@ pub struct Residuals {
     /// Angle between the slip and the shear that it opposes, root mean square over the slip
     /// cells, each with the square of its slip \[rad\].
     pub angle: f64,
-    /// Largest relative error of the force balances.
+    /// Largest error of the balances of the loads that are given, over what the contact could carry of them.
     pub balance: f64,
     /// Energy imbalance over the work done so far.
     pub energy: f64,

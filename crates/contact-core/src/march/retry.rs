@@ -3,7 +3,9 @@
 //! A guess that goes too far may lead astray: where it is left out the answer is the same. Half of the
 //! way is an easier problem: the last state is nearer to the solution. It is also a finer path, so that
 //! the answer differs from that of one piece as that of twice the increments would.
-//! [`Work::parts`](super::Work::parts) says in how many pieces an increment was solved.
+//! [`Work::parts`](super::Work::parts) says in how many pieces an increment was solved. All tries together
+//! have a bound on their work; then the increment is given up, and [`why`] says what in the physics makes it
+//! hard.
 
 use super::domain::Domain;
 use super::increment::increment;
@@ -11,10 +13,14 @@ use super::problem::Problem;
 use super::setup::{Failure, Workspace};
 use super::{Energy, Increment, Residuals, State, Work};
 use crate::error::Error;
-use crate::scene::LoadPoint;
+use crate::reference::dundurs_beta;
+use crate::scene::{Body, LoadPoint, Preset};
 
 /// Halvings of an increment before the run gives up.
 const HALVINGS: u32 = 5;
+/// Most convolutions for an increment, all tries together. Increments that are solved take a few, at the limits
+/// of friction and coupling some thousand.
+pub(super) const CONVOLUTIONS: usize = 10_000;
 
 /// The increment to `point`, whole if that can be, or in pieces; after a failure the state is as before.
 pub(super) fn reach(
@@ -32,7 +38,7 @@ pub(super) fn reach(
     if stalled(&ended) && problem.plan.methods.extrapolation {
         ended = whole(false);
     }
-    if !stalled(&ended) {
+    if !stalled(&ended) || domain.is_spent() {
         return ended;
     }
     let before = state.clone();
@@ -41,6 +47,29 @@ pub(super) fn reach(
         *state = before;
     }
     ended
+}
+
+/// What in the physics makes an increment hard that did not converge, as the end of a sentence.
+pub(super) fn why(problem: &Problem, domain: &Domain) -> String {
+    let mut why = String::new();
+    if domain.is_spent() {
+        why += &format!("; {CONVOLUTIONS} convolutions are the most for an increment");
+    }
+    let friction = &problem.scene.friction;
+    if problem.scene.settings.solver.preset == Preset::Spinu2020 {
+        why += "; the preset spinu2020 is the method of the paper, for comparison";
+    } else if problem.plan.coupling && friction.mu.is_infinite() {
+        why += "; friction without a limit holds cells that shear would lift: a finite mu lets them slip";
+    } else if problem.plan.coupling && friction.mu > 0.0 {
+        let outermost = |body: &Body| body.coatings.first().map_or(body.substrate, |c| c.material);
+        let scene = &problem.scene;
+        let beta = dundurs_beta(outermost(&scene.body1), outermost(&scene.body2));
+        let product = friction.mu * beta.abs();
+        why += &format!(
+            "; mu times Dundurs' beta of the surfaces is {product:.2}: the larger it is, the less a solution is certain"
+        );
+    }
+    why
 }
 
 fn stalled(ended: &Result<Increment, Failure>) -> bool {
@@ -58,7 +87,7 @@ fn in_halves(
 ) -> Result<Increment, Failure> {
     let mut piece = |state: &mut State, point: &LoadPoint| {
         let ended = increment(problem, domain, state, ws, point, true);
-        if halvings > 1 && stalled(&ended) {
+        if halvings > 1 && stalled(&ended) && !domain.is_spent() {
             return in_halves(problem, domain, state, ws, point, halvings - 1);
         }
         ended

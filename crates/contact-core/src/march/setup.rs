@@ -150,6 +150,7 @@ impl Solver<'_> {
         setup.unless_stopped()?;
         let equations = IncrementProblem {
             h_init: asked.h_init,
+            friction: setup.problem.plan.friction,
             mu: setup.mu,
             arms: &setup.geometry.arms,
             normal: setup.drives.normal,
@@ -168,16 +169,18 @@ impl Solver<'_> {
                     residual: failed.residual,
                     tolerance: failed.tolerance,
                     iterations: failed.iterations,
+                    why: String::new(),
                 })
             }
         }
     }
 
-    /// Bodies that nothing presses together do not touch.
-    pub(super) fn apart(&mut self, setup: &Setup<'_>) -> Solution {
+    /// Bodies that nothing presses together carry nothing: their undeformed surfaces just touch.
+    pub(super) fn apart(&mut self, setup: &Setup<'_>, touching: f64) -> Solution {
         let apart = Interface::unloaded(setup.geometry.h_init.len());
+        let [_, tilts @ ..] = setup.drives.normal.given;
         let info = AlternationInfo {
-            approach: setup.drives.normal.given,
+            approach: [touching, tilts[0], tilts[1]],
             shift: setup.drives.tangential.given,
             ..AlternationInfo::default()
         };

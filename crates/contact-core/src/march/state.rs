@@ -46,8 +46,8 @@ pub struct State {
 }
 
 impl State {
-    /// Two bodies just touching.
-    pub(crate) fn unloaded(window: (usize, usize), cells: usize) -> Self {
+    /// Two bodies that just touch, at an approach \[m\].
+    pub(crate) fn unloaded(window: (usize, usize), cells: usize, touching: f64) -> Self {
         let field = || vec![0.0; cells];
         let pair = || [field(), field()];
         Self {
@@ -55,7 +55,10 @@ impl State {
             increments: 0,
             loads: Loads::default(),
             interface: Interface::unloaded(cells),
-            motion: Motion::default(),
+            motion: Motion {
+                delta_z: touching,
+                ..Motion::default()
+            },
             slip: pair(),
             slip_length: field(),
             dissipated: field(),

@@ -175,6 +175,14 @@ impl Loads {
             }
         }
         let (T_x, T_y) = (load(RigidMotion::DeltaX), load(RigidMotion::DeltaY));
+        let M_z = load(RigidMotion::PhiZ);
+        if friction.mu == 0.0 && M_z != 0.0 {
+            return Err(Error::invalid(
+                key("M_z"),
+                M_z,
+                "0 without friction: nothing resists torsion",
+            ));
+        }
         let Some(limit) = friction.limit(self.W) else {
             return Ok(());
         };

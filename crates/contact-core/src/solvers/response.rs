@@ -13,6 +13,8 @@ pub struct Response<'a> {
     pub inverse: Option<&'a mut dyn ApproximateInverse>,
     /// Raised from outside to end the iterations.
     pub stop: Option<&'a AtomicBool>,
+    /// Transforms of the operator after which the iterations end.
+    pub last_transform: usize,
     /// Whether changes of the tractions are answered with all digits too.
     pub exact: bool,
 }
@@ -24,13 +26,15 @@ impl<'a> Response<'a> {
             op,
             inverse: None,
             stop: None,
+            last_transform: usize::MAX,
             exact: false,
         }
     }
 
     /// Whether the iterations are to end, converged or not.
     pub(crate) fn stopped(&self) -> bool {
-        self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed))
+        let raised = self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed));
+        raised || self.op.transforms() >= self.last_transform
     }
 
     /// What the answer to a change of the tractions may miss of a displacement, over the root of the

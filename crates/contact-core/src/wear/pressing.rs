@@ -154,6 +154,7 @@ impl Pressing {
             op: &mut op,
             inverse: self.inverse.as_mut().map(|(_, inverse)| inverse as _),
             stop: Some(&self.stop),
+            last_transform: usize::MAX,
             exact: true,
         };
         let problem = NormalProblem {
@@ -187,6 +188,7 @@ impl Pressing {
                     residual: e.residual,
                     tolerance: e.tolerance,
                     iterations: e.iterations,
+                    why: String::new(),
                 }
             }
         })

@@ -239,6 +239,7 @@ impl WearRun {
             residual: n,
             tolerance: self.state.next,
             iterations: TRIES,
+            why: String::new(),
         })
     }
 

@@ -16,6 +16,7 @@ mod document;
 mod draw;
 mod report;
 mod twins;
+mod unresisted;
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};

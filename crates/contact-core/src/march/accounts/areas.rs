@@ -61,7 +61,8 @@ pub(super) fn areas(
             without_slip: contact,
         };
     }
-    let border = if partial {
+    // Without a limit no cell is near its bound: whole cells count.
+    let border = if partial && setup.problem.scene.friction.mu.is_finite() {
         cells.stick_border(&rim, |n| {
             let rigid = setup.geometry.arms.in_plane(info.shift, n);
             size(slip_of(no_slip, now, setup.last(), rigid, n).0)

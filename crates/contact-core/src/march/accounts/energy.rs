@@ -126,6 +126,10 @@ pub(super) fn dissipated(
     if !now.slip[n] {
         return 0.0;
     }
-    let mean = 0.5 * (1.0 + friction_bound(mu, last.p[n]) / bound);
+    let mean = if bound.is_finite() {
+        0.5 * (1.0 + friction_bound(mu, last.p[n]) / bound)
+    } else {
+        1.0
+    };
     -mean * power(&now.q)
 }

@@ -6,8 +6,8 @@ use crate::march::domain::Geometry;
 use crate::march::rolled::{Roll, Rolled};
 use crate::march::{Increment, State, Status};
 use crate::plan::Mirror;
+use crate::solvers::Interface;
 use crate::solvers::no_slip::{NoSlipTerms, not_opposite, slip};
-use crate::solvers::{Interface, friction_bound};
 
 /// What an increment was computed with, the state apart.
 pub(in crate::march) struct Closing<'a> {
@@ -62,17 +62,17 @@ fn keep_residual(state: &mut State, status: Status, now: &Interface, closing: &C
     let arms = &closing.geometry.arms;
     let [x_0, y_0] = closing.no_slip.displacement();
     let [x, y] = &mut state.residual;
-    let tractions = [&now.p[..], &now.q[0], &now.q[1], closing.mu];
+    let tractions = [&now.p[..], &now.q[0], &now.q[1]];
     let moved = [&now.u[0][..], &now.u[1], x_0, y_0];
     let fields = ((tractions, moved), &now.slip[..]);
     set(fields, [x, y], |n, ((tractions, moved), slips), _| {
-        let ([p, q_x, q_y, mu], [u_x, u_y, x_0, y_0]) = (tractions, moved);
+        let ([p, q_x, q_y], [u_x, u_y, x_0, y_0]) = (tractions, moved);
         if !keeps || p <= 0.0 {
             return [0.0; 2];
         }
         let slip = slip([u_x, u_y], [x_0, y_0], arms.in_plane(closing.shift, n));
         if slips {
-            not_opposite(slip, [q_x, q_y], friction_bound(mu, p))
+            not_opposite(slip, [q_x, q_y])
         } else {
             slip
         }

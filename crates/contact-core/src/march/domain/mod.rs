@@ -68,6 +68,8 @@ pub(super) struct Domain {
     pub(super) whole: Mutex<Option<Window>>,
     /// Transforms done in windows that were given up.
     transforms: usize,
+    /// Transforms after which an increment is given up.
+    limit: usize,
 }
 
 impl Domain {
@@ -99,6 +101,7 @@ impl Domain {
             window,
             whole: Mutex::default(),
             transforms: 0,
+            limit: usize::MAX,
         })
     }
 
@@ -117,6 +120,22 @@ impl Domain {
         let whole = (self.whole.lock()).unwrap_or_else(PoisonError::into_inner);
         let whole = whole.as_ref().map_or(0, |grid| grid.op.transforms());
         self.transforms + self.window.op.transforms() + whole
+    }
+
+    /// Allows so many transforms from now on.
+    pub(super) fn allow(&mut self, transforms: usize) {
+        self.limit = self.transforms() + transforms;
+    }
+
+    /// Whether what was allowed is done.
+    pub(super) fn is_spent(&self) -> bool {
+        self.transforms() >= self.limit
+    }
+
+    /// The count of the window's operator at which what was allowed is done.
+    pub(super) fn last_transform(&self) -> usize {
+        let elsewhere = self.transforms() - self.window.op.transforms();
+        self.limit.saturating_sub(elsewhere)
     }
 
     /// A window of that shape; fails where the run is stopped meanwhile.
@@ -232,6 +251,23 @@ impl Geometry {
             friction_map: map.map_or_else(Vec::new, |map| fold(grid.map(|x, y| map.at(x, y)))),
             grid,
         }
+    }
+
+    /// The approach at which the undeformed surfaces just touch anywhere on the grid of the scene, tilted by
+    /// the motion across the plane \[m\].
+    pub(super) fn touching(&self, scene: &Scene, [_, of_x, of_y]: [f64; 3]) -> f64 {
+        let least = |least: f64, h: f64| least.min(h);
+        if self.grid == scene.grid {
+            let cells = self.h_init.iter().enumerate();
+            let tilted = |(n, h): (usize, &f64)| h - self.arms.across([0.0, of_x, of_y], n);
+            return cells.map(tilted).fold(f64::INFINITY, least);
+        }
+        let length = self.arms.length;
+        let tilt = scene.grid.map(|x, y| (y * of_x - x * of_y) / length);
+        (scene.h_init() - tilt)
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, least)
     }
 
     /// Shape of the fields: cells along x, kept rows.

@@ -12,7 +12,7 @@ use crate::solvers::intermediate::AlternationInfo;
 
 /// Rounds that look for the shift of bodies that touch for the first time.
 const ROUNDS: usize = 6;
-/// Change of that shift that ends the search, over the shift.
+/// Change of that shift that ends the search, over the shift or the approach, whichever is more.
 const SETTLED: f64 = 1e-8;
 
 /// Solves for the first contact: the shift s before the entry of the cells is that of the
@@ -43,7 +43,9 @@ pub(super) fn solve_first_contact(
         info.add_work(&work);
         work = info;
         let misfit: [f64; 3] = std::array::from_fn(|k| info.shift[k] - assumed[k]);
-        let settled = size(misfit) <= SETTLED * size(info.shift);
+        // By symmetry the shift may be nothing but rounding.
+        let least = setup.problem.approach;
+        let settled = size(misfit) <= SETTLED * size(info.shift).max(least);
         if settled || round == ROUNDS || info.exceeds_friction() {
             return Ok((now, info));
         }

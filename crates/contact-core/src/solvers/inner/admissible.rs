@@ -23,8 +23,8 @@ pub(crate) fn admissible(
 }
 
 /// Cuts the shear to the bound and lets the stick cells share the missing loads, by the smallest
-/// change; whether that ended with both conditions met. Cells outside the contact carry nothing;
-/// those without shear do not slip.
+/// change; whether that ended with both conditions met. Cells without a bound carry nothing and keep
+/// their mark; those without shear do not slip.
 fn share_force(
     problem: &TangentialProblem<'_>,
     q: &mut [&mut [f64]; 2],
@@ -32,7 +32,7 @@ fn share_force(
 ) -> bool {
     let (bound, arms) = (problem.bound, problem.arms);
     set_cells(slip, |n, slips| {
-        slips && bound[n] > 0.0 && q[0][n] * q[0][n] + q[1][n] * q[1][n] > 0.0
+        slips && (bound[n] <= 0.0 || q[0][n] * q[0][n] + q[1][n] * q[1][n] > 0.0)
     });
     let enough = rounding(problem);
     let mut share = [0.0; 3];
@@ -108,11 +108,15 @@ fn rounding(problem: &TangentialProblem<'_>) -> f64 {
 /// The part of the bound from which a cell counts as slipping.
 const ON_CIRCLE: f64 = 1.0 - 1e-9;
 
-/// Slip cells are those on the circle.
+/// Slip cells are those on the circle; cells without one keep their mark.
 pub(crate) fn mark_circle(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], slip: &mut [bool]) {
-    set_cells(slip, |n, _| {
+    set_cells(slip, |n, slips| {
         let g = problem.bound[n];
-        g > 0.0 && size([q[0][n], q[1][n]]) >= ON_CIRCLE * g
+        if g > 0.0 {
+            size([q[0][n], q[1][n]]) >= ON_CIRCLE * g
+        } else {
+            slips
+        }
     });
 }
 

@@ -12,7 +12,7 @@ use crate::cells::{size, sum};
 /// How near the loads are to full sliding.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sliding {
-    /// Loads over the limit.
+    /// Loads over the limit; infinite where nothing bears a load.
     pub(crate) used: f64,
     /// Motion of the sliding that they drive, of any size.
     pub(crate) motion: [f64; 3],
@@ -45,11 +45,18 @@ pub(crate) fn sliding(problem: &TangentialProblem<'_>) -> Sliding {
     if F.iter().all(|&F| F == 0.0) || problem.bound.contains(&f64::INFINITY) {
         return Sliding::default();
     }
+    let carried = sum(problem.bound);
+    if !(carried > 0.0) {
+        return Sliding {
+            used: f64::INFINITY,
+            motion: F,
+        };
+    }
     if !drive.free[2] {
         // Without rotation all cells slide alike.
         let force = F[0].hypot(F[1]);
         return Sliding {
-            used: force / sum(problem.bound),
+            used: force / carried,
             motion: [F[0] / force, F[1] / force, 0.0],
         };
     }

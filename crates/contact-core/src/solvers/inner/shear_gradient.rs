@@ -4,7 +4,8 @@
 //! on the cells taken to stick, while slip cells follow their slip, eq. (20); then cells beyond
 //! the bound are cut to it and slip, those that fall inside stick, the stick cells share the
 //! missing force. No preconditioner, no Newton steps: the baseline that
-//! [`tangential`](super::tangential()) is measured against.
+//! [`tangential`](super::tangential()) is measured against. Where its sets cycle, projected gradients, of
+//! which every step goes down, take over for some iterations.
 
 use super::admissible;
 use super::projected_gradient::ProjectedGradient;
@@ -38,6 +39,11 @@ impl GradientBuffers {
     }
 }
 
+/// Iterations without a smaller misfit after which the sets are taken to cycle.
+const PATIENCE: usize = 30;
+/// Iterations of projected gradients then: what a contact of some fifty cells across takes to the tolerance.
+const DESCENT: usize = 200;
+
 /// Solves for the shear. On entry it must be admissible.
 pub(crate) fn shear_gradient(
     response: &mut Response<'_>,
@@ -52,13 +58,22 @@ pub(crate) fn shear_gradient(
     ws.make_room(cells);
     let mut info = TangentialInfo::default();
     let mut last_product = 0.0;
+    let (mut least, mut stalled) = (f64::INFINITY, 0);
     loop {
-        info.shift = first_shift(problem, shear);
+        if stalled < PATIENCE {
+            info.shift = first_shift(problem, shear);
+        } else {
+            info.shift = descent.run(response, problem, shear, DESCENT);
+            info.passes += DESCENT;
+            (least, stalled, last_product) = (f64::INFINITY, 0, 0.0);
+        }
         let (misfit, product) = misfit(problem, shear, info.shift);
         info.misfit = misfit;
         if misfit <= params.tolerance {
             return Ok(info);
         }
+        stalled = if misfit < least { 0 } else { stalled + 1 };
+        least = least.min(misfit);
         if info.iterations == params.max_iterations || response.stopped() {
             return Err(SolverError {
                 solver: "tangential",
@@ -117,7 +132,9 @@ pub(crate) fn shear_gradient(
                     step * ws.direction[c][n]
                 };
             }
-            shear.slip[n] = g > 0.0 && size([shear.q[0][n], shear.q[1][n]]) > g;
+            if g > 0.0 {
+                shear.slip[n] = size([shear.q[0][n], shear.q[1][n]]) > g;
+            }
         }
         admissible(problem, &mut shear.q, shear.slip);
         for c in 0..2 {

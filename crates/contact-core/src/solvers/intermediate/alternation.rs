@@ -23,7 +23,7 @@ pub(super) fn alternate(
     ws: &mut AlternationWorkspace,
     params: &AlternationParams,
 ) -> Result<AlternationInfo, SolverError> {
-    let friction = problem.mu.iter().any(|&mu| mu > 0.0);
+    let friction = problem.friction;
     let coupled = response.op.is_coupled() && friction;
     let gap = problem.normal_problem();
     let mut info = AlternationInfo::default();
@@ -43,7 +43,7 @@ pub(super) fn alternate(
         let found = normal(response, &gap, p, u_z, &mut ws.normal, &params.normal)?;
         info.normal_iterations += found.iterations;
         info.approach = found.motion;
-        if !friction || now.p.iter().all(|&p| p <= 0.0) {
+        if !friction {
             return Ok(info);
         }
 
@@ -52,6 +52,7 @@ pub(super) fn alternate(
             copy(q, before);
         }
         if found.iterations > 0 {
+            (ws.lifted).find(info.alternations, problem.mu, &ws.p_before, now);
             sliding = bring_within_bound(problem, no_slip, now, ws);
             follow_pressure(response, now, ws, coupled);
         }

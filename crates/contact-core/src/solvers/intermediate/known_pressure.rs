@@ -1,7 +1,7 @@
 //! Shear for known pressure: the bound mu p, the sliding that the loads may drive, the tangential solver.
 
 use super::problem::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};
-use crate::cells::{add, set, size};
+use crate::cells::{add, set, set_cells, size};
 use crate::convolution::{Displacements, Tractions};
 use crate::plan::TangentialMethod;
 use crate::solvers::inner::{
@@ -17,7 +17,7 @@ const STALLED: usize = 5;
 const UNSETTLED: usize = 3;
 
 /// Brings the shear within the bound mu p of the present pressure and to the loads asked for; how near
-/// these are to sliding.
+/// these are to sliding. Cells in contact that have no friction slip; cells out of contact carry nothing.
 pub(super) fn bring_within_bound(
     problem: &IncrementProblem<'_>,
     no_slip: &NoSlip<'_>,
@@ -26,6 +26,15 @@ pub(super) fn bring_within_bound(
 ) -> Sliding {
     set([problem.mu, &now.p], [&mut ws.bound], |_, [mu, p], _| {
         [friction_bound(mu, p)]
+    });
+    ws.lifted.limit(&mut ws.bound);
+    let (p, bound) = (&now.p, &ws.bound);
+    set_cells(&mut now.slip, |n, slips| {
+        if bound[n] > 0.0 {
+            slips && bound[n].is_finite()
+        } else {
+            p[n] > 0.0
+        }
     });
     let shear = problem.tangential_problem(&ws.bound, no_slip.displacement());
     let slides = sliding(&shear);
@@ -93,6 +102,11 @@ pub(super) fn shear_for_known_pressure(
     if info.alternations == 1 {
         let shear = problem.tangential_problem(&ws.bound, no_slip.displacement());
         info.shift = first_shift(&shear, &now.shear());
+    }
+    if ws.bound.iter().all(|&bound| bound <= 0.0) {
+        // Nothing carries shear, and nothing holds a motion that is free.
+        info.shift = problem.tangential.given;
+        return Ok(());
     }
     if follow_the_turn(response, problem, no_slip, now, ws, params, info) {
         return Ok(());

@@ -3,6 +3,7 @@
 mod alternation;
 mod anderson;
 mod known_pressure;
+mod lifted;
 mod precision;
 mod problem;
 

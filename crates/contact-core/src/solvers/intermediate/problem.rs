@@ -1,6 +1,7 @@
 //! What the intermediate loop is given, works on and ends with.
 
 use super::anderson::Anderson;
+use super::lifted::Lifted;
 use crate::cells::{Arms, Drive, copy, set};
 use crate::solvers::Interface;
 use crate::solvers::Response;
@@ -14,6 +15,8 @@ use crate::solvers::inner::{
 pub struct IncrementProblem<'a> {
     /// Gap between the undeformed surfaces h_init \[m\].
     pub h_init: &'a [f64],
+    /// Whether there is friction anywhere on the load path; without it only the normal problem is solved.
+    pub friction: bool,
     /// Friction coefficient of each cell.
     pub mu: &'a [f64],
     /// Where the cells are.
@@ -115,6 +118,8 @@ pub struct AlternationWorkspace {
     /// Tractions q_x, q_y, p at the last convolution in double precision.
     pub(super) evaluated: [Vec<f64>; 3],
     pub(super) anderson: Anderson,
+    /// Cells that stick without a limit and that their shear would lift.
+    pub(super) lifted: Lifted,
     /// Passes in which u_0 did not settle.
     pub(super) unsettled: usize,
 }
@@ -134,8 +139,14 @@ impl AlternationWorkspace {
             response: pair(),
             evaluated: [field(), field(), field()],
             anderson: Anderson::new(cells),
+            lifted: Lifted::default(),
             unsettled: 0,
         }
+    }
+
+    /// Begins another increment, which may take several solutions.
+    pub(crate) fn begin_increment(&mut self) {
+        self.lifted.clear();
     }
 
     /// Computes the displacements of a guess in double precision.

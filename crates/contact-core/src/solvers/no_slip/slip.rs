@@ -1,14 +1,21 @@
 //! The slip of a cell, eq. (7), and how far it is from opposing the shear, eq. (20).
 
+use crate::cells::size;
+
 /// The slip increment of a cell \[m\], eq. (7), of the displacement u, with the displacement that means
 /// no slip u_0 and the rigid motion B d(delta).
 pub fn slip(u: [f64; 2], u_0: [f64; 2], rigid: [f64; 2]) -> [f64; 2] {
     [u[0] - u_0[0] - rigid[0], u[1] - u_0[1] - rigid[1]]
 }
 
-/// The part of a slip that does not oppose the shear `q`, which is at its `bound` \[m\].
-pub fn not_opposite(slip: [f64; 2], q: [f64; 2], bound: f64) -> [f64; 2] {
-    let e = q.map(|q| q / bound.max(f64::MIN_POSITIVE));
+/// The part of a slip that does not oppose the shear `q` \[m\]; none of it where friction bears nothing and
+/// any slip will do.
+pub fn not_opposite(slip: [f64; 2], q: [f64; 2]) -> [f64; 2] {
+    let size = size(q);
+    if size == 0.0 {
+        return [0.0; 2];
+    }
+    let e = q.map(|q| q / size);
     let along = (slip[0] * e[0] + slip[1] * e[1]).min(0.0);
     [slip[0] - along * e[0], slip[1] - along * e[1]]
 }

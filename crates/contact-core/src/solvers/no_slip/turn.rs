@@ -59,6 +59,9 @@ pub(super) fn turn(
 ) -> Option<([f64; 2], f64)> {
     let at = |q: &[Vec<f64>; 2]| [q[0][n], q[1][n]];
     let end = at(&now.q);
+    if size(end) == 0.0 {
+        return None;
+    }
     let (begin, w) = match last.slip[n] {
         true if earlier.p[n] <= 0.0 => return None,
         true => (at(&last.q), GOES_ON),
