@@ -112,14 +112,20 @@ pub(crate) struct Audit {
 impl Audit {
     pub(crate) fn new(scene: &Scene) -> Self {
         let plan = Plan::new(scene);
+        let h_init = scene.h_init();
+        // The bodies just touch.
+        let touching = h_init.iter().copied().fold(f64::INFINITY, f64::min);
         Self {
-            h_init: scene.h_init(),
+            h_init,
             misfit: Misfit::of(scene),
             coupling: plan.coupling,
             response: Response::new(scene, &plan),
             start: End {
                 fields: unloaded(scene),
-                motion: Motion::default(),
+                motion: Motion {
+                    delta_z: touching,
+                    ..Motion::default()
+                },
                 loads: Loads::default(),
             },
             rest: Rest::new(scene),
