@@ -51,25 +51,27 @@ pub(super) fn reach(
 
 /// What in the physics makes an increment hard that did not converge, as the end of a sentence.
 pub(super) fn why(problem: &Problem, domain: &Domain) -> String {
-    let mut why = String::new();
+    let mut parts = Vec::new();
     if domain.is_spent() {
-        why += &format!("; {CONVOLUTIONS} convolutions are the most for an increment");
+        parts.push(format!(
+            "; {CONVOLUTIONS} convolutions are the most for an increment"
+        ));
     }
     let friction = &problem.scene.friction;
     if problem.scene.settings.solver.preset == Preset::Spinu2020 {
-        why += "; the preset spinu2020 is the method of the paper, for comparison";
+        parts.push("; the preset spinu2020 is the method of the paper, for comparison".to_owned());
     } else if problem.plan.coupling && friction.mu.is_infinite() {
-        why += "; friction without a limit holds cells that shear would lift: a finite mu lets them slip";
+        parts.push("; friction without a limit holds cells that shear would lift: a finite mu lets them slip".to_owned());
     } else if problem.plan.coupling && friction.mu > 0.0 {
         let outermost = |body: &Body| body.coatings.first().map_or(body.substrate, |c| c.material);
         let scene = &problem.scene;
         let beta = dundurs_beta(outermost(&scene.body1), outermost(&scene.body2));
         let product = friction.mu * beta.abs();
-        why += &format!(
+        parts.push(format!(
             "; mu times Dundurs' beta of the surfaces is {product:.2}: the larger it is, the less a solution is certain"
-        );
+        ));
     }
-    why
+    parts.concat()
 }
 
 fn stalled(ended: &Result<Increment, Failure>) -> bool {
