@@ -2210,7 +2210,7 @@ class NoConvergenceError(RuntimeError):
     """A solver stopped before its tolerance; the message gives the residual reached."""
 
 class SlidingError(RuntimeError):
-    """The loads are more than friction can carry, or nothing carries them; give the motion instead."""
+    """Loads that friction cannot carry, or that nothing carries; give the motion instead."""
 
 class KernelInaccurateError(RuntimeError):
     """Influence or stress coefficients missed the tolerance asked for."""

@@ -29,7 +29,7 @@ create_exception!(
     pyfret,
     SlidingError,
     PyRuntimeError,
-    "The loads are more than friction can carry, or nothing carries them; give the motion instead."
+    "Loads that friction cannot carry, or that nothing carries; give the motion instead."
 );
 create_exception!(
     pyfret,
