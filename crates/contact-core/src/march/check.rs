@@ -90,8 +90,10 @@ pub(super) fn residuals(
         ..Residuals::default()
     };
     let rms = |squares: f64, count: f64| (squares / count.max(1.0)).sqrt();
-    r.gap = rms(gap_squares, contact) / approach;
-    r.penetration = overlap / approach;
+    // Where nothing ever presses there is no approach to measure by.
+    let over_approach = |length: f64| if length > 0.0 { length / approach } else { 0.0 };
+    r.gap = over_approach(rms(gap_squares, contact));
+    r.penetration = over_approach(overlap);
     if slipped > 0.0 {
         r.angle = (direction / slipped).sqrt().min(1.0).asin();
     }
