@@ -14,7 +14,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup constants ablation stub demo figure-13 loads validation test stress path-errors error-bars kill memory fuzz deny check format bench bench-kernels bench-stress bench-peers clean
+.PHONY: help setup constants ablation stub demo figure-13 loads validation test stress path-errors error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -67,9 +67,16 @@ memory: ## what runs allocate against what `fret check` announces; the numbers g
 	FRET_MEMORY=1024 FRET_MEMORY_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package contact-core --test memory -- --nocapture
 
-kill: ## a hundred kills of a running solve, and what checkpoints cost; the numbers go to docs/reliability.md
+kill: ## a hundred kills of a running solve and of a run of wear, and what checkpoints cost; the numbers go to docs/reliability.md
 	FRET_KILLS=100 FRET_KILL_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package fret-cli --test kill -- --nocapture --test-threads=1
+
+wear: ## 300 random runs of wear, audited, and partial slip fully worn on 256 x 256 cells
+	FRET_WEAR=300 FRET_WEAR_CELLS=256 cargo test --release --locked --package contact-core --test wear -- \
+		--nocapture --test-threads=1 random partial_slip
+
+wear-jumps: ## implicit and explicit jumps over cycles: what they cost and miss
+	cargo run --release --locked --package contact-core --example wear_jumps -- scenes/wear_coated.toml
 
 check: setup ## formats, lints, circles of imports, types, spelling
 	cargo fmt --all --check

@@ -51,6 +51,21 @@ pub enum Error {
         /// Recommended length \[m\].
         needed: f64,
     },
+    /// The worn contact reaches the border of the grid.
+    #[error(
+        "after {cycles:.6e} cycles the worn contact reaches the border of the grid, or slides over it; \
+         the grid is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide"
+    )]
+    WornOffGrid {
+        /// Cycles up to which all is well.
+        cycles: f64,
+        /// Length of the grid along x \[m\].
+        extent_x: f64,
+        /// Length of the grid along y \[m\].
+        extent_y: f64,
+        /// Recommended length \[m\].
+        needed: f64,
+    },
     /// The contact is certain to leave the grid, before anything is solved.
     #[error(
         "the contact does not fit on the grid: under W = {W} N its radius is {a:.4e} m at least; the grid \

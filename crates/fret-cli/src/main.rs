@@ -10,6 +10,7 @@ mod failure;
 mod json;
 mod loads;
 mod new;
+mod out;
 mod progress;
 mod python;
 mod resume;
@@ -18,6 +19,7 @@ mod scene_options;
 mod stress;
 mod summary;
 mod terminal;
+mod threads;
 mod wear;
 mod words;
 
@@ -54,7 +56,8 @@ enum Command {
     New(new::Options),
     /// Run through the load path of a scene and write a result store
     Run(run::Options),
-    /// Go on with a run that ended early; the result is that of the uninterrupted run, bit by bit
+    /// Go on with a run that ended early, through a load path or over cycles of wear; the result is
+    /// that of the uninterrupted run, bit by bit
     Resume(resume::Options),
     /// Say what a scene means and what its solution needs; solve nothing
     Check(check::Options),

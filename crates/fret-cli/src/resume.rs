@@ -3,11 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use contact_core::output::{Resumed, resume as take_up};
+use contact_core::Error;
+use contact_core::output::{Resumed, WearStore, resume as take_up};
 
 use crate::failure::Failure;
 use crate::run::Manner;
 use crate::terminal::say;
+use crate::wear;
 
 /// Options of `fret resume`.
 #[derive(Args)]
@@ -20,7 +22,19 @@ pub(crate) struct Options {
 
 /// Goes on with a run.
 pub(crate) fn resume(options: &Options) -> Result<(), Failure> {
-    options.manner.use_threads();
+    let manner = &options.manner;
+    manner.threads.settle();
+    if WearStore::is_at(&options.store) {
+        if manner.json || manner.wide {
+            let allowed = "for runs through a load path; this store is one of wear";
+            return Err(Failure::BadInput(Error::invalid(
+                "option",
+                if manner.json { "--json" } else { "--wide" },
+                allowed,
+            )));
+        }
+        return wear::resume(&options.store, None, manner.quiet);
+    }
     let Some(Resumed {
         march,
         writer,
@@ -32,8 +46,7 @@ pub(crate) fn resume(options: &Options) -> Result<(), Failure> {
     };
     let scene = march.scene().clone();
     let before = increments.clone();
-    options
-        .manner
+    manner
         .watch(&scene, &options.store, writer, increments, |watcher| {
             march.run(before, watcher)
         })

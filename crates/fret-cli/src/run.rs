@@ -1,6 +1,6 @@
 //! `fret run`.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -12,9 +12,11 @@ use contact_core::output::{StoreWriter, write_error_bars};
 use contact_core::{Error, Scene};
 
 use crate::failure::Failure;
+use crate::out::Out;
 use crate::progress::Progress;
 use crate::scene_options::{SceneOptions, say_doubts};
 use crate::terminal::{print, say};
+use crate::threads::Threads;
 use crate::{json, summary};
 
 /// Options of `fret run`.
@@ -22,12 +24,8 @@ use crate::{json, summary};
 pub(crate) struct Options {
     #[command(flatten)]
     scene: SceneOptions,
-    /// Result store to write (a Zarr folder)
-    #[arg(short, long, value_name = "STORE")]
-    out: PathBuf,
-    /// Replace a result store that exists
-    #[arg(long)]
-    overwrite: bool,
+    #[command(flatten)]
+    out: Out,
     /// Run the path again on coarser and finer grids and with fewer increments, for some times as
     /// long, and give every headline number with the error that cells, increments and solver leave
     #[arg(long)]
@@ -43,18 +41,17 @@ pub(crate) struct Manner {
     /// ends of branches: what a crash may lose
     #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
     checkpoint: Duration,
-    /// Number of threads (default: one per core); the result does not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) threads: Threads,
     /// Print the summary as one JSON object, for programs
     #[arg(long, conflicts_with = "quiet")]
-    json: bool,
+    pub(crate) json: bool,
     /// A summary with the work of the solvers, wider than 100 columns
     #[arg(long, conflicts_with_all = ["quiet", "json"])]
-    wide: bool,
+    pub(crate) wide: bool,
     /// Show neither progress nor summary
     #[arg(short, long)]
-    quiet: bool,
+    pub(crate) quiet: bool,
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {
@@ -64,6 +61,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
 
 /// Runs through the load path.
 pub(crate) fn run(options: &Options) -> Result<(), Failure> {
+    let out = &options.out.path;
     let scene = options.scene.read().map_err(Failure::BadInput)?;
     scene.check_fit().map_err(Failure::BadInput)?;
     say_doubts(&scene);
@@ -71,11 +69,11 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
         coarsest(&scene).map_err(Failure::BadInput)?;
     }
     let manner = &options.manner;
-    manner.use_threads();
+    manner.threads.settle();
     let scene = choose_increments(&scene, &Arc::default()).map_err(ended)?;
-    let writer = StoreWriter::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
+    let writer = StoreWriter::create(out, options.out.overwrite).map_err(Failure::BadInput)?;
     let (mut increments, mut tractions) = (Vec::new(), Vec::new());
-    let stop = manner.watch(&scene, &options.out, writer, Vec::new(), |watcher| {
+    let stop = manner.watch(&scene, out, writer, Vec::new(), |watcher| {
         let mut ends = BranchEnds::beside(watcher);
         increments = solve(&scene, &mut ends)?;
         tractions = ends.tractions;
@@ -83,7 +81,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
     })?;
     if options.error {
         let bars = error_bars(&scene, &increments, &tractions, &stop).map_err(ended)?;
-        write_error_bars(&options.out, &bars).map_err(ended)?;
+        write_error_bars(out, &bars).map_err(ended)?;
         if !manner.quiet && !manner.json {
             print(&summary::error_table(&scene, &increments, &bars));
         }
@@ -92,17 +90,6 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
 }
 
 impl Manner {
-    /// Settles the number of threads, before the first use of the pool. This one is among them: to
-    /// hand an increment to another and wait for it takes longer than a small one is worked on.
-    pub(crate) fn use_threads(&self) {
-        // The pool has no other user in this process, so it cannot have been built before. Zero
-        // means one thread per core.
-        let _ = rayon::ThreadPoolBuilder::new()
-            .num_threads(self.threads.unwrap_or(0).into())
-            .use_current_thread()
-            .build_global();
-    }
-
     /// Watches a run of the scene into the store `out` that has done `increments` already, and
     /// says how it ended. Returns the flag that Ctrl-C raises.
     pub(crate) fn watch(

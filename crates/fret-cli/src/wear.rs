@@ -1,6 +1,6 @@
 //! `fret wear`.
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -8,14 +8,16 @@ use std::time::Instant;
 use clap::Args;
 use contact_core::Error;
 use contact_core::output::{WearStore, resume_wear};
-use contact_core::scene::Reach;
+use contact_core::scene::{Reach, Scene};
 use contact_core::wear::{Event, EventKind, Jump, Wear, WearRun};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
+use crate::out::Out;
 use crate::run::stop_on_interrupt;
 use crate::scene_options::SceneOptions;
 use crate::terminal::{print, say};
+use crate::threads::Threads;
 
 const TEMPLATE: &str = "{bar:20} {pos}/{len} cycles, {elapsed} elapsed, {eta} left  {msg}";
 
@@ -24,15 +26,13 @@ const TEMPLATE: &str = "{bar:20} {pos}/{len} cycles, {elapsed} elapsed, {eta} le
 pub(crate) struct Options {
     #[command(flatten)]
     scene: SceneOptions,
-    /// Result store to write (a Zarr folder)
-    #[arg(short, long, value_name = "STORE")]
-    out: PathBuf,
-    /// Replace a result store that exists
-    #[arg(long)]
-    overwrite: bool,
+    #[command(flatten)]
+    out: Out,
     /// Go on with a run of this scene that ended early, in its store
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
+    #[command(flatten)]
+    threads: Threads,
     /// Show neither progress nor summary
     #[arg(short, long)]
     quiet: bool,
@@ -40,8 +40,7 @@ pub(crate) struct Options {
 
 /// Wears the surfaces of a scene.
 pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
-    let kept = Arc::new(AtomicBool::new(options.resume));
-    let stop = stop_on_interrupt(&kept);
+    options.threads.settle();
     let reach = if options.scene.allow_outside {
         Reach::Anywhere
     } else {
@@ -49,74 +48,100 @@ pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
     };
     let read = Wear::from_file(&options.scene.scene, &options.scene.settings, reach);
     let (scene, wear) = read.map_err(Failure::BadInput)?;
-    let (mut run, mut store) = if options.resume {
-        let found = resume_wear(&options.out, Some((&scene, &wear)), &stop);
-        let Some(found) = found.map_err(Failure::BadInput)? else {
-            say(&format!("fret: {} is done", options.out.display()));
-            return Ok(());
-        };
-        found
-    } else {
-        let store =
-            WearStore::create(&options.out, options.overwrite).map_err(Failure::BadInput)?;
-        (WearRun::new(&scene, &wear, &stop).map_err(ended)?, store)
-    };
-    let begun = Instant::now();
-    let bar = if options.quiet {
-        ProgressBar::hidden()
-    } else {
-        ProgressBar::new(run.wear().cycles as u64)
-    };
-    if let Ok(style) = ProgressStyle::with_template(TEMPLATE) {
-        bar.set_style(style);
+    let out = &options.out.path;
+    if options.resume {
+        return resume(out, Some((&scene, &wear)), options.quiet);
     }
+    let kept = Arc::new(AtomicBool::new(false));
+    let stop = stop_on_interrupt(&kept);
+    let store = WearStore::create(out, options.out.overwrite).map_err(Failure::BadInput)?;
+    let run = WearRun::new(&scene, &wear, &stop).map_err(ended)?;
+    to_end(run, store, out, &kept, options.quiet)
+}
+
+/// Goes on with the run of a store, which is that of a scene and its wear where they are given.
+pub(crate) fn resume(out: &Path, of: Option<(&Scene, &Wear)>, quiet: bool) -> Result<(), Failure> {
+    let kept = Arc::new(AtomicBool::new(true));
+    let stop = stop_on_interrupt(&kept);
+    match resume_wear(out, of, &stop).map_err(Failure::BadInput)? {
+        Some((run, store)) => to_end(run, store, out, &kept, quiet),
+        None => {
+            say(&format!("fret: {} is done", out.display()));
+            Ok(())
+        }
+    }
+}
+
+/// Jump by jump into the store, with a bar and a summary; raises `kept` once there is something.
+fn to_end(
+    mut run: WearRun,
+    mut store: WearStore,
+    out: &Path,
+    kept: &AtomicBool,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let begun = Instant::now();
+    let bar = bar(run.wear().cycles, quiet);
     let mut told = run.state().events.len();
+    let mut step = || -> Option<Result<(), Error>> {
+        let jump = match run.advance()? {
+            Ok(jump) => jump,
+            Err(error) => return Some(Err(error)),
+        };
+        let deepest = jump.depth[0].max(jump.depth[1]);
+        bar.set_position(jump.cycles as u64);
+        bar.set_message(format!("{:.3} um deep", 1e6 * deepest));
+        for event in &run.state().events[told..] {
+            bar.suspend(|| say(&told_of(event)));
+        }
+        told = run.state().events.len();
+        let written = store.write(&mut run);
+        kept.store(
+            written.is_ok() || kept.load(Ordering::Relaxed),
+            Ordering::Relaxed,
+        );
+        Some(written)
+    };
     let outcome = loop {
-        match run.advance() {
+        match step() {
             None => break Ok(()),
+            Some(Ok(())) => {}
             Some(Err(error)) => break Err(error),
-            Some(Ok(jump)) => {
-                bar.set_position(jump.cycles as u64);
-                bar.set_message(format!(
-                    "{:.3} um deep",
-                    1e6 * jump.depth[0].max(jump.depth[1])
-                ));
-                for event in &run.state().events[told..] {
-                    bar.suspend(|| say(&told_of(event)));
-                }
-                told = run.state().events.len();
-                if let Err(error) = store.write(&mut run) {
-                    break Err(error);
-                }
-                kept.store(true, Ordering::Relaxed);
-            }
         }
     };
     bar.finish_and_clear();
+    let jumps = run.history();
+    if jumps.is_empty() {
+        return outcome.map_err(ended);
+    }
     let status = outcome
         .as_ref()
-        .err()
-        .map_or("done".to_owned(), ToString::to_string);
-    if !run.history().is_empty() {
-        store.finish(&run, &status).map_err(ended)?;
-        if !options.quiet {
-            print(&table(run.history()));
-            say(&format!(
-                "{} jumps in {:.1} s",
-                run.history().len(),
-                begun.elapsed().as_secs_f64()
-            ));
-        }
+        .map_or_else(ToString::to_string, |()| "done".to_owned());
+    store.finish(&run, &status).map_err(ended)?;
+    if !quiet {
+        print(&table(jumps));
+        let seconds = begun.elapsed().as_secs_f64();
+        say(&format!("{} jumps in {seconds:.1} s", jumps.len()));
     }
     outcome.map_err(|error| {
-        if !run.history().is_empty() {
-            let out = options.out.display();
-            say(&format!(
-                "fret: what is done is kept in {out}; `fret wear ... --resume` goes on from there"
-            ));
-        }
-        ended(error)
+        say(&format!(
+            "fret: what is done is kept in {}; `fret resume` goes on from there",
+            out.display()
+        ));
+        Failure::EndedEarly(error)
     })
+}
+
+fn bar(cycles: f64, quiet: bool) -> ProgressBar {
+    let bar = if quiet {
+        ProgressBar::hidden()
+    } else {
+        ProgressBar::new(cycles as u64)
+    };
+    match ProgressStyle::with_template(TEMPLATE) {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
 }
 
 /// What an error means for the exit code.
@@ -160,12 +185,8 @@ fn table(jumps: &[Jump]) -> String {
     )];
     let every = jumps.len().div_ceil(20);
     let last = jumps.len() - 1;
-    for (i, j) in jumps
-        .iter()
-        .enumerate()
-        .filter(|(i, _)| i % every == 0 || *i == last)
-    {
-        let _ = i;
+    let shown = (0..=last).filter(|i| i % every == 0 || *i == last);
+    for j in shown.map(|i| &jumps[i]) {
         lines.push(format!(
             "{:12.1} {:11.4} {:11.4} {:12.4e} {:12.4e} {:12.4e} {:10.1} {:8.1e}",
             j.cycles,

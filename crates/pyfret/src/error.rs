@@ -51,7 +51,9 @@ pub(crate) fn to_python(error: Error) -> PyErr {
         Error::InvalidScene { .. } | Error::SceneFile { .. } | Error::Setting { .. } => {
             InvalidSceneError::new_err(text)
         }
-        Error::OffGrid { .. } | Error::GridTooSmall { .. } => OffGridError::new_err(text),
+        Error::OffGrid { .. } | Error::WornOffGrid { .. } | Error::GridTooSmall { .. } => {
+            OffGridError::new_err(text)
+        }
         Error::BeyondFriction { .. } | Error::Unresisted { .. } => SlidingError::new_err(text),
         Error::NotConverged { .. } => NoConvergenceError::new_err(text),
         Error::KernelInaccurate { .. } | Error::StressInaccurate { .. } => {

@@ -28,6 +28,7 @@ mod schema;
 mod stress_store;
 mod variable;
 mod volume;
+mod wear_checkpoint;
 mod wear_store;
 mod writer;
 

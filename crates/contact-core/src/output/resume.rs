@@ -9,10 +9,12 @@ use serde_json::json;
 use super::catalogue::{FIELDS, Kind};
 use super::checkpoint::{Checkpoints, Found};
 use super::consolidated::Consolidated;
+use super::folder::Folder;
 use super::open::Open;
 use super::place::{mend, place};
 use super::reader::Store;
 use super::variable::Column;
+use super::wear_store::WearStore;
 use super::writer::StoreWriter;
 use crate::error::Error;
 use crate::march::{Increment, March};
@@ -44,6 +46,10 @@ pub fn resume(
     let stop = stop.cloned().unwrap_or_default();
     let path = place(path.as_ref())?;
     mend(&path);
+    if WearStore::is_at(&path) {
+        let message = "holds a run of wear: `fret resume` or pyfret.resume_wear goes on with it";
+        return Err(Folder::new(&path).error(&message));
+    }
     let store = Store::open(&path)?;
     if Checkpoints::in_use(store.folder()) {
         return Err(store.folder().error(&"is being written by another process"));

@@ -1,9 +1,9 @@
 //! A run of wear as a Zarr group: scalars over `jump`, fields over `block`, `x`, `y`, the friction loops
 //! of the blocks over `block`, `corner`.
 //!
-//! Beside the arrays the file `checkpoint/wear` holds the state after the last jump, with a checksum:
-//! [`resume_wear`] goes on from there. Fields of later blocks that a killed process has left are written
-//! again with the same bytes.
+//! Beside the arrays lies the state after the last jump ([`wear_checkpoint`](super::wear_checkpoint)), from
+//! which [`resume_wear`] goes on. Fields of later blocks that a killed process has left are written again
+//! with the same bytes.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,13 +17,10 @@ use super::place::{Unfinished, mend};
 use super::reader::Store;
 use super::schema::SCHEMA;
 use super::variable::{Column, Variable};
+use super::wear_checkpoint::{read_checkpoint, write_checkpoint};
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::wear::{Block, EventKind, Jump, Wear, WearRun, WearState};
-
-const CHECKPOINT: &str = "checkpoint/wear";
-/// The first bytes of a checkpoint; the number is that of the layout.
-const MAGIC: &[u8] = b"fret wear checkpoint 1\n";
+use crate::wear::{Block, EventKind, Jump, Wear, WearRun};
 
 type Scalar = (&'static str, &'static str, &'static str, fn(&Jump) -> f64);
 
@@ -113,6 +110,13 @@ impl WearStore {
             folder: None,
             kept: Vec::new(),
         })
+    }
+
+    /// Whether there is a run of wear at `path`.
+    pub fn is_at(path: impl AsRef<Path>) -> bool {
+        let text = Folder::new(path.as_ref()).read(".zattrs");
+        let attributes = text.ok().flatten().map(|t| serde_json::from_slice(&t));
+        attributes.is_some_and(|read: Result<Value, _>| read.is_ok_and(|a| a.get("wear").is_some()))
     }
 
     /// Keeps a block where the run says so, every scalar, and the state.
@@ -317,43 +321,6 @@ fn attributes(run: &WearRun, status: &str) -> Value {
         "coordinates": "cycles block_cycles",
         "status": status,
     })
-}
-
-fn write_checkpoint(folder: &Arc<Folder>, state: &WearState, kept: &[f64]) -> Result<(), Error> {
-    let failed = |e: &dyn std::fmt::Display| folder.error(&format!("{CHECKPOINT}: {e}"));
-    let mut bytes = MAGIC.to_vec();
-    let content =
-        postcard::to_stdvec(&(env!("CARGO_PKG_VERSION"), state, kept)).map_err(|e| failed(&e))?;
-    bytes.extend(crc32fast::hash(&content).to_le_bytes());
-    bytes.extend(content);
-    std::fs::create_dir_all(folder.root().join("checkpoint")).map_err(|e| failed(&e))?;
-    let write = |mut file: &std::fs::File| std::io::Write::write_all(&mut file, &bytes);
-    folder
-        .write_durably(CHECKPOINT, write)
-        .map_err(|e| failed(&e))
-}
-
-fn read_checkpoint(folder: &Arc<Folder>) -> Result<(WearState, Vec<f64>), Error> {
-    let damaged = |why: &str| folder.error(&format!("{CHECKPOINT} {why}"));
-    let bytes = folder
-        .read(CHECKPOINT)
-        .map_err(|e| damaged(&e.to_string()))?;
-    let bytes = bytes.ok_or_else(|| damaged("is missing"))?;
-    let rest = bytes
-        .strip_prefix(MAGIC)
-        .ok_or_else(|| damaged("is of another layout"))?;
-    let (crc, content) = rest
-        .split_at_checked(4)
-        .ok_or_else(|| damaged("is cut off"))?;
-    if crc != crc32fast::hash(content).to_le_bytes() {
-        return Err(damaged("is damaged: its checksum differs"));
-    }
-    let decoded: Result<(String, WearState, Vec<f64>), _> = postcard::from_bytes(content);
-    let (version, state, kept) = decoded.map_err(|e| damaged(&e.to_string()))?;
-    if version != env!("CARGO_PKG_VERSION") {
-        return Err(damaged(&format!("is of version {version}")));
-    }
-    Ok((state, kept))
 }
 
 /// Takes up a run of wear where its store left it, to the same bytes; `None` if it is done. Fails

@@ -17,6 +17,9 @@ pub struct Block {
     /// Pressure \[Pa\]: of a march the mean of the cycle, each increment weighted with what it
     /// dissipates; in gross slip that in the middle of the stroke.
     pub p: Array2<f64>,
+    /// Shift of body 1 against body 2 along x at which p acts and the two worn surfaces lie \[m\]; zero in
+    /// a march.
+    pub shift: f64,
     /// Contact cells that slip nowhere in the cycle; none in gross slip.
     pub stick: Array2<bool>,
     /// Friction loop of one cycle: shift delta_x \[m\], force T_x \[N\], shift delta_y, force T_y, at the
@@ -44,6 +47,7 @@ impl WearRun {
             worn1: whole(worn1),
             worn2: whole(worn2),
             p: whole(seen.p),
+            shift: seen.shift,
             stick,
             friction_loop: seen.corners,
         }

@@ -150,6 +150,7 @@ impl Marched {
         if !implicit {
             return Ok(self.loss(n, &rates, &p));
         }
+        self.pressing.begin();
         let mut last: Option<Vec<f64>> = None;
         for correction in 0..=CORRECTIONS {
             let cells = self.h.len();

@@ -27,10 +27,32 @@ pub(crate) enum ModelState {
     Marched(Box<MarchedState>),
 }
 
+impl ModelState {
+    fn sliding(self) -> Result<Vec<Vec<f64>>, Error> {
+        match self {
+            Self::Sliding(p) => Ok(p),
+            Self::Marched(_) => Err(Self::of_another_way()),
+        }
+    }
+
+    fn marched(self) -> Result<MarchedState, Error> {
+        match self {
+            Self::Sliding(_) => Err(Self::of_another_way()),
+            Self::Marched(state) => Ok(*state),
+        }
+    }
+
+    fn of_another_way() -> Error {
+        Error::invalid("state", "of another way to cycle", "one of this run")
+    }
+}
+
 /// What is to be seen of the last cycle.
 pub(crate) struct Seen<'a> {
     /// Pressure in the middle of the stroke, or the mean one of the cycle \[Pa\].
     pub(crate) p: &'a [f64],
+    /// Shift at which it acts \[m\].
+    pub(crate) shift: f64,
     pub(crate) stick: Option<&'a [bool]>,
     pub(crate) stick_ratio: f64,
     pub(crate) dissipated_per_cycle: f64,
@@ -39,30 +61,24 @@ pub(crate) struct Seen<'a> {
 }
 
 impl Model {
+    /// Solves the first cycle on unworn surfaces, or goes on from a state.
     pub(crate) fn new(
         scene: &Scene,
         wear: &Wear,
         state: Option<ModelState>,
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
-        match (wear.cycling, state) {
-            (Cycling::Sliding, None) => Ok(Self::Sliding(Box::new(Sliding::new(
-                scene, wear, None, stop,
-            )?))),
-            (Cycling::Sliding, Some(ModelState::Sliding(p))) => Ok(Self::Sliding(Box::new(
-                Sliding::new(scene, wear, Some(p), stop)?,
-            ))),
-            (Cycling::March, None) => Ok(Self::Marched(Box::new(Marched::new(
-                scene, wear, None, stop,
-            )?))),
-            (Cycling::March, Some(ModelState::Marched(state))) => Ok(Self::Marched(Box::new(
-                Marched::new(scene, wear, Some(*state), stop)?,
-            ))),
-            _ => Err(Error::invalid(
-                "state",
-                "of another way to cycle",
-                "one of this run",
-            )),
+        match wear.cycling {
+            Cycling::Sliding => {
+                let p = state.map(ModelState::sliding).transpose()?;
+                let sliding = Sliding::new(scene, wear, p, stop)?;
+                Ok(Self::Sliding(Box::new(sliding)))
+            }
+            Cycling::March => {
+                let state = state.map(ModelState::marched).transpose()?;
+                let marched = Marched::new(scene, wear, state, stop)?;
+                Ok(Self::Marched(Box::new(marched)))
+            }
         }
     }
 
@@ -134,6 +150,7 @@ impl Model {
                 let middle = s.middle();
                 Seen {
                     p: &s.p[middle],
+                    shift: s.places[middle].shift,
                     stick: None,
                     stick_ratio: 0.0,
                     dissipated_per_cycle: s.dissipated_per_cycle(),
@@ -149,6 +166,7 @@ impl Model {
                 let area = m.pressing.cell_area();
                 Seen {
                     p: &cycled.p,
+                    shift: 0.0,
                     stick: Some(&cycled.stick),
                     stick_ratio: cycled.stick_ratio,
                     dissipated_per_cycle: cycled.dissipated.iter().sum::<f64>() * area,

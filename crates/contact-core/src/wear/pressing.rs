@@ -13,6 +13,9 @@ use crate::scene::{Grid, Scene};
 use crate::solvers::Response;
 use crate::solvers::inner::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 
+/// An approximate inverse serves as long as the mean compliance is off by no more than this part.
+const ALIKE: f64 = 0.2;
+
 /// The pair of bodies under pressure alone, on the kept cells of the whole grid.
 pub(crate) struct Pressing {
     pub(crate) grid: Grid,
@@ -22,7 +25,7 @@ pub(crate) struct Pressing {
     arms: Arms,
     params: NormalParams,
     workspace: NormalWorkspace,
-    /// The inverse for the compliance that it was last asked for \[m/Pa\].
+    /// The approximate inverse, and the compliance \[m/Pa\] that it is for.
     inverse: Option<(f64, CirculantInverse)>,
     u_z: Vec<f64>,
     stop: Arc<AtomicBool>,
@@ -74,6 +77,12 @@ impl Pressing {
 
     pub(crate) fn cells(&self) -> usize {
         self.u_z.len()
+    }
+
+    /// Begins a jump: what the solutions of one share is nothing of the one before, so that a run that
+    /// is resumed is the same run.
+    pub(crate) fn begin(&mut self) {
+        self.inverse = None;
     }
 
     /// C p \[m\].
@@ -129,11 +138,8 @@ impl Pressing {
         let touching = p.iter().zip(compliance).filter(|(p, _)| **p > 0.0);
         let (sum, count) = touching.fold((0.0, 0.0), |(s, c), (_, d)| (s + d, c + 1.0));
         let mean = sum / f64::max(count, 1.0);
-        if self
-            .inverse
-            .as_ref()
-            .is_none_or(|(d, _)| d.to_bits() != mean.to_bits())
-        {
+        let holds = |d: f64| (mean - d).abs() <= ALIKE * d;
+        if self.inverse.as_ref().is_none_or(|(d, _)| !holds(*d)) {
             self.inverse = Some((mean, inverse(&self.kernel, self.mirror, mean)));
         }
         let mut op = Compliant {

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use serde::{Deserialize, Serialize};
-
-use super::events::{Event, crossing, events};
+use super::events::{crossing, events};
+use super::jump::Jump;
 use super::loss::{Loss, Worn};
-use super::model::{Model, ModelState};
+use super::model::Model;
 use super::settings::{Jumps, Wear, WornThrough};
+use super::state::WearState;
 use crate::error::Error;
 use crate::scene::Scene;
 
@@ -27,63 +27,6 @@ const SHORTEST: f64 = 1e-9;
 /// Tries of a jump: shorter ones for the error, others for the cycle of an event.
 const TRIES: usize = 60;
 
-/// All that the next jump depends on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct WearState {
-    /// Jumps done.
-    pub jumps: usize,
-    /// Cycles done.
-    pub cycles: f64,
-    /// Energy dissipated by friction in them \[J\].
-    pub dissipated: f64,
-    /// What happened to the coatings.
-    pub events: Vec<Event>,
-    pub(crate) worn: Worn,
-    pub(crate) model: ModelState,
-    /// Jumps so far, and the cycles of the last block that is kept.
-    pub(crate) history: Vec<Jump>,
-    pub(crate) kept_at: f64,
-    /// Length of the next jump in cycles.
-    pub(crate) next: f64,
-    /// What extrapolation has added to the worn depth of both bodies in all jumps \[m\].
-    pub(crate) moved: [Vec<f64>; 2],
-    pub(crate) ended: bool,
-}
-
-/// One jump in numbers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Jump {
-    /// Jump, from 1.
-    pub index: usize,
-    /// Cycles at its end, and how many it is long.
-    pub cycles: f64,
-    /// Cycles that it is long.
-    pub length: f64,
-    /// Estimated error of what it adds to the worn depth, root mean square over the depth so far;
-    /// zero for explicit jumps, which have none.
-    pub error: f64,
-    /// The same of the pressure.
-    pub pressure_error: f64,
-    /// Times that it was tried anew.
-    pub retries: usize,
-    /// Volume that body 1 and body 2 have lost so far \[m^3\].
-    pub volume: [f64; 2],
-    /// Deepest worn depth of body 1 and body 2 \[m\].
-    pub depth: [f64; 2],
-    /// Energy dissipated so far \[J\].
-    pub dissipated: f64,
-    /// Energy dissipated in one cycle on the surfaces at the end \[J\].
-    pub dissipated_per_cycle: f64,
-    /// Largest pressure at the end \[Pa\].
-    pub p_max: f64,
-    /// Area of the contact at the end \[m^2\].
-    pub contact_area: f64,
-    /// Area that sticks all through the cycle over that of the contact.
-    pub stick_ratio: f64,
-    /// Estimated error of the deepest depth so far, over it.
-    pub depth_error: f64,
-}
-
 /// A run over all cycles, jump by jump.
 pub struct WearRun {
     pub(crate) scene: Scene,
@@ -98,11 +41,8 @@ impl WearRun {
     pub fn new(scene: &Scene, wear: &Wear, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         scene.check()?;
         wear.check(scene)?;
-        let mut model = Model::new(scene, wear, None, stop)?;
+        let model = Model::new(scene, wear, None, stop)?;
         let worn = Worn::none(model.cells());
-        if matches!(model, Model::Sliding(_)) {
-            model.settle(&worn)?;
-        }
         let mut run = Self {
             state: WearState {
                 jumps: 0,
@@ -188,7 +128,25 @@ impl WearRun {
         if jump.is_err() {
             self.model.restore(&self.state.model);
         }
-        Some(jump)
+        Some(jump.map_err(|error| self.told(error)))
+    }
+
+    /// An error in the words of a run over cycles.
+    fn told(&self, error: Error) -> Error {
+        match error {
+            Error::OffGrid {
+                extent_x,
+                extent_y,
+                needed,
+                ..
+            } => Error::WornOffGrid {
+                cycles: self.state.cycles,
+                extent_x,
+                extent_y,
+                needed,
+            },
+            error => error,
+        }
     }
 
     fn jump(&mut self, left: f64) -> Result<Jump, Error> {
@@ -304,8 +262,14 @@ impl WearRun {
         state.dissipated += tried.loss.dissipated;
         state.next = next;
         state.ended = ends;
-        let jump = self.summary(n, tried, retries);
-        self.state.history.push(jump.clone());
+        let jump = Jump {
+            length: n,
+            error: tried.error,
+            pressure_error: tried.pressure_error,
+            retries,
+            ..state.seen(&self.model)
+        };
+        state.history.push(jump.clone());
         Ok(jump)
     }
 
@@ -335,35 +299,6 @@ impl WearRun {
     /// What wears it.
     pub fn wear(&self) -> &Wear {
         &self.wear
-    }
-
-    fn summary(&self, n: f64, tried: &Tried, retries: usize) -> Jump {
-        let state = &self.state;
-        let area = self.model.pressing().cell_area();
-        let seen = self.model.seen();
-        let touches = seen.p.iter().filter(|p| **p > 0.0).count() as f64;
-        let largest = |field: &[f64]| field.iter().fold(0.0, |m: f64, w| m.max(*w));
-        let moved = state
-            .moved
-            .iter()
-            .flatten()
-            .fold(0.0, |m: f64, e| m.max(e.abs()));
-        Jump {
-            index: state.jumps,
-            cycles: state.cycles,
-            length: n,
-            error: tried.error,
-            pressure_error: tried.pressure_error,
-            retries,
-            volume: [0, 1].map(|b| state.worn.depth[b].iter().sum::<f64>() * area),
-            depth: [0, 1].map(|b| largest(&state.worn.depth[b])),
-            dissipated: state.dissipated,
-            dissipated_per_cycle: seen.dissipated_per_cycle,
-            p_max: largest(seen.p),
-            contact_area: touches * area,
-            stick_ratio: seen.stick_ratio,
-            depth_error: moved / state.worn.deepest().max(f64::MIN_POSITIVE),
-        }
     }
 }
 

@@ -21,6 +21,11 @@ impl Shift {
         }
     }
 
+    /// The shift in cells.
+    pub(crate) fn cells(self) -> f64 {
+        self.whole as f64 + self.part
+    }
+
     /// Adds S times `field`, `factor` times, to `onto`; fields of `rows` cells per column.
     pub(crate) fn put(self, field: &[f64], factor: f64, rows: usize, onto: &mut [f64]) {
         self.pairs(field.len(), rows, |n, m, part| {
@@ -28,10 +33,9 @@ impl Shift {
         });
     }
 
-    /// S^T times `field`.
-    pub(crate) fn read(self, field: &[f64], rows: usize, into: &mut [f64]) {
-        into.fill(0.0);
-        self.pairs(field.len(), rows, |n, m, part| into[n] += part * field[m]);
+    /// Adds S^T times `field` to `onto`.
+    pub(crate) fn read(self, field: &[f64], rows: usize, onto: &mut [f64]) {
+        self.pairs(field.len(), rows, |n, m, part| onto[n] += part * field[m]);
     }
 
     /// The cells n, the cells m where these lie on the other body, and the part of each; what

@@ -29,6 +29,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::law::CellCycle;
 use super::loss::{Loss, Worn};
+use super::on_grid;
 use super::pressing::Pressing;
 use super::settings::{Wear, thicknesses};
 use super::shift::Shift;
@@ -90,7 +91,8 @@ impl Sliding {
             .iter()
             .map(|h| (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt())
             .collect();
-        Ok(Self {
+        let goes_on = state.is_some();
+        let mut sliding = Self {
             shifts: places.iter().map(of).collect(),
             p: state.unwrap_or_else(|| vec![guess; places.len()]),
             places,
@@ -100,15 +102,24 @@ impl Sliding {
             coatings: [thicknesses(&scene.body1), thicknesses(&scene.body2)],
             mu: scene.friction.mu,
             h,
-        })
+        };
+        if !goes_on {
+            let worn = Worn::none(sliding.h.len());
+            sliding.settle(&worn)?;
+        }
+        Ok(sliding)
     }
 
     /// Solves the pressures at all places of surfaces worn so far.
     pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
+        self.pressing.begin();
         let none = vec![0.0; self.h.len()];
+        let mut h = none.clone();
         for i in 0..self.places.len() {
-            let h = self.gap(worn, i);
+            self.gap(worn, i, &mut h);
             self.press(i, &h, &none, 1.0)?;
+            let (grid, rows) = (&self.pressing.grid, self.pressing.rows());
+            on_grid::check(grid, rows, &self.p[i], &self.shifts[i])?;
         }
         Ok(())
     }
@@ -121,16 +132,18 @@ impl Sliding {
         n: f64,
         implicit: bool,
     ) -> Result<Loss, Error> {
-        let ways = self.pressed_ways();
+        let ways = self.summed(&self.p);
         let k = self.coefficients(worn, cycles, &ways)?;
         if !implicit {
             return Ok(self.loss(n, &k, &ways));
         }
+        self.pressing.begin();
         let mut momentum = 1.0_f64;
-        let mut around = self.p.clone();
+        let (mut around, mut last) = (self.p.clone(), self.p.clone());
+        let mut room = Room::of(self.h.len());
         for _ in 0..ROUNDS {
-            let last = self.p.clone();
-            self.round(worn, n, &k, &around)?;
+            last.clone_from(&self.p);
+            self.round(worn, n, &k, &around, &mut room)?;
             let (mut left, mut size, mut turned) = (0.0, 0.0, 0.0);
             for i in 0..self.places.len() {
                 for (c, p) in self.p[i].iter().enumerate() {
@@ -156,7 +169,7 @@ impl Sliding {
                 }
             }
         }
-        let ways = self.pressed_ways();
+        let ways = self.summed(&self.p);
         Ok(self.loss(n, &k, &ways))
     }
 
@@ -167,26 +180,32 @@ impl Sliding {
         n: f64,
         k: &[Vec<f64>; 2],
         around: &[Vec<f64>],
+        room: &mut Room,
     ) -> Result<(), Error> {
         let s = self.way();
-        let ways = self.summed(around);
-        let mut end = worn.clone();
+        let Room {
+            ways,
+            end,
+            h,
+            compliance,
+        } = room;
+        self.sum(around, ways);
         for b in 0..2 {
-            for (end, (k, way)) in end.depth[b].iter_mut().zip(k[b].iter().zip(&ways[b])) {
-                *end += n * k * way;
+            let cells = worn.depth[b].iter().zip(k[b].iter().zip(&ways[b]));
+            for (end, (worn, (k, way))) in end.depth[b].iter_mut().zip(cells) {
+                *end = worn + n * k * way;
             }
         }
-        let mut compliance = vec![0.0; self.h.len()];
         for i in 0..self.places.len() {
-            self.read(k, i, &mut compliance);
-            for d in &mut compliance {
+            self.read(k, i, compliance);
+            for d in compliance.iter_mut() {
                 *d *= n * s;
             }
-            let mut h = self.gap(&end, i);
+            self.gap(end, i, h);
             for (h, (d, p)) in h.iter_mut().zip(compliance.iter().zip(&around[i])) {
                 *h -= d * p;
             }
-            self.press(i, &h, &compliance, ROUGH)?;
+            self.press(i, h, compliance, ROUGH)?;
         }
         Ok(())
     }
@@ -217,11 +236,6 @@ impl Sliding {
         }
     }
 
-    /// The integral of the pressure over the way slipped in a cycle, in the coordinates of each body.
-    fn pressed_ways(&self) -> [Vec<f64>; 2] {
-        self.summed(&self.p)
-    }
-
     /// Way slipped in a cycle \[m\].
     fn way(&self) -> f64 {
         self.places.iter().map(|place| place.way).sum()
@@ -230,12 +244,18 @@ impl Sliding {
     /// The integral of a field over the way slipped in a cycle, in the coordinates of each body.
     fn summed(&self, field: &[Vec<f64>]) -> [Vec<f64>; 2] {
         let mut sums = [vec![0.0; self.h.len()], vec![0.0; self.h.len()]];
+        self.sum(field, &mut sums);
+        sums
+    }
+
+    /// The same into sums that are there.
+    fn sum(&self, field: &[Vec<f64>], sums: &mut [Vec<f64>; 2]) {
+        sums.iter_mut().for_each(|sum| sum.fill(0.0));
         for (i, place) in self.places.iter().enumerate() {
             for b in 0..2 {
                 self.shifts[i][b].put(&field[i], place.way, self.pressing.rows(), &mut sums[b]);
             }
         }
-        sums
     }
 
     fn coefficients(
@@ -275,21 +295,16 @@ impl Sliding {
 
     /// The sum of fields of both bodies as the grid finds them at a place.
     fn read(&self, fields: &[Vec<f64>; 2], i: usize, into: &mut [f64]) {
-        let rows = self.pressing.rows();
-        let mut other = vec![0.0; into.len()];
-        self.shifts[i][0].read(&fields[0], rows, into);
-        self.shifts[i][1].read(&fields[1], rows, &mut other);
-        into.iter_mut()
-            .zip(other)
-            .for_each(|(sum, other)| *sum += other);
+        into.fill(0.0);
+        for (shift, field) in self.shifts[i].iter().zip(fields) {
+            shift.read(field, self.pressing.rows(), into);
+        }
     }
 
     /// Gap between the worn surfaces at a place \[m\].
-    fn gap(&self, worn: &Worn, i: usize) -> Vec<f64> {
-        let mut gap = vec![0.0; self.h.len()];
-        self.read(&worn.depth, i, &mut gap);
-        gap.iter_mut().zip(&self.h).for_each(|(gap, h)| *gap += h);
-        gap
+    fn gap(&self, worn: &Worn, i: usize, into: &mut [f64]) {
+        self.read(&worn.depth, i, into);
+        into.iter_mut().zip(&self.h).for_each(|(gap, h)| *gap += h);
     }
 
     /// Solves the pressure at a place to so many times the tolerance of the scene.
@@ -298,5 +313,28 @@ impl Sliding {
         self.pressing
             .solve(h, compliance, drive, &mut self.p[i], times)?;
         Ok(())
+    }
+}
+
+/// The fields that the rounds of a jump work in.
+struct Room {
+    /// Pressed ways of a cycle in the coordinates of each body \[Pa m\].
+    ways: [Vec<f64>; 2],
+    /// Worn depth at the end of the jump \[m\].
+    end: Worn,
+    /// Gap at a place \[m\].
+    h: Vec<f64>,
+    /// Compliance at a place \[m/Pa\].
+    compliance: Vec<f64>,
+}
+
+impl Room {
+    fn of(cells: usize) -> Self {
+        Self {
+            ways: [vec![0.0; cells], vec![0.0; cells]],
+            end: Worn::none(cells),
+            h: vec![0.0; cells],
+            compliance: vec![0.0; cells],
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Wear against closed forms, finite elements and itself.
 #![allow(clippy::print_stdout, clippy::unwrap_used)] // figures with --nocapture; a test may fail
 
+mod audit;
 mod bench;
 mod coatings;
 #[path = "../files/mod.rs"]
@@ -9,7 +10,9 @@ mod finite_elements;
 mod gross_slip;
 mod input;
 mod invariants;
+mod laws;
 mod partial_slip;
+mod random;
 mod resumed;
 #[path = "../splitmix/mod.rs"]
 mod splitmix;

@@ -1,18 +1,27 @@
 //! Partial slip worn until nothing changes any more: the contact has shrunk to the stick zone
-//! (V. L. Popov, Sci. Rep. 4 (2014) 3749; closed forms by the method of
-//! dimensionality reduction). W and the amplitude of T are constant, the bodies alike with nu = 0.
+//! (V. L. Popov, Sci. Rep. 4 (2014) 3749). W and the amplitude of T are constant, the bodies alike with nu = 0.
+//!
+//! `FRET_WEAR_CELLS=256` takes so many cells along a side under the sphere and both amplitudes (`make wear`).
 
 use std::f64::consts::PI;
 
 use contact_core::scene::{Elastic, Grid, Scene, Shape};
-use contact_core::wear::{Cycling, Jumps};
+use contact_core::wear::{Block, Cycling, Jumps};
 
+use crate::audit::Audit;
 use crate::bench::{archard, cylinder, pulled, run, scene, wear};
 
 const MU: f64 = 0.6;
 const R: f64 = 10e-3;
-/// Cells along a side under the sphere.
-const N: usize = 96;
+
+/// What is compared, in a (length), p0, a^2/R (depth) and a^4/R (volume; a^3/R per length).
+struct Row {
+    c: f64,
+    p: f64,
+    d: Option<f64>,
+    volume: f64,
+    largest: f64,
+}
 
 fn alike(shape: Shape, W: f64, T: f64, grid: impl Fn(f64) -> Grid) -> Scene {
     let mut scene = scene(shape, grid(1e-3), pulled(W, T, 6), MU);
@@ -22,63 +31,138 @@ fn alike(shape: Shape, W: f64, T: f64, grid: impl Fn(f64) -> Grid) -> Scene {
     scene
 }
 
+/// Wears until nothing changes and compares; `sensitive` says by how many times what the border of the stick zone
+/// is off, in parts of a, volume and largest depth are off.
+fn assert_worn(name: &str, scene: &Scene, tolerance: f64, row: &Row, sensitive: (f64, f64)) {
+    let hertz = scene.hertz().unwrap();
+    let grid = &scene.grid;
+    let mut wear = wear([archard(5e-14), archard(5e-14)], 1e6, Cycling::March);
+    wear.jumps = Jumps::Tolerance(tolerance);
+    let (run, jumps) = run(scene, &wear);
+    let block: Block = run.block();
+    let worn = &block.worn1 + &block.worn2;
+    let (a, cell) = (hertz.a, grid.cell_area());
+    let deep = a * a / R;
+    let in_stick = block.stick.iter().filter(|s| **s).count() as f64 * cell;
+    let (c, large) = if grid.plane_strain {
+        (0.5 * in_stick / grid.dy / a, deep * a * grid.dy)
+    } else {
+        ((in_stick / PI).sqrt() / a, deep * a * a)
+    };
+    let found = Row {
+        c,
+        p: block.p[(grid.nx / 2, grid.ny / 2)] / hertz.p0,
+        d: row
+            .d
+            .map(|_| Audit::new(name, scene, &wear, None).approach(&block) / deep),
+        volume: worn.sum() * cell / large,
+        largest: worn.iter().fold(0.0, |m: f64, w| m.max(*w)) / deep,
+    };
+    let rim = 0.125 * grid.dx / a;
+    println!("{name}: {} jumps, work {:?}", jumps.len(), run.work());
+    let compare = |what: &str, found: f64, asked: f64, bound: f64| {
+        let off = found / asked - 1.0;
+        println!(
+            "  {what} {found:.5}, closed form {asked:.5}: {:+.2} %",
+            100.0 * off
+        );
+        assert!(
+            off.abs() < bound,
+            "{name}: {what} off by {off}, allowed {bound}"
+        );
+    };
+    compare("stick radius", found.c, row.c, grid.dx / a / row.c);
+    compare("p(0)", found.p, row.p, 0.01);
+    if let (Some(found), Some(asked)) = (found.d, row.d) {
+        compare("approach", found, asked, 0.01);
+    }
+    // The border of the stick zone lies within an eighth of a cell of where it should.
+    compare("volume", found.volume, row.volume, sensitive.0 * rim);
+    compare(
+        "largest depth",
+        found.largest,
+        row.largest,
+        sensitive.1 * rim,
+    );
+    let stick = block.stick.iter().zip(&worn).filter(|(stick, _)| **stick);
+    assert!(stick.fold(0.0, |m: f64, (_, w)| m.max(*w)) < 1e-9 * worn.sum());
+}
+
 #[test]
 fn a_sphere_wears_until_it_rests_on_its_stick_zone() {
-    // T/(mu W), c/a, p(0)/p0, worn volume R/a^4, largest depth R/a^2.
-    let rows = [(0.5, 0.793_701, 1.058_267, 0.132_158, 0.094_485)];
-    for (q, c, p, volume, largest) in rows {
-        let W = 50.0;
-        let grid = |a: f64| Grid::centred(2.8 * a, N).unwrap();
+    let cells = std::env::var("FRET_WEAR_CELLS").map(|n| n.parse().unwrap());
+    let row = |q: f64, d, volume, largest| {
+        let c = (1.0 - q).cbrt();
+        let p = 2.0 * c / 3.0 + 1.0 / (3.0 * c * c);
+        (
+            q,
+            Row {
+                c,
+                p,
+                d: Some(d),
+                volume,
+                largest,
+            },
+        )
+    };
+    let rows = [
+        row(0.5, 1.049_934, 0.132_158, 0.094_485),
+        row(0.7, 1.145_248, 0.517_739, 0.219_995),
+    ];
+    let wanted = if cells.is_ok() { rows.len() } else { 1 };
+    for (q, row) in &rows[..wanted] {
+        let (W, n) = (50.0, *cells.as_ref().unwrap_or(&96));
+        let grid = |a: f64| Grid::centred(2.8 * a, n).unwrap();
         let scene = alike(Shape::Sphere { R }, W, q * MU * W, grid);
-        let hertz = scene.hertz().unwrap();
-        let mut wear = wear([archard(5e-14), archard(5e-14)], 1e6, Cycling::March);
-        wear.jumps = Jumps::Tolerance(0.03);
-        let (run, jumps) = run(&scene, &wear);
-        let block = run.block();
-        let worn = &block.worn1 + &block.worn2;
-        let (a, area) = (hertz.a, scene.grid.cell_area());
-        let in_stick = block.stick.iter().filter(|s| **s).count() as f64;
-        let found_c = (in_stick * area / PI).sqrt() / a;
-        let found_p = block.p[(N / 2, N / 2)] / hertz.p0;
-        let found_volume = worn.sum() * area * R / a.powi(4);
-        let found_largest = worn.iter().fold(0.0, |m: f64, w| m.max(*w)) * R / (a * a);
-        println!(
-            "sphere, T = {q} mu W: c/a {found_c:.4} ({c}), p(0) {found_p:.4} ({p}), volume {found_volume:.4} \
-             ({volume}), largest {found_largest:.4} ({largest}), {} jumps, work {:?}",
-            jumps.len(),
-            run.work()
+        // From the closed form, by differences.
+        assert_worn(
+            &format!("sphere, T = {q} mu W, {n}^2 cells"),
+            &scene,
+            0.03,
+            row,
+            (6.4, 10.6),
         );
-        assert!((found_c - c).abs() * a < scene.grid.dx);
-        assert!((found_p / p - 1.0).abs() < 0.01);
-        // The rim of the stick zone lies within an eighth of a cell of where it should: by the closed form
-        // volume and depth change by 6.4 and 10.6 times what that is of a.
-        let rim = 0.125 * scene.grid.dx / a;
-        assert!((found_volume / volume - 1.0).abs() < 6.4 * rim);
-        assert!((found_largest / largest - 1.0).abs() < 10.6 * rim);
-        let stick = block.stick.iter().zip(&worn).filter(|(stick, _)| **stick);
-        assert!(stick.fold(0.0, |m: f64, (_, w)| m.max(*w)) < 1e-9 * worn.sum());
+    }
+}
+
+/// Under a pressure p0 (c^2 - x^2)^(1/2)/a and that of a flat punch of the width 2c that carries the rest of W, the
+/// gap of the unworn surfaces outside would be, its slope being ((x^2 - c^2)^(1/2) - (a^2 - c^2)/2/(x^2 - c^2)^(1/2))/R,
+///
+/// ```text
+/// g = [x (x^2 - c^2)^(1/2) - a^2 arcosh(x/c)]/(2 R) = -w < 0   for c < x < b.
+/// ```
+///
+/// The worn depth is largest at x^2 = (a^2 + c^2)/2, and the area (b^2 - c^2)^(1/2) [b^2 - a^2 - (b^2 - c^2)/3]/R.
+fn line(q: f64) -> Row {
+    let c = (1.0 - q).sqrt();
+    let w = |x: f64| 0.5 * ((x / c).acosh() - x * (x * x - c * c).sqrt());
+    let (mut low, mut high) = (1.0, 3.0);
+    for _ in 0..60 {
+        let b = 0.5 * (low + high);
+        (low, high) = if w(b) > 0.0 { (b, high) } else { (low, b) };
+    }
+    let rest = low * low - c * c;
+    Row {
+        c,
+        p: 0.5 * (1.0 / c + c),
+        d: None,
+        volume: rest.sqrt() * (low * low - 1.0 - rest / 3.0),
+        largest: w((0.5 * (1.0 + c * c)).sqrt()),
     }
 }
 
 #[test]
 fn a_cylinder_wears_until_it_rests_on_its_stick_zone() {
-    let (W, q): (f64, f64) = (2e5, 0.5);
-    let c = (1.0 - q).sqrt();
-    let p = 0.5 * (1.0 / c + c);
-    let scene = alike(cylinder(R), W, q * MU * W, |a| {
-        Grid::strip(3.0 * a, 256, 1.0).unwrap()
-    });
-    let hertz = scene.hertz().unwrap();
-    let wear = wear([archard(5e-14), archard(5e-14)], 1e6, Cycling::March);
-    let (run, jumps) = run(&scene, &wear);
-    let block = run.block();
-    let in_stick = block.stick.iter().filter(|s| **s).count() as f64;
-    let found_c = 0.5 * in_stick * scene.grid.dx / hertz.a;
-    let found_p = block.p[(128, 0)] / hertz.p0;
-    println!(
-        "cylinder: c/a {found_c:.4} ({c:.4}), p(0) {found_p:.4} ({p:.4}), {} jumps",
-        jumps.len()
-    );
-    assert!((found_c - c).abs() * hertz.a < scene.grid.dx);
-    assert!((found_p / p - 1.0).abs() < 0.01);
+    for q in [0.5, 0.7] {
+        let W = 2e5;
+        let grid = |a: f64| Grid::strip(3.2 * a, 256, 1.0).unwrap();
+        let scene = alike(cylinder(R), W, q * MU * W, grid);
+        // What the closed form says of a change of c.
+        let (here, c) = (line(q), (1.0 - q).sqrt());
+        let there = line(1.0 - (c + 1e-4).powi(2));
+        let per = |of: fn(&Row) -> f64| (of(&there) / of(&here) - 1.0).abs() / 1e-4;
+        let sensitive = (per(|r| r.volume), per(|r| r.largest));
+        let name = format!("cylinder, T = {q} mu W, {} cells", scene.grid.nx);
+        assert_worn(&name, &scene, 0.01, &here, sensitive);
+    }
 }

@@ -314,5 +314,11 @@ fn wear_is_resumed_for_its_own_scene() {
     let other = wear(&["--resume", "--set", "friction.mu=0.5"]);
     assert_eq!(other.status.code(), Some(2));
     assert!(text(&other.stderr).contains("belongs to another scene"));
+    let store = out.to_str().unwrap();
+    let resumed = fret(&["resume", store]);
+    assert!(resumed.status.success() && text(&resumed.stderr).contains("is done"));
+    let json = fret(&["resume", store, "--json"]);
+    assert_eq!(json.status.code(), Some(2));
+    assert!(text(&json.stderr).contains("--json: must be for runs through a load path"));
     assert!(files(&out) == whole);
 }

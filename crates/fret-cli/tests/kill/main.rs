@@ -12,6 +12,7 @@ mod document;
 #[path = "../../../contact-core/tests/files/mod.rs"]
 mod files;
 mod victim;
+mod worn;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,0 +1,37 @@
+//! One jump in numbers.
+
+use serde::{Deserialize, Serialize};
+
+/// One jump in numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Jump {
+    /// Jump, from 1.
+    pub index: usize,
+    /// Cycles at its end, and how many it is long.
+    pub cycles: f64,
+    /// Cycles that it is long.
+    pub length: f64,
+    /// Estimated error of what it adds to the worn depth, root mean square over the depth so far;
+    /// zero for explicit jumps, which have none.
+    pub error: f64,
+    /// The same of the pressure.
+    pub pressure_error: f64,
+    /// Times that it was tried anew.
+    pub retries: usize,
+    /// Volume that body 1 and body 2 have lost so far \[m^3\].
+    pub volume: [f64; 2],
+    /// Deepest worn depth of body 1 and body 2 \[m\].
+    pub depth: [f64; 2],
+    /// Energy dissipated so far \[J\].
+    pub dissipated: f64,
+    /// Energy dissipated in one cycle on the surfaces at the end \[J\].
+    pub dissipated_per_cycle: f64,
+    /// Largest pressure at the end \[Pa\].
+    pub p_max: f64,
+    /// Area of the contact at the end \[m^2\].
+    pub contact_area: f64,
+    /// Area that sticks all through the cycle over that of the contact.
+    pub stick_ratio: f64,
+    /// Estimated error of the deepest depth so far, over it.
+    pub depth_error: f64,
+}

@@ -1,0 +1,16 @@
+//! Where a command writes its result.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// Where a command writes its result.
+#[derive(Args)]
+pub(crate) struct Out {
+    /// Result store to write (a Zarr folder)
+    #[arg(id = "out", short, long = "out", value_name = "STORE")]
+    pub(crate) path: PathBuf,
+    /// Replace a result store that exists
+    #[arg(long)]
+    pub(crate) overwrite: bool,
+}
