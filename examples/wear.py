@@ -1,12 +1,16 @@
-"""Two studies of wear: wear rate against stroke, and a coating's life over load and stroke.
+"""Studies of wear: its rate against stroke, a coating's life, and runs seen whole.
 
-``python examples/wear.py --out out`` writes their figures, and those of a worn sphere.
+``python examples/wear.py --out out`` writes wear rate over stroke from partial to gross slip, the
+life of a coating over load and stroke, and profiles, depth maps, histories and loops of a bare and
+a coated sphere in partial slip, of a sphere in gross slip and of the cylinder of McColl, Ding and
+Leen.
 """
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Literal
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -15,6 +19,7 @@ import pyfret as fret
 
 R, MU, K = 10e-3, 0.6, 1e-14
 STEEL = fret.Elastic(E=200e9, nu=0.3)
+DATA = Path(__file__).parents[1] / "tests" / "data" / "wear"
 HARD = fret.Elastic(E=400e9, nu=0.25)
 
 
@@ -112,29 +117,101 @@ def coating_life(out: Path) -> None:
         figure.savefig(out / "coating_life.png", dpi=150)
 
 
-def worn_sphere(out: Path) -> None:
-    """Partial slip until nothing changes any more: profiles, map, history, loops."""
-    W = 50.0
+def panels(result: fret.WearResult, file: Path, *, of: Literal["body2", "both"] = "both") -> None:
+    """Write profiles, map, history and loops of a run; a line contact has no map."""
+    with fret.plot.style():
+        figure, axes = plt.subplots(2, 2, figsize=(9, 7.5), layout="constrained")
+        fret.plot.wear_profiles(result, of=of, ax=axes[0, 0])
+        if result.dataset.sizes["y"] > 1:
+            fret.plot.depth_map(result, of=of, ax=axes[0, 1])
+        else:
+            fret.plot.wear_profiles(result, of="body1", ax=axes[0, 1])
+            axes[0, 0].set_title("body 2")
+            axes[0, 1].set_title("body 1")
+        fret.plot.wear_history(result, ax=axes[1, 0])
+        fret.plot.wear_loops(result, ax=axes[1, 1])
+        figure.savefig(file, dpi=150)
+        plt.close(figure)
+
+
+def partial_slip(out: Path) -> None:
+    """Partial slip of a bare and of a coated sphere until the stick zone carries nearly all."""
+    W, law = 50.0, fret.Archard(5 * K)
     T = 0.5 * MU * W
     path = fret.LoadPath.start().normal(W, increments=1).tangential([T, -T, T], increments=18)
-    law = fret.Archard(K)
+    for name, coating in (("worn_sphere", None), ("worn_coated_sphere", 20e-6)):
+        result = fret.wear(
+            contact(W, n=64, reach=1.4, coating=coating),
+            path,
+            cycles=1e5,
+            first_branch=2,
+            body1=law,
+            body2=law,
+            tolerance=0.03,
+            progress=False,
+        )
+        panels(result, out / f"{name}.png")
+
+
+def gross_slip(out: Path) -> None:
+    """Gross slip of a sphere, the stroke half as long as the contact: the flat wears over more."""
+    W = 50.0
     result = fret.wear(
-        contact(W, n=64, reach=1.4),
-        path,
-        cycles=1e6,
+        contact(W, n=64, reach=2.6),
+        moved(W, 80e-6, increments=8),
+        cycles=3000,
         first_branch=2,
-        body1=law,
-        body2=law,
+        cycling="sliding",
+        body1=fret.Archard(K),
+        body2=fret.Archard(K),
         tolerance=0.03,
         progress=False,
     )
+    panels(result, out / "gross_slip.png", of="body2")
+
+
+def mccoll(out: Path) -> None:
+    """Draw McColl, Ding and Leen's cylinder beside finite elements and the measurement."""
+    steel = fret.Elastic(E=200e9, nu=0.3)
+    path = fret.LoadPath.start().normal(18.5e3, increments=1)
+    for to, increments in ((25e-6, 1), (-25e-6, 8), (25e-6, 8)):
+        path = path.displace(delta_x=to, increments=increments)
+    result = fret.wear(
+        fret.Scene(
+            body1=fret.Body(steel, shape=fret.Cylinder(R=6e-3)),
+            body2=fret.Body(steel),
+            mu=0.9,
+            grid=fret.Grid.strip(extent=0.72e-3, n=320),
+        ),
+        path,
+        cycles=18000,
+        first_branch=2,
+        cycling="sliding",
+        rig_stiffness=24.6e9,  # of both half-planes down to 6 mm, docs/wear.md
+        body1=fret.Archard(1.9e-14),
+        body2=fret.Archard(2.9e-14),
+        tolerance=0.02,
+        progress=False,
+    )
+    panels(result, out / "mccoll.png", of="body2")
+    elements = np.loadtxt(DATA / "mccoll_finite_elements.csv", delimiter=",", skiprows=1)
+    measured = np.loadtxt(DATA / "mccoll_measured.csv", delimiter=",", skiprows=1)
     with fret.plot.style():
-        figure, axes = plt.subplots(2, 2, figsize=(9, 7.5), layout="constrained")
-        fret.plot.wear_profiles(result, of="both", ax=axes[0, 0])
-        fret.plot.depth_map(result, of="both", ax=axes[0, 1])
-        fret.plot.wear_history(result, ax=axes[1, 0])
-        fret.plot.wear_loops(result, ax=axes[1, 1])
-        figure.savefig(out / "worn_sphere.png", dpi=150)
+        figure, ax = plt.subplots()
+        ax.plot(measured[:, 0], measured[:, 1], color="0.7", label="measured, 18 000 cycles")
+        block = int(np.abs(result.dataset.block_cycles - 1000).argmin())
+        for cycles, at, colour in ((1000, block, "C0"), (18000, -1, "C1")):
+            rows = elements[elements[:, 0] == cycles]
+            name = f"{float(result.dataset.block_cycles[at]):.0f} cycles"
+            ax.plot(rows[:, 1], rows[:, 2], "o", color=colour, label=f"finite elements, {cycles}")
+            ax.plot(1e3 * result.x, 1e6 * result.worn2[at, :, 0], color=colour, label=name)
+        ax.set_xlim(-0.36, 0.36)
+        ax.invert_yaxis()
+        ax.set_xlabel("$x$ [mm]")
+        ax.set_ylabel("depth of the flat [um]")
+        ax.legend(fontsize="small")
+        figure.savefig(out / "mccoll_profiles.png", dpi=150)
+        plt.close(figure)
 
 
 def main() -> None:
@@ -143,9 +220,8 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("out"))
     out = parser.parse_args().out
     out.mkdir(parents=True, exist_ok=True)
-    worn_sphere(out)
-    wear_rate(out)
-    coating_life(out)
+    for study in (mccoll, gross_slip, partial_slip, wear_rate, coating_life):
+        study(out)
 
 
 if __name__ == "__main__":

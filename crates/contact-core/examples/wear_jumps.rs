@@ -15,7 +15,7 @@ use ndarray::Array2;
 /// Tolerance of the run that the others are compared with.
 const FINEST: f64 = 1e-3;
 /// Numbers of jumps of equal length.
-const IMPLICIT: [usize; 4] = [6, 12, 24, 48];
+const IMPLICIT: [usize; 3] = [6, 12, 24];
 const EXPLICIT: [usize; 4] = [30, 60, 120, 240];
 
 /// A run that is done.
