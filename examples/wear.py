@@ -199,7 +199,7 @@ def mccoll(out: Path) -> None:
     with fret.plot.style():
         figure, ax = plt.subplots()
         ax.plot(measured[:, 0], measured[:, 1], color="0.7", label="measured, 18 000 cycles")
-        block = int(np.abs(result.dataset.block_cycles - 1000).argmin())
+        block = int(np.abs(np.asarray(result.block_cycles) - 1000).argmin())
         for cycles, at, colour in ((1000, block, "C0"), (18000, -1, "C1")):
             rows = elements[elements[:, 0] == cycles]
             name = f"{float(result.dataset.block_cycles[at]):.0f} cycles"

@@ -72,13 +72,18 @@ def depth_map(
 
 @styled
 def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
-    """Worn volume (left) and dissipated energy (right) over cycles."""
+    """Worn volume (left) and dissipated energy (right) over cycles.
+
+    A line contact has both per width of the grid.
+    """
     ax = axes(ax)
     d = result.dataset
-    volume = 1e18 * (d.volume1 + d.volume2)
+    volume = d.volume1 + d.volume2
+    unit, factor = ("mm$^3$", 1e9) if float(volume[-1]) > 1e-11 else ("um$^3$", 1e18)
+    volume = factor * volume
     (line,) = ax.plot(np.r_[0, d.cycles], np.r_[0, volume])
     ax.set_xlabel("cycles")
-    ax.set_ylabel("worn volume [um$^3$]")
+    ax.set_ylabel(f"worn volume [{unit}]")
     other = ax.twinx()
     other.grid(visible=False)
     (energy,) = other.plot(np.r_[0, d.cycles], np.r_[0, d.dissipated], "--", color="C1")

@@ -54,25 +54,29 @@ pub(crate) fn stroke(
         d = play(d, u_of(k), W);
     }
     let mut places: Vec<Place> = Vec::new();
-    let mut corners = Vec::new();
+    let (mut corners, mut force) = (Vec::new(), 0.0);
     // The first pass brings the contact to where every further cycle begins.
     for pass in 0..2 {
         for k in lead_in..points.len() {
             let (before, W_before) = (d, W);
             W = points[k].loads.W;
             d = play(d, u_of(k), W);
+            let way = (d - before).abs();
+            let slips = mu * W_before * (d - before).signum();
+            let turns = way > 0.0 && (force - slips).abs() > 1e-9 * mu * W_before;
+            if way > 0.0 {
+                force = mu * W * (d - before).signum();
+            } else if rig_stiffness.is_finite() {
+                force = rig_stiffness * (u_of(k) - d);
+            }
             if pass == 0 {
                 continue;
             }
-            let force = if d > before {
-                mu * W
-            } else if d < before {
-                -mu * W
-            } else {
-                rig_stiffness * (u_of(k) - d)
-            };
+            if turns {
+                // Within the increment, where the spring pulls enough.
+                corners.push([before + force / rig_stiffness, before, force]);
+            }
             corners.push([u_of(k), d, force]);
-            let way = (d - before).abs();
             let (shift, W) = (0.5 * (d + before), 0.5 * (W + W_before));
             if way == 0.0 {
                 continue;
