@@ -157,7 +157,7 @@ def gross_slip(out: Path) -> None:
     """Gross slip of a sphere, the stroke half as long as the contact: the flat wears over more."""
     W = 50.0
     result = fret.wear(
-        contact(W, n=64, reach=2.6),
+        contact(W, n=72, reach=3.4),
         moved(W, 80e-6, increments=8),
         cycles=3000,
         first_branch=2,
