@@ -48,9 +48,9 @@ fn draw(seed: u64) -> Case {
     let scene = scene(&mut draw, sliding, flat);
     let thickest = |body: &Body| body.coatings.len() + 1;
     let layers = [&scene.body1, &scene.body2].map(thickest);
-    // A tenth of what wears as deep as the bodies approach each other, up to a hundred times that.
+    // From a fiftieth of what wears as deep as the bodies approach each other to twice that.
     let natural = natural_cycles(&scene);
-    let cycles = natural * draw.between(0.1, 10.0);
+    let cycles = natural * draw.between(0.02, 2.0);
     let plain = scene.friction == Friction::coulomb(scene.friction.mu);
     let Drawn { bodies, per_energy } = draw_laws(&mut draw, layers, scene.friction.mu, plain);
     let cycling = if sliding {
@@ -62,8 +62,8 @@ fn draw(seed: u64) -> Case {
     wear.jumps = match (6.0 * draw.next()) as usize {
         0 => Jumps::Number(1),
         1 | 2 => {
-            // One jump a thousand times as long as is sensible.
-            wear.cycles *= 1e3;
+            // One jump a thousand times as long as those that a tolerance of 0.01 chooses.
+            wear.cycles *= 30.0;
             Jumps::Number(1)
         }
         3 => Jumps::Number(3),
@@ -155,7 +155,7 @@ fn scene(draw: &mut Draw, sliding: bool, flat: bool) -> Scene {
         }
     }
     (scene.body1, scene.body2) = (body1, body2);
-    let wide = if flat { 5.0 } else { 4.5 } * hertz.a.max(1e-9);
+    let wide = if sliding { 8.0 } else { 4.5 } * hertz.a;
     scene.grid = if flat {
         Grid::strip(wide, [48, 72, 96][(3.0 * draw.next()) as usize], 1.0).unwrap()
     } else {
