@@ -3,12 +3,14 @@
 use std::f64::consts::PI;
 
 use contact_core::scene::{Grid, Scene, Shape};
-use contact_core::wear::Cycling;
+use contact_core::wear::{Cycling, Jumps};
 
 use crate::bench::{archard, cylinder, half_width, run, scene, to_and_fro, wear};
 
 /// Both bodies together lose k s W a cycle, s = 4 strokes.
 const K: f64 = 2e-13;
+/// A body that hardly wears.
+const K0: f64 = 1e-15;
 
 /// Both bodies together have lost what the segment or cap of half-width b of the radius R held, b^2/(2 R) deep.
 fn assert_worn_flat(name: &str, scene: &Scene, cycles: f64, b: f64, R: f64) {
@@ -47,4 +49,27 @@ fn a_sphere_wears_to_its_closed_form() {
     let grid = Grid::centred(2.6 * b, 64).unwrap();
     let scene = scene(Shape::Sphere { R }, grid, to_and_fro(W, stroke, 1), 0.9);
     assert_worn_flat("sphere", &scene, cycles, b, R);
+}
+
+#[test]
+fn the_friction_loop_holds_the_energy_of_a_cycle() {
+    let (W, mu, u) = (18.5e3, 0.9, 20e-6);
+    let grid = Grid::strip(0.5e-3, 64, 1.0).unwrap();
+    let scene = scene(cylinder(6e-3), grid, to_and_fro(W, u, 3), mu);
+    for stiffness in [f64::INFINITY, mu * W / 5e-6] {
+        let mut wear = wear([archard(K0), archard(K0)], 10.0, Cycling::Sliding);
+        (wear.rig_stiffness, wear.jumps) = (stiffness, Jumps::Number(1));
+        let (run, jumps) = run(&scene, &wear);
+        let corners = run.block().friction_loop;
+        let ways = corners.iter().zip(corners.iter().cycle().skip(1));
+        let area = ways
+            .map(|(a, b)| 0.5 * (a[1] + b[1]) * (b[0] - a[0]))
+            .sum::<f64>();
+        let energy = jumps[0].dissipated_per_cycle;
+        assert!(
+            (area / energy - 1.0).abs() < 1e-6,
+            "{area:e} J, {energy:e} J"
+        );
+        assert!((energy / (mu * W * 4.0 * (u - mu * W / stiffness)) - 1.0).abs() < 1e-6);
+    }
 }

@@ -46,8 +46,8 @@ fn draw(seed: u64) -> Case {
     let mut draw = Draw(seed);
     let (sliding, flat) = (draw.next() < 0.5, draw.next() < 0.4);
     let scene = scene(&mut draw, sliding, flat);
-    let thickest = |body: &Body| body.coatings.len() + 1;
-    let layers = [&scene.body1, &scene.body2].map(thickest);
+    let layers_of = |body: &Body| body.coatings.len() + 1;
+    let layers = [&scene.body1, &scene.body2].map(layers_of);
     // From a fiftieth of what wears as deep as the bodies approach each other to twice that.
     let natural = natural_cycles(&scene);
     let cycles = natural * draw.between(0.02, 2.0);
