@@ -82,6 +82,9 @@ def wear_rate(out: Path) -> None:
         )
         ax.axvline(1e6 * onset, color="0.6", linewidth=1)
         ax.annotate("gross slip", (1e6 * onset * 1.05, 1e18 * min(r for r in rates if r > 0)))
+        ticks = [0.5, 1, 2, 5, 10]
+        ax.set_xticks(ticks, [str(tick) for tick in ticks], minor=False)
+        ax.minorticks_off()
         ax.set_xlabel("stroke [um]")
         ax.set_ylabel("wear per cycle [um$^3$]")
         ax.legend()
@@ -111,6 +114,8 @@ def coating_life(out: Path) -> None:
         figure, ax = plt.subplots()
         for W, cycles in zip(loads, life, strict=True):
             ax.loglog(1e6 * strokes, cycles, "o-", label=f"{W:.0f} N")
+        ax.set_xticks(1e6 * strokes, [f"{1e6 * stroke:.0f}" for stroke in strokes], minor=False)
+        ax.minorticks_off()
         ax.set_xlabel("stroke [um]")
         ax.set_ylabel(f"cycles until {1e6 * thickness:.0f} um of coating are through")
         ax.legend()
@@ -147,7 +152,6 @@ def partial_slip(out: Path) -> None:
             first_branch=2,
             body1=law,
             body2=law,
-            tolerance=0.03,
             progress=False,
         )
         panels(result, out / f"{name}.png")

@@ -3,18 +3,15 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::compliant::{Compliant, inverse};
+use super::compliant::{Compliant, CompliantInverse};
 use crate::cells::{Arms, Drive};
-use crate::convolution::{CirculantInverse, DcFft, Displacements, SurfaceOperator, Tractions};
+use crate::convolution::{DcFft, Displacements, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, pair_coefficients};
 use crate::plan::{KernelSet, Mirror, Plan};
 use crate::scene::{Grid, Scene};
 use crate::solvers::Response;
 use crate::solvers::inner::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
-
-/// An approximate inverse serves as long as the mean compliance is off by no more than this part.
-const ALIKE: f64 = 0.2;
 
 /// The pair of bodies under pressure alone, on the kept cells of the whole grid.
 pub(crate) struct Pressing {
@@ -25,8 +22,8 @@ pub(crate) struct Pressing {
     arms: Arms,
     params: NormalParams,
     workspace: NormalWorkspace,
-    /// The approximate inverse, and the compliance \[m/Pa\] that it is for.
-    inverse: Option<(f64, CirculantInverse)>,
+    /// The approximate inverse of the last problem.
+    inverse: Option<CompliantInverse>,
     u_z: Vec<f64>,
     stop: Arc<AtomicBool>,
 }
@@ -135,13 +132,13 @@ impl Pressing {
         p: &mut [f64],
         times: f64,
     ) -> Result<NormalInfo, Error> {
-        let touching = p.iter().zip(compliance).filter(|(p, _)| **p > 0.0);
-        let (sum, count) = touching.fold((0.0, 0.0), |(s, c), (_, d)| (s + d, c + 1.0));
-        let mean = sum / f64::max(count, 1.0);
-        let holds = |d: f64| (mean - d).abs() <= ALIKE * d;
-        if self.inverse.as_ref().is_none_or(|(d, _)| !holds(*d)) {
-            self.inverse = Some((mean, inverse(&self.kernel, self.mirror, mean)));
-        }
+        let inverse = CompliantInverse::from(
+            self.inverse.take(),
+            &self.kernel,
+            self.mirror,
+            (compliance, p),
+        );
+        let inverse = self.inverse.insert(inverse);
         let mut op = Compliant {
             op: &mut self.op,
             compliance,
@@ -158,7 +155,7 @@ impl Pressing {
         );
         let mut response = Response {
             op: &mut op,
-            inverse: self.inverse.as_mut().map(|(_, inverse)| inverse as _),
+            inverse: Some(inverse),
             stop: Some(&self.stop),
             last_transform: usize::MAX,
             exact: true,

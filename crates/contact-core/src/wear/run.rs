@@ -163,11 +163,18 @@ impl WearRun {
                 });
             }
             self.model.restore(&self.state.model);
-            let tried = self.attempt(n)?;
+            let tried = match self.attempt(n) {
+                Err(Error::NotConverged { .. }) if self.may_be_shorter(n) => {
+                    n *= SHORTER;
+                    for_event = None;
+                    continue;
+                }
+                tried => tried?,
+            };
             if let Jumps::Tolerance(tolerance) = self.wear.jumps {
                 let error = tried.error.max(tried.pressure_error / PRESSURE);
                 let factor = CAUTIOUS * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt();
-                if error > tolerance && n > SHORTEST * self.wear.cycles {
+                if error > tolerance && self.may_be_shorter(n) {
                     n *= factor.clamp(SHORTER, CAUTIOUS);
                     for_event = None;
                     continue;
@@ -199,6 +206,11 @@ impl WearRun {
             iterations: TRIES,
             why: String::new(),
         })
+    }
+
+    /// Whether the run chooses the length of its jumps and may take less than n cycles.
+    fn may_be_shorter(&self, n: f64) -> bool {
+        matches!(self.wear.jumps, Jumps::Tolerance(_)) && n > SHORTEST * self.wear.cycles
     }
 
     /// A jump of n cycles whole and in two halves.

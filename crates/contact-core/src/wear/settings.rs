@@ -3,8 +3,10 @@
 use super::law::BodyWear;
 use super::stroke::stroke;
 use crate::error::Error;
-use crate::scene::{Body, Scene};
+use crate::scene::{Body, Branch, Scene};
 
+/// Part of its largest value by which a load may differ at the two ends of a cycle.
+const ROUNDING: f64 = 1e-12;
 /// Most cycles of a run.
 const MOST_CYCLES: f64 = 1e15;
 
@@ -165,9 +167,15 @@ impl Wear {
             } else {
                 crate::scene::RigidMotion::ALL.map(crate::scene::RigidMotion::load)
             }[k];
+            // A turn ends where it begins but for rounding.
+            let largest = |of: &dyn Fn(&Branch) -> f64| {
+                let sizes = branches.iter().map(|branch| of(branch).abs());
+                ROUNDING * sizes.fold(0.0, f64::max)
+            };
+            let given_of = |branch: &Branch| branch.to.given.motions()[k].unwrap_or(0.0);
             let same = match (given[k], ends[k]) {
-                (Some(a), Some(b)) => a == b,
-                (None, None) => from[k] == to[k],
+                (Some(a), Some(b)) => a == b || (a - b).abs() <= largest(&given_of),
+                (None, None) => (from[k] - to[k]).abs() <= largest(&|b| b.to.forces()[k]),
                 _ => false,
             };
             if !same {

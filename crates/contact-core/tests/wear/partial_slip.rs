@@ -31,9 +31,8 @@ fn alike(shape: Shape, W: f64, T: f64, grid: impl Fn(f64) -> Grid) -> Scene {
     scene
 }
 
-/// Wears until nothing changes and compares; `sensitive` says by how many times what the border of the stick zone
-/// is off, in parts of a, volume and largest depth are off.
-fn assert_worn(name: &str, scene: &Scene, tolerance: f64, row: &Row, sensitive: (f64, f64)) {
+/// Wears until nothing changes and compares; volume and largest depth within parts `bounds`.
+fn assert_worn(name: &str, scene: &Scene, tolerance: f64, row: &Row, bounds: (f64, f64)) {
     let hertz = scene.hertz().unwrap();
     let grid = &scene.grid;
     let mut wear = wear([archard(5e-14), archard(5e-14)], 1e6, Cycling::March);
@@ -58,7 +57,6 @@ fn assert_worn(name: &str, scene: &Scene, tolerance: f64, row: &Row, sensitive: 
         volume: worn.sum() * cell / large,
         largest: worn.iter().fold(0.0, |m: f64, w| m.max(*w)) / deep,
     };
-    let rim = 0.125 * grid.dx / a;
     println!("{name}: {} jumps, work {:?}", jumps.len(), run.work());
     let compare = |what: &str, found: f64, asked: f64, bound: f64| {
         let off = found / asked - 1.0;
@@ -114,14 +112,16 @@ fn a_sphere_wears_until_it_rests_on_its_stick_zone() {
         let (W, n) = (50.0, *cells.as_ref().unwrap_or(&96));
         let grid = |a: f64| Grid::centred(2.8 * a, n).unwrap();
         let scene = alike(Shape::Sphere { R }, W, q * MU * W, grid);
-        // From the closed form, by differences.
-        assert_worn(
-            &format!("sphere, T = {q} mu W, {n}^2 cells"),
-            &scene,
-            0.03,
-            row,
-            (6.4, 10.6),
-        );
+        // The border of the stick zone lies within an eighth of a cell of where it should: by the closed form, what it
+        // is off in parts of a moves volume and depth by 6.4 and 10.6 times that.
+        let rim = 0.125 * 2.8 / n as f64;
+        let bounds = if n < 256 {
+            (6.4 * rim, 10.6 * rim)
+        } else {
+            (0.01, 0.02)
+        };
+        let name = format!("sphere, T = {q} mu W, {n}^2 cells");
+        assert_worn(&name, &scene, 0.03, row, bounds);
     }
 }
 
@@ -151,18 +151,25 @@ fn line(q: f64) -> Row {
     }
 }
 
+/// A grid of 256 cells with the border of the stick zone on the edge between two of them: within 1 and 2 %. Elsewhere
+/// the border is off by half a cell at most.
 #[test]
 fn a_cylinder_wears_until_it_rests_on_its_stick_zone() {
-    for q in [0.5, 0.7] {
-        let W = 2e5;
-        let grid = |a: f64| Grid::strip(3.2 * a, 256, 1.0).unwrap();
+    for (q, cells) in [(0.5, 56.0), (0.7, 44.0), (0.5, 56.57)] {
+        let (W, c) = (2e5, f64::sqrt(1.0 - q));
+        let grid = |a: f64| Grid::strip(256.0 * c / cells * a, 256, 1.0).unwrap();
         let scene = alike(cylinder(R), W, q * MU * W, grid);
-        // What the closed form says of a change of c.
-        let (here, c) = (line(q), (1.0 - q).sqrt());
-        let there = line(1.0 - (c + 1e-4).powi(2));
-        let per = |of: fn(&Row) -> f64| (of(&there) / of(&here) - 1.0).abs() / 1e-4;
-        let sensitive = (per(|r| r.volume), per(|r| r.largest));
-        let name = format!("cylinder, T = {q} mu W, {} cells", scene.grid.nx);
-        assert_worn(&name, &scene, 0.01, &here, sensitive);
+        let here = line(q);
+        let bounds = if f64::fract(cells) == 0.0 {
+            (0.01, 0.02)
+        } else {
+            // What the closed form says of a change of c, half a cell.
+            let there = line(1.0 - (c + 1e-4).powi(2));
+            let part = 0.5 * c / cells / 1e-4;
+            let of = |of: fn(&Row) -> f64| part * (of(&there) / of(&here) - 1.0).abs();
+            (of(|r| r.volume), of(|r| r.largest))
+        };
+        let name = format!("cylinder, T = {q} mu W, {cells} cells in c");
+        assert_worn(&name, &scene, 0.01, &here, bounds);
     }
 }
