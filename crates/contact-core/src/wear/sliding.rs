@@ -250,7 +250,9 @@ impl Sliding {
 
     /// The same into sums that are there.
     fn sum(&self, field: &[Vec<f64>], sums: &mut [Vec<f64>; 2]) {
-        sums.iter_mut().for_each(|sum| sum.fill(0.0));
+        for sum in sums.iter_mut() {
+            sum.fill(0.0);
+        }
         for (i, place) in self.places.iter().enumerate() {
             for b in 0..2 {
                 self.shifts[i][b].put(&field[i], place.way, self.pressing.rows(), &mut sums[b]);

@@ -74,14 +74,8 @@ fn assert_worn(name: &str, scene: &Scene, tolerance: f64, row: &Row, bounds: (f6
     if let (Some(found), Some(asked)) = (found.d, row.d) {
         compare("approach", found, asked, 0.01);
     }
-    // The border of the stick zone lies within an eighth of a cell of where it should.
-    compare("volume", found.volume, row.volume, sensitive.0 * rim);
-    compare(
-        "largest depth",
-        found.largest,
-        row.largest,
-        sensitive.1 * rim,
-    );
+    compare("volume", found.volume, row.volume, bounds.0);
+    compare("largest depth", found.largest, row.largest, bounds.1);
     let stick = block.stick.iter().zip(&worn).filter(|(stick, _)| **stick);
     assert!(stick.fold(0.0, |m: f64, (_, w)| m.max(*w)) < 1e-9 * worn.sum());
 }
