@@ -61,7 +61,8 @@ impl<'a> Audit<'a> {
             self.check_growth(&last, &now);
             self.check_volumes(jumps.last(), &jump, &now);
             self.check_contact(wear, &now);
-            (last, _) = (now, jumps.push(jump));
+            last = now;
+            jumps.push(jump);
         }
         Ok(jumps)
     }
