@@ -63,13 +63,12 @@ pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
 pub(crate) fn resume(out: &Path, of: Option<(&Scene, &Wear)>, quiet: bool) -> Result<(), Failure> {
     let kept = Arc::new(AtomicBool::new(true));
     let stop = stop_on_interrupt(&kept);
-    match resume_wear(out, of, &stop).map_err(Failure::BadInput)? {
-        Some((run, store)) => to_end(run, store, out, &kept, quiet),
-        None => {
-            say(&format!("fret: {} is done", out.display()));
-            Ok(())
-        }
+    let found = resume_wear(out, of, &stop).map_err(Failure::BadInput)?;
+    if let Some((run, store)) = found {
+        return to_end(run, store, out, &kept, quiet);
     }
+    say(&format!("fret: {} is done", out.display()));
+    Ok(())
 }
 
 /// Jump by jump into the store, with a bar and a summary; raises `kept` once there is something.
