@@ -2,6 +2,12 @@
 
 use crate::scene::{Given, Loads};
 
+/// Loads and motions that are measured alike, in the order of `RigidMotion::ALL`: the two tilts, and the
+/// forces or shifts along x and y.
+const KIND: [usize; 6] = [0, 1, 1, 2, 2, 3];
+/// Cosine of the largest turn between two steps of a path that goes on: 60 degrees.
+const TURN: f64 = 0.5;
+
 impl Loads {
     /// The change from `before` and `motions` to here, of what is given.
     pub(crate) fn since(&self, before: &Self, motions: [f64; 6]) -> Self {
@@ -21,25 +27,32 @@ impl Loads {
         )
     }
 
-    /// The factor f with self = f other, if the two changes are of the same kind and point the same
-    /// way.
+    /// The factor f with self = f other along the other, if the two changes are of the same kind and the path
+    /// turns by 60 degrees at most from one to the other: a straight branch, a chord of a smooth curve.
     pub(crate) fn along(&self, other: &Self) -> Option<f64> {
         let (a, b) = (self.given.motions(), other.given.motions());
         if (0..6).any(|k| a[k].is_some() != b[k].is_some()) {
             return None;
         }
         let (f, g) = (self.forces(), other.forces());
+        let pair = |k: usize| a[k].zip(b[k]).unwrap_or((f[k], g[k]));
+        // Forces, moments, lengths and angles compare as parts of the larger of the two.
+        let scale = |k: usize| {
+            let alike = (0..6).filter(|&j| KIND[j] == KIND[k] && a[j].is_some() == a[k].is_some());
+            alike
+                .map(pair)
+                .fold(0.0, |m: f64, (a, b)| m.max(a.abs()).max(b.abs()))
+        };
+        let others = [
+            (self.sigma_B, other.sigma_B),
+            (self.sigma_B1, other.sigma_B1),
+            (self.rolled, other.rolled),
+        ];
         let pairs = (0..6)
-            .map(|k| a[k].zip(b[k]).unwrap_or((f[k], g[k])))
-            .chain([
-                (self.sigma_B, other.sigma_B),
-                (self.sigma_B1, other.sigma_B1),
-                (self.rolled, other.rolled),
-            ]);
+            .map(|k| (pair(k), scale(k)))
+            .chain(others.map(|(a, b)| ((a, b), a.abs().max(b.abs()))));
         let (mut both, mut own, mut its) = (0.0, 0.0, 0.0);
-        for (a, b) in pairs {
-            // Forces, moments, lengths and angles compare as parts of the larger of the two.
-            let scale = a.abs().max(b.abs());
+        for ((a, b), scale) in pairs {
             if scale > 0.0 {
                 let (a, b) = (a / scale, b / scale);
                 both += a * b;
@@ -47,7 +60,41 @@ impl Loads {
                 its += b * b;
             }
         }
-        let parallel = both > 0.0 && both * both >= (1.0 - 1e-9) * own * its;
-        parallel.then(|| both / its)
+        let goes_on = both > 0.0 && both * both >= TURN * TURN * own * its;
+        goes_on.then(|| both / its)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Loads;
+
+    fn step(W: f64, T_x: f64, T_y: f64) -> Loads {
+        Loads {
+            W,
+            T_x,
+            T_y,
+            ..Loads::default()
+        }
+    }
+
+    #[test]
+    fn a_path_goes_on_up_to_a_turn_of_60_degrees() {
+        let turned = |degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            step(0.0, 2.0 * cos, 2.0 * sin).along(&step(0.0, 4.0, 0.0))
+        };
+        for degrees in [0.0_f64, 1.0, 30.0, 59.0] {
+            let factor = turned(degrees).expect("a path that goes on");
+            assert!((factor - 0.5 * degrees.to_radians().cos()).abs() < 1e-12);
+        }
+        assert_eq!([61.0, 90.0, 180.0].map(turned), [None; 3]);
+        // A load against another unit: each in its own measure.
+        assert!(
+            step(1e3, 1e-3, 0.0)
+                .along(&step(1e3, 1.1e-3, 0.0))
+                .is_some()
+        );
+        assert!(step(1e3, -1e-3, 0.0).along(&step(1e3, 1e-3, 0.0)).is_none());
     }
 }

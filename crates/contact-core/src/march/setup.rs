@@ -68,7 +68,7 @@ pub(super) struct Setup<'a> {
     pub(super) mu: &'a [f64],
     pub(super) point: &'a LoadPoint,
     pub(super) drives: Drives,
-    /// The factor by which the change of the loads is that of the last increment, if both go the same way.
+    /// The factor by which the change of the loads is that of the last increment, if the path goes on.
     pub(super) goes_on: Option<f64>,
 }
 
@@ -85,28 +85,26 @@ impl Setup<'_> {
             .map_or(&self.state.residual, |rolled| &rolled.residual)
     }
 
-    /// Tractions an increment earlier.
-    fn earlier(&self) -> Earlier<'_> {
-        match self.rolled {
-            Some(rolled) => Earlier {
-                p: &rolled.p_before,
-                q: &rolled.q_before,
-            },
-            None => Earlier {
-                p: &self.state.p_before,
-                q: &self.state.q_before,
-            },
-        }
+    /// Tractions an increment earlier, whose change of the loads this one's is so many times.
+    fn earlier(&self, ratio: f64) -> Earlier<'_> {
+        let (p, q) = match self.rolled {
+            Some(rolled) => (&rolled.p_before, &rolled.q_before),
+            None => (&self.state.p_before, &self.state.q_before),
+        };
+        Earlier { p, q, ratio }
     }
 
     /// What the slip is reckoned from; with the shear an increment earlier where it is to follow its turn.
     fn start(&self, turns: bool) -> Start<'_> {
-        let turns = turns && self.problem.plan.methods.turning && self.goes_on.is_some();
+        let turns = turns && self.problem.plan.methods.turning;
         Start {
             interface: self.last(),
             residual: self.residual(),
             arms: &self.geometry.arms,
-            earlier: turns.then(|| self.earlier()),
+            earlier: self
+                .goes_on
+                .filter(|_| turns)
+                .map(|ratio| self.earlier(ratio)),
             elastic_slip: self.problem.scene.friction.scale() * self.problem.approach,
         }
     }

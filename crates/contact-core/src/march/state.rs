@@ -93,8 +93,8 @@ impl State {
         [0, 1, 2].map(|k| motions[k] * arms.unit(k))
     }
 
-    /// The factor by which the change of the loads to a point is that of the last increment, if both
-    /// go the same way.
+    /// The factor by which the change of the loads to a point is that of the last increment, if the path
+    /// goes on.
     pub(super) fn going_on(&self, point: &LoadPoint) -> Option<f64> {
         let step = point.loads.since(&self.loads, self.motion.motions());
         step.along(&self.step).filter(|_| self.increments > 1)

@@ -1,35 +1,48 @@
 //! Slip whose direction turns within the increment: a mean direction makes the path of second order.
 //!
 //! ```text
-//! ds = -lambda m,   m = (w e_0 + e_1)/|w e_0 + e_1|
+//! ds = -lambda m,   m = (e_1 + a e_0 + b e_-1)/|e_1 + a e_0 + b e_-1|
 //! ```
 //!
-//! with e_0 and e_1 the directions of the shear where the slip begins and at the end of the increment.
-//! The part of that slip across e_1, t = |ds| ((m.e_1) e_1 - m), is a term of u_0, so that the solver,
-//! which holds the slip against the final shear, finds it there; it follows the solution until both agree.
-//! When e_1 turns by a small angle m turns by 1/(1 + w) of it, which the Newton steps reckon with.
+//! with e_1 and e_0 the directions of the shear at the end of the increment and where the slip begins, and e_-1
+//! that an increment earlier. The part of that slip across e_1, t = |ds| ((m.e_1) e_1 - m), is a term of u_0, so
+//! that the solver, which holds the slip against the final shear, finds it there; it follows the solution until
+//! both agree. With w e = a e_0 + b e_-1, |e| = 1, m turns by 1/(1 + w) of a small turn of e_1, which the Newton
+//! steps reckon with.
 //!
-//! The slip of a cell grows with the 3/2 power of the time since it began (Cattaneo's slip front moves
-//! evenly), so that the mean of a direction that turns evenly has the weight w = 2/3 in a cell that starts
-//! to slip: where its shear, extrapolated from the last increment, meets the bound. In a cell that slips all
-//! the time the trapezoidal rule has w = 1. But it does not damp an error of e_0, which comes back in e_1 with
-//! the other sign; with w = 0.8 the error falls by a fifth in every increment. Of a cell that entered the contact in the last increment e_0 is mostly the error of its entry
-//! motion: it has no turn.
+//! **A cell that slips all the time.** A direction that turns evenly has its mean in the middle of the increment,
+//!
+//! ```text
+//! (1 + a + b)/2 = 1 - b/r,
+//! ```
+//!
+//! r being the increment over the last one. With b = 0 that is the trapezoidal rule, a = 1, which does not damp
+//! an error of e_0: it comes back in e_1 with the other sign. Errors of e_1 follow z^2 + a z + b = 0 from one
+//! increment to the next; they fall the fastest where both roots are -a/2, b = a^2/4:
+//!
+//! ```text
+//! a = 2/(1 + (2 + 2/r)^(1/2));   a = 2/3, b = 1/9, z = -1/3 for r = 1.
+//! ```
+//!
+//! **A cell that starts to slip.** Its slip grows with the 3/2 power of the time since then (Cattaneo's slip front
+//! moves evenly), so that the mean of a direction that turns evenly has the weights a = 2/3, b = 0; e_0 is
+//! where its shear, extrapolated from the last increment, meets the bound. In the increment after that the mean
+//! of the square root of the time has a = 0.8. Of a cell that entered the contact in the last increment e_0 is
+//! mostly the error of its entry motion: it has no turn.
 
 use crate::cells::size;
 use crate::solvers::Interface;
 
-/// Weight w of the direction at the beginning of a cell that starts to slip.
+/// Weight a of the direction at the beginning of a cell that starts to slip.
 const STARTS: f64 = 2.0 / 3.0;
-/// The same of a cell that slips all the time. Of 0.67, 0.8 and 1 on the paper's scene (E1/E2 = 2, 128 x 128):
-/// q at the ends of branches off by 0.28, 0.30 and 0.37 % with chosen increments, 0.55, 0.68 and 0.97 % with
-/// 55; on torsion 0.11 % with 0.8 and 0.19 % with 1. Below 0.8 the order with short increments is lost
-/// (`tests/ladder/path_order.rs`).
-const GOES_ON: f64 = 0.8;
-/// Cosines of the angle between e_0 and e_1 over which the turn is faded in: beyond 60 degrees the path of
+/// The same of one that started in the last increment.
+const STARTED: f64 = 0.8;
+/// Part of its bound, less than all of it, that the shear an increment earlier had in a cell that started to slip in
+/// the last increment; what the cell is taken for is faded, so that rounding decides nothing.
+const SLIPPED: f64 = 0.9;
+/// Cosines of the angle between two directions over which the turn is faded in: beyond 60 degrees the path of
 /// the direction in between is not known.
 const FADE: [f64; 2] = [0.5, 0.7];
-
 /// Part of the way to the end that the onset of slip is nearer than the start from which the turn counts in
 /// full; it is faded in, so that rounding decides nothing.
 const NEARER: f64 = 0.1;
@@ -41,15 +54,25 @@ pub struct Earlier<'a> {
     pub p: &'a [f64],
     /// Shear \[Pa\].
     pub q: &'a [Vec<f64>; 2],
+    /// The increment over the last one.
+    pub ratio: f64,
+}
+
+impl Earlier<'_> {
+    /// The weights a and b of a cell that slips all the time.
+    fn weights(&self) -> [f64; 2] {
+        let a = 2.0 / (1.0 + (2.0 + 2.0 / self.ratio).sqrt());
+        [a, 0.25 * a * a]
+    }
 }
 
 /// The part t of the slip across the final shear in cell n \[m\], as far as the way there is known,
 ///
 /// ```text
-/// |ds| fade(cos a) w sin(a)/|w e_0 + e_1|,   a the angle from e_0 to e_1,
+/// |ds| fade(cos c) w sin(c)/|w e + e_1|,   c the angle from e to e_1,
 /// ```
 ///
-/// and its derivative by a over |ds|.
+/// and its derivative by c over |ds|.
 pub(super) fn turn(
     last: &Interface,
     earlier: &Earlier<'_>,
@@ -64,7 +87,7 @@ pub(super) fn turn(
     }
     let (begin, w) = match last.slip[n] {
         true if earlier.p[n] <= 0.0 => return None,
-        true => (at(&last.q), GOES_ON),
+        true => goes_on(last, earlier, n),
         false => (meets(at(earlier.q), at(&last.q), size(end))?, STARTS),
     };
     // Slip begins with a shear that is nearer to the one at the end than the one at the start was.
@@ -90,6 +113,22 @@ pub(super) fn turn(
     };
     let follows = fade * along * w * (w + cos) / (length * length) - of_fade;
     Some((across, follows))
+}
+
+/// The direction e of a cell that has slipped before, of any length, and its weight w.
+fn goes_on(last: &Interface, earlier: &Earlier<'_>, n: usize) -> ([f64; 2], f64) {
+    let at = |q: &[Vec<f64>; 2]| [q[0][n], q[1][n]];
+    let (q, before) = (at(&last.q), at(earlier.q));
+    let (e_0, e_before) = (unit(q), unit(before));
+    // The shear over the pressure is as large in all cells that slip.
+    let of_bound = size(before) * last.p[n] / (size(q) * earlier.p[n]).max(f64::MIN_POSITIVE);
+    let slipped = (of_bound - SLIPPED) / (1.0 - SLIPPED);
+    let turned = (dot(e_0, e_before) - FADE[0]) / (FADE[1] - FADE[0]);
+    let part = slipped.clamp(0.0, 1.0) * turned.clamp(0.0, 1.0);
+    let [a, b] = earlier.weights();
+    let (a, b) = (STARTED + part * (a - STARTED), part * b);
+    let mean = [0, 1].map(|c| a * e_0[c] + b * e_before[c]);
+    (mean, size(mean))
 }
 
 /// Where a shear extrapolated from `before` through `last` meets the circle of radius `bound` \[Pa\].
