@@ -798,13 +798,16 @@ class Spacing:
     """How the increments of a branch are spaced.
 
     ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
-    of a paraboloid; natural for an indentation.
+    of a paraboloid; natural for an indentation. ``SHORT_FIRST``: a short first increment, then equal
+    ones; shows the stiffness and the stick zone right after a reversal.
     """
 
     UNIFORM: ClassVar[Spacing]
     """Equal increments of force."""
     EQUAL_RADIUS: ClassVar[Spacing]
     """Increments of equal contact radius of a paraboloid; natural for an indentation."""
+    SHORT_FIRST: ClassVar[Spacing]
+    """A short first increment, then equal ones: what is chosen after a reversal."""
 
     def __int__(self) -> int: ...
     def __hash__(self) -> int: ...
@@ -972,27 +975,36 @@ class LoadPath:
         """Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces."""
     def radial(self, W: _Values, *, increments: _Count = ...) -> LoadPath:
         """Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II."""
-    def ellipse(self, *, T_x: float, T_y: float, turns: int = 1, increments: int) -> LoadPath:
+    def ellipse(
+        self, *, T_x: float, T_y: float, turns: int = 1, increments: _Count = ...
+    ) -> LoadPath:
         """Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
 
         Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
-        for each turn towards (0, T_y), each a branch of its own.
+        for each turn towards (0, T_y), each a branch of its own; with "auto", 64 branches for each
+        turn, and as many increments as the path tolerance of the settings asks for.
         """
     def waypoints(
-        self, *, increments: int | PerRange = ..., **columns: Sequence[float] | _Array
+        self,
+        *,
+        increments: int | PerRange | Literal["auto"] = ...,
+        **columns: Sequence[float] | _Array,
     ) -> LoadPath:
         """Go straight from waypoint to waypoint, a branch for each.
 
         Parameters
         ----------
-        increments : int or PerRange
-            Increments per branch; or as many as the change needs.
+        increments : int, PerRange or "auto"
+            Increments per branch; or as many as the change needs; or as the path tolerance of the
+            settings asks for.
         **columns : array
             Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
             ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.
         """
     @staticmethod
-    def from_csv(path: str | PathLike[str], *, increments: int | PerRange = ...) -> LoadPath:
+    def from_csv(
+        path: str | PathLike[str], *, increments: int | PerRange | Literal["auto"] = ...
+    ) -> LoadPath:
         """Read a measured history; the first line names the columns of `waypoints`."""
     def force(
         self,

@@ -17,7 +17,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::trial::{PathError, Trial};
 use crate::error::Error;
-use crate::scene::{LoadPath, Scene, Spacing};
+use crate::scene::{Branch, LoadPath, Loads, RigidMotion, Scene, Spacing};
 
 /// Orders that a branch may show from one round to the next.
 const ORDERS: (f64, f64) = (1.25, 2.0);
@@ -86,12 +86,14 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
     let mut before: Vec<Option<(usize, f64)>> = vec![None; last + 1];
     let mut until = last;
     let mut most_inherited = INHERITED.1;
+    let mut settled = false;
     for _ in 0..ROUNDS {
         let mut part = chosen.path.clone();
         part.branches.truncate(until + 1);
-        let errors = trial.errors(&part)?;
+        // Whatever given increments leave is no matter of those that are chosen.
+        let errors = trial.errors(&part, |k| open[k])?;
         let kept = |k: usize| before[k].is_some_and(|(_, error)| errors[k].q > KEPT * error);
-        let uniform = |k: usize| chosen.path.branches[k].spacing == Spacing::Uniform;
+        let uniform = |k: usize| chosen.path.branches[k].spacing != Spacing::EqualRadius;
         let over = |k: usize| open[k] && errors[k].q > ACCEPTED * tolerance;
         if (0..errors.len()).any(|k| uniform(k) && over(k) && kept(k)) {
             most_inherited = INHERITED.0;
@@ -102,14 +104,14 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
             let branch = &mut chosen.path.branches[k];
             branch.path_error = Some(error.q);
             let allowed = match branch.spacing {
-                Spacing::Uniform => ACCEPTED * tolerance,
+                Spacing::Uniform | Spacing::ShortFirst => ACCEPTED * tolerance,
                 Spacing::EqualRadius if k < last => {
                     (GROWN * error.reached).clamp(INHERITED.0, most_inherited) * tolerance
                 }
                 Spacing::EqualRadius => tolerance * error.bearable.max(1.0),
             };
             if open[k] && error.q > allowed.max(OWN * inherited) {
-                let count = branch.count();
+                let count = branch.equal_increments();
                 let grows = branch.spacing == Spacing::EqualRadius;
                 let excess = error.q / (AIM * allowed);
                 let near = !grows && excess <= NEAR;
@@ -121,7 +123,7 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
                 before[k] = Some((count, error.q));
                 let factor = excess.powf(1.0 / order).min(GROWTH);
                 let more = ((count as f64 * factor).ceil() as usize).next_multiple_of(2);
-                branch.increments = Some(more);
+                branch.set_equal_increments(more);
                 if near {
                     branch.path_error = Some(error.q * (count as f64 / more as f64).powf(order));
                 } else {
@@ -133,7 +135,10 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
             }
         }
         until = match first {
-            None if until == last => return Ok(chosen),
+            None if until == last => {
+                settled = true;
+                break;
+            }
             // What follows the growth of contact starts from it.
             Some(k) if chosen.path.branches[k].spacing == Spacing::EqualRadius => k,
             _ => last,
@@ -142,9 +147,12 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
             break;
         }
     }
-    let errors = trial.errors(&chosen.path)?;
-    for (branch, error) in chosen.path.branches.iter_mut().zip(errors) {
-        branch.path_error = Some(error.q);
+    // At the end what given increments leave counts.
+    if !settled || open.contains(&false) {
+        let errors = trial.errors(&chosen.path, |_| true)?;
+        for (branch, error) in chosen.path.branches.iter_mut().zip(errors) {
+            branch.path_error = Some(error.q);
+        }
     }
     Ok(chosen)
 }
@@ -178,26 +186,47 @@ pub(crate) fn path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Vec<P
         let branches = scene.path.branches.iter();
         return Ok(branches.map(|_| PathError::default()).collect());
     }
-    Trial::new(scene, stop)?.errors(&scene.path)
+    Trial::new(scene, stop)?.errors(&scene.path, |_| true)
 }
 
-/// Gives open branches the increments to begin with; those that begin without contact grow by equal
-/// radii.
+/// Gives open branches the increments to begin with. Those that begin without contact grow by equal radii, those
+/// that shear from a turn of the path on have a short first increment, and those that go on, as the chords of a curve
+/// do, begin with one.
 fn begin(path: &mut LoadPath, friction: bool) {
     let mut touches = false;
     let last = path.branches.len() - 1;
+    let steps: Vec<Loads> = (0..=last).map(|k| step(&path.branches, k)).collect();
     for (k, branch) in path.branches.iter_mut().enumerate() {
         if branch.increments.is_none() {
+            let goes_on = k > 0 && steps[k].along(&steps[k - 1]).is_some();
             if !touches {
                 branch.spacing = Spacing::EqualRadius;
+            } else if friction && !goes_on && shears(&steps[k]) {
+                branch.spacing = Spacing::ShortFirst;
             }
-            branch.increments = Some(match (friction, touches) {
+            branch.set_equal_increments(match (friction, touches) {
                 (false, _) => 1,
                 (true, false) if k < last => FIRST.0,
                 (true, false) => FIRST.1,
+                (true, true) if goes_on => 1,
                 (true, true) => FIRST.2,
             });
         }
         touches = branch.to.W > 0.0 || branch.to.given.delta_z.is_some_and(|d| d > 0.0);
     }
+}
+
+/// The change of the loads, or of the motions in their place, in branch `k`.
+fn step(branches: &[Branch], k: usize) -> Loads {
+    let before = k
+        .checked_sub(1)
+        .map_or(Loads::default(), |k| branches[k].to);
+    let motions = before.given.motions().map(Option::unwrap_or_default);
+    branches[k].to.since(&before, motions)
+}
+
+/// Whether a change of the loads acts along the plane.
+fn shears(step: &Loads) -> bool {
+    let mut in_plane = RigidMotion::ALL.into_iter().filter(|of| of.is_in_plane());
+    in_plane.any(|of| step.prescribed(of).value() != 0.0)
 }

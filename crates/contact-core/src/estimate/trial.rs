@@ -93,16 +93,26 @@ impl Trial {
         })
     }
 
-    /// Estimated errors at the end of each branch.
-    pub(crate) fn errors(&mut self, path: &LoadPath) -> Result<Vec<PathError>, Error> {
+    /// Estimated errors at the end of each branch, those that the increments of the branches leave that are
+    /// `varied`.
+    pub(crate) fn errors(
+        &mut self,
+        path: &LoadPath,
+        varied: impl Fn(usize) -> bool,
+    ) -> Result<Vec<PathError>, Error> {
         let with = |count: fn(usize) -> usize| {
             let mut other = path.clone();
-            for branch in &mut other.branches {
-                branch.increments = Some(count(branch.count()));
+            for (k, branch) in other.branches.iter_mut().enumerate() {
+                if varied(k) {
+                    branch.set_equal_increments(count(branch.equal_increments()));
+                }
             }
             other
         };
-        let (change, part) = if path.branches.iter().all(|b| b.count() > 1) {
+        let mut counts = (path.branches.iter().enumerate())
+            .filter(|(k, _)| varied(*k))
+            .map(|(_, branch)| branch.equal_increments());
+        let (change, part) = if counts.all(|count| count > 1) {
             let half = with(|n| n / 2);
             (self.change(&half, path)?, ORDER.exp2() - 1.0)
         } else {

@@ -11,7 +11,7 @@ pub use mirror::{Half, Mirror};
 use ndarray::Array2;
 
 use self::direct::direct_branches;
-use crate::scene::{Body, LoadPoint, Loads, RigidMotion, Scene, SurfaceMap};
+use crate::scene::{Body, LoadPoint, Loads, RigidMotion, Scene, Spacing, SurfaceMap};
 
 /// What is computed and what is left out.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,10 +72,16 @@ impl Plan {
         }
     }
 
-    /// The increments that are solved: of a branch whose end does not depend on the way, the last.
+    /// The increments that are solved: of a branch whose end does not depend on the way, the last, and a short
+    /// first one.
     pub fn points(&self, scene: &Scene) -> Vec<LoadPoint> {
         let mut points = scene.path.points();
-        points.retain(|point| point.ends_branch || !self.direct[point.branch]);
+        let mut before = None;
+        points.retain(|point| {
+            let begins = before.replace(point.branch) != Some(point.branch);
+            let short = scene.path.branches[point.branch].spacing == Spacing::ShortFirst;
+            point.ends_branch || !self.direct[point.branch] || (begins && short)
+        });
         points
     }
 

@@ -9,7 +9,8 @@ use crate::parts::{members, parts};
 /// How the increments of a branch are spaced.
 ///
 /// ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
-/// of a paraboloid; natural for an indentation.
+/// of a paraboloid; natural for an indentation. ``SHORT_FIRST``: a short first increment, then equal
+/// ones; shows the stiffness and the stick zone right after a reversal.
 #[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Spacing {
@@ -17,6 +18,8 @@ pub(crate) enum Spacing {
     Uniform,
     #[pyo3(name = "EQUAL_RADIUS")]
     EqualRadius,
+    #[pyo3(name = "SHORT_FIRST")]
+    ShortFirst,
 }
 
 members!(Spacing);
@@ -26,6 +29,7 @@ impl From<Spacing> for core::Spacing {
         match spacing {
             Spacing::Uniform => Self::Uniform,
             Spacing::EqualRadius => Self::EqualRadius,
+            Spacing::ShortFirst => Self::ShortFirst,
         }
     }
 }
@@ -35,6 +39,7 @@ impl From<core::Spacing> for Spacing {
         match spacing {
             core::Spacing::Uniform => Self::Uniform,
             core::Spacing::EqualRadius => Self::EqualRadius,
+            core::Spacing::ShortFirst => Self::ShortFirst,
         }
     }
 }

@@ -81,6 +81,7 @@ impl<'py> FromPyObject<'_, 'py> for Count {
 pub(super) enum AnyIncrements {
     Each(usize),
     PerRange(PerRange),
+    Chosen,
 }
 
 impl<'py> FromPyObject<'_, 'py> for AnyIncrements {
@@ -90,7 +91,10 @@ impl<'py> FromPyObject<'_, 'py> for AnyIncrements {
         if let Ok(per_range) = value.extract::<PerRange>() {
             return Ok(Self::PerRange(per_range));
         }
-        let wanted = "a whole number of increments per branch, or PerRange(40)";
+        if value.extract::<&str>().is_ok_and(|word| word == "auto") {
+            return Ok(Self::Chosen);
+        }
+        let wanted = "a whole number of increments per branch, PerRange(40) or \"auto\"";
         value
             .extract()
             .map(Self::Each)
@@ -103,6 +107,7 @@ impl From<AnyIncrements> for core::Increments {
         match increments {
             AnyIncrements::Each(n) => Self::Each(n),
             AnyIncrements::PerRange(PerRange(n)) => Self::PerRange(n),
+            AnyIncrements::Chosen => Self::Chosen,
         }
     }
 }

@@ -123,19 +123,25 @@ impl LoadPath {
     /// Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
     ///
     /// Its middle is where the path stands. It goes to (T_x, 0) in `increments` and takes as many
-    /// for each turn towards (0, T_y), each a branch of its own.
-    #[pyo3(signature = (*, T_x, T_y, turns = 1, increments))]
-    fn ellipse(&self, T_x: f64, T_y: f64, turns: usize, increments: usize) -> PyResult<Self> {
-        core::LoadPath::check_turns(turns, increments).map_err(to_python)?;
-        Ok(Self(self.0.clone().ellipse((T_x, T_y), turns, increments)))
+    /// for each turn towards (0, T_y), each a branch of its own; with "auto", 64 branches for each
+    /// turn, and as many increments as the path tolerance of the settings asks for.
+    #[pyo3(signature = (*, T_x, T_y, turns = 1, increments = Count(None)))]
+    fn ellipse(&self, T_x: f64, T_y: f64, turns: usize, increments: Count) -> PyResult<Self> {
+        core::LoadPath::check_turns(turns, increments.0).map_err(to_python)?;
+        Ok(Self(self.0.clone().ellipse(
+            (T_x, T_y),
+            turns,
+            increments.0,
+        )))
     }
 
     /// Go straight from waypoint to waypoint, a branch for each.
     ///
     /// Parameters
     /// ----------
-    /// increments : int or PerRange
-    ///     Increments per branch; or as many as the change needs.
+    /// increments : int, PerRange or "auto"
+    ///     Increments per branch; or as many as the change needs; or as the path tolerance of the
+    ///     settings asks for.
     /// **columns : array
     ///     Loads (``W``, ``T_x``, ...), motions (``delta_x``, ...), ``sigma_B``, ``sigma_B1``,
     ///     ``rolled`` and the path time ``t`` at the waypoints. What has no column stays as it is.

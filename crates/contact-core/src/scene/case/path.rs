@@ -37,6 +37,7 @@ pub(super) fn path(root: &Section<'_>, files: &Files<'_>, mu: f64) -> Result<Loa
                 &[
                     ("uniform", Spacing::Uniform),
                     ("equal_radius", Spacing::EqualRadius),
+                    ("short_first", Spacing::ShortFirst),
                 ],
             )?,
             t_end,
@@ -105,9 +106,10 @@ fn measured(root: &Section<'_>, files: &Files<'_>) -> Result<LoadPath, Fault> {
     let name = value
         .as_str()
         .ok_or_else(|| Fault::value(&key, value, what))?;
-    let what = "a whole number >= 1, or { per_range = number }";
+    let what = "a whole number >= 1, { per_range = number }, or \"auto\"";
     let increments = match section.get("increments") {
         None => Increments::Each(1),
+        Some(Value::String(auto)) if auto == "auto" => Increments::Chosen,
         Some(Value::Table(_)) => {
             let auto = section.need_section("increments", &["per_range"])?;
             Increments::PerRange(auto.count("per_range", 1)?)

@@ -59,6 +59,7 @@ impl Scene {
             let spacing = match branch.spacing {
                 Spacing::Uniform => "uniform",
                 Spacing::EqualRadius => "equal_radius",
+                Spacing::ShortFirst => "short_first",
             };
             line(format_args!("spacing = \"{spacing}\""));
         }

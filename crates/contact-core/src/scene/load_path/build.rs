@@ -5,6 +5,10 @@ use std::f64::consts::TAU;
 use super::{Branch, LoadPath};
 use crate::scene::{Loads, Prescribed, RigidMotion};
 
+/// Branches of the turn of an ellipse whose increments are yet to be chosen: the middle of a chord lies within
+/// the ellipse by less than 0.13 % of its radius.
+pub(super) const CHORDS: usize = 64;
+
 impl LoadPath {
     /// A path that starts from two bodies just touching.
     pub fn start() -> Self {
@@ -90,9 +94,16 @@ impl LoadPath {
 
     /// Turns the tangential force around an ellipse of the semi-axes `T_x`, `T_y` \[N\] about its
     /// present value, from (T_x, 0) on towards (0, T_y), `turns` times. It goes there in `increments`
-    /// and takes as many for a turn, each a branch of its own, since the path bends at each.
+    /// and takes as many for a turn, each a branch of its own, since the path bends at each. Where they are
+    /// yet to be chosen a turn has 64 branches.
     #[must_use]
-    pub fn ellipse(mut self, (T_x, T_y): (f64, f64), turns: usize, increments: usize) -> Self {
+    pub fn ellipse(
+        mut self,
+        (T_x, T_y): (f64, f64),
+        turns: usize,
+        increments: impl Into<Option<usize>>,
+    ) -> Self {
+        let increments = increments.into();
         let (middle, t0) = self.last();
         let at = |angle: f64| {
             let mut to = middle;
@@ -103,10 +114,12 @@ impl LoadPath {
         };
         self.branches
             .push(Branch::new(at(0.0), increments, t0 + 1.0));
-        for i in 1..=turns * increments {
-            let part = i as f64 / increments as f64;
+        let chords = increments.unwrap_or(CHORDS);
+        for i in 1..=turns * chords {
+            let part = i as f64 / chords as f64;
             let t = t0 + 1.0 + part;
-            self.branches.push(Branch::new(at(TAU * part), 1, t));
+            let of_chord = increments.map(|_| 1);
+            self.branches.push(Branch::new(at(TAU * part), of_chord, t));
         }
         self
     }

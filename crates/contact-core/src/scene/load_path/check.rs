@@ -1,6 +1,7 @@
 //! Load paths that have no meaning, refused before anything is computed.
 
 use super::LoadPath;
+use super::build::CHORDS;
 use crate::error::Error;
 use crate::memory::fits;
 use crate::scene::{Friction, Grid, Prescribed, RigidMotion};
@@ -24,8 +25,8 @@ impl LoadPath {
     }
 
     /// Fails if [`Self::ellipse`] would make more increments than a path may have.
-    pub fn check_turns(turns: usize, increments: usize) -> Result<(), Error> {
-        let all = turns.saturating_mul(increments);
+    pub fn check_turns(turns: usize, increments: impl Into<Option<usize>>) -> Result<(), Error> {
+        let all = turns.saturating_mul(increments.into().unwrap_or(CHORDS));
         Self::start().normal(0.0, all).check_length()
     }
 

@@ -19,15 +19,40 @@ pub enum Spacing {
     /// Increments of equal contact radius for a paraboloid: the force grows with the cube of the
     /// count, an approach that is given with the square. The natural spacing of an indentation.
     EqualRadius,
+    /// A short first increment, then equal ones: at the end of it the branch has its largest stick zone, and
+    /// the bodies the stiffness that they have there. What increments are chosen for after a reversal.
+    ShortFirst,
 }
 
+/// Part of a branch that a short first increment covers. Right after a reversal by 2 mu W the secant stiffness of
+/// a Cattaneo-Mindlin contact is low by a sixth of that part, its stick ratio by two thirds.
+const SHORT: f64 = 1.0 / 64.0;
+
 impl Spacing {
-    /// Part of the branch covered after the part `s` of its increments.
-    fn covered(self, s: f64, approach_given: bool) -> f64 {
+    /// Increments that are not those of equal size.
+    fn extra(self) -> usize {
+        match self {
+            Self::Uniform | Self::EqualRadius => 0,
+            Self::ShortFirst => 1,
+        }
+    }
+
+    /// Part of the branch, and of its path time, covered after `i` of its `n` increments.
+    fn covered(self, i: usize, n: usize, approach_given: bool) -> (f64, f64) {
+        let s = i as f64 / n as f64;
         match (self, approach_given) {
-            (Self::Uniform, _) => s,
-            (Self::EqualRadius, false) => s.powi(3),
-            (Self::EqualRadius, true) => s.powi(2),
+            (Self::Uniform, _) => (s, s),
+            (Self::EqualRadius, false) => (s.powi(3), s),
+            (Self::EqualRadius, true) => (s.powi(2), s),
+            (Self::ShortFirst, _) => {
+                let equal = (i - 1) as f64 / (n - 1).max(1) as f64;
+                let s = if n == 1 {
+                    1.0
+                } else {
+                    SHORT + (1.0 - SHORT) * equal
+                };
+                (s, s)
+            }
         }
     }
 }
@@ -64,6 +89,16 @@ impl Branch {
     /// Increments, one where the number is yet to be chosen.
     pub(crate) fn count(&self) -> usize {
         self.increments.unwrap_or(1)
+    }
+
+    /// Those of them that are of equal size, a short first one left out.
+    pub(crate) fn equal_increments(&self) -> usize {
+        self.count().saturating_sub(self.spacing.extra()).max(1)
+    }
+
+    /// Gives it so many increments of equal size.
+    pub(crate) fn set_equal_increments(&mut self, count: usize) {
+        self.increments = Some(count + self.spacing.extra());
     }
 }
 

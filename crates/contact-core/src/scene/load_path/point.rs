@@ -79,8 +79,8 @@ impl LoadPath {
             let mut before = 0.0;
             for i in 1..=b.count() {
                 let last = i == b.count();
-                let s = i as f64 / b.count() as f64;
-                let f = b.spacing.covered(s, b.to.given.delta_z.is_some());
+                let approach_given = b.to.given.delta_z.is_some();
+                let (f, s) = b.spacing.covered(i, b.count(), approach_given);
                 let between = |a: f64, c: f64| if last { c } else { a + f * (c - a) };
                 let force =
                     |k: usize| given[k].map_or_else(|| between(forces[k], to[k]), |_| f64::NAN);

@@ -15,13 +15,18 @@ pub enum Increments {
     /// As many as the change needs if the whole range of a load or motion takes this many; the one
     /// that needs most decides.
     PerRange(usize),
+    /// As many as the tolerance on the path needs,
+    /// [`choose_increments`](crate::estimate::choose_increments).
+    Chosen,
 }
 
 impl Increments {
-    /// The increments of each of the steps, whose changes are given by load or motion.
-    fn of(self, steps: &[Vec<f64>], ranges: &[f64]) -> Vec<usize> {
+    /// The increments of each of the steps, whose changes are given by load or motion; none where they are
+    /// yet to be chosen.
+    fn of(self, steps: &[Vec<f64>], ranges: &[f64]) -> Vec<Option<usize>> {
         let per_range = match self {
-            Self::Each(n) => return vec![n; steps.len()],
+            Self::Each(n) => return vec![Some(n); steps.len()],
+            Self::Chosen => return vec![None; steps.len()],
             Self::PerRange(n) => n as f64,
         };
         let needed = |change: f64, range: f64| {
@@ -34,7 +39,7 @@ impl Increments {
         };
         let of_step = |step: &Vec<f64>| {
             let each = step.iter().zip(ranges).map(|(c, r)| needed(*c, *r));
-            each.max().unwrap_or(0).max(1)
+            Some(each.max().unwrap_or(0).max(1))
         };
         steps.iter().map(of_step).collect()
     }
@@ -219,6 +224,20 @@ mod tests {
             let refused = LoadPath::start().waypoints(&names, rows, Increments::Each(1));
             let text = refused.expect_err("refused").to_string();
             assert!(text.contains(part), "{text}");
+        }
+    }
+
+    #[test]
+    fn increments_of_waypoints_and_ellipses_are_left_to_be_chosen() {
+        let rows = [vec![100.0, 0.0], vec![100.0, 20.0]];
+        let path = LoadPath::start().waypoints(&["W", "T_x"], &rows, Increments::Chosen);
+        let path = path.expect("a path").ellipse((2.0, 1.0), 2, None);
+        assert!(path.branches.iter().all(|b| b.increments.is_none()));
+        let (ends, points) = (path.branches.len() - 3, path.points());
+        assert!(ends.is_multiple_of(2) && points.len() == ends + 3);
+        for point in &points[2..] {
+            let x = (point.loads.T_x - 20.0) / 2.0;
+            assert!((x.hypot(point.loads.T_y) - 1.0).abs() < 1e-13);
         }
     }
 
