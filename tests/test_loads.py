@@ -82,6 +82,15 @@ def test_elliptical_loading_dissipates_and_comes_back() -> None:
     assert float(np.abs(scalars.delta_y).max()) > 0
 
 
+def test_increments_of_any_path_may_be_left_to_be_chosen(tmp_path: Path) -> None:
+    path = PRESSED.ellipse(T_x=20.0, T_y=10.0).waypoints(T_x=[0.0, 10.0], increments="auto")
+    assert {branch.increments for branch in path.branches[1:]} == {None}
+    file = tmp_path / "history.csv"
+    file.write_text("W, T_x\n1.0, 0.0\n1.0, 0.1\n")
+    history = fret.LoadPath.from_csv(file, increments="auto")
+    assert [branch.increments for branch in history.branches] == [None, None]
+
+
 def test_a_line_contact_is_that_of_hertz() -> None:
     line = fret.reference.line_contact(R=R, bodies=(STEEL, STEEL), W=1e5)
     scene = fret.Scene(

@@ -12,6 +12,7 @@ mod audit;
 mod bench;
 mod bulk_stress;
 mod cattaneo_mindlin;
+mod chosen;
 mod coated_hertz;
 mod coupled_indentation;
 mod energy;

@@ -1,0 +1,188 @@
+//! Increments that are chosen: what they show of a loop, and what they leave on paths of any shape.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use contact_core::estimate::choose_increments;
+use contact_core::march::Increment;
+use contact_core::reference::CattaneoMindlin;
+use contact_core::scene::{Elastic, LoadPath, Scene};
+use ndarray::Array2;
+
+use crate::bench::{CORK, STEEL, W, coated, hertz_of, indentation, norm, run, sphere_on_flat};
+
+const MU: f64 = 0.3;
+/// Part of the way to full sliding that the loops go.
+const LOOP: f64 = 0.9;
+
+fn chosen(scene: &Scene) -> Scene {
+    choose_increments(scene, &Arc::default()).expect("increments")
+}
+
+/// A fretting loop with chosen increments after a path.
+fn fretted(start: LoadPath) -> LoadPath {
+    start.tangential(&[LOOP * MU * W, -LOOP * MU * W, LOOP * MU * W], None)
+}
+
+/// The secant stiffness of the first increment of every branch after the first, and its stick ratio.
+fn begins(increments: &[Increment]) -> Vec<(f64, f64)> {
+    let pairs = increments.windows(2);
+    pairs
+        .filter(|pair| pair[1].point.branch > pair[0].point.branch)
+        .map(|pair| {
+            let force = pair[1].point.loads.T_x - pair[0].point.loads.T_x;
+            let shift = pair[1].motion.delta_x - pair[0].motion.delta_x;
+            (force / shift, pair[1].stick_ratio())
+        })
+        .collect()
+}
+
+/// Mindlin and Deresiewicz: after a reversal all sticks, and the stiffness is that of the first touch.
+#[test]
+fn a_loop_has_its_stiffness_and_stick_zone_after_a_reversal() {
+    let scene = sphere_on_flat(
+        CORK,
+        CORK,
+        MU,
+        (2.4, 128),
+        fretted(LoadPath::start().normal(W, 1)),
+    );
+    let closed = CattaneoMindlin::new(hertz_of(&scene), CORK, CORK, MU);
+    let stiffness = 1.5 * closed.shift_limit().recip() * closed.T_limit();
+    for (increments, name) in [
+        (run(&chosen(&scene), |_, _| ()), "all"),
+        (
+            run(&chosen(&directly(&scene)), |_, _| ()),
+            "directly",
+        ),
+    ] {
+        for (found, stick_ratio) in begins(&increments) {
+            let off = found / stiffness - 1.0;
+            assert!(
+                off.abs() < 0.01,
+                "{name}: {found:e} of {stiffness:e}, {off:+.2e}"
+            );
+            assert!(stick_ratio > 0.96, "{name}: {stick_ratio}");
+        }
+        let largest = begins(&increments)[1..].iter().map(|(_, stick)| *stick);
+        let largest = largest.fold(0.0, f64::max);
+        assert!(largest > 0.98, "{name}: {largest}");
+    }
+}
+
+/// The scene, the increments left out that its ends do not depend on.
+fn directly(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.settings.skip.path = true;
+    scene
+}
+
+/// The coated sphere of the paper against a hundred times as many increments after a reversal.
+#[test]
+fn a_coated_loop_has_its_stiffness_after_a_reversal() {
+    let coated_with = |path: LoadPath| {
+        let scene = sphere_on_flat(STEEL, STEEL, MU, (2.4, 64), path);
+        let a = hertz_of(&scene).a;
+        coated(scene, Elastic { E: 420e9, nu: 0.3 }, a)
+    };
+    let few = run(
+        &chosen(&coated_with(fretted(LoadPath::start().normal(W, None)))),
+        |_, _| (),
+    );
+    let T = LOOP * MU * W;
+    let fine = indentation(12)
+        .tangential(&[T], 10)
+        .tangential(&[0.998 * T], 1);
+    let fine = begins(&run(&coated_with(fine), |_, _| ()));
+    let (stiffness, _) = fine[1];
+    let begins = begins(&few);
+    for (found, stick_ratio) in &begins[1..] {
+        let off = found / stiffness - 1.0;
+        assert!(off.abs() < 0.01, "{found:e} of {stiffness:e}, {off:+.2e}");
+        assert!(*stick_ratio > 0.98, "{stick_ratio}");
+    }
+}
+
+/// The shear at the end of a path.
+fn shear(scene: &Scene) -> [Array2<f64>; 2] {
+    let mut q = None;
+    run(scene, |march, _| q = Some(march.shear()));
+    q.expect("an increment")
+}
+
+fn distance(a: &[Array2<f64>; 2], b: &[Array2<f64>; 2]) -> f64 {
+    let off = norm(&(&a[0] - &b[0])).hypot(norm(&(&a[1] - &b[1])));
+    off / norm(&b[0]).hypot(norm(&b[1]))
+}
+
+#[test]
+fn an_ellipse_and_its_waypoints_meet_their_tolerance() {
+    let around = |path: LoadPath| sphere_on_flat(STEEL, STEEL, MU, (2.3, 32), path);
+    let pressed = || LoadPath::start().normal(W, 1);
+    let axes @ (T_x, T_y) = (0.7 * MU * W, 0.4 * MU * W);
+    let exact = shear(&around(pressed().ellipse(axes, 1, 512)));
+    let names = ["T_x", "T_y"];
+    let rows: Vec<Vec<f64>> = (0..=64)
+        .map(|i| TAU * f64::from(i) / 64.0)
+        .map(|angle| vec![T_x * angle.cos(), T_y * angle.sin()])
+        .collect();
+    let waypoints = pressed().waypoints(&names, &rows, contact_core::scene::Increments::Chosen);
+    for path in [
+        pressed().ellipse(axes, 1, None),
+        waypoints.expect("waypoints"),
+    ] {
+        let scene = chosen(&around(path));
+        let error = distance(&shear(&scene), &exact);
+        let tolerance = scene.settings.solver.path_tolerance;
+        assert!(error < tolerance, "{error:.2e} of {tolerance:.0e}");
+        assert!(scene.path.increments() < 300, "{}", scene.path.increments());
+    }
+}
+
+/// A contact that was pressed in one increment given by the user: what that leaves sticks, and no number of
+/// increments after it takes it away.
+#[test]
+fn given_increments_do_not_drive_those_that_are_chosen() {
+    let coated_with = |pressing: Option<usize>, E: f64| {
+        let T = LOOP * MU * W;
+        let path = LoadPath::start()
+            .normal(W, pressing)
+            .tangential(&[T, -T], None);
+        let lower = Elastic { E, nu: 0.3 };
+        let scene = sphere_on_flat(STEEL, lower, MU, (2.4, 32), path);
+        let a = hertz_of(&scene).a;
+        coated(scene, Elastic { E: 420e9, nu: 0.3 }, a)
+    };
+    for E in [210e9, 20e9] {
+        let given = chosen(&coated_with(Some(1), E));
+        let all = chosen(&coated_with(None, E));
+        let counts = |scene: &Scene| -> usize {
+            scene.path.branches[1..]
+                .iter()
+                .filter_map(|b| b.increments)
+                .sum()
+        };
+        assert!(
+            counts(&given) <= 2 * counts(&all),
+            "{} {}",
+            counts(&given),
+            counts(&all)
+        );
+        // What the given increment leaves is said.
+        assert!(
+            given.path.branches[0].path_error > Some(0.05),
+            "{:?}",
+            given.path.branches
+        );
+        let mut fine = given.clone();
+        for branch in &mut fine.path.branches[1..] {
+            branch.increments = branch.increments.map(|n| 8 * n);
+        }
+        let error = distance(&shear(&given), &shear(&fine));
+        let tolerance = given.settings.solver.path_tolerance;
+        assert!(
+            error < 1.5 * tolerance,
+            "{E:e}: {error:.2e} of {tolerance:.0e}"
+        );
+    }
+}
