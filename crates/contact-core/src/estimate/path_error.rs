@@ -111,25 +111,10 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
                 Spacing::EqualRadius => tolerance * error.bearable.max(1.0),
             };
             if open[k] && error.q > allowed.max(OWN * inherited) {
-                let count = branch.equal_increments();
-                let grows = branch.spacing == Spacing::EqualRadius;
-                let excess = error.q / (AIM * allowed);
-                let near = !grows && excess <= NEAR;
-                let order = match before[k] {
-                    Some(before) => order(before, (count, error.q)),
-                    None if grows || near => ORDERS.0,
-                    None => EXPECTED,
-                };
-                before[k] = Some((count, error.q));
-                let factor = excess.powf(1.0 / order).min(GROWTH);
-                let more = ((count as f64 * factor).ceil() as usize).next_multiple_of(2);
-                branch.set_equal_increments(more);
-                if near {
-                    branch.path_error = Some(error.q * (count as f64 / more as f64).powf(order));
-                } else {
+                if !refine(branch, error.q, allowed, &mut before[k]) {
                     first = first.or(Some(k));
                 }
-                if grows {
+                if branch.spacing == Spacing::EqualRadius {
                     inherited = error.q;
                 }
             }
@@ -155,6 +140,33 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
         }
     }
     Ok(chosen)
+}
+
+/// Gives a branch the increments with which its error comes to what is allowed, by what it was with fewer of them;
+/// whether they need no other round.
+fn refine(
+    branch: &mut Branch,
+    error: f64,
+    allowed: f64,
+    before: &mut Option<(usize, f64)>,
+) -> bool {
+    let count = branch.equal_increments();
+    let grows = branch.spacing == Spacing::EqualRadius;
+    let excess = error / (AIM * allowed);
+    let near = !grows && excess <= NEAR;
+    let order = match *before {
+        Some(before) => order(before, (count, error)),
+        None if grows || near => ORDERS.0,
+        None => EXPECTED,
+    };
+    *before = Some((count, error));
+    let factor = excess.powf(1.0 / order).min(GROWTH);
+    let more = ((count as f64 * factor).ceil() as usize).next_multiple_of(2);
+    branch.set_equal_increments(more);
+    if near {
+        branch.path_error = Some(error * (count as f64 / more as f64).powf(order));
+    }
+    near
 }
 
 /// The order at which the error of a branch has fallen from one number of increments to another.

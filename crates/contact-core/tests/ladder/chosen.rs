@@ -51,10 +51,7 @@ fn a_loop_has_its_stiffness_and_stick_zone_after_a_reversal() {
     let stiffness = 1.5 * closed.shift_limit().recip() * closed.T_limit();
     for (increments, name) in [
         (run(&chosen(&scene), |_, _| ()), "all"),
-        (
-            run(&chosen(&directly(&scene)), |_, _| ()),
-            "directly",
-        ),
+        (run(&chosen(&directly(&scene)), |_, _| ()), "directly"),
     ] {
         for (found, stick_ratio) in begins(&increments) {
             let off = found / stiffness - 1.0;
