@@ -12,7 +12,8 @@ use std::sync::Arc;
 
 use contact_core::estimate::{Bar, BranchEnds, ErrorBars, error_bars, means};
 use contact_core::march::{BranchSummary, Tractions, solve, summarise};
-use contact_core::scene::Scene;
+use contact_core::reference::hertz;
+use contact_core::scene::{Elastic, Scene};
 use ndarray::Array2;
 use splitmix::Draw;
 
@@ -25,6 +26,10 @@ const FINER: usize = 4;
 /// Seeds differ from those of the path's errors, and from those that orders and weights of the bars were
 /// chosen on (from 1000, 2000 and 3000).
 const FIRST_SEED: u64 = 4000;
+
+/// Largest moment over mu W a_H: two thirds of 3 pi/16, the moment of full slip, since a stiff coating makes the
+/// contact smaller.
+const TWISTED: f64 = 0.4;
 
 /// A sphere on a half-space, coated or not, fretted, twisted or neither.
 fn drawn(seed: u64) -> String {
@@ -50,6 +55,8 @@ fn drawn(seed: u64) -> String {
          [[path]]\nW = 100.0\nincrements = @8@\nspacing = \"equal_radius\"\n"
     );
     let kind = draw.next();
+    let bodies = [(upper, nu_1), (lower, nu_2)].map(|(E, nu)| Elastic { E, nu });
+    let a = hertz(0.01, bodies[0], bodies[1], 100.0).a;
     for sign in [1.0, -1.0] {
         let part = sign * draw.between(0.3, 0.95);
         if kind < 0.7 {
@@ -65,6 +72,10 @@ fn drawn(seed: u64) -> String {
                 "[[path]]\nW = {W}\nT_x = {{ mu_W = {} }}\nincrements = @4@\n",
                 0.4 * part
             );
+        } else if kind < 0.95 {
+            let count = if sign > 0.0 { "@4@" } else { "@8@" };
+            let M_z = part * TWISTED * mu * 100.0 * a;
+            let _ = write!(text, "[[path]]\nM_z = {M_z}\nincrements = {count}\n");
         }
     }
     text
@@ -88,12 +99,13 @@ type Number = (
     fn(&ErrorBars) -> Bar,
 );
 
-const NUMBERS: [Number; 6] = [
+const NUMBERS: [Number; 7] = [
     ("contact_radius", |b| b.contact_radius, |e| e.contact_radius),
     ("stick_ratio", |b| b.stick_ratio, |e| e.stick_ratio),
     ("p_max", |b| b.p_max, |e| e.p_max),
     ("delta_z", |b| b.motion.delta_z, |e| e.delta_z),
     ("delta_x", |b| b.motion.delta_x, |e| e.delta_x),
+    ("phi_z", |b| b.motion.phi_z, |e| e.phi_z),
     ("dissipated", |b| b.dissipated, |e| e.dissipated),
 ];
 

@@ -53,16 +53,17 @@ fn a_loop_has_its_stiffness_and_stick_zone_after_a_reversal() {
         (run(&chosen(&scene), |_, _| ()), "all"),
         (run(&chosen(&directly(&scene)), |_, _| ()), "directly"),
     ] {
-        for (found, stick_ratio) in begins(&increments) {
+        let begins = begins(&increments);
+        for (found, stick_ratio) in &begins {
             let off = found / stiffness - 1.0;
             assert!(
                 off.abs() < 0.01,
                 "{name}: {found:e} of {stiffness:e}, {off:+.2e}"
             );
-            assert!(stick_ratio > 0.96, "{name}: {stick_ratio}");
+            assert!(*stick_ratio > 0.96, "{name}: {stick_ratio}");
         }
-        let largest = begins(&increments)[1..].iter().map(|(_, stick)| *stick);
-        let largest = largest.fold(0.0, f64::max);
+        let reversed = begins[1..].iter().map(|(_, stick_ratio)| *stick_ratio);
+        let largest = reversed.fold(0.0, f64::max);
         assert!(largest > 0.98, "{name}: {largest}");
     }
 }
