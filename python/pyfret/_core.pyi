@@ -798,8 +798,8 @@ class Spacing:
     """How the increments of a branch are spaced.
 
     ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
-    of a paraboloid; natural for an indentation. ``SHORT_FIRST``: a short first increment, then equal
-    ones; shows the stiffness and the stick zone right after a reversal.
+    of a paraboloid; natural for an indentation. ``SHORT_FIRST``: a short first increment, then
+    equal ones; shows the stiffness and the stick zone right after a reversal.
     """
 
     UNIFORM: ClassVar[Spacing]

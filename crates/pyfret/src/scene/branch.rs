@@ -9,8 +9,8 @@ use crate::parts::{members, parts};
 /// How the increments of a branch are spaced.
 ///
 /// ``UNIFORM``: equal increments of force. ``EQUAL_RADIUS``: increments of equal contact radius
-/// of a paraboloid; natural for an indentation. ``SHORT_FIRST``: a short first increment, then equal
-/// ones; shows the stiffness and the stick zone right after a reversal.
+/// of a paraboloid; natural for an indentation. ``SHORT_FIRST``: a short first increment, then
+/// equal ones; shows the stiffness and the stick zone right after a reversal.
 #[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Spacing {
