@@ -87,7 +87,7 @@ pub(super) fn turn(
     }
     let (begin, w) = match last.slip[n] {
         true if earlier.p[n] <= 0.0 => return None,
-        true => goes_on(last, earlier, n),
+        true => goes_on(last, earlier, end, n),
         false => (meets(at(earlier.q), at(&last.q), size(end))?, STARTS),
     };
     // Slip begins with a shear that is nearer to the one at the end than the one at the start was.
@@ -115,16 +115,20 @@ pub(super) fn turn(
     Some((across, follows))
 }
 
-/// The direction e of a cell that has slipped before, of any length, and its weight w.
-fn goes_on(last: &Interface, earlier: &Earlier<'_>, n: usize) -> ([f64; 2], f64) {
+/// The direction e of a cell that has slipped before, of any length, and its weight w. A turn of the last increment
+/// counts as far as it is no larger than that of this one, so that the mean lies between e_0 and e_1.
+fn goes_on(last: &Interface, earlier: &Earlier<'_>, end: [f64; 2], n: usize) -> ([f64; 2], f64) {
     let at = |q: &[Vec<f64>; 2]| [q[0][n], q[1][n]];
     let (q, before) = (at(&last.q), at(earlier.q));
-    let (e_0, e_before) = (unit(q), unit(before));
+    let (e_0, e_before, e_1) = (unit(q), unit(before), unit(end));
     // The shear over the pressure is as large in all cells that slip.
     let of_bound = size(before) * last.p[n] / (size(q) * earlier.p[n]).max(f64::MIN_POSITIVE);
     let slipped = (of_bound - SLIPPED) / (1.0 - SLIPPED);
     let turned = (dot(e_0, e_before) - FADE[0]) / (FADE[1] - FADE[0]);
-    let part = slipped.clamp(0.0, 1.0) * turned.clamp(0.0, 1.0);
+    let between = |a: [f64; 2], b: [f64; 2]| size([a[0] - b[0], a[1] - b[1]]);
+    let turn_before = (earlier.ratio * between(e_before, e_0)).max(f64::MIN_POSITIVE);
+    let alike = (between(e_0, e_1) / turn_before).min(1.0);
+    let part = slipped.clamp(0.0, 1.0) * turned.clamp(0.0, 1.0) * alike;
     let [a, b] = earlier.weights();
     let (a, b) = (STARTED + part * (a - STARTED), part * b);
     let mean = [0, 1].map(|c| a * e_0[c] + b * e_before[c]);
