@@ -44,11 +44,7 @@ pub(super) fn increment(
     let mut solver = Solver {
         response: Response {
             op: &mut *domain.window.op,
-            inverse: domain
-                .window
-                .inverse
-                .as_mut()
-                .map(|inverse| &mut **inverse as _),
+            inverse: domain.window.inverse.as_deref_mut().map(|of| of as _),
             stop: Some(&problem.stop),
             last_transform,
             exact: false,

@@ -56,20 +56,13 @@ pub(super) fn energies(
             -p * wider,
         ]
     });
-    let [
+    let [elastic, dissipated, quadrature, opening, bulk, rolling] = sums.map(|sum| sum * cell_area);
+    Energy {
+        work: work_of_loads(setup, point, motion) + bulk + rolling,
         elastic,
         dissipated,
-        quadrature,
         opening,
-        of_bulk,
-        of_rolling,
-    ] = sums;
-    Energy {
-        work: work_of_loads(setup, point, motion) + (of_bulk + of_rolling) * cell_area,
-        elastic: elastic * cell_area,
-        dissipated: dissipated * cell_area,
-        opening: opening * cell_area,
-        quadrature: quadrature * cell_area,
+        quadrature,
     }
 }
 

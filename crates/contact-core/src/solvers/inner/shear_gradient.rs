@@ -85,15 +85,36 @@ pub(crate) fn shear_gradient(
         info.iterations += 1;
         info.passes += 1;
 
-        // Polak-Ribiere: the old direction is forgotten as far as the sets have changed.
+        ws.turn_direction(problem, shear, info.shift, last_product);
+        last_product = product;
+        let step = ws.step_along_direction(response);
+        ws.advance(problem, shear, info.shift, [slip_step, step]);
+        let ([change_x, change_y], [r_x, r_y]) = (&ws.change, &mut ws.response);
+        response.tangential([change_x, change_y], [r_x, r_y]);
+        for c in 0..2 {
+            add_scaled(shear.u[c], 1.0, &ws.response[c]);
+        }
+    }
+}
+
+impl GradientBuffers {
+    /// Next search direction on the stick cells (Polak-Ribiere: the last one is forgotten as far as the sets have
+    /// changed); `last_product` is the sum of squares of the last residual, zero to begin anew.
+    fn turn_direction(
+        &mut self,
+        problem: &TangentialProblem<'_>,
+        shear: &Shear<'_>,
+        shift: [f64; 3],
+        last_product: f64,
+    ) {
+        let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slip[n];
         let mut fresh = 0.0;
-        for n in 0..cells {
-            let slip = problem.slip(&shear.u, info.shift, n);
-            let sticks = problem.bound[n] > 0.0 && !shear.slip[n];
+        for n in 0..problem.bound.len() {
+            let slip = problem.slip(&shear.u, shift, n);
             for c in 0..2 {
-                let residual = if sticks { -slip[c] } else { 0.0 };
-                fresh += residual * (residual - ws.residual[c][n]);
-                ws.residual[c][n] = residual;
+                let residual = if sticks(n) { -slip[c] } else { 0.0 };
+                fresh += residual * (residual - self.residual[c][n]);
+                self.residual[c][n] = residual;
             }
         }
         let beta = if last_product > 0.0 {
@@ -101,35 +122,46 @@ pub(crate) fn shear_gradient(
         } else {
             0.0
         };
-        last_product = product;
-        let mut slope = 0.0;
-        for n in 0..cells {
-            let sticks = problem.bound[n] > 0.0 && !shear.slip[n];
+        for n in 0..problem.bound.len() {
             for c in 0..2 {
-                let direction = beta * ws.direction[c][n] + ws.residual[c][n];
-                ws.direction[c][n] = if sticks { direction } else { 0.0 };
-                slope += ws.direction[c][n] * ws.residual[c][n];
+                let direction = beta * self.direction[c][n] + self.residual[c][n];
+                self.direction[c][n] = if sticks(n) { direction } else { 0.0 };
             }
         }
-        let [d_x, d_y] = &ws.direction;
-        let [r_x, r_y] = &mut ws.response;
+    }
+
+    /// The length of the step to the least energy along the direction, in parts of it; zero where there is none.
+    fn step_along_direction(&mut self, response: &mut Response<'_>) -> f64 {
+        let ([d_x, d_y], [r_x, r_y]) = (&self.direction, &mut self.response);
         response.tangential([d_x, d_y], [r_x, r_y]);
-        let curvature: f64 = (0..2).map(|c| dot(&ws.direction[c], &ws.response[c])).sum();
-        let step = if slope > 0.0 && curvature > 0.0 {
+        let product =
+            |of: &[Vec<f64>; 2]| -> f64 { (0..2).map(|c| dot(&self.direction[c], &of[c])).sum() };
+        let (slope, curvature) = (product(&self.residual), product(&self.response));
+        if slope > 0.0 && curvature > 0.0 {
             slope / curvature
         } else {
             0.0
-        };
+        }
+    }
 
-        for n in 0..cells {
+    /// Steps of the slip cells against their slip and of the others along the direction; then the shear is
+    /// made admissible, and `change` is what it has changed by \[Pa\].
+    fn advance(
+        &mut self,
+        problem: &TangentialProblem<'_>,
+        shear: &mut Shear<'_>,
+        shift: [f64; 3],
+        [slip_step, step]: [f64; 2],
+    ) {
+        for n in 0..problem.bound.len() {
             let g = problem.bound[n];
-            let slip = problem.slip(&shear.u, info.shift, n);
+            let slip = problem.slip(&shear.u, shift, n);
             for c in 0..2 {
-                ws.q_before[c][n] = shear.q[c][n];
+                self.q_before[c][n] = shear.q[c][n];
                 shear.q[c][n] += if shear.slip[n] {
                     -slip_step * slip[c]
                 } else {
-                    step * ws.direction[c][n]
+                    step * self.direction[c][n]
                 };
             }
             if g > 0.0 {
@@ -138,16 +170,10 @@ pub(crate) fn shear_gradient(
         }
         admissible(problem, &mut shear.q, shear.slip);
         for c in 0..2 {
-            let terms = ws.change[c].iter_mut().zip(shear.q[c].iter());
-            for ((change, q), before) in terms.zip(&ws.q_before[c]) {
+            let terms = self.change[c].iter_mut().zip(shear.q[c].iter());
+            for ((change, q), before) in terms.zip(&self.q_before[c]) {
                 *change = q - before;
             }
-        }
-        let [change_x, change_y] = &ws.change;
-        let [r_x, r_y] = &mut ws.response;
-        response.tangential([change_x, change_y], [r_x, r_y]);
-        for c in 0..2 {
-            add_scaled(shear.u[c], 1.0, &ws.response[c]);
         }
     }
 }

@@ -10,7 +10,7 @@ use super::known_pressure::{
 };
 use super::problem::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};
 use crate::cells::copy;
-use crate::solvers::inner::{Sliding, assess, normal};
+use crate::solvers::inner::{NormalProblem, Sliding, assess, normal};
 use crate::solvers::no_slip::NoSlip;
 use crate::solvers::{Interface, Response, SolverError};
 
@@ -71,20 +71,9 @@ pub(super) fn alternate(
         }
 
         // What the change of shear does to the gap.
-        let change = ws.change_of_shear(now);
-        if !change && !ws.anderson.accelerates() {
+        let Some(residual) = gap_after_shear(response, &gap, now, ws, &mut info) else {
             return Ok(info);
-        }
-        if change {
-            let [x, y] = &ws.change;
-            response.normal_under_shear([x, y], &mut ws.response[0]);
-        } else {
-            ws.response[0].fill(0.0);
-        }
-        ws.anderson.close_pass(&ws.response[0], &mut now.u_z);
-        let check = assess(&gap, &now.p, &now.u_z);
-        info.approach = check.motion;
-        let residual = check.gap.max(check.penetration);
+        };
         if residual <= params.tolerance {
             return Ok(info);
         }
@@ -98,4 +87,29 @@ pub(super) fn alternate(
         }
         ws.anderson.extrapolate(&now.p, &mut now.u_z);
     }
+}
+
+/// Adds to u_z what the change of the shear makes of it; the residual of the gap then \[m\]. None where the shear
+/// has not changed: the gap is that of the normal solver.
+fn gap_after_shear(
+    response: &mut Response<'_>,
+    problem: &NormalProblem<'_>,
+    now: &mut Interface,
+    ws: &mut AlternationWorkspace,
+    info: &mut AlternationInfo,
+) -> Option<f64> {
+    let change = ws.change_of_shear(now);
+    if !change && !ws.anderson.accelerates() {
+        return None;
+    }
+    if change {
+        let [x, y] = &ws.change;
+        response.normal_under_shear([x, y], &mut ws.response[0]);
+    } else {
+        ws.response[0].fill(0.0);
+    }
+    ws.anderson.close_pass(&ws.response[0], &mut now.u_z);
+    let check = assess(problem, &now.p, &now.u_z);
+    info.approach = check.motion;
+    Some(check.gap.max(check.penetration))
 }
