@@ -14,7 +14,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup constants ablation stub demo figure-13 loads validation test stress path-errors error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers clean
+.PHONY: help setup constants ablation stub demo figure-13 loads validation test stress path-errors error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -97,6 +97,11 @@ format: $(VENV)/.tools ## format all sources
 	cargo fmt --all
 	$(BIN)/ruff check --fix --exit-zero
 	$(BIN)/ruff format
+
+docs: setup ## the book, warnings are errors: out/book
+	$(BIN)/maturin develop --release --locked --quiet --extras docs
+	$(PY) -m sphinx --fail-on-warning --keep-going --quiet docs out/book
+	@echo out/book/index.html
 
 bench: ## criterion benches of every stage
 	cargo bench --locked --package contact-core --bench '*'

@@ -3,7 +3,7 @@
     python examples/study.py --out out              # 200 points on two workers of this machine
     python examples/study.py --out out --kill       # the same, one worker killed in the middle
 
-Needs ``pip install "pyfret[cluster]"``. The same call takes a client of any Dask cluster.
+Needs ``pip install "fretting[cluster]"``. The same call takes a client of any Dask cluster.
 """
 
 from __future__ import annotations

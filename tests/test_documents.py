@@ -18,7 +18,16 @@ import pyfret as fret
 from conftest import ROOT, sphere_on_flat
 from pyfret import plot, stress
 
-DOCUMENTS = [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *sorted((ROOT / "docs").glob("*.md"))]
+DOCS = ROOT / "docs"
+DOCUMENTS = [
+    *(ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "SECURITY.md")),
+    *sorted(DOCS.glob("*.md")),
+    *(
+        page
+        for part in ("howto", "theory", "reference")
+        for page in sorted((DOCS / part).glob("*.md"))
+    ),
+]
 FRET = ROOT / "target" / "release" / "fret"
 #: What a short name may belong to.
 OWNERS: list[Any] = [
@@ -45,7 +54,7 @@ def text(document: Path) -> str:
 
 
 def ids(document: Path) -> str:
-    return document.name
+    return str(document.relative_to(ROOT))
 
 
 def code_spans(document: Path) -> list[str]:

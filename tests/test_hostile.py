@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-CALLS = Path(__file__).with_name("hostile_calls.py")
+CALLS = Path(__file__).with_name("hostile")
 #: The longest that a call may take, a busy machine allowed for [s].
 LONGEST = 60.0
 

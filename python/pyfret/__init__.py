@@ -169,5 +169,11 @@ show_in_notebooks()
 def __getattr__(name: str) -> Any:
     """Import the figures, and with them matplotlib, when they are first asked for."""
     if name == "plot":
-        return import_module("pyfret.plot")
+        try:
+            return import_module("pyfret.plot")
+        except ModuleNotFoundError as absent:
+            if absent.name != "matplotlib":
+                raise
+            message = 'figures need matplotlib: pip install "fretting[plot]"'
+            raise ModuleNotFoundError(message, name="matplotlib") from absent
     raise AttributeError(f"module 'pyfret' has no attribute {name!r}")

@@ -16,10 +16,10 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
-import xarray as xr
 
 from pyfret import _core
 from pyfret._core import Assessment, Criterion, Material
+from pyfret.lazy import xr
 
 if TYPE_CHECKING:
     import os
@@ -341,12 +341,12 @@ def to_pylife(stress: ArrayLike) -> pd.DataFrame:
 def rainflow(signal: ArrayLike) -> NDArray[np.float64]:
     """Count the cycles of a signal: rows of range, mean, count (1 or 1/2).
 
-    Needs the package ``rainflow`` (``pip install pyfret[fatigue]``), which follows ASTM E1049-85.
+    Needs the package ``rainflow`` (``pip install fretting[fatigue]``), which follows ASTM E1049-85.
     """
     try:
         import rainflow as counter
     except ImportError as error:
-        raise ImportError("rainflow is missing: pip install pyfret[fatigue]") from error
+        raise ImportError("rainflow is missing: pip install fretting[fatigue]") from error
     cycles = counter.extract_cycles(np.asarray(signal, dtype=float))
     rows = [(size, mean, count) for size, mean, count, _, _ in cycles]
     return np.array(rows, dtype=float).reshape(-1, 3)

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import xarray as xr
+from pyfret.lazy import xr
 
 if TYPE_CHECKING:
     import os

@@ -14,11 +14,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import xarray as xr
 
 from pyfret import subsurface
 from pyfret.cycle_stress import CycleStress
 from pyfret.fatigue import COMPONENTS
+from pyfret.lazy import xr
 
 if TYPE_CHECKING:
     from pyfret._core import Coating

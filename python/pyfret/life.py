@@ -14,12 +14,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import xarray as xr
 
 from pyfret import _core, subsurface
 from pyfret._core import Material
 from pyfret.cycle_stress import CycleStress
 from pyfret.fatigue import COMPONENTS, evaluate
+from pyfret.lazy import xr
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -9,12 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import xarray as xr
 
 from pyfret import _core, files, subsurface
 from pyfret import life as lives
-from pyfret._core import Scene, StoreError
-from pyfret.snapshot import Snapshot, friction, yardstick
+from pyfret._core import StoreError
+from pyfret.lazy import xr
+from pyfret.of_run import OfRun
+from pyfret.snapshot import Snapshot
 from pyfret.summary import summary
 
 if TYPE_CHECKING:
@@ -61,44 +62,18 @@ LOOP = {
 }
 
 
-class Result:
+class Result(OfRun):
     """The result of a run.
 
-    Attributes
-    ----------
-    dataset : xarray.Dataset
-        Scalars over ``increment``; fields over (``saved``, ``x``, ``y``) for the increments whose
-        fields were kept; ``attrs`` holds the scene, the version, ``a_H``, ``p_H`` and ``mu``.
-        Every variable carries ``units`` and ``long_name``.
+    Its ``dataset`` has scalars over ``increment`` and fields over (``saved``, ``x``, ``y``) for the
+    increments whose fields were kept; ``attrs`` holds the scene, the version, ``a_H``, ``p_H`` and
+    ``mu``. Every variable carries ``units`` and ``long_name``.
     """
-
-    def __init__(self, dataset: xr.Dataset) -> None:
-        self.dataset = dataset
-
-    @property
-    def scene(self) -> Scene:
-        """The scene that was solved."""
-        return Scene.from_toml(self.dataset.attrs["scene"])
 
     @property
     def status(self) -> str:
         """``"done"``, ``"running"``, or the sentence that says why the run stopped."""
         return str(self.dataset.attrs["status"])
-
-    @property
-    def a_H(self) -> float:
-        """Hertz radius of the uncoated pair at the largest load [m]."""
-        return yardstick(self.dataset.attrs, "a_H")
-
-    @property
-    def p_H(self) -> float:
-        """Hertz peak pressure of the uncoated pair at the largest load [Pa]."""
-        return yardstick(self.dataset.attrs, "p_H")
-
-    @property
-    def mu(self) -> float:
-        """Friction coefficient."""
-        return friction(self.dataset.attrs)
 
     @property
     def length(self) -> float:
@@ -112,7 +87,7 @@ class Result:
     @property
     def delta_H(self) -> float:
         """Hertz approach of the uncoated pair at the largest load [m], a_H^2/R."""
-        return self.a_H**2 / yardstick(self.dataset.attrs, "R")
+        return self.a_H**2 / self._yardstick("R")
 
     @property
     def W_max(self) -> float:
@@ -305,7 +280,7 @@ class Result:
         """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
 
         :func:`pyfret.open` opens both. The place must be free. NetCDF needs the package h5netcdf or
-        netCDF4: ``pip install "pyfret[netcdf]"``.
+        netCDF4: ``pip install "fretting[netcdf]"``.
 
         Parameters
         ----------

@@ -2,44 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from pyfret import _core, subsurface
-from pyfret._core import Scene
 from pyfret.doubts import doubt_layers
+from pyfret.of_run import OfRun
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
+    import xarray as xr
     from numpy.typing import ArrayLike
 
     from pyfret._core import Body
     from pyfret.subsurface import Stress
 
-__all__ = ["Snapshot", "friction", "yardstick"]
+__all__ = ["Snapshot"]
 
 
-def yardstick(attrs: Mapping[Any, Any], name: str) -> float:
-    """A Hertz yardstick of a run; a ValueError where there is no Hertz contact."""
-    if name not in attrs:
-        raise ValueError(
-            f"no {name}: these bodies have no Hertz contact (a flat, a punch, a rough surface, or "
-            "nothing presses); lengths are measured by .length, stresses in Pa"
-        )
-    return float(attrs[name])
-
-
-def friction(attrs: Mapping[Any, Any]) -> float:
-    """The friction coefficient of a run; infinite for a contact that never slips."""
-    mu = attrs["mu"]
-    return np.inf if mu is None or mu == "stick" else float(mu)
-
-
-class Snapshot:
+class Snapshot(OfRun):
     """The contact at the end of one increment: its scalars and its fields.
 
     Every variable of :attr:`dataset` is an attribute as well, e.g. ``snapshot.p``.
@@ -104,13 +88,10 @@ class Snapshot:
     contact: xr.DataArray
     stick: xr.DataArray
 
-    def __init__(self, dataset: xr.Dataset) -> None:
-        self._dataset = dataset
-
     @property
     def dataset(self) -> xr.Dataset:
         """Fields of dims (x, y), the scalars of the increment, and the attrs of the run."""
-        return self._dataset
+        return super().dataset
 
     def __getattr__(self, name: str) -> xr.DataArray:
         """Give the variable `name` of the dataset."""
@@ -123,26 +104,6 @@ class Snapshot:
     def names(self) -> list[str]:
         """Names of all variables, in order."""
         return sorted(str(name) for name in self.dataset.variables)
-
-    @property
-    def a_H(self) -> float:
-        """Hertz radius of the uncoated pair at the largest load [m]."""
-        return yardstick(self.dataset.attrs, "a_H")
-
-    @property
-    def p_H(self) -> float:
-        """Hertz peak pressure of the uncoated pair at the largest load [Pa]."""
-        return yardstick(self.dataset.attrs, "p_H")
-
-    @property
-    def mu(self) -> float:
-        """Friction coefficient."""
-        return friction(self.dataset.attrs)
-
-    @property
-    def scene(self) -> Scene:
-        """The scene that was solved."""
-        return Scene.from_toml(self.dataset.attrs["scene"])
 
     @property
     def length(self) -> float:

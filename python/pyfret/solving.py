@@ -8,11 +8,10 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-import xarray as xr
-
 from pyfret import _core
 from pyfret._core import Scene
 from pyfret.doubts import doubt_scene
+from pyfret.lazy import xr
 from pyfret.progress import Progress
 from pyfret.results import Result, Snapshot, open
 

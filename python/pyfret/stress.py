@@ -6,10 +6,10 @@ import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import xarray as xr
 
 from pyfret import _core
 from pyfret.doubts import SceneWarning
+from pyfret.lazy import xr
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

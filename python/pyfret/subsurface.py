@@ -10,9 +10,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from pyfret import _core
+from pyfret.lazy import xr
 from pyfret.stress import COMPONENTS, DISPLACEMENTS, LABELS, Maximum, Stress
 
 if TYPE_CHECKING:

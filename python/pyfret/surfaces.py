@@ -45,7 +45,7 @@ def read_surface(
     Raises
     ------
     ImportError
-        If the package SurfaceTopography is missing: ``pip install "pyfret[surfaces]"``.
+        If the package SurfaceTopography is missing: ``pip install "fretting[surfaces]"``.
     StoreError
         If the file has points that were not measured, or cannot be read.
     ValueError
@@ -60,7 +60,9 @@ def read_surface(
     try:
         from SurfaceTopography import read_topography
     except ImportError as absent:
-        message = 'reading instrument files needs SurfaceTopography: pip install "pyfret[surfaces]"'
+        message = (
+            'reading instrument files needs SurfaceTopography: pip install "fretting[surfaces]"'
+        )
         raise ImportError(message) from absent
     surface = read_topography(fspath(path)).to_unit("m").detrend(detrend)
     heights: NDArray[np.float64] = np.ma.filled(

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from pyfret._core import LoadPath, Scene
+from pyfret.lazy import xr
 from pyfret.studies import study
 
 if TYPE_CHECKING:

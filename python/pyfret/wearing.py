@@ -7,9 +7,8 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-import xarray as xr
-
 from pyfret import _core
+from pyfret.lazy import xr
 from pyfret.progress import Progress
 
 if TYPE_CHECKING:

@@ -61,5 +61,8 @@ def stretch(ax: Axes, borders: NDArray[np.float64], which: Literal["x", "y"]) ->
     far = places[-2] + 0.08
     ticks = [*borders[:-1], *(z for z in below if z <= borders[-1] and onward(np.array(z)) > far)]
     axis.set_major_locator(FixedLocator(ticks))
-    axis.set_major_formatter(FixedFormatter([f"{tick:.3g}" for tick in ticks]))
+    axis.set_major_formatter(FixedFormatter([f"{tick:.{2 if tick < 1 else 3}g}" for tick in ticks]))
+    if which == "x":
+        # Neighbouring borders would write over one another.
+        ax.tick_params(axis="x", labelrotation=45)
     axis.set_minor_locator(NullLocator())

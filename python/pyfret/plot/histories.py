@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+from matplotlib.ticker import EngFormatter
 
 from pyfret._core import LoadPath
 from pyfret.plot.scales import MICRO, Scale, Units, bears, scales
@@ -158,7 +159,7 @@ def load_path(path: LoadPath | Result, *, mu: float = 1.0, ax: Axes | None = Non
         elif unit == "N" and W_max > 0.0 and bears(mu):
             largest, label = mu * W_max, rf"${symbol}/(\mu\, W_\mathrm{{max}})$"
         else:
-            label = rf"${symbol}$ / {largest:.3g} {unit}"
+            label = f"${symbol}$ / {EngFormatter(unit)(float(f'{largest:.3g}'))}"
         ax.plot(t / t[-1], values / largest, label=label)
     ax.set_xlabel(r"$t/\tau$")
     ax.set_xlim(0, 1)

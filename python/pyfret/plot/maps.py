@@ -21,6 +21,11 @@ if TYPE_CHECKING:
 
     from pyfret.results import Result, Snapshot
 
+#: Room around a contact, over half its length.
+MARGIN = 0.3
+#: Part of the cells of a contact whose slip a scale of colours covers.
+INNER = 0.97
+
 
 def frame(ax: Axes, snapshot: Snapshot, length: Scale) -> tuple[float, float, float, float]:
     """Label the axes, draw the Hertz circle and give the edges of the grid over the length."""
@@ -39,6 +44,26 @@ def frame(ax: Axes, snapshot: Snapshot, length: Scale) -> tuple[float, float, fl
     else:
         ax.set_ylabel(length.label("y"))
     return x[0] - dx / 2, x[-1] + dx / 2, y[0] - dy / 2, y[-1] + dy / 2
+
+
+def look_at_contact(ax: Axes, snapshot: Snapshot, length: Scale) -> None:
+    """Leave cells far from the contact out of the picture."""
+    contact = snapshot.dataset.contact.values.astype(bool)
+    grid = snapshot.scene.grid
+    if not contact.any():
+        return
+
+    def near(name: str, axis: int, cell: float) -> tuple[float, float]:
+        places = snapshot.dataset[name].values[contact.any(axis=axis)]
+        low, high = places.min() - cell / 2, places.max() + cell / 2
+        margin = MARGIN * (high - low) / 2
+        return (low - margin) / length.value, (high + margin) / length.value
+
+    low, high = near("x", 1, grid.dx)
+    ax.set_xlim(max(low, ax.get_xlim()[0]), min(high, ax.get_xlim()[1]))
+    if not grid.plane_strain:
+        low, high = near("y", 0, grid.dy)
+        ax.set_ylim(max(low, ax.get_ylim()[0]), min(high, ax.get_ylim()[1]))
 
 
 def is_round(snapshot: Snapshot) -> bool:
@@ -76,6 +101,7 @@ def stick_slip(shown: Snapshot | Result, *, units: Units = "auto", ax: Axes | No
         interpolation="nearest",
         aspect=ax.get_aspect(),
     )
+    look_at_contact(ax, snapshot, of_snapshot(snapshot, units).length)
     zones = ((2, STICK, "stick"), (1, SLIP, "slip"))
     handles = [Patch(color=color, label=label) for n, color, label in zones if (zone == n).any()]
     if handles:
@@ -101,6 +127,7 @@ def field_map(
     )
     ax.set_xlim(extent[:2])
     ax.set_ylim(extent[2:])
+    look_at_contact(ax, snapshot, length)
     return ax, drawn
 
 
@@ -130,11 +157,17 @@ def slip_map(
     ax: Axes | None = None,
     colorbar: bool = True,
 ) -> Axes:
-    """Size of the slip added up over the path, in um; parameters as in :func:`stick_slip`."""
+    """Size of the slip added up over the path, in um; parameters as in :func:`stick_slip`.
+
+    The scale of colours ends above all cells but a few: those that come and go with the rim slip
+    farther than the others.
+    """
     snapshot = last_of(shown)
     by = of_snapshot(snapshot, units)
     slip = np.hypot(snapshot.dataset.slip_x.values, snapshot.dataset.slip_y.values)
-    ax, image = field_map(ax, snapshot, slip, MICRO, by.length, vmin=0)
+    contact = snapshot.dataset.contact.values.astype(bool)
+    largest = np.quantile(slip[contact], INNER) / MICRO.value if contact.any() else None
+    ax, image = field_map(ax, snapshot, slip, MICRO, by.length, vmin=0, vmax=largest or None)
     if colorbar:
         label_scale(ax.get_figure(), image, ax, MICRO.label("|s|"))
     return ax
@@ -193,6 +226,9 @@ def label_scale(
     figure: Any, image: AxesImage, ax: Axes | Sequence[Axes], label: str = r"$|q|/(\mu\, p_H)$"
 ) -> None:
     """Draw the colour scale of `image` beside `ax`."""
-    bar = figure.colorbar(image, ax=ax, shrink=0.85, pad=0.02)
+    values: Any = np.ma.masked_invalid(np.ma.asarray(image.get_array()))
+    largest = image.get_clim()[1]
+    extend = "max" if largest is not None and values.max() > largest else "neither"
+    bar = figure.colorbar(image, ax=ax, shrink=0.85, pad=0.02, extend=extend)
     bar.set_label(label)
     bar.outline.set_visible(False)

@@ -59,7 +59,7 @@ def report(
     Raises
     ------
     ImportError
-        If the package plotly is missing: ``pip install "pyfret[report]"``.
+        If the package plotly is missing: ``pip install "fretting[report]"``.
     ValueError
         The ending of the file is another.
     """
@@ -91,7 +91,7 @@ def drawing() -> str:
     try:
         from plotly.offline import get_plotlyjs
     except ImportError as absent:
-        message = 'reports need plotly: pip install "pyfret[report]"'
+        message = 'reports need plotly: pip install "fretting[report]"'
         raise ImportError(message) from absent
     return str(get_plotlyjs())
 

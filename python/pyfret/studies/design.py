@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
-import xarray as xr
 
 from pyfret._core import Scene
+from pyfret.lazy import xr
 
 __all__ = ["Combine", "Design", "Source", "varied"]
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
-import xarray as xr
 
+from pyfret.lazy import xr
 from pyfret.stress import LABELS
 from pyfret.summary import directions
 from pyfret.wearing import wear

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
+from pyfret.lazy import xr
 from pyfret.studies.point import DONE, FAILED, OPEN
 from pyfret.studies.store import read
 

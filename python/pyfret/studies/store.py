@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from pyfret._core import StoreError, __version__
+from pyfret.lazy import xr
 from pyfret.studies.point import FAILED, MEANINGS, OPEN, Outcome
 
 if TYPE_CHECKING:

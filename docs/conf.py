@@ -1,0 +1,58 @@
+"""How Sphinx builds the book: ``make docs``."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from pathlib import Path
+
+import pyfret
+
+# What the pages run is run with this interpreter, whichever comes first on PATH otherwise.
+os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+
+project = "pyfret"
+author = "The pyfret developers"
+copyright = "the pyfret developers; MIT or Apache-2.0"
+version = release = pyfret.__version__
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    # MathJax comes with the book: formulas show without a network.
+    "sphinx-mathjax-offline",
+    "sphinx_copybutton",
+    "sphinx_gallery.gen_gallery",
+    "sphinxcontrib.programoutput",
+]
+exclude_patterns = ["gallery/*.ipynb", "gallery/GALLERY_HEADER.rst"]
+source_suffix = {".rst": "restructuredtext", ".md": "markdown"}
+
+myst_enable_extensions = ["dollarmath", "amsmath"]
+myst_heading_anchors = 3
+# Pages that other tools write begin at any level.
+# A type named "path" is no reference to an attribute of that name.
+suppress_warnings = ["myst.header", "config.cache", "ref.python"]
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+
+html_theme = "furo"
+html_title = f"pyfret {release}"
+html_copy_source = False
+
+warnings.filterwarnings("ignore", category=pyfret.SceneWarning)
+sphinx_gallery_conf = {
+    "examples_dirs": [str(Path(__file__).parents[1] / "examples" / "gallery")],
+    "gallery_dirs": ["gallery"],
+    "filename_pattern": r"\.py$",
+    "download_all_examples": False,
+    "show_memory": False,
+    "remove_config_comments": True,
+    "abort_on_example_error": True,
+    "write_computation_times": False,
+}

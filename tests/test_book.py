@@ -1,0 +1,80 @@
+"""The book leads to its pages: links, contents, ten questions."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from conftest import ROOT
+
+DOCS = ROOT / "docs"
+#: What is written while the book is built: each gallery page is named by its script.
+GALLERY = {script.stem for script in (ROOT / "examples" / "gallery").glob("*.py")} | {"index"}
+PAGES = [page for page in sorted(DOCS.rglob("*.md")) if "gallery" not in page.parts]
+
+
+def page(source: Path, target: str) -> Path:
+    """The file that a link of a page leads to, with or without its ending."""
+    place = (source.parent / target).resolve()
+    return place if place.suffix else place.with_suffix(".md")
+
+
+def is_there(source: Path, target: str) -> bool:
+    place = page(source, target)
+    if place.parent == DOCS / "gallery":
+        return place.stem in GALLERY
+    figure = re.fullmatch(r"sphx_glr_(\w+)_\d{3}", place.stem)
+    if place.parent == DOCS / "gallery" / "images":
+        return figure is not None and figure[1] in GALLERY
+    return place.exists()
+
+
+@pytest.mark.parametrize("source", PAGES, ids=lambda page: str(page.relative_to(DOCS)))
+def test_every_link_leads_somewhere(source: Path) -> None:
+    text = source.read_text(encoding="utf-8")
+    targets = re.findall(r"\]\((?!https?:|#)([^)#\s]+)", text)
+    targets += re.findall(r"```\{(?:figure|image)\} (\S+)", text)
+    missing = [target for target in targets if not is_there(source, target)]
+    assert not missing
+
+
+def contents(source: Path) -> list[Path]:
+    """The pages that the contents of a page name."""
+    found = []
+    blocks = re.findall(r"```\{toctree\}\n(.*?)```", source.read_text(encoding="utf-8"), re.DOTALL)
+    for name in (line for block in blocks for line in block.splitlines()):
+        if not name or name.startswith(":") or "gallery" in name:
+            continue
+        if "*" in name:
+            found += sorted(source.parent.glob(name + ".md"))
+        else:
+            found.append(page(source, name))
+    return found
+
+
+def test_every_page_is_in_the_contents() -> None:
+    reached: set[Path] = set()
+    new = [DOCS / "index.md"]
+    while new:
+        source = new.pop()
+        if source not in reached:
+            reached.add(source)
+            new += contents(source)
+    assert {source.resolve() for source in PAGES} == reached
+
+
+def test_ten_questions_are_answered_within_two_clicks() -> None:
+    text = (DOCS / "index.md").read_text(encoding="utf-8")
+    table = text[text.index("## Ten questions") :]
+    rows = re.findall(r"\| ([^|]+[?.]) \| \[[^]]+\]\(([^)]+)\) \|", table)
+    assert len(rows) == 10
+    for question, target in rows:
+        assert page(DOCS / "index.md", target).is_file(), question
+
+
+def test_every_page_has_one_title() -> None:
+    for source in PAGES:
+        text = re.sub(r"```.*?```", "", source.read_text(encoding="utf-8"), flags=re.DOTALL)
+        assert len(re.findall(r"^# ", text, flags=re.MULTILINE)) == 1, source
