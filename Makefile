@@ -14,7 +14,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup constants ablation stub demo figure-13 loads validation test stress path-errors error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs clean
+.PHONY: help setup constants ablation stub demo figure-13 loads validation test stress path-errors error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs wheel wheel-test clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -103,6 +103,13 @@ docs: setup ## the book, warnings are errors: out/book
 	$(PY) -m sphinx --fail-on-warning --keep-going --quiet docs out/book
 	@echo out/book/index.html
 
+# RUSTFLAGS takes the place of those in .cargo/config.toml: a wheel runs on processors without AVX2.
+wheel: $(VENV)/.tools ## a wheel for every processor of this kind, and the source distribution: out/wheels
+	RUSTFLAGS="-C debuginfo=0" CARGO_TARGET_DIR=target/wheel $(BIN)/maturin build --release --locked --sdist --out out/wheels
+
+wheel-test: wheel ## the wheel in a bare environment: command, README, examples
+	$(PY) tools/wheel_test.py out/wheels
+
 bench: ## criterion benches of every stage
 	cargo bench --locked --package contact-core --bench '*'
 
@@ -135,6 +142,7 @@ $(VENV)/.installed: $(VENV)/.tools $(RUST)
 	$(BIN)/maturin develop --release --locked --quiet --extras test,lint
 	touch $@
 
+# Both packages are named, so that they share what they are built from.
 target/release/fret: $(RUST)
-	cargo build --release --locked --package fret-cli
+	cargo build --release --locked --package fret-cli --package pyfret --bin fret
 	touch $@

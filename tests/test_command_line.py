@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -267,3 +268,20 @@ def test_a_contact_beyond_the_grid_is_told_by_check(scene_file: Path) -> None:
     tight = fret_run("check", scene_file, "--set", "grid.extent=1e-4")
     assert tight.returncode == 2
     assert "does not fit on the grid" in tight.stderr
+
+
+def test_the_package_brings_the_command_along(tmp_path: Path) -> None:
+    code = "from pyfret.command import main; main()"
+    scene = tmp_path / "scene.toml"
+    written = subprocess.run(
+        [sys.executable, "-c", code, "new", "coated_ball", "-o", scene], check=False
+    )
+    assert written.returncode == 0
+    refused = subprocess.run(
+        [sys.executable, "-c", code, "check", scene, "--set", "friction.mu=-1"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert refused.returncode == 2
+    assert "friction.mu = -1" in refused.stderr

@@ -93,6 +93,7 @@ __all__ = [
     "resume",
     "resume_wear",
     "rims",
+    "run_command",
     "solve",
     "stress_at",
     "stress_coefficients",
@@ -1982,6 +1983,22 @@ def resume(
     on_increment: Callable[[int, int], object] | None = None,
 ) -> None:
     """Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it."""
+
+def run_command(arguments: Sequence[str]) -> int:
+    """Run the command ``fret`` in this process: what its console script does.
+
+    Ctrl-C belongs to the command from here on, so that the process should end with it.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        The program's name and its arguments.
+
+    Returns
+    -------
+    int
+        Exit code: 0 done, 1 the run ended early, 2 bad scene or bad command line.
+    """
 
 def verify(store: str | PathLike[str]) -> str:
     """Checks a store and gives the attributes of its group as JSON."""

@@ -1,7 +1,6 @@
 //! How a command that failed ends.
 
 use std::io::IsTerminal;
-use std::process::ExitCode;
 
 use clap::builder::styling::AnsiColor;
 use contact_core::Error;
@@ -19,7 +18,7 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    pub(crate) fn report(&self) -> ExitCode {
+    pub(crate) fn report(&self) -> u8 {
         let (error, code) = match self {
             Self::EndedEarly(error) => (error.to_string(), 1),
             Self::BadInput(error) => (error.to_string(), 2),
@@ -34,6 +33,6 @@ impl Failure {
         } else {
             say(&format!("fret: {error}"));
         }
-        ExitCode::from(code)
+        code
     }
 }

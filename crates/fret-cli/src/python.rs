@@ -5,7 +5,7 @@
 
 use std::ffi::OsString;
 use std::path::PathBuf;
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 use clap::Args;
 use contact_core::Error;
@@ -25,7 +25,7 @@ pub(crate) struct Options {
 }
 
 /// Hands a command over to Python and ends as it ends.
-pub(crate) fn run(command: &str, options: &Options) -> Result<ExitCode, Failure> {
+pub(crate) fn run(command: &str, options: &Options) -> Result<u8, Failure> {
     let interpreter = interpreter();
     let mut python = Command::new(&interpreter);
     python
@@ -41,7 +41,7 @@ pub(crate) fn run(command: &str, options: &Options) -> Result<ExitCode, Failure>
         })
     })?;
     let code = ended.code().and_then(|code| u8::try_from(code).ok());
-    Ok(ExitCode::from(code.unwrap_or(1)))
+    Ok(code.unwrap_or(1))
 }
 
 /// The interpreter named by the user, that in the folder of `fret`, or the first one on PATH.

@@ -15,6 +15,7 @@
 )]
 
 mod arguments;
+mod command_line;
 mod error;
 mod fatigue;
 mod forked;
@@ -39,6 +40,8 @@ mod _core {
     use super::Bound;
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use crate::command_line::run_command;
     #[pymodule_export]
     use crate::error::{
         InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError, SlidingError,

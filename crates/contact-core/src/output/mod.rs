@@ -16,6 +16,7 @@
 
 mod catalogue;
 mod checkpoint;
+mod column;
 mod consolidated;
 mod error_bars;
 mod folder;
@@ -25,6 +26,7 @@ mod place;
 mod reader;
 mod resume;
 mod schema;
+mod stored;
 mod stress_store;
 mod variable;
 mod volume;

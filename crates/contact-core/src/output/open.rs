@@ -12,7 +12,7 @@ use super::consolidated::{Checksums, Consolidated, FILE};
 use super::folder::Folder;
 use super::place::Unfinished;
 use super::schema::{CONVENTIONS, SCHEMA};
-use super::variable::{Column, Variable};
+use super::{column::Column, variable::Variable};
 use crate::error::Error;
 use crate::march::{Fields, Increment, State};
 use crate::plan::Plan;

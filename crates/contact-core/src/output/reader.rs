@@ -11,7 +11,7 @@ use zarrs::array::ArraySubset;
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
 use super::schema::SCHEMA;
-use super::variable::Stored;
+use super::stored::Stored;
 use crate::error::Error;
 use crate::scene::Scene;
 

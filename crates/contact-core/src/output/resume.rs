@@ -8,12 +8,12 @@ use serde_json::json;
 
 use super::catalogue::{FIELDS, Kind};
 use super::checkpoint::{Checkpoints, Found};
+use super::column::Column;
 use super::consolidated::Consolidated;
 use super::folder::Folder;
 use super::open::Open;
 use super::place::{mend, place};
 use super::reader::Store;
-use super::variable::Column;
 use super::wear_store::WearStore;
 use super::writer::StoreWriter;
 use crate::error::Error;

@@ -5,11 +5,12 @@ use std::path::PathBuf;
 
 use contact_core::Error;
 use contact_core::scene::{self as core, Prescribed, RigidMotion};
-use numpy::{PyArray1, ToPyArray};
+use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::branch::{Branch, Spacing};
+use super::branches::{branch, column, cycled, moved, prescribe};
 use super::increments::{AnyIncrements, Count, Values};
 use crate::error::{takes, to_python};
 use crate::parts::parts;
@@ -37,43 +38,6 @@ takes!(
     LoadPath,
     "a load path, such as LoadPath.start().normal(100.0).tangential([20.0, -20.0])"
 );
-
-impl LoadPath {
-    /// Appends a branch that goes to the loads and motions which `change` makes of the present ones.
-    fn branch(
-        &self,
-        increments: Option<usize>,
-        spacing: Spacing,
-        t: Option<f64>,
-        change: impl FnOnce(&mut core::Loads),
-    ) -> Self {
-        let (mut to, t_before) = self.0.last();
-        change(&mut to);
-        Self(self.0.clone().branch(core::Branch {
-            spacing: spacing.into(),
-            ..core::Branch::new(to, increments, t.unwrap_or(t_before + 1.0))
-        }))
-    }
-
-    fn column<'py>(
-        &self,
-        py: Python<'py>,
-        of: impl Fn(&core::LoadPoint) -> f64,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.0.check_length().map_err(to_python)?;
-        let column: Vec<f64> = self.0.points().iter().map(of).collect();
-        Ok(column.to_pyarray(py))
-    }
-}
-
-/// Prescribes what is given of the six motions or their loads.
-fn prescribe(to: &mut core::Loads, given: [Option<Prescribed>; 6]) {
-    for (of, given) in RigidMotion::ALL.into_iter().zip(given) {
-        if let Some(prescribed) = given {
-            to.prescribe(of, prescribed);
-        }
-    }
-}
 
 #[pymethods]
 impl LoadPath {
@@ -214,12 +178,13 @@ impl LoadPath {
         t: Option<f64>,
     ) -> Self {
         let loads = [W, M_x, M_y, T_x, T_y, M_z].map(|load| load.map(Prescribed::Load));
-        self.branch(increments.0, spacing, t, |to| {
+        let change = |to: &mut core::Loads| {
             prescribe(to, loads);
             to.sigma_B = sigma_B.unwrap_or(to.sigma_B);
             to.sigma_B1 = sigma_B1.unwrap_or(to.sigma_B1);
             to.rolled = rolled.unwrap_or(to.rolled);
-        })
+        };
+        Self(branch(&self.0, increments.0, spacing, t, change))
     }
 
     /// Go to the given rigid motions of body 1 on a straight line, or visit several in turn.
@@ -261,34 +226,8 @@ impl LoadPath {
         spacing: Spacing,
         t: Option<f64>,
     ) -> PyResult<Self> {
-        let named = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
-        let several = |v: &Option<Values>| matches!(v, Some(Values::Several(_)));
-        let first = |v: &Option<Values>| v.as_ref().and_then(|v| v.slice().first().copied());
-        let motions = named.each_ref().map(|v| first(v).map(Prescribed::Motion));
-        if named.iter().filter(|v| several(v)).count() > 1 {
-            return Err(PyValueError::new_err(
-                "displace: one motion at a time may be a sequence; waypoints(delta_x=.., delta_y=..) \
-                 takes several",
-            ));
-        }
-        let Some(k) = named.iter().position(several) else {
-            return Ok(self.branch(increments.0, spacing, t, |to| prescribe(to, motions)));
-        };
-        if t.is_some() {
-            return Err(PyValueError::new_err(
-                "displace: t goes with a single value",
-            ));
-        }
-        let values = named[k].as_ref().map(Values::slice).unwrap_or_default();
-        let others = std::array::from_fn(|n| motions[n].filter(|_| n != k));
-        let (start, of) = (self.0.branches.len(), RigidMotion::ALL[k]);
-        let path = self.0.clone();
-        let mut path = path.through(of, Prescribed::Motion, values, increments.0);
-        for branch in &mut path.branches[start..] {
-            branch.spacing = spacing.into();
-            prescribe(&mut branch.to, others);
-        }
-        Ok(Self(path))
+        let motions = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
+        moved(&self.0, motions, increments.0, spacing, t).map(Self)
     }
 
     /// Go through `n` cycles of one load or motion about zero.
@@ -337,27 +276,7 @@ impl LoadPath {
             (RigidMotion::DeltaY, delta_y.map(Prescribed::Motion)),
             (RigidMotion::PhiZ, phi_z.map(Prescribed::Motion)),
         ];
-        let named: Vec<_> = named
-            .into_iter()
-            .filter_map(|(of, p)| Some((of, p?)))
-            .collect();
-        let [(of, amplitude)] = named[..] else {
-            return Err(PyValueError::new_err(
-                "cycles: give the amplitude of one load or motion, such as T_x=100.0 or delta_x=2e-6",
-            ));
-        };
-        let kind: fn(f64) -> Prescribed = if amplitude.is_motion() {
-            Prescribed::Motion
-        } else {
-            Prescribed::Load
-        };
-        let values = core::LoadPath::cycle(amplitude.value(), n);
-        Ok(Self(self.0.clone().through(
-            of,
-            kind,
-            &values,
-            increments.0,
-        )))
+        cycled(&self.0, n, named, increments.0).map(Self)
     }
 
     /// Stay at the loads and motions reached for some increments, one unit of path time.
@@ -377,49 +296,49 @@ impl LoadPath {
     /// Path time at the end of every increment.
     #[getter]
     fn t<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.column(py, |point| point.t)
+        column(&self.0, py, |point| point.t)
     }
 
     /// Normal force at the end of every increment [N]; NaN where only the solution can say.
     #[getter]
     fn W<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.column(py, |point| point.loads.W)
+        column(&self.0, py, |point| point.loads.W)
     }
 
     /// Tangential force along x at the end of every increment [N].
     #[getter]
     fn T_x<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.column(py, |point| point.loads.T_x)
+        column(&self.0, py, |point| point.loads.T_x)
     }
 
     /// Tangential force along y at the end of every increment [N].
     #[getter]
     fn T_y<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.column(py, |point| point.loads.T_y)
+        column(&self.0, py, |point| point.loads.T_y)
     }
 
     /// Bulk stress of body 2 at the end of every increment [Pa].
     #[getter]
     fn sigma_B<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.column(py, |point| point.loads.sigma_B)
+        column(&self.0, py, |point| point.loads.sigma_B)
     }
 
     /// Bulk stress of body 1 at the end of every increment [Pa].
     #[getter]
     fn sigma_B1<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.column(py, |point| point.loads.sigma_B1)
+        column(&self.0, py, |point| point.loads.sigma_B1)
     }
 
     /// Way rolled at the end of every increment [m].
     #[getter]
     fn rolled<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.column(py, |point| point.loads.rolled)
+        column(&self.0, py, |point| point.loads.rolled)
     }
 
     /// Torsional moment at the end of every increment [N m].
     #[getter]
     fn M_z<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.column(py, |point| point.loads.M_z)
+        column(&self.0, py, |point| point.loads.M_z)
     }
 
     fn __len__(&self) -> PyResult<usize> {

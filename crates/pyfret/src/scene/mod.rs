@@ -2,6 +2,7 @@
 
 mod body;
 mod branch;
+mod branches;
 mod friction;
 mod grid;
 mod increments;

@@ -1,0 +1,140 @@
+//! `fret`: fretting contact of coated bodies from the command line.
+//!
+//! It reads a scene file, hands it to `contact_core` and shows what comes back; it computes
+//! nothing itself. The binary `fret` and the Python package, which brings the command along, call
+//! [`run_command`].
+
+#![forbid(unsafe_code)]
+
+mod check;
+mod failure;
+mod json;
+mod loads;
+mod new;
+mod out;
+mod progress;
+mod python;
+mod resume;
+mod run;
+mod scene_options;
+mod stress;
+mod summary;
+mod terminal;
+mod threads;
+mod wear;
+mod words;
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::builder::styling::{AnsiColor, Styles};
+use clap::{CommandFactory, Parser, Subcommand};
+use contact_core::Error;
+
+use crate::failure::Failure;
+use crate::terminal::print;
+
+/// Fretting contact of elastic bodies, homogeneous or coated.
+#[derive(Parser)]
+#[command(name = "fret", version, after_help = EXIT_CODES, styles = STYLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 done; 1 the run ended early, everything so far is kept; \
+                          2 bad scene or bad command line, nothing was written";
+
+const STYLES: Styles = Styles::styled()
+    .header(AnsiColor::Green.on_default().bold())
+    .usage(AnsiColor::Green.on_default().bold())
+    .literal(AnsiColor::Cyan.on_default().bold())
+    .placeholder(AnsiColor::Cyan.on_default());
+
+#[derive(Subcommand)]
+enum Command {
+    /// Write a commented scene to begin with
+    New(new::Options),
+    /// Run through the load path of a scene and write a result store
+    Run(run::Options),
+    /// Go on with a run that ended early, through a load path or over cycles of wear; the result is
+    /// that of the uninterrupted run, bit by bit
+    Resume(resume::Options),
+    /// Say what a scene means and what its solution needs; solve nothing
+    Check(check::Options),
+    /// Stress below the contact of a result: its largest values, and files of it
+    Stress(stress::Options),
+    /// Write the completions of a shell to the standard output
+    Completions {
+        /// Which shell
+        shell: clap_complete::Shell,
+    },
+    /// Write the manual pages, one per command, into a folder
+    Man {
+        /// Folder; it is made if it does not exist
+        folder: PathBuf,
+    },
+    /// Wear the surfaces of a scene with a table [wear] over many cycles
+    Wear(wear::Options),
+    /// Solve a scene for many values of its parameters (needs the Python package)
+    Study(python::Options),
+    /// Write a result as one page for a browser (needs the Python package)
+    Report(python::Options),
+    /// Check this installation against closed forms in minutes (needs the Python package)
+    Verify(python::Options),
+    /// Say what to cite for a result (needs the Python package)
+    Cite(python::Options),
+}
+
+/// Runs the command that the arguments name, the first of them the program's name, and gives the exit
+/// code: 0 done, 1 the run ended early, 2 bad scene or bad command line.
+pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version come this way as well; if nobody listens, nobody is told.
+            let _ = error.print();
+            return u8::try_from(error.exit_code()).unwrap_or(2);
+        }
+    };
+    let outcome = match cli.command {
+        Command::New(options) => new::new(&options),
+        Command::Run(options) => run::run(&options),
+        Command::Resume(options) => resume::resume(&options),
+        Command::Check(options) => check::check(&options),
+        Command::Stress(options) => stress::stress(&options),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "fret", &mut script);
+            print(String::from_utf8_lossy(&script).trim_end());
+            Ok(())
+        }
+        Command::Man { folder } => manual(&folder),
+        Command::Wear(options) => wear::wear(&options),
+        Command::Study(options) => return in_python("study", &options),
+        Command::Report(options) => return in_python("report", &options),
+        Command::Verify(options) => return in_python("verify", &options),
+        Command::Cite(options) => return in_python("cite", &options),
+    };
+    match outcome {
+        Ok(()) => 0,
+        Err(failure) => failure.report(),
+    }
+}
+
+/// Ends as the command of the Python package does.
+fn in_python(command: &str, options: &python::Options) -> u8 {
+    python::run(command, options).unwrap_or_else(|failure| failure.report())
+}
+
+/// Writes the manual pages.
+fn manual(folder: &std::path::Path) -> Result<(), Failure> {
+    let written = std::fs::create_dir_all(folder)
+        .and_then(|()| clap_mangen::generate_to(Cli::command(), folder));
+    written.map_err(|e| {
+        Failure::BadInput(Error::File {
+            path: folder.display().to_string(),
+            message: e.to_string(),
+        })
+    })
+}

@@ -1,0 +1,110 @@
+//! Branches appended to a load path.
+
+use contact_core::scene::{self as core, Prescribed, RigidMotion};
+use numpy::{PyArray1, ToPyArray};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use super::branch::Spacing;
+use super::increments::Values;
+use crate::error::to_python;
+
+/// Appends a branch that goes to the loads and motions which `change` makes of the present ones.
+pub(super) fn branch(
+    path: &core::LoadPath,
+    increments: Option<usize>,
+    spacing: Spacing,
+    t: Option<f64>,
+    change: impl FnOnce(&mut core::Loads),
+) -> core::LoadPath {
+    let (mut to, t_before) = path.last();
+    change(&mut to);
+    path.clone().branch(core::Branch {
+        spacing: spacing.into(),
+        ..core::Branch::new(to, increments, t.unwrap_or(t_before + 1.0))
+    })
+}
+
+pub(super) fn column<'py>(
+    path: &core::LoadPath,
+    py: Python<'py>,
+    of: impl Fn(&core::LoadPoint) -> f64,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    path.check_length().map_err(to_python)?;
+    let column: Vec<f64> = path.points().iter().map(of).collect();
+    Ok(column.to_pyarray(py))
+}
+
+/// Goes to the motions of body 1 on a straight line; one of them may take several values in turn.
+pub(super) fn moved(
+    path: &core::LoadPath,
+    named: [Option<Values>; 6],
+    increments: Option<usize>,
+    spacing: Spacing,
+    t: Option<f64>,
+) -> PyResult<core::LoadPath> {
+    let several = |v: &Option<Values>| matches!(v, Some(Values::Several(_)));
+    let first = |v: &Option<Values>| v.as_ref().and_then(|v| v.slice().first().copied());
+    let motions = named.each_ref().map(|v| first(v).map(Prescribed::Motion));
+    if named.iter().filter(|v| several(v)).count() > 1 {
+        return Err(PyValueError::new_err(
+            "displace: one motion at a time may be a sequence; waypoints(delta_x=.., delta_y=..) \
+             takes several",
+        ));
+    }
+    let Some(k) = named.iter().position(several) else {
+        return Ok(branch(path, increments, spacing, t, |to| {
+            prescribe(to, motions);
+        }));
+    };
+    if t.is_some() {
+        return Err(PyValueError::new_err(
+            "displace: t goes with a single value",
+        ));
+    }
+    let values = named[k].as_ref().map(Values::slice).unwrap_or_default();
+    let others = std::array::from_fn(|n| motions[n].filter(|_| n != k));
+    let (start, of) = (path.branches.len(), RigidMotion::ALL[k]);
+    let mut path = path
+        .clone()
+        .through(of, Prescribed::Motion, values, increments);
+    for branch in &mut path.branches[start..] {
+        branch.spacing = spacing.into();
+        prescribe(&mut branch.to, others);
+    }
+    Ok(path)
+}
+
+/// Goes through `n` cycles of the one load or motion that is given.
+pub(super) fn cycled(
+    path: &core::LoadPath,
+    n: usize,
+    named: [(RigidMotion, Option<Prescribed>); 6],
+    increments: Option<usize>,
+) -> PyResult<core::LoadPath> {
+    let named: Vec<_> = named
+        .into_iter()
+        .filter_map(|(of, p)| Some((of, p?)))
+        .collect();
+    let [(of, amplitude)] = named[..] else {
+        return Err(PyValueError::new_err(
+            "cycles: give the amplitude of one load or motion, such as T_x=100.0 or delta_x=2e-6",
+        ));
+    };
+    let kind: fn(f64) -> Prescribed = if amplitude.is_motion() {
+        Prescribed::Motion
+    } else {
+        Prescribed::Load
+    };
+    let values = core::LoadPath::cycle(amplitude.value(), n);
+    Ok(path.clone().through(of, kind, &values, increments))
+}
+
+/// Prescribes what is given of the six motions or their loads.
+pub(super) fn prescribe(to: &mut core::Loads, given: [Option<Prescribed>; 6]) {
+    for (of, given) in RigidMotion::ALL.into_iter().zip(given) {
+        if let Some(prescribed) = given {
+            to.prescribe(of, prescribed);
+        }
+    }
+}

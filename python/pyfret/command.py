@@ -1,0 +1,17 @@
+"""The command ``fret`` that comes with the package."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from pyfret._core import run_command
+
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Run the command with the arguments of this process."""
+    # The commands that need Python are run by this interpreter.
+    os.environ.setdefault("FRET_PYTHON", sys.executable)
+    sys.exit(run_command(["fret", *sys.argv[1:]]))
