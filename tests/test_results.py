@@ -153,18 +153,23 @@ def test_fields_of_a_march_are_those_of_its_last_increment() -> None:
         _ = first.p
 
 
-def test_nothing_is_pickled() -> None:
-    """What is read cannot run: the package knows nothing that unpickles."""
+def test_no_file_is_unpickled() -> None:
+    """What is read cannot run; only a study exchanges objects, with processes of its own."""
     package = Path(fret.__file__).parent
-    imported = set()
+    unpickles = {"pickle", "marshal", "shelve", "multiprocessing", "dill", "cloudpickle", "joblib"}
+    processes = {"concurrent.futures", "loky"}
+    imported: dict[str, set[str]] = {}
     for source in package.rglob("*.py"):
+        names = imported.setdefault(source.relative_to(package).as_posix(), set())
         for node in ast.walk(ast.parse(source.read_text())):
             if isinstance(node, ast.Import):
-                imported.update(name.name for name in node.names)
+                names.update(name.name for name in node.names)
             elif isinstance(node, ast.ImportFrom):
-                imported.add(node.module or "")
-    assert "numpy" in imported
-    assert not imported & {"pickle", "marshal", "shelve", "multiprocessing", "concurrent.futures"}
+                names.add(node.module or "")
+    assert "numpy" in imported["results.py"]
+    assert not set().union(*imported.values()) & unpickles
+    exchanging = {file for file, names in imported.items() if names & processes}
+    assert exchanging == {"studies/workers.py", "studies/running.py"}
 
 
 @pytest.fixture
