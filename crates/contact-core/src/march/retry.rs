@@ -13,8 +13,8 @@ use super::problem::Problem;
 use super::setup::{Failure, Workspace};
 use super::{Energy, Increment, Residuals, State, Work};
 use crate::error::Error;
-use crate::reference::dundurs_beta;
-use crate::scene::{Body, LoadPoint, Preset};
+use crate::material::dundurs_beta;
+use crate::scene::{LoadPoint, Preset};
 
 /// Halvings of an increment before the run gives up.
 const HALVINGS: u32 = 5;
@@ -63,9 +63,8 @@ pub(super) fn why(problem: &Problem, domain: &Domain) -> String {
     } else if problem.plan.coupling && friction.mu.is_infinite() {
         parts.push("; friction without a limit holds cells that shear would lift: a finite mu lets them slip".to_owned());
     } else if problem.plan.coupling && friction.mu > 0.0 {
-        let outermost = |body: &Body| body.coatings.first().map_or(body.substrate, |c| c.material);
         let scene = &problem.scene;
-        let beta = dundurs_beta(outermost(&scene.body1), outermost(&scene.body2));
+        let beta = dundurs_beta(scene.body1.outermost(), scene.body2.outermost());
         let product = friction.mu * beta.abs();
         parts.push(format!(
             "; mu times Dundurs' beta of the surfaces is {product:.2}: the larger it is, the less a solution is certain"
