@@ -251,6 +251,7 @@ class Result(OfRun):
         body_number: int = 2,
         cycle: int = -1,
         residual: Sequence[float] | None = None,
+        tolerance: float = 5e-3,
     ) -> lives.Life:
         """Judge a section below the contact over a closed cycle by a fatigue criterion.
 
@@ -266,6 +267,7 @@ class Result(OfRun):
             body_number=body_number,
             cycle=cycle,
             residual=residual,
+            tolerance=tolerance,
         )
 
     def summary(self) -> str:
