@@ -1,12 +1,14 @@
 """Scans the constants of the numerical methods: docs/constants.md.
 
-Each constant is given a smaller and a larger value in a copy of the sources, alone, and the scenes
-of `crates/contact-core/examples/ablation` are solved on 64 x 64 cells. The table says by how much
-the work (convolutions of all scenes together) and the worst error change.
+Each constant is given a smaller and a larger value, alone, and the scenes of
+`crates/contact-core/examples/ablation` are solved on 64 x 64 cells. The table says by how much the
+work (convolutions of all scenes together) and the worst error change. One build serves all values:
+in a copy of the sources the constants are read from the environment.
 """
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 import subprocess
@@ -17,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 SOURCE = Path("crates/contact-core/src")
 
-# File, constant, the values tried.
+# File, constant, the values tried. Those in BUILT take a build for each value.
 SCAN = [
     ("march/problem.rs", "PREDICTED_SHARE", ("0.4", "1.0")),
     ("march/problem.rs", "NORMAL_SHARE", ("0.2", "0.8")),
@@ -28,22 +30,30 @@ SCAN = [
     ("march/entry/view.rs", "REACH", ("5", "11")),
     ("march/entry/view.rs", "ONSET", ("0.015", "0.06")),
     ("march/entry/screened.rs", "NEAREST", ("0.18", "0.7")),
+    ("march/entry/screened.rs", "LEAST", ("0.25", "1.0")),
     ("march/entry/least_squares.rs", "RIDGE", ("1e-8", "1e-4")),
     ("march/accounts/areas.rs", "RING", ("2", "6")),
+    ("march/accounts/areas.rs", "FEWEST", ("2", "8")),
     ("solvers/no_slip/turn.rs", "STARTS", ("0.33", "1.0")),
     ("solvers/no_slip/turn.rs", "STARTED", ("0.4", "1.0")),
-    ("solvers/no_slip/turn.rs", "SLIPPED", ("0.5", "1.0")),
+    ("solvers/no_slip/turn.rs", "SLIPPED", ("0.5", "0.99")),
     ("solvers/no_slip/turn.rs", "NEARER", ("0.05", "0.2")),
     ("solvers/intermediate/known_pressure.rs", "STALLED", ("3", "10")),
+    ("solvers/intermediate/known_pressure.rs", "UNSETTLED", ("2", "6")),
+    ("solvers/intermediate/lifted.rs", "PART", ("0.125", "0.5")),
     ("solvers/intermediate/anderson.rs", "DEPTH", ("4", "16")),
     ("solvers/intermediate/anderson.rs", "SLOW", ("0.25", "0.8")),
+    ("solvers/intermediate/anderson.rs", "PATIENCE", ("1", "4")),
     ("solvers/intermediate/precision.rs", "ROUNDED", ("0.05", "0.2")),
+    ("solvers/intermediate/precision.rs", "STRAIGHT", ("15", "60")),
     ("solvers/inner/tangential.rs", "SETTLED", ("0.05", "0.2")),
     ("solvers/inner/tangential.rs", "AIM", ("0.2", "0.8")),
+    ("solvers/inner/tangential.rs", "DESCENT", ("5", "20")),
     ("solvers/inner/newton_system.rs", "RIGHT", ("1.0", "4.0")),
     ("zones/parabola.rs", "FIRST_BEND", ("0.2", "0.8")),
     ("zones/parabola.rs", "BEND", ("0.07", "0.3")),
     ("zones/parabola.rs", "MOVED", ("0.1", "0.4")),
+    ("zones/level.rs", "FARTHEST", ("1.0", "2.5")),
     ("zones/level.rs", "STRAIGHT", ("0.05", "0.2")),
 ]
 
@@ -53,20 +63,69 @@ ERRORS = ("q after the first branch", "q at the ends", "contact radius", "stick 
 # Errors below these are those of the finer runs: shear over the largest, radii in cells.
 FLOORS = (1e-4, 1e-4, 0.005, 0.005)
 
+BUILT = ("AROUND", "REACH", "DEPTH")
 
-def value_of(text: str, name: str) -> re.Match[str]:
-    """Where a constant has its value."""
-    found = re.search(rf"\bconst {name}: [^=]+= ([^;]+);", text)
+READ = """fn {name}() -> {kind} {{
+    static VALUE: std::sync::OnceLock<{kind}> = std::sync::OnceLock::new();
+    *VALUE.get_or_init(|| match std::env::var("{key}") {{
+        Ok(value) => value.parse().expect("a number in {key}"),
+        Err(_) => {value},
+    }})
+}}"""
+
+
+def key_of(file: str, name: str) -> str:
+    """Environment variable of a constant."""
+    return "SCAN_" + re.sub(r"\W", "_", file.removesuffix(".rs")).upper() + "_" + name
+
+
+def definition(text: str, name: str) -> re.Match[str]:
+    """Where a constant is defined: its type and its value."""
+    found = re.search(rf"\bconst {name}: ([^=]+?) = ([^;]+);", text)
     if not found:
         raise SystemExit(f"no constant {name}")
     return found
 
 
-def solved(copy: Path, folder: Path) -> dict[str, list[float] | str]:
-    """What each scene takes and errs by, from a build of the copy."""
-    command = ["cargo", "run", "--quiet", "--locked", "--profile", "scan", "--package"]
-    command += ["contact-core", "--example", "constants", "--", str(folder)]
+def read_from_environment(copy: Path, file: str, name: str) -> None:
+    """Makes a constant a function in the copy, in its file and where it is imported."""
+    source = copy / SOURCE
+    text = (source / file).read_text()
+    kind, value = definition(text, name).groups()
+    read = READ.format(name=name, kind=kind, value=value, key=key_of(file, name))
+    for path in source.rglob("*.rs"):
+        text = path.read_text()
+        here = path == source / file
+        if not here and not re.search(rf"^use [^;]*\b{name}\b", text, re.MULTILINE):
+            continue
+        lines = []
+        for line in text.splitlines():
+            if not line.lstrip().startswith(("//", "use ")) and f"const {name}:" not in line:
+                line = re.sub(rf"(?<![:\w]){name}\b(?!\()", f"{name}()", line)
+            lines.append(line)
+        text = "\n".join(lines) + "\n"
+        path.write_text(re.sub(rf"\bconst {name}: [^;]+;", read, text) if here else text)
+
+
+def build(copy: Path) -> Path:
+    """Builds the example in the copy: its path."""
+    command = ["cargo", "build", "--quiet", "--locked", "--profile", "scan", "--package"]
+    command += ["contact-core", "--example", "constants"]
     run = subprocess.run(command, cwd=copy, capture_output=True, text=True, check=False)
+    if run.returncode:
+        raise SystemExit(run.stderr)
+    return copy / "target" / "scan" / "examples" / "constants"
+
+
+def solved(program: Path, folder: Path, **changed: str) -> dict[str, list[float] | str]:
+    """What each scene takes and errs by, with constants changed through the environment."""
+    run = subprocess.run(
+        [program, folder],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=os.environ | changed,
+    )
     if run.returncode:
         raise SystemExit(run.stderr)
     rows: dict[str, list[float] | str] = {}
@@ -97,6 +156,20 @@ def compared(
     return ("same" if abs(change) < SAME else f"{100 * change:+.0f} %"), words
 
 
+def present(base: dict[str, list[float] | str]) -> str:
+    """The table of what the present constants take and err by."""
+    lines = ["| scene | convolutions | q first | q at the ends | contact radius | stick radius |"]
+    lines.append("|---|---|---|---|---|---|")
+    for scene, now in base.items():
+        if isinstance(now, str):
+            lines.append(f"| {scene} | {now} |")
+            continue
+        work, *shear_and_radii = now
+        cells = " | ".join(f"{error:.2g}" for error in shear_and_radii)
+        lines.append(f"| {scene} | {work:.0f} | {cells} |")
+    return "\n".join(lines) + "\n"
+
+
 def main() -> int:
     """Writes the table to standard output."""
     with tempfile.TemporaryDirectory() as temporary:
@@ -104,20 +177,33 @@ def main() -> int:
         ignored = shutil.ignore_patterns("target", ".venv", ".git", "out")
         shutil.copytree(ROOT, copy, ignore=ignored)
         folder.mkdir()
-        base = solved(copy, folder)
+        for file, name, _ in SCAN:
+            if name not in BUILT:
+                read_from_environment(copy, file, name)
+        program = build(copy)
+        base = solved(program, folder)
         print((ROOT / "tools" / "constants.md").read_text())
+        print(present(base))
         print(
             "| constant | value | tried | work | error that changes most |\n|---|---|---|---|---|"
         )
         for file, name, values in SCAN:
-            path = copy / SOURCE / file
-            text = path.read_text()
-            found = value_of(text, name)
+            text = (ROOT / SOURCE / file).read_text()
+            value_now = definition(text, name)[2]
             for value in values:
-                path.write_text(text[: found.start(1)] + value + text[found.end(1) :])
-                work, error = compared(base, solved(copy, folder))
-                print(f"| `{file}` {name} | {found[1]} | {value} | {work} | {error} |", flush=True)
-            path.write_text(text)
+                if name in BUILT:
+                    path = copy / SOURCE / file
+                    kept = path.read_text()
+                    found = definition(kept, name)
+                    path.write_text(kept[: found.start(2)] + value + kept[found.end(2) :])
+                    rows = solved(build(copy), folder)
+                    path.write_text(kept)
+                else:
+                    rows = solved(program, folder, **{key_of(file, name): value})
+                work, error = compared(base, rows)
+                print(f"| `{file}` {name} | {value_now} | {value} | {work} | {error} |", flush=True)
+            if name in BUILT:
+                build(copy)
     return 0
 
 

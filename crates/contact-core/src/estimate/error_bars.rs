@@ -26,9 +26,10 @@ use std::sync::atomic::AtomicBool;
 use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
+use super::choice::choose_increments;
 use super::finer::Finer;
 use super::numbers::numbers;
-use super::path_error::{choose_increments, path_errors};
+use super::path_error::path_errors;
 use crate::error::Error;
 use crate::march::{Increment, March, Observer, Tractions, summarise};
 use crate::scene::{Grid, SaveFields, Scene};

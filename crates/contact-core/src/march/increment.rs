@@ -4,8 +4,9 @@ use super::accounts::Closing;
 use super::domain::Domain;
 use super::problem::{Drives, Problem};
 use super::rolled::{Roll, Rolled};
-use super::setup::{Failure, Setup, Solver, Workspace, count};
+use super::setup::{Failure, Setup, Solution, Solver, Workspace, count};
 use super::{Increment, State, accounts, check, entry, friction, guess};
+use crate::error::Error;
 use crate::scene::LoadPoint;
 use crate::solvers::Response;
 
@@ -18,15 +19,16 @@ pub(super) fn increment(
     point: &LoadPoint,
     extrapolates: bool,
 ) -> Result<Increment, Failure> {
-    let Workspace {
-        mu,
-        no_slip,
-        alternation,
-    } = ws;
     let geometry = &domain.window.geometry;
     let roll = Roll::new(problem, state, point);
     let rolled = Rolled::new(&roll, geometry, problem.plan.mirror, state);
-    friction::update(problem, geometry, state, (&roll, rolled.as_ref()), mu);
+    friction::update(
+        problem,
+        geometry,
+        state,
+        (&roll, rolled.as_ref()),
+        &mut ws.mu,
+    );
     let setup = Setup {
         problem,
         geometry,
@@ -34,13 +36,13 @@ pub(super) fn increment(
         state,
         roll,
         rolled: rolled.as_ref(),
-        mu,
+        mu: &ws.mu,
         point,
         drives: Drives::new(problem, &geometry.arms, state, point),
         goes_on: state.going_on(point),
     };
     let last_transform = domain.last_transform();
-    alternation.begin_increment();
+    ws.alternation.begin_increment();
     let mut solver = Solver {
         response: Response {
             op: &mut *domain.window.op,
@@ -49,26 +51,20 @@ pub(super) fn increment(
             last_transform,
             exact: false,
         },
-        no_slip,
-        workspace: alternation,
+        no_slip: &mut ws.no_slip,
+        workspace: &mut ws.alternation,
     };
-    let (now, info) = if setup.drives.press() {
-        let guess = guess::first_guess(&setup, extrapolates);
-        entry::solve(&setup, &mut solver, guess)?
-    } else {
-        let touching = geometry.touching(&problem.scene, setup.drives.normal.given);
-        solver.apart(&setup, touching)
-    };
+    let (now, info) = solve(&setup, &mut solver, extrapolates)?;
     let clear = check::admissible(&setup, domain, &now, &info)?;
-    let (mut increment, without_slip) = accounts::draw_up(&setup, no_slip, &now, &info);
+    let (mut increment, without_slip) = accounts::draw_up(&setup, &ws.no_slip, &now, &info);
     check::within_tolerance(&setup, &increment, count(&now))?;
     let closing = Closing {
         geometry,
         mirror: problem.plan.mirror,
         roll,
         rolled: rolled.as_ref(),
-        mu,
-        no_slip,
+        mu: &ws.mu,
+        no_slip: &ws.no_slip,
         keeps_residual: problem.plan.methods.residual_slip,
         shift: info.shift,
         without_slip,
@@ -79,4 +75,19 @@ pub(super) fn increment(
         increment.residuals.energy = increment.energy.imbalance() / state.work;
     }
     Ok(increment)
+}
+
+/// The solution from a first guess; of bodies that nothing presses together, that they carry nothing.
+fn solve(
+    setup: &Setup<'_>,
+    solver: &mut Solver<'_>,
+    extrapolates: bool,
+) -> Result<Solution, Error> {
+    if setup.drives.press() {
+        let guess = guess::first_guess(setup, extrapolates);
+        return entry::solve(setup, solver, guess);
+    }
+    let scene = &setup.problem.scene;
+    let touching = (setup.geometry).touching(scene, setup.drives.normal.given);
+    Ok(solver.apart(setup, touching))
 }

@@ -52,9 +52,7 @@ pub(super) fn alternate(
             copy(q, before);
         }
         if found.iterations > 0 {
-            (ws.lifted).find(info.alternations, problem.mu, &ws.p_before, now);
-            sliding = bring_within_bound(problem, no_slip, now, ws);
-            follow_pressure(response, now, ws, coupled);
+            sliding = take_pressure(response, problem, no_slip, now, ws, info.alternations);
         }
         info.friction_used = sliding.used;
         if info.exceeds_friction() {
@@ -71,36 +69,45 @@ pub(super) fn alternate(
         }
 
         // What the change of shear does to the gap.
-        let Some(residual) = gap_after_shear(response, &gap, now, ws, &mut info) else {
-            return Ok(info);
-        };
+        let residual = gap_after_shear(response, &gap, now, ws, &mut info);
         if residual <= params.tolerance {
             return Ok(info);
         }
         if info.alternations >= params.max_alternations {
-            return Err(SolverError {
-                solver: "coupled",
-                residual,
-                tolerance: params.tolerance,
-                iterations: info.alternations,
-            });
+            return Err(not_converged(residual, &info, params));
         }
         ws.anderson.extrapolate(&now.p, &mut now.u_z);
     }
 }
 
-/// Adds to u_z what the change of the shear makes of it; the residual of the gap then \[m\]. None where the shear
-/// has not changed: the gap is that of the normal solver.
+/// Brings bound, shear and u_t to the pressure that the normal solver found; how near the loads are to sliding.
+fn take_pressure(
+    response: &mut Response<'_>,
+    problem: &IncrementProblem<'_>,
+    no_slip: &NoSlip<'_>,
+    now: &mut Interface,
+    ws: &mut AlternationWorkspace,
+    alternations: usize,
+) -> Sliding {
+    let coupled = response.op.is_coupled();
+    (ws.lifted).find(alternations, problem.mu, &ws.p_before, now);
+    let sliding = bring_within_bound(problem, no_slip, now, ws);
+    follow_pressure(response, now, ws, coupled);
+    sliding
+}
+
+/// Adds to u_z what the change of the shear makes of it; the residual of the gap then \[m\], 0 where the shear has
+/// not changed: the gap is that of the normal solver.
 fn gap_after_shear(
     response: &mut Response<'_>,
     problem: &NormalProblem<'_>,
     now: &mut Interface,
     ws: &mut AlternationWorkspace,
     info: &mut AlternationInfo,
-) -> Option<f64> {
+) -> f64 {
     let change = ws.change_of_shear(now);
     if !change && !ws.anderson.accelerates() {
-        return None;
+        return 0.0;
     }
     if change {
         let [x, y] = &ws.change;
@@ -111,5 +118,14 @@ fn gap_after_shear(
     ws.anderson.close_pass(&ws.response[0], &mut now.u_z);
     let check = assess(problem, &now.p, &now.u_z);
     info.approach = check.motion;
-    Some(check.gap.max(check.penetration))
+    check.gap.max(check.penetration)
+}
+
+fn not_converged(residual: f64, info: &AlternationInfo, params: &AlternationParams) -> SolverError {
+    SolverError {
+        solver: "coupled",
+        residual,
+        tolerance: params.tolerance,
+        iterations: info.alternations,
+    }
 }
