@@ -1,0 +1,89 @@
+//! A random rough surface.
+
+use contact_core::scene as core;
+use pyo3::prelude::*;
+
+use crate::error::to_python;
+use crate::parts::parts;
+
+/// A random self-affine surface; add it to a shape.
+///
+/// Its power falls like k^-(2 + 2 `hurst`) between two wavelengths and is level above the longer
+/// one. The same seed gives the same surface on every grid of the same size, however fine.
+///
+/// Parameters
+/// ----------
+/// rms : float
+///     Root-mean-square height [m].
+/// hurst : float
+///     Hurst exponent, above 0 and up to 1.
+/// longest, shortest : float
+///     Wavelengths between which it is self-affine [m]; the shortest is at least two cells.
+/// seed : int
+///     Seed of the phases (default 0).
+#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct Rough(pub(super) core::Rough);
+
+parts!(Rough: rms, hurst, longest, shortest, seed);
+
+#[pymethods]
+impl Rough {
+    #[new]
+    #[pyo3(signature = (*, rms, hurst, longest, shortest, seed = 0))]
+    fn new(rms: f64, hurst: f64, longest: f64, shortest: f64, seed: u32) -> PyResult<Self> {
+        let rough = core::Rough {
+            rms,
+            hurst,
+            longest,
+            shortest,
+            seed,
+        };
+        let shape = core::Shape::Rough(rough);
+        shape.check("shape").map_err(to_python)?;
+        Ok(Self(rough))
+    }
+
+    /// Root-mean-square height [m].
+    #[getter]
+    fn rms(&self) -> f64 {
+        self.0.rms
+    }
+
+    /// Hurst exponent.
+    #[getter]
+    fn hurst(&self) -> f64 {
+        self.0.hurst
+    }
+
+    /// Longest wavelength of the self-affine range [m].
+    #[getter]
+    fn longest(&self) -> f64 {
+        self.0.longest
+    }
+
+    /// Shortest wavelength [m].
+    #[getter]
+    fn shortest(&self) -> f64 {
+        self.0.shortest
+    }
+
+    /// Seed of the phases.
+    #[getter]
+    fn seed(&self) -> u32 {
+        self.0.seed
+    }
+
+    pub(super) fn __repr__(&self) -> String {
+        let core::Rough {
+            rms,
+            hurst,
+            longest,
+            shortest,
+            seed,
+        } = self.0;
+        format!(
+            "Rough(rms={rms:?}, hurst={hurst:?}, longest={longest:?}, shortest={shortest:?}, seed={seed})"
+        )
+    }
+}
