@@ -165,6 +165,16 @@ __all__ = [
 
 show_in_notebooks()
 
+#: What other programs call things.
+OTHER_NAMES = {
+    "load": "open",
+    "run": "solve",
+    "Material": "Elastic",
+    "Layer": "Coating",
+    "Surface": "SurfaceMap",
+    "Roughness": "Rough",
+}
+
 
 def __getattr__(name: str) -> Any:
     """Import the figures, and with them matplotlib, when they are first asked for."""
@@ -176,4 +186,6 @@ def __getattr__(name: str) -> Any:
                 raise
             message = 'figures need matplotlib: pip install "fretting[plot]"'
             raise ModuleNotFoundError(message, name="matplotlib") from absent
-    raise AttributeError(f"module 'pyfret' has no attribute {name!r}")
+    meant = OTHER_NAMES.get(name)
+    hint = f"; it is called pyfret.{meant}" if meant else ""
+    raise AttributeError(f"module 'pyfret' has no attribute {name!r}{hint}")

@@ -25,6 +25,15 @@ class OfRun:
         """Variables with units and meaning, and the attributes of the run."""
         return self._dataset
 
+    def __getitem__(self, name: str) -> xr.DataArray:
+        """Give a variable of the dataset by its name."""
+        if not isinstance(name, str):
+            raise TypeError(
+                f"{name!r}: must be the name of a variable, such as 'T_x'; result.at(-1) is the "
+                "last increment that kept its fields"
+            )
+        return self.dataset[name]
+
     @property
     def scene(self) -> Scene:
         """The scene that was solved."""

@@ -13,6 +13,7 @@ import numpy as np
 from pyfret import _core, files, subsurface
 from pyfret import life as lives
 from pyfret._core import StoreError
+from pyfret.guesses import no_attribute
 from pyfret.lazy import xr
 from pyfret.of_run import OfRun
 from pyfret.snapshot import Snapshot
@@ -67,8 +68,24 @@ class Result(OfRun):
 
     Its ``dataset`` has scalars over ``increment`` and fields over (``saved``, ``x``, ``y``) for the
     increments whose fields were kept; ``attrs`` holds the scene, the version, ``a_H``, ``p_H`` and
-    ``mu``. Every variable carries ``units`` and ``long_name``.
+    ``mu``. Every variable carries ``units`` and ``long_name``. Its scalars are attributes as well,
+    e.g. ``result.T_x``; fields are those of an increment, e.g. ``result.at(-1).p``.
     """
+
+    def __getattr__(self, name: str) -> xr.DataArray:
+        """Give the scalar `name` of every increment."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        scalars = [str(k) for k, v in self.dataset.variables.items() if v.dims == ("increment",)]
+        if name in scalars:
+            return self.dataset[name]
+        fields = {
+            str(k): f"it is a field of every increment that kept it, result.at(-1).{k}"
+            for k, v in self.dataset.variables.items()
+            if "x" in v.dims
+        }
+        public = (member for member in dir(type(self)) if not member.startswith("_"))
+        raise no_attribute("result", name, [*scalars, *public], fields)
 
     @property
     def status(self) -> str:
@@ -124,6 +141,11 @@ class Result(OfRun):
         KeyError
             The fields of that increment were not kept; the message lists those that were.
         """
+        if not isinstance(which, numbers.Real):
+            raise TypeError(
+                f"{which!r}: must be an increment, such as 5, or -1 for the last that kept its "
+                "fields, or a path time, such as 1.0"
+            )
         saved = self.dataset.saved_increment.values
         times = self.dataset.saved_t.values
         if not isinstance(which, numbers.Integral):
@@ -350,6 +372,8 @@ def open(path: str | os.PathLike[str]) -> Result:
     StoreError
         There is no store, or a file of it is missing or damaged; the message names both.
     """
+    if not Path(path).exists():
+        raise StoreError(f"{fspath(path)}: no such file or folder")
     if Path(path).suffix == ".nc":
         return Result(files.read(path))
     # Zarr reads the attributes of the group from a file that no checksum covers.

@@ -8,7 +8,9 @@ import numpy as np
 
 from pyfret import _core, subsurface
 from pyfret.doubts import doubt_layers
+from pyfret.guesses import no_attribute
 from pyfret.of_run import OfRun
+from pyfret.stress import LABELS
 
 if TYPE_CHECKING:
     import os
@@ -99,7 +101,13 @@ class Snapshot(OfRun):
             raise AttributeError(name)
         if name in self.dataset.variables:
             return self.dataset[name]
-        raise AttributeError(f"a snapshot has no {name!r}; it has {self.names()}")
+        elsewhere = {of: f"it is a stress, snapshot.stress().{of}" for of in LABELS}
+        for known, variable in self.dataset.variables.items():
+            meaning = str(variable.attrs.get("long_name", ""))
+            if meaning.split(",")[0] == name:
+                elsewhere[name] = f"it is called {known}, {meaning}"
+        public = (member for member in dir(type(self)) if not member.startswith("_"))
+        raise no_attribute("snapshot", name, [*self.names(), *public], elsewhere)
 
     def names(self) -> list[str]:
         """Names of all variables, in order."""

@@ -139,7 +139,14 @@ CHOSEN = 200
 
 def read(scene: Scene | str | os.PathLike[str]) -> Scene:
     """The scene, read from its file if it is the name of one."""
-    return scene if isinstance(scene, Scene) else Scene.from_file(scene)
+    if isinstance(scene, Scene):
+        return scene
+    if not isinstance(scene, (str, os.PathLike)):
+        raise TypeError(
+            f"{scene!r}: must be a scene, or the name of its file; the load path comes after it: "
+            "solve(scene, path)"
+        )
+    return Scene.from_file(scene)
 
 
 def memory(scene: Scene) -> Path | None:

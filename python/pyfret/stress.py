@@ -9,6 +9,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret.doubts import SceneWarning
+from pyfret.guesses import no_attribute
 from pyfret.lazy import xr
 
 if TYPE_CHECKING:
@@ -64,7 +65,10 @@ class Stress:
         """Give the measure `name`."""
         if not name.startswith("_") and name in LABELS:
             return self.measure(name)
-        raise AttributeError(f"stress has no {name!r}; it has {sorted(LABELS)}")
+        if name.startswith("_"):
+            raise AttributeError(name)
+        public = (member for member in dir(type(self)) if not member.startswith("_"))
+        raise no_attribute("stress", name, [*LABELS, *public, "dataset"], {})
 
     def principal(self) -> xr.Dataset:
         """Principal values, the largest first, and unit vectors of their directions."""

@@ -65,7 +65,7 @@ def summary(result: Result) -> str:
         for row in zip(*table, strict=True)
     ]
     return "\n".join(
-        [f"{result.dataset.attrs['title']}: {result.status}", *rows, *cycle_lines(result)]
+        [f"{result.dataset.attrs['title'] or 'run'}: {result.status}", *rows, *cycle_lines(result)]
     )
 
 

@@ -1,0 +1,73 @@
+"""Guesses of a user of matplotlib and xarray are served, or told the right name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pytest
+
+import pyfret as fret
+from conftest import W, sphere_on_flat
+
+PRESSED = fret.LoadPath.start().normal(W, increments=2)
+
+
+@pytest.fixture(scope="module")
+def result() -> fret.Result:
+    scene = sphere_on_flat(ratio=2.0, n=16)
+    return fret.solve(scene, PRESSED.cycles(1, T_x=90.0, increments=4), progress=False)
+
+
+def test_variables_are_found_as_in_xarray(result: fret.Result) -> None:
+    assert result.T_x.dims == ("increment",)
+    assert result["p"].dims == ("saved", "x", "y")
+    assert result.at(-1)["p"].equals(result.at(-1).p)
+
+
+@pytest.mark.parametrize(
+    ("guess", "error", "says"),
+    [
+        (lambda r: r.p, AttributeError, r"field of every increment.*result.at\(-1\).p"),
+        (lambda r: r.isel, AttributeError, r"result.dataset.isel"),
+        (lambda r: r.to_netcdf, AttributeError, r"result.dataset.to_netcdf"),
+        (lambda r: r.plot, AttributeError, r"figures are functions"),
+        (lambda r: r.stick_rato, AttributeError, r"did you mean stick_ratio"),
+        (lambda r: r[-1], TypeError, r"result.at\(-1\)"),
+        (lambda r: r.at("last"), TypeError, r"-1 for the last"),
+        (lambda r: r.at(-1).von_mises, AttributeError, r"snapshot.stress\(\).von_mises"),
+        (lambda r: r.at(-1).pressure, AttributeError, r"it is called p"),
+        (lambda r: r.at(-1).plot, AttributeError, r"figures are functions"),
+        (lambda r: r.at(-1).stress().max, AttributeError, r"maximum|stress.dataset.max"),
+        (lambda r: fret.plot.fretting_loop(r.at(-1)), TypeError, r"must be the result of a run"),
+        (lambda r: fret.plot.stick_ratio(r.dataset), TypeError, r"must be the result of a run"),
+        (lambda r: fret.plot.stress_map(r.at(-1)), TypeError, r"result.at\(-1\).stress\(\)"),
+        (lambda r: fret.solve(PRESSED, r.scene), TypeError, r"solve\(scene, path\)"),
+        (lambda r: fret.open("nowhere.zarr"), fret.StoreError, r"no such file or folder"),
+        (lambda r: fret.load, AttributeError, r"it is called pyfret.open"),
+        (lambda r: fret.Material, AttributeError, r"it is called pyfret.Elastic"),
+    ],
+)
+def test_what_is_not_there_is_told_with_what_is(
+    result: fret.Result,
+    guess: Callable[[fret.Result], object],
+    error: type[Exception],
+    says: str,
+) -> None:
+    with pytest.raises(error, match=says):
+        guess(result)
+    plt.close("all")
+
+
+def test_maps_take_the_words_of_imshow(result: fret.Result) -> None:
+    ax = fret.plot.pressure_map(result, cmap="magma", vmax=2.0)
+    assert ax.images[0].get_cmap().name == "magma"
+    assert ax.images[0].get_clim() == (0.0, 2.0)
+    assert fret.plot.slip_map(result, vmax=1.0).images[0].get_clim() == (0.0, 1.0)
+    plt.close("all")
+
+
+def test_a_copy_of_a_result_is_one(result: fret.Result, tmp_path: Path) -> None:
+    result.save(tmp_path / "a.nc")
+    assert fret.open(tmp_path / "a.nc").T_x.equals(result.T_x)
