@@ -61,6 +61,27 @@ SCENES = {
     ),
     "frictionless": scene(fret.Sphere(R), PRESSED, mu=0.0),
     "never slips": scene(fret.Sphere(R), PRESSED.tangential(0.1 * W, increments=1), mu=np.inf),
+    "crowned roller along a moment": scene(
+        fret.CrownedRoller(R=R, length=0.5 * A, crown=R), PRESSED.cycles(1, M_z=1e-2, increments=4)
+    ),
+    "wedge": scene(
+        fret.Wedge(slope=0.005) + fret.Sphere(R),
+        fret.LoadPath.start().normal(W / 4, increments=2).cycles(1, delta_y=1e-7, increments=4),
+    ),
+    "wavy flat under a ball, shear that goes round": scene(
+        fret.Sphere(R) + fret.Waviness(amplitude=1e-8, wavelength=A),
+        PRESSED.ellipse(T_x=0.3 * MU * W, T_y=0.2 * MU * W, increments=2),
+    ),
+    "measured surface": scene(
+        fret.Sphere(R)
+        + fret.SurfaceMap(1e-8 * np.random.default_rng(1).normal(size=(9, 9)), spacing=2.6 * A / 8),
+        GENTLE,
+    ),
+    "bulk stress": scene(
+        fret.Sphere(R), PRESSED.force(T_x=0.3 * MU * W, sigma_B=2e7, increments=3)
+    ),
+    "rolling": scene(fret.Sphere(R), PRESSED.force(rolled=2 * GRID.dx, T_x=50.0, increments=2)),
+    "tilted": scene(PUNCH, GENTLE.displace(phi_y=1e-6, increments=1)),
     "cone": scene(fret.Cone(slope=0.01), fret.LoadPath.start().normal(W / 4, increments=2)),
 }
 
@@ -138,3 +159,22 @@ def test_thin_layers_have_room_on_the_axis_of_depth() -> None:
     depths = np.array([0.0, 1 / 30, 1 / 30 + 1 / 50, 2.0])
     pixels = to_pixels(np.column_stack([np.zeros(4), depths]))[:, 1]
     assert (-np.diff(pixels)).min() > 0.1 * (pixels[0] - pixels[-1])
+
+
+def test_shifts_that_come_back_are_markers_on_their_first_visit() -> None:
+    result = fret.solve(SCENES["shift"], progress=False)
+    lines = fret.plot.shear_profiles(result).lines
+    assert [line.get_marker() for line in lines] == ["None", "None", "None", "o"]
+
+
+def test_the_legend_of_zones_lies_beside_the_map() -> None:
+    ax = fret.plot.stick_slip(fret.solve(SCENES["line"], progress=False))
+    ax.get_figure().canvas.draw()
+    legend = ax.get_legend().get_window_extent()
+    assert legend.y0 >= ax.get_window_extent().y1 - 1.0
+
+
+def test_the_largest_stress_keeps_off_the_frame() -> None:
+    result = fret.solve(SCENES["shift"], progress=False)
+    ax = fret.plot.stress_history(result.envelope(y=0.0))
+    assert ax.lines[0].get_ydata().max() < 0.95 * ax.get_ylim()[1]

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from matplotlib.ticker import EngFormatter
+from matplotlib.ticker import EngFormatter, MaxNLocator
 
 from pyfret._core import LoadPath
-from pyfret.plot.scales import MICRO, Scale, Units, bears, scales
+from pyfret.plot.scales import MICRO, Scale, Units, bears, run_of, scales
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
@@ -66,13 +66,15 @@ def fretting_loop(
     **line
         Passed on to ``plot``.
     """
+    d = run_of(result).dataset
     ax = axes(ax)
-    d = result.dataset
     force, shift, force_symbol, shift_symbol = NAMES[direction or driven(result.scene.path)]
     started = np.flatnonzero(d.branch_of_increment.values == 0)[-1]
     by_force, by_shift = loop_scales(result, units, torsion=force == "M_z")
     moved = (d[shift] - d[shift][started]) / by_shift.value
     ax.plot(moved[started:], d[force][started:] / by_force.value, **line)
+    # Few enough ticks for labels of five signs.
+    ax.xaxis.set_major_locator(MaxNLocator(5))
     ax.set_xlabel(by_shift.label(shift_symbol))
     ax.set_ylabel(by_force.label(force_symbol))
     return ax
@@ -110,8 +112,8 @@ def loop_scales(result: Result, units: Units, *, torsion: bool) -> tuple[Scale, 
 @styled
 def stick_ratio(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
     r"""Stick area over contact area along the load path, over :math:`t/\tau`."""
+    t = run_of(result).dataset.t
     ax = axes(ax)
-    t = result.dataset.t
     ax.plot(t / t[-1], result.stick_ratio, **line)
     ax.set_xlabel(r"$t/\tau$")
     ax.set_ylabel(r"$A_\mathrm{st}/A_\mathrm{c}$")

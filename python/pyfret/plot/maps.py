@@ -105,7 +105,14 @@ def stick_slip(shown: Snapshot | Result, *, units: Units = "auto", ax: Axes | No
     zones = ((2, STICK, "stick"), (1, SLIP, "slip"))
     handles = [Patch(color=color, label=label) for n, color, label in zones if (zone == n).any()]
     if handles:
-        ax.legend(handles=handles, loc="upper right", handlelength=1.0, borderpad=0.1)
+        ax.legend(
+            handles=handles,
+            loc="lower right",
+            bbox_to_anchor=(1.0, 1.0),
+            ncols=len(handles),
+            handlelength=1.0,
+            borderpad=0.1,
+        )
     return ax
 
 
@@ -122,9 +129,8 @@ def field_map(
     extent = frame(ax, snapshot, length)
     contact = snapshot.dataset.contact.values.astype(bool)
     shown = np.where(contact, values / scale.value, np.nan)
-    drawn = ax.imshow(
-        shown.T, origin="lower", extent=extent, cmap="YlGnBu", aspect=ax.get_aspect(), **image
-    )
+    look = {"cmap": "YlGnBu", "aspect": ax.get_aspect(), **image}
+    drawn = ax.imshow(shown.T, origin="lower", extent=extent, **look)
     ax.set_xlim(extent[:2])
     ax.set_ylim(extent[2:])
     look_at_contact(ax, snapshot, length)
@@ -138,14 +144,25 @@ def pressure_map(
     units: Units = "auto",
     ax: Axes | None = None,
     colorbar: bool = True,
+    **image: Any,
 ) -> Axes:
-    """Pressure over the contact plane, over p_H or in MPa; parameters as in :func:`stick_slip`."""
+    """Pressure over the contact plane, over p_H or in MPa.
+
+    Parameters
+    ----------
+    shown, units, ax
+        As in :func:`stick_slip`.
+    colorbar : bool
+        Whether to draw the scale beside the map.
+    **image
+        Passed on to ``imshow``, such as ``cmap`` and ``vmax``.
+    """
     snapshot = last_of(shown)
     by = of_snapshot(snapshot, units)
     values = snapshot.dataset.p.values
-    ax, image = field_map(ax, snapshot, values, by.stress, by.length, vmin=0)
+    ax, drawn = field_map(ax, snapshot, values, by.stress, by.length, **{"vmin": 0, **image})
     if colorbar:
-        label_scale(ax.get_figure(), image, ax, by.stress.label("p"))
+        label_scale(ax.get_figure(), drawn, ax, by.stress.label("p"))
     return ax
 
 
@@ -156,8 +173,9 @@ def slip_map(
     units: Units = "auto",
     ax: Axes | None = None,
     colorbar: bool = True,
+    **image: Any,
 ) -> Axes:
-    """Size of the slip added up over the path, in um; parameters as in :func:`stick_slip`.
+    """Size of the slip added up over the path, in um; parameters as in :func:`pressure_map`.
 
     The scale of colours ends above all cells but a few: those that come and go with the rim slip
     farther than the others.
@@ -167,9 +185,10 @@ def slip_map(
     slip = np.hypot(snapshot.dataset.slip_x.values, snapshot.dataset.slip_y.values)
     contact = snapshot.dataset.contact.values.astype(bool)
     largest = np.quantile(slip[contact], INNER) / MICRO.value if contact.any() else None
-    ax, image = field_map(ax, snapshot, slip, MICRO, by.length, vmin=0, vmax=largest or None)
+    look = {"vmin": 0, "vmax": largest or None, **image}
+    ax, drawn = field_map(ax, snapshot, slip, MICRO, by.length, **look)
     if colorbar:
-        label_scale(ax.get_figure(), image, ax, MICRO.label("|s|"))
+        label_scale(ax.get_figure(), drawn, ax, MICRO.label("|s|"))
     return ax
 
 

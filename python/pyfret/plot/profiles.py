@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib import colormaps
 
 from pyfret.plot.histories import NAMES, driven
-from pyfret.plot.scales import Units, last_of, of_snapshot
+from pyfret.plot.scales import Units, last_of, of_snapshot, run_of
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
@@ -78,8 +78,8 @@ def shear_profiles(result: Result, *, units: Units = "auto", ax: Axes | None = N
     A load state that was visited before is drawn as markers in the colour of its first visit:
     markers on a line show that the cycle has settled.
     """
+    last = run_of(result).at(-1).along_x()
     ax = axes(ax)
-    last = result.at(-1).along_x()
     name: Literal["q_x", "q_y"] = "q_x" if abs(last.q_x).max() >= abs(last.q_y).max() else "q_y"
     tau = float(result.dataset.t[-1])
     visits = load_states(result)
@@ -110,12 +110,15 @@ MARKERS = ("o", "x", "s", "^")
 def load_states(result: Result) -> list[tuple[int, int]]:
     """Number the load states of the kept increments and count the visits of each.
 
-    Two increments share a state if they have the same loads, reached in the same direction, to
-    1e-6 of the largest one.
+    Two increments share a state if the path gives them the same loads or motions, reached in the
+    same direction, to 1e-6 of the largest one.
     """
     d = result.dataset
-    force, _, _, _ = NAMES[driven(result.scene.path)]
-    scales = {name: 1e-6 * float(abs(d[name]).max()) or 1.0 for name in ("W", force)}
+    branches = result.scene.path.branches
+    load, motion, _, _ = NAMES[driven(result.scene.path)]
+    normal = "delta_z" if any(branch.delta_z for branch in branches) else "W"
+    force = motion if any(getattr(branch, motion) for branch in branches) else load
+    scales = {name: 1e-6 * float(abs(d[name]).max()) or 1.0 for name in (normal, force)}
     seen: list[tuple[float, ...]] = []
     counts: list[int] = []
     visits = []

@@ -80,3 +80,15 @@ def last_of(shown: Result | Snapshot) -> Snapshot:
     from pyfret.results import Result
 
     return shown.at(-1) if isinstance(shown, Result) else shown
+
+
+def run_of(shown: Any) -> Result:
+    """The result of a run; anything else is refused."""
+    from pyfret.results import Result
+
+    if not isinstance(shown, Result):
+        raise TypeError(
+            f"{type(shown).__name__}: must be the result of a run, as solve(...) or open(...) "
+            "give it: the figure shows all increments"
+        )
+    return shown

@@ -15,6 +15,7 @@ from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.histories import driven
 from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.style import axes, styled
+from pyfret.stress import Stress
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from pyfret.results import Result
-    from pyfret.subsurface import Maximum, Stress
+    from pyfret.stress import Maximum
 
 #: Names of measures in figures.
 SYMBOLS = {
@@ -180,6 +181,11 @@ def stress_map(
 
     A cross marks the largest value, a circle the largest one on the surface if that is another.
     """
+    if not isinstance(stress, Stress):
+        raise TypeError(
+            f"{type(stress).__name__}: must be the stress on a section, as result.at(-1).stress() "
+            "gives it"
+        )
     largest = stress.maximum(of)
     values = stress.measure(of).assign_attrs(stress.dataset.attrs)
     ax = section_map(
@@ -289,7 +295,10 @@ def stress_history(
     points = ax.scatter(value.increment, value, c=z, s=9, cmap="viridis", zorder=2)
     bar = ax.get_figure().colorbar(points, ax=ax)  # type: ignore[union-attr]
     bar.set_label(by.length.label("z"))
-    ax.set_ylim(bottom=0.0)
+    # Room above the largest value, and none below where it can't be negative.
+    ax.margins(y=0.08)
+    if float(value.min()) >= 0.0:
+        ax.set_ylim(0.0, 1.08 * float(value.max()) or 1.0)
     ax.set_xlabel("increment")
     ax.set_ylabel(by.stress.label(rf"\max {SYMBOLS.get(of, of)}"))
     return ax
