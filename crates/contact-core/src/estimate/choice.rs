@@ -33,8 +33,9 @@ const INHERITED: (f64, f64) = (0.36, 0.9);
 const KEPT: f64 = 0.8;
 /// Most that the number of increments of a branch grows by in a round.
 const GROWTH: f64 = 4.0;
-/// Times the error aimed at from which a branch gets its increments without another round.
-const NEAR: f64 = 2.0;
+/// Times the error aimed at from which a branch gets its increments without another round: with an order that two
+/// rounds have shown, and with the least order.
+const NEAR: (f64, f64) = (3.0, 2.0);
 /// Times the error of a growth of contact from nothing that an error has that is not inherited from it.
 const OWN: f64 = 2.0;
 /// Rounds of choosing.
@@ -182,7 +183,8 @@ fn refine(
     let count = branch.equal_increments();
     let grows = branch.spacing == Spacing::EqualRadius;
     let excess = error / (AIM * allowed);
-    let near = !grows && excess <= NEAR;
+    let limit = if before.is_some() { NEAR.0 } else { NEAR.1 };
+    let near = !grows && excess <= limit;
     let order = match *before {
         Some(before) => order(before, (count, error)),
         None if grows || near => ORDERS.0,
