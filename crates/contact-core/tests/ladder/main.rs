@@ -29,6 +29,7 @@ mod paper_scene;
 mod path_order;
 mod rolling;
 mod shapes;
+mod strong_coupling;
 mod tilt;
 mod together;
 mod torsion;
