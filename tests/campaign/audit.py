@@ -67,6 +67,14 @@ def fall(shape: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray | None:
     return None
 
 
+def rim(contact: np.ndarray) -> np.ndarray:
+    """Contact cells next to one out of contact, where friction without a limit may let go."""
+    inside = np.pad(contact, 1)
+    nx, ny = contact.shape
+    around = [inside[i : i + nx, j : j + ny] for i in range(3) for j in range(3)]
+    return contact & ~np.logical_and.reduce(around)
+
+
 class Audit:
     """Looks at the increments of a scene in their order."""
 
@@ -181,7 +189,7 @@ class Audit:
             found["overlap outside"] = -h[outside].min(initial=0.0) / (room * size)
         b_x, b_y = self.bulk((number("sigma_B"), number("sigma_B1")))
         u_x, u_y = u_x + b_x, u_y + b_y
-        now = {"u": (u_x, u_y), "p": p, "q": (q_x, q_y), "rolled": number("rolled"),
+        now = {"stick": d.stick.values, "parts": number("parts"), "u": (u_x, u_y), "p": p, "q": (q_x, q_y), "rolled": number("rolled"),
                "d": tuple(number(k) for k in ("delta_x", "delta_y", "phi_z"))}  # fmt: skip
         if self.before is not None and self.before["rolled"] == now["rolled"]:
             found |= self.slip(self.before, now, bound)
@@ -194,12 +202,18 @@ class Audit:
         now: dict[str, Any],
         bound: tuple[np.ndarray, np.ndarray] | None,
     ) -> dict[str, float]:
-        """What cells in contact have slipped from one increment to the next."""
+        """What cells in contact have slipped from one increment to the next.
+
+        Where one was solved in pieces, what stuck in the last of them may have slipped before.
+        """
+        if now["parts"] > 1:
+            return {}
         dd = [a - b for a, b in zip(now["d"], before["d"], strict=True)]
         ds_x = now["u"][0] - before["u"][0] - (dd[0] - self.y * dd[2])
         ds_y = now["u"][1] - before["u"][1] - (dd[1] + self.x * dd[2])
         ds = np.hypot(ds_x, ds_y)
-        stuck = both = (now["p"] > 0) & (before["p"] > 0)
+        both = (now["p"] > 0) & (before["p"] > 0)
+        stuck = both & ~rim(now["p"] > 0)
         (q_x, q_y), mu = now["q"], 1.0
         if bound is not None:
             mu = max(float(self.file["friction"]["mu"]), 0.05)
@@ -208,10 +222,25 @@ class Audit:
             stuck = both & bears & (np.hypot(q_x / least[0], q_y / least[1]) < 0.99)
         room = ROOM * self.tolerance * mu * self.depth
         found = {"slip in stick": ds[stuck].max(initial=0.0) / (10 * room)}
+        if self.file["friction"]["mu"] != 0.0:
+            # Each end of an increment may be off by the tolerance, in the root mean square.
+            told = np.sqrt((ds[both & now["stick"]] ** 2).sum())
+            roots = sum(np.sqrt((end["p"] > 0).sum()) for end in (before, now))
+            # Displacements are reckoned anew: half as much again for their rounding.
+            found["slip in cells that are said to stick"] = told / (
+                1.5 * max(roots, 1.0) * self.allowed_slip()
+            )
         forward = (q_x * ds_x + q_y * ds_y)[both & (ds > 100 * room)]
         if forward.size:
             found["slip along the shear"] = (forward > 0).mean() / 0.05
         return found
+
+    def allowed_slip(self) -> float:
+        """The tolerance of slip, root mean square over the contact [m]."""
+        law = self.file["friction"]
+        mu = 1.0 if law["mu"] == "stick" else min(law["mu"], 1.0)
+        approach = self.scene.hertz.delta_z if self.scene.hertz else self.depth
+        return self.tolerance * mu * max(approach, 1e-300)
 
     def least(self, bound: np.ndarray) -> np.ndarray:
         """The least that friction bears of its largest bound: in motion, with its history."""

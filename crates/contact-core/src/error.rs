@@ -111,6 +111,21 @@ pub enum Error {
         /// The motion that is free, by its name in the scene.
         motion: &'static str,
     },
+    /// Friction without a limit would have to hold cells that their shear lifts.
+    #[error(
+        "increment {increment}: no contact that sticks everywhere carries these loads: of {contact} cells in contact \
+         shear lifts {lifted}, {within} of them within the contact; give a finite mu, which lets them slip"
+    )]
+    Lifted {
+        /// Increment, from 1.
+        increment: usize,
+        /// Cells in contact.
+        contact: usize,
+        /// Cells of these that their shear would lift.
+        lifted: usize,
+        /// Cells of these that are surrounded by cells in contact.
+        within: usize,
+    },
     /// A solver stopped before its tolerance.
     #[error(
         "increment {increment}: the {solver} solver stopped at residual {residual:.2e} \

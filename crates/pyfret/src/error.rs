@@ -29,7 +29,7 @@ create_exception!(
     pyfret,
     SlidingError,
     PyRuntimeError,
-    "Loads that friction cannot carry, or that nothing carries; give the motion instead."
+    "Loads that friction cannot carry, or that nothing carries, or that lift a contact that never slips."
 );
 create_exception!(
     pyfret,
@@ -54,7 +54,9 @@ pub(crate) fn to_python(error: Error) -> PyErr {
         Error::OffGrid { .. } | Error::WornOffGrid { .. } | Error::GridTooSmall { .. } => {
             OffGridError::new_err(text)
         }
-        Error::BeyondFriction { .. } | Error::Unresisted { .. } => SlidingError::new_err(text),
+        Error::BeyondFriction { .. } | Error::Lifted { .. } | Error::Unresisted { .. } => {
+            SlidingError::new_err(text)
+        }
         Error::NotConverged { .. } => NoConvergenceError::new_err(text),
         Error::KernelInaccurate { .. } | Error::StressInaccurate { .. } => {
             KernelInaccurateError::new_err(text)

@@ -2,8 +2,11 @@
 
 use crate::march::BranchSummary;
 
+/// How many there are.
+pub(crate) const NUMBERS: usize = 8;
+
 /// The numbers of a branch that have an error bar, in the order of [`ErrorBars`](super::ErrorBars).
-pub(crate) fn numbers(branch: &BranchSummary) -> [f64; 8] {
+pub(crate) fn numbers(branch: &BranchSummary) -> [f64; NUMBERS] {
     [
         branch.contact_radius,
         branch.stick_ratio,

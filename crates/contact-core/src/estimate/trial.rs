@@ -8,7 +8,7 @@ use std::sync::atomic::AtomicBool;
 
 use ndarray::Array2;
 
-use super::numbers::numbers;
+use super::numbers::{NUMBERS, numbers};
 use crate::error::Error;
 use crate::march::{BranchSummary, Increment, March, State, Tractions, summarise};
 use crate::scene::{Branch, Grid, LoadPath, Scene};
@@ -32,7 +32,7 @@ pub(crate) struct PathError {
     pub(crate) p: f64,
     /// In the numbers of the branch, each in its unit, with its sign: what they are more than with many
     /// increments.
-    pub(crate) numbers: [f64; 8],
+    pub(crate) numbers: [f64; NUMBERS],
     /// The shear there over the largest of the path (L2).
     pub(crate) reached: f64,
     /// The shear that friction can bear there over the largest of the path (L2).
@@ -77,6 +77,8 @@ impl Trial {
             }
             trial.grid = grid;
             let mut once = trial.clone();
+            // Only the contact counts.
+            once.settings.solver.entering = false;
             once.path
                 .branches
                 .iter_mut()

@@ -1,6 +1,7 @@
 //! How well the equations hold at the end of an increment, from the fields alone.
 
 use super::domain::{Domain, half_lengths};
+use super::lifted::lifted;
 use super::setup::{Failure, Setup};
 use super::transmitted::transmitted;
 use super::{Increment, Residuals, Status, off_grid};
@@ -35,6 +36,9 @@ pub(super) fn admissible(
     setup.unless_stopped()?;
     if let Some(unresisted) = unresisted(setup, now) {
         return Err(unresisted.into());
+    }
+    if let Some(lifted) = lifted(setup, now) {
+        return Err(lifted.into());
     }
     if info.exceeds_friction() {
         let (increment, used) = (state.increments + 1, info.friction_used);

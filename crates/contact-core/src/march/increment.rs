@@ -50,6 +50,7 @@ pub(super) fn increment(
             stop: Some(&problem.stop),
             last_transform,
             exact: false,
+            squares: 0.0,
         },
         no_slip: &mut ws.no_slip,
         workspace: &mut ws.alternation,

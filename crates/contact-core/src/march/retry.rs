@@ -2,12 +2,14 @@
 //!
 //! A guess that goes too far may lead astray: where it is left out the answer is the same. Half of the
 //! way is an easier problem: the last state is nearer to the solution. It is also a finer path, so that
-//! the answer differs from that of one piece as that of twice the increments would.
+//! the answer differs from that of one piece as that of twice the increments would. A contact that grows from nothing
+//! is solved in steps to begin with ([`first_growth`](super::first_growth)).
 //! [`Work::parts`](super::Work::parts) says in how many pieces an increment was solved. All tries together
 //! have a bound on their work; then the increment is given up, and [`why`] says what in the physics makes it
 //! hard.
 
-use super::domain::Domain;
+use super::domain::{AROUND, Domain};
+use super::first_growth::steps;
 use super::increment::increment;
 use super::problem::Problem;
 use super::setup::{Failure, Workspace};
@@ -30,6 +32,17 @@ pub(super) fn reach(
     ws: &mut Workspace,
     point: &LoadPoint,
 ) -> Result<Increment, Failure> {
+    let steps = steps(problem, state, point);
+    if !steps.is_empty() {
+        let before = state.clone();
+        let ended = in_steps(problem, domain, state, ws, &steps, point);
+        if ended.is_err() {
+            *state = before;
+        }
+        if !stalled(&ended) || domain.is_spent() {
+            return ended;
+        }
+    }
     let mut whole = |extrapolates| increment(problem, domain, state, ws, point, extrapolates);
     let mut ended = whole(true);
     if !problem.plan.methods.retries {
@@ -77,6 +90,41 @@ fn stalled(ended: &Result<Increment, Failure>) -> bool {
     matches!(ended, Err(Failure::Error(Error::NotConverged { .. })))
 }
 
+/// The increment to `point` by the ends of some steps: all of them are one increment of the path.
+fn in_steps(
+    problem: &Problem,
+    domain: &mut Domain,
+    state: &mut State,
+    ws: &mut Workspace,
+    steps: &[LoadPoint],
+    point: &LoadPoint,
+) -> Result<Increment, Failure> {
+    let mut whole: Option<Increment> = None;
+    let mut take = |state: &mut State, to: &LoadPoint| {
+        let step = increment(problem, domain, state, ws, to, true).map_err(with_room_to_enter)?;
+        let all = whole.map_or(step, |before| before.followed_by(&step));
+        whole = Some(all);
+        Ok::<_, Failure>(all)
+    };
+    for step in steps {
+        take(state, step)?;
+        state.increments -= 1;
+    }
+    let mut all = take(state, point)?;
+    if state.work != 0.0 {
+        all.residuals.energy = all.energy.imbalance() / state.work;
+    }
+    Ok(all)
+}
+
+/// Of a window that is too narrow, the contact with the cells around that a step needs in which others enter.
+fn with_room_to_enter(failure: Failure) -> Failure {
+    match failure {
+        Failure::Narrow(half) => Failure::Narrow(half.map(|cells| cells + AROUND)),
+        other => other,
+    }
+}
+
 /// The increment to `point` in two halves, halved further if needed.
 fn in_halves(
     problem: &Problem,
@@ -93,7 +141,7 @@ fn in_halves(
         }
         ended
     };
-    let middle = point.middle(&state.loads, state.motion.motions());
+    let middle = point.on_the_way(&state.loads, state.motion.motions(), 0.5);
     let first = piece(state, &middle)?;
     // Both halves are one increment of the path.
     state.increments -= 1;

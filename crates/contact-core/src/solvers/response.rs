@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::cells::set;
+use crate::cells::{dot, set};
 use crate::convolution::{ApproximateInverse, Displacements, SurfaceOperator, Tractions};
 
 /// The surface operator and, where there is one, its approximate inverse.
@@ -17,6 +17,8 @@ pub struct Response<'a> {
     pub last_transform: usize,
     /// Whether changes of the tractions are answered with all digits too.
     pub exact: bool,
+    /// Sum of the squares of the changes that have been added up since the last evaluation \[Pa^2\].
+    pub squares: f64,
 }
 
 impl<'a> Response<'a> {
@@ -28,6 +30,7 @@ impl<'a> Response<'a> {
             stop: None,
             last_transform: usize::MAX,
             exact: false,
+            squares: 0.0,
         }
     }
 
@@ -37,14 +40,30 @@ impl<'a> Response<'a> {
         raised || self.op.transforms() >= self.last_transform
     }
 
-    /// What the answer to a change of the tractions may miss of a displacement, over the root of the
-    /// sum of squares of the change \[m/Pa\]; zero where it has all digits.
-    pub(crate) fn rounding(&self) -> f64 {
-        if self.exact { 0.0 } else { self.op.rounding() }
+    /// What the displacements may miss by the changes that they are made of \[m\]; zero where all have
+    /// all digits. Each change misses a part of its size, whatever is left of it by those that follow.
+    pub(crate) fn rounded(&self) -> f64 {
+        if self.exact {
+            0.0
+        } else {
+            self.op.rounding() * self.squares.sqrt()
+        }
     }
 
-    /// The displacements under a change of the tractions.
+    /// Takes note of a change that displacements have followed, the sum of its squares \[Pa^2\].
+    pub(crate) fn changed(&mut self, squares: f64) {
+        self.squares += squares;
+    }
+
+    /// The displacements under a change of the tractions, which are added up.
     pub(crate) fn respond(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
+        let parts = [tractions.q_x, tractions.q_y, tractions.p];
+        let squares = parts.into_iter().flatten().map(|part| dot(part, part));
+        self.changed(squares.sum());
+        self.answer(tractions, displacements);
+    }
+
+    fn answer(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
         if self.exact {
             self.op.apply(tractions, displacements);
         } else {
@@ -52,13 +71,13 @@ impl<'a> Response<'a> {
         }
     }
 
-    /// u_z under a change of p alone.
+    /// u_z under a change of p alone; whoever adds it up, or a multiple, notes the change.
     pub(crate) fn normal(&mut self, p: &[f64], u_z: &mut [f64]) {
         let tractions = Tractions {
             p: Some(p),
             ..Tractions::default()
         };
-        self.respond(
+        self.answer(
             tractions,
             Displacements {
                 u_z: Some(u_z),
@@ -67,7 +86,7 @@ impl<'a> Response<'a> {
         );
     }
 
-    /// u_x, u_y under a change of shear alone.
+    /// u_x, u_y under a change of shear alone; whoever adds them up, or a multiple, notes the change.
     pub(crate) fn tangential(&mut self, q: [&[f64]; 2], u: [&mut [f64]; 2]) {
         let [u_x, u_y] = u;
         let tractions = Tractions {
@@ -80,10 +99,10 @@ impl<'a> Response<'a> {
             u_y: Some(u_y),
             u_z: None,
         };
-        self.respond(tractions, displacements);
+        self.answer(tractions, displacements);
     }
 
-    /// u_z under a change of shear alone.
+    /// u_z under a change of shear alone, which is added up.
     pub(crate) fn normal_under_shear(&mut self, q: [&[f64]; 2], u_z: &mut [f64]) {
         let tractions = Tractions {
             q_x: Some(q[0]),

@@ -159,6 +159,7 @@ impl Pressing {
             stop: Some(&self.stop),
             last_transform: usize::MAX,
             exact: true,
+            squares: 0.0,
         };
         let problem = NormalProblem {
             h_init: h,

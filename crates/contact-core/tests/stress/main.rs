@@ -14,6 +14,7 @@ mod corners;
 #[path = "../document/mod.rs"]
 mod document;
 mod draw;
+mod held;
 mod report;
 mod twins;
 mod unresisted;

@@ -38,7 +38,7 @@ impl Spacing {
     }
 
     /// Part of the branch, and of its path time, covered after `i` of its `n` increments.
-    fn covered(self, i: usize, n: usize, approach_given: bool) -> (f64, f64) {
+    pub(crate) fn covered(self, i: usize, n: usize, approach_given: bool) -> (f64, f64) {
         let s = i as f64 / n as f64;
         match (self, approach_given) {
             (Self::Uniform, _) => (s, s),

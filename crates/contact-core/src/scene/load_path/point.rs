@@ -21,23 +21,23 @@ pub struct LoadPoint {
 }
 
 impl LoadPoint {
-    /// Half of the way to this point from where `loads` and `motions` stand; not the end of a
+    /// A part of the way to this point from where `loads` and `motions` stand; not the end of a
     /// branch.
-    pub(crate) fn middle(&self, loads: &Loads, motions: [f64; 6]) -> Self {
-        let mean = |a: f64, b: f64| 0.5 * (a + b);
+    pub(crate) fn on_the_way(&self, loads: &Loads, motions: [f64; 6], part: f64) -> Self {
+        let between = |a: f64, b: f64| a + part * (b - a);
         let forces = loads.forces();
         let (ends, given) = (self.loads.forces(), self.loads.given.motions());
-        let halfway = std::array::from_fn(|k| mean(forces[k], ends[k]));
-        let moved = std::array::from_fn(|k| given[k].map(|end| mean(motions[k], end)));
+        let reached = std::array::from_fn(|k| between(forces[k], ends[k]));
+        let moved = std::array::from_fn(|k| given[k].map(|end| between(motions[k], end)));
         Self {
             ends_branch: false,
             loads: Loads {
-                sigma_B: mean(loads.sigma_B, self.loads.sigma_B),
-                sigma_B1: mean(loads.sigma_B1, self.loads.sigma_B1),
-                rolled: mean(loads.rolled, self.loads.rolled),
+                sigma_B: between(loads.sigma_B, self.loads.sigma_B),
+                sigma_B1: between(loads.sigma_B1, self.loads.sigma_B1),
+                rolled: between(loads.rolled, self.loads.rolled),
                 ..Loads::default()
             }
-            .with_forces(halfway, Given::from_motions(moved)),
+            .with_forces(reached, Given::from_motions(moved)),
             ..*self
         }
     }

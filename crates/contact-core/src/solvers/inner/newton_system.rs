@@ -3,7 +3,7 @@
 use super::TangentialProblem;
 use super::tangent::{Admitted, Pair, Tangent};
 use crate::cells::ContactCells;
-use crate::cells::{add, inverse, product, set, sweep};
+use crate::cells::{add, inverse, product, set, sums, sweep};
 use crate::solvers::no_slip::slip;
 use crate::solvers::{Response, Shear};
 
@@ -323,6 +323,13 @@ impl NewtonSystem {
     pub(crate) fn restart(&mut self) {
         clear(&mut self.x);
         clear(&mut self.response_x);
+    }
+
+    /// Sum of the squares of x \[Pa^2\].
+    pub(crate) fn squares(&self) -> f64 {
+        let [x, y] = &self.x;
+        let [squares] = sums([&x[..], y], |_, [x, y]| [x * x + y * y]);
+        squares
     }
 
     /// Adds x and C x to the shear; returns the shift that the equations of the tangent space ask

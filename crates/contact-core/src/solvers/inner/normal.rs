@@ -187,7 +187,7 @@ impl Descent {
         ws: &mut NormalWorkspace,
     ) {
         let product = self.direct(response, problem, motion, p, u_z, ws);
-        let (slope, curvature) = line(response, ws);
+        let [slope, curvature, squares] = line(response, ws);
         if !(slope > 0.0 && curvature > 0.0) {
             ws.direction.fill(0.0);
             self.last_product = 0.0;
@@ -197,6 +197,7 @@ impl Descent {
         let step = slope / curvature;
         let [pulled] = largest([&*p, &ws.direction], |_, [p, d]| [-(p + step * d)]);
         if pulled <= 0.0 {
+            response.changed(step * step * squares);
             let changes = [&ws.direction[..], &ws.response];
             set(changes, [p, u_z], |_, [d, u], [p, u_z]| {
                 [p + step * d, u_z + step * u]
@@ -330,7 +331,11 @@ fn add_response_of_change(
     ws: &mut NormalWorkspace,
 ) {
     let from = [p, &ws.response];
-    set(from, [&mut ws.z], |_, [p, before], _| [p - before]);
+    let [squares] = sweep(from, [&mut ws.z], |_, [p, before], _| {
+        let change = p - before;
+        ([change], [change * change])
+    });
+    response.changed(squares);
     response.normal(&ws.z, &mut ws.response);
     add_scaled(u_z, 1.0, &ws.response);
 }
@@ -361,10 +366,10 @@ pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> Nor
     }
 }
 
-/// Slope and curvature of the energy along the direction; its response goes to the workspace.
-fn line(response: &mut Response<'_>, ws: &mut NormalWorkspace) -> (f64, f64) {
+/// Slope and curvature of the energy along the direction, and the sum of its squares; its response goes to the
+/// workspace.
+fn line(response: &mut Response<'_>, ws: &mut NormalWorkspace) -> [f64; 3] {
     response.normal(&ws.direction, &mut ws.response);
     let fields = [&ws.residual[..], &ws.direction, &ws.response];
-    let [slope, curvature] = sums(fields, |_, [r, d, u]| [r * d, d * u]);
-    (slope, curvature)
+    sums(fields, |_, [r, d, u]| [r * d, d * u, d * d])
 }

@@ -57,6 +57,7 @@ impl ProjectedGradient {
             // The sum of the change is zero to rounding only: the shift stays out of the energy.
             let rigid = shift.map(|s| s / stiffness);
             let [change_size, curvature, descent] = self.add_response(problem, shear, rigid);
+            response.changed(change_size);
             if change_size == 0.0 || response.stopped() {
                 break;
             }

@@ -216,6 +216,7 @@ impl<'a> Newton<'a> {
         let target = (params.forcing * self.info.misfit).max(AIM * params.tolerance);
         let target = target * self.root;
         self.info.passes += (self.system).solve(response, self.cells, target, params.max_passes);
+        response.changed(self.system.squares());
         self.info.shift = (self.system).take(self.cells, &self.inside, &mut self.now);
         mark_slip(&self.inside, &mut self.now, self.info.shift);
         let Self {
@@ -231,6 +232,7 @@ impl<'a> Newton<'a> {
             (change, [change[0] * change[0] + change[1] * change[1]])
         });
         if squares.sqrt() > self.settled / self.c_xx {
+            response.changed(squares);
             system.respond(response, cells, now);
         }
     }

@@ -31,7 +31,7 @@ pub(super) fn alternate(
     if friction {
         sliding = bring_within_bound(problem, no_slip, now, ws);
     }
-    ws.evaluate(response, now, friction);
+    now.evaluate(response, friction);
     ws.anderson.restart(params.anderson);
     ws.unsettled = 0;
     loop {

@@ -2,9 +2,8 @@
 
 use super::anderson::Anderson;
 use super::lifted::Lifted;
-use crate::cells::{Arms, Drive, copy, set};
+use crate::cells::{Arms, Drive, set};
 use crate::solvers::Interface;
-use crate::solvers::Response;
 use crate::solvers::inner::{
     NormalParams, NormalProblem, NormalWorkspace, TangentialParams, TangentialProblem,
     TangentialWorkspace, exceeds,
@@ -90,10 +89,6 @@ impl AlternationInfo {
         exceeds(self.friction_used)
     }
 
-    pub(super) fn iterations(&self) -> usize {
-        self.normal_iterations + self.tangential_iterations
-    }
-
     /// Adds the work of another solution that this one took.
     pub(crate) fn add_work(&mut self, other: &Self) {
         self.alternations += other.alternations;
@@ -115,8 +110,6 @@ pub struct AlternationWorkspace {
     pub(super) q_before: [Vec<f64>; 2],
     pub(super) change: [Vec<f64>; 2],
     pub(super) response: [Vec<f64>; 2],
-    /// Tractions q_x, q_y, p at the last convolution in double precision.
-    pub(super) evaluated: [Vec<f64>; 3],
     pub(super) anderson: Anderson,
     /// Cells that stick without a limit and that their shear would lift.
     pub(super) lifted: Lifted,
@@ -137,7 +130,6 @@ impl AlternationWorkspace {
             q_before: pair(),
             change: pair(),
             response: pair(),
-            evaluated: [field(), field(), field()],
             anderson: Anderson::new(cells),
             lifted: Lifted::default(),
             unsettled: 0,
@@ -147,19 +139,6 @@ impl AlternationWorkspace {
     /// Begins another increment, which may take several solutions.
     pub(crate) fn begin_increment(&mut self) {
         self.lifted.clear();
-    }
-
-    /// Computes the displacements of a guess in double precision.
-    pub(super) fn evaluate(
-        &mut self,
-        response: &mut Response<'_>,
-        now: &mut Interface,
-        friction: bool,
-    ) {
-        now.evaluate(response, friction);
-        for (evaluated, traction) in self.evaluated.iter_mut().zip(now.tractions()) {
-            copy(traction, evaluated);
-        }
     }
 
     /// The change of the shear since `q_before`; whether there is one.
