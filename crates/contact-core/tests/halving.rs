@@ -30,7 +30,9 @@ fn scene(settings: &[&str]) -> Scene {
 #[test]
 fn an_increment_that_does_not_converge_is_solved_in_pieces() {
     let whole = solve(&scene(&[]), &mut ()).unwrap();
-    assert!(whole.iter().all(|i| i.work.parts == 1));
+    // The contact grows in steps from nothing; what follows is whole.
+    let parts: Vec<_> = whole.iter().map(|i| i.work.parts).collect();
+    assert_eq!(parts, [8, 1, 1]);
     let tight = scene(&["skip.digits=false", "solver.max_iterations=5"]);
     let pieces = solve(&tight, &mut ()).unwrap();
     assert_eq!(pieces.len(), 3);
@@ -43,7 +45,7 @@ fn an_increment_that_does_not_converge_is_solved_in_pieces() {
             loads(piece).map(f64::to_bits),
             loads(whole).map(f64::to_bits)
         );
-        assert!(piece.work.parts > 1);
+        assert!(piece.work.parts > whole.work.parts);
         assert!(piece.work.convolutions > whole.work.convolutions);
         done += piece.energy.work;
         let missing = piece.energy.imbalance();

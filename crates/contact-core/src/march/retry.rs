@@ -39,9 +39,7 @@ pub(super) fn reach(
         if ended.is_err() {
             *state = before;
         }
-        if !stalled(&ended) || domain.is_spent() {
-            return ended;
-        }
+        return ended;
     }
     let mut whole = |extrapolates| increment(problem, domain, state, ws, point, extrapolates);
     let mut ended = whole(true);
@@ -101,7 +99,11 @@ fn in_steps(
 ) -> Result<Increment, Failure> {
     let mut whole: Option<Increment> = None;
     let mut take = |state: &mut State, to: &LoadPoint| {
-        let step = increment(problem, domain, state, ws, to, true).map_err(with_room_to_enter)?;
+        let mut ended = increment(problem, domain, state, ws, to, true);
+        if problem.plan.methods.retries && stalled(&ended) && !domain.is_spent() {
+            ended = in_halves(problem, domain, state, ws, to, HALVINGS);
+        }
+        let step = ended.map_err(with_room_to_enter)?;
         let all = whole.map_or(step, |before| before.followed_by(&step));
         whole = Some(all);
         Ok::<_, Failure>(all)
