@@ -1,7 +1,7 @@
 //! Error bars: is the error of cells, increments and solver together what it is said to be?
 //!
-//! Random scenes, each against five times the cells each way and four times the increments. A few in
-//! the test; `FRET_ERROR_BARS=50` for as many (`make error-bars`).
+//! Random scenes with the increments that are chosen by default, each against four times the cells each way and four
+//! times the increments. A few in the test; `FRET_ERROR_BARS=40` for as many (`make error-bars`).
 
 #![allow(clippy::print_stdout, reason = "a report for people")]
 
@@ -10,84 +10,123 @@ mod splitmix;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use contact_core::estimate::{Bar, BranchEnds, ErrorBars, error_bars, means};
+use contact_core::estimate::{Bar, BranchEnds, ErrorBars, choose_increments, error_bars, means};
 use contact_core::march::{BranchSummary, Tractions, solve, summarise};
 use contact_core::reference::hertz;
 use contact_core::scene::{Elastic, Scene};
 use ndarray::Array2;
 use splitmix::Draw;
 
-/// True error over estimate: within this in nine of ten scenes.
+/// True error over estimate: at most the second, in 95 % of a number, and at least the first, in 80 %.
 const HONEST: (f64, f64) = (0.2, 1.5);
-/// Cells each way and of the reference, and increments of the reference over those of the scene.
+/// Cells each way and of the reference, and increments of the reference over those chosen.
 const CELLS: usize = 48;
-const FINE: usize = 5 * CELLS;
+const FINE: usize = 4 * CELLS;
 const FINER: usize = 4;
 /// Seeds differ from those of the path's errors, and from those that orders and weights of the bars were
-/// chosen on (from 1000, 2000 and 3000).
-const FIRST_SEED: u64 = 4000;
+/// chosen on (from 1000 to 4000).
+const FIRST_SEED: u64 = 5000;
 
 /// Largest moment over mu W a_H: two thirds of 3 pi/16, the moment of full slip, since a stiff coating makes the
 /// contact smaller.
 const TWISTED: f64 = 0.4;
 
-/// A sphere on a half-space, coated or not, fretted, twisted or neither.
+/// A coating of `body`, harder or softer than it.
+fn coating(draw: &mut Draw, body: &str, a: f64) -> String {
+    let (ratio, thickness) = (draw.between(0.3, 4.0), a * draw.between(0.1, 2.0));
+    format!(
+        "[[{body}.coatings]]\nE = {{ E_substrate = {ratio} }}\nnu = {:.4}\nthickness = {thickness}\n",
+        0.45 * draw.next()
+    )
+}
+
+/// A sphere, smooth, rough, or tilted, so that the contact lies off the middle of the grid.
+fn shape(draw: &mut Draw, a: f64) -> String {
+    let sphere = format!("{{ sphere = {{ R = {R} }} }}");
+    let kind = draw.next();
+    if kind < 0.2 {
+        let rms = a * a / R * draw.between(2e-3, 2e-2);
+        let (longest, shortest) = (1.5 * a, 0.4 * a);
+        let seed = (1e6 * draw.next()) as u64;
+        format!(
+            "shape.sum = [{sphere}, {{ rough = {{ rms = {rms}, hurst = 0.8, longest = {longest}, \
+             shortest = {shortest}, seed = {seed} }} }}]\n"
+        )
+    } else if kind < 0.4 {
+        let (spacing, off) = (6.0 * a, 0.2 * a * draw.next());
+        let h = 0.5 * spacing * off / R;
+        format!(
+            "shape.sum = [{sphere}, {{ height_map = {{ spacing = {spacing}, z = [[{:?}, {:?}], [{h:?}, {h:?}]] }} }}]\n",
+            -h, -h
+        )
+    } else {
+        format!("shape.sphere.R = {R}\n")
+    }
+}
+
+/// Radius \[m\] and load \[N\].
+const R: f64 = 0.01;
+const W: f64 = 100.0;
+
+/// A ball on a half-space, either coated or not, fretted, twisted, loaded obliquely or only pressed.
 fn drawn(seed: u64) -> String {
     let mut draw = Draw(seed);
-    let [nu_1, nu_2, nu_3] = [(); 3].map(|()| 0.45 * draw.next());
+    let [nu_1, nu_2] = [(); 2].map(|()| 0.45 * draw.next());
     let (upper, lower) = (draw.between(50e9, 800e9), draw.between(50e9, 800e9));
-    let mut text = format!(
-        "schema = 1\n[body1]\nshape.sphere.R = 0.01\nE = {upper:e}\nnu = {nu_1:.4}\n\
-         [body2]\nshape = \"flat\"\nE = {lower:e}\nnu = {nu_2:.4}\n"
-    );
-    if draw.next() < 0.7 {
-        let (ratio, thickness) = (draw.between(0.3, 4.0), draw.between(0.1, 2.0));
-        let _ = write!(
-            text,
-            "[[body2.coatings]]\nE = {{ E_substrate = {ratio} }}\nnu = {nu_3:.4}\n\
-             thickness = {{ a_H = {thickness} }}\n"
-        );
+    let bodies = [(upper, nu_1), (lower, nu_2)].map(|(E, nu)| Elastic { E, nu });
+    let a = hertz(R, bodies[0], bodies[1], W).a;
+    let mut text = format!("schema = 1\n[body1]\nE = {upper:e}\nnu = {nu_1:.4}\n");
+    text += &shape(&mut draw, a);
+    let coated = draw.next();
+    if coated < 0.25 {
+        text += &coating(&mut draw, "body1", a);
     }
-    let (mu, extent) = (draw.between(0.1, 0.8), 2.9 + 0.3 * draw.next());
     let _ = write!(
         text,
-        "[friction]\nmu = {mu}\n[grid]\nn = @N@\nextent = {{ a_H = {extent} }}\n\
-         [[path]]\nW = 100.0\nincrements = @8@\nspacing = \"equal_radius\"\n"
+        "[body2]\nshape = \"flat\"\nE = {lower:e}\nnu = {nu_2:.4}\n"
+    );
+    if coated < 0.7 {
+        text += &coating(&mut draw, "body2", a);
+    }
+    let (mu, extent) = (draw.between(0.1, 0.8), a * (3.0 + 0.3 * draw.next()));
+    let _ = write!(
+        text,
+        "[friction]\nmu = {mu}\n[grid]\nn = @N@\nextent = {extent}\n[[path]]\nW = {W:?}\n"
     );
     let kind = draw.next();
-    let bodies = [(upper, nu_1), (lower, nu_2)].map(|(E, nu)| Elastic { E, nu });
-    let a = hertz(0.01, bodies[0], bodies[1], 100.0).a;
     for sign in [1.0, -1.0] {
         let part = sign * draw.between(0.3, 0.95);
-        if kind < 0.7 {
-            let count = if sign > 0.0 { "@4@" } else { "@8@" };
-            let _ = write!(
-                text,
-                "[[path]]\nT_x = {{ mu_W = {part} }}\nincrements = {count}\n"
-            );
+        let T_x = part * mu * W;
+        let _ = if kind < 0.5 {
+            write!(text, "[[path]]\nT_x = {T_x}\n")
+        } else if kind < 0.65 {
+            let load = W * (1.0 + 0.5 * part);
+            write!(text, "[[path]]\nW = {load}\nT_x = {}\n", 0.4 * T_x)
         } else if kind < 0.85 {
-            let W = 100.0 * (1.0 + 0.5 * part);
-            let _ = write!(
-                text,
-                "[[path]]\nW = {W}\nT_x = {{ mu_W = {} }}\nincrements = @4@\n",
-                0.4 * part
-            );
-        } else if kind < 0.95 {
-            let count = if sign > 0.0 { "@4@" } else { "@8@" };
-            let M_z = part * TWISTED * mu * 100.0 * a;
-            let _ = write!(text, "[[path]]\nM_z = {M_z}\nincrements = {count}\n");
-        }
+            write!(text, "[[path]]\nM_z = {}\n", TWISTED * T_x * a)
+        } else {
+            Ok(())
+        };
     }
     text
 }
 
-/// The scene on so many cells with so many times its increments.
-fn scene(text: &str, cells: usize, times: usize) -> Scene {
-    let text = text
-        .replace("@N@", &cells.to_string())
-        .replace("@4@", &(4 * times).to_string())
-        .replace("@8@", &(8 * times).to_string());
+/// The scene on so many cells.
+fn scene(text: &str, cells: usize) -> Scene {
+    let text = text.replace("@N@", &cells.to_string());
     Scene::from_toml_str(&text, "drawn", &[]).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// The scene with increments as they are chosen, and on finer cells with so many times of them.
+fn chosen(text: &str) -> Option<(Scene, Scene)> {
+    let coarse = choose_increments(&scene(text, CELLS), &Arc::default()).ok()?;
+    let mut fine = scene(text, FINE);
+    fine.path = coarse.path.clone();
+    for branch in &mut fine.path.branches {
+        branch.increments = branch.increments.map(|n| FINER * n);
+    }
+    fine.settings.solver.tolerance = Some(1e-6);
+    Some((coarse, fine))
 }
 
 /// True over estimated errors: of p and q, and of numbers by name.
@@ -132,7 +171,7 @@ fn field_error(ours: &[Tractions], reference: &[Tractions], of: std::ops::Range<
 fn ratios(seed: u64) -> Option<Ratios> {
     let text = drawn(seed);
     let (mut nobody, mut no_one) = ((), ());
-    let (coarse, fine) = (scene(&text, CELLS, 1), scene(&text, FINE, FINER));
+    let (coarse, fine) = chosen(&text)?;
     let mut ends = BranchEnds::beside(&mut nobody);
     // A soft coating may spread the contact over the border.
     let increments = solve(&coarse, &mut ends).ok()?;
@@ -148,6 +187,11 @@ fn ratios(seed: u64) -> Option<Ratios> {
             // What never moves or slips, like delta_x under W alone, has no error but rounding.
             if value(truth).abs() > 1e-6 * largest && error > 1e-12 * largest && largest > 1e-15 {
                 numbers.push((name, error / of(bar).total));
+                println!(
+                    "  {name} of branch {}: {error:.2e}, {:?}",
+                    bar.branch,
+                    of(bar)
+                );
             }
         }
     }
@@ -159,23 +203,24 @@ fn ratios(seed: u64) -> Option<Ratios> {
     Some(([p / bar_p, q / bar_q], numbers))
 }
 
-/// How many of these are honest, too small, and a line that says so.
-fn summary(name: &str, ratios: &[f64]) -> (usize, String) {
+/// How many of these are small enough, how many large enough, and a line that says so.
+fn summary(name: &str, ratios: &[f64]) -> ([usize; 2], String) {
     let mut sorted = ratios.to_vec();
     sorted.sort_by(f64::total_cmp);
     let at = |part: f64| sorted[(part * (sorted.len() - 1) as f64).round() as usize];
-    let honest = ratios.iter().filter(|r| (HONEST.0..=HONEST.1).contains(*r));
-    let honest = honest.count();
     let below = ratios.iter().filter(|&&r| r <= HONEST.1).count();
+    let above = ratios.iter().filter(|&&r| r >= HONEST.0).count();
     let line = format!(
-        "{name:15} {honest:3} of {:3} within {HONEST:?}, {below:3} below {}; 5 % {:.2}, middle {:.2}, 95 % {:.2}",
+        "{name:15} of {:3}: {below:3} at most {}, {above:3} at least {}; 5 % {:.2}, middle {:.2}, 95 % {:.2}, most {:.2}",
         ratios.len(),
         HONEST.1,
+        HONEST.0,
         at(0.05),
         at(0.5),
-        at(0.95)
+        at(0.95),
+        at(1.0)
     );
-    (honest, line)
+    ([below, above], line)
 }
 
 /// The numbers of a run of the whole test, for `FRET_ERROR_BARS_REPORT`.
@@ -185,18 +230,21 @@ fn report(scenes: usize, lines: &[String]) -> std::io::Result<()> {
     };
     let text = format!(
         "# Error bars against true errors\n\n\
-         Written by `make error-bars`: {scenes} random scenes (coated or not, fretted, loaded and unloaded or only\n\
-         pressed; seeds from {FIRST_SEED}) on {CELLS} x {CELLS} cells with 8 and 4 increments a branch, each against \
-         {FINE} x {FINE} cells\nand {FINER} times the increments. Ratios are true error over estimated error, all parts \
-         together; of the\nfields the largest over the branches of a scene, of the numbers those of every branch.\n\n\
+         Written by `make error-bars`: {scenes} random scenes with default settings (either body coated or not, smooth,\n\
+         rough or off the middle of the grid, fretted, twisted, loaded obliquely or only pressed; seeds from \
+         {FIRST_SEED})\non {CELLS} x {CELLS} cells with the increments that are chosen, each against {FINE} x {FINE} \
+         cells and {FINER} times the increments.\nRatios are true error over estimated error, all parts together; of the \
+         fields the largest over the branches of a\nscene, of the numbers those of every branch.\n\n\
          ```text\n{}\n```\n\n\
          Where the rim and the border of the stick zone lie within the cells puts numbers off to either side, from\n\
          grid to grid by chance. Coarser grids tell the scale of such errors; of an error of exactly known scale, were\n\
          it normally distributed, three in four would lie between 0.2 and 1.5. So the path is solved in at most 8\n\
          increments a branch on the grid and on one of three times its cells each way (twice from 171 cells on, none\n\
          beyond 256, where such numbers have the scale only): there the rim lies where it lies in the run, and the\n\
-         error has its sign. The shift and the dissipated energy are left with what so few increments do to them,\n\
-         which is told less well.\n",
+         error has its sign. Where cells and increments are off to the same side their errors add up; where they are off\n\
+         to opposite sides they are not taken to cancel, since neither is known so well: such a bar may be too large. A\n\
+         slip ring narrower than half a cell may be missed as a whole, and so may one that the cells show and that is\n\
+         none.\n",
         lines.join("\n")
     );
     std::fs::write(path, text)
@@ -205,38 +253,32 @@ fn report(scenes: usize, lines: &[String]) -> std::io::Result<()> {
 #[test]
 fn error_bars_are_honest() {
     let asked = std::env::var("FRET_ERROR_BARS").ok();
-    let scenes: usize = asked.map_or(4, |n| n.parse().expect("a number of scenes"));
+    let scenes: usize = asked.map_or(2, |n| n.parse().expect("a number of scenes"));
     let found: Vec<_> = (FIRST_SEED..).filter_map(ratios).take(scenes).collect();
-    let mut lines = Vec::new();
-    let mut honest_fields = [0; 2];
+    let (mut lines, mut dishonest, mut all) = (Vec::new(), Vec::new(), Vec::new());
+    let mut look = |name: &str, ratios: &[f64]| {
+        let ([below, above], line) = summary(name, ratios);
+        // Of a few scenes one number more may be odd.
+        let odd = usize::from(ratios.len() < 20);
+        if 100 * (below + odd) < 95 * ratios.len() || 100 * (above + odd) < 80 * ratios.len() {
+            dishonest.push(line.clone());
+        }
+        lines.push(line);
+    };
     for (k, name) in ["p, field", "q, field"].into_iter().enumerate() {
         let ratios: Vec<f64> = found.iter().map(|(fields, _)| fields[k]).collect();
-        let (honest, line) = summary(name, &ratios);
-        honest_fields[k] = honest;
-        lines.push(line);
+        look(name, &ratios);
     }
-    let (mut honest_numbers, mut numbers) = (0, 0);
     for (name, ..) in NUMBERS {
         let of = found.iter().flat_map(|(_, numbers)| numbers);
         let ratios: Vec<f64> = of.filter(|(of, _)| *of == name).map(|(_, r)| *r).collect();
-        if ratios.is_empty() {
-            continue;
+        if !ratios.is_empty() {
+            look(name, &ratios);
+            all.extend(ratios);
         }
-        let (honest, line) = summary(name, &ratios);
-        lines.push(line);
-        honest_numbers += honest;
-        numbers += ratios.len();
     }
-    lines.push(format!(
-        "all numbers     {honest_numbers:3} of {numbers:3} within {HONEST:?}"
-    ));
+    lines.push(summary("all numbers", &all).1);
     println!("{}", lines.join("\n"));
     report(scenes, &lines).expect("a report");
-    for honest in honest_fields {
-        assert!(10 * honest >= 9 * scenes, "{honest} of {scenes}");
-    }
-    // Few scenes may hold more of the odd numbers.
-    let tenths = if scenes < 50 { 8 } else { 9 };
-    let honest = 10 * honest_numbers >= tenths * numbers;
-    assert!(honest, "{honest_numbers} of {numbers}");
+    assert!(dishonest.is_empty(), "{}", dishonest.join("\n"));
 }

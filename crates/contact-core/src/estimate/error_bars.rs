@@ -1,6 +1,6 @@
 //! How far the numbers of a run are off: what cells, increments and solver leave in them.
 //!
-//! **Cells.** The path is run again on coarser grids, of r_i times the cell. An error that falls like the
+//! **Cells.** The path is run again on coarser grids, of r_i times the cell (`coarser`). An error that falls like the
 //! m-th power of the cell is told by each of them (Richardson),
 //!
 //! ```text
@@ -14,64 +14,33 @@
 //!
 //! **Increments.** The change from fewer or to more of them (`path_error`), of every number.
 //!
-//! **Solver.** Its tolerance.
+//! **Solver.** Its tolerance, and that of the runs that tell the errors; what it leaves in the pressure of a cell is
+//! more.
 //!
-//! Errors of cells and of increments whose signs are known add up or cancel, though neither is known
-//! exactly: the square of the error is that of their sum by three parts, and that of what they are
-//! without signs by one.
+//! Errors of cells and of increments whose signs are the same add up; where they are opposite they are not taken
+//! to cancel (`bar`).
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
+use super::bar::Bar;
 use super::choice::choose_increments;
+use super::coarser::{ORDER, Told, coarser_grids};
 use super::finer::Finer;
-use super::numbers::numbers;
+use super::numbers::{NUMBERS, numbers};
 use super::path_error::path_errors;
+use super::trial::PathError;
 use crate::error::Error;
-use crate::march::{Increment, March, Observer, Tractions, summarise};
-use crate::scene::{Grid, SaveFields, Scene};
+use crate::march::{BranchSummary, Increment, Tractions, summarise};
+use crate::plan::Plan;
+use crate::scene::Scene;
 
-/// Cells of the coarser grids each way, over those of the grid.
-const PARTS: [f64; 2] = [0.5, 0.375];
-/// Order m of numbers: between that of thin coatings, whose rim is off by a part of a cell, and that
-/// of smooth solutions.
-const NUMBERS: f64 = 1.5;
-/// Order m of the tractions, which are off in the cells of the rim.
-const FIELDS: f64 = 1.0;
-/// Part of the square of the error of a number that is reckoned without signs.
-const UNSIGNED: f64 = 0.25;
-/// How well the border of a stick zone is found at least, in cells: so well where the slip ring is narrow.
+/// How well the border of a stick zone is found at least, in cells: so well where the slip ring is wide.
 const BORDER: f64 = 0.1;
-/// Fewest cells each way of a coarser grid.
-const FEWEST: usize = 8;
-
-/// The estimated error of a number and its parts, >= 0, in the unit of the number.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Bar {
-    /// All: the root of the sum of the squares. Of a number whose error a finer grid tells, a quarter of
-    /// that sum, and three of the square of cells and increments together, with their signs.
-    pub total: f64,
-    /// What the cells leave.
-    pub cells: f64,
-    /// What the increments leave.
-    pub path: f64,
-    /// What the solver's tolerance leaves.
-    pub solver: f64,
-}
-
-impl Bar {
-    fn new(cells: f64, path: f64, solver: f64) -> Self {
-        Self {
-            total: cells.hypot(path).hypot(solver),
-            cells,
-            path,
-            solver,
-        }
-    }
-}
+/// How wide a slip ring is at least that the cells show: all of a narrower one, or of none, may be missed.
+const SEEN: f64 = 0.5;
 
 /// Estimated errors of the numbers at the end of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -100,40 +69,6 @@ pub struct ErrorBars {
     pub q: Bar,
 }
 
-/// Keeps the tractions at the ends of the branches for an observer who watches the run.
-pub struct BranchEnds<'a> {
-    watcher: &'a mut dyn Observer,
-    /// The tractions of the branches that are done.
-    pub tractions: Vec<Tractions>,
-}
-
-impl<'a> BranchEnds<'a> {
-    /// Beside an observer.
-    pub fn beside(watcher: &'a mut dyn Observer) -> Self {
-        Self {
-            watcher,
-            tractions: Vec::new(),
-        }
-    }
-}
-
-impl Observer for BranchEnds<'_> {
-    fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
-        if increment.point.ends_branch {
-            self.tractions.push(march.tractions());
-        }
-        self.watcher.on_increment(march, increment)
-    }
-
-    fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
-        self.watcher.on_end(march, failure)
-    }
-
-    fn stop(&self) -> Option<Arc<AtomicBool>> {
-        self.watcher.stop()
-    }
-}
-
 /// Solves the scene again on two coarser grids, along the path with fewer increments, and in few
 /// increments on a finer grid, at some times the work of the run, and gives the errors of the branches of
 /// `increments`, which ended with these tractions. Where a finer grid would have more than 512 x 512
@@ -147,191 +82,116 @@ pub fn error_bars(
     let scene = &choose_increments(scene, stop)?;
     let along_path = path_errors(scene, stop)?;
     let fine = summarise(increments);
-    let mut squares = vec![[0.0; 8]; fine.len()];
-    let mut fields = Vec::new();
-    for (k, part) in PARTS.into_iter().enumerate() {
-        let coarser = coarser(scene, part)?;
-        let mut nobody = ();
-        let mut coarse_ends = BranchEnds::beside(&mut nobody);
-        let march = March::until(&coarser, stop)?;
-        let coarse = summarise(&march.run(Vec::new(), &mut coarse_ends)?);
-        let ratio = ratio(&coarser.grid, &scene.grid);
-        for ((squares, fine), coarse) in squares.iter_mut().zip(&fine).zip(&coarse) {
-            let (f, c) = (numbers(fine), numbers(coarse));
-            for n in 0..8 {
-                squares[n] += ((f[n] - c[n]) / (ratio.powf(NUMBERS) - 1.0)).powi(2);
-            }
-        }
-        if k == 0 {
-            let off = distances(tractions, &coarse_ends.tractions);
-            fields = off
-                .into_iter()
-                .map(|off| off.map(|off| off / (ratio.powf(FIELDS) - 1.0)))
-                .collect();
-        }
-    }
+    let coarser = coarser_grids(scene, &fine, tractions, stop)?;
     let finer = Finer::solve(scene, stop)?;
-    let tolerance = scene.tolerance();
-    let cell = if scene.grid.plane_strain {
-        scene.grid.dx
-    } else {
-        scene.grid.cell_area().sqrt()
-    };
-    let branches = fine.iter().zip(squares).zip(fields).zip(along_path);
+    let branches = fine.iter().zip(coarser).zip(along_path).enumerate();
     Ok(branches
-        .enumerate()
-        .map(|(branch, (((fine, mut squares), [p, q]), path))| {
-            let value = numbers(fine);
-            // What the finer grid leaves of an error.
-            let left = finer.as_ref().map_or(0.0, |f| f.ratio.powf(-NUMBERS));
-            let of_finer = finer
-                .as_ref()
-                .map(|finer| finer.off[branch].map(|off| off / (1.0 - left)));
-            if let Some(off) = of_finer {
-                for (square, off) in squares.iter_mut().zip(off) {
-                    *square = (left * left) * *square + PARTS.len() as f64 * off * off;
-                }
-            }
-            // A ring along the border of the stick zone over the area of the contact.
-            let ring = 2.0 * BORDER * cell / fine.contact_radius * fine.stick_ratio.sqrt();
-            if fine.stick_ratio < 1.0 && fine.contact_radius > 0.0 {
-                squares[1] += PARTS.len() as f64 * ring * ring;
-            }
-            let bar = |n: usize| {
-                let (of_path, solver) = (path.numbers[n], tolerance * value[n].abs());
-                let cells = (squares[n] / PARTS.len() as f64).sqrt();
-                let bar = Bar::new(cells, of_path.abs(), solver);
-                let with_signs = |off: f64| {
-                    let square = (off + of_path).powi(2);
-                    let total = (1.0 - UNSIGNED) * square + UNSIGNED * bar.total.powi(2);
-                    Bar {
-                        total: total.sqrt(),
-                        ..bar
-                    }
-                };
-                of_finer.map_or(bar, |off| with_signs(off[n]))
-            };
-            ErrorBars {
-                branch: fine.branch,
-                contact_radius: bar(0),
-                stick_ratio: bar(1),
-                p_max: bar(2),
-                delta_z: bar(3),
-                delta_x: bar(4),
-                delta_y: bar(5),
-                phi_z: bar(6),
-                dissipated: bar(7),
-                p: Bar::new(p, path.p, tolerance),
-                q: Bar::new(q, path.q, tolerance),
-            }
+        .map(|(k, ((fine, told), path))| {
+            let of_finer = finer.as_ref().map(|finer| Differs {
+                ratio: finer.ratio,
+                off: finer.off[k],
+                tolerance: finer.tolerance,
+            });
+            bars(scene, fine, &told, &path, of_finer.as_ref())
         })
         .collect())
 }
 
-/// The scene on the coarsest of the grids that tell the errors of the cells. Fails where there is none.
-pub fn coarsest(scene: &Scene) -> Result<Scene, Error> {
-    coarser(scene, PARTS[1])
+/// What a finer grid tells of a branch.
+struct Differs {
+    /// Cells of the finer grid each way over those of the grid.
+    ratio: f64,
+    /// The numbers less those of the finer grid, each in its unit.
+    off: [f64; NUMBERS],
+    /// Tolerance of both runs.
+    tolerance: f64,
 }
 
-/// The scene in a part of its cells each way, an odd number of them where it has an odd one, so that
-/// as much lies in the middle of a cell; a strip keeps its one row.
-fn coarser(scene: &Scene, part: f64) -> Result<Scene, Error> {
-    let grid = &scene.grid;
-    let fewer = |n: usize| {
-        let fewer = (part * n as f64).round() as usize;
-        fewer + (fewer + n) % 2
-    };
-    let (nx, ny) = (fewer(grid.nx), fewer(grid.ny));
-    let ny = if grid.plane_strain { 1 } else { ny };
-    if nx < FEWEST || (ny < FEWEST && !grid.plane_strain) {
-        return Err(Error::invalid(
-            "grid.n",
-            format!("[{}, {}]", grid.nx, grid.ny),
-            format!(
-                "{} or more cells, so that a part of them tells the error",
-                2 * FEWEST + 4
-            ),
-        ));
-    }
-    let (along_x, along_y) = grid.extent();
-    let mut coarse = scene.clone();
-    coarse.settings.save = SaveFields::Branches;
-    coarse.grid = Grid {
-        nx,
-        ny,
-        dx: along_x / nx as f64,
-        dy: along_y / ny as f64,
-        ..*grid
-    };
-    coarse.check()?;
-    Ok(coarse)
-}
-
-/// The cell of a grid over that of another, on the mean of both axes.
-fn ratio(grid: &Grid, finer: &Grid) -> f64 {
-    let along_x = grid.dx / finer.dx;
-    if grid.plane_strain {
-        along_x
-    } else {
-        (along_x * grid.dy / finer.dy).sqrt()
-    }
-}
-
-/// The distances of pressures and shears at the ends of the branches, over the largest of the path.
-fn distances(fine: &[Tractions], coarse: &[Tractions]) -> Vec<[f64; 2]> {
-    let norm = |f: &Array2<f64>| f.iter().map(|f| f * f).sum::<f64>();
-    let [p, q] = coarse.iter().fold([f64::MIN_POSITIVE; 2], |[p, q], of| {
-        [p.max(norm(&of[0])), q.max(norm(&of[1]) + norm(&of[2]))]
-    });
-    fine.iter()
-        .zip(coarse)
-        .map(|(fine, coarse)| {
-            let off = |k: usize| norm(&(means(&fine[k], coarse[k].dim()) - &coarse[k]));
-            [(off(0) / p).sqrt(), ((off(1) + off(2)) / q).sqrt()]
-        })
-        .collect()
-}
-
-/// The means of a field over the cells of a coarser grid of the same extent.
-pub fn means(fine: &Array2<f64>, (nx, ny): (usize, usize)) -> Array2<f64> {
-    // The fine cells that a coarse one covers, and the parts of it that they are.
-    let covered = |i: usize, fine: usize, coarse: usize| -> Vec<(usize, f64)> {
-        let ratio = fine as f64 / coarse as f64;
-        let (low, high) = (i as f64 * ratio, (i + 1) as f64 * ratio);
-        (low.floor() as usize..(high.ceil() as usize).min(fine))
-            .map(|k| {
-                let part = (high.min((k + 1) as f64) - low.max(k as f64)) / ratio;
-                (k, part.max(0.0))
-            })
-            .collect()
-    };
-    let (across_x, across_y) = fine.dim();
-    let rows: Vec<_> = (0..ny).map(|j| covered(j, across_y, ny)).collect();
-    let columns: Vec<_> = (0..nx).map(|i| covered(i, across_x, nx)).collect();
-    Array2::from_shape_fn((nx, ny), |(i, j)| {
-        let of = |&(k, part): &(usize, f64)| -> f64 {
-            let row = rows[j].iter().map(|&(l, part)| part * fine[(k, l)]);
-            part * row.sum::<f64>()
-        };
-        columns[i].iter().map(of).sum()
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn means_keep_the_sum() {
-        let fine = Array2::from_shape_fn((12, 7), |(i, j)| (i * i + 3 * j) as f64);
-        for n in [(6, 7), (5, 3), (12, 1)] {
-            let coarse = means(&fine, n);
-            let cell = 12.0 * 7.0 / (n.0 * n.1) as f64;
-            assert!(
-                (coarse.sum() * cell / fine.sum() - 1.0).abs() < 1e-14,
-                "{n:?}"
-            );
+/// The error bars of a branch.
+fn bars(
+    scene: &Scene,
+    fine: &BranchSummary,
+    told: &Told,
+    path: &PathError,
+    finer: Option<&Differs>,
+) -> ErrorBars {
+    let value = numbers(fine);
+    let tolerance = scene.tolerance();
+    let by_solver = solver_parts(
+        scene,
+        fine,
+        finer.map_or(tolerance, |f| f.tolerance.max(tolerance)),
+    );
+    let ring = slip_ring(scene, fine);
+    let bar = |n: usize| {
+        let least = if n == STICK_RATIO { ring } else { 0.0 };
+        let solver = by_solver[n] * value[n].abs();
+        match finer {
+            None => Bar::new(told.numbers[n].hypot(least), path.numbers[n].abs(), solver),
+            Some(finer) => {
+                // What the finer grid leaves of an error.
+                let left = finer.ratio.powf(-ORDER);
+                let scatter = (left * told.numbers[n]).hypot(least);
+                Bar::signed(
+                    finer.off[n] / (1.0 - left),
+                    scatter,
+                    path.numbers[n],
+                    solver,
+                )
+            }
         }
-        assert_eq!(means(&fine, (12, 7)), fine);
+    };
+    ErrorBars {
+        branch: fine.branch,
+        contact_radius: bar(0),
+        stick_ratio: bar(STICK_RATIO),
+        p_max: bar(P_MAX),
+        delta_z: bar(3),
+        delta_x: bar(4),
+        delta_y: bar(5),
+        phi_z: bar(6),
+        dissipated: bar(7),
+        p: Bar::new(told.fields[0], path.p, tolerance),
+        q: Bar::new(told.fields[1], path.q, tolerance),
+    }
+}
+
+/// Places of two of the [`numbers`].
+const STICK_RATIO: usize = 1;
+const P_MAX: usize = 2;
+
+/// What a tolerance leaves of each number, over the number.
+///
+/// A gap g that is left is borne by a pressure of g/C in a wave that the bodies answer with C. The shortest wave on
+/// cells d, C = 2 d/(pi E*), takes the most of it: of a Hertz contact, with g = tol delta_z, delta_z = a^2/R and
+/// p_max = 2 E* a/(pi R), that is p/p_max = tol (pi^2/4) a/d.
+fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NUMBERS] {
+    let mut parts = [tolerance; NUMBERS];
+    let across = fine.contact_radius / cell(scene);
+    parts[P_MAX] *= 1.0_f64.max(0.25 * std::f64::consts::PI.powi(2) * across);
+    parts
+}
+
+/// What is not known of the stick ratio: a ring along the border of the stick zone over the area of the contact; of
+/// a zone as large as the contact, the ring that the cells do not show.
+fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {
+    let slips = scene.friction.mu > 0.0 && scene.friction.mu.is_finite();
+    let sheared = slips && (Plan::new(scene).coupling || !scene.path.only_presses());
+    if !sheared || fine.contact_radius <= 0.0 {
+        return 0.0;
+    }
+    let (ratio, cell) = (fine.stick_ratio, cell(scene) / fine.contact_radius);
+    // Width of the ring, over the radius of the contact.
+    let seen = 1.0 - ratio.max(0.0).sqrt();
+    let missed = (SEEN * cell - seen).max(0.0);
+    2.0 * (BORDER * cell).max(missed) * ratio.max(0.0).sqrt()
+}
+
+/// The side of a square as large as a cell; in plane strain its length \[m\].
+fn cell(scene: &Scene) -> f64 {
+    if scene.grid.plane_strain {
+        scene.grid.dx
+    } else {
+        scene.grid.cell_area().sqrt()
     }
 }

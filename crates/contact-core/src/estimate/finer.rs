@@ -8,7 +8,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::numbers::numbers;
+use super::numbers::{NUMBERS, numbers};
 use crate::error::Error;
 use crate::march::{March, summarise};
 use crate::scene::{Grid, SaveFields, Scene};
@@ -27,7 +27,9 @@ pub(crate) struct Finer {
     /// Cells of the finer grid each way over those of the grid.
     pub(crate) ratio: f64,
     /// The numbers less those of the finer grid, each in its unit.
-    pub(crate) off: Vec<[f64; 8]>,
+    pub(crate) off: Vec<[f64; NUMBERS]>,
+    /// Tolerance of both runs.
+    pub(crate) tolerance: f64,
 }
 
 impl Finer {
@@ -57,6 +59,7 @@ impl Finer {
                 Ok(Some(Self {
                     ratio: scene.grid.dx / fine.grid.dx,
                     off: off.collect(),
+                    tolerance: fine.tolerance(),
                 }))
             }
         }

@@ -1,13 +1,19 @@
 //! HOW WRONG: the error of a run, and the increments that a tolerance asks for. Runs load paths.
 
+mod bar;
+mod branch_ends;
 mod choice;
+mod coarser;
 mod error_bars;
 mod finer;
 mod numbers;
 mod path_error;
 mod trial;
 
+pub use bar::Bar;
+pub use branch_ends::BranchEnds;
 pub use choice::choose_increments;
-pub use error_bars::{Bar, BranchEnds, ErrorBars, coarsest, error_bars, means};
+pub use coarser::{coarsest, means};
+pub use error_bars::{ErrorBars, error_bars};
 pub use finer::finest;
 pub use path_error::estimate_path_error;

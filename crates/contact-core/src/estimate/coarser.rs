@@ -1,0 +1,171 @@
+//! The path on coarser grids: how far numbers and tractions change from them to the grid itself.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use ndarray::Array2;
+
+use super::branch_ends::BranchEnds;
+use super::numbers::{NUMBERS, numbers};
+use crate::error::Error;
+use crate::march::{BranchSummary, March, Tractions, summarise};
+use crate::scene::{Grid, SaveFields, Scene};
+
+/// Cells of the coarser grids each way, over those of the grid.
+const PARTS: [f64; 2] = [0.5, 0.375];
+/// Order m of numbers: between that of thin coatings, whose rim is off by a part of a cell, and that
+/// of smooth solutions.
+pub(super) const ORDER: f64 = 1.5;
+/// Order m of the tractions, which are off in the cells of the rim.
+const FIELDS: f64 = 1.0;
+/// Fewest cells each way of a coarser grid.
+const FEWEST: usize = 8;
+
+/// What the coarser grids tell of a branch.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Told {
+    /// Scale of the errors of the numbers: root of the mean square over the grids, each in its unit.
+    pub(super) numbers: [f64; NUMBERS],
+    /// Errors of pressure and shear (L2), over the largest of the path.
+    pub(super) fields: [f64; 2],
+}
+
+/// Of the branches of a run that ended with these tractions.
+pub(super) fn coarser_grids(
+    scene: &Scene,
+    fine: &[BranchSummary],
+    tractions: &[Tractions],
+    stop: &Arc<AtomicBool>,
+) -> Result<Vec<Told>, Error> {
+    let mut told = vec![Told::default(); fine.len()];
+    for (k, part) in PARTS.into_iter().enumerate() {
+        let coarser = coarser(scene, part)?;
+        let mut nobody = ();
+        let mut ends = BranchEnds::beside(&mut nobody);
+        let march = March::until(&coarser, stop)?;
+        let coarse = summarise(&march.run(Vec::new(), &mut ends)?);
+        let ratio = ratio(&coarser.grid, &scene.grid);
+        for ((told, fine), coarse) in told.iter_mut().zip(fine).zip(&coarse) {
+            let (f, c) = (numbers(fine), numbers(coarse));
+            for n in 0..NUMBERS {
+                let off = (f[n] - c[n]) / (ratio.powf(ORDER) - 1.0);
+                told.numbers[n] = told.numbers[n].hypot(off / (PARTS.len() as f64).sqrt());
+            }
+        }
+        if k == 0 {
+            let off = distances(tractions, &ends.tractions);
+            for (told, off) in told.iter_mut().zip(off) {
+                told.fields = off.map(|off| off / (ratio.powf(FIELDS) - 1.0));
+            }
+        }
+    }
+    Ok(told)
+}
+
+/// The scene on the coarsest of the grids that tell the errors of the cells. Fails where there is none.
+pub fn coarsest(scene: &Scene) -> Result<Scene, Error> {
+    coarser(scene, PARTS[1])
+}
+
+/// The scene in a part of its cells each way, an odd number of them where it has an odd one, so that
+/// as much lies in the middle of a cell; a strip keeps its one row.
+fn coarser(scene: &Scene, part: f64) -> Result<Scene, Error> {
+    let grid = &scene.grid;
+    let fewer = |n: usize| {
+        let fewer = (part * n as f64).round() as usize;
+        fewer + (fewer + n) % 2
+    };
+    let (nx, ny) = (fewer(grid.nx), fewer(grid.ny));
+    let ny = if grid.plane_strain { 1 } else { ny };
+    if nx < FEWEST || (ny < FEWEST && !grid.plane_strain) {
+        return Err(Error::invalid(
+            "grid.n",
+            format!("[{}, {}]", grid.nx, grid.ny),
+            format!(
+                "{} or more cells, so that a part of them tells the error",
+                2 * FEWEST + 4
+            ),
+        ));
+    }
+    let (along_x, along_y) = grid.extent();
+    let mut coarse = scene.clone();
+    coarse.settings.save = SaveFields::Branches;
+    coarse.grid = Grid {
+        nx,
+        ny,
+        dx: along_x / nx as f64,
+        dy: along_y / ny as f64,
+        ..*grid
+    };
+    coarse.check()?;
+    Ok(coarse)
+}
+
+/// The cell of a grid over that of another, on the mean of both axes.
+fn ratio(grid: &Grid, finer: &Grid) -> f64 {
+    let along_x = grid.dx / finer.dx;
+    if grid.plane_strain {
+        along_x
+    } else {
+        (along_x * grid.dy / finer.dy).sqrt()
+    }
+}
+
+/// The distances of pressures and shears at the ends of the branches, over the largest of the path.
+fn distances(fine: &[Tractions], coarse: &[Tractions]) -> Vec<[f64; 2]> {
+    let norm = |f: &Array2<f64>| f.iter().map(|f| f * f).sum::<f64>();
+    let [p, q] = coarse.iter().fold([f64::MIN_POSITIVE; 2], |[p, q], of| {
+        [p.max(norm(&of[0])), q.max(norm(&of[1]) + norm(&of[2]))]
+    });
+    fine.iter()
+        .zip(coarse)
+        .map(|(fine, coarse)| {
+            let off = |k: usize| norm(&(means(&fine[k], coarse[k].dim()) - &coarse[k]));
+            [(off(0) / p).sqrt(), ((off(1) + off(2)) / q).sqrt()]
+        })
+        .collect()
+}
+
+/// The means of a field over the cells of a coarser grid of the same extent.
+pub fn means(fine: &Array2<f64>, (nx, ny): (usize, usize)) -> Array2<f64> {
+    // The fine cells that a coarse one covers, and the parts of it that they are.
+    let covered = |i: usize, fine: usize, coarse: usize| -> Vec<(usize, f64)> {
+        let ratio = fine as f64 / coarse as f64;
+        let (low, high) = (i as f64 * ratio, (i + 1) as f64 * ratio);
+        (low.floor() as usize..(high.ceil() as usize).min(fine))
+            .map(|k| {
+                let part = (high.min((k + 1) as f64) - low.max(k as f64)) / ratio;
+                (k, part.max(0.0))
+            })
+            .collect()
+    };
+    let (across_x, across_y) = fine.dim();
+    let rows: Vec<_> = (0..ny).map(|j| covered(j, across_y, ny)).collect();
+    let columns: Vec<_> = (0..nx).map(|i| covered(i, across_x, nx)).collect();
+    Array2::from_shape_fn((nx, ny), |(i, j)| {
+        let of = |&(k, part): &(usize, f64)| -> f64 {
+            let row = rows[j].iter().map(|&(l, part)| part * fine[(k, l)]);
+            part * row.sum::<f64>()
+        };
+        columns[i].iter().map(of).sum()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_keep_the_sum() {
+        let fine = Array2::from_shape_fn((12, 7), |(i, j)| (i * i + 3 * j) as f64);
+        for n in [(6, 7), (5, 3), (12, 1)] {
+            let coarse = means(&fine, n);
+            let cell = 12.0 * 7.0 / (n.0 * n.1) as f64;
+            assert!(
+                (coarse.sum() * cell / fine.sum() - 1.0).abs() < 1e-14,
+                "{n:?}"
+            );
+        }
+        assert_eq!(means(&fine, (12, 7)), fine);
+    }
+}
