@@ -25,10 +25,10 @@ pub(super) struct Circle {
 
 /// A centre and the square of a radius.
 #[derive(Clone, Copy)]
-struct Round {
-    x: f64,
-    y: f64,
-    square: f64,
+pub(super) struct Round {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) square: f64,
 }
 
 /// Room for the search, and the points that mattered last.
@@ -69,25 +69,11 @@ impl Circles {
         }
     }
 
-    /// Of three points with a right or obtuse angle, two make the circle.
     fn found(&self, square: f64, point: &impl Fn(usize) -> [f64; 2]) -> Circle {
-        let [a, b, c] = self.on;
-        let side = |i: usize, j: usize| {
-            let (p, q) = (point(i), point(j));
-            (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2)
-        };
-        let (ab, bc, ca) = (side(a, b), side(b, c), side(c, a));
-        let on = if ab >= bc + ca {
-            [a, b, b]
-        } else if bc >= ca + ab {
-            [b, c, c]
-        } else if ca >= ab + bc {
-            [c, a, a]
-        } else {
-            self.on
-        };
-        let radius = square.sqrt();
-        Circle { radius, on }
+        Circle {
+            radius: square.sqrt(),
+            on: needed(self.on, point),
+        }
     }
 
     /// The square of the largest distance from the centre, and whose it is.
@@ -140,8 +126,31 @@ impl WithSimd for Farthest<'_> {
     }
 }
 
+/// Of three points with a right or obtuse angle, two make the circle.
+pub(super) fn needed(on: [usize; 3], point: &impl Fn(usize) -> [f64; 2]) -> [usize; 3] {
+    let [a, b, c] = on;
+    let side = |i: usize, j: usize| {
+        let (p, q) = (point(i), point(j));
+        (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2)
+    };
+    let (ab, bc, ca) = (side(a, b), side(b, c), side(c, a));
+    if ab >= bc + ca {
+        [a, b, b]
+    } else if bc >= ca + ab {
+        [b, c, c]
+    } else if ca >= ab + bc {
+        [c, a, a]
+    } else {
+        on
+    }
+}
+
 /// The smallest circle round the point k and those of `on`, which has k on it.
-fn joined(k: usize, on: [usize; 3], point: &impl Fn(usize) -> [f64; 2]) -> (Round, [usize; 3]) {
+pub(super) fn joined(
+    k: usize,
+    on: [usize; 3],
+    point: &impl Fn(usize) -> [f64; 2],
+) -> (Round, [usize; 3]) {
     let p = point(k);
     let all = on.map(point);
     let holds = |c: &Round, own: [usize; 3]| {
@@ -168,7 +177,7 @@ fn joined(k: usize, on: [usize; 3], point: &impl Fn(usize) -> [f64; 2]) -> (Roun
 }
 
 /// The smallest circle round three points.
-fn round_of_three([a, b, c]: [[f64; 2]; 3]) -> Round {
+pub(super) fn round_of_three([a, b, c]: [[f64; 2]; 3]) -> Round {
     let square = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
     let (ab, bc, ca) = (square(a, b), square(b, c), square(c, a));
     // Beside a right or obtuse angle the longest side is the diameter.

@@ -12,6 +12,19 @@ pub(super) type Triangle = [[f64; 3]; 3];
 pub(super) struct Face {
     pub(super) corners: Triangle,
     pub(super) planes: [usize; 3],
+    /// [`sag`] of the corners.
+    pub(super) sag: f64,
+}
+
+impl Face {
+    pub(super) fn new(corners: Triangle, planes: [usize; 3]) -> Self {
+        let sag = sag(&corners);
+        Self {
+            corners,
+            planes,
+            sag,
+        }
+    }
 }
 
 /// What the search starts from: ten faces of an icosahedron, each in 16.
@@ -41,15 +54,9 @@ pub(super) static HEMISPHERE: LazyLock<Hemisphere> = LazyLock::new(|| {
     };
     let faces = faces
         .into_iter()
-        .map(|corners| Face {
-            corners,
-            planes: corners.map(&mut number),
-        })
+        .map(|corners| Face::new(corners, corners.map(&mut number)))
         .collect::<Vec<_>>();
-    let sag = faces
-        .iter()
-        .map(|f: &Face| sag(&f.corners))
-        .fold(0.0, f64::max);
+    let sag = faces.iter().map(|f: &Face| f.sag).fold(0.0, f64::max);
     Hemisphere { planes, faces, sag }
 });
 

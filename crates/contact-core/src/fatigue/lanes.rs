@@ -1,30 +1,140 @@
-//! Instants in blocks of eight, which the compiler turns into vector instructions.
+//! Numbers in blocks of eight, as vector instructions take them.
 
 #![allow(
     clippy::inline_always,
     reason = "they are to be compiled for the processor of the caller"
 )]
 
-/// Instants side by side.
+use std::ops::{Add, Mul, Sub};
+
+use pulp::Simd;
+
+/// Numbers side by side.
 pub(super) const LANES: usize = 8;
+/// A number at eight instants, or on eight planes.
+pub(super) type Eight<F> = [F; LANES];
 /// A number at eight instants.
-pub(super) type Lanes = [f64; LANES];
+pub(super) type Lanes = Eight<f64>;
 
-/// Keeps the larger of each lane.
-#[inline(always)]
-pub(super) fn raise(most: &mut Lanes, by: &Lanes) {
-    for l in 0..LANES {
-        most[l] = if by[l] > most[l] { by[l] } else { most[l] };
-    }
+/// Single or double precision.
+pub(super) trait Real:
+    Copy + PartialOrd + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
+    /// Spacing of the numbers next to 1.
+    const EPSILON: f64;
+    /// The nearest number.
+    fn near(value: f64) -> Self;
+    /// The number in double precision.
+    fn wide(self) -> f64;
+    /// self by + add.
+    fn mul_add(self, by: Self, add: Self) -> Self;
+    /// Keeps the larger of each.
+    fn raise<S: Simd>(simd: S, most: &mut Eight<Self>, by: &Eight<Self>);
+    /// Keeps the smaller of each.
+    fn lower<S: Simd>(simd: S, least: &mut Eight<Self>, by: &Eight<Self>);
+    /// Keeps the larger of each, and the mark that goes with it.
+    fn raise_marked<S: Simd>(
+        simd: S,
+        most: &mut Eight<Self>,
+        marks: &mut Eight<Self>,
+        by: &Eight<Self>,
+        mark: Self,
+    );
+    /// Keeps the smaller of each, and the mark that goes with it.
+    fn lower_marked<S: Simd>(
+        simd: S,
+        least: &mut Eight<Self>,
+        marks: &mut Eight<Self>,
+        by: &Eight<Self>,
+        mark: Self,
+    );
 }
 
-/// Keeps the smaller of each lane.
-#[inline(always)]
-pub(super) fn lower(least: &mut Lanes, by: &Lanes) {
-    for l in 0..LANES {
-        least[l] = if by[l] < least[l] { by[l] } else { least[l] };
-    }
+macro_rules! real {
+    ($float:ty, $view:ident, $edit:ident, $max:ident, $min:ident, $more:ident, $select:ident, $splat:ident) => {
+        impl Real for $float {
+            const EPSILON: f64 = <$float>::EPSILON as f64;
+            #[inline(always)]
+            fn near(value: f64) -> Self {
+                value as Self
+            }
+            #[inline(always)]
+            fn wide(self) -> f64 {
+                f64::from(self)
+            }
+            #[inline(always)]
+            fn mul_add(self, by: Self, add: Self) -> Self {
+                self.mul_add(by, add)
+            }
+            #[inline(always)]
+            fn raise<S: Simd>(simd: S, most: &mut Eight<Self>, by: &Eight<Self>) {
+                for (most, by) in S::$edit(most).0.iter_mut().zip(S::$view(by).0) {
+                    *most = simd.$max(*most, *by);
+                }
+            }
+            #[inline(always)]
+            fn lower<S: Simd>(simd: S, least: &mut Eight<Self>, by: &Eight<Self>) {
+                for (least, by) in S::$edit(least).0.iter_mut().zip(S::$view(by).0) {
+                    *least = simd.$min(*least, *by);
+                }
+            }
+            #[inline(always)]
+            fn raise_marked<S: Simd>(
+                simd: S,
+                most: &mut Eight<Self>,
+                marks: &mut Eight<Self>,
+                by: &Eight<Self>,
+                mark: Self,
+            ) {
+                let mark = simd.$splat(mark);
+                let most = S::$edit(most).0.iter_mut();
+                let marks = S::$edit(marks).0.iter_mut();
+                for ((most, at), by) in most.zip(marks).zip(S::$view(by).0) {
+                    let more = simd.$more(*by, *most);
+                    *at = simd.$select(more, mark, *at);
+                    *most = simd.$max(*most, *by);
+                }
+            }
+            #[inline(always)]
+            fn lower_marked<S: Simd>(
+                simd: S,
+                least: &mut Eight<Self>,
+                marks: &mut Eight<Self>,
+                by: &Eight<Self>,
+                mark: Self,
+            ) {
+                let mark = simd.$splat(mark);
+                let least = S::$edit(least).0.iter_mut();
+                let marks = S::$edit(marks).0.iter_mut();
+                for ((least, at), by) in least.zip(marks).zip(S::$view(by).0) {
+                    let less = simd.$more(*least, *by);
+                    *at = simd.$select(less, mark, *at);
+                    *least = simd.$min(*least, *by);
+                }
+            }
+        }
+    };
 }
+real!(
+    f32,
+    as_simd_f32s,
+    as_mut_simd_f32s,
+    max_f32s,
+    min_f32s,
+    greater_than_f32s,
+    select_f32s_m32s,
+    splat_f32s
+);
+real!(
+    f64,
+    as_simd_f64s,
+    as_mut_simd_f64s,
+    max_f64s,
+    min_f64s,
+    greater_than_f64s,
+    select_f64s_m64s,
+    splat_f64s
+);
 
 /// The largest of the lanes.
 #[inline(always)]
@@ -48,7 +158,13 @@ pub(super) fn bottom(lanes: &Lanes) -> f64 {
 pub(super) fn largest(blocks: &[Lanes]) -> f64 {
     let mut most = [f64::NEG_INFINITY; LANES];
     for block in blocks {
-        raise(&mut most, block);
+        for l in 0..LANES {
+            most[l] = if block[l] > most[l] {
+                block[l]
+            } else {
+                most[l]
+            };
+        }
     }
     top(&most)
 }

@@ -6,10 +6,13 @@
 //! most (1 + nu)/E D, D bounding Tresca's stress of the deviation of any instant from a constant
 //! stress (derived).
 
+use pulp::{Arch, Simd, WithSimd};
+
 use super::circle::Circles;
 use super::criterion::Criterion;
-use super::critical_plane::{Bend, PlaneFunction};
-use super::lanes::Lanes;
+use super::critical_plane::{Bend, Enough, Plane, PlaneFunction};
+use super::eight_planes::{Instants, OfThree};
+use super::lanes::{LANES, Lanes, Real, top};
 use super::path::{Frame, Path, normal_weights};
 use super::refine::{Deciding, First};
 use crate::fields::StressTensor;
@@ -18,11 +21,27 @@ use crate::fields::StressTensor;
 /// between equal planes, and too little to move the plane by more than this.
 const TIE: f64 = 1e-7;
 
-/// Room for the shear path on a plane.
-#[derive(Default)]
+/// Rounding of a stress on a plane, in spacings of the numbers next to 1 and largest components: a
+/// sum of nine products whose factors are rounded, counted generously.
+const ROUNDING: f64 = 32.0;
+
+/// Room for the shear path on a plane, and for eight planes in single and double precision.
 pub(super) struct ShearRoom {
     shear: Vec<[Lanes; 2]>,
     circles: Circles,
+    single: Instants<f32>,
+    double: Instants<f64>,
+}
+
+impl Default for ShearRoom {
+    fn default() -> Self {
+        Self {
+            shear: Vec::new(),
+            circles: Circles::default(),
+            single: Instants::new(),
+            double: Instants::new(),
+        }
+    }
 }
 
 /// How the criterion follows from the two parts.
@@ -46,6 +65,9 @@ pub(super) struct OnPlanes<'a> {
     strain: Option<[f64; 2]>,
     has_shear: bool,
     tresca: (f64, f64),
+    /// Largest component of any instant.
+    size: f64,
+    in_double: bool,
 }
 
 impl<'a> OnPlanes<'a> {
@@ -72,6 +94,7 @@ impl<'a> OnPlanes<'a> {
             }
         };
         let tresca = path.tresca_bounds();
+        room.single.load(path);
         Some(Self {
             path,
             room,
@@ -80,7 +103,90 @@ impl<'a> OnPlanes<'a> {
             strain,
             has_shear,
             tresca,
+            size: path.size(),
+            in_double: false,
         })
+    }
+
+    /// What rounding may take from the two parts.
+    fn slack(&self) -> [f64; 2] {
+        let spacing = if self.in_double {
+            f64::EPSILON
+        } else {
+            f64::from(f32::EPSILON)
+        };
+        let stress = ROUNDING * spacing * self.size;
+        let strain = self
+            .strain
+            .map(|[along, across]| (along + 3.0 * across) * stress);
+        match (self.has_shear, strain) {
+            (true, strain) => [self.shear_scale * stress, strain.unwrap_or(stress)],
+            (false, strain) => [strain.unwrap_or(stress), stress],
+        }
+    }
+
+    /// The first part for which the criterion has a value beside the second part.
+    fn first_for(&self, value: f64, b: f64) -> f64 {
+        match self.law {
+            Law::Sum(weight) => value - weight * b,
+            Law::Product => value / b,
+            Law::Raised(weight) => value / (1.0 + weight * b),
+        }
+    }
+
+    /// [`PlaneFunction::measure`] of at most eight planes.
+    fn measure_eight<F: Real>(
+        &self,
+        instants: &mut Instants<F>,
+        planes: &mut [Plane],
+        enough: Enough,
+    ) {
+        let n = [0, 1, 2].map(|d| std::array::from_fn(|l| planes[l.min(planes.len() - 1)].n[d]));
+        let swept = instants.sweep(&n, self.strain, self.has_shear);
+        let slack = self.slack();
+        for (l, plane) in planes.iter_mut().enumerate() {
+            let s_n = swept.normal_max[l].wide();
+            let strain = (swept.strain_max[l].wide() - swept.strain_min[l].wide()) / 2.0;
+            plane.parts = match (self.has_shear, self.strain) {
+                (false, _) => [strain + slack[0], s_n + slack[1]],
+                (true, None) => [0.0, s_n + slack[1]],
+                (true, Some(_)) => [0.0, strain + slack[1]],
+            };
+            for (k, at) in [(5, 0), (3, 1), (4, 2)] {
+                plane.instants[k] = swept.at[at][l].wide() as usize;
+            }
+        }
+        let mut of_three = planes_low(planes);
+        if self.has_shear {
+            let mut lanes = [OfThree {
+                on: [0; 3],
+                enough: 0.0,
+                square: 0.0,
+            }; LANES];
+            for (lane, plane) in lanes.iter_mut().zip(&*planes) {
+                let first = self
+                    .first_for(enough.value, plane.parts[1])
+                    .min(enough.first);
+                let radius = ((first - slack[0]) / self.shear_scale).max(0.0);
+                *lane = OfThree {
+                    on: first_three(plane.instants),
+                    enough: radius * radius,
+                    square: 0.0,
+                };
+            }
+            let squares = instants.circles(&mut lanes[..planes.len()]);
+            for (l, plane) in planes.iter_mut().enumerate() {
+                plane.parts[0] = self.shear_scale * squares[l].sqrt() + slack[0];
+                of_three[l] = self.shear_scale * lanes[l].square.sqrt() + slack[0];
+                plane.instants[..3].copy_from_slice(&lanes[l].on);
+                plane.instants[..3].sort_unstable();
+            }
+        }
+        for (plane, of_three) in planes.iter_mut().zip(of_three) {
+            plane.value = self.value(plane.parts);
+            let low = [of_three - 2.0 * slack[0], plane.parts[1] - 2.0 * slack[1]];
+            plane.low = self.value(low);
+        }
     }
 
     /// Half the range of the normal strain on a plane.
@@ -88,16 +194,13 @@ impl<'a> OnPlanes<'a> {
         self.path.range(&strain_weights(n, strain)).amplitude()
     }
 
-    /// The instants of the largest and smallest normal strain on a plane, and half of the difference
-    /// of the strains of their stresses.
-    fn strain_range(&self, n: [f64; 3], strain: [f64; 2]) -> ([usize; 2], StressTensor) {
-        let ends = self.path.extremes(&strain_weights(n, strain));
+    /// The tensor whose normal component is half of the difference of the normal strains of two
+    /// instants.
+    fn strain_amplitude_of(&self, ends: [usize; 2], [along, across]: [f64; 2]) -> StressTensor {
         let [most, least] = ends.map(|k| self.path.at(k));
-        let [along, across] = strain;
         let change: StressTensor = std::array::from_fn(|c| (most[c] - least[c]) / 2.0);
         let trace = change[0] + change[1] + change[2];
-        let of = |c: usize| along * change[c] - if c < 3 { across * trace } else { 0.0 };
-        (ends, std::array::from_fn(of))
+        std::array::from_fn(|c| along * change[c] - if c < 3 { across * trace } else { 0.0 })
     }
 
     /// Shear amplitude and largest normal stress on a plane.
@@ -122,6 +225,33 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
+    fn measure(&mut self, planes: &mut [Plane], enough: Enough) {
+        // Taken out, so that the planes can be measured with what else is known of the point.
+        if self.in_double {
+            let mut instants = std::mem::replace(&mut self.room.double, Instants::new());
+            for eight in planes.chunks_mut(LANES) {
+                self.measure_eight(&mut instants, eight, enough);
+            }
+            self.room.double = instants;
+        } else {
+            let mut instants = std::mem::replace(&mut self.room.single, Instants::new());
+            for eight in planes.chunks_mut(LANES) {
+                self.measure_eight(&mut instants, eight, enough);
+            }
+            self.room.single = instants;
+        }
+    }
+
+    fn rounding(&self, parts: [f64; 2]) -> f64 {
+        let slack = self.slack();
+        self.value(parts) - self.value([parts[0] - slack[0], parts[1] - slack[1]])
+    }
+
+    fn to_double(&mut self) {
+        self.in_double = true;
+        self.room.double.load(self.path);
+    }
+
     fn value(&self, [a, b]: [f64; 2]) -> f64 {
         match self.law {
             Law::Sum(weight) => a + weight * b,
@@ -134,29 +264,38 @@ impl PlaneFunction for OnPlanes<'_> {
         matches!(self.law, Law::Sum(weight) if weight == TIE)
     }
 
-    fn deciding(&mut self, n: [f64; 3]) -> Deciding {
-        let [most, _] = self.path.extremes(&normal_weights(n));
-        let range = self.strain.map(|strain| self.strain_range(n, strain));
-        let (second, at) = match range {
-            Some((_, tensor)) if self.has_shear => (tensor, most),
-            _ => (self.path.at(most), most),
+    fn piece(&self, instants: [usize; 6]) -> Deciding {
+        let [a, b, c, most, least, at] = instants;
+        let change = self
+            .strain
+            .map(|strain| self.strain_amplitude_of([most, least], strain));
+        let first = if self.has_shear {
+            First::Shear(self.shear_scale, [a, b, c].map(|k| self.path.at(k)))
+        } else {
+            First::Normal(change.unwrap_or_default())
         };
-        let ends = range.map_or([0; 2], |(ends, _)| ends);
-        if let (false, Some((_, tensor))) = (self.has_shear, range) {
-            return Deciding {
-                instants: [0, 0, 0, ends[0], ends[1], at],
-                first: First::Normal(tensor),
-                second,
-            };
-        }
-        self.path.resolve(&Frame::across(n), &mut self.room.shear);
-        let mut on = self.room.circles.round(&self.room.shear).on;
-        on.sort_unstable();
+        let second = match change {
+            Some(tensor) if self.has_shear => tensor,
+            _ => self.path.at(at),
+        };
         Deciding {
-            instants: [on[0], on[1], on[2], ends[0], ends[1], at],
-            first: First::Shear(self.shear_scale, on.map(|k| self.path.at(k))),
+            instants,
+            first,
             second,
         }
+    }
+
+    fn deciding(&mut self, n: [f64; 3]) -> Deciding {
+        let [at, _] = self.path.extremes(&normal_weights(n));
+        let weights = self.strain.map(|strain| strain_weights(n, strain));
+        let [most, least] = weights.map_or([0; 2], |weights| self.path.extremes(&weights));
+        let mut on = [0; 3];
+        if self.has_shear {
+            self.path.resolve(&Frame::across(n), &mut self.room.shear);
+            on = self.room.circles.round(&self.room.shear).on;
+            on.sort_unstable();
+        }
+        self.piece([on[0], on[1], on[2], most, least, at])
     }
 
     fn bend(&self, largest: [f64; 2], sag: f64) -> Bend {
@@ -177,6 +316,13 @@ impl PlaneFunction for OnPlanes<'_> {
         let of_product = |weight: f64, factor: f64| {
             bend_a * factor.max(0.0) + weight * (most_a * bend_b + 2.0 * slope_a * slope_b)
         };
+        let sloped =
+            |weight: f64, factor: f64| slope_a * factor.max(0.0) + weight * most_a * slope_b;
+        let slope = match self.law {
+            Law::Sum(weight) => slope_a + weight * slope_b,
+            Law::Product => sloped(1.0, most_b),
+            Law::Raised(weight) => sloped(weight, 1.0 + weight * most_b),
+        };
         let value = match self.law {
             Law::Sum(weight) => bend_a + weight * bend_b,
             Law::Product => of_product(1.0, most_b),
@@ -185,8 +331,17 @@ impl PlaneFunction for OnPlanes<'_> {
         Bend {
             parts: [bend_a, bend_b],
             value,
+            slope,
         }
     }
+}
+
+fn planes_low(planes: &[Plane]) -> [f64; LANES] {
+    std::array::from_fn(|l| planes.get(l).map_or(0.0, |p| p.parts[0]))
+}
+
+fn first_three([a, b, c, ..]: [usize; 6]) -> [usize; 3] {
+    [a, b, c]
 }
 
 /// The normal strain on a plane as a sum of the components of the stress.
@@ -222,15 +377,34 @@ impl Acting {
 
 /// Half of the longest chord of a plane path.
 fn half_chord(path: &[[Lanes; 2]]) -> f64 {
-    let mut most = 0.0_f64;
-    for (n, from) in path.iter().enumerate() {
-        for (x, y) in from[0].iter().zip(from[1]) {
-            for to in &path[n..] {
-                for (a, b) in to[0].iter().zip(to[1]) {
-                    most = most.max((a - x).powi(2) + (b - y).powi(2));
+    Arch::new().dispatch(LongestSquare(path)).sqrt() / 2.0
+}
+
+/// The square of the longest chord of a plane path, compiled for the processor.
+struct LongestSquare<'a>(&'a [[Lanes; 2]]);
+
+impl WithSimd for LongestSquare<'_> {
+    type Output = f64;
+
+    #[allow(
+        clippy::inline_always,
+        reason = "to be compiled for the processor that runs it"
+    )]
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let mut most = [0.0; LANES];
+        for (n, from) in self.0.iter().enumerate() {
+            for (x, y) in from[0].iter().zip(from[1]) {
+                for to in &self.0[n..] {
+                    let mut square = [0.0; LANES];
+                    for l in 0..LANES {
+                        let (a, b) = (to[0][l] - x, to[1][l] - y);
+                        square[l] = a.mul_add(a, b * b);
+                    }
+                    f64::raise(simd, &mut most, &square);
                 }
             }
         }
+        top(&most)
     }
-    most.sqrt() / 2.0
 }

@@ -7,7 +7,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::lanes::{LANES, Lanes, bottom, lower, place_of, raise, top};
+use super::lanes::{LANES, Lanes, Real, bottom, place_of, top};
 use crate::fields::{StressTensor, von_mises};
 
 /// Tresca's equivalent stress is at most this times von Mises'.
@@ -191,12 +191,12 @@ impl WithSimd for RangeOf<'_> {
     type Output = Range;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Range {
+    fn with_simd<S: Simd>(self, simd: S) -> Range {
         let (mut most, mut least) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
         for block in self.blocks {
             let value = weighted(block, self.weights);
-            raise(&mut most, &value);
-            lower(&mut least, &value);
+            f64::raise(simd, &mut most, &value);
+            f64::lower(simd, &mut least, &value);
         }
         let (max, min) = (top(&most), bottom(&least));
         Range { max, min }
@@ -213,18 +213,14 @@ impl WithSimd for ExtremesOf<'_> {
     type Output = [usize; 2];
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> [usize; 2] {
+    fn with_simd<S: Simd>(self, simd: S) -> [usize; 2] {
         let (mut most, mut least) = ([f64::NEG_INFINITY; LANES], [f64::INFINITY; LANES]);
         // Blocks of the extremes, as numbers that blend with the others.
         let mut at = [[0.0; LANES]; 2];
         for (n, block) in self.blocks.iter().enumerate() {
             let (value, n) = (weighted(block, self.weights), n as f64);
-            for l in 0..LANES {
-                at[0][l] = if value[l] > most[l] { n } else { at[0][l] };
-                at[1][l] = if value[l] < least[l] { n } else { at[1][l] };
-            }
-            raise(&mut most, &value);
-            lower(&mut least, &value);
+            f64::raise_marked(simd, &mut most, &mut at[0], &value, n);
+            f64::lower_marked(simd, &mut least, &mut at[1], &value, n);
         }
         let lane = |lanes: &Lanes, value: f64| place_of(std::slice::from_ref(lanes), value);
         let ends = [lane(&most, top(&most)), lane(&least, bottom(&least))];
@@ -243,18 +239,18 @@ impl WithSimd for NormalAndStrain<'_> {
     type Output = (f64, Range);
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> (f64, Range) {
+    fn with_simd<S: Simd>(self, simd: S) -> (f64, Range) {
         let [along, across] = self.strain;
         let mut first = [f64::NEG_INFINITY; LANES];
         let (mut most, mut least) = (first, [f64::INFINITY; LANES]);
         for (block, trace) in self.path.blocks.iter().zip(&self.path.traces) {
             let mut value = weighted(block, &self.weights);
-            raise(&mut first, &value);
+            f64::raise(simd, &mut first, &value);
             for l in 0..LANES {
                 value[l] = along * value[l] - across * trace[l];
             }
-            raise(&mut most, &value);
-            lower(&mut least, &value);
+            f64::raise(simd, &mut most, &value);
+            f64::lower(simd, &mut least, &value);
         }
         let (max, min) = (top(&most), bottom(&least));
         (top(&first), Range { max, min })
@@ -272,11 +268,11 @@ impl WithSimd for Resolved<'_> {
     type Output = f64;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let [normal, u, v] = &self.weights;
         let mut most = [f64::NEG_INFINITY; LANES];
         for (block, shear) in self.blocks.iter().zip(self.shear) {
-            raise(&mut most, &weighted(block, normal));
+            f64::raise(simd, &mut most, &weighted(block, normal));
             *shear = [weighted(block, u), weighted(block, v)];
         }
         top(&most)
@@ -325,6 +321,6 @@ pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 pub(super) fn unit(a: [f64; 3]) -> [f64; 3] {
-    let length = dot(a, a).sqrt();
-    a.map(|v| v / length)
+    let by = 1.0 / dot(a, a).sqrt();
+    [a[0] * by, a[1] * by, a[2] * by]
 }

@@ -1,12 +1,18 @@
 //! The top of a smooth function of the plane, by Newton's steps.
 
 use super::circle::{radius_of_three, radius_through};
-use super::path::{Frame, normal_weights, shear_weights, unit};
+use super::path::{Frame, dot, normal_weights, shear_weights, unit};
 use crate::fields::StressTensor;
 
 /// Turn of the planes from which slopes are taken \[rad\]: what these miss is its sixth power, what
 /// rounding adds 1e-16 over it.
 const TURN: f64 = 5e-3;
+/// Steps of this length end the search with simple slopes, which miss the top by less than the square
+/// of `TURN` \[rad\].
+const NEARLY: f64 = 1e-3;
+/// A step of this length ends the search with sharp slopes: the next one would be its product with
+/// the error of the bends, the square of `TURN` \[rad\].
+const CLOSE: f64 = 1e-7;
 /// Longest step \[rad\].
 const LONGEST: f64 = 0.2;
 
@@ -45,6 +51,24 @@ impl Deciding {
         self.with_circle(n, radius_through)
     }
 
+    /// The two parts on the plane of a unit normal, without a frame: the circle is known to half of
+    /// the digits where the shear is small against the normal stress.
+    pub(super) fn quick_parts(&self, n: [f64; 3]) -> [f64; 2] {
+        let normal = |s: &StressTensor| dot(traction(s, n), n);
+        let first = match &self.first {
+            First::Normal(tensor) => normal(tensor),
+            First::Shear(factor, [a, b, c]) => {
+                let change = |s: &StressTensor| traction(&difference(s, a), n);
+                let (p, q) = (change(b), change(c));
+                let (along_p, along_q) = (dot(p, n), dot(q, n));
+                let (pp, qq) = (dot(p, p) - along_p * along_p, dot(q, q) - along_q * along_q);
+                let pq = dot(p, q) - along_p * along_q;
+                factor * square_of_radius(pp, qq, pq).max(0.0).sqrt()
+            }
+        };
+        [first, normal(&self.second)]
+    }
+
     fn with_circle(&self, n: [f64; 3], radius: impl Fn([[f64; 2]; 3]) -> f64) -> [f64; 2] {
         let normal = normal_weights(n);
         let of = |weights: &[f64; 6], s: &StressTensor| -> f64 {
@@ -62,11 +86,42 @@ impl Deciding {
     }
 }
 
-/// The top that is reached from the plane n, and the value there.
+/// The square of the radius of the smallest circle round 0, p and q, from p.p, q.q and p.q.
+fn square_of_radius(pp: f64, qq: f64, pq: f64) -> f64 {
+    let across = pp + qq - 2.0 * pq;
+    if pq <= 0.0 {
+        across / 4.0
+    } else if pp <= pq {
+        qq / 4.0
+    } else if qq <= pq {
+        pp / 4.0
+    } else {
+        pp * qq * across / (4.0 * (pp * qq - pq * pq))
+    }
+}
+
+/// S.n.
+fn traction(s: &StressTensor, n: [f64; 3]) -> [f64; 3] {
+    [
+        s[0] * n[0] + s[3] * n[1] + s[4] * n[2],
+        s[3] * n[0] + s[1] * n[1] + s[5] * n[2],
+        s[4] * n[0] + s[5] * n[1] + s[2] * n[2],
+    ]
+}
+
+fn difference(s: &StressTensor, from: &StressTensor) -> StressTensor {
+    let mut change = *s;
+    for c in 0..6 {
+        change[c] -= from[c];
+    }
+    change
+}
+
+/// The top that is reached from the plane n, and the value there, to rounding.
 pub(super) fn refine(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3]) -> ([f64; 3], f64) {
-    let mut best = (n, f(n));
-    for _ in 0..12 {
-        let Some((turn, there)) = newton(f, best) else {
+    let mut best = nearly(f, n, f64::NEG_INFINITY);
+    for _ in 0..8 {
+        let Some((turn, there)) = newton::<true>(f, best) else {
             break;
         };
         let rounding = 4.0 * f64::EPSILON * best.1.abs();
@@ -74,7 +129,28 @@ pub(super) fn refine(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3]) -> ([f64; 3], f6
             break;
         }
         best = there;
-        if turn < 1e-7 {
+        if turn < CLOSE {
+            break;
+        }
+    }
+    best
+}
+
+/// The top that is reached from the plane n, and the value there, to the square of `NEARLY`; a plane
+/// on the way once the steps, each of which gains less than the one before, lead nowhere above
+/// `least`.
+pub(super) fn nearly(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3], least: f64) -> ([f64; 3], f64) {
+    let mut best = (n, f(n));
+    for _ in 0..8 {
+        let Some((turn, there)) = newton::<false>(f, best) else {
+            break;
+        };
+        if there.1 < best.1 {
+            break;
+        }
+        let gain = there.1 - best.1;
+        best = there;
+        if turn < NEARLY || best.1 + gain < least {
             break;
         }
     }
@@ -82,21 +158,27 @@ pub(super) fn refine(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3]) -> ([f64; 3], f6
 }
 
 /// One step to the top of the quadratic through planes around; shorter ones while the value falls.
-/// How far it turns \[rad\], and where it leads.
-fn newton(
+/// How far it turns \[rad\], and where it leads. Slopes are to the sixth order of the turn if `SHARP`,
+/// else to the second.
+fn newton<const SHARP: bool>(
     f: &impl Fn([f64; 3]) -> f64,
     (n, here): ([f64; 3], f64),
 ) -> Option<(f64, ([f64; 3], f64))> {
     let Frame { n, u, v } = Frame::across(n);
-    let turned = |a: f64, b: f64| unit(std::array::from_fn(|d| n[d] + a * u[d] + b * v[d]));
+    let turned = |a: f64, b: f64| {
+        let along = |d: usize| n[d] + a * u[d] + b * v[d];
+        unit([along(0), along(1), along(2)])
+    };
     let at = |a: f64, b: f64| f(turned(a * TURN, b * TURN));
-    // Slope to the sixth order of the turn, bend to the second; for a turn of TURN.
     let axis = |a: f64, b: f64| {
         let [east, west] = [at(a, b), at(-a, -b)];
+        let bend = east + west - 2.0 * here;
+        if !SHARP {
+            return ((east - west) / 2.0, bend);
+        }
         let second = at(2.0 * a, 2.0 * b) - at(-2.0 * a, -2.0 * b);
         let third = at(3.0 * a, 3.0 * b) - at(-3.0 * a, -3.0 * b);
-        let slope = (45.0 * (east - west) - 9.0 * second + third) / 60.0;
-        (slope, east + west - 2.0 * here)
+        ((45.0 * (east - west) - 9.0 * second + third) / 60.0, bend)
     };
     let (slope_u, uu) = axis(1.0, 0.0);
     let (slope_v, vv) = axis(0.0, 1.0);
