@@ -52,7 +52,7 @@ def average(
     body_number: int = 2,
     cycle: int = -1,
     residual: Sequence[float] | None = None,
-    tolerance: float = 5e-3,
+    tolerance: float = 1e-3,
 ) -> xr.Dataset:
     """Judge the stress averaged over a critical distance below every place of the surface.
 

@@ -106,7 +106,7 @@ def _points(stress: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
     return stress.reshape(stress.shape[0], -1, stress.shape[-1]), shape
 
 
-def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 5e-3) -> xr.Dataset:
+def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3) -> xr.Dataset:
     """Give the value of a criterion at every point, and the critical plane.
 
     Parameters
@@ -167,7 +167,7 @@ def assess(
     material: Material,
     criterion: CriterionName,
     *,
-    tolerance: float = 5e-3,
+    tolerance: float = 1e-3,
 ) -> xr.Dataset:
     """Evaluate a criterion with the numbers of a material: safety factors and lives.
 

@@ -143,7 +143,7 @@ def life(
     body_number: int = 2,
     cycle: int = -1,
     residual: Sequence[float] | None = None,
-    tolerance: float = 5e-3,
+    tolerance: float = 1e-3,
 ) -> Life:
     """Judge a section below the contact over a closed cycle of the load path.
 

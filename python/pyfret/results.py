@@ -273,7 +273,7 @@ class Result(OfRun):
         body_number: int = 2,
         cycle: int = -1,
         residual: Sequence[float] | None = None,
-        tolerance: float = 5e-3,
+        tolerance: float = 1e-3,
     ) -> lives.Life:
         """Judge a section below the contact over a closed cycle by a fatigue criterion.
 
