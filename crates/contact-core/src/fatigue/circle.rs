@@ -11,7 +11,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::lanes::{LANES, Lanes};
+use super::lanes::{LANES, Lanes, Real, top};
 
 /// A point is outside if the square of its distance is larger by this share.
 const OUTSIDE: f64 = 1e-14;
@@ -229,4 +229,34 @@ fn through(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Option<Round> {
         y: a[1] + y,
         square: x * x + y * y,
     })
+}
+
+/// Half of the longest chord of a plane path.
+pub(super) fn half_chord(path: &[[Lanes; 2]]) -> f64 {
+    Arch::new().dispatch(LongestSquare(path)).sqrt() / 2.0
+}
+
+/// The square of the longest chord of a plane path, compiled for the processor.
+struct LongestSquare<'a>(&'a [[Lanes; 2]]);
+
+impl WithSimd for LongestSquare<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let mut most = [0.0; LANES];
+        for (n, from) in self.0.iter().enumerate() {
+            for (x, y) in from[0].iter().zip(from[1]) {
+                for to in &self.0[n..] {
+                    let mut square = [0.0; LANES];
+                    for l in 0..LANES {
+                        let (a, b) = (to[0][l] - x, to[1][l] - y);
+                        square[l] = a.mul_add(a, b * b);
+                    }
+                    f64::raise(simd, &mut most, &square);
+                }
+            }
+        }
+        top(&most)
+    }
 }

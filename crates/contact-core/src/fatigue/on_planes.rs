@@ -6,13 +6,11 @@
 //! most (1 + nu)/E D, D bounding Tresca's stress of the deviation of any instant from a constant
 //! stress (derived).
 
-use pulp::{Arch, Simd, WithSimd};
-
-use super::circle::Circles;
+use super::circle::{Circles, half_chord};
 use super::criterion::Criterion;
 use super::critical_plane::{Bend, Enough, Plane, PlaneFunction};
 use super::eight_planes::{Instants, OfThree};
-use super::lanes::{LANES, Lanes, Real, top};
+use super::lanes::{LANES, Lanes, Real};
 use super::path::{Frame, Path, normal_weights};
 use super::refine::{Deciding, First};
 use crate::fields::StressTensor;
@@ -372,39 +370,5 @@ impl Acting {
             normal_max: normal.max,
             normal_min: normal.min,
         }
-    }
-}
-
-/// Half of the longest chord of a plane path.
-fn half_chord(path: &[[Lanes; 2]]) -> f64 {
-    Arch::new().dispatch(LongestSquare(path)).sqrt() / 2.0
-}
-
-/// The square of the longest chord of a plane path, compiled for the processor.
-struct LongestSquare<'a>(&'a [[Lanes; 2]]);
-
-impl WithSimd for LongestSquare<'_> {
-    type Output = f64;
-
-    #[allow(
-        clippy::inline_always,
-        reason = "to be compiled for the processor that runs it"
-    )]
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        let mut most = [0.0; LANES];
-        for (n, from) in self.0.iter().enumerate() {
-            for (x, y) in from[0].iter().zip(from[1]) {
-                for to in &self.0[n..] {
-                    let mut square = [0.0; LANES];
-                    for l in 0..LANES {
-                        let (a, b) = (to[0][l] - x, to[1][l] - y);
-                        square[l] = a.mul_add(a, b * b);
-                    }
-                    f64::raise(simd, &mut most, &square);
-                }
-            }
-        }
-        top(&most)
     }
 }
