@@ -22,13 +22,13 @@ path = [
 
 /// Convolutions of the whole path.
 fn work(anderson: bool) -> f64 {
-    let scene = Scene::from_toml_str(STRONG, "strong coupling", &[] as &[String]).unwrap();
+    let scene = Scene::from_toml_str(STRONG, "strong coupling", &[] as &[String]).expect("a scene");
     let mut plan = Plan::new(&scene);
     plan.methods.anderson = anderson;
-    let mut march = March::planned(&scene, plan, &Arc::default()).unwrap();
+    let mut march = March::planned(&scene, plan, &Arc::default()).expect("a march");
     let mut convolutions = 0.0;
     while let Some(increment) = march.advance() {
-        convolutions += increment.unwrap().work.convolutions;
+        convolutions += increment.expect("an increment").work.convolutions;
     }
     convolutions
 }
