@@ -90,7 +90,7 @@ fn a_contact_that_cannot_stick_is_refused() {
 /// displacements are those of the tractions all the same, and the cells that stick after it do not move.
 #[test]
 fn displacements_are_exact_after_sliding_far() {
-    let text = r#"
+    let text = r"
 schema = 1
 body1 = { shape = { sum = [
     { sphere = { R = 0.01 } },
@@ -107,7 +107,7 @@ path = [
     { delta_x = -9.599893046120053e-07, increments = 2 },
     { T_x = -0.005394332412133615, increments = 4 },
 ]
-"#;
+";
     let scene = Scene::from_toml_str(text, "far.toml", &[]).unwrap();
     let (_, violations) = audited(&scene, &Arc::<AtomicBool>::default()).unwrap();
     assert!(violations.hold(), "{violations:?}");
