@@ -2239,7 +2239,7 @@ class NoConvergenceError(RuntimeError):
     """A solver stopped before its tolerance; the message gives the residual reached."""
 
 class SlidingError(RuntimeError):
-    """Loads that friction cannot carry, that nothing carries, or that lift a contact that sticks."""
+    """Loads that friction cannot carry, that nothing carries, or that lift a stuck contact."""
 
 class KernelInaccurateError(RuntimeError):
     """Influence or stress coefficients missed the tolerance asked for."""

@@ -29,7 +29,7 @@ create_exception!(
     pyfret,
     SlidingError,
     PyRuntimeError,
-    "Loads that friction cannot carry, that nothing carries, or that lift a contact that sticks."
+    "Loads that friction cannot carry, that nothing carries, or that lift a stuck contact."
 );
 create_exception!(
     pyfret,
