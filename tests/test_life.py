@@ -80,7 +80,9 @@ def test_averages_are_those_of_the_stress(cycled: fret.Result) -> None:
     z = (np.arange(60) + 0.5) / 60 * 2 * L
     mean = fatigue.history(cycled, z, y=0.0).mean("depth")
     brute = fatigue.assess(mean.transpose("increment", "x", "component"), STEEL, "crossland")
-    np.testing.assert_allclose(line.safety_factor, brute.safety_factor, rtol=2e-3)
+    # Far outside there is next to no stress, and a large safety factor is no number to compare.
+    used, expected = 1 / line.safety_factor, 1 / brute.safety_factor
+    np.testing.assert_allclose(used, expected, rtol=2e-3, atol=1e-4)
     # A distance far below the cell leaves the stress of the surface.
     surface = cycled.life(STEEL, "crossland", [0.0]).dataset.value[0]
     for method in ("point", "line", "area"):
