@@ -30,9 +30,7 @@ fn scene(settings: &[&str]) -> Scene {
 #[test]
 fn an_increment_that_does_not_converge_is_solved_in_pieces() {
     let whole = solve(&scene(&[]), &mut ()).unwrap();
-    // The contact grows in steps from nothing; what follows is whole.
-    let parts: Vec<_> = whole.iter().map(|i| i.work.parts).collect();
-    assert_eq!(parts, [8, 1, 1]);
+    assert!(whole.iter().all(|i| i.work.parts == 1));
     let tight = scene(&["skip.digits=false", "solver.max_iterations=5"]);
     let pieces = solve(&tight, &mut ()).unwrap();
     assert_eq!(pieces.len(), 3);
@@ -45,11 +43,8 @@ fn an_increment_that_does_not_converge_is_solved_in_pieces() {
             loads(piece).map(f64::to_bits),
             loads(whole).map(f64::to_bits)
         );
-        // The steps in which the contact grows are small enough as they are.
-        if i > 0 {
-            assert!(piece.work.parts > whole.work.parts);
-            assert!(piece.work.convolutions > whole.work.convolutions);
-        }
+        assert!(piece.work.parts > 1);
+        assert!(piece.work.convolutions > whole.work.convolutions);
         done += piece.energy.work;
         let missing = piece.energy.imbalance();
         assert!(

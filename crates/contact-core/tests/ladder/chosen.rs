@@ -166,10 +166,9 @@ fn given_increments_do_not_drive_those_that_are_chosen() {
             counts(&given),
             counts(&all)
         );
-        // What the given increment leaves is said; the contact has grown in steps in it.
-        let left = given.path.branches[0].path_error;
+        // What the given increment leaves is said.
         assert!(
-            left.is_some_and(|left| left > 1e-3 && left < 0.05),
+            given.path.branches[0].path_error > Some(0.05),
             "{:?}",
             given.path.branches
         );

@@ -103,8 +103,6 @@ fn the_line_is_the_middle_of_a_long_row() {
         .tangential(&[0.5 * MU * W], 3);
     let (mut strip, line) = cylinder(STEEL, CORK, 48, path);
     coat(&mut strip, line.a);
-    // How cells move before they enter is seen from a line otherwise than from a row.
-    strip.settings.solver.entering = false;
     let mut row = strip.clone();
     let long = 3e3 * line.a;
     row.grid = Grid::from_spacing((48, 3), (strip.grid.dx, long)).expect("a grid");

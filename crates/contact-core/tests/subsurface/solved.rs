@@ -180,8 +180,6 @@ fn coated_contacts_come_nearer_to_finer_grids() {
                 },
                 thickness: thickness * h.a,
             }];
-            // How cells enter depends on the cells, and is not what is asked here.
-            scene.settings.solver.entering = false;
             scene
         };
         for [plain, rim] in against_finer(&format!("{ratio}, {thickness} a_H"), coated, 64) {
