@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).parent / "campaign"))
 
 from audit import Audit
 from draw import draw
+from run import campaign, told
 
 SCENE = """
 schema = 1
@@ -59,3 +60,9 @@ def test_most_of_what_is_drawn_is_a_scene() -> None:
         except fret.InvalidSceneError:
             refused += 1
     assert refused < 25
+
+
+def test_scenes_of_everything_are_solved_or_rightly_refused() -> None:
+    """A slice of the campaign through scene files: `python tests/campaign/run.py 0 5000`."""
+    lines, right = told(list(campaign(0, 80)))
+    assert right, "\n".join(lines)

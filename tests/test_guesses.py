@@ -71,3 +71,26 @@ def test_maps_take_the_words_of_imshow(result: fret.Result) -> None:
 def test_a_copy_of_a_result_is_one(result: fret.Result, tmp_path: Path) -> None:
     result.save(tmp_path / "a.nc")
     assert fret.open(tmp_path / "a.nc").T_x.equals(result.T_x)
+
+
+@pytest.mark.parametrize(
+    ("guess", "error", "says"),
+    [
+        (lambda: PRESSED.normal(-5.0), fret.InvalidSceneError, r"W = -5: must be a finite compr"),
+        (lambda: PRESSED.tangential(float("inf")), fret.InvalidSceneError, r"path\[1\].T_x = inf"),
+        (lambda: PRESSED.force(W=float("nan")), fret.InvalidSceneError, r"path\[1\].W = NaN"),
+        (lambda: PRESSED.displace(delta_x=float("inf")), fret.InvalidSceneError, "delta_x = inf"),
+        (lambda: fret.Grid.centred(extent=1e-3, n=-3), TypeError, r"-3: must be a whole number"),
+        (lambda: fret.Grid.centred(extent=1e-3, n=32.0), TypeError, "32.0: must be a whole number"),
+    ],
+)
+def test_constructors_refuse_at_once(
+    guess: Callable[[], object], error: type[Exception], says: str
+) -> None:
+    with pytest.raises(error, match=says):
+        guess()
+
+
+def test_a_radius_needs_no_name() -> None:
+    assert fret.Cylinder(5e-3) == fret.Cylinder(R=5e-3)
+    assert fret.Sphere(5e-3) == fret.Sphere(R=5e-3)

@@ -62,6 +62,15 @@ def test_holes_are_named_cut_off_or_filled(tmp_path: Path) -> None:
         fret.SurfaceMap(holed, spacing=1e-6, missing="leave")  # type: ignore[arg-type]
 
 
+def test_an_empty_table_holds_no_number(tmp_path: Path) -> None:
+    file = tmp_path / "empty.csv"
+    file.write_text("")
+    with pytest.raises(fret.StoreError, match=r"empty\.csv.*(no number|no line|empty)"):
+        fret.SurfaceMap.from_file(file, spacing=1e-6)
+    with pytest.raises(fret.InvalidSceneError, match="no number"):
+        fret.SurfaceMap(np.zeros((0, 4)), spacing=1e-6)
+
+
 def test_plain_numbers_need_a_spacing(tmp_path: Path) -> None:
     np.save(tmp_path / "z.npy", HEIGHTS)
     with pytest.raises(ValueError, match="need the distance of the points"):

@@ -305,7 +305,7 @@ class Cylinder:
         Turn of the axis from y [rad].
     """
 
-    def __new__(cls, *, R: float, length: float = ..., angle: float = ...) -> Cylinder: ...
+    def __new__(cls, R: float, *, length: float = ..., angle: float = ...) -> Cylinder: ...
     @property
     def R(self) -> float:
         """Radius [m]; negative for a hollow."""

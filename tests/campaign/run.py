@@ -81,6 +81,12 @@ class Worker:
         ticks = int(stat[11]) + int(stat[12])
         return ticks / os.sysconf("SC_CLK_TCK"), time.monotonic()
 
+    def end(self) -> None:
+        """Ends it, whatever it is at."""
+        self.process.kill()
+        with self.process:
+            pass
+
     def is_over(self, limit: float) -> bool:
         """Whether its scene takes too long: processor time, or ten times as much of any time."""
         work, all_of_it = (now - then for now, then in zip(self.spent(), self.begun, strict=True))
@@ -120,8 +126,7 @@ def campaign(first: int, count: int, limit: float = LIMIT) -> Iterator[dict[str,
                 how = f"over {limit:g} s"
             else:
                 continue
-            worker.process.kill()
-            worker.process.wait()
+            worker.end()
             running.remove(worker)
             if worker.seed < last:
                 yield {"seed": worker.seed, "fate": how, "worst": {}}

@@ -68,9 +68,11 @@ fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
             let cells = (hertz.a / grid.dx, hertz.a / grid.dy);
             line("a_H", format!("{:.6e} m", hertz.a));
             line("p_H", format!("{:.6e} Pa", hertz.p0));
+            let along_x = format!("{:.2} along x", cells.0);
+            let along_y = format!(", {:.2} along y", cells.1);
             line(
                 "cells per a_H",
-                format!("{:.2} along x, {:.2} along y", cells.0, cells.1),
+                along_x + if grid.plane_strain { "" } else { &along_y },
             );
             line(
                 "contact",

@@ -4,7 +4,7 @@
 //! there is one implementation, and this hands the command line over to it.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::Args;
@@ -31,17 +31,30 @@ pub(crate) fn run(command: &str, options: &Options) -> Result<u8, Failure> {
     python
         .args(["-m", "pyfret", command])
         .args(&options.arguments);
-    let ended = python.status().map_err(|e| {
+    let without_package = |why: &str| {
         Failure::BadInput(Error::File {
             path: interpreter.display().to_string(),
             message: format!(
-                "{e}; `fret {command}` needs Python with the package pyfret: install it, or name the \
+                "{why}; `fret {command}` needs Python with the package pyfret: install it, or name the \
                  interpreter in {INTERPRETER}"
             ),
         })
-    })?;
+    };
+    let ended = python
+        .status()
+        .map_err(|e| without_package(&e.to_string()))?;
+    if !ended.success() && !has_package(&interpreter) {
+        return Err(without_package("has no package pyfret"));
+    }
     let code = ended.code().and_then(|code| u8::try_from(code).ok());
     Ok(code.unwrap_or(1))
+}
+
+/// Whether the package is installed for the interpreter.
+fn has_package(interpreter: &Path) -> bool {
+    let look = "import importlib.util, sys; sys.exit(importlib.util.find_spec('pyfret') is None)";
+    let looked = Command::new(interpreter).args(["-c", look]).status();
+    looked.is_ok_and(|status| status.success())
 }
 
 /// The interpreter named by the user, that in the folder of `fret`, or the first one on PATH.

@@ -132,11 +132,17 @@ impl Given {
 }
 
 impl Loads {
-    pub(crate) fn check(
-        &self,
-        key: &dyn Fn(&str) -> String,
-        friction: &Friction,
-    ) -> Result<(), Error> {
+    /// Fails at a number that is not finite and at a tensile W.
+    pub(crate) fn check_values(&self, key: &dyn Fn(&str) -> String) -> Result<(), Error> {
+        for (name, value) in [
+            ("sigma_B", self.sigma_B),
+            ("sigma_B1", self.sigma_B1),
+            ("rolled", self.rolled),
+        ] {
+            if !value.is_finite() {
+                return Err(Error::invalid(key(name), value, "a finite number"));
+            }
+        }
         for motion in RigidMotion::ALL {
             let prescribed = self.prescribed(motion);
             if !prescribed.value().is_finite() {
@@ -150,15 +156,24 @@ impl Loads {
                 return Err(Error::invalid(key(name), prescribed.value(), allowed));
             }
         }
-        if self.given.delta_z.is_some() {
-            return Ok(());
-        }
-        if self.W < 0.0 {
+        if self.given.delta_z.is_none() && self.W < 0.0 {
             return Err(Error::invalid(
                 key("W"),
                 self.W,
                 "a finite compressive force >= 0 in N",
             ));
+        }
+        Ok(())
+    }
+
+    /// Fails at loads that friction cannot carry; their values are checked.
+    pub(crate) fn check(
+        &self,
+        key: &dyn Fn(&str) -> String,
+        friction: &Friction,
+    ) -> Result<(), Error> {
+        if self.given.delta_z.is_some() {
+            return Ok(());
         }
         // The load of a motion, zero where the motion is prescribed.
         let load = |of: RigidMotion| match self.prescribed(of) {

@@ -29,11 +29,11 @@ impl Missing {
 /// The numbers without holes; the error says where the holes are.
 pub(super) fn completed(values: Array2<f64>, missing: Missing) -> Result<Array2<f64>, String> {
     let holes = values.iter().filter(|v| v.is_nan()).count();
-    if holes == 0 {
-        return Ok(values);
-    }
     if holes == values.len() {
         return Err("holds no number".into());
+    }
+    if holes == 0 {
+        return Ok(values);
     }
     match missing {
         Missing::Refuse => Err(where_they_are(&values, holes)),

@@ -35,11 +35,23 @@ impl<'py> FromPyObject<'_, 'py> for Cells {
         if let Ok(both) = value.extract::<usize>() {
             return Ok(Self((both, both)));
         }
-        let wanted = "a number of cells, or one along x and one along y, such as (128, 128)";
+        let wanted = "a whole number of cells, or one along x and one along y, such as (128, 128)";
         value
             .extract()
             .map(Self)
             .map_err(|_| must_be(&value, wanted))
+    }
+}
+
+/// Number of cells along one direction.
+struct Count(usize);
+
+impl<'py> FromPyObject<'_, 'py> for Count {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let count = value.extract().map(Self);
+        count.map_err(|_| must_be(&value, "a whole number of cells >= 1, such as 128"))
     }
 }
 
@@ -67,10 +79,10 @@ takes!(Grid, "a grid, such as Grid.centred(extent=1e-3, n=128)");
 impl Grid {
     #[new]
     #[pyo3(signature = (*, nx, ny, dx, dy, plane_strain = false))]
-    fn new(nx: usize, ny: usize, dx: f64, dy: f64, plane_strain: bool) -> PyResult<Self> {
+    fn new(nx: Count, ny: Count, dx: f64, dy: f64, plane_strain: bool) -> PyResult<Self> {
         let grid = core::Grid {
-            nx,
-            ny,
+            nx: nx.0,
+            ny: ny.0,
             dx,
             dy,
             plane_strain,
@@ -81,8 +93,10 @@ impl Grid {
     /// `n` by `n` cells on a square of side `extent` [m].
     #[staticmethod]
     #[pyo3(signature = (*, extent, n))]
-    fn centred(extent: f64, n: usize) -> PyResult<Self> {
-        core::Grid::centred(extent, n).map(Self).map_err(to_python)
+    fn centred(extent: f64, n: Count) -> PyResult<Self> {
+        core::Grid::centred(extent, n.0)
+            .map(Self)
+            .map_err(to_python)
     }
 
     /// `n` = (nx, ny) cells of size `spacing` = (dx, dy) [m].
@@ -99,8 +113,8 @@ impl Grid {
     /// relative to the points at the distance `extent` from a load.
     #[staticmethod]
     #[pyo3(signature = (*, extent, n, width = 1.0))]
-    fn strip(extent: f64, n: usize, width: f64) -> PyResult<Self> {
-        core::Grid::strip(extent, n, width)
+    fn strip(extent: f64, n: Count, width: f64) -> PyResult<Self> {
+        core::Grid::strip(extent, n.0, width)
             .map(Self)
             .map_err(to_python)
     }

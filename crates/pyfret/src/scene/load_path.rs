@@ -39,6 +39,12 @@ takes!(
     "a load path, such as LoadPath.start().normal(100.0).tangential([20.0, -20.0])"
 );
 
+/// The path, unless a load or motion has a value that no scene can have.
+fn checked(path: core::LoadPath) -> PyResult<LoadPath> {
+    path.check_values().map_err(to_python)?;
+    Ok(LoadPath(path))
+}
+
 #[pymethods]
 impl LoadPath {
     #[new]
@@ -59,8 +65,8 @@ impl LoadPath {
 
     /// Go to the normal force `W` [N], the tangential forces kept, in one unit of path time.
     #[pyo3(signature = (W, *, increments = Count(None)))]
-    fn normal(&self, W: f64, increments: Count) -> Self {
-        Self(self.0.clone().normal(W, increments.0))
+    fn normal(&self, W: f64, increments: Count) -> PyResult<Self> {
+        checked(self.0.clone().normal(W, increments.0))
     }
 
     /// Visit the tangential forces `T_x` [N] in turn.
@@ -68,20 +74,20 @@ impl LoadPath {
     /// The increments are shared out in proportion to the change of force. Path time runs as in
     /// the first branch: one unit for as many increments as that one has.
     #[pyo3(signature = (T_x, *, increments = Count(None)))]
-    fn tangential(&self, T_x: Values, increments: Count) -> Self {
-        Self(self.0.clone().tangential(T_x.slice(), increments.0))
+    fn tangential(&self, T_x: Values, increments: Count) -> PyResult<Self> {
+        checked(self.0.clone().tangential(T_x.slice(), increments.0))
     }
 
     /// Visit the torsional moments `M_z` [N m] in turn, as `tangential` does the forces.
     #[pyo3(signature = (M_z, *, increments = Count(None)))]
-    fn torsion(&self, M_z: Values, increments: Count) -> Self {
-        Self(self.0.clone().torsion(M_z.slice(), increments.0))
+    fn torsion(&self, M_z: Values, increments: Count) -> PyResult<Self> {
+        checked(self.0.clone().torsion(M_z.slice(), increments.0))
     }
 
     /// Visit the normal forces `W` [N] in turn, as `tangential` does: fretting mode II.
     #[pyo3(signature = (W, *, increments = Count(None)))]
-    fn radial(&self, W: Values, increments: Count) -> Self {
-        Self(self.0.clone().radial(W.slice(), increments.0))
+    fn radial(&self, W: Values, increments: Count) -> PyResult<Self> {
+        checked(self.0.clone().radial(W.slice(), increments.0))
     }
 
     /// Turn the tangential force around an ellipse of semi-axes `T_x`, `T_y` [N].
@@ -126,7 +132,7 @@ impl LoadPath {
         let row = |i: usize| columns.values().map(|column| column[i]).collect();
         let rows: Vec<Vec<f64>> = (0..rows).map(row).collect();
         let path = self.0.clone().waypoints(&names, &rows, increments.into());
-        path.map(Self).map_err(to_python)
+        path.map_err(to_python).and_then(checked)
     }
 
     /// Read a measured history; the first line names the columns of `waypoints`.
@@ -134,8 +140,8 @@ impl LoadPath {
     #[pyo3(signature = (path, *, increments = AnyIncrements::Each(1)))]
     fn from_csv(path: PathBuf, increments: AnyIncrements) -> PyResult<Self> {
         core::LoadPath::from_csv(&path, increments.into())
-            .map(Self)
             .map_err(to_python)
+            .and_then(checked)
     }
 
     /// Go to the given loads on a straight line; what is not named stays as it was.
@@ -176,7 +182,7 @@ impl LoadPath {
         increments: Count,
         spacing: Spacing,
         t: Option<f64>,
-    ) -> Self {
+    ) -> PyResult<Self> {
         let loads = [W, M_x, M_y, T_x, T_y, M_z].map(|load| load.map(Prescribed::Load));
         let change = |to: &mut core::Loads| {
             prescribe(to, loads);
@@ -184,7 +190,7 @@ impl LoadPath {
             to.sigma_B1 = sigma_B1.unwrap_or(to.sigma_B1);
             to.rolled = rolled.unwrap_or(to.rolled);
         };
-        Self(branch(&self.0, increments.0, spacing, t, change))
+        checked(branch(&self.0, increments.0, spacing, t, change))
     }
 
     /// Go to the given rigid motions of body 1 on a straight line, or visit several in turn.
@@ -227,7 +233,7 @@ impl LoadPath {
         t: Option<f64>,
     ) -> PyResult<Self> {
         let motions = [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z];
-        moved(&self.0, motions, increments.0, spacing, t).map(Self)
+        moved(&self.0, motions, increments.0, spacing, t).and_then(checked)
     }
 
     /// Go through `n` cycles of one load or motion about zero.
@@ -276,7 +282,7 @@ impl LoadPath {
             (RigidMotion::DeltaY, delta_y.map(Prescribed::Motion)),
             (RigidMotion::PhiZ, phi_z.map(Prescribed::Motion)),
         ];
-        cycled(&self.0, n, named, increments.0).map(Self)
+        cycled(&self.0, n, named, increments.0).and_then(checked)
     }
 
     /// Stay at the loads and motions reached for some increments, one unit of path time.

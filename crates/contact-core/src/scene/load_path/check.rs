@@ -1,7 +1,7 @@
 //! Load paths that have no meaning, refused before anything is computed.
 
-use super::LoadPath;
 use super::build::CHORDS;
+use super::{Branch, LoadPath};
 use crate::error::Error;
 use crate::memory::fits;
 use crate::scene::{Friction, Grid, Prescribed, RigidMotion};
@@ -28,6 +28,13 @@ impl LoadPath {
     pub fn check_turns(turns: usize, increments: impl Into<Option<usize>>) -> Result<(), Error> {
         let all = turns.saturating_mul(increments.into().unwrap_or(CHORDS));
         Self::start().normal(0.0, all).check_length()
+    }
+
+    /// Fails at a load or motion that no scene can have: one that is not finite, or bodies pulled apart by W.
+    pub fn check_values(&self) -> Result<(), Error> {
+        let named =
+            |(i, b): (usize, &Branch)| b.to.check_values(&|name| format!("path[{i}].{name}"));
+        self.branches.iter().enumerate().try_for_each(named)
     }
 
     /// Fails where the increments of a branch are yet to be chosen.
@@ -57,15 +64,7 @@ impl LoadPath {
         let mut t = 0.0;
         for (i, b) in self.branches.iter().enumerate() {
             let key = |name: &str| format!("path[{i}].{name}");
-            for (name, value) in [
-                ("sigma_B", b.to.sigma_B),
-                ("sigma_B1", b.to.sigma_B1),
-                ("rolled", b.to.rolled),
-            ] {
-                if !value.is_finite() {
-                    return Err(Error::invalid(key(name), value, "a finite number"));
-                }
-            }
+            b.to.check_values(&key)?;
             if !(b.t_end > t && b.t_end.is_finite()) {
                 return Err(Error::invalid(
                     key("t"),

@@ -55,7 +55,7 @@ elementary!(
         /// Turn of the axis from y [rad].
         angle
     },
-    (*, R, length = f64::INFINITY, angle = 0.0)
+    (R, *, length = f64::INFINITY, angle = 0.0)
 );
 elementary!(
     /// A cylinder with rounded ends; its axis is y turned by `angle`.
