@@ -2188,8 +2188,30 @@ class Assessment:
 
 @final
 class Material:
-    """A material and its numbers."""
+    """A material and its numbers.
 
+    Parameters
+    ----------
+    name : str
+        Its key in tables.
+    numbers : list of (str, float, str)
+        Name, as in a file of materials, value in its SI unit, and where that is from.
+    title : str
+        What the material is (default: its name).
+
+    Examples
+    --------
+    >>> tests = "bending and torsion tests, report 2024-17"
+    >>> steel = Material("our_steel", [("s_D", 412e6, tests), ("t_D", 268e6, tests)])
+    """
+
+    def __new__(
+        cls,
+        name: str,
+        numbers: Sequence[tuple[str, float, str]],
+        title: str | None = ...,
+    ) -> Material: ...
+    def __getnewargs__(self) -> tuple[str, list[tuple[str, float, str]], str]: ...
     @property
     def name(self) -> str:
         """Key of the material in its table."""

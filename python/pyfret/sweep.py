@@ -1,4 +1,4 @@
-"""The same contact under many loads: the running-condition map."""
+"""The same contact under many loads: running conditions, crack risk, frictional energy."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import ArrayLike
+
+    from pyfret.studies import Cracking
+    from pyfret.studies.measures import Measure
 
 __all__ = ["running_map"]
 
@@ -44,6 +47,7 @@ def running_map(
     delta: ArrayLike | None = None,
     cycles: int = 1,
     increments: tuple[int, int] = (20, 20),
+    cracking: Cracking | None = None,
     executor: Any = None,
     on_point: Callable[[int, int], object] | None = None,
 ) -> xr.Dataset:
@@ -67,6 +71,9 @@ def running_map(
         Number of cycles; the map shows the last.
     increments : (int, int)
         Increments of the indentation and of a full stroke.
+    cracking : Cracking, optional
+        A criterion of fatigue to judge the last cycle by:
+        ``studies.Cracking(material, "dang_van")``.
     executor : int, Executor or distributed.Client, optional
         Who solves, as in :func:`pyfret.study`.
     on_point : callable, optional
@@ -77,8 +84,8 @@ def running_map(
     xarray.Dataset
         Over W and T or delta: ``status`` (0 no contact, 1 full stick, 2 partial slip, 3 gross
         slip), ``energy_ratio``, ``sliding_ratio``, ``dissipated`` [J], ``stiffness`` [N/m], and
-        ``delta`` [m] or ``T`` [N], half of their ranges; NaN where a force slides, except the
-        status.
+        ``delta`` [m] or ``T`` [N], half of their ranges, and with `cracking` its ``safety_factor``
+        or ``life`` [cycles] and ``crack_depth`` [m]; NaN where a force slides, except the status.
 
     Raises
     ------
@@ -90,10 +97,11 @@ def running_map(
     driven = "T" if delta is None else "delta"
     given = T if delta is None else delta
     normal, tangential = (np.atleast_1d(np.asarray(v, dtype=float)) for v in (W, given))
+    measures: list[Measure] = [name for shown, name in SHOWN.items() if shown != driven]
     found = study(
-        Cycles(scene, driven, cycles, increments),
+        Cycles(scene, driven, cycles, increments, fields=cracking is not None),
         {"W": normal, AMPLITUDE: tangential},
-        measure=[name for shown, name in SHOWN.items() if shown != driven],
+        measure=[*measures, cracking] if cracking else measures,
         executor=executor,
         progress=False,
         on_point=on_point,
@@ -107,7 +115,9 @@ def running_map(
 def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
     """The study of the loads with the names of the map."""
     units = {"T": ("N", "amplitude of the force"), "delta": ("m", "amplitude of the shift")}
+    judged = ("safety_factor", "life", "crack_depth")
     kept = {name: shown for shown, name in SHOWN.items() if name in found}
+    kept |= {name: name for name in judged if name in found}
     table = found[list(kept)].rename(kept).drop_vars(AMPLITUDE).rename({AMPLITUDE: driven})
     table["status"] = table["status"].fillna(SLIDES).assign_attrs(long_name=STATUS)
     unit, meaning = units[driven]
@@ -131,6 +141,8 @@ class Cycles:
     driven: str
     cycles: int
     increments: tuple[int, int]
+    #: Whether the fields of the last cycle are kept, or of its end alone.
+    fields: bool
 
     def __call__(self, point: dict[str, float]) -> Scene:
         """The scene under the normal force and the amplitude of a point."""
@@ -145,4 +157,6 @@ class Cycles:
                 path = path.force(T_x=turn, increments=part)
             else:
                 path = path.displace(delta_x=turn, increments=part)
-        return self.scene.replace(path=path, save=[len(path)])
+        last = len(path)
+        first = last - 2 * stroke if self.fields else last
+        return self.scene.replace(path=path, save=list(range(first, last + 1)))

@@ -26,6 +26,16 @@ pub enum Error {
         /// What is wrong and what is allowed.
         message: String,
     },
+    /// A number of a material is unknown, out of its range, or without a source.
+    #[error("material `{material}`.{key}: {why}")]
+    Material {
+        /// Name of the material.
+        material: String,
+        /// Name of the number.
+        key: String,
+        /// What is wrong and what is allowed.
+        why: String,
+    },
     /// A value set from outside the scene file (`--set key=value`) is wrong.
     #[error("setting {setting}: {message}")]
     Setting {

@@ -48,9 +48,10 @@ create_exception!(
 pub(crate) fn to_python(error: Error) -> PyErr {
     let text = error.to_string();
     match error {
-        Error::InvalidScene { .. } | Error::SceneFile { .. } | Error::Setting { .. } => {
-            InvalidSceneError::new_err(text)
-        }
+        Error::InvalidScene { .. }
+        | Error::SceneFile { .. }
+        | Error::Material { .. }
+        | Error::Setting { .. } => InvalidSceneError::new_err(text),
         Error::OffGrid { .. } | Error::WornOffGrid { .. } | Error::GridTooSmall { .. } => {
             OffGridError::new_err(text)
         }

@@ -129,12 +129,37 @@ impl Assessment {
 }
 
 /// A material and its numbers.
+///
+/// Parameters
+/// ----------
+/// name : str
+///     Its key in tables.
+/// numbers : list of (str, float, str)
+///     Name, as in a file of materials, value in its SI unit, and where that is from.
+/// title : str
+///     What the material is (default: its name).
+///
+/// Examples
+/// --------
+/// >>> tests = "bending and torsion tests, report 2024-17"
+/// >>> steel = Material("our_steel", [("s_D", 412e6, tests), ("t_D", 268e6, tests)])
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.fatigue")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Material(core::Material);
 
 #[pymethods]
 impl Material {
+    #[new]
+    #[pyo3(signature = (name, numbers, title = None))]
+    fn new(name: &str, numbers: Vec<(String, f64, String)>, title: Option<&str>) -> PyResult<Self> {
+        let made = core::Material::new(name, title.unwrap_or(name), numbers);
+        made.map(Self).map_err(to_python)
+    }
+
+    fn __getnewargs__(&self) -> (&str, Vec<(&'static str, f64, String)>, &str) {
+        (self.name(), self.numbers(), self.title())
+    }
+
     /// Key of the material in its table.
     #[getter]
     fn name(&self) -> &str {

@@ -6,6 +6,7 @@ of the paper from its four runs in one call.
 """
 
 from pyfret.plot.animation import animate
+from pyfret.plot.fretting_map import fretting_map
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
 from pyfret.plot.life import criterion_map, critical_plane_rose, dang_van_diagram
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
@@ -33,6 +34,7 @@ __all__ = [
     "depth_map",
     "envelope_maps",
     "fretting_loop",
+    "fretting_map",
     "load_path",
     "loop_evolution",
     "paper_figures",

@@ -341,19 +341,18 @@ def stress_maps(
 def loop_evolution(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
     """Energy ratio, sliding ratio and dissipated energy of each cycle, the last over its mean.
 
-    Of the first motion that the path drives: along x, along y or in torsion.
+    Of the first motion that the path drives: along x, along y or in torsion. Of a single cycle the
+    ratios alone.
     """
     ax = axes(ax)
     loops = result.loops(direction=driven(result.scene.path))
     number = np.arange(1, loops.sizes["cycle"] + 1)
     line = {"marker": "o", "markersize": 4, **line}
-    mean = float(loops.dissipated.mean()) if number.size else 0.0
-    dissipated = loops.dissipated / (mean or 1.0)
-    for values, label in (
-        (loops.energy_ratio, "energy ratio"),
-        (loops.sliding_ratio, "sliding ratio"),
-        (dissipated, "dissipated energy over its mean"),
-    ):
+    shown = [(loops.energy_ratio, "energy ratio"), (loops.sliding_ratio, "sliding ratio")]
+    if number.size > 1:
+        mean = float(loops.dissipated.mean())
+        shown.append((loops.dissipated / (mean or 1.0), "dissipated energy over its mean"))
+    for values, label in shown:
         ax.plot(number, values, label=label, **line)
     ax.set_xlabel("cycle")
     ax.set_xticks(number)

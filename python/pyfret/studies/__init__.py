@@ -5,8 +5,8 @@
 """
 
 from pyfret.studies.design import varied
-from pyfret.studies.measures import MEASURES, Wear
+from pyfret.studies.measures import MEASURES, Cracking, Wear
 from pyfret.studies.outcome import Study, open_study
 from pyfret.studies.running import study
 
-__all__ = ["MEASURES", "Study", "Wear", "open_study", "study", "varied"]
+__all__ = ["MEASURES", "Cracking", "Study", "Wear", "open_study", "study", "varied"]

@@ -16,6 +16,8 @@ from pyfret.wearing import wear
 
 if TYPE_CHECKING:
     from pyfret._core import _WearLaw as WearLaw
+    from pyfret.fatigue import CriterionName
+    from pyfret.life import Materials
     from pyfret.results import Result
 
 __all__ = ["MEASURES", "Measure", "Wear", "measured"]
@@ -136,6 +138,38 @@ class Wear:
                 attrs = {"units": unit, "long_name": f"worn {of} of body {body}"}
                 numbers[f"worn_{of}{body}"] = worn[f"{of}{body}"][-1].assign_attrs(attrs)
         return numbers
+
+
+@dataclass(frozen=True)
+class Cracking:
+    """A measure: the smallest margin of a fatigue criterion over the last closed cycle.
+
+    Gives ``safety_factor``, or ``life`` [cycles] for criteria with a strain-life curve, and
+    ``crack_depth`` [m], the depth of the worst point, by :meth:`pyfret.Result.life`.
+
+    Parameters
+    ----------
+    materials : Material or sequence of Material or None
+        One for all layers, or one for each from the surface down, the substrate's last.
+    criterion : str
+        One of :data:`pyfret.fatigue.CRITERIA`.
+    body_number : 1 or 2
+        The body.
+    """
+
+    materials: Materials
+    criterion: CriterionName
+    body_number: int = 2
+
+    def __call__(self, result: Result) -> dict[str, xr.DataArray]:
+        """Judge the section y = 0 of the body."""
+        life = result.life(self.materials, self.criterion, y=0.0, body_number=self.body_number)
+        worst, margin = life.worst, life.margin
+        attrs = {"units": "m", "long_name": "depth of the worst point"}
+        return {
+            str(margin.name): xr.DataArray(worst.margin, attrs=margin.attrs),
+            "crack_depth": xr.DataArray(worst.z, attrs=attrs),
+        }
 
 
 def names_of(measures: Sequence[Measure]) -> list[str]:

@@ -86,6 +86,28 @@ pub struct Sourced {
     pub source: String,
 }
 
+impl Sourced {
+    /// Fails with the reason at a value that the quantity cannot have, and without a source.
+    fn new(value: f64, source: String, quantity: &Quantity) -> Result<Self, String> {
+        if source.trim().is_empty() {
+            return Err("has no source".into());
+        }
+        if quantity.name == "nu" {
+            if !(value > -1.0 && value < 0.5) {
+                return Err(format!("{value}: must be above -1 and below 0.5"));
+            }
+        } else if !value.is_finite() || (value > 0.0) != quantity.positive || value == 0.0 {
+            let sign = if quantity.positive {
+                "positive"
+            } else {
+                "negative"
+            };
+            return Err(format!("{value}: must be {sign}"));
+        }
+        Ok(Self { value, source })
+    }
+}
+
 /// What is known of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
@@ -108,6 +130,30 @@ struct File {
 }
 
 impl Material {
+    /// A material of one's own; every number with its name of [`QUANTITIES`], value and source.
+    pub fn new(
+        name: &str,
+        title: &str,
+        numbers: impl IntoIterator<Item = (String, f64, String)>,
+    ) -> Result<Self, Error> {
+        let mut material = Self {
+            name: name.to_owned(),
+            title: title.to_owned(),
+            numbers: BTreeMap::new(),
+        };
+        for (key, value, source) in numbers {
+            let found = known(&key)
+                .and_then(|of| Ok((of.name, Sourced::new(value, source, of)?)))
+                .map_err(|why| Error::Material {
+                    material: name.to_owned(),
+                    key,
+                    why,
+                })?;
+            material.numbers.insert(found.0, found.1);
+        }
+        Ok(material)
+    }
+
     /// A number; fails with what is missing and what is known.
     pub fn number(&self, name: &str) -> Result<f64, Error> {
         if let Some(sourced) = self.numbers.get(name) {
@@ -210,24 +256,6 @@ fn sourced(
         .or_else(|| value.as_integer().map(|n| n as f64));
     let value = value.ok_or(FORM)?;
     let source = table.get("source").and_then(Value::as_str).ok_or(FORM)?;
-    if source.trim().is_empty() {
-        return Err("has no source".into());
-    }
-    if quantity.name == "nu" {
-        if !(value > -1.0 && value < 0.5) {
-            return Err(format!("{value}: must be above -1 and below 0.5"));
-        }
-    } else if !value.is_finite() || (value > 0.0) != quantity.positive || value == 0.0 {
-        let sign = if quantity.positive {
-            "positive"
-        } else {
-            "negative"
-        };
-        return Err(format!("{value}: must be {sign}"));
-    }
-    let source = sources
-        .get(source)
-        .map_or(source, String::as_str)
-        .to_owned();
-    Ok(Sourced { value, source })
+    let source = sources.get(source).map_or(source, String::as_str);
+    Sourced::new(value, source.to_owned(), quantity)
 }

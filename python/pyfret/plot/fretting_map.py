@@ -1,0 +1,92 @@
+"""The fretting map: running conditions, crack risk and frictional energy over the loads."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from pyfret.plot.studies import in_figures
+from pyfret.plot.style import axes, styled
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+#: Running conditions by the codes of ``status``, each with its colour.
+CONDITIONS = {0: ("no contact", "#ffffff"), 1: ("full stick", "#9ecae1")}
+CONDITIONS |= {2: ("partial slip", "#deebf7"), 3: ("gross slip", "#fdd0a2")}
+#: Axes of the map: factor and label.
+AXES = {"T": (1.0, r"$T$ [N]"), "delta": (1e6, r"$\delta$ [µm]")}
+#: Lives whose contours are drawn [cycles], and the levels of safety factors.
+LIVES = 10.0 ** np.arange(3, 10)
+FACTORS = np.array([0.3, 0.5, 1.0, 2.0, 4.0])
+CRACK, ENERGY = "#a50f15", "0.35"
+
+
+@styled
+def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+    """Running conditions as areas, over them contours of crack risk and of the energy of a cycle.
+
+    The crack risk is the criterion that the map was made with, as safety factor or as life in
+    cycles: full lines, thick where the factor is 1. Dashed lines are the energy that friction
+    dissipates in a cycle, to which wear is proportional.
+
+    Parameters
+    ----------
+    table : xarray.Dataset
+        Of :func:`pyfret.sweep.running_map` with `cracking`; without, the risk is left out.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    ax = axes(ax)
+    driven = "T" if "T" in table.dims else "delta"
+    scale, label = AXES[driven]
+    table = table.transpose(driven, "W", ...)
+    W, amplitude = table.W.values, table[driven].values * scale
+    status = table.status.values
+    colours = ListedColormap([colour for _, colour in CONDITIONS.values()])
+    norm = BoundaryNorm(np.arange(-0.5, 4.0), colours.N)
+    ax.pcolormesh(W, amplitude, status, cmap=colours, norm=norm, shading="nearest", zorder=0)
+    entries: list[Patch | Line2D] = [
+        Patch(color=c, label=name) for n, (name, c) in CONDITIONS.items() if n in status
+    ]
+    energy, meaning = in_figures(table.dissipated)
+    entries += lines(ax, W, amplitude, energy.values, None, ENERGY, "dashed", meaning)
+    for name, levels in (("safety_factor", FACTORS), ("life", LIVES)):
+        if name in table:
+            meaning = {"safety_factor": "safety factor", "life": "life [cycles]"}[name]
+            entries += lines(ax, W, amplitude, table[name].values, levels, CRACK, "solid", meaning)
+    ax.set_xlabel(r"$W$ [N]")
+    ax.set_ylabel(label)
+    ax.grid(visible=False)
+    ax.legend(handles=entries, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
+    return ax
+
+
+def lines(
+    ax: Axes,
+    W: NDArray[np.float64],
+    amplitude: NDArray[np.float64],
+    field: NDArray[np.float64],
+    levels: NDArray[np.float64] | None,
+    colour: str,
+    style: Literal["solid", "dashed"],
+    meaning: str,
+) -> list[Line2D]:
+    """Contours with their numbers, and their entry in the legend; none where nothing is known."""
+    shown = np.ma.masked_invalid(field)
+    if min(shown.shape) < 2 or shown.count() < 4:
+        return []
+    given: dict[str, Any] = {} if levels is None else {"levels": levels}
+    found = levels if levels is not None else np.array([])
+    widths = np.where(found == 1.0, 2.0, 1.0) if found.size else 0.8
+    drawn = ax.contour(
+        W, amplitude, shown, colors=colour, linestyles=style, linewidths=widths, **given
+    )
+    ax.clabel(drawn, fontsize=7, fmt="%g")
+    return [Line2D([], [], color=colour, linestyle=style, linewidth=1.0, label=meaning)]
