@@ -251,24 +251,32 @@ def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.fl
     return path[:, 0], path[:, 1]
 
 
-def cycle_increments(result: Result, cycle: int = -1) -> NDArray[np.int64]:
-    """Give the kept increments of a closed cycle of the load path, from 1.
+def cycle_increments(result: Result, cycle: int | None = -1) -> NDArray[np.int64]:
+    """Give the kept increments of a closed cycle of the load path, from 1; all of them for None.
 
-    A ValueError says where there is no closed cycle or fewer than two of its increments were kept.
+    A ValueError says where there is no such cycle or fewer than two of its increments were kept.
     """
-    cycles = result.loops()
-    if cycles.sizes["cycle"] == 0:
-        raise ValueError("the load path has no closed cycle: fatigue needs one")
-    ends = cycles.isel(cycle=cycle)
-    first, last = int(ends.first_branch), int(ends.last_branch)
-    saved = result.dataset.saved_increment.values
-    branch = result.dataset.branch_of_increment.sel(increment=saved).values
-    kept = saved[(branch >= first) & (branch <= last)]
+    saved = np.asarray(result.dataset.saved_increment.values)
+    kept = saved if cycle is None else saved[_inside(result, saved, cycle)]
     if kept.size < 2:
+        of = "path" if cycle is None else "cycle"
         raise ValueError(
-            f"{kept.size} increments of the cycle were kept: solve with save='all' or more of them"
+            f"{kept.size} increments of the {of} were kept: solve with save='all' or more of them"
         )
-    return np.asarray(kept)
+    return kept
+
+
+def _inside(result: Result, saved: NDArray[np.int64], cycle: int) -> NDArray[np.bool_]:
+    """Which of the kept increments lie in a cycle."""
+    cycles = result.loops()
+    count = cycles.sizes["cycle"]
+    if count == 0:
+        raise ValueError("the load path has no closed cycle: fatigue needs one")
+    if not -count <= cycle < count:
+        raise ValueError(f"cycle = {cycle}: must be {-count} to {count - 1}, a cycle of the path")
+    ends = cycles.isel(cycle=cycle)
+    branch = result.dataset.branch_of_increment.sel(increment=saved).values
+    return np.asarray((branch >= int(ends.first_branch)) & (branch <= int(ends.last_branch)))
 
 
 def history(
@@ -278,7 +286,7 @@ def history(
     x: float | None = None,
     y: float | None = None,
     body_number: int = 2,
-    cycle: int = -1,
+    cycle: int | None = -1,
     residual: Sequence[float] | None = None,
 ) -> xr.DataArray:
     """Stress over a closed cycle of a run whose increments were kept, ready for a criterion.
@@ -289,8 +297,9 @@ def history(
         Solved with ``save="all"``, or with the increments of the cycle.
     z, x, y, body_number
         Where, as in :meth:`Snapshot.stress`.
-    cycle : int
-        Which of the closed cycles of the load path; the last by default.
+    cycle : int, optional
+        Which of the closed cycles of the load path, the last by default; None for all increments
+        that were kept.
     residual : sequence of float, optional
         Residual stress of every layer from the surface down, the substrate's last [Pa]: biaxial
         and uniform, added to s_xx and s_yy. It has no effect on the contact.
@@ -301,24 +310,16 @@ def history(
         Stress [Pa] with the coordinates of the places, ``layer`` among them.
     """
     kept = cycle_increments(result, cycle)
-    snapshots = (result.at(int(n)).stress(z, x=x, y=y, body_number=body_number) for n in kept)
+    snapshots = (
+        result.at(int(n)).stress(z, x=x, y=y, body_number=body_number, residual=residual)
+        for n in kept
+    )
     # Its scalars differ from increment to increment; the places are the same.
     stresses = [stress.dataset[list(COMPONENTS)].to_array("component") for stress in snapshots]
     stacked = xr.concat(stresses, dim="increment", coords="minimal", compat="override")
     stacked = stacked.assign_coords(increment=kept)
     others = [d for d in stacked.dims if d not in ("increment", "component")]
     stacked = stacked.transpose("increment", *others, "component").copy()
-    if residual is not None:
-        layers = np.asarray(stacked.layer.values)
-        if len(residual) <= layers.max():
-            raise ValueError(
-                f"residual has {len(residual)} numbers: must be one for each of the "
-                f"{layers.max() + 1} layers, the substrate last"
-            )
-        of_depth = stacked.layer.copy(data=np.asarray(residual, dtype=float)[layers])
-        in_plane = np.isin(stacked.component.values, ("s_xx", "s_yy")).astype(float)
-        stacked = stacked + of_depth * xr.DataArray(in_plane, dims="component")
-        stacked = stacked.transpose("increment", *others, "component")
     return stacked.assign_attrs(units="Pa", long_name="stress").rename("stress")
 
 

@@ -25,8 +25,10 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
+    from typing_extensions import Unpack
 
     from pyfret.fatigue import CriterionName
+    from pyfret.section import SectionOptions
     from pyfret.wearing import WearResult
 
 __all__ = ["Result", "Snapshot", "open"]
@@ -268,29 +270,14 @@ class Result(OfRun):
         criterion: CriterionName,
         z: ArrayLike | None = None,
         *,
-        x: float | None = None,
-        y: float | None = None,
-        body_number: int = 2,
-        cycle: int = -1,
-        residual: Sequence[float] | None = None,
         tolerance: float = 1e-3,
+        **section: Unpack[SectionOptions],
     ) -> lives.Life:
-        """Judge a section below the contact over a closed cycle by a fatigue criterion.
+        """Judge a section below the contact, or several, over a closed cycle by a criterion.
 
         Parameters and result are those of :func:`pyfret.life.life`.
         """
-        return lives.life(
-            self,
-            materials,
-            criterion,
-            z,
-            x=x,
-            y=y,
-            body_number=body_number,
-            cycle=cycle,
-            residual=residual,
-            tolerance=tolerance,
-        )
+        return lives.life(self, materials, criterion, z, tolerance=tolerance, **section)
 
     def summary(self) -> str:
         """Tabulate what the run ended with: a line per branch, then one per cycle.

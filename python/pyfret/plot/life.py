@@ -128,7 +128,8 @@ def _mark_worst(ax: Axes, life: Life, length: float) -> None:
     worst = life.worst
     safety = life.margin.name == "safety_factor"
     margin = f"safety {worst.margin:.3g}" if safety else f"{worst.margin:.2g} cycles"
-    at = (worst.along / length, worst.z / length)
+    along = str(life.dataset.value.dims[1])
+    at = (getattr(worst, along) / length, worst.z / length)
     ax.plot(*at, "x", color=MARK, ms=7, mew=1.6, clip_on=False, zorder=4)
     left, right = ax.get_xlim()
     on_the_right = at[0] > (left + right) / 2
