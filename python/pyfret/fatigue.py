@@ -43,6 +43,7 @@ __all__ = [
     "evaluate",
     "first_yield",
     "history",
+    "moving_load",
     "rainflow",
     "to_pylife",
 ]
@@ -232,6 +233,34 @@ def first_yield(
     attrs = {"units": "Pa", "long_name": "deviatoric residual stress that serves best"}
     result["residual"] = ((*dims, "component"), found["residual"].reshape(*shape, 6), attrs)
     return result
+
+
+def moving_load(stress: ArrayLike, *, s_y: float) -> NDArray[np.float64]:
+    """Give the load factor of elastic shakedown under a load that moves along the surface.
+
+    What a load leaves behind that passes again and again, the same everywhere along its track,
+    depends on depth alone: its balance leaves s_xx, s_yy and s_xy, and no stress on planes parallel
+    to the surface. Melan's theorem with these alone is what K. L. Johnson, Contact Mechanics
+    (1985), section 9.2, does: for a cylinder p_0 = 4 k without friction, and p_0 = k/mu for
+    mu > 0.367, where the surface decides, k being s_y/sqrt 3. A history and its mirror image in the
+    surface, which turns s_xz and s_yz round, have a smallest sphere whose centre is such a stress.
+
+    Parameters
+    ----------
+    stress : array of shape (time, ..., 6)
+        Stress that a place of every depth sees as the load passes [Pa].
+    s_y : float
+        Yield stress [Pa], by von Mises' condition.
+
+    Returns
+    -------
+    array of shape (...)
+        Load factor of every place.
+    """
+    stress = np.asarray(stress, dtype=float)
+    mirrored = stress * np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
+    both = np.concatenate([stress, mirrored])
+    return np.asarray(first_yield(both, s_y=s_y).shakedown)
 
 
 def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

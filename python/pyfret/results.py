@@ -12,6 +12,7 @@ import numpy as np
 
 from pyfret import _core, files, subsurface
 from pyfret import life as lives
+from pyfret import load_factors as factors
 from pyfret._core import StoreError
 from pyfret.guesses import no_attribute
 from pyfret.lazy import xr
@@ -278,6 +279,18 @@ class Result(OfRun):
         Parameters and result are those of :func:`pyfret.life.life`.
         """
         return lives.life(self, materials, criterion, z, tolerance=tolerance, **section)
+
+    def load_factors(
+        self,
+        s_y: factors.YieldStresses,
+        z: ArrayLike | None = None,
+        **section: Unpack[SectionOptions],
+    ) -> factors.LoadFactors:
+        """Give load factors of first yield and shakedown below the contact over a closed cycle.
+
+        Parameters and result are those of :func:`pyfret.load_factors.load_factors`.
+        """
+        return factors.load_factors(self, s_y, z, **section)
 
     def summary(self) -> str:
         """Tabulate what the run ended with: a line per branch, then one per cycle.

@@ -7,7 +7,12 @@ of the paper from its four runs in one call.
 
 from pyfret.plot.animation import animate
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
-from pyfret.plot.life import criterion_map, critical_plane_rose, dang_van_diagram
+from pyfret.plot.life import (
+    criterion_map,
+    critical_plane_rose,
+    dang_van_diagram,
+    load_factor_map,
+)
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
 from pyfret.plot.paper import paper_figures
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
@@ -33,6 +38,7 @@ __all__ = [
     "depth_map",
     "envelope_maps",
     "fretting_loop",
+    "load_factor_map",
     "load_path",
     "loop_evolution",
     "paper_figures",
