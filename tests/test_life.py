@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import fields
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -203,4 +204,37 @@ def test_figures(cycled: fret.Result) -> None:
     with pytest.raises(ValueError, match="no critical plane"):
         fret.plot.critical_plane_rose(stress, fatigue.Criterion.dang_van(alpha=0.4))
     assert len(fret.plot.dang_van_diagram(stress, material=STEEL).lines) == 3
+    judged = cycled.life([STEEL, STEEL], "findley", [0.0, 1e-4, 2e-4, 6e-4, 7e-4])
+    ax = fret.plot.haigh_diagram(judged, material=STEEL)
+    # Points and worst point of both layers, and the limit, through s_D without a mean.
+    assert len(ax.lines) == 5
+    mean, amplitude = ax.lines[-1].get_data()
+    assert np.interp(0.0, mean, amplitude) == pytest.approx(STEEL.number("s_D") / 1e6)
+    worst, d = judged.worst_of(0), judged.dataset
+    marked = ax.lines[1].get_xydata()[0] * 1e6
+    n = np.unravel_index(int(np.nanargmax(d.value)), d.value.shape)
+    assert worst.value == pytest.approx(float(d.value[n]), rel=0.1)
+    np.testing.assert_allclose(marked, [float(d.normal_mean[n]), float(d.normal_amplitude[n])])
+    with pytest.raises(ValueError, match="no critical plane"):
+        fret.plot.haigh_diagram(cycled.life(STEEL, "dang_van", [0.0]))
     plt.close("all")
+
+
+def test_mean_stress_costs_amplitude_as_the_criterion_says(tmp_path: Path) -> None:
+    slope, after = fatigue.mean_stress_slope(STEEL)
+    assert after == "Dang Van"
+    mean = 150e6
+    amplitude = STEEL.number("s_D") - slope * mean
+    stress = np.zeros((2, 6))
+    stress[:, 0] = mean + amplitude, mean - amplitude
+    assert float(fatigue.assess(stress, STEEL, "dang_van").safety_factor) == pytest.approx(1.0)
+    table = tmp_path / "mine.toml"
+    table.write_text(
+        'schema = 1\n[materials.mine]\ns_D = { value = 4e8, source = "test" }\n'
+        's_u = { value = 9e8, source = "test" }\n',
+        encoding="utf-8",
+    )
+    goodman = fatigue.mean_stress_slope(fatigue.Materials(table)["mine"])
+    assert goodman == (pytest.approx(4 / 9), "Goodman")
+    with pytest.raises(ValueError, match="s_D"):
+        fatigue.mean_stress_slope(fatigue.Materials()["aluminium_7075_T6"])

@@ -11,6 +11,7 @@ from pyfret.plot.life import (
     criterion_map,
     critical_plane_rose,
     dang_van_diagram,
+    haigh_diagram,
     load_factor_map,
 )
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
@@ -38,6 +39,7 @@ __all__ = [
     "depth_map",
     "envelope_maps",
     "fretting_loop",
+    "haigh_diagram",
     "load_factor_map",
     "load_path",
     "loop_evolution",

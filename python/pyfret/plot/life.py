@@ -291,3 +291,57 @@ def dang_van_diagram(
     ax.set_ylabel(r"mesoscopic shear $\tau$ [MPa]")
     ax.set_ylim(bottom=0.0)
     return ax
+
+
+@styled
+def haigh_diagram(life: Life, *, material: Material | None = None, ax: Axes | None = None) -> Axes:
+    """Amplitude over mean of the normal stress on the critical planes of all points of a section.
+
+    A cross marks the worst point of every layer. With a material, the limit of uniaxial stress:
+    from ``s_D`` fully reversed to ``s_u`` without amplitude (Goodman 1899) where there is ``s_u``,
+    else by Dang Van's criterion, s_D - (1 - s_D/(2 t_D)) times the mean.
+
+    The limit is meant for planes of the largest normal stress, such as those of
+    ``"smith_watson_topper"``; planes of shear have less normal stress at the same danger.
+
+    Parameters
+    ----------
+    life : Life
+        From :meth:`Result.life`, of a criterion that has critical planes.
+    material : Material, optional
+        With ``s_D``, and ``s_u`` or ``t_D``.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    d = life.dataset
+    criterion = d.attrs["criterion"]
+    if not np.isfinite(d.normal).any():
+        raise ValueError(f"{criterion} has no critical plane")
+    ax = axes(ax)
+    for layer in life.layers:
+        here = d.layer.values == layer
+        mean, amplitude = (d[f"normal_{k}"].values[here] / 1e6 for k in ("mean", "amplitude"))
+        colour = f"C{layer}"
+        ax.plot(mean.ravel(), amplitude.ravel(), ".", ms=2.5, color=colour, alpha=0.35)
+        n = int(np.nanargmax(d.value.values[here]))
+        name = "substrate" if layer == len(d.attrs["interfaces"]) else f"coating {layer}"
+        at = (mean.ravel()[n], amplitude.ravel()[n])
+        ax.plot(*at, "x", color=colour, ms=8, mew=1.8, label=f"worst point, {name}")
+    if material is not None:
+        _limit_of_uniaxial_stress(ax, material)
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlabel(r"mean normal stress $\sigma_\mathrm{n,m}$ [MPa]")
+    ax.set_ylabel(r"amplitude $\sigma_\mathrm{n,a}$ [MPa]")
+    ax.set_title(f"planes of {NAMES[criterion]}", fontsize=9)
+    ax.legend(fontsize=8)
+    return ax
+
+
+def _limit_of_uniaxial_stress(ax: Axes, material: Material) -> None:
+    """The amplitude that a mean stress leaves, as far as there are points."""
+    slope, name = fatigue.mean_stress_slope(material)
+    s_D = material.number("s_D") / 1e6
+    left, right = ax.get_xlim()
+    ends = np.array([min(left, 0.0), s_D / slope if slope > 0.0 else right])
+    ax.plot(ends, s_D - slope * ends, color="0.2", linestyle="--", label=f"limit, {name}")
+    ax.set_xlim(left, right)
