@@ -8,7 +8,7 @@ import pytest
 import pyfret as fret
 from conftest import T_MAX, sphere_on_flat
 from conftest import W as LOAD
-from pyfret import fatigue, interface
+from pyfret import fatigue, interface, residual
 
 COATING = fret.Coating(fret.Elastic(E=300e9, nu=0.2), thickness=3e-6)
 
@@ -80,3 +80,40 @@ def test_buckling_releases_what_the_energy_loses() -> None:
     assert interface.buckling_release(COATING, s, 1e-3).release == 0.0
     with pytest.raises(ValueError, match="width = 0"):
         interface.buckling_release(COATING, -s, 0.0)
+
+
+def test_thermal_stress_keeps_the_coating_as_wide_as_its_substrate() -> None:
+    E, nu, a_c, a_s = 300e9, 0.2, 5e-6, 12e-6
+    for dT in (-400.0, 150.0):
+        s = residual.thermal(
+            COATING.material, alpha_coating=a_c, alpha_substrate=a_s, temperature_change=dT
+        )
+        # Free expansion and Hooke's law in both directions: the strain is that of the substrate.
+        assert a_c * dT + (s - nu * s) / E == pytest.approx(a_s * dT, rel=1e-12)
+    cooled = residual.thermal(
+        COATING.material, alpha_coating=a_c, alpha_substrate=a_s, temperature_change=-400.0
+    )
+    assert cooled < 0.0
+    with pytest.raises(ValueError, match="rigid"):
+        residual.thermal(fret.RIGID, alpha_coating=a_c, alpha_substrate=a_s, temperature_change=1.0)
+    with pytest.raises(ValueError, match="alpha_coating = nan"):
+        residual.thermal(
+            COATING.material, alpha_coating=np.nan, alpha_substrate=a_s, temperature_change=1.0
+        )
+
+
+def test_residual_stress_is_part_of_every_stress() -> None:
+    now = cycled(ratio=2.0).at(-1)
+    depths = [0.0, *now.scene.interfaces()]
+    given = [-5e8, 1e8]
+    for place in ({"y": 0.0}, {"x": 1e-5}, {"x": 1e-5, "y": 0.0}, {}):
+        without, with_it = now.stress(depths, **place), now.stress(depths, residual=given, **place)
+        of_depth = np.array(given)[without.dataset.layer.values]
+        for name in ("s_xx", "s_yy"):
+            change = (with_it.measure(name) - without.measure(name)).values
+            expected = np.broadcast_to(of_depth.reshape(-1, *[1] * (change.ndim - 1)), change.shape)
+            np.testing.assert_allclose(change, expected, atol=10.0)
+        for name in ("s_zz", "s_xy", "s_xz", "s_yz"):
+            np.testing.assert_array_equal(with_it.measure(name), without.measure(name))
+    with pytest.raises(ValueError, match="one for each of the 2 layers"):
+        now.stress(depths, y=0.0, residual=[1e8])

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -10,6 +13,7 @@ import pyfret as fret
 from conftest import T_MAX, sphere_on_flat
 from conftest import W as LOAD
 from pyfret import averages, cycle_stress, fatigue, life
+from pyfret.section import Section, SectionOptions
 
 STEEL = fatigue.Materials()["steel_42CrMo4"]
 
@@ -47,9 +51,37 @@ def test_worst_point_lies_between_the_cells(cycled: fret.Result) -> None:
     assert worst.margin == pytest.approx(STEEL.number("t_D") / worst.value, rel=1e-12)
     # The trailing edge, on the surface: fretting cracks start there.
     assert worst.z == 0.0
-    assert 0.8 < abs(worst.along) / cycled.a_H < 1.1
+    assert 0.8 < abs(worst.x) / cycled.a_H < 1.1
     assert worst == found.worst_of(0)
+    assert worst.normal is None
+    normal = np.array(cycled.life(STEEL, "findley", [0.0]).worst.normal)
+    assert np.linalg.norm(normal) == pytest.approx(1.0)
     assert "safety factor" in repr(found)
+
+
+def test_a_volume_is_its_sections(cycled: fret.Result) -> None:
+    places = (-3e-5, 0.0, 1e-4)
+    depths = [0.0, 5e-5, 2e-4]
+    for across, along in (("y", "x"), ("x", "y")):
+        whole = cycled.life(STEEL, "findley", depths, **{across: places})
+        assert whole.dataset.value.dims == ("depth", along, across)
+        for n, place in enumerate(places):
+            one = cycled.life(STEEL, "findley", depths, **{across: place})
+            np.testing.assert_array_equal(whole.dataset.value[..., n], one.dataset.value)
+            assert whole.section(place).worst == one.worst
+        values = [whole.section(place).worst.value for place in places]
+        assert whole.worst.value == max(values)
+        assert getattr(whole.worst, across) == places[int(np.argmax(values))]
+    with pytest.raises(ValueError, match="must be one number here"):
+        averages.average(cycled, STEEL, "crossland", L=3e-5, y=places)
+    with pytest.raises(ValueError, match="give x or y"):
+        cycled.life(STEEL, "crossland", x=0.0, y=0.0)
+    with pytest.raises(ValueError, match="cycle = 7: must be"):
+        cycled.life(STEEL, "crossland", cycle=7)
+
+
+def test_keywords_are_the_fields_of_a_section() -> None:
+    assert set(SectionOptions.__annotations__) == {f.name for f in fields(Section)}
 
 
 def test_each_layer_with_its_own_material(cycled: fret.Result) -> None:
@@ -85,7 +117,7 @@ def test_averages_are_those_of_the_stress(cycled: fret.Result) -> None:
     np.testing.assert_allclose(used, expected, rtol=2e-3, atol=1e-4)
     # A distance far below the cell leaves the stress of the surface.
     surface = cycled.life(STEEL, "crossland", [0.0]).dataset.value[0]
-    for method in ("point", "line", "area"):
+    for method in ("point", "line", "area", "volume"):
         tiny = averages.average(cycled, STEEL, "crossland", L=1e-9, method=method)
         inside = np.isfinite(tiny.value.values)
         assert inside.sum() >= surface.size - 2
@@ -94,12 +126,28 @@ def test_averages_are_those_of_the_stress(cycled: fret.Result) -> None:
         assert off.max() < 2e-2 * float(surface.max())
     area = averages.average(cycled, STEEL, "crossland", L=L, method="area")
     assert float(area.value.max()) < float(surface.max())
+    # Far from the rim the stress hardly changes over so short a distance: ball and disc agree.
+    ball = averages.average(cycled, STEEL, "crossland", L=L, method="volume")
+    assert float(ball.value.max()) < float(surface.max())
+    middle = np.abs(ball.x.values) < 0.3 * cycled.a_H
+    np.testing.assert_allclose(ball.value[middle], area.value[middle], rtol=0.05)
     with pytest.raises(ValueError, match="beyond the outermost layer"):
         averages.average(cycled, STEEL, "crossland", L=1.0)
     with pytest.raises(ValueError, match="dK_th"):
         averages.average(cycled, STEEL, "crossland")
     with pytest.raises(ValueError, match="positive length"):
         averages.average(cycled, STEEL, "crossland", L=0.0)
+
+
+def test_the_mean_over_a_ball_is_exact_for_a_quadratic() -> None:
+    # Means over the half ball: y^2 -> L^2/5; z and z^2 over its half discs as over the ball.
+    L = 2.0
+    discs = averages._discs("volume", L)
+    assert sum(d.share for d in discs) == pytest.approx(1.0)
+    assert sum(d.share * d.offset**2 for d in discs) == pytest.approx(L**2 / 5, rel=1e-12)
+    # The mean depth of a half disc is 4 r/(3 pi), that of the half ball 3 L/8.
+    depth = sum(d.share * 4 * d.radius / (3 * np.pi) for d in discs)
+    assert depth == pytest.approx(3 * L / 8, rel=1e-3)
 
 
 def test_the_mean_over_a_disc_of_a_linear_field_is_that_of_its_centroid() -> None:
@@ -156,4 +204,37 @@ def test_figures(cycled: fret.Result) -> None:
     with pytest.raises(ValueError, match="no critical plane"):
         fret.plot.critical_plane_rose(stress, fatigue.Criterion.dang_van(alpha=0.4))
     assert len(fret.plot.dang_van_diagram(stress, material=STEEL).lines) == 3
+    judged = cycled.life([STEEL, STEEL], "findley", [0.0, 1e-4, 2e-4, 6e-4, 7e-4])
+    ax = fret.plot.haigh_diagram(judged, material=STEEL)
+    # Points and worst point of both layers, and the limit, through s_D without a mean.
+    assert len(ax.lines) == 5
+    mean, amplitude = ax.lines[-1].get_data()
+    assert np.interp(0.0, mean, amplitude) == pytest.approx(STEEL.number("s_D") / 1e6)
+    worst, d = judged.worst_of(0), judged.dataset
+    marked = ax.lines[1].get_xydata()[0] * 1e6
+    n = np.unravel_index(int(np.nanargmax(d.value)), d.value.shape)
+    assert worst.value == pytest.approx(float(d.value[n]), rel=0.1)
+    np.testing.assert_allclose(marked, [float(d.normal_mean[n]), float(d.normal_amplitude[n])])
+    with pytest.raises(ValueError, match="no critical plane"):
+        fret.plot.haigh_diagram(cycled.life(STEEL, "dang_van", [0.0]))
     plt.close("all")
+
+
+def test_mean_stress_costs_amplitude_as_the_criterion_says(tmp_path: Path) -> None:
+    slope, after = fatigue.mean_stress_slope(STEEL)
+    assert after == "Dang Van"
+    mean = 150e6
+    amplitude = STEEL.number("s_D") - slope * mean
+    stress = np.zeros((2, 6))
+    stress[:, 0] = mean + amplitude, mean - amplitude
+    assert float(fatigue.assess(stress, STEEL, "dang_van").safety_factor) == pytest.approx(1.0)
+    table = tmp_path / "mine.toml"
+    table.write_text(
+        'schema = 1\n[materials.mine]\ns_D = { value = 4e8, source = "test" }\n'
+        's_u = { value = 9e8, source = "test" }\n',
+        encoding="utf-8",
+    )
+    goodman = fatigue.mean_stress_slope(fatigue.Materials(table)["mine"])
+    assert goodman == (pytest.approx(4 / 9), "Goodman")
+    with pytest.raises(ValueError, match="s_D"):
+        fatigue.mean_stress_slope(fatigue.Materials()["aluminium_7075_T6"])

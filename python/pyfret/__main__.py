@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pyfret as fret
+from pyfret import life_command as life
 from pyfret.studies.file import run_file
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ def parser() -> argparse.ArgumentParser:
     study.add_argument("--scheduler", help="address of a Dask cluster, such as tcp://host:8786")
     study.add_argument("--again", action="store_true", help="also points that failed before")
     study.add_argument("--map", metavar="FILE", help="figure of the first measure (.png, .svg)")
+    life.add_options(commands)
     report = commands.add_parser("report", help="write a result as one page for a browser")
     report.add_argument("store", help="result")
     report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
@@ -98,7 +100,7 @@ def cite(options: argparse.Namespace) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; its exit code."""
     options = parser().parse_args(arguments)
-    commands = {"study": study, "report": report, "verify": verify, "cite": cite}
+    commands = {"study": study, "life": life.run, "report": report, "verify": verify, "cite": cite}
     try:
         return commands[options.command](options)
     except (ValueError, OSError, ImportError) as error:

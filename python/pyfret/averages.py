@@ -2,33 +2,35 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 import numpy as np
 
 from pyfret import subsurface
 from pyfret.cycle_stress import CycleStress
-from pyfret.fatigue import evaluate
-from pyfret.life import margin_name, margin_of
+from pyfret.fatigue import assess
+from pyfret.section import Section
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import xarray as xr
     from numpy.typing import NDArray
+    from typing_extensions import Unpack
 
     from pyfret._core import Material
     from pyfret.fatigue import CriterionName
     from pyfret.results import Result
+    from pyfret.section import SectionOptions
 
 __all__ = ["Averaging", "average", "critical_distance"]
 
-#: Stress at L/2 below the surface, its mean over the line down to 2 L, or over the half disc of
-#: radius L.
-Averaging = Literal["point", "line", "area"]
+#: Stress at L/2 below the surface, its mean over the line down to 2 L, over the half disc or the
+#: half ball of radius L.
+Averaging = Literal["point", "line", "area", "volume"]
 
 #: Depths of the quadrature over lines and discs; its error is far below that of the stress.
 NODES = 16
+#: Discs of the quadrature over a ball.
+DISCS = 8
 
 
 def critical_distance(material: Material) -> float:
@@ -48,11 +50,8 @@ def average(
     *,
     L: float | None = None,
     method: Averaging = "line",
-    y: float = 0.0,
-    body_number: int = 2,
-    cycle: int = -1,
-    residual: Sequence[float] | None = None,
     tolerance: float = 1e-3,
+    **section: Unpack[SectionOptions],
 ) -> xr.Dataset:
     """Judge the stress averaged over a critical distance below every place of the surface.
 
@@ -61,69 +60,109 @@ def average(
 
     Parameters
     ----------
-    result, criterion, body_number, cycle, residual, tolerance
-        As in :func:`life`.
+    result, criterion, tolerance
+        As in :func:`pyfret.life.life`.
     material : Material
         That of the outermost layer, which holds the distance.
     L : float, optional
         Critical distance [m] (default: that of the material, :func:`critical_distance`).
-    method : "point", "line" or "area"
-        Stress at z = L/2; its mean over the line from the surface to z = 2 L; its mean over the
-        half disc of radius L in the plane of the section: D. Taylor, as in
-        :func:`critical_distance`.
-    y : float
-        The section along x at that y [m].
+    method : "point", "line", "area" or "volume"
+        Stress at z = L/2; its mean over the line from the surface to z = 2 L; over the half disc of
+        radius L in the plane of the section; over the half ball of radius L: D. Taylor, as in
+        :func:`critical_distance`. The ball reaches beyond the section to either side.
+    **section
+        ``x`` or ``y``, ``body_number``, ``cycle``, ``residual``, as in :func:`pyfret.life.life`.
 
     Returns
     -------
     xarray.Dataset
-        Over x, what :func:`life` gives over (depth, x), and ``L`` [m]. For the half disc, places
-        nearer than L to the border of the grid are NaN.
+        Over x or y, what :func:`pyfret.life.life` gives over (depth, x), and ``L`` [m]. For disc
+        and ball, places nearer than L to the border of the grid are NaN.
 
     Raises
     ------
     ValueError
-        As :func:`life`, and if the distance reaches beyond the outermost layer.
+        As :func:`pyfret.life.life`, and if the distance reaches beyond the outermost layer.
     """
     L = critical_distance(material) if L is None else float(L)
     if not (L > 0.0 and np.isfinite(L)):
         raise ValueError(f"L = {L}: must be a positive length in m")
-    of = CycleStress(result, x=None, y=y, body_number=body_number, cycle=cycle, residual=residual)
-    reach = {"point": L / 2, "line": 2 * L, "area": L}
-    if method not in reach:
-        raise ValueError(f"method = {method!r}: must be one of {', '.join(reach)}")
+    if method not in get_args(Averaging):
+        raise ValueError(f"method = {method!r}: must be one of {', '.join(get_args(Averaging))}")
+    where = Section(**section)
+    of = CycleStress(result, where)
+    _check_reach(of, L, method)
+    mean = np.zeros(())
+    for disc in _discs(method, L):
+        # In plane strain all sections are the same.
+        offset = 0.0 if of.grid.plane_strain else disc.offset
+        beside = CycleStress(result, where.at(where.place + offset))
+        mean = mean + disc.share * _mean(beside, disc.radius, method)
+    along = where.along
+    places = np.asarray(of.grid.x if along == "x" else of.grid.y)
+    inside = np.isfinite(mean).all(axis=(0, 2))
+    judged = assess(mean[:, inside], material, criterion, tolerance=tolerance)
+    judged = judged.rename(dim_0=along).assign_coords({along: places[inside]})
+    attrs = {"criterion": criterion, "method": method, "L": L}
+    return judged.reindex({along: places}).assign_attrs(attrs)
+
+
+def _check_reach(of: CycleStress, L: float, method: Averaging) -> None:
+    """Refuse a distance that leaves the outermost layer."""
+    reach = _depth(L, method)
     borders = subsurface.interfaces(of.body)
-    if borders and borders[0] < reach[method]:
+    if borders and borders[0] < reach:
         raise ValueError(
-            f"the {method} method reaches {reach[method]:.3e} m deep, beyond the outermost layer "
-            f"of {borders[0]:.3e} m: a critical distance belongs to one material"
+            f"the {method} method reaches {reach:.3e} m deep, beyond the outermost layer of "
+            f"{borders[0]:.3e} m: a critical distance belongs to one material"
         )
+
+
+def _depth(L: float, method: Averaging) -> float:
+    """How deep a mean reaches [m]."""
+    return {"point": L / 2, "line": 2 * L}.get(method, L)
+
+
+class _Disc(NamedTuple):
+    """A section through what the stress is averaged over."""
+
+    #: Distance from the place that is judged [m].
+    offset: float
+    #: Radius, or critical distance of a point and a line [m].
+    radius: float
+    #: Part of the whole mean.
+    share: float
+
+
+def _discs(method: Averaging, L: float) -> list[_Disc]:
+    """The one section that a mean is over, or the half discs side by side that fill a half ball."""
+    if method != "volume":
+        return [_Disc(0.0, L, 1.0)]
+    nodes, weights = np.polynomial.legendre.leggauss(DISCS)
+    areas = weights * (1.0 - nodes * nodes)
+    pairs = zip(nodes, areas / areas.sum(), strict=True)
+    return [_Disc(L * s, L * np.sqrt(1.0 - s * s), share) for s, share in pairs]
+
+
+def _mean(of: CycleStress, L: float, method: Averaging) -> NDArray[np.float64]:
+    """The stress averaged in the plane of a section, of shape (time, along, 6)."""
     nodes, weights = np.polynomial.legendre.leggauss(NODES)
     nodes, weights = (nodes + 1) / 2, weights / 2
     if method == "point":
         nodes, weights = np.array([1.0]), np.array([1.0])
-    depths = nodes * reach[method]
-    if method == "area":
+    disc = method in ("area", "volume")
+    if disc:
         weights = weights * np.sqrt(1.0 - nodes * nodes)
     weights = weights / weights.sum()
-    mean, places = np.zeros(()), None
+    depths = nodes * _depth(L, method)
+    mean = np.zeros(())
     for some, share in zip(of.chunks(depths), of.chunks(weights), strict=True):
         history, places = of.history(some)
-        if method == "area":
-            history = _over_width(history, places.x.values, np.sqrt(L * L - some * some))
+        if disc:
+            along = places[of.section.along].values
+            history = _over_width(history, along, np.sqrt(L * L - some * some))
         mean = mean + np.einsum("k,tkxc->txc", share, history)
-    assert places is not None
-    inside = np.isfinite(mean).all(axis=(0, 2))
-    judged = evaluate(
-        mean[:, inside], material.assessment(criterion).criterion, tolerance=tolerance
-    )
-    assessment = material.assessment(criterion)
-    name, meaning = margin_name([assessment])
-    margins = [margin_of(assessment, v) for v in judged.value.values.tolist()]
-    judged[name] = ("dim_0", margins, {"units": "1", "long_name": meaning})
-    judged = judged.rename(dim_0="x").assign_coords(x=places.x[inside])
-    attrs = {"criterion": criterion, "method": method, "L": L}
-    return judged.reindex(x=places.x).assign_attrs(attrs)
+    return mean
 
 
 def _over_width(

@@ -6,53 +6,40 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pyfret import subsurface
+from pyfret import _core, subsurface
 from pyfret.fatigue import COMPONENTS, cycle_increments
+from pyfret.lazy import xr
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable
 
-    import xarray as xr
     from numpy.typing import ArrayLike, NDArray
 
     from pyfret.results import Result
+    from pyfret.section import Section
 
-__all__ = ["CycleStress"]
+__all__ = ["CycleStress", "judge"]
 
 #: Largest size of the stress that is held at a time [bytes].
 CHUNK = 64e6
 
 
 class CycleStress:
-    """The stress of a body over the kept increments of a closed cycle."""
+    """The stress of a body over the kept increments of a closed cycle, on one section."""
 
-    def __init__(
-        self,
-        result: Result,
-        *,
-        x: float | None,
-        y: float | None,
-        body_number: int,
-        cycle: int,
-        residual: Sequence[float] | None,
-    ) -> None:
+    def __init__(self, result: Result, section: Section) -> None:
         self.result = result
-        self.kept = cycle_increments(result, cycle)
+        self.section = section
+        self.place = section.place
+        self.kept = cycle_increments(result, section.cycle)
         scene = result.scene
-        self.body = scene.body1 if body_number == 1 else scene.body2
+        self.body = scene.body1 if section.body_number == 1 else scene.body2
         self.grid = scene.grid
-        self.body_number = body_number
-        self.place = {"x": x, "y": y}
         self.layers = len(self.body.coatings) + 1
-        if residual is not None and len(residual) != self.layers:
-            raise ValueError(
-                f"residual has {len(residual)} numbers: must be one for each of the "
-                f"{self.layers} layers, the substrate last"
-            )
-        self.residual = np.zeros(self.layers) if residual is None else np.asarray(residual, float)
+        self.residual = subsurface.residual_of_layers(self.body, section.residual)
 
-    def history(self, z: ArrayLike) -> tuple[NDArray[np.float64], xr.Dataset]:
-        """The stress of shape (time, depth, along, 6), and a dataset with its places."""
+    def of_load(self, z: ArrayLike) -> tuple[NDArray[np.float64], xr.Dataset]:
+        """What the loads cause, of shape (time, depth, along, 6), and a dataset with its places."""
         moments = []
         for n in self.kept:
             now = self.result.at(int(n))
@@ -63,20 +50,91 @@ class CycleStress:
                 p=now.p.values,
                 q_x=now.q_x.values,
                 q_y=now.q_y.values,
-                x=self.place["x"],
-                y=self.place["y"],
-                body_number=self.body_number,
-                sigma_B=now.bulk_stress(self.body_number),
+                x=self.place if self.section.across == "x" else None,
+                y=self.place if self.section.across == "y" else None,
+                body_number=self.section.body_number,
+                sigma_B=now.bulk_stress(self.section.body_number),
                 rim=True,
                 stick=now.dataset["stick"].values,
             ).dataset
             moments.append(np.stack([stress[c].values for c in COMPONENTS], axis=-1))
-        history = np.stack(moments)
-        history[..., :2] += self.residual[stress.layer.values][:, None, None]
-        return history, stress
+        return np.stack(moments), stress
+
+    def history(self, z: ArrayLike) -> tuple[NDArray[np.float64], xr.Dataset]:
+        """The stress with the residual stress of the layers, as :meth:`of_load` gives it."""
+        history, places = self.of_load(z)
+        history[..., :2] += self.residual[places.layer.values][:, None, None]
+        return history, places
 
     def chunks(self, z: NDArray[np.float64]) -> list[NDArray[np.float64]]:
         """The depths, as many together as memory allows."""
-        along = self.grid.nx if self.place["x"] is None else self.grid.ny
+        along = self.grid.nx if self.section.along == "x" else self.grid.ny
         each = 8.0 * 6 * along * len(self.kept)
         return np.array_split(z, max(1, int(np.ceil(z.size * each / CHUNK))))
+
+
+#: What a judge finds in the points of a layer: values over (depth, along, ...) with their attrs.
+Found = dict[str, tuple["NDArray[np.float64]", dict[str, str]]]
+
+
+def judge(
+    result: Result,
+    section: Section,
+    z: ArrayLike | None,
+    judge_layer: Callable[[NDArray[np.float64], int, float], Found | None],
+) -> xr.Dataset:
+    """Judge the layers of a section over its cycle, a few depths at a time.
+
+    Parameters
+    ----------
+    result, section
+        The run and where to judge it.
+    z : array, optional
+        Depths [m] (default: those that the layers ask for, both sides of every interface).
+    judge_layer : callable
+        Takes the stress that the loads cause of shape (time, depth, along, 6), the layer from the
+        surface down, and its residual stress [Pa]; gives names, values and attrs of what it finds,
+        or None where the layer is not judged.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (depth, x) or (depth, y), and over (depth, x, y) or (depth, y, x) for several sections;
+        NaN in layers that are not judged.
+    """
+    sections = section.each()
+    found = [_on_one(CycleStress(result, one), z, judge_layer) for one in sections]
+    if np.ndim(section.places) == 0:
+        whole = found[0]
+    else:
+        whole = xr.concat(found, dim=section.across, coords="minimal", compat="override")
+        whole = whole.transpose("depth", section.along, section.across, ...)
+    body = result.scene.body1 if section.body_number == 1 else result.scene.body2
+    yardsticks = {k: v for k, v in result.dataset.attrs.items() if k in ("a_H", "p_H")}
+    return whole.assign_attrs(yardsticks, interfaces=subsurface.interfaces(body))
+
+
+def _on_one(
+    of: CycleStress,
+    z: ArrayLike | None,
+    judge_layer: Callable[[NDArray[np.float64], int, float], Found | None],
+) -> xr.Dataset:
+    if z is None:
+        z, _ = _core.chosen_depths(of.body, a=of.result.length, deepest=2.0 * of.result.length)
+    parts = []
+    for some in of.chunks(np.unique(np.asarray(z, dtype=float))):
+        history, places = of.of_load(some)
+        layers, dims = places.layer.values, places[COMPONENTS[0]].dims
+        shown = xr.Dataset(coords={**places.coords, "axis": ["x", "y", "z"]})
+        whole: Found = {}
+        for layer in np.unique(layers).tolist():
+            here = layers == layer
+            for name, (values, attrs) in (
+                judge_layer(history[:, here], layer, float(of.residual[layer])) or {}
+            ).items():
+                shape = (layers.size, *values.shape[1:])
+                whole.setdefault(name, (np.full(shape, np.nan), attrs))[0][here] = values
+        for name, (values, attrs) in whole.items():
+            shown[name] = ((*dims, "axis")[: values.ndim], values, attrs)
+        parts.append(shown)
+    return xr.concat(parts, dim="depth", data_vars="minimal", coords="minimal")

@@ -43,6 +43,8 @@ __all__ = [
     "evaluate",
     "first_yield",
     "history",
+    "mean_stress_slope",
+    "moving_load",
     "rainflow",
     "to_pylife",
 ]
@@ -234,6 +236,34 @@ def first_yield(
     return result
 
 
+def moving_load(stress: ArrayLike, *, s_y: float) -> NDArray[np.float64]:
+    """Give the load factor of elastic shakedown under a load that moves along the surface.
+
+    What a load leaves behind that passes again and again, the same everywhere along its track,
+    depends on depth alone: its balance leaves s_xx, s_yy and s_xy, and no stress on planes parallel
+    to the surface. Melan's theorem with these alone is what K. L. Johnson, Contact Mechanics
+    (1985), section 9.2, does: for a cylinder p_0 = 4 k without friction, and p_0 = k/mu for
+    mu > 0.367, where the surface decides, k being s_y/sqrt 3. A history and its mirror image in the
+    surface, which turns s_xz and s_yz round, have a smallest sphere whose centre is such a stress.
+
+    Parameters
+    ----------
+    stress : array of shape (time, ..., 6)
+        Stress that a place of every depth sees as the load passes [Pa].
+    s_y : float
+        Yield stress [Pa], by von Mises' condition.
+
+    Returns
+    -------
+    array of shape (...)
+        Load factor of every place.
+    """
+    stress = np.asarray(stress, dtype=float)
+    mirrored = stress * np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
+    both = np.concatenate([stress, mirrored])
+    return np.asarray(first_yield(both, s_y=s_y).shakedown)
+
+
 def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Give the path of one point in Dang Van's plane.
 
@@ -251,24 +281,32 @@ def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.fl
     return path[:, 0], path[:, 1]
 
 
-def cycle_increments(result: Result, cycle: int = -1) -> NDArray[np.int64]:
-    """Give the kept increments of a closed cycle of the load path, from 1.
+def cycle_increments(result: Result, cycle: int | None = -1) -> NDArray[np.int64]:
+    """Give the kept increments of a closed cycle of the load path, from 1; all of them for None.
 
-    A ValueError says where there is no closed cycle or fewer than two of its increments were kept.
+    A ValueError says where there is no such cycle or fewer than two of its increments were kept.
     """
-    cycles = result.loops()
-    if cycles.sizes["cycle"] == 0:
-        raise ValueError("the load path has no closed cycle: fatigue needs one")
-    ends = cycles.isel(cycle=cycle)
-    first, last = int(ends.first_branch), int(ends.last_branch)
-    saved = result.dataset.saved_increment.values
-    branch = result.dataset.branch_of_increment.sel(increment=saved).values
-    kept = saved[(branch >= first) & (branch <= last)]
+    saved = np.asarray(result.dataset.saved_increment.values)
+    kept = saved if cycle is None else saved[_inside(result, saved, cycle)]
     if kept.size < 2:
+        of = "path" if cycle is None else "cycle"
         raise ValueError(
-            f"{kept.size} increments of the cycle were kept: solve with save='all' or more of them"
+            f"{kept.size} increments of the {of} were kept: solve with save='all' or more of them"
         )
-    return np.asarray(kept)
+    return kept
+
+
+def _inside(result: Result, saved: NDArray[np.int64], cycle: int) -> NDArray[np.bool_]:
+    """Which of the kept increments lie in a cycle."""
+    cycles = result.loops()
+    count = cycles.sizes["cycle"]
+    if count == 0:
+        raise ValueError("the load path has no closed cycle: fatigue needs one")
+    if not -count <= cycle < count:
+        raise ValueError(f"cycle = {cycle}: must be {-count} to {count - 1}, a cycle of the path")
+    ends = cycles.isel(cycle=cycle)
+    branch = result.dataset.branch_of_increment.sel(increment=saved).values
+    return np.asarray((branch >= int(ends.first_branch)) & (branch <= int(ends.last_branch)))
 
 
 def history(
@@ -278,7 +316,7 @@ def history(
     x: float | None = None,
     y: float | None = None,
     body_number: int = 2,
-    cycle: int = -1,
+    cycle: int | None = -1,
     residual: Sequence[float] | None = None,
 ) -> xr.DataArray:
     """Stress over a closed cycle of a run whose increments were kept, ready for a criterion.
@@ -289,8 +327,9 @@ def history(
         Solved with ``save="all"``, or with the increments of the cycle.
     z, x, y, body_number
         Where, as in :meth:`Snapshot.stress`.
-    cycle : int
-        Which of the closed cycles of the load path; the last by default.
+    cycle : int, optional
+        Which of the closed cycles of the load path, the last by default; None for all increments
+        that were kept.
     residual : sequence of float, optional
         Residual stress of every layer from the surface down, the substrate's last [Pa]: biaxial
         and uniform, added to s_xx and s_yy. It has no effect on the contact.
@@ -301,25 +340,31 @@ def history(
         Stress [Pa] with the coordinates of the places, ``layer`` among them.
     """
     kept = cycle_increments(result, cycle)
-    snapshots = (result.at(int(n)).stress(z, x=x, y=y, body_number=body_number) for n in kept)
+    snapshots = (
+        result.at(int(n)).stress(z, x=x, y=y, body_number=body_number, residual=residual)
+        for n in kept
+    )
     # Its scalars differ from increment to increment; the places are the same.
     stresses = [stress.dataset[list(COMPONENTS)].to_array("component") for stress in snapshots]
     stacked = xr.concat(stresses, dim="increment", coords="minimal", compat="override")
     stacked = stacked.assign_coords(increment=kept)
     others = [d for d in stacked.dims if d not in ("increment", "component")]
     stacked = stacked.transpose("increment", *others, "component").copy()
-    if residual is not None:
-        layers = np.asarray(stacked.layer.values)
-        if len(residual) <= layers.max():
-            raise ValueError(
-                f"residual has {len(residual)} numbers: must be one for each of the "
-                f"{layers.max() + 1} layers, the substrate last"
-            )
-        of_depth = stacked.layer.copy(data=np.asarray(residual, dtype=float)[layers])
-        in_plane = np.isin(stacked.component.values, ("s_xx", "s_yy")).astype(float)
-        stacked = stacked + of_depth * xr.DataArray(in_plane, dims="component")
-        stacked = stacked.transpose("increment", *others, "component")
     return stacked.assign_attrs(units="Pa", long_name="stress").rename("stress")
+
+
+def mean_stress_slope(material: Material) -> tuple[float, str]:
+    """Give how much amplitude of uniaxial stress a mean stress costs, and after whom.
+
+    The limit is amplitude = s_D - slope mean. With the strength ``s_u``, s_D/s_u (J. Goodman,
+    Mechanics Applied to Engineering, 1899); else with ``t_D`` by Dang Van's criterion, whose
+    s_a/2 + alpha (s_a + s_m)/3 = t_D is slope = 1 - s_D/(2 t_D) with alpha = 3 t_D/s_D - 3/2.
+    A ValueError says which number is missing.
+    """
+    s_D = material.number("s_D")
+    if any(name == "s_u" for name, _, _ in material.numbers()):
+        return s_D / material.number("s_u"), "Goodman"
+    return 1.0 - s_D / (2.0 * material.number("t_D")), "Dang Van"
 
 
 def to_pylife(stress: ArrayLike) -> pd.DataFrame:

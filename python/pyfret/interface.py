@@ -19,10 +19,14 @@ from pyfret import subsurface
 from pyfret.cycle_stress import CycleStress
 from pyfret.fatigue import COMPONENTS
 from pyfret.lazy import xr
+from pyfret.section import Section
 
 if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
     from pyfret._core import Coating
     from pyfret.results import Result
+    from pyfret.section import SectionOptions
 
 __all__ = ["Buckling", "buckling_release", "edge_release", "over_cycle"]
 
@@ -32,10 +36,7 @@ def over_cycle(
     *,
     peel_strength: float | None = None,
     shear_strength: float | None = None,
-    x: float | None = None,
-    y: float | None = None,
-    body_number: int = 2,
-    cycle: int = -1,
+    **section: Unpack[SectionOptions],
 ) -> xr.Dataset:
     """Follow peel and shear on the interfaces below the contact over a closed cycle.
 
@@ -48,12 +49,8 @@ def over_cycle(
         Solved with ``save="all"``, or with the increments of the cycle.
     peel_strength, shear_strength : float, optional
         Strengths of the interface in tension and in shear [Pa]; both or neither.
-    x, y : float, optional
-        The section along x at that y (default: y = 0), or along y at that x [m].
-    body_number : 1 or 2
-        The body.
-    cycle : int
-        Which of the closed cycles; the last by default.
+    **section
+        ``x`` or ``y``, ``body_number``, ``cycle``, as in :func:`pyfret.life.life`.
 
     Returns
     -------
@@ -71,12 +68,10 @@ def over_cycle(
         The body has no coating, one of the strengths is missing or not positive, or as
         :func:`pyfret.life.life`.
     """
-    if x is None and y is None:
-        y = 0.0
-    of = CycleStress(result, x=x, y=y, body_number=body_number, cycle=cycle, residual=None)
+    of = CycleStress(result, Section(**section))
     depths = subsurface.interfaces(of.body)
     if not depths:
-        raise ValueError(f"body {body_number} has no coating and no interface")
+        raise ValueError(f"body {of.section.body_number} has no coating and no interface")
     strengths = {"peel_strength": peel_strength, "shear_strength": shear_strength}
     given = [name for name, value in strengths.items() if value is not None]
     if len(given) == 1:
@@ -84,7 +79,7 @@ def over_cycle(
     for name, value in strengths.items():
         if value is not None and not (value > 0.0 and np.isfinite(value)):
             raise ValueError(f"{name} = {value}: must be a positive stress in Pa")
-    history, places = of.history(depths)
+    history, places = of.of_load(depths)
     # Both sides carry the same traction; that of the upper layer stands for it.
     history = history[:, ::2]
     peel = np.maximum(history[..., 2], 0.0)

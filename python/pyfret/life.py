@@ -15,18 +15,22 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from pyfret import _core, subsurface
 from pyfret._core import Material
-from pyfret.cycle_stress import CycleStress
-from pyfret.fatigue import COMPONENTS, evaluate
+from pyfret.cycle_stress import CycleStress, judge
+from pyfret.fatigue import evaluate
 from pyfret.lazy import xr
+from pyfret.section import Section
+from pyfret.worst import largest
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+    from typing_extensions import Unpack
 
     from pyfret._core import Assessment
+    from pyfret.cycle_stress import Found
     from pyfret.fatigue import CriterionName
     from pyfret.results import Result
+    from pyfret.section import SectionOptions
 
 __all__ = ["Life", "Materials", "Worst", "life", "ruiz"]
 
@@ -42,23 +46,26 @@ class Worst(NamedTuple):
     value: float
     #: Safety factor, or life in cycles for criteria with a strain-life curve.
     margin: float
-    #: Place along the section [m].
-    along: float
+    #: Place [m].
+    x: float
+    y: float
     #: Depth [m].
     z: float
     #: Layer from the surface down; their number for the substrate.
     layer: int
     #: What the distances of the depths leave of an error of the value, estimated.
     error: float
+    #: Normal of the critical plane at the nearest sample, where the criterion has one.
+    normal: tuple[float, float, float] | None
 
 
 class Life:
-    """A criterion on a section below the contact.
+    """A criterion on a section below the contact, or on several.
 
     :attr:`dataset` has ``value``, ``missed`` (no plane has more than value + missed), the shear and
     normal stresses that make the value, ``normal`` of the critical plane, and ``safety_factor``
-    (limit over value) or ``life`` [cycles], over (depth, x) or (depth, y); NaN in layers without a
-    material.
+    (limit over value) or ``life`` [cycles], over (depth, x) or (depth, y), for several sections
+    over (depth, x, y) or (depth, y, x); NaN in layers without a material.
     """
 
     def __init__(self, dataset: xr.Dataset, assessments: Sequence[Assessment | None]) -> None:
@@ -70,27 +77,36 @@ class Life:
         """``safety_factor`` or ``life``, whichever the criterion gives."""
         return self.dataset[margin_name(self._assessments)[0]]
 
+    @property
+    def layers(self) -> list[int]:
+        """The layers that are judged, from the surface down."""
+        found = np.unique(self.dataset.layer.values).tolist()
+        return [n for n in found if self._assessments[n] is not None]
+
+    def section(self, place: float) -> Life:
+        """Give the one of several sections that is nearest to a place on the axis across [m]."""
+        if self.dataset.value.ndim == 2:
+            return self
+        across = str(self.dataset.value.dims[2])
+        return Life(self.dataset.sel({across: place}, method="nearest"), self._assessments)
+
     def worst_of(self, layer: int) -> Worst:
         """Give the worst point of a layer; a ValueError where it is not judged."""
+        peak = largest(self.dataset.value, layer)
         assessment = self._assessments[layer]
-        of_layer = self.dataset.layer.values == layer
-        if assessment is None or not of_layer.any():
-            raise ValueError(f"layer {layer} is not judged: it has no material or no depth")
-        here = self.dataset.value.isel(depth=of_layer)
-        field = np.zeros((6, *here.shape))
-        field[0] = here.values
-        along = here[str(here.dims[1])].values.tolist()
-        found = _core.maximum("s_xx", field, here.z.values.tolist(), [layer] * len(field[0]), along)
-        if found is None:
-            raise ValueError("the section holds no number")
-        value, place, z, layer, error = found
-        return Worst(value, margin_of(assessment, value), place, z, layer, error)
+        assert assessment is not None
+        d = self.dataset.isel(depth=self.dataset.layer.values == layer)
+        near = d.isel(depth=int(np.abs(d.z.values - peak.z).argmin()))
+        axes = {axis: at for axis, at in (("x", peak.x), ("y", peak.y)) if axis in near.dims}
+        x, y, z = near.normal.sel(axes, method="nearest").values.tolist()
+        margin = margin_of(assessment, peak.value)
+        normal = (x, y, z) if assessment.criterion.has_plane else None
+        return Worst(peak.value, margin, *peak[1:], normal=normal)
 
     @property
     def worst(self) -> Worst:
         """The point of the smallest margin; of equal ones, that of the larger value."""
-        layers = np.unique(self.dataset.layer.values)
-        judged = [self.worst_of(int(n)) for n in layers if self._assessments[int(n)] is not None]
+        judged = [self.worst_of(layer) for layer in self.layers]
         return min(judged, key=lambda w: (np.nan_to_num(w.margin, nan=-np.inf), -w.value))
 
     def __repr__(self) -> str:
@@ -99,7 +115,7 @@ class Life:
         name = margin_name(self._assessments)[0].replace("_", " ")
         return (
             f"Life({self.dataset.attrs['criterion']}, {name} {w.margin:.4g} at "
-            f"{w.along:.4g} m, z = {w.z:.4g} m, layer {w.layer})"
+            f"x = {w.x:.4g} m, y = {w.y:.4g} m, z = {w.z:.4g} m, layer {w.layer})"
         )
 
 
@@ -138,14 +154,10 @@ def life(
     criterion: CriterionName,
     z: ArrayLike | None = None,
     *,
-    x: float | None = None,
-    y: float | None = None,
-    body_number: int = 2,
-    cycle: int = -1,
-    residual: Sequence[float] | None = None,
     tolerance: float = 1e-3,
+    **section: Unpack[SectionOptions],
 ) -> Life:
-    """Judge a section below the contact over a closed cycle of the load path.
+    """Judge a section below the contact, or several, over a closed cycle of the load path.
 
     Parameters
     ----------
@@ -159,17 +171,11 @@ def life(
         One of :data:`pyfret.fatigue.CRITERIA`.
     z : array, optional
         Depths [m] (default: those that the layers ask for, both sides of every interface).
-    x, y : float, optional
-        The section along x at that y (default: y = 0), or along y at that x [m].
-    body_number : 1 or 2
-        The body.
-    cycle : int
-        Which of the closed cycles; the last by default.
-    residual : sequence of float, optional
-        Residual stress of every layer from the surface down, the substrate's last [Pa]: biaxial and
-        uniform, added to s_xx and s_yy. It has no effect on the contact.
     tolerance : float
         Largest part of the value that another plane may be proved to have more.
+    **section
+        ``x`` or ``y`` (several for a volume), ``body_number``, ``cycle``, ``residual``: the fields
+        of :class:`pyfret.section.Section`.
 
     Raises
     ------
@@ -177,52 +183,26 @@ def life(
         There is no closed cycle, too few of its increments were kept, or a material lacks a number
         that the criterion needs.
     """
-    if x is None and y is None:
-        y = 0.0
-    of = CycleStress(result, x=x, y=y, body_number=body_number, cycle=cycle, residual=residual)
-    assessments = _assessments(materials, criterion, of.layers)
-    if z is None:
-        z, _ = _core.chosen_depths(of.body, a=result.length, deepest=2.0 * result.length)
-    parts = []
-    for some in of.chunks(np.unique(np.asarray(z, dtype=float))):
-        history, places = of.history(some)
-        parts.append(_judged(history, places, assessments, tolerance))
-    whole = xr.concat(parts, dim="depth", data_vars="minimal", coords="minimal")
-    yardsticks = {k: v for k, v in result.dataset.attrs.items() if k in ("a_H", "p_H")}
-    attrs = {**yardsticks, "criterion": criterion, "interfaces": subsurface.interfaces(of.body)}
-    return Life(whole.assign_attrs(attrs), assessments)
-
-
-def _judged(
-    history: NDArray[np.float64],
-    places: xr.Dataset,
-    assessments: Sequence[Assessment | None],
-    tolerance: float,
-) -> xr.Dataset:
-    """The criterion on a history of shape (time, depth, along, 6)."""
-    layers = places.layer.values
-    dims = places[COMPONENTS[0]].dims
+    where = Section(**section)
+    scene = result.scene
+    body = scene.body1 if where.body_number == 1 else scene.body2
+    assessments = _assessments(materials, criterion, len(body.coatings) + 1)
     name, meaning = margin_name(assessments)
-    whole: dict[str, NDArray[np.float64]] = {}
-    attrs: dict[str, dict[str, str]] = {}
-    for layer in np.unique(layers):
-        assessment = assessments[int(layer)]
+
+    def of_layer(load: NDArray[np.float64], layer: int, residual: float) -> Found | None:
+        assessment = assessments[layer]
         if assessment is None:
-            continue
-        here = layers == layer
-        found = evaluate(history[:, here], assessment.criterion, tolerance=tolerance)
+            return None
+        load[..., :2] += residual
+        found = evaluate(load, assessment.criterion, tolerance=tolerance)
         margins = [margin_of(assessment, v) for v in found.value.values.ravel().tolist()]
-        values = {str(k): v.values for k, v in found.data_vars.items()}
-        values[name] = np.reshape(margins, found.value.shape)
-        attrs.update({str(k): v.attrs for k, v in found.data_vars.items()})
-        for key, value in values.items():
-            shape = (layers.size, *value.shape[1:])
-            whole.setdefault(key, np.full(shape, np.nan))[here] = value
-    attrs[name] = {"units": "1", "long_name": meaning}
-    shown = xr.Dataset(coords={**places.coords, "axis": ["x", "y", "z"]})
-    for key, value in whole.items():
-        shown[key] = ((*dims, "axis")[: value.ndim], value, attrs[key])
-    return shown
+        values: Found = {str(k): (v.values, v.attrs) for k, v in found.data_vars.items()}
+        attrs = {"units": "1", "long_name": meaning}
+        values[name] = (np.reshape(margins, found.value.shape), attrs)
+        return values
+
+    whole = judge(result, where, z, of_layer)
+    return Life(whole.assign_attrs(criterion=criterion), assessments)
 
 
 def _work_until(result: Result, increment: int, y: float) -> xr.DataArray:
@@ -236,7 +216,7 @@ def _work_until(result: Result, increment: int, y: float) -> xr.DataArray:
     return work.drop_vars(set(work.coords) - {"x"})
 
 
-def ruiz(result: Result, *, y: float = 0.0, body_number: int = 2, cycle: int = -1) -> xr.Dataset:
+def ruiz(result: Result, **section: Unpack[SectionOptions]) -> xr.Dataset:
     """Give Ruiz' two parameters along a line of the surface over a closed cycle.
 
     F1 is the frictional work per area and cycle, F2 its product with the largest s_xx at the
@@ -245,15 +225,20 @@ def ruiz(result: Result, *, y: float = 0.0, body_number: int = 2, cycle: int = -
 
     Parameters
     ----------
-    result, y, body_number, cycle
+    result : Result
         As in :func:`life`; the last increments before and of the cycle must be kept.
+    **section
+        ``y``, ``body_number``, ``cycle``, ``residual``, as in :func:`life`.
 
     Returns
     -------
     xarray.Dataset
         Over x: ``F1`` [J/m^2] and ``F2`` [J Pa/m^2]; F2 is 0 where the surface is never in tension.
     """
-    of = CycleStress(result, x=None, y=y, body_number=body_number, cycle=cycle, residual=None)
+    of = CycleStress(result, Section(**section))
+    if of.section.along != "x":
+        raise ValueError("x is given: Ruiz' parameters are those along x, at a y")
+    y = of.place
     branch = result.dataset.branch_of_increment
     cycle_branches = branch.sel(increment=of.kept).values
     inside = (branch >= cycle_branches.min()) & (branch <= cycle_branches.max())

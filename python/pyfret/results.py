@@ -12,6 +12,7 @@ import numpy as np
 
 from pyfret import _core, files, subsurface
 from pyfret import life as lives
+from pyfret import load_factors as factors
 from pyfret._core import StoreError
 from pyfret.guesses import no_attribute
 from pyfret.lazy import xr
@@ -25,8 +26,10 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
+    from typing_extensions import Unpack
 
     from pyfret.fatigue import CriterionName
+    from pyfret.section import SectionOptions
     from pyfret.wearing import WearResult
 
 __all__ = ["Result", "Snapshot", "open"]
@@ -268,29 +271,26 @@ class Result(OfRun):
         criterion: CriterionName,
         z: ArrayLike | None = None,
         *,
-        x: float | None = None,
-        y: float | None = None,
-        body_number: int = 2,
-        cycle: int = -1,
-        residual: Sequence[float] | None = None,
         tolerance: float = 1e-3,
+        **section: Unpack[SectionOptions],
     ) -> lives.Life:
-        """Judge a section below the contact over a closed cycle by a fatigue criterion.
+        """Judge a section below the contact, or several, over a closed cycle by a criterion.
 
         Parameters and result are those of :func:`pyfret.life.life`.
         """
-        return lives.life(
-            self,
-            materials,
-            criterion,
-            z,
-            x=x,
-            y=y,
-            body_number=body_number,
-            cycle=cycle,
-            residual=residual,
-            tolerance=tolerance,
-        )
+        return lives.life(self, materials, criterion, z, tolerance=tolerance, **section)
+
+    def load_factors(
+        self,
+        s_y: factors.YieldStresses,
+        z: ArrayLike | None = None,
+        **section: Unpack[SectionOptions],
+    ) -> factors.LoadFactors:
+        """Give load factors of first yield and shakedown below the contact over a closed cycle.
+
+        Parameters and result are those of :func:`pyfret.load_factors.load_factors`.
+        """
+        return factors.load_factors(self, s_y, z, **section)
 
     def summary(self) -> str:
         """Tabulate what the run ended with: a line per branch, then one per cycle.

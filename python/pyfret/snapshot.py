@@ -145,6 +145,7 @@ class Snapshot(OfRun):
         body_number: int = 2,
         bulk: bool = True,
         rim: bool = True,
+        residual: Sequence[float] | None = None,
     ) -> Stress:
         """Stress below the contact, in the lower body unless `body_number` is 1.
 
@@ -164,6 +165,9 @@ class Snapshot(OfRun):
         rim : bool
             Whether tractions vary within the cells beside the rim and the stick zone, as in
             :func:`pyfret.subsurface.stress`.
+        residual : sequence of float, optional
+            Residual stress of every layer from the surface down, the substrate's last [Pa], tension
+            positive: biaxial and uniform, added to s_xx and s_yy. It has no effect on the contact.
 
         Warns
         -----
@@ -189,6 +193,7 @@ class Snapshot(OfRun):
             rim=rim,
             stick=self.dataset["stick"].values,
             length=self.length,
+            residual=residual,
             **self._tractions(),
         )
         yardsticks = {k: v for k, v in self.dataset.attrs.items() if k in ("a_H", "p_H")}

@@ -50,6 +50,19 @@ def interfaces(body: Body) -> list[float]:
     return [float(depth) for depth in np.cumsum([c.thickness for c in body.coatings])]
 
 
+def residual_of_layers(body: Body, residual: Sequence[float] | None) -> NDArray[np.float64]:
+    """Residual stress of every layer of a body from the surface down, zero by default [Pa]."""
+    layers = len(body.coatings) + 1
+    if residual is None:
+        return np.zeros(layers)
+    if len(residual) != layers:
+        raise ValueError(
+            f"residual has {len(residual)} numbers: must be one for each of the {layers} layers, "
+            "the substrate last"
+        )
+    return np.asarray(residual, dtype=float)
+
+
 def _coords(
     grid: Grid, z: list[float], layer: list[int], x: float | None, y: float | None
 ) -> dict[str, object]:
@@ -102,6 +115,7 @@ def stress(
     rim: bool = False,
     stick: ArrayLike | None = None,
     length: float | None = None,
+    residual: Sequence[float] | None = None,
 ) -> Stress:
     """Stress in a body under tractions on its surface.
 
@@ -133,6 +147,9 @@ def stress(
     length : float, optional
         Radius of the contact [m], for the choice of depths (default: half the longer side of the
         box around the cells that are loaded).
+    residual : sequence of float, optional
+        Residual stress of every layer from the surface down, the substrate's last [Pa], tension
+        positive: biaxial and uniform, added to s_xx and s_yy.
 
     Returns
     -------
@@ -144,6 +161,11 @@ def stress(
     at = _line(z, x, y)
     length = loaded_length(grid, *loads) if length is None else length
     sampled = _sampled(below, body, grid, _depths(body, z, length), at, displacement=False)
+    if residual is not None:
+        of_depth = residual_of_layers(body, residual)[sampled.layer.values]
+        for name in ("s_xx", "s_yy"):
+            # The depths are the first axis.
+            sampled[name].values = (sampled[name].values.T + of_depth).T
     return Stress(sampled.assign_attrs(interfaces=interfaces(body), length=length))
 
 

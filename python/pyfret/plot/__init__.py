@@ -8,7 +8,13 @@ of the paper from its four runs in one call.
 from pyfret.plot.animation import animate
 from pyfret.plot.fretting_map import fretting_map
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
-from pyfret.plot.life import criterion_map, critical_plane_rose, dang_van_diagram
+from pyfret.plot.life import (
+    criterion_map,
+    critical_plane_rose,
+    dang_van_diagram,
+    haigh_diagram,
+    load_factor_map,
+)
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
 from pyfret.plot.paper import paper_figures
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
@@ -35,6 +41,8 @@ __all__ = [
     "envelope_maps",
     "fretting_loop",
     "fretting_map",
+    "haigh_diagram",
+    "load_factor_map",
     "load_path",
     "loop_evolution",
     "paper_figures",

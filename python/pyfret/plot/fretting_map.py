@@ -70,10 +70,10 @@ def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 
 def lines(
     ax: Axes,
-    W: NDArray[np.float64],
-    amplitude: NDArray[np.float64],
-    field: NDArray[np.float64],
-    levels: NDArray[np.float64] | None,
+    W: NDArray[Any],
+    amplitude: NDArray[Any],
+    field: NDArray[Any],
+    levels: NDArray[Any] | None,
     colour: str,
     style: Literal["solid", "dashed"],
     meaning: str,

@@ -16,11 +16,14 @@ from pyfret.plot.stresses import COLOURS, FLAT, MARK
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.contour import ContourSet
     from numpy.typing import ArrayLike, NDArray
 
     from pyfret._core import Material
     from pyfret.life import Life
+    from pyfret.load_factors import Factor, LoadFactors
     from pyfret.plot.scales import Units
 
 #: How criteria are written in figures.
@@ -78,39 +81,81 @@ def criterion_map(
     ax : matplotlib Axes, optional
         Where to draw.
     """
+    worst = life.worst
+    safety = life.margin.name == "safety_factor"
+    margin = f"safety {worst.margin:.3g}" if safety else f"{worst.margin:.2g} cycles"
+    field, label = _shown(life)
+    shown = life.dataset.value.copy(data=field).assign_attrs(life.dataset.attrs)
+    ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0 if safety else None)
+    _mark(ax, (getattr(worst, str(shown.dims[1])), worst.z), margin, shown, units)
+    return ax
+
+
+@styled
+def load_factor_map(
+    factors: LoadFactors,
+    *,
+    of: Factor = "von_mises",
+    units: Units = "auto",
+    levels: int = 12,
+    stretch: bool | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Contours of load over limit on a section, with the least load factor and its place.
+
+    The bold contour is the limit. Layers without a yield stress stay empty.
+
+    Parameters
+    ----------
+    factors : LoadFactors
+        From :meth:`Result.load_factors`.
+    of : "von_mises", "tresca" or "shakedown"
+        First yield by one of the conditions, or shakedown.
+    units, levels, stretch, ax
+        As in :func:`criterion_map`.
+    """
+    least = factors.least(of)
+    shown = factors.use(of).assign_attrs(factors.dataset.attrs)
+    name = {"von_mises": "First yield, von Mises", "tresca": "First yield, Tresca"}
+    label = f"{name.get(of, 'Shakedown')}: load over limit"
+    ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0)
+    at = (getattr(least, str(shown.dims[1])), least.z)
+    _mark(ax, at, f"factor {least.factor:.3g}", shown, units)
+    return ax
+
+
+def _contours(
+    shown: xr.DataArray,
+    label: str,
+    units: Units,
+    levels: int,
+    ax: Axes | None,
+    *,
+    stretch: bool | None,
+    limit: float | None,
+) -> Axes:
+    """Contours of a field over (depth, x) or (depth, y), layer by layer; dark is near to the limit.
+
+    Without a limit, such as for lives, small values are dark.
+    """
+    if shown.ndim != 2:
+        raise ValueError("the figure shows one section: section(place) gives one of several")
     if ax is None:
         ax = plt.figure(figsize=(5.4, 3.8)).add_subplot()
-    d = life.dataset
-    length = scales(d.attrs, units).length
-    along = str(d.value.dims[1])
-    x, z = d[along].values / length.value, d.z.values / length.value
-    field, label = _shown(life)
-    inner = [depth / length.value for depth in interfaces(d.z, d.layer)]
+    length = scales(shown.attrs, units).length
+    along = str(shown.dims[1])
+    x, z = shown[along].values / length.value, shown.z.values / length.value
+    inner = [depth / length.value for depth in interfaces(shown.z, shown.layer)]
     borders = np.array([z[0], *inner, z[-1]])
     stretch = thin(borders) if stretch is None else stretch
     if stretch and borders.size > 2:
         stretch_axis(ax, borders, "y")
     ax.set_facecolor("0.93")
-    image = None
-    safety = life.margin.name == "safety_factor"
-    # Dark is near to a crack.
-    colours = COLOURS if safety else COLOURS.reversed()
-    if np.isfinite(field).any():
-        steps = np.asarray(MaxNLocator(levels).tick_values(np.nanmin(field), np.nanmax(field)))
-        for part in np.unique(d.layer.values):
-            here = d.layer.values == part
-            if np.count_nonzero(here) < 2 or not np.isfinite(field[here]).any():
-                continue
-            image = ax.contourf(x, z[here], field[here], levels=steps, cmap=colours)
-            lines = steps[steps > 0.0]
-            ax.contour(x, z[here], field[here], levels=lines, colors="0.2", linewidths=0.4)
-            if safety and field[here].min() < 1 < field[here].max():
-                ax.contour(x, z[here], field[here], levels=[1.0], colors="0.1", linewidths=1.8)
+    image = _filled(ax, x, z, shown, levels, limit)
     for depth in inner:
         ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(z[-1], z[0])
-    _mark_worst(ax, life, length.value)
     if image is not None:
         bar = ax.get_figure().colorbar(image, ax=ax, shrink=0.9, pad=0.02)  # type: ignore[union-attr]
         bar.outline.set_visible(False)
@@ -123,17 +168,44 @@ def criterion_map(
     return ax
 
 
-def _mark_worst(ax: Axes, life: Life, length: float) -> None:
-    """A cross at the worst point, with the margin beside it."""
-    worst = life.worst
-    safety = life.margin.name == "safety_factor"
-    margin = f"safety {worst.margin:.3g}" if safety else f"{worst.margin:.2g} cycles"
-    at = (worst.along / length, worst.z / length)
+def _filled(
+    ax: Axes,
+    x: NDArray[np.float64],
+    z: NDArray[np.float64],
+    shown: xr.DataArray,
+    levels: int,
+    limit: float | None,
+) -> ContourSet | None:
+    """The filled contours of every layer and, bold, those of the limit."""
+    field, layers = shown.values, shown.layer.values
+    if not np.isfinite(field).any():
+        return None
+    image = None
+    colours = COLOURS.reversed() if limit is None else COLOURS
+    steps = np.asarray(MaxNLocator(levels).tick_values(np.nanmin(field), np.nanmax(field)))
+    for part in np.unique(layers):
+        here = layers == part
+        if np.count_nonzero(here) < 2 or not np.isfinite(field[here]).any():
+            continue
+        image = ax.contourf(x, z[here], field[here], levels=steps, cmap=colours)
+        lines = steps[steps > 0.0]
+        ax.contour(x, z[here], field[here], levels=lines, colors="0.2", linewidths=0.4)
+        if limit is not None and field[here].min() < limit < field[here].max():
+            ax.contour(x, z[here], field[here], levels=[limit], colors="0.1", linewidths=1.8)
+    return image
+
+
+def _mark(
+    ax: Axes, place: tuple[float, float], text: str, shown: xr.DataArray, units: Units
+) -> None:
+    """A cross at the worst point with a word beside it."""
+    length = scales(shown.attrs, units).length.value
+    at = (place[0] / length, place[1] / length)
     ax.plot(*at, "x", color=MARK, ms=7, mew=1.6, clip_on=False, zorder=4)
     left, right = ax.get_xlim()
     on_the_right = at[0] > (left + right) / 2
     ax.annotate(
-        margin,
+        text,
         at,
         xytext=(-7 if on_the_right else 7, -14),
         textcoords="offset points",
@@ -219,3 +291,57 @@ def dang_van_diagram(
     ax.set_ylabel(r"mesoscopic shear $\tau$ [MPa]")
     ax.set_ylim(bottom=0.0)
     return ax
+
+
+@styled
+def haigh_diagram(life: Life, *, material: Material | None = None, ax: Axes | None = None) -> Axes:
+    """Amplitude over mean of the normal stress on the critical planes of all points of a section.
+
+    A cross marks the worst point of every layer. With a material, the limit of uniaxial stress:
+    from ``s_D`` fully reversed to ``s_u`` without amplitude (Goodman 1899) where there is ``s_u``,
+    else by Dang Van's criterion, s_D - (1 - s_D/(2 t_D)) times the mean.
+
+    The limit is meant for planes of the largest normal stress, such as those of
+    ``"smith_watson_topper"``; planes of shear have less normal stress at the same danger.
+
+    Parameters
+    ----------
+    life : Life
+        From :meth:`Result.life`, of a criterion that has critical planes.
+    material : Material, optional
+        With ``s_D``, and ``s_u`` or ``t_D``.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    d = life.dataset
+    criterion = d.attrs["criterion"]
+    if not np.isfinite(d.normal).any():
+        raise ValueError(f"{criterion} has no critical plane")
+    ax = axes(ax)
+    for layer in life.layers:
+        here = d.layer.values == layer
+        mean, amplitude = (d[f"normal_{k}"].values[here] / 1e6 for k in ("mean", "amplitude"))
+        colour = f"C{layer}"
+        ax.plot(mean.ravel(), amplitude.ravel(), ".", ms=2.5, color=colour, alpha=0.35)
+        n = int(np.nanargmax(d.value.values[here]))
+        name = "substrate" if layer == len(d.attrs["interfaces"]) else f"coating {layer}"
+        at = (mean.ravel()[n], amplitude.ravel()[n])
+        ax.plot(*at, "x", color=colour, ms=8, mew=1.8, label=f"worst point, {name}")
+    if material is not None:
+        _limit_of_uniaxial_stress(ax, material)
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlabel(r"mean normal stress $\sigma_\mathrm{n,m}$ [MPa]")
+    ax.set_ylabel(r"amplitude $\sigma_\mathrm{n,a}$ [MPa]")
+    ax.set_title(f"planes of {NAMES[criterion]}", fontsize=9)
+    ax.legend(fontsize=8)
+    return ax
+
+
+def _limit_of_uniaxial_stress(ax: Axes, material: Material) -> None:
+    """The amplitude that a mean stress leaves, as far as there are points."""
+    slope, name = fatigue.mean_stress_slope(material)
+    s_D = material.number("s_D") / 1e6
+    left, right = ax.get_xlim()
+    ends = np.array([min(left, 0.0), s_D / slope if slope > 0.0 else right])
+    ax.plot(ends, s_D - slope * ends, color="0.2", linestyle="--", label=f"limit, {name}")
+    ax.set_xlim(left, right)

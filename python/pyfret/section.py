@@ -1,0 +1,86 @@
+"""Where and when the stress of a body is judged: sections below a contact over a closed cycle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypedDict
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["Section", "SectionOptions"]
+
+
+class SectionOptions(TypedDict, total=False):
+    """The fields of :class:`Section` as keywords of what judges one."""
+
+    x: float | Sequence[float] | None
+    y: float | Sequence[float] | None
+    body_number: int
+    cycle: int | None
+    residual: Sequence[float] | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Section:
+    """A section of a body, or several side by side, over a closed cycle of the load path.
+
+    Functions that judge one take these fields as keywords, such as ``result.life(..., y=0.0)``.
+    """
+
+    #: The section along y at this x [m], or sections at several.
+    x: float | Sequence[float] | None = None
+    #: The section along x at this y [m], or sections at several (default: y = 0).
+    y: float | Sequence[float] | None = None
+    #: The upper body (1) or the lower one (2).
+    body_number: int = 2
+    #: Which of the closed cycles, the last by default; None for all increments that were kept.
+    cycle: int | None = -1
+    #: Residual stress of every layer from the surface down, the substrate's last [Pa], tension
+    #: positive: biaxial and uniform, added to s_xx and s_yy. It has no effect on the contact.
+    residual: Sequence[float] | None = None
+
+    def __post_init__(self) -> None:
+        """Take y = 0 where no place is given; refuse what is no section."""
+        if self.x is None and self.y is None:
+            object.__setattr__(self, "y", 0.0)
+        if self.x is not None and self.y is not None:
+            raise ValueError("give x or y: a section is along y at an x, or along x at a y")
+        if self.body_number not in (1, 2):
+            raise ValueError(f"body_number = {self.body_number}: must be 1 or 2")
+        if np.size(self.places) == 0:
+            raise ValueError(f"{self.across} = []: must be one place or more")
+
+    @property
+    def along(self) -> str:
+        """The axis that the section runs along."""
+        return "y" if self.y is None else "x"
+
+    @property
+    def across(self) -> str:
+        """The axis on which the section has its place."""
+        return "x" if self.y is None else "y"
+
+    @property
+    def places(self) -> float | Sequence[float]:
+        """The place or places on that axis [m]."""
+        places = self.x if self.y is None else self.y
+        assert places is not None
+        return places
+
+    @property
+    def place(self) -> float:
+        """The one place of the section [m]; a ValueError where there are several."""
+        if np.ndim(self.places) != 0:
+            raise ValueError(f"{self.across} = {self.places}: must be one number here")
+        return float(self.places)  # type: ignore[arg-type]
+
+    def at(self, place: float) -> Section:
+        """The section at another place [m]."""
+        return replace(self, y=place) if self.across == "y" else replace(self, x=place)
+
+    def each(self) -> list[Section]:
+        """The sections one by one."""
+        return [self.at(place) for place in np.atleast_1d(np.asarray(self.places, float)).tolist()]
