@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret import _core, files, subsurface
+from pyfret import heat as heating
 from pyfret import life as lives
 from pyfret._core import StoreError
 from pyfret.guesses import no_attribute
@@ -290,6 +291,32 @@ class Result(OfRun):
             cycle=cycle,
             residual=residual,
             tolerance=tolerance,
+        )
+
+    def temperature(
+        self,
+        conductor1: heating.Conductors,
+        conductor2: heating.Conductors,
+        *,
+        frequency: float,
+        bulk: float | tuple[float, float] = 0.0,
+        wave: Literal["sine", "linear"] = "sine",
+        harmonics: int | None = None,
+        cycle: int = -1,
+    ) -> xr.Dataset:
+        """Give the surface temperature under the frictional heat of a closed cycle.
+
+        Parameters and result are those of :func:`pyfret.heat.temperature`.
+        """
+        return heating.temperature(
+            self,
+            conductor1,
+            conductor2,
+            frequency=frequency,
+            bulk=bulk,
+            wave=wave,
+            harmonics=harmonics,
+            cycle=cycle,
         )
 
     def summary(self) -> str:

@@ -28,6 +28,7 @@ pub mod estimate;
 pub mod fatigue;
 pub mod fields;
 mod gauss;
+pub mod heat;
 pub mod kernels;
 mod magnitude;
 pub mod march;

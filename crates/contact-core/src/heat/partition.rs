@@ -1,0 +1,116 @@
+//! Which part of the heat each body takes: the surfaces agree in temperature wherever they touch.
+//!
+//! With q = q_1 + q_2 and T_1 + C_1 q_1 = T_2 + C_2 q_2 on the cells in contact, T_1 and T_2 being the
+//! temperatures far away,
+//!
+//! ```text
+//! (C_1 + C_2) q_1 = C_2 q + T_2 - T_1
+//! ```
+//!
+//! The matrix is complex and symmetric, so that conjugate gradients with products that do not conjugate solve it
+//! (H. A. van der Vorst, J. B. M. Melissen, IEEE Trans. Magnetics 26 (1990) 706-708).
+
+use super::conduction::Conduction;
+use crate::error::Error;
+use crate::kernels::Complex64;
+
+/// Root mean square of the difference of the temperatures, over that of what is to be made equal.
+const TOLERANCE: f64 = 1e-9;
+/// Most iterations: those of a matrix like 1/k grow with the root of the cells across the contact.
+const MOST: usize = 2000;
+
+/// The heat shared out, at one frequency.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Partition {
+    /// Flux into body 1, and into body 2 \[W/m^2\].
+    pub flux: [Vec<Complex64>; 2],
+    /// Temperature of body 1, and of body 2, each above its own far away \[K\].
+    pub rise: [Vec<Complex64>; 2],
+}
+
+/// Shares the heat q of the cells in `contact` out between two bodies; `warmer` is T_2 - T_1 far
+/// away \[K\], zero but in the steady state.
+///
+/// # Panics
+/// If the fields are not of the grid of the bodies.
+pub fn partition(
+    [one, two]: [&mut Conduction; 2],
+    heat: &[Complex64],
+    contact: &[bool],
+    warmer: f64,
+) -> Result<Partition, Error> {
+    let heat = kept(heat, contact);
+    let mut asked = two.temperature(&heat);
+    asked.iter_mut().for_each(|t| *t += warmer);
+    let asked = kept(&asked, contact);
+    // Exact for two half-spaces in the steady state, and for two bodies that are the same.
+    let share = two.self_coefficient() / (one.self_coefficient() + two.self_coefficient());
+    let guess: Vec<_> = heat.iter().map(|q| share * q).collect();
+    let q_1 = solve(&mut one.sum(two), &asked, guess, contact)?;
+    let q_2: Vec<_> = heat.iter().zip(&q_1).map(|(q, q_1)| q - q_1).collect();
+    let rise = [one.temperature(&q_1), two.temperature(&q_2)];
+    Ok(Partition {
+        flux: [q_1, q_2],
+        rise,
+    })
+}
+
+/// The field on the cells in contact, zero elsewhere.
+fn kept(field: &[Complex64], contact: &[bool]) -> Vec<Complex64> {
+    let cells = field.iter().zip(contact);
+    cells
+        .map(|(value, touches)| if *touches { *value } else { Complex64::ZERO })
+        .collect()
+}
+
+/// Conjugate gradients for a symmetric complex matrix on the cells in contact.
+fn solve(
+    matrix: &mut Conduction,
+    asked: &[Complex64],
+    mut x: Vec<Complex64>,
+    contact: &[bool],
+) -> Result<Vec<Complex64>, Error> {
+    let goal = TOLERANCE * size(asked);
+    let product = kept(&matrix.temperature(&x), contact);
+    let mut r: Vec<_> = asked.iter().zip(product).map(|(b, a)| b - a).collect();
+    let mut direction = r.clone();
+    let mut rr = dot(&r, &r);
+    let mut iterations = 0;
+    while size(&r) > goal {
+        if iterations == MOST || !rr.is_finite() {
+            return Err(Error::HeatNotShared {
+                residual: size(&r) / size(asked),
+                tolerance: TOLERANCE,
+                iterations,
+            });
+        }
+        let product = kept(&matrix.temperature(&direction), contact);
+        let step = rr / dot(&direction, &product);
+        add_scaled(&mut x, step, &direction);
+        add_scaled(&mut r, -step, &product);
+        let next = dot(&r, &r);
+        let turn = next / rr;
+        for (d, r) in direction.iter_mut().zip(&r) {
+            *d = r + turn * *d;
+        }
+        rr = next;
+        iterations += 1;
+    }
+    Ok(x)
+}
+
+/// The sum of products, nothing conjugated.
+fn dot(a: &[Complex64], b: &[Complex64]) -> Complex64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The root of the sum of squares.
+fn size(a: &[Complex64]) -> f64 {
+    a.iter().map(|a| a.norm_sqr()).sum::<f64>().sqrt()
+}
+
+fn add_scaled(to: &mut [Complex64], factor: Complex64, what: &[Complex64]) {
+    for (to, what) in to.iter_mut().zip(what) {
+        *to += factor * what;
+    }
+}
