@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import MU, R, T_MAX, sphere_on_flat
+from conftest import T_MAX, sphere_on_flat
 from conftest import W as LOAD
 from pyfret.heat import Conductor
 
@@ -69,7 +69,7 @@ def test_surfaces_agree_where_they_touch(coated: fret.Result) -> None:
     hottest = found.largest.sel(body=found.attrs["maximum_body"])
     at = hottest.sel(x=found.attrs["maximum_x"], y=found.attrs["maximum_y"])
     assert float(at) == found.attrs["maximum"]
-    # The insulating coating sends the heat of friction to body 1, and from body 2 comes what is warmer.
+    # The insulating coating sends heat to body 1, and what is warmer warms the other.
     alone = coated.temperature(STEEL, [POOR, STEEL], frequency=50.0)
     assert alone.attrs["heat_into_body1"] > alone.attrs["heat_into_body2"] > 0
     assert found.attrs["heat_into_body1"] > alone.attrs["heat_into_body1"]
@@ -87,7 +87,9 @@ def test_time_within_a_branch(sliding: fret.Result) -> None:
 def test_refusals(coated: fret.Result) -> None:
     with pytest.raises(ValueError, match="frequency = 0"):
         coated.temperature(STEEL, STEEL, frequency=0.0)
-    with pytest.raises(ValueError, match=r"conductor2 = 1 conductors: must be one for each of the 2"):
+    with pytest.raises(
+        ValueError, match=r"conductor2 = 1 conductors: must be one for each of the 2"
+    ):
         coated.temperature(STEEL, [STEEL], frequency=1.0)
     bad = Conductor(conductivity=-1.0, heat_capacity=1.0)
     with pytest.raises(ValueError, match=r"conductor1\[0\].conductivity = -1"):

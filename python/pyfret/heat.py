@@ -1,7 +1,7 @@
 """How hot does it get? Surface temperature under the frictional heat of a cycle.
 
-Both bodies are half-spaces with insulated surfaces outside the contact, and the cycle repeats itself for
-long enough that every one is like the last. ::
+Both bodies are half-spaces with insulated surfaces outside the contact, and the cycle has repeated
+itself until every one is like the last. ::
 
     steel = fret.heat.Conductor(conductivity=45.0, heat_capacity=3.6e6)
     found = result.temperature(steel, steel, frequency=50.0, bulk=20.0)
@@ -81,9 +81,7 @@ def _ends(result: Result, kept: NDArray[np.int64], wave: str) -> NDArray[np.floa
     return np.concatenate(parts) / period
 
 
-def _heat(
-    result: Result, kept: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def _heat(result: Result, kept: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Work of every kept increment of a cycle [J/m^2], and the cells in contact."""
     branch = result.dataset.branch_of_increment
     whole = branch.increment.values[np.isin(branch.values, branch.sel(increment=kept).values)]
@@ -92,8 +90,8 @@ def _heat(
     missing = [n for n in (before, last) if n > 0 and n not in saved]
     if missing:
         raise ValueError(
-            f"the fields of increment {missing[0]} were not kept: the heat of a cycle needs those at "
-            "both of its ends; solve with save='all'"
+            f"the fields of increment {missing[0]} were not kept: the heat of a cycle needs "
+            "those at both of its ends; solve with save='all'"
         )
     works = [result.at(int(n)).dissipated_density.values for n in kept]
     start = result.at(before).dissipated_density.values if before else np.zeros_like(works[0])
@@ -140,8 +138,8 @@ def temperature(
     frequency : float
         Cycles per second [Hz].
     bulk : float or two floats
-        Temperature far from the contact, of both bodies or of each, in degrees of the user's choice;
-        0 makes the result a rise [K].
+        Temperature far from the contact, of both bodies or of each [K, or degrees Celsius]; with 0
+        the result is a rise.
     wave : "sine" or "linear"
         How loads go in time from one end of a branch to the other: as half a period of a sine, or
         at a constant rate. Branches share the period as they share the path time t.
