@@ -4,7 +4,7 @@ Both bodies are half-spaces with insulated surfaces outside the contact, and the
 itself until every one is like the last. ::
 
     steel = fret.heat.Conductor(conductivity=45.0, heat_capacity=3.6e6)
-    found = result.temperature(steel, steel, frequency=50.0, bulk=20.0)
+    found = result.temperature(steel, steel, frequency=50.0, bulk=293.0)
     found.attrs["maximum"], found.attrs["maximum_x"]
     fret.plot.temperature(found)
 
@@ -138,8 +138,8 @@ def temperature(
     frequency : float
         Cycles per second [Hz].
     bulk : float or two floats
-        Temperature far from the contact, of both bodies or of each [K, or degrees Celsius]; with 0
-        the result is a rise.
+        Temperature far from the contact, of both bodies or of each [K]; with 0 the result is the
+        rise above it.
     wave : "sine" or "linear"
         How loads go in time from one end of a branch to the other: as half a period of a sine, or
         at a constant rate. Branches share the period as they share the path time t.
@@ -152,7 +152,7 @@ def temperature(
     Returns
     -------
     xarray.Dataset
-        ``mean`` and ``largest`` over (body, x, y), mean and largest temperature of the cycle, and
+        ``steady`` and ``largest`` over (body, x, y), mean and largest temperature of the cycle, and
         ``flash``, their difference; ``heat`` over (x, y), mean frictional heat [W/m^2], and
         ``share``, the part of it that flows into body 1 (NaN where there is none; outside 0 to 1
         where heat that rises elsewhere crosses the contact); ``peak`` over ``time``, the largest
@@ -215,7 +215,7 @@ def _table(result: Result, found: dict[str, Any]) -> xr.Dataset:
     flash = found["largest"] - found["mean"]
     field, both = ("x", "y"), ("body", "x", "y")
     for name, dims, values, unit, meaning in (
-        ("mean", both, found["mean"], "K", "mean temperature over the cycle"),
+        ("steady", both, found["mean"], "K", "mean temperature over the cycle"),
         ("largest", both, found["largest"], "K", "largest temperature of the cycle"),
         ("flash", both, flash, "K", "largest temperature less the mean"),
         ("heat", field, heat, "W/m^2", "mean frictional heat"),

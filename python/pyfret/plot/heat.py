@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 #: How the fields of a temperature are called in figures.
 NAMES = {
-    "mean": "mean temperature",
+    "steady": "mean temperature",
     "largest": "largest temperature",
     "flash": "largest less mean temperature",
 }
@@ -44,14 +44,14 @@ def temperature(found: xr.Dataset, *, units: Units = "auto", ax: Axes | None = N
     ax = axes(ax)
     length = scales(found.attrs, units).length
     cut = found.sel(y=found.attrs["maximum_y"])
-    for name, colour in (("largest", "C1"), ("mean", "C0")):
+    for name, shown, colour in (("largest", "largest", "C1"), ("steady", "mean", "C0")):
         for body, style in ((1, "-"), (2, "--")):
             ax.plot(
                 cut.x / length.value,
                 cut[name].sel(body=body),
                 color=colour,
                 linestyle=style,
-                label=f"{name}, body {body}",
+                label=f"{shown}, body {body}",
             )
     ax.legend()
     ax.set_xlabel(length.label("x"))
@@ -63,7 +63,7 @@ def temperature(found: xr.Dataset, *, units: Units = "auto", ax: Axes | None = N
 def temperature_map(
     found: xr.Dataset,
     *,
-    of: Literal["mean", "largest", "flash"] = "largest",
+    of: Literal["steady", "largest", "flash"] = "largest",
     body_number: int = 2,
     units: Units = "auto",
     ax: Axes | None = None,
@@ -75,7 +75,7 @@ def temperature_map(
     ----------
     found, units, ax
         As in :func:`temperature`.
-    of : "mean", "largest" or "flash"
+    of : "steady", "largest" or "flash"
         Mean or largest temperature of the cycle, or the difference of both.
     body_number : 1 or 2
         The body.
