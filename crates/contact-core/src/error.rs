@@ -169,11 +169,11 @@ pub enum Error {
     },
     /// The heat is not shared out so that the temperatures agree.
     #[error(
-        "the temperatures of the bodies differ by {residual:.2e} of the largest (tolerance {tolerance:.2e}) after \
+        "the temperatures of the bodies in contact differ by {residual:.2e} of themselves (tolerance {tolerance:.2e}) after \
          {iterations} iterations"
     )]
     HeatNotShared {
-        /// Root mean square of the difference, over that of what is to be made equal.
+        /// Root mean square of the difference, over that of the temperature.
         residual: f64,
         /// Residual asked for.
         tolerance: f64,

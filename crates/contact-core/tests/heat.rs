@@ -22,21 +22,21 @@ const TITANIUM: Conductor = Conductor {
 const A: f64 = 1e-3;
 
 fn steel() -> Layers {
-    Layers::homogeneous(STEEL).unwrap()
+    Layers::homogeneous(STEEL).expect("a body")
 }
 
 fn titanium() -> Layers {
-    Layers::homogeneous(TITANIUM).unwrap()
+    Layers::homogeneous(TITANIUM).expect("a body")
 }
 
 fn coated(coating: Conductor, h: f64, substrate: Conductor) -> Layers {
-    Layers::new(&[coating, substrate], &[h], "body").unwrap()
+    Layers::new(&[coating, substrate], &[h], "body").expect("a body")
 }
 
 /// A grid with a cell in the middle, `n` cells to the radius.
 fn grid(n: usize) -> Grid {
     let side = 2 * n + 7;
-    Grid::centred(side as f64 * A / n as f64, side).unwrap()
+    Grid::centred(side as f64 * A / n as f64, side).expect("a grid")
 }
 
 /// The mean over each cell of a function of r/A.
@@ -61,7 +61,9 @@ fn disc(grid: &Grid) -> Vec<Complex64> {
 }
 
 fn respond(body: &Layers, grid: &Grid, w: f64, q: &[Complex64]) -> Vec<Complex64> {
-    Conduction::new(body, grid, w).unwrap().temperature(q)
+    Conduction::new(body, grid, w)
+        .expect("a response")
+        .temperature(q)
 }
 
 fn close(found: f64, expected: f64, tolerance: f64) {
@@ -267,7 +269,7 @@ fn a_disc_between_a_warm_and_a_cold_body() {
 fn pulsating(grid: &Grid, frequency: f64) -> (Vec<f64>, Vec<Array2<f64>>, Array2<bool>) {
     let shape = (grid.nx, grid.ny);
     let q = disc(grid).iter().map(|q| q.re).collect();
-    let q = Array2::from_shape_vec(shape, q).unwrap();
+    let q = Array2::from_shape_vec(shape, q).expect("a number per cell");
     let ends: Vec<f64> = (1..=40).map(|n| f64::from(n) / 40.0).collect();
     let work = |t: f64| t - (2.0 * PI * t).sin() / (2.0 * PI);
     let heat = ends

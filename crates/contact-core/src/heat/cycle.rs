@@ -162,7 +162,9 @@ fn over_time(answers: &[Partition], bulk: [f64; 2], shape: (usize, usize)) -> Te
     let instants: Vec<f64> = (0..count).map(|m| m as f64 / count as f64).collect();
     let mut largest = mean.clone();
     if !swings.is_empty() {
-        largest.iter_mut().for_each(|of| of.fill(f64::NEG_INFINITY));
+        for of in &mut largest {
+            of.fill(f64::NEG_INFINITY);
+        }
     }
     let mut peaks = Vec::with_capacity(count);
     for t in &instants {

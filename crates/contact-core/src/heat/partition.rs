@@ -14,8 +14,11 @@ use super::conduction::Conduction;
 use crate::error::Error;
 use crate::kernels::Complex64;
 
-/// Root mean square of the difference of the temperatures, over that of what is to be made equal.
+/// Root mean square of the difference of the temperatures, over the lesser of those that either body
+/// would have if it took all of the heat, and the difference far away.
 const TOLERANCE: f64 = 1e-9;
+/// What rounding leaves of a residual, over what is to be made equal.
+const ROUNDING: f64 = 1e-14;
 /// Most iterations: those of a matrix like 1/k grow with the root of the cells across the contact.
 const MOST: usize = 2000;
 
@@ -41,12 +44,18 @@ pub fn partition(
 ) -> Result<Partition, Error> {
     let heat = kept(heat, contact);
     let mut asked = two.temperature(&heat);
-    asked.iter_mut().for_each(|t| *t += warmer);
+    let warmed = size(&kept(&asked, contact));
+    for t in &mut asked {
+        *t += warmer;
+    }
     let asked = kept(&asked, contact);
+    let alone = kept(&one.temperature(&heat), contact);
+    let cells = contact.iter().filter(|touches| **touches).count() as f64;
+    let scale = size(&alone).min(warmed) + warmer.abs() * cells.sqrt();
     // Exact for two half-spaces in the steady state, and for two bodies that are the same.
     let share = two.self_coefficient() / (one.self_coefficient() + two.self_coefficient());
     let guess: Vec<_> = heat.iter().map(|q| share * q).collect();
-    let q_1 = solve(&mut one.sum(two), &asked, guess, contact)?;
+    let q_1 = solve(&mut one.sum(two), (&asked, scale), guess, contact)?;
     let q_2: Vec<_> = heat.iter().zip(&q_1).map(|(q, q_1)| q - q_1).collect();
     let rise = [one.temperature(&q_1), two.temperature(&q_2)];
     Ok(Partition {
@@ -63,23 +72,24 @@ fn kept(field: &[Complex64], contact: &[bool]) -> Vec<Complex64> {
         .collect()
 }
 
-/// Conjugate gradients for a symmetric complex matrix on the cells in contact.
+/// Conjugate gradients for a symmetric complex matrix on the cells in contact, until the residual is
+/// the tolerance of `scale`.
 fn solve(
     matrix: &mut Conduction,
-    asked: &[Complex64],
+    (asked, scale): (&[Complex64], f64),
     mut x: Vec<Complex64>,
     contact: &[bool],
 ) -> Result<Vec<Complex64>, Error> {
-    let goal = TOLERANCE * size(asked);
     let product = kept(&matrix.temperature(&x), contact);
     let mut r: Vec<_> = asked.iter().zip(product).map(|(b, a)| b - a).collect();
     let mut direction = r.clone();
     let mut rr = dot(&r, &r);
     let mut iterations = 0;
+    let goal = (TOLERANCE * scale).max(ROUNDING * size(asked));
     while size(&r) > goal {
         if iterations == MOST || !rr.is_finite() {
             return Err(Error::HeatNotShared {
-                residual: size(&r) / size(asked),
+                residual: size(&r) / scale,
                 tolerance: TOLERANCE,
                 iterations,
             });
@@ -106,7 +116,7 @@ fn dot(a: &[Complex64], b: &[Complex64]) -> Complex64 {
 
 /// The root of the sum of squares.
 fn size(a: &[Complex64]) -> f64 {
-    a.iter().map(|a| a.norm_sqr()).sum::<f64>().sqrt()
+    a.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt()
 }
 
 fn add_scaled(to: &mut [Complex64], factor: Complex64, what: &[Complex64]) {
