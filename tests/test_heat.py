@@ -13,6 +13,7 @@ from pyfret.heat import Conductor
 
 STEEL = Conductor(conductivity=45.0, heat_capacity=3.6e6)
 SHIFT = 40e-6
+STEEL_E = fret.Elastic(E=210e9, nu=0.3)
 POOR = Conductor(conductivity=3.0, heat_capacity=2.0e6)
 
 
@@ -111,6 +112,19 @@ def test_refusals(coated: fret.Result) -> None:
     some = fret.solve(coated.scene, coated.scene.path, save=[10, 14, 17], progress=False)
     with pytest.raises(ValueError, match="increment 5 were not kept"):
         some.temperature(STEEL, STEEL, frequency=1.0)
+    strip = fret.Scene(
+        body1=fret.Body(STEEL_E, shape=fret.Cylinder(R=0.01)),
+        body2=fret.Body(STEEL_E),
+        mu=0.3,
+        grid=fret.Grid.strip(extent=4e-4, n=16),
+    )
+    path = fret.LoadPath.start().normal(1e5, increments=1)
+    line = fret.solve(strip, path.tangential([1e4, -1e4, 1e4], increments=5), save="all")
+    with pytest.raises(ValueError, match=r"grid\.plane_strain"):
+        line.temperature(STEEL, STEEL, frequency=1.0)
+    pressed = fret.solve(strip, path, save="all")
+    with pytest.raises(ValueError, match="no closed cycle"):
+        pressed.temperature(STEEL, STEEL, frequency=1.0)
 
 
 def test_figures(coated: fret.Result) -> None:

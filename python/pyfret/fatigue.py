@@ -258,7 +258,9 @@ def cycle_increments(result: Result, cycle: int = -1) -> NDArray[np.int64]:
     """
     cycles = result.loops()
     if cycles.sizes["cycle"] == 0:
-        raise ValueError("the load path has no closed cycle: fatigue needs one")
+        raise ValueError(
+            "the load path has no closed cycle, and one is needed: end where a cycle began"
+        )
     ends = cycles.isel(cycle=cycle)
     first, last = int(ends.first_branch), int(ends.last_branch)
     saved = result.dataset.saved_increment.values
