@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 from pyfret import (
     averages,
     fatigue,
+    heat,
     interface,
     kernels,
     life,
@@ -141,6 +142,7 @@ __all__ = [
     "cite",
     "fatigue",
     "graded",
+    "heat",
     "interface",
     "kernels",
     "life",

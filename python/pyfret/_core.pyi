@@ -2039,6 +2039,22 @@ def maximum(
 def rims(stress: ArrayLike, along: Sequence[float]) -> tuple[list[float], _Array]:
     """Places of the rims on a line on the surface, and stresses (6, rims), from stresses (6, n)."""
 
+def cycle_temperature(
+    conductor1: Sequence[tuple[float, float]],
+    conductor2: Sequence[tuple[float, float]],
+    *,
+    body1: Body,
+    body2: Body,
+    grid: Grid,
+    bulk: tuple[float, float],
+    frequency: float,
+    ends: Sequence[float],
+    heat: NDArray[np.float64],
+    contact: NDArray[np.bool_],
+    harmonics: int,
+) -> dict[str, Any]:
+    """Temperature over a cycle; use :meth:`pyfret.Result.temperature`."""
+
 def loops(
     path: LoadPath,
     *,

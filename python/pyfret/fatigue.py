@@ -301,7 +301,9 @@ def _inside(result: Result, saved: NDArray[np.int64], cycle: int) -> NDArray[np.
     cycles = result.loops()
     count = cycles.sizes["cycle"]
     if count == 0:
-        raise ValueError("the load path has no closed cycle: fatigue needs one")
+        raise ValueError(
+            "the load path has no closed cycle, and one is needed: end where a cycle began"
+        )
     if not -count <= cycle < count:
         raise ValueError(f"cycle = {cycle}: must be {-count} to {count - 1}, a cycle of the path")
     ends = cycles.isel(cycle=cycle)

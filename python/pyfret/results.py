@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret import _core, files, subsurface
+from pyfret import heat as heating
 from pyfret import life as lives
 from pyfret import load_factors as factors
 from pyfret._core import StoreError
@@ -291,6 +292,32 @@ class Result(OfRun):
         Parameters and result are those of :func:`pyfret.load_factors.load_factors`.
         """
         return factors.load_factors(self, s_y, z, **section)
+
+    def temperature(
+        self,
+        conductor1: heating.Conductors,
+        conductor2: heating.Conductors,
+        *,
+        frequency: float,
+        bulk: float | tuple[float, float] = 0.0,
+        wave: Literal["sine", "linear"] = "sine",
+        harmonics: int | None = None,
+        cycle: int = -1,
+    ) -> xr.Dataset:
+        """Give the surface temperature under the frictional heat of a closed cycle.
+
+        Parameters and result are those of :func:`pyfret.heat.temperature`.
+        """
+        return heating.temperature(
+            self,
+            conductor1,
+            conductor2,
+            frequency=frequency,
+            bulk=bulk,
+            wave=wave,
+            harmonics=harmonics,
+            cycle=cycle,
+        )
 
     def summary(self) -> str:
         """Tabulate what the run ended with: a line per branch, then one per cycle.

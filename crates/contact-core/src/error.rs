@@ -166,6 +166,30 @@ pub enum Error {
         /// Tolerance asked for.
         tolerance: f64,
     },
+    /// The conversion of a response to heat missed its tolerance.
+    #[error(
+        "the temperature coefficients have an estimated error of {estimate:.2e} of that of the loaded cell, \
+         more than {tolerance:.2e}"
+    )]
+    TemperatureInaccurate {
+        /// Estimated error over the coefficient of the loaded cell.
+        estimate: f64,
+        /// Largest error allowed.
+        tolerance: f64,
+    },
+    /// The heat is not shared out so that the temperatures agree.
+    #[error(
+        "the temperatures of the bodies in contact differ by {residual:.2e} of themselves (tolerance {tolerance:.2e}) after \
+         {iterations} iterations"
+    )]
+    HeatNotShared {
+        /// Root mean square of the difference, over that of the temperature.
+        residual: f64,
+        /// Residual asked for.
+        tolerance: f64,
+        /// Iterations done.
+        iterations: usize,
+    },
     /// The stress below a loaded cell missed the accuracy promised.
     #[error(
         "the stress coefficients at z = {z:.4e} m have an estimated error of {estimate:.2e} of the \

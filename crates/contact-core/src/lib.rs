@@ -14,8 +14,9 @@
 //! `docs/conventions.md`. The modules stand in the order of the computation:
 //!
 //! [`scene`] -> [`plan`] -> [`kernels`] -> [`convolution`] -> [`cells`] -> [`zones`] -> [`solvers`] ->
-//! [`march`] -> [`fields`] -> [`output`]; [`estimate`] and [`wear`] run marches, [`mod@reference`] (closed
-//! forms) and [`fatigue`] (criteria on plain stress histories) stand beside. The method is that of S. Spinu,
+//! [`march`] -> [`fields`] -> [`output`]; [`estimate`] and [`wear`] run marches, [`heat`] (contact temperature)
+//! stands on convolution, [`mod@reference`] (closed forms) and [`fatigue`] (criteria on plain stress histories) stand
+//! beside. The method is that of S. Spinu,
 //! Tribology in Industry 42 (2020) 131-145, doi:10.24874/ti.2020.42.01.13 ("the paper"); where we
 //! left it, the module says why.
 
@@ -28,6 +29,7 @@ pub mod estimate;
 pub mod fatigue;
 pub mod fields;
 mod gauss;
+pub mod heat;
 pub mod kernels;
 mod magnitude;
 pub mod march;

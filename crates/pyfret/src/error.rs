@@ -58,10 +58,12 @@ pub(crate) fn to_python(error: Error) -> PyErr {
         Error::BeyondFriction { .. } | Error::Lifted { .. } | Error::Unresisted { .. } => {
             SlidingError::new_err(text)
         }
-        Error::NotConverged { .. } => NoConvergenceError::new_err(text),
-        Error::KernelInaccurate { .. } | Error::StressInaccurate { .. } => {
-            KernelInaccurateError::new_err(text)
+        Error::NotConverged { .. } | Error::HeatNotShared { .. } => {
+            NoConvergenceError::new_err(text)
         }
+        Error::KernelInaccurate { .. }
+        | Error::StressInaccurate { .. }
+        | Error::TemperatureInaccurate { .. } => KernelInaccurateError::new_err(text),
         Error::File { .. } => StoreError::new_err(text),
         Error::Interrupted { .. } => PyKeyboardInterrupt::new_err(text),
         Error::TooLarge { .. } => PyMemoryError::new_err(text),

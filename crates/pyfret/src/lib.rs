@@ -19,6 +19,7 @@ mod command_line;
 mod error;
 mod fatigue;
 mod forked;
+mod heat;
 mod history;
 mod interruptible;
 mod kernels;
@@ -76,6 +77,8 @@ mod _core {
         Assessment, Criterion, Material, criterion_on, dang_van_path, material_quantities,
         materials, yielding_on,
     };
+    #[pymodule_export]
+    use crate::heat::cycle_temperature;
     #[pymodule_export]
     use crate::history::{Envelope, loops};
     #[pymodule_export]

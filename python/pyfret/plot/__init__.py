@@ -7,6 +7,7 @@ of the paper from its four runs in one call.
 
 from pyfret.plot.animation import animate
 from pyfret.plot.fretting_map import fretting_map
+from pyfret.plot.heat import temperature, temperature_map
 from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
 from pyfret.plot.life import (
     criterion_map,
@@ -62,6 +63,8 @@ __all__ = [
     "stress_maps",
     "study_map",
     "style",
+    "temperature",
+    "temperature_map",
     "wear_history",
     "wear_loops",
     "wear_profiles",

@@ -37,6 +37,7 @@ pub(crate) use displacement::Displacement;
 pub use graded::{Graded, Profile};
 pub use half_space_stress::StressResponse;
 pub use layered_frf::{RadialResponse, Stack};
+pub(crate) use radial_table::{Hankel, RadialTable};
 pub use rustfft::num_complex::Complex64;
 pub(crate) use sampled_frf::SampledFrf;
 pub(crate) use stress::{Stress, refuse_rigid};

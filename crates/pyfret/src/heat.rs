@@ -1,0 +1,78 @@
+//! The temperature that friction causes.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use contact_core::heat as core;
+use ndarray::{Array2, Array3, ArrayView2, Axis, stack};
+use numpy::{IntoPyArray, PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::error::to_python;
+use crate::interruptible::interruptible;
+use crate::scene::{Body, Grid};
+
+/// Conductivity and heat capacity of each layer.
+type Conductors = Vec<(f64, f64)>;
+
+fn layers(conductors: &Conductors, body: &Body, key: &str) -> PyResult<core::Layers> {
+    let conductors: Vec<_> = conductors
+        .iter()
+        .map(|&(conductivity, heat_capacity)| core::Conductor {
+            conductivity,
+            heat_capacity,
+        })
+        .collect();
+    let thicknesses: Vec<f64> = body.0.coatings.iter().map(|c| c.thickness).collect();
+    core::Layers::new(&conductors, &thicknesses, key).map_err(to_python)
+}
+
+/// Temperature over a cycle; use :meth:`pyfret.Result.temperature`.
+#[pyfunction]
+#[pyo3(signature = (conductor1, conductor2, *, body1, body2, grid, bulk, frequency, ends, heat, contact, harmonics))]
+pub(crate) fn cycle_temperature<'py>(
+    py: Python<'py>,
+    conductor1: Conductors,
+    conductor2: Conductors,
+    body1: Body,
+    body2: Body,
+    grid: Grid,
+    bulk: (f64, f64),
+    frequency: f64,
+    ends: Vec<f64>,
+    heat: PyReadonlyArray3<'py, f64>,
+    contact: PyReadonlyArray2<'py, bool>,
+    harmonics: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let one = layers(&conductor1, &body1, "conductor1")?;
+    let two = layers(&conductor2, &body2, "conductor2")?;
+    let heat: Vec<Array2<f64>> = heat
+        .as_array()
+        .outer_iter()
+        .map(|of| of.to_owned())
+        .collect();
+    let contact = contact.as_array().to_owned();
+    let cycle = core::Cycle {
+        frequency,
+        ends: &ends,
+        heat: &heat,
+        contact: &contact,
+    };
+    let stop = Arc::<AtomicBool>::default();
+    let bulk = [bulk.0, bulk.1];
+    let run = || core::temperature([&one, &two], bulk, &grid.0, &cycle, harmonics, &stop);
+    let found = interruptible(py, &stop, run)?.map_err(to_python)?;
+    let both = |of: &[Array2<f64>; 2]| -> Array3<f64> {
+        let views: [ArrayView2<'_, f64>; 2] = [of[0].view(), of[1].view()];
+        stack(Axis(0), &views).expect("both bodies are on one grid")
+    };
+    let result = PyDict::new(py);
+    result.set_item("mean", both(&found.mean).into_pyarray(py))?;
+    result.set_item("largest", both(&found.largest).into_pyarray(py))?;
+    result.set_item("heat", found.heat.into_pyarray(py))?;
+    result.set_item("flux", found.flux.into_pyarray(py))?;
+    result.set_item("instants", found.instants)?;
+    result.set_item("peaks", found.peaks)?;
+    Ok(result)
+}

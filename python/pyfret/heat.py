@@ -1,0 +1,227 @@
+"""How hot does it get? Surface temperature under the frictional heat of a cycle.
+
+Both bodies are half-spaces with insulated surfaces outside the contact, and the cycle has repeated
+itself until every one is like the last. ::
+
+    steel = fret.heat.Conductor(conductivity=45.0, heat_capacity=3.6e6)
+    found = result.temperature(steel, steel, frequency=50.0, bulk=293.0)
+    found.attrs["maximum"], found.attrs["maximum_x"]
+    fret.plot.temperature(found)
+
+``docs/heat.md`` has the equations and their sources.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from pyfret import _core
+from pyfret.fatigue import cycle_increments
+from pyfret.lazy import xr
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pyfret.results import Result
+
+__all__ = ["Conductor", "Conductors", "temperature"]
+
+#: Largest default number of harmonics.
+HARMONICS = 32
+
+
+@dataclass(frozen=True, kw_only=True)
+class Conductor:
+    """A material that conducts heat.
+
+    Examples
+    --------
+    >>> Conductor(conductivity=45.0, heat_capacity=7800.0 * 460.0)
+    Conductor(conductivity=45.0, heat_capacity=3588000.0)
+    """
+
+    #: Thermal conductivity [W/(m K)].
+    conductivity: float
+    #: Heat capacity of the volume, density times specific heat [J/(m^3 K)].
+    heat_capacity: float
+
+
+#: A material for all layers, or one for each from the surface down, the substrate's last.
+Conductors = Conductor | Sequence[Conductor]
+
+
+def _of_layers(conductors: Conductors, layers: int) -> list[tuple[float, float]]:
+    if isinstance(conductors, Conductor):
+        conductors = [conductors] * layers
+    return [(c.conductivity, c.heat_capacity) for c in conductors]
+
+
+def _ends(result: Result, kept: NDArray[np.int64], wave: str) -> NDArray[np.float64]:
+    """Ends of the kept increments of a cycle as parts of its period."""
+    if wave not in ("sine", "linear"):
+        raise ValueError(f'wave = {wave!r}: must be "sine" or "linear"')
+    branch = result.dataset.branch_of_increment
+    t = result.dataset.t
+    parts = []
+    period = 0.0
+    for number in np.unique(branch.sel(increment=kept).values):
+        before = t.values[branch.values < number]
+        start = before[-1] if before.size else 0.0
+        length = float(t.values[branch.values == number][-1]) - start
+        here = kept[branch.sel(increment=kept).values == number]
+        along = (t.sel(increment=here).values - start) / length
+        if wave == "sine":
+            along = np.arccos(np.clip(1.0 - 2.0 * along, -1.0, 1.0)) / np.pi
+        parts.append(period + length * along)
+        period += length
+    return np.concatenate(parts) / period
+
+
+def _heat(result: Result, kept: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Work of every kept increment of a cycle [J/m^2], and the cells in contact."""
+    branch = result.dataset.branch_of_increment
+    whole = branch.increment.values[np.isin(branch.values, branch.sel(increment=kept).values)]
+    before, last = int(whole[0]) - 1, int(whole[-1])
+    saved = result.dataset.saved_increment.values
+    missing = [n for n in (before, last) if n > 0 and n not in saved]
+    if missing:
+        raise ValueError(
+            f"the fields of increment {missing[0]} were not kept: the heat of a cycle needs "
+            "those at both of its ends; solve with save='all'"
+        )
+    works = [result.at(int(n)).dissipated_density.values for n in kept]
+    start = result.at(before).dissipated_density.values if before else np.zeros_like(works[0])
+    contact = np.any([result.at(int(n)).contact.values.astype(bool) for n in kept], axis=0)
+    return np.diff(np.stack([start, *works]), axis=0), contact
+
+
+def _maximum(table: xr.Dataset, bulk: tuple[float, float]) -> dict[str, Any]:
+    """The largest temperature, its place and its body."""
+    body, i, j = np.unravel_index(int(np.argmax(table.largest.values)), table.largest.shape)
+    hottest = table.largest.values[body, i, j]
+    return {
+        "maximum": float(hottest),
+        "maximum_x": float(table.x[i]),
+        "maximum_y": float(table.y[j]),
+        "maximum_body": int(body) + 1,
+        "bulk": [float(of) for of in bulk],
+    }
+
+
+def temperature(
+    result: Result,
+    conductor1: Conductors,
+    conductor2: Conductors,
+    *,
+    frequency: float,
+    bulk: float | tuple[float, float] = 0.0,
+    wave: Literal["sine", "linear"] = "sine",
+    harmonics: int | None = None,
+    cycle: int = -1,
+) -> xr.Dataset:
+    """Give the surface temperature of both bodies under the frictional heat of a closed cycle.
+
+    The heat of each increment is set free at a constant rate. It rests on the cells that are in
+    contact at any time of the cycle: slip is taken as small against the contact.
+
+    Parameters
+    ----------
+    result : Result
+        Solved with ``save="all"``, or with the increments of the cycle and the one before it.
+    conductor1, conductor2 : Conductor or sequence of Conductor
+        Of each body one for all layers, or one for each from the surface down, the substrate's
+        last. The thicknesses are those of the scene.
+    frequency : float
+        Cycles per second [Hz].
+    bulk : float or two floats
+        Temperature far from the contact, of both bodies or of each [K]; with 0 the result is the
+        rise above it.
+    wave : "sine" or "linear"
+        How loads go in time from one end of a branch to the other: as half a period of a sine, or
+        at a constant rate. Branches share the period as they share the path time t.
+    harmonics : int, optional
+        Harmonics of the heat in time; 0 for the mean alone (default: half the kept increments of
+        the cycle, which is what these tell of it, up to 32).
+    cycle : int
+        Which of the closed cycles; the last by default.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``steady`` and ``largest`` over (body, x, y), mean and largest temperature of the cycle, and
+        ``flash``, their difference; ``heat`` over (x, y), mean frictional heat [W/m^2], and
+        ``share``, the part of it that flows into body 1 (NaN where there is none; outside 0 to 1
+        where heat that rises elsewhere crosses the contact); ``peak`` over ``time``, the largest
+        temperature of the surfaces at each part of the period. Attributes: ``maximum`` with
+        ``maximum_x``, ``maximum_y`` [m] and ``maximum_body``, ``heat_into_body1`` and
+        ``heat_into_body2`` [W], ``bulk`` and ``frequency``.
+
+    Raises
+    ------
+    ValueError
+        There is no closed cycle, its increments were not kept, the contact is in plane strain, or a
+        number is out of its range; the message says which.
+
+    Examples
+    --------
+    >>> steel = Conductor(conductivity=45.0, heat_capacity=3.6e6)
+    >>> found = temperature(result, steel, steel, frequency=50.0)  # doctest: +SKIP
+    """
+    kept = cycle_increments(result, cycle)
+    heat, contact = _heat(result, kept)
+    scene = result.scene
+    body1, body2 = scene.body1, scene.body2
+    bulk = (bulk[0], bulk[1]) if isinstance(bulk, Sequence) else (bulk, bulk)
+    if harmonics is None:
+        harmonics = min(kept.size // 2, HARMONICS)
+    if harmonics < 0:
+        raise ValueError(f"harmonics = {harmonics}: must be 0 or more")
+    found = _core.cycle_temperature(
+        _of_layers(conductor1, len(body1.coatings) + 1),
+        _of_layers(conductor2, len(body2.coatings) + 1),
+        body1=body1,
+        body2=body2,
+        grid=scene.grid,
+        bulk=bulk,
+        frequency=frequency,
+        ends=_ends(result, kept, wave).tolist(),
+        heat=heat,
+        contact=contact,
+        harmonics=harmonics,
+    )
+    table = _table(result, found)
+    area = scene.grid.dx * scene.grid.dy
+    into1 = float(found["flux"].sum() * area)
+    yardsticks = {k: v for k, v in result.dataset.attrs.items() if k in ("a_H", "p_H")}
+    return table.assign_attrs(
+        yardsticks,
+        frequency=frequency,
+        heat_into_body1=into1,
+        heat_into_body2=float(found["heat"].sum() * area) - into1,
+        **_maximum(table, bulk),
+    )
+
+
+def _table(result: Result, found: dict[str, Any]) -> xr.Dataset:
+    """What was found, with coordinates, units and meanings."""
+    coords = {"body": [1, 2], "x": result.dataset.x, "y": result.dataset.y}
+    table = xr.Dataset(coords={**coords, "time": found["instants"]})
+    heat = found["heat"]
+    share = np.divide(found["flux"], heat, out=np.full_like(heat, np.nan), where=heat > 0.0)
+    flash = found["largest"] - found["mean"]
+    field, both = ("x", "y"), ("body", "x", "y")
+    for name, dims, values, unit, meaning in (
+        ("steady", both, found["mean"], "K", "mean temperature over the cycle"),
+        ("largest", both, found["largest"], "K", "largest temperature of the cycle"),
+        ("flash", both, flash, "K", "largest temperature less the mean"),
+        ("heat", field, heat, "W/m^2", "mean frictional heat"),
+        ("share", field, share, "1", "part of the mean heat that flows into body 1"),
+        ("peak", ("time",), found["peaks"], "K", "largest temperature of the surfaces"),
+    ):
+        table[name] = (dims, values, {"units": unit, "long_name": meaning})
+    table.time.attrs.update(units="1", long_name="time over the period")
+    return table

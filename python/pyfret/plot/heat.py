@@ -1,0 +1,104 @@
+"""Figures of the contact temperature."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from pyfret.plot.scales import Units, scales
+from pyfret.plot.style import axes, styled
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+#: How the fields of a temperature are called in figures.
+NAMES = {
+    "steady": "mean temperature",
+    "largest": "largest temperature",
+    "flash": "largest less mean temperature",
+}
+
+
+def _degrees(found: xr.Dataset) -> str:
+    """Symbol of the temperature: a rise where the bodies are at 0 far away."""
+    return r"\Delta T" if not np.any(found.attrs["bulk"]) else "T"
+
+
+@styled
+def temperature(found: xr.Dataset, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
+    """Mean and largest temperature of a cycle along x, through the hottest place, of both bodies.
+
+    Where the bodies touch their mean temperatures are the same, and those of every instant.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From :meth:`Result.temperature`.
+    units : "auto", "dimensionless" or "SI"
+        Of the lengths: over a_H (default where there is one), or in um.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    ax = axes(ax)
+    length = scales(found.attrs, units).length
+    cut = found.sel(y=found.attrs["maximum_y"])
+    for name, shown, colour in (("largest", "largest", "C1"), ("steady", "mean", "C0")):
+        for body, style in ((1, "-"), (2, "--")):
+            ax.plot(
+                cut.x / length.value,
+                cut[name].sel(body=body),
+                color=colour,
+                linestyle=style,
+                label=f"{shown}, body {body}",
+            )
+    ax.legend()
+    ax.set_xlabel(length.label("x"))
+    ax.set_ylabel(rf"${_degrees(found)}$ [K]")
+    return ax
+
+
+@styled
+def temperature_map(
+    found: xr.Dataset,
+    *,
+    of: Literal["steady", "largest", "flash"] = "largest",
+    body_number: int = 2,
+    units: Units = "auto",
+    ax: Axes | None = None,
+    **image: Any,
+) -> Axes:
+    """Temperature over the surface of a body, with a cross at the hottest place of the cycle.
+
+    Parameters
+    ----------
+    found, units, ax
+        As in :func:`temperature`.
+    of : "steady", "largest" or "flash"
+        Mean or largest temperature of the cycle, or the difference of both.
+    body_number : 1 or 2
+        The body.
+    **image
+        Passed on to ``imshow``, such as ``cmap`` and ``vmax``.
+    """
+    if of not in NAMES:
+        raise ValueError(f"of = {of!r}: must be {', '.join(map(repr, NAMES))}")
+    if body_number not in (1, 2):
+        raise ValueError(f"body_number = {body_number}: must be 1 or 2")
+    ax = axes(ax, square=True)
+    length = scales(found.attrs, units).length
+    x, y = found.x.values / length.value, found.y.values / length.value
+    half_x, half_y = (x[1] - x[0]) / 2, (y[1] - y[0]) / 2
+    extent = (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)
+    values = found[of].sel(body=body_number).values
+    look = {"cmap": "YlOrRd", "aspect": ax.get_aspect(), **image}
+    drawn = ax.imshow(values.T, origin="lower", extent=extent, **look)
+    place = found.attrs["maximum_x"] / length.value, found.attrs["maximum_y"] / length.value
+    ax.plot(*place, marker="x", color="0.1", markersize=5)
+    ax.set_xlabel(length.label("x"))
+    ax.set_ylabel(length.label("y"))
+    bar = ax.get_figure().colorbar(drawn, ax=ax, shrink=0.9, pad=0.02)  # type: ignore[union-attr]
+    bar.outline.set_visible(False)
+    bar.set_label(rf"{NAMES[of]} of body {body_number} [K]")
+    return ax

@@ -1,0 +1,139 @@
+"""Contact temperature of a run: closed forms, sharing, time, refusals, figures."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import MU, T_MAX, sphere_on_flat
+from conftest import W as LOAD
+from pyfret.heat import Conductor
+
+STEEL = Conductor(conductivity=45.0, heat_capacity=3.6e6)
+SHIFT = 40e-6
+STEEL_E = fret.Elastic(E=210e9, nu=0.3)
+POOR = Conductor(conductivity=3.0, heat_capacity=2.0e6)
+
+
+@pytest.fixture(scope="module")
+def sliding() -> fret.Result:
+    """Like spheres that slide by far more than they give, over one closed cycle."""
+    path = fret.LoadPath.start().normal(LOAD, increments=1)
+    path = path.displace(delta_x=[SHIFT, -SHIFT, SHIFT], increments=60)
+    return fret.solve(sphere_on_flat(n=32), path, save="all", progress=False)
+
+
+@pytest.fixture(scope="module")
+def coated() -> fret.Result:
+    path = fret.LoadPath.start().normal(LOAD, increments=2)
+    path = path.tangential([T_MAX, -T_MAX, T_MAX], increments=15)
+    return fret.solve(sphere_on_flat(ratio=2.0, n=16), path, save="all", progress=False)
+
+
+def test_gross_slip_heats_as_the_source_of_hertz_shape(sliding: fret.Result) -> None:
+    """q_0 = mu p_H times the mean speed; pi q_0 a/(8 K) in each of two bodies alike."""
+    frequency = 1e-6
+    found = sliding.temperature(STEEL, STEEL, frequency=frequency)
+    loop = sliding.loops().isel(cycle=-1)
+    heat = float(loop.dissipated) * frequency
+    np.testing.assert_allclose(found.attrs["heat_into_body1"], heat / 2, rtol=1e-6)
+    np.testing.assert_allclose(found.attrs["heat_into_body2"], heat / 2, rtol=1e-6)
+    q_0 = 1.5 * heat / (np.pi * sliding.a_H**2)
+    expected = np.pi * q_0 * sliding.a_H / (8 * STEEL.conductivity)
+    # Of the middle four cells half a diagonal off: T falls like 1 - r^2/(2 a^2).
+    off = (sliding.scene.grid.dx**2 / 2) / (2 * sliding.a_H**2)
+    # What the spheres give, u = u_0 (1 - r^2/(2 a^2)) of each half stroke, does not slip; it is
+    # largest in the middle. The mean of u over the heat is 0.8 u_0; what is missing in the
+    # middle, 1 - r^2/(2 a^2) - 0.8, is 0.075 of it where sources count by 1/r.
+    elastic = sliding.scene.body1.substrate
+    give = 3 * MU * LOAD * (2 - elastic.nu) / (8 * elastic.G * sliding.a_H)
+    unslipped = 0.075 * give / (SHIFT - 0.8 * give)
+    assert float(found.steady.max()) == pytest.approx(
+        expected * (1 - off) * (1 - unslipped), rel=2e-3
+    )
+    # So slow a cycle is quasi-steady. Heat goes as |sin| but while the spheres give, so that its
+    # largest value over the mean is pi/2 times all of the stroke over what of it slips; the
+    # harmonics of the kept increments round the edges off.
+    slips = (1 - 0.8 * give / SHIFT) * (1 - unslipped)
+    ratio = float(found.largest.max() / found.steady.max())
+    assert ratio == pytest.approx(np.pi / 2 / slips, rel=1e-2)
+
+
+def test_a_fast_cycle_hardly_swings(sliding: fret.Result) -> None:
+    found = sliding.temperature(STEEL, STEEL, frequency=1e7)
+    swing = float(found.flash.max()) / float(found.steady.max())
+    assert 0.0 < swing < 0.01
+    steady = sliding.temperature(STEEL, STEEL, frequency=1e7, harmonics=0)
+    np.testing.assert_allclose(steady.steady, found.steady, rtol=1e-12)
+    assert float(abs(steady.flash).max()) == 0.0
+
+
+def test_surfaces_agree_where_they_touch(coated: fret.Result) -> None:
+    found = coated.temperature(STEEL, [POOR, STEEL], frequency=50.0, bulk=(293.0, 298.0))
+    contact = np.any(coated.dataset.contact.values[5:], axis=0)
+    one, two = found.steady.values
+    warm = float(found.steady.max()) - 293.0
+    np.testing.assert_allclose(one[contact], two[contact], atol=1e-6 * warm)
+    assert found.attrs["maximum"] == float(found.largest.max())
+    hottest = found.largest.sel(body=found.attrs["maximum_body"])
+    at = hottest.sel(x=found.attrs["maximum_x"], y=found.attrs["maximum_y"])
+    assert float(at) == found.attrs["maximum"]
+    # The insulating coating sends heat to body 1, and what is warmer warms the other.
+    alone = coated.temperature(STEEL, [POOR, STEEL], frequency=50.0)
+    assert alone.attrs["heat_into_body1"] > alone.attrs["heat_into_body2"] > 0
+    assert found.attrs["heat_into_body1"] > alone.attrs["heat_into_body1"]
+
+
+def test_time_within_a_branch(sliding: fret.Result) -> None:
+    """As half a sine the middle of the stroke is fast: it is hotter than at a constant rate."""
+    slow = [
+        sliding.temperature(STEEL, STEEL, frequency=1e-6, wave=wave).attrs["maximum"]
+        for wave in ("sine", "linear")
+    ]
+    assert slow[0] > 1.2 * slow[1]
+
+
+def test_refusals(coated: fret.Result) -> None:
+    with pytest.raises(ValueError, match="frequency = 0"):
+        coated.temperature(STEEL, STEEL, frequency=0.0)
+    with pytest.raises(
+        ValueError, match=r"conductor2 = 1 conductors: must be one for each of the 2"
+    ):
+        coated.temperature(STEEL, [STEEL], frequency=1.0)
+    bad = Conductor(conductivity=-1.0, heat_capacity=1.0)
+    with pytest.raises(ValueError, match=r"conductor1\[0\].conductivity = -1"):
+        coated.temperature(bad, STEEL, frequency=1.0)
+    with pytest.raises(ValueError, match="wave = 'square'"):
+        coated.temperature(STEEL, STEEL, frequency=1.0, wave="square")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="harmonics = -1"):
+        coated.temperature(STEEL, STEEL, frequency=1.0, harmonics=-1)
+    some = fret.solve(coated.scene, coated.scene.path, save=[10, 14, 17], progress=False)
+    with pytest.raises(ValueError, match="increment 5 were not kept"):
+        some.temperature(STEEL, STEEL, frequency=1.0)
+    strip = fret.Scene(
+        body1=fret.Body(STEEL_E, shape=fret.Cylinder(R=0.01)),
+        body2=fret.Body(STEEL_E),
+        mu=0.3,
+        grid=fret.Grid.strip(extent=4e-4, n=16),
+    )
+    path = fret.LoadPath.start().normal(1e5, increments=1)
+    line = fret.solve(strip, path.tangential([1e4, -1e4, 1e4], increments=5), save="all")
+    with pytest.raises(ValueError, match=r"grid\.plane_strain"):
+        line.temperature(STEEL, STEEL, frequency=1.0)
+    pressed = fret.solve(strip, path, save="all")
+    with pytest.raises(ValueError, match="no closed cycle"):
+        pressed.temperature(STEEL, STEEL, frequency=1.0)
+
+
+def test_figures(coated: fret.Result) -> None:
+    found = coated.temperature(STEEL, POOR, frequency=50.0)
+    ax = fret.plot.temperature(found)
+    assert len(ax.lines) == 4
+    mapped = fret.plot.temperature_map(found, of="flash", body_number=1, units="SI")
+    shown = mapped.images[0].get_array()
+    np.testing.assert_allclose(shown, found.flash.sel(body=1).values.T)
+    with pytest.raises(ValueError, match="of = 'hot'"):
+        fret.plot.temperature_map(found, of="hot")  # type: ignore[arg-type]
+    plt.close("all")
