@@ -139,6 +139,10 @@ def test_heights_in_another_unit_are_refused() -> None:
             sphere_on_flat().replace(path=PRESSED.displace(delta_x=3.0, increments=1)),
             r"path\[1\].delta_x = 3.000e0 m is beyond the grid",
         ),
+        (
+            sphere_on_flat().replace(path=PRESSED.force(sigma_B=5e10, increments=1)),
+            r"path\[1\].sigma_B = 5.000e10 Pa strains the body by 0.24, which is not small",
+        ),
     ],
 )
 def test_what_is_hardly_meant_is_warned_of(scene: fret.Scene, says: str) -> None:

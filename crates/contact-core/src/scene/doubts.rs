@@ -8,7 +8,7 @@ use super::{Body, Coating, Elastic, Prescribed, RigidMotion, Scene, SurfaceMap};
 use crate::error::Error;
 use crate::reference::Hertz;
 
-/// Peak pressure over the contact modulus, (2/pi) a/R, beyond which strains are no longer small.
+/// Peak pressure over the contact modulus, (2/pi) a/R, or bulk strain, beyond which strains are no longer small.
 const LARGE_STRAIN: f64 = 0.1;
 /// Thickness over the contact radius beyond which a coating is all that the contact sees.
 const THICK: f64 = 1000.0;
@@ -146,7 +146,27 @@ impl Scene {
                 }
             }
         }
+        doubts.extend(self.doubts_of_loads(wide));
+        doubts
+    }
+
+    /// The same of the load path, on a grid of that length.
+    fn doubts_of_loads(&self, wide: f64) -> Vec<String> {
+        let mut doubts = Vec::new();
         for (i, branch) in self.path.branches.iter().enumerate() {
+            let bulk = [
+                ("sigma_B", branch.to.sigma_B, &self.body2),
+                ("sigma_B1", branch.to.sigma_B1, &self.body1),
+            ];
+            for (name, sigma_B, body) in bulk {
+                let [strain, _] = body.bulk_strain(sigma_B, self.grid.plane_strain);
+                if strain.abs() > LARGE_STRAIN {
+                    doubts.push(format!(
+                        "path[{i}].{name} = {sigma_B:.3e} Pa strains the body by {strain:.2}, which is not \
+                         small: {UNITS}"
+                    ));
+                }
+            }
             for of in [RigidMotion::DeltaX, RigidMotion::DeltaY] {
                 if let Prescribed::Motion(shift) = branch.to.prescribed(of)
                     && shift.abs() > wide

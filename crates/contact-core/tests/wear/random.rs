@@ -212,6 +212,8 @@ fn path(draw: &mut Draw, scene: &mut Scene, W: f64, a: f64, flat: bool) -> LoadP
         1.0
     };
     let T = strongest * part * most;
+    // Forces on a strip are those on its width.
+    let width = if flat { scene.grid.dy } else { a };
     let given = |to: &mut Loads, delta_x: f64| {
         to.given = Given {
             delta_x: Some(delta_x),
@@ -231,7 +233,7 @@ fn path(draw: &mut Draw, scene: &mut Scene, W: f64, a: f64, flat: bool) -> LoadP
             3,
         ),
         6 => fro(
-            &|to, sign| (to.T_x, to.sigma_B) = (0.5 * sign * T, 0.1 * sign * most / (a * a)),
+            &|to, sign| (to.T_x, to.sigma_B) = (0.5 * sign * T, 0.1 * sign * most / (a * width)),
             3,
         ),
         _ => {
