@@ -258,6 +258,8 @@ def test_what_is_no_study_is_refused() -> None:
         fret.study(SCENE, {})
     with pytest.raises(ValueError, match="has no values"):
         fret.study(SCENE, {"mu": []})
+    with pytest.raises(ValueError, match='E1/E2: a "/" parts folders'):
+        fret.study(SCENE, {"E1/E2": [1.0]})
     with pytest.raises(ValueError, match="must be a list"):
         fret.study(SCENE, {"mu": 0.3})
     with pytest.raises(ValueError, match="loop_energy"):

@@ -73,6 +73,7 @@ __all__ = [
     "continued_pressure",
     "coupled_indentation",
     "criterion_on",
+    "cycle_temperature",
     "dang_van_path",
     "depths",
     "dundurs_beta",

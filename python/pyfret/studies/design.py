@@ -86,6 +86,8 @@ class Design:
         for key, values in self.parameters.items():
             if len(values) == 0:
                 raise ValueError(f"{key}: has no values")
+            if "/" in key:
+                raise ValueError(f'{key}: a "/" parts folders of the store; write "_" or "over"')
         lengths = {key: len(values) for key, values in self.parameters.items()}
         if self.combine not in ("grid", "zip"):
             raise ValueError(f'combine = {self.combine!r}: must be "grid" or "zip"')
