@@ -190,7 +190,7 @@ def test_a_new_scene_can_be_checked_and_solved(template: str, tmp_path: Path) ->
     largest = fret_run("stress", tmp_path / "out.zarr")
     assert largest.returncode == 0, largest.stderr
     assert "largest von_mises" in largest.stdout
-    assert "(+- " in largest.stdout
+    assert "(depths +- " in largest.stdout
 
 
 def test_a_scene_comes_from_the_standard_input() -> None:

@@ -326,8 +326,8 @@ impl Task {
             .hertz()
             .filter(|_| matches!(probe, Probe::Stress(_)));
         let value = hertz.map_or_else(
-            || format!("{value:.5e} {} (+- {error:.1e})", probe.unit()),
-            |h| format!("{:.5} p_H (+- {:.1e})", value / h.p0, error / h.p0),
+            || format!("{value:.5e} {} (depths +- {error:.1e})", probe.unit()),
+            |h| format!("{:.5} p_H (depths +- {:.1e})", value / h.p0, error / h.p0),
         );
         let z = self.length(depth.z);
         let layers = self.body().coatings.len();
