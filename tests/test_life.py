@@ -250,3 +250,28 @@ def test_mean_stress_costs_amplitude_as_the_criterion_says(tmp_path: Path) -> No
     assert goodman == (pytest.approx(4 / 9), "Goodman")
     with pytest.raises(ValueError, match="s_D"):
         fatigue.mean_stress_slope(fatigue.Materials()["aluminium_7075_T6"])
+
+
+def test_the_mean_over_a_critical_distance_knows_the_width_of_the_contact() -> None:
+    """Nowell and Hills' cylinders: one stress at the surface, a larger mean below wide ones."""
+    alloy = fret.Elastic(E=74e9, nu=0.33)
+    p_0, mu, L = 157e6, 0.75, 91e-6
+    swt = fatigue.Criterion.smith_watson_topper(E=alloy.E, nu=alloy.nu)
+    surface, mean = [], []
+    for a in (0.1e-3, 0.28e-3, 0.95e-3):
+        W = np.pi * a * p_0 / 2
+        R = alloy.E / (2 * (1 - alloy.nu**2)) * a / (2 * p_0)
+        grid = fret.Grid.strip(extent=5 * a, n=64)
+        cylinder, flat = fret.Body(alloy, shape=fret.Cylinder(R)), fret.Body(alloy)
+        scene = fret.Scene(body1=cylinder, body2=flat, mu=mu, grid=grid)
+        path = fret.LoadPath.start().normal(W, increments=1)
+        for way in (1, -1, 1):
+            path = path.force(T_x=way * 0.45 * mu * W, sigma_B=way * 92.7e6, increments=3)
+        result = fret.solve(scene, path, save="all", progress=False)
+        assert result.a_H == pytest.approx(a, rel=1e-9)
+        stress = fatigue.history(result, [0.0, *((np.arange(10) + 0.5) / 5 * L)], y=0.0)
+        surface.append(float(fatigue.evaluate(stress.isel(depth=0), swt).value.max()))
+        below = stress.isel(depth=slice(1, None)).mean("depth")
+        mean.append(float(fatigue.evaluate(below, swt).value.max()))
+    np.testing.assert_allclose(surface, surface[0], rtol=1e-4)
+    assert 1.2 * mean[0] < mean[1] < 0.7 * mean[2] < 0.5 * surface[0]
