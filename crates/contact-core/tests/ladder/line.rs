@@ -58,6 +58,30 @@ fn ends(scene: &Scene, mask: &Array2<bool>) -> (f64, f64) {
     )
 }
 
+/// Under little friction the stick zone is narrower than a cell. If no cell lies in the middle all of them slip, and
+/// none takes up what the bounds leave of the force.
+#[test]
+fn a_stick_zone_narrower_than_a_cell_is_no_obstacle() {
+    let aluminium = Elastic { E: 70e9, nu: 0.33 };
+    for (lower, n) in [(CORK, 60), (aluminium, 60), (aluminium, 72)] {
+        let (mut scene, _) = cylinder(STEEL, lower, n, LoadPath::start().normal(2.5e4, 1));
+        scene.friction.mu = 0.02;
+        scene.body1.shape = Shape::Cylinder {
+            R: 0.0175,
+            length: f64::INFINITY,
+            angle: 0.0,
+        };
+        scene.grid = Grid::strip(7e-4, n, 1.0).expect("a grid");
+        run(&scene, |march, increment| {
+            let (fields, r) = (march.fields(), increment.residuals);
+            assert!(r.balance < scene.tolerance() && r.coulomb < 1e-9, "{r:?}");
+            let T = fields.q_x.sum() * scene.grid.cell_area();
+            assert!(T.abs() < scene.tolerance() * 0.02 * 2.5e4, "{T} N");
+            assert!(fields.stick.iter().filter(|s| **s).count() < 3);
+        });
+    }
+}
+
 #[test]
 fn cylinders_of_hertz_and_cattaneo() {
     let n = 128;
