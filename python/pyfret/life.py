@@ -19,7 +19,7 @@ from pyfret._core import Material
 from pyfret.cycle_stress import CycleStress, judge
 from pyfret.fatigue import evaluate
 from pyfret.lazy import xr
-from pyfret.section import Section
+from pyfret.section import Section, for_each_layer
 from pyfret.worst import largest
 
 if TYPE_CHECKING:
@@ -136,16 +136,8 @@ def margin_of(assessment: Assessment, value: float) -> float:
 def _assessments(
     materials: Materials, criterion: CriterionName, layers: int
 ) -> list[Assessment | None]:
-    if isinstance(materials, Material):
-        materials = [materials] * layers
-    if len(materials) != layers:
-        raise ValueError(
-            f"{len(materials)} materials: must be one for all layers, or one for each of the "
-            f"{layers} from the surface down, the substrate's last; None leaves a layer out"
-        )
-    if all(m is None for m in materials):
-        raise ValueError("no layer has a material: nothing is judged")
-    return [None if m is None else m.assessment(criterion) for m in materials]
+    each = for_each_layer(materials, layers, "material", "materials")
+    return [None if m is None else m.assessment(criterion) for m in each]
 
 
 def life(

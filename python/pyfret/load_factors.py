@@ -19,7 +19,7 @@ import numpy as np
 from pyfret._core import Material
 from pyfret.cycle_stress import judge
 from pyfret.fatigue import first_yield
-from pyfret.section import Section
+from pyfret.section import Section, for_each_layer
 from pyfret.worst import largest
 
 if TYPE_CHECKING:
@@ -96,14 +96,7 @@ class LoadFactors:
 
 def _yield_stresses(given: YieldStresses, layers: int) -> list[float | None]:
     """The yield stress of every layer [Pa]."""
-    each = list(given) if isinstance(given, Sequence) else [given] * layers
-    if len(each) != layers:
-        raise ValueError(
-            f"{len(each)} yield stresses: must be one for all layers, or one for each of the "
-            f"{layers} from the surface down, the substrate's last; None leaves a layer out"
-        )
-    if all(one is None for one in each):
-        raise ValueError("no layer has a yield stress: nothing is judged")
+    each = for_each_layer(given, layers, "yield stress", "yield stresses")
     return [one.number("s_y") if isinstance(one, Material) else one for one in each]
 
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypedDict
+from typing import Any, TypedDict
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-__all__ = ["Section", "SectionOptions"]
+__all__ = ["Section", "SectionOptions", "for_each_layer"]
 
 
 class SectionOptions(TypedDict, total=False):
@@ -84,3 +82,20 @@ class Section:
     def each(self) -> list[Section]:
         """The sections one by one."""
         return [self.at(place) for place in np.atleast_1d(np.asarray(self.places, float)).tolist()]
+
+
+def for_each_layer(given: Any, layers: int, one: str, several: str) -> list[Any]:
+    """What is given for all layers or for each from the surface down; None for those not judged.
+
+    `one` and `several` name it in the errors: a ValueError for another number of layers, and where
+    nothing is judged.
+    """
+    each = list(given) if isinstance(given, Sequence) else [given] * layers
+    if len(each) != layers:
+        raise ValueError(
+            f"{len(each)} {several}: must be one for all layers, or one for each of the {layers} "
+            "from the surface down, the substrate's last; None leaves a layer out"
+        )
+    if all(of is None for of in each):
+        raise ValueError(f"no layer has a {one}: nothing is judged")
+    return each

@@ -19,7 +19,9 @@ impl Audit {
         } else {
             self.scene.tolerance()
         };
-        found.raise(Law::Balance, self.unbalanced(now) / balanced);
+        let [normal, shear] = self.unbalanced(now);
+        found.raise(Law::Balance, normal / ROUNDING);
+        found.raise(Law::Balance, shear / balanced);
         let p = &now.fields.p;
         if p.iter().any(|&p| p < 0.0) {
             found.raise(Law::Contact, f64::INFINITY);
@@ -61,18 +63,20 @@ impl Audit {
         }
     }
 
-    /// Largest part of a force that the tractions do not carry.
-    fn unbalanced(&self, now: &End) -> f64 {
+    /// Parts of the normal force, and of the tangential ones over what friction bears, that the tractions do not carry.
+    fn unbalanced(&self, now: &End) -> [f64; 2] {
         let (scene, f) = (&self.scene, &now.fields);
         let Loads { W, T_x, T_y, .. } = now.loads;
         let force = |f: &Array2<f64>| f.sum() * scene.grid.cell_area();
         let scale = if W > 0.0 { W } else { scene.path.W_max() };
+        // Where nothing presses over all of the path nothing is carried.
+        let scale = scale.max(f64::MIN_POSITIVE);
         let friction = (scene.friction.mu * scale).max(f64::MIN_POSITIVE);
         let normal = (force(&f.p) - W).abs() / scale;
         if scene.friction.mu == 0.0 {
-            return normal;
+            return [normal, 0.0];
         }
         let shear = (force(&f.q_x) - T_x).abs().max((force(&f.q_y) - T_y).abs());
-        normal.max(shear / friction)
+        [normal, shear / friction]
     }
 }
