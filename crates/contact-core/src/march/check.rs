@@ -14,8 +14,8 @@ use crate::solvers::{Interface, friction_bound};
 
 /// What sums in another order may differ by.
 const ROUNDING: f64 = 1e-9;
-/// What Coulomb's law may be off by, and the balances where a cell sticks, over what they are measured against: they
-/// hold by construction, moments to 1e-10.
+/// What balances and Coulomb's law may be off by, over what they are measured against: they hold by construction,
+/// moments to 1e-10.
 const EXACT: f64 = 1e-9;
 
 /// Whether the solution is one of the whole problem: loads that friction carries, a contact within window
@@ -196,17 +196,10 @@ pub(super) fn within_tolerance(
     };
     let lengths = r.gap.max(r.penetration).max(slips);
     let tolerance = scene.tolerance();
-    // Where every cell slips none takes up what the bounds leave of the loads, and they are balanced no better than
-    // the pressure is known.
-    let balanced = if slipping == contact {
-        tolerance
-    } else {
-        EXACT
-    };
     let (residual, allowed) = if !(lengths <= tolerance * (1.0 + ROUNDING)) {
         (lengths * approach, tolerance * approach)
-    } else if !(r.balance <= balanced) {
-        (r.balance, balanced)
+    } else if !(r.balance <= EXACT) {
+        (r.balance, EXACT)
     } else if !(r.coulomb <= EXACT) {
         (r.coulomb, EXACT)
     } else {

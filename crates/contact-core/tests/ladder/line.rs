@@ -58,8 +58,8 @@ fn ends(scene: &Scene, mask: &Array2<bool>) -> (f64, f64) {
     )
 }
 
-/// Under little friction the stick zone is narrower than a cell. If no cell lies in the middle all of them slip, and
-/// none takes up what the bounds leave of the force.
+/// Under little friction the stick zone is narrower than a cell. If no cell lies in the middle all but one slip, which
+/// takes up what the bounds leave of the force.
 #[test]
 fn a_stick_zone_narrower_than_a_cell_is_no_obstacle() {
     let aluminium = Elastic { E: 70e9, nu: 0.33 };
@@ -74,9 +74,10 @@ fn a_stick_zone_narrower_than_a_cell_is_no_obstacle() {
         scene.grid = Grid::strip(7e-4, n, 1.0).expect("a grid");
         run(&scene, |march, increment| {
             let (fields, r) = (march.fields(), increment.residuals);
-            assert!(r.balance < scene.tolerance() && r.coulomb < 1e-9, "{r:?}");
+            assert!(r.balance < 1e-9 && r.coulomb < 1e-9, "{r:?}");
             let T = fields.q_x.sum() * scene.grid.cell_area();
-            assert!(T.abs() < scene.tolerance() * 0.02 * 2.5e4, "{T} N");
+            assert!(T.abs() < 1e-9 * 0.02 * 2.5e4, "{T} N");
+            assert!(increment.work.convolutions < 20.0, "{:?}", increment.work);
             assert!(fields.stick.iter().filter(|s| **s).count() < 3);
         });
     }

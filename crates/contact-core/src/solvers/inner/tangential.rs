@@ -27,7 +27,7 @@ use super::newton_system::NewtonSystem;
 use super::projected_gradient::ProjectedGradient;
 use super::shear::{TangentialInfo, TangentialParams, TangentialProblem, first_shift};
 use super::shear_gradient::GradientBuffers;
-use crate::cells::{ContactCells, set_cells, size, sweep};
+use crate::cells::{ContactCells, set_cells, size, sums, sweep};
 use crate::solvers::{Response, Shear, SolverError};
 
 /// Buffers of the tangential solver.
@@ -219,6 +219,7 @@ impl<'a> Newton<'a> {
         response.changed(self.system.squares());
         self.info.shift = (self.system).take(self.cells, &self.inside, &mut self.now);
         mark_slip(&self.inside, &mut self.now, self.info.shift);
+        hold_one(&self.inside, &mut self.now, self.info.shift);
         let Self {
             system, now, cells, ..
         } = self;
@@ -258,6 +259,35 @@ fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64
             size(q) > problem.bound[n]
         }
     });
+}
+
+/// Where every cell slips none can take up what the bounds leave of a force: the cell with the least slip sticks, of
+/// those whose shear the rest makes smaller. So it is where the stick zone is narrower than a cell.
+fn hold_one(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
+    let [free_x, free_y, _] = problem.drive.free;
+    let Shear { q, u, slip, .. } = shear;
+    if !(free_x || free_y) || slip.contains(&false) {
+        return;
+    }
+    let sums = sums([problem.bound, &*q[0], &*q[1]], |_, [g, x, y]| {
+        let factor = g / size([x, y]);
+        [factor * x, factor * y]
+    });
+    let rest = [0, 1].map(|k| {
+        let free = problem.drive.free[k];
+        if free {
+            sums[k] - problem.drive.sums[k]
+        } else {
+            0.0
+        }
+    });
+    let least = (0..slip.len())
+        .filter(|&n| power([q[0][n], q[1][n]], rest) > 0.0)
+        .map(|n| (n, size(problem.slip(u, shift, n))))
+        .min_by(|(_, a), (_, b)| a.total_cmp(b));
+    if let Some((n, _)) = least {
+        slip[n] = false;
+    }
 }
 
 /// Releases slip cells that move along their shear by more than `tolerance` \[m\]; whether any did.
