@@ -38,8 +38,8 @@ test: setup ## all tests: cargo, then pytest
 	cargo test --workspace --locked --release
 	$(PY) -m pytest
 
-stress: ## 2000 random scenes, 15 minutes at most; the numbers go to docs/reliability.md
-	FRET_STRESS=2000 FRET_STRESS_MINUTES=14 FRET_STRESS_REPORT=$(CURDIR)/docs/reliability.md \
+stress: ## 10 000 random scenes, 30 minutes at most; the numbers go to docs/reliability.md
+	FRET_STRESS=10000 FRET_STRESS_MINUTES=29 FRET_STRESS_REPORT=$(CURDIR)/docs/reliability.md \
 		cargo test --release --locked --package contact-core --test stress -- --nocapture
 
 path-errors: ## the estimated error of the path against the true one in 50 random scenes

@@ -16,10 +16,14 @@ use crate::zones::Continued;
 
 /// Deepest samples, in cells.
 const DEEPEST: f64 = 6.0;
-/// Farthest samples from the border, in cells along or across, on the surface, where constant
-/// tractions are off by their slope as well, and below.
+/// Farthest cells from the border that are cut for samples below the surface, in cells along or across: farther in
+/// constant tractions are right to second order there, and those interpolated between the middles of the cells, with
+/// a kink in each, are not (4e-4 of p_H on the axis of a contact of 28 cells across).
+const FARTHEST_CUT: u8 = 3;
+/// Farthest samples from the border, on the surface, where constant tractions are off by their slope as well, and
+/// below, where no cell farther away is cut.
 const FARTHEST_AT_SURFACE: u8 = 24;
-const FARTHEST: u8 = 8;
+const FARTHEST: u8 = FARTHEST_CUT + REACH as u8;
 /// What counts as the surface: at half a cell's depth, 4 % of that is left.
 const AT_SURFACE: f64 = 0.5;
 /// Cells on each side of a sample that are cut.
@@ -44,6 +48,8 @@ pub(super) struct Parts {
     cells: Vec<((isize, isize), Vec<Part>)>,
     /// Whether the sample is on the surface, where s_zz, s_xz, s_yz are the tractions themselves.
     on_surface: bool,
+    /// Farthest of them from the border that count.
+    farthest: u8,
 }
 
 /// The middle of a part from that of its cell, in cells, and the stress at the sample under unit
@@ -121,8 +127,15 @@ impl NearRim {
             ((k, l), parts)
         };
         let cells = cells.map(cut).collect();
-        let on_surface = depth.z <= 0.0;
-        Some(Parts { cells, on_surface })
+        Some(Parts {
+            cells,
+            on_surface: depth.z <= 0.0,
+            farthest: if z < AT_SURFACE {
+                u8::MAX
+            } else {
+                FARTHEST_CUT
+            },
+        })
     }
 
     /// Whether stress is added at samples in a cell at a depth.
@@ -143,13 +156,16 @@ impl NearRim {
 
     /// What is added to the stress of a state at a sample in a cell \[Pa\].
     pub(super) fn stress(&self, parts: &Parts, state: usize, (i, j): (usize, usize)) -> [f64; 6] {
+        let state = &self.states[state];
         let mut stress = [0.0; 6];
-        for ((columns, rows), parts) in &parts.cells {
+        for ((columns, rows), cut) in &parts.cells {
             let cell = i
                 .checked_add_signed(*columns)
                 .zip(j.checked_add_signed(*rows));
-            let Some(cell) = cell else { continue };
-            self.states[state].each_excess(cell, parts, |q, response| {
+            let Some(cell) = cell.filter(|cell| state.distance(*cell) <= parts.farthest) else {
+                continue;
+            };
+            state.each_excess(cell, cut, |q, response| {
                 for (stress, row) in stress.iter_mut().zip(response) {
                     *stress += row[0] * q[0] + row[1] * q[1] + row[2] * q[2];
                 }

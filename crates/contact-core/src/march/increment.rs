@@ -45,12 +45,10 @@ pub(super) fn increment(
     ws.alternation.begin_increment();
     let mut solver = Solver {
         response: Response {
-            op: &mut *domain.window.op,
             inverse: domain.window.inverse.as_deref_mut().map(|of| of as _),
             stop: Some(&problem.stop),
             last_transform,
-            exact: false,
-            squares: 0.0,
+            ..Response::plain(&mut *domain.window.op)
         },
         no_slip: &mut ws.no_slip,
         workspace: &mut ws.alternation,

@@ -11,7 +11,9 @@ use contact_core::Error;
 use contact_core::march::Fields;
 use contact_core::march::{Increment, March};
 use contact_core::plan::Plan;
-use contact_core::scene::Scene;
+use contact_core::reference::hertz;
+use contact_core::scene::{Scene, Shape};
+use ndarray::{ArrayView2, s};
 
 use crate::audit::{Audit, Violations};
 use crate::draw::{Drawn, Intent};
@@ -22,6 +24,9 @@ use crate::twins::{compared, has_twins};
 pub(crate) const LIMIT: Duration = Duration::from_mins(5);
 /// Friction from which on the limit of the alternation is known.
 const STRONG: f64 = 2.0;
+/// How an increment says that it took all the work that it is allowed.
+const BOUND: &str = "convolutions are the most for an increment";
+
 /// What became of a scene.
 #[derive(Clone, Debug)]
 pub(crate) enum Fate {
@@ -30,8 +35,8 @@ pub(crate) enum Fate {
     /// Refused with the reason that it was drawn for: past friction, or off the grid; there, solved
     /// on the grid that the error asks for.
     Refused,
-    /// The documented limit: friction above [`STRONG`] on coupled bodies, where alternating between
-    /// pressure and shear may find no solution. Refused with the residual that is left.
+    /// The documented limits: friction above [`STRONG`] on coupled bodies, where alternating between pressure and
+    /// shear may find no solution, and the most work of an increment. Refused with the residual that is left.
     Unsolved(String),
     /// Did not end within its time.
     Stopped,
@@ -134,6 +139,11 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
         (Err(Error::InvalidScene { .. } | Error::BeyondFriction { .. }), PastFriction) => {
             return (Fate::Refused, None);
         }
+        (Err(Error::InvalidScene { key, .. }), Solve | Edge | OffGrid)
+            if cannot_be(scene, &key) =>
+        {
+            return (Fate::Refused, None);
+        }
         // How far the contact of ten layers reaches is not known when a scene is drawn.
         (Err(Error::OffGrid { needed, .. }), OffGrid | Edge | Solve) => {
             return (on_grid_asked_for(scene, needed, stop), None);
@@ -151,6 +161,31 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
     }
 }
 
+/// Whether what a scene is refused for is so: a contact as wide as the bodies are round, by Hertz's radius for a sphere
+/// of the mean curvature, to a tenth; or a gap that is narrowest at the border of the grid.
+fn cannot_be(scene: &Scene, key: &str) -> bool {
+    match key {
+        "path" => {
+            let (R_x, R_y) = match scene.body1.shape {
+                Shape::Sphere { R } => (R, R),
+                Shape::Ellipsoid { R_x, R_y, .. } => (R_x, R_y),
+                _ => return false,
+            };
+            let (one, other) = (scene.body1.substrate, scene.body2.substrate);
+            let a = hertz((R_x * R_y).sqrt(), one, other, scene.path.W_max()).a;
+            a > 0.9 * R_x.min(R_y)
+        }
+        "body1.shape" => {
+            let gap = scene.h_init();
+            let inside = gap.slice(s![1..-1, 1..-1]);
+            let lowest =
+                |gaps: ArrayView2<'_, f64>| gaps.iter().copied().fold(f64::INFINITY, f64::min);
+            lowest(inside) > lowest(gap.view())
+        }
+        _ => false,
+    }
+}
+
 /// What an error comes to: a limit that is documented, too little time, or a failure.
 pub(crate) fn ended(scene: &Scene, of: &str, error: &Error) -> Fate {
     let strong = scene.friction.mu > STRONG && Plan::new(scene).coupling;
@@ -163,6 +198,12 @@ pub(crate) fn ended(scene: &Scene, of: &str, error: &Error) -> Fate {
             tolerance,
             ..
         } if strong && residual > tolerance => Fate::Unsolved(format!("{of}{error}")),
+        Error::NotConverged {
+            residual,
+            tolerance,
+            why,
+            ..
+        } if residual > tolerance && why.contains(BOUND) => Fate::Unsolved(format!("{of}{error}")),
         _ => Fate::Failed(format!("{of}{error}")),
     }
 }

@@ -108,19 +108,20 @@ fn random_scenes_are_solved_or_refused() {
     let count = |is: fn(&Fate) -> bool| outcomes.iter().filter(|o| is(&o.fate)).count();
     let failed = count(|fate| matches!(fate, Fate::Failed(_) | Fate::Stopped));
     assert_eq!(failed, 0, "errors without a right reason");
-    // Friction above 2 with strong coupling may leave an increment without a solution.
+    // Friction above 2 with strong coupling may leave an increment without a solution, and a coating that is as stiff as
+    // a plate one that takes more work than is allowed.
     let unsolved = count(|fate| matches!(fate, Fate::Unsolved(_)));
-    assert!(100 * unsolved <= outcomes.len(), "{unsolved} unsolved");
+    assert!(200 * unsolved <= outcomes.len(), "{unsolved} unsolved");
 }
 
 /// Seeds of scenes that are hard to solve: slip in cells said to stick (192, 675, 833, 1192, 1544), coatings stiff as
 /// plates that the preconditioned normal solver did not settle (811, 821), minutes of work (932, 936),
 /// slip sets that went in circles for a thousand steps (401, 819, 1348), twins whose slip turned
-/// otherwise (2, 18).
+/// otherwise (2, 18), slip that turns back in a short increment after a long one (608, 1766).
 #[test]
 fn scenes_that_are_hard_to_solve_are_solved() {
     let seeds = [
-        192, 675, 833, 1192, 1544, 811, 821, 932, 936, 401, 819, 1348, 2, 18,
+        192, 675, 833, 1192, 1544, 811, 821, 932, 936, 401, 819, 1348, 2, 18, 608, 1766,
     ];
     for seed in seeds {
         let outcome = outcome(seed, &draw::draw(seed), 4 * LIMIT);

@@ -44,11 +44,11 @@ pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> Stri
     );
     let _ = writeln!(
         text,
-        "| without a solution (force past mu W, contact beyond the grid): refused with the reason | {refused} |"
+        "| without a solution (force past mu W, contact beyond the grid or as wide as the bodies are round, gap narrowest at the border): refused with the reason | {refused} |"
     );
     let _ = writeln!(
         text,
-        "| friction above 2 and strong coupling: refused with the residual that is left | {unsolved} |"
+        "| friction above 2 and strong coupling, or an increment of more than 10 000 convolutions: refused with the residual that is left | {unsolved} |"
     );
     let _ = writeln!(
         text,

@@ -136,6 +136,33 @@ fn a_solved_sphere_is_hertz_and_mindlin_everywhere() {
     }
 }
 
+/// On the axis of a contact of 28 cells across the border of the stick zone is nine cells away, seven along and across:
+/// what is done there does not reach so far.
+#[test]
+fn the_axis_of_a_coarse_contact_stays_right() {
+    let (scene, h) = scene(Shape::Sphere { R }, CORK, (2.4, 33));
+    let hertz = HertzStress { a: h.a, nu: 0.0 };
+    let z = [0.05, 0.1, 0.2, 0.3, 0.5, 1.0].map(|z| z * h.a);
+    let depths = depths(&scene.body2, &z).unwrap();
+    for fields in solved(&scene) {
+        let off = [false, true].map(|rim| {
+            let stress = stress(&scene, &fields, &depths, rim);
+            let of_depth = |(k, z): (usize, &f64)| {
+                let exact = hertz.pressure(0.0, 0.0, *z);
+                (0..3)
+                    .map(|c| (stress[(c, k, 16)] - exact[c]).abs())
+                    .fold(0.0, f64::max)
+            };
+            z.iter().enumerate().map(of_depth).fold(0.0, f64::max)
+        });
+        println!(
+            "axis, 33 cells: {:.1e} without the rim, {:.1e} with it",
+            off[0], off[1]
+        );
+        assert!(off[0] < 5e-4 && off[1] <= off[0], "{off:?}");
+    }
+}
+
 /// Root mean square over p_H of what samples near the surface differ from those on cells a third of
 /// the size, at the end of each branch: with the rim of the coarse contact not followed, and followed.
 fn against_finer(what: &str, make: impl Fn(usize) -> Scene, n: usize) -> Vec<[f64; 2]> {

@@ -116,7 +116,8 @@ pub(super) fn turn(
 }
 
 /// The direction e of a cell that has slipped before, of any length, and its weight w. A turn of the last increment
-/// counts as far as it is no larger than that of this one, so that the mean lies between e_0 and e_1.
+/// counts as far as it is no larger than that of this one and, where it went the other way, b times it no larger than
+/// a times this one, so that the mean lies between e_0 and e_1.
 fn goes_on(last: &Interface, earlier: &Earlier<'_>, end: [f64; 2], n: usize) -> ([f64; 2], f64) {
     let at = |q: &[Vec<f64>; 2]| [q[0][n], q[1][n]];
     let (q, before) = (at(&last.q), at(earlier.q));
@@ -126,10 +127,10 @@ fn goes_on(last: &Interface, earlier: &Earlier<'_>, end: [f64; 2], n: usize) -> 
     let slipped = (of_bound - SLIPPED) / (1.0 - SLIPPED);
     let turned = (dot(e_0, e_before) - FADE[0]) / (FADE[1] - FADE[0]);
     let between = |a: [f64; 2], b: [f64; 2]| size([a[0] - b[0], a[1] - b[1]]);
-    let turn_before = (earlier.ratio * between(e_before, e_0)).max(f64::MIN_POSITIVE);
-    let alike = (between(e_0, e_1) / turn_before).min(1.0);
-    let part = slipped.clamp(0.0, 1.0) * turned.clamp(0.0, 1.0) * alike;
     let [a, b] = earlier.weights();
+    let turn_before = earlier.ratio.max(b / a) * between(e_before, e_0);
+    let alike = (between(e_0, e_1) / turn_before.max(f64::MIN_POSITIVE)).min(1.0);
+    let part = slipped.clamp(0.0, 1.0) * turned.clamp(0.0, 1.0) * alike;
     let (a, b) = (STARTED + part * (a - STARTED), part * b);
     let mean = [0, 1].map(|c| a * e_0[c] + b * e_before[c]);
     (mean, size(mean))
