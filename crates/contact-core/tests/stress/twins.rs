@@ -22,9 +22,13 @@ pub(crate) const TWINS: usize = 3;
 /// The name of twins that are alike without the turn of the slip only.
 pub(crate) const UNTURNED: &str = "unturned";
 
+/// The tolerance of the pairs that are compared again, over that of the scene.
+const CLOSER: f64 = 0.01;
+
 /// The distances of the twins of a scene that take the same path: not those of which an increment
 /// is solved in more pieces. Where the turn of the slip cannot be followed to the end the solution
-/// depends on how far it was: a pair that differs is compared without it.
+/// depends on how far it was, and which of two cells enters first may be decided by less than the tolerance: a pair
+/// that differs is compared without the turn and to a hundredth of the tolerance.
 pub(crate) fn compared(
     scene: &Scene,
     ours: &End,
@@ -38,7 +42,8 @@ pub(crate) fn compared(
     let unturned = |scene: &Scene| {
         let mut scene = scene.clone();
         scene.settings.solver.turning = false;
-        run("unturned", &scene)
+        scene.settings.solver.tolerance = Some(CLOSER * scene.tolerance());
+        run("unturned", &scene).map(|end| (end, Allowed::of(&scene)))
     };
     let mut distances = Vec::new();
     for (name, twin, back) in twins_of(scene) {
@@ -50,7 +55,7 @@ pub(crate) fn compared(
         distances.push(if off <= 1.0 {
             (name, off)
         } else {
-            let (ours, theirs) = (unturned(scene)?, unturned(&twin)?);
+            let ((ours, allowed), (theirs, _)) = (unturned(scene)?, unturned(&twin)?);
             (UNTURNED, difference(&ours, &theirs, &*back, &allowed))
         });
     }
