@@ -82,7 +82,8 @@ fn solve(
     solver: &mut Solver<'_>,
     extrapolates: bool,
 ) -> Result<Solution, Error> {
-    if setup.drives.press() {
+    // Without an approach of the path nothing ever presses, even where a moment could tilt a body against the other one.
+    if setup.drives.press() && setup.problem.approach > 0.0 {
         let guess = guess::first_guess(setup, extrapolates);
         return entry::solve(setup, solver, guess);
     }

@@ -95,6 +95,13 @@ fn loads_that_nothing_carries_are_refused() {
             other => panic!("{settings:?}: {:?}", other.map(|all| all.len())),
         }
     }
+    // Bodies that never touch carry no moment.
+    let never = pressed(&["path=[{delta_z=-1e-6,M_y=1e-3,increments=1}]"]).unwrap();
+    let refused = solved(&never).unwrap_err().to_string();
+    assert!(
+        refused.contains("M_y") && refused.contains("do not touch"),
+        "{refused}"
+    );
     // Without any friction the file says so already.
     let refused = pressed(&["friction.mu=0.0", twisted])
         .unwrap_err()
