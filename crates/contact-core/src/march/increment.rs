@@ -22,13 +22,8 @@ pub(super) fn increment(
     let geometry = &domain.window.geometry;
     let roll = Roll::new(problem, state, point);
     let rolled = Rolled::new(&roll, geometry, problem.plan.mirror, state);
-    friction::update(
-        problem,
-        geometry,
-        state,
-        (&roll, rolled.as_ref()),
-        &mut ws.mu,
-    );
+    let rolls = (&roll, rolled.as_ref());
+    friction::update(problem, geometry, state, rolls, &mut ws.mu);
     let setup = Setup {
         problem,
         geometry,

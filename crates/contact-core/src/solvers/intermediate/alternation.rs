@@ -9,7 +9,6 @@ use super::known_pressure::{
     bring_within_bound, follow_pressure, incipient_shift, shear_for_known_pressure,
 };
 use super::problem::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};
-use crate::cells::copy;
 use crate::solvers::inner::{NormalProblem, Sliding, assess, normal};
 use crate::solvers::no_slip::NoSlip;
 use crate::solvers::{Interface, Response, SolverError};
@@ -32,13 +31,12 @@ pub(super) fn alternate(
         sliding = bring_within_bound(problem, no_slip, now, ws);
     }
     now.evaluate(response, friction);
-    ws.anderson.restart(params.anderson);
-    ws.unsettled = 0;
+    ws.begin(params);
     loop {
         info.alternations += 1;
 
         // Pressure for known shear.
-        copy(&now.p, &mut ws.p_before);
+        ws.keep(now);
         let (p, u_z) = (&mut now.p, &mut now.u_z);
         let found = normal(response, &gap, p, u_z, &mut ws.normal, &params.normal)?;
         info.normal_iterations += found.iterations;
@@ -48,9 +46,6 @@ pub(super) fn alternate(
         }
 
         // Shear for known pressure: the bound moves with the pressure.
-        for (q, before) in now.q.iter().zip(&mut ws.q_before) {
-            copy(q, before);
-        }
         if found.iterations > 0 {
             sliding = take_pressure(response, problem, no_slip, now, ws, info.alternations);
         }

@@ -2,7 +2,7 @@
 
 use super::anderson::Anderson;
 use super::lifted::Lifted;
-use crate::cells::{Arms, Drive, set};
+use crate::cells::{Arms, Drive, copy, set};
 use crate::solvers::Interface;
 use crate::solvers::inner::{
     NormalParams, NormalProblem, NormalWorkspace, TangentialParams, TangentialProblem,
@@ -139,6 +139,20 @@ impl AlternationWorkspace {
     /// Begins another increment, which may take several solutions.
     pub(crate) fn begin_increment(&mut self) {
         self.lifted.clear();
+    }
+
+    /// Begins a solution.
+    pub(super) fn begin(&mut self, params: &AlternationParams) {
+        self.anderson.restart(params.anderson);
+        self.unsettled = 0;
+    }
+
+    /// Keeps the tractions before a pass.
+    pub(super) fn keep(&mut self, now: &Interface) {
+        copy(&now.p, &mut self.p_before);
+        for (q, before) in now.q.iter().zip(&mut self.q_before) {
+            copy(q, before);
+        }
     }
 
     /// The change of the shear since `q_before`; whether there is one.
