@@ -125,7 +125,7 @@ fn bars(
     let ring = slip_ring(scene, fine);
     let bar = |n: usize| {
         let least = if n == STICK_RATIO { ring } else { 0.0 };
-        let solver = by_solver[n] * value[n].abs();
+        let solver = by_solver[n];
         match finer {
             None => Bar::new(told.numbers[n].hypot(least), path.numbers[n].abs(), solver),
             Some(finer) => {
@@ -156,28 +156,42 @@ fn bars(
     }
 }
 
-/// Places of two of the [`numbers`].
+/// Places of some of the [`numbers`].
 const STICK_RATIO: usize = 1;
 const P_MAX: usize = 2;
+const DELTA_Z: usize = 3;
+/// Of delta_x, delta_y, phi_z and the dissipated energy.
+const SLIDES: std::ops::RangeInclusive<usize> = 4..=7;
 
-/// What a tolerance leaves of each number, over the number.
+/// What a tolerance leaves of each number, in its unit: of most a part of the number.
 ///
 /// A gap g that is left is borne by a pressure of g/C in a wave that the bodies answer with C. The shortest wave on
 /// cells d, C = 2 d/(pi E*), takes the most of it: of a Hertz contact, with g = tol delta_z, delta_z = a^2/R and
 /// p_max = 2 E* a/(pi R), that is p/p_max = tol (pi^2/4) a/d.
+///
+/// Slip is left up to tol mu delta_z, also where shifts and slip are next to nothing; over the radius of the contact
+/// it is a rotation, under a shear of mu W an energy.
 fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NUMBERS] {
-    let mut parts = [tolerance; NUMBERS];
+    let value = numbers(fine).map(f64::abs);
+    let mut parts = value.map(|value| tolerance * value);
     let across = fine.contact_radius / cell(scene);
     parts[P_MAX] *= 1.0_f64.max(0.25 * std::f64::consts::PI.powi(2) * across);
+    if may_slip(scene) {
+        let mu = scene.friction.mu;
+        let slip = mu * value[DELTA_Z];
+        let rotation = slip / fine.contact_radius.max(f64::MIN_POSITIVE);
+        let energy = mu * fine.loads.W * slip;
+        for (part, slip) in parts[SLIDES].iter_mut().zip([slip, slip, rotation, energy]) {
+            *part = part.max(tolerance * slip);
+        }
+    }
     parts
 }
 
 /// What is not known of the stick ratio: a ring along the border of the stick zone over the area of the contact; of
 /// a zone as large as the contact, the ring that the cells do not show.
 fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {
-    let slips = scene.friction.mu > 0.0 && scene.friction.mu.is_finite();
-    let sheared = slips && (Plan::new(scene).coupling || !scene.path.only_presses());
-    if !sheared || fine.contact_radius <= 0.0 {
+    if !may_slip(scene) || fine.contact_radius <= 0.0 {
         return 0.0;
     }
     let (ratio, cell) = (fine.stick_ratio, cell(scene) / fine.contact_radius);
@@ -185,6 +199,12 @@ fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {
     let seen = 1.0 - ratio.max(0.0).sqrt();
     let missed = (SEEN * cell - seen).max(0.0);
     2.0 * (BORDER * cell).max(missed) * ratio.max(0.0).sqrt()
+}
+
+/// Whether cells may slip: friction has a bound, and shear reaches it.
+fn may_slip(scene: &Scene) -> bool {
+    let mu = scene.friction.mu;
+    mu > 0.0 && mu.is_finite() && (Plan::new(scene).coupling || !scene.path.only_presses())
 }
 
 /// The side of a square as large as a cell; in plane strain its length \[m\].

@@ -14,7 +14,7 @@ use crate::march::{March, summarise};
 use crate::scene::{Grid, SaveFields, Scene};
 
 /// Most increments of a branch.
-const INCREMENTS: usize = 8;
+const INCREMENTS: usize = 24;
 /// Cells of the finer grid each way over those of the grid: the first with which it has no more cells
 /// than [`MOST`].
 const TIMES: [usize; 2] = [3, 2];
