@@ -91,6 +91,7 @@ __all__ = [
     "measure",
     "principal",
     "probe_labels",
+    "residual_of_layers",
     "resume",
     "resume_wear",
     "rims",
@@ -2010,6 +2011,9 @@ def probe_labels() -> dict[str, tuple[str, str]]:
 def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
     """Depths [m] with their layers; on an interface both, the upper one first."""
 
+def residual_of_layers(body: Body, residual: Sequence[float] | None = None) -> _Array:
+    """Residual stress of every layer of a body [Pa]: those given, or zero."""
+
 def chosen_depths(
     body: Body, *, a: float, deepest: float, finer: float = 1.0
 ) -> tuple[list[float], list[int]]:
@@ -2084,6 +2088,7 @@ class Subsurface:
         q_y: ArrayLike | None = None,
         body_number: int = 2,
         sigma_B: float = 0.0,
+        residual: Sequence[float] | None = None,
         rim: bool = False,
         stick: NDArray[np.bool_] | None = None,
     ) -> Subsurface: ...
@@ -2128,6 +2133,7 @@ class Envelope:
         x: float | None = None,
         y: float | None = None,
         body_number: int = 2,
+        residual: Sequence[float] | None = None,
         rim: bool = True,
     ) -> Envelope: ...
     @property

@@ -36,10 +36,14 @@ class CycleStress:
         self.body = scene.body1 if section.body_number == 1 else scene.body2
         self.grid = scene.grid
         self.layers = len(self.body.coatings) + 1
-        self.residual = subsurface.residual_of_layers(self.body, section.residual)
 
-    def of_load(self, z: ArrayLike) -> tuple[NDArray[np.float64], xr.Dataset]:
-        """What the loads cause, of shape (time, depth, along, 6), and a dataset with its places."""
+    def history(
+        self, z: ArrayLike, *, residual: bool = True
+    ) -> tuple[NDArray[np.float64], xr.Dataset]:
+        """The stress of shape (time, depth, along, 6) [Pa], and a dataset with its places.
+
+        Without `residual` it is what the loads alone cause.
+        """
         moments = []
         for n in self.kept:
             now = self.result.at(int(n))
@@ -54,17 +58,12 @@ class CycleStress:
                 y=self.place if self.section.across == "y" else None,
                 body_number=self.section.body_number,
                 sigma_B=now.bulk_stress(self.section.body_number),
+                residual=self.section.residual if residual else None,
                 rim=True,
                 stick=now.dataset["stick"].values,
             ).dataset
             moments.append(np.stack([stress[c].values for c in COMPONENTS], axis=-1))
         return np.stack(moments), stress
-
-    def history(self, z: ArrayLike) -> tuple[NDArray[np.float64], xr.Dataset]:
-        """The stress with the residual stress of the layers, as :meth:`of_load` gives it."""
-        history, places = self.of_load(z)
-        history[..., :2] += self.residual[places.layer.values][:, None, None]
-        return history, places
 
     def chunks(self, z: NDArray[np.float64]) -> list[NDArray[np.float64]]:
         """The depths, as many together as memory allows."""
@@ -81,7 +80,9 @@ def judge(
     result: Result,
     section: Section,
     z: ArrayLike | None,
-    judge_layer: Callable[[NDArray[np.float64], int, float], Found | None],
+    judge_layer: Callable[[NDArray[np.float64], int], Found | None],
+    *,
+    residual: bool = True,
 ) -> xr.Dataset:
     """Judge the layers of a section over its cycle, a few depths at a time.
 
@@ -92,9 +93,10 @@ def judge(
     z : array, optional
         Depths [m] (default: those that the layers ask for, both sides of every interface).
     judge_layer : callable
-        Takes the stress that the loads cause of shape (time, depth, along, 6), the layer from the
-        surface down, and its residual stress [Pa]; gives names, values and attrs of what it finds,
-        or None where the layer is not judged.
+        Takes the stress of shape (time, depth, along, 6) [Pa] and the layer from the surface down;
+        gives names, values and attrs of what it finds, or None where the layer is not judged.
+    residual : bool
+        Whether the residual stress of the section is part of the stress.
 
     Returns
     -------
@@ -103,7 +105,9 @@ def judge(
         NaN in layers that are not judged.
     """
     sections = section.each()
-    found = [_on_one(CycleStress(result, one), z, judge_layer) for one in sections]
+    found = [
+        _on_one(CycleStress(result, one), z, judge_layer, residual=residual) for one in sections
+    ]
     if np.ndim(section.places) == 0:
         whole = found[0]
     else:
@@ -117,21 +121,21 @@ def judge(
 def _on_one(
     of: CycleStress,
     z: ArrayLike | None,
-    judge_layer: Callable[[NDArray[np.float64], int, float], Found | None],
+    judge_layer: Callable[[NDArray[np.float64], int], Found | None],
+    *,
+    residual: bool,
 ) -> xr.Dataset:
     if z is None:
         z, _ = _core.chosen_depths(of.body, a=of.result.length, deepest=2.0 * of.result.length)
     parts = []
     for some in of.chunks(np.unique(np.asarray(z, dtype=float))):
-        history, places = of.of_load(some)
+        history, places = of.history(some, residual=residual)
         layers, dims = places.layer.values, places[COMPONENTS[0]].dims
         shown = xr.Dataset(coords={**places.coords, "axis": ["x", "y", "z"]})
         whole: Found = {}
         for layer in np.unique(layers).tolist():
             here = layers == layer
-            for name, (values, attrs) in (
-                judge_layer(history[:, here], layer, float(of.residual[layer])) or {}
-            ).items():
+            for name, (values, attrs) in (judge_layer(history[:, here], layer) or {}).items():
                 shape = (layers.size, *values.shape[1:])
                 whole.setdefault(name, (np.full(shape, np.nan), attrs))[0][here] = values
         for name, (values, attrs) in whole.items():

@@ -79,7 +79,7 @@ def over_cycle(
     for name, value in strengths.items():
         if value is not None and not (value > 0.0 and np.isfinite(value)):
             raise ValueError(f"{name} = {value}: must be a positive stress in Pa")
-    history, places = of.of_load(depths)
+    history, places = of.history(depths)
     # Both sides carry the same traction; that of the upper layer stands for it.
     history = history[:, ::2]
     peel = np.maximum(history[..., 2], 0.0)

@@ -10,7 +10,7 @@ use contact_core::fields::{Depth, Line, Side};
 use contact_core::output::{ImageData, StressStore, VolumeSink, write_volume};
 use contact_core::scene;
 use ndarray::Array2;
-use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -57,6 +57,19 @@ pub(crate) fn chosen_depths(
     Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
 }
 
+/// Residual stress of every layer of a body [Pa]: those given, or zero.
+#[pyfunction]
+#[pyo3(signature = (body, residual = None))]
+pub(crate) fn residual_of_layers<'py>(
+    py: Python<'py>,
+    body: Body,
+    residual: Option<Vec<f64>>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let given = residual.unwrap_or_default();
+    let of_layers = core::residual_of_layers(&body.0, &given).map_err(to_python)?;
+    Ok(of_layers.into_pyarray(py))
+}
+
 /// Tractions on a body, and what they cause below its surface.
 ///
 /// Use :func:`pyfret.subsurface.stress`, which labels what this one gives.
@@ -66,6 +79,7 @@ pub(crate) struct Subsurface {
     grid: Grid,
     side: Side,
     sigma_B: f64,
+    residual: Vec<f64>,
     fields: [Option<Vec<f64>>; 3],
     /// Whether they are those of a contact, and the cells that stick.
     rim: bool,
@@ -96,6 +110,7 @@ impl Subsurface {
         let states = core::States {
             tractions: &tractions,
             sigma_B: &[self.sigma_B],
+            residual: &self.residual,
             stick: self.rim.then_some(&stick[..]),
             stop: stop.clone(),
         };
@@ -120,7 +135,7 @@ impl Subsurface {
 #[pymethods]
 impl Subsurface {
     #[new]
-    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number = 2, sigma_B = 0.0, rim = false, stick = None))]
+    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number = 2, sigma_B = 0.0, residual = None, rim = false, stick = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -129,6 +144,7 @@ impl Subsurface {
         q_y: Option<Field<'_>>,
         body_number: u8,
         sigma_B: f64,
+        residual: Option<Vec<f64>>,
         rim: bool,
         stick: Option<PyReadonlyArray2<'_, bool>>,
     ) -> PyResult<Self> {
@@ -154,6 +170,7 @@ impl Subsurface {
             fields: [cells("q_x", q_x)?, cells("q_y", q_y)?, cells("p", p)?],
             side: side(body_number)?,
             sigma_B,
+            residual: residual.unwrap_or_default(),
             body,
             grid,
         })

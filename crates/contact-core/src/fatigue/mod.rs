@@ -11,6 +11,7 @@ mod ball;
 mod circle;
 mod criterion;
 mod critical_plane;
+mod eight_circles;
 mod eight_planes;
 mod evaluate;
 mod face_bound;
