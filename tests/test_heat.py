@@ -107,7 +107,7 @@ def test_materials_stand_for_conductors(coated: fret.Result) -> None:
         frequency=10.0,
     )
     xr.testing.assert_identical(named, given)
-    with pytest.raises(ValueError, match="steel_4340.*conductivity"):
+    with pytest.raises(ValueError, match=r"steel_4340.*conductivity"):
         coated.temperature(table["steel_4340"], STEEL, frequency=10.0)
 
 

@@ -1,8 +1,8 @@
 """First yield and shakedown of a sliding sphere, through the whole run, against closed forms.
 
 Hamilton's stresses below a sphere that presses and slides judge: of first yield by von Mises'
-stress at every place, of shakedown by Melan's theorem with a residual stress that is looked for on a
-grid, without the smallest sphere. p_0 is in units of k = s_y/sqrt 3, nu = 0.3.
+stress at every place, of shakedown by Melan's theorem with a residual stress that is looked for on
+a grid, without the smallest sphere. p_0 is in units of k = s_y/sqrt 3, nu = 0.3.
 """
 
 from __future__ import annotations
@@ -42,14 +42,15 @@ def root_J2(s: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def melan(s: NDArray[np.float64]) -> float:
-    """The least over constant r_xx, r_yy of the largest sqrt J2: a convex function, by shrinking grids.
+    """The least over constant r_xx, r_yy of the largest sqrt J2, convex: by shrinking grids.
 
-    What is the same all along the track has no other components on y = 0: r_zz acts like -r_xx = -r_yy.
+    What is the same all along the track has no other components on y = 0: r_zz counts as r_xx = r_yy
+    of the other sign.
     """
     middle, reach, least = np.zeros(2), 1.0, np.inf
     while reach > 1e-5:
         steps = np.linspace(-reach, reach, 9)
-        for at in [middle + [i, j] for i in steps for j in steps]:
+        for at in [middle + np.array([i, j]) for i in steps for j in steps]:
             held = s + np.array([*at, 0, 0, 0, 0])[:, None]
             if (most := float(root_J2(held).max())) < least:
                 least, middle = most, at

@@ -10,7 +10,7 @@
 //!
 //! f(n) <= largest f of the corners + K (1/cos r - 1) in the triangle of circumradius r.
 //!
-//! Where that does not rule a triangle out, the bound of [`MostOn`] is taken, which counts how the
+//! Where that does not rule a triangle out, the bound of [`most_on`] is taken, which counts how the
 //! corners differ. The triangles that may hold more than the best plane known are cut into four until
 //! the bound is within the tolerance of the best. Planes are measured eight at a time, in single
 //! precision where rounding, which is added to what is measured, is small against the tolerance, and
@@ -19,11 +19,9 @@
 //! there, their piece is next. The largest value of several smooth functions is the top of one of
 //! them, so the place is found to rounding, much nearer than what is proved.
 
-use pulp::Arch;
-
-use super::face_bound::MostOn;
+use super::face_bound::most_on;
 use super::hemisphere::{Face, HEMISPHERE, midway};
-use super::lanes::{LANES, Lanes};
+use super::lanes::LANES;
 use super::path::dot;
 use super::refine::{Deciding, nearly, refine};
 
@@ -175,13 +173,11 @@ impl Search {
             let among = if cuts == 0 { &start.faces } else { &*cut };
             let mut most = best.value;
             faces.clear();
-            for eight in among.chunks(LANES) {
-                let bounds = bounds(f, eight, planes, &bend, best.value);
-                for (face, bound) in eight.iter().zip(bounds) {
-                    if bound > best.value {
-                        most = most.max(bound);
-                        faces.push(*face);
-                    }
+            for face in among {
+                let bound = bound(f, face, planes, &bend, best.value);
+                if bound > best.value {
+                    most = most.max(bound);
+                    faces.push(*face);
                 }
             }
             missed = most - best.value;
@@ -216,55 +212,23 @@ impl Search {
     }
 }
 
-/// No planes in at most eight faces have more; not the least such numbers where they are below the
-/// best.
-fn bounds(
-    f: &impl PlaneFunction,
-    faces: &[Face],
-    planes: &[Plane],
-    bend: &Bend,
-    best: f64,
-) -> Lanes {
+/// No plane in the face has more; not the least such number where it is below the best.
+fn bound(f: &impl PlaneFunction, face: &Face, planes: &[Plane], bend: &Bend, best: f64) -> f64 {
+    let [a, b, c] = face.planes;
+    let [a, b, c] = [&planes[a], &planes[b], &planes[c]];
     let most = |a: f64, b: f64, c: f64| a.max(b).max(c);
-    let mut bounds = [f64::NEG_INFINITY; LANES];
-    for (bound, face) in bounds.iter_mut().zip(faces) {
-        let [a, b, c] = face.planes.map(|p| planes[p].value);
-        *bound = most(a, b, c) + bend.value * face.sag;
+    let whole = most(a.value, b.value, c.value) + bend.value * face.sag;
+    if whole <= best {
+        return whole;
     }
-    if bounds.iter().all(|bound| *bound <= best) {
-        return bounds;
+    let low = most(a.low, b.low, c.low) - bend.slope * 2.0 * (2.0 * face.sag).sqrt();
+    let whole = most_on(face, [a.value, b.value, c.value], low, bend.value);
+    if whole <= best {
+        return whole;
     }
-    let mut eight = MostOn {
-        corners: [[[0.0; LANES]; 3]; 3],
-        values: [[0.0; LANES]; 3],
-        low: [0.0; LANES],
-        bend: bend.value,
-    };
-    for (l, face) in faces.iter().enumerate() {
-        let mut low = f64::NEG_INFINITY;
-        for (k, p) in face.planes.into_iter().enumerate() {
-            for d in 0..3 {
-                eight.corners[k][d][l] = face.corners[k][d];
-            }
-            eight.values[k][l] = planes[p].value;
-            low = planes[p].low.max(low);
-        }
-        eight.low[l] = low - bend.slope * 2.0 * (2.0 * face.sag).sqrt();
-    }
-    let whole = Arch::new().dispatch(eight);
-    for ((bound, face), whole) in bounds.iter_mut().zip(faces).zip(whole) {
-        if *bound <= best {
-            continue;
-        }
-        *bound = whole;
-        if whole > best {
-            let [a, b, c] = face.planes.map(|p| &planes[p]);
-            let part =
-                |k: usize| most(a.parts[k], b.parts[k], c.parts[k]) + bend.parts[k] * face.sag;
-            *bound = whole.min(f.value([part(0), part(1)]));
-        }
-    }
-    bounds
+    let part = |k: usize| most(a.parts[k], b.parts[k], c.parts[k]) + bend.parts[k] * face.sag;
+    let parts = [part(0), part(1)];
+    whole.min(f.value(parts))
 }
 
 impl Room {
@@ -280,17 +244,17 @@ impl Room {
             first: f64::NEG_INFINITY,
             value: f64::NEG_INFINITY,
         };
-        for first in (0..self.planes.len()).step_by(LANES) {
-            let (before, planes) = self.planes.split_at_mut(first);
-            let planes = &mut planes[..LANES.min(start.planes.len() - first)];
-            for (plane, near) in planes.iter_mut().zip(&start.near[first..]) {
-                plane.instants = before.get(*near).map_or([0; 6], |near| near.instants);
+        let mut instants = [0; 6];
+        for planes in self.planes.chunks_mut(LANES) {
+            for plane in &mut *planes {
+                plane.instants = instants;
             }
             f.measure(planes, enough);
             for plane in &*planes {
                 largest = [0, 1].map(|k| plane.parts[k].max(largest[k]));
                 best = plane.value.max(best);
             }
+            instants = planes[planes.len() - 1].instants;
             enough = Enough {
                 first: largest[0],
                 value: best - f.bend(largest, start.sag).value * start.sag,

@@ -8,8 +8,8 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::eight_circles::{Circles, Found};
-use super::lanes::{Eight, LANES, Lanes, Real};
+use super::circle::{Round, joined, needed, round_of_three};
+use super::lanes::{Eight, LANES, Real};
 use super::path::Path;
 
 /// A point's stresses, and room for the shear on eight planes.
@@ -27,6 +27,16 @@ pub(super) struct Swept<F> {
     pub(super) strain_min: Eight<F>,
     /// The instants of these three.
     pub(super) at: [Eight<F>; 3],
+}
+
+/// The circle of three instants on a plane, and when one of at most this square need not be better.
+#[derive(Clone, Copy)]
+pub(super) struct OfThree {
+    pub(super) on: [usize; 3],
+    pub(super) enough: f64,
+    /// Square of the radius of the smallest circle round the three: the smallest round all is no
+    /// smaller.
+    pub(super) square: f64,
 }
 
 impl<F: Real> Instants<F> {
@@ -85,11 +95,50 @@ impl<F: Real> Instants<F> {
         }
     }
 
-    /// The smallest circles round the shear that the last sweep left on each plane, from three
-    /// instants; squares of radii of at most `enough` need not be the smallest.
-    pub(super) fn circles(&self, on: [Lanes; 3], enough: Lanes) -> Found {
+    /// Squares of radii of circles round the shear on each plane: the smallest circle's, or one
+    /// that is enough.
+    pub(super) fn circles(&mut self, lanes: &mut [OfThree]) -> Eight<f64> {
         let shear = &self.shear;
-        self.arch.dispatch(Circles { shear, on, enough })
+        let mut centres = [[F::near(0.0); LANES]; 2];
+        let mut squares = [f64::INFINITY; LANES];
+        let within = |k: usize| if k < shear.len() { k } else { 0 };
+        for (l, lane) in lanes.iter_mut().enumerate() {
+            let point = |k: usize| shear[k].map(|xy| xy[l].wide());
+            lane.on = lane.on.map(within);
+            let circle = round_of_three(lane.on.map(point));
+            squares[l] = circle.square;
+            (centres[0][l], centres[1][l]) = (F::near(circle.x), F::near(circle.y));
+        }
+        let mut open = [true; LANES];
+        loop {
+            let (far, at) = self.arch.dispatch(Farthest { shear, centres });
+            let mut again = false;
+            for (l, lane) in lanes.iter_mut().enumerate() {
+                if !open[l] {
+                    continue;
+                }
+                let square = far[l].wide();
+                let point = |k: usize| shear[k].map(|xy| xy[l].wide());
+                open[l] = square > squares[l] * (1.0 + 8.0 * F::EPSILON) && square > lane.enough;
+                if open[l] {
+                    let (Round { x, y, square }, on) =
+                        joined(at[l].wide() as usize, lane.on, &point);
+                    open[l] = square > squares[l];
+                    if open[l] {
+                        (centres[0][l], centres[1][l]) = (F::near(x), F::near(y));
+                        (squares[l], lane.on) = (square, on);
+                    }
+                }
+                again |= open[l];
+            }
+            if !again {
+                for (l, lane) in lanes.iter_mut().enumerate() {
+                    lane.square = squares[l];
+                    lane.on = needed(lane.on, &|k: usize| shear[k].map(|xy| xy[l].wide()));
+                }
+                return far.map(F::wide);
+            }
+        }
     }
 }
 
@@ -116,28 +165,31 @@ impl<F: Real, const SHEAR: bool, const STRAIN: bool> WithSimd for Sweep<'_, F, S
         let mut normal_max = [low; LANES];
         let (mut strain_max, mut strain_min) = (normal_max, [high; LANES]);
         let normal = normal_weights(&n);
+        let mut elongation = normal;
+        for (c, weights) in elongation.iter_mut().enumerate() {
+            let across = if c < 3 { strain[1] } else { F::near(0.0) };
+            for weight in weights {
+                *weight = strain[0] * *weight - across;
+            }
+        }
         let [u, v] = if SHEAR {
             shear_weights(&n)
         } else {
             [normal; 2]
         };
         let mut at = [[F::near(0.0); LANES]; 3];
-        let (mut mark, one) = (F::near(0.0), F::near(1.0));
         for (t, s) in stress.iter().enumerate() {
-            let mut value = weighted(&normal, s);
+            let mark = F::near(t as f64);
+            let value = weighted(&normal, s);
             F::raise_marked(simd, &mut normal_max, &mut at[0], &value, mark);
             if STRAIN {
-                let across = strain[1] * (s[0] + s[1] + s[2]);
-                for l in 0..LANES {
-                    value[l] = strain[0] * value[l] - across;
-                }
+                let value = weighted(&elongation, s);
                 F::raise_marked(simd, &mut strain_max, &mut at[1], &value, mark);
                 F::lower_marked(simd, &mut strain_min, &mut at[2], &value, mark);
             }
             if SHEAR {
                 shear[t] = [weighted(&u, s), weighted(&v, s)];
             }
-            mark = mark + one;
         }
         Swept {
             normal_max,
@@ -145,6 +197,33 @@ impl<F: Real, const SHEAR: bool, const STRAIN: bool> WithSimd for Sweep<'_, F, S
             strain_min,
             at,
         }
+    }
+}
+
+/// The square of the largest distance from a centre on each plane, and the instant.
+struct Farthest<'a, F> {
+    shear: &'a [[Eight<F>; 2]],
+    centres: [Eight<F>; 2],
+}
+
+impl<F: Real> WithSimd for Farthest<'_, F> {
+    type Output = (Eight<F>, Eight<F>);
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let [x, y] = self.centres;
+        let mut far = [F::near(-1.0); LANES];
+        let mut at = [F::near(0.0); LANES];
+        for (t, [xs, ys]) in self.shear.iter().enumerate() {
+            let t = F::near(t as f64);
+            let mut square = [F::near(0.0); LANES];
+            for l in 0..LANES {
+                let (a, b) = (xs[l] - x[l], ys[l] - y[l]);
+                square[l] = a.mul_add(a, b * b);
+            }
+            F::raise_marked(simd, &mut far, &mut at, &square, t);
+        }
+        (far, at)
     }
 }
 

@@ -12,112 +12,52 @@
 //! if that lies in the triangle; else the largest value is on an edge, where the same holds with one
 //! dimension less (derived). A function whose F'' + F is zero reaches the bound.
 
-#![allow(
-    clippy::inline_always,
-    reason = "they are to be compiled for the processor that runs them"
-)]
+use super::hemisphere::{Face, Triangle};
+use super::path::{cross, dot};
 
-use pulp::{Simd, WithSimd};
-
-use super::lanes::{LANES, Lanes};
-
-/// Eight triangles, and what a function of the plane is on them.
-pub(super) struct MostOn {
-    /// By corner and axis.
-    pub(super) corners: [[Lanes; 3]; 3],
-    /// At least the values at the corners.
-    pub(super) values: [Lanes; 3],
-    /// At most any value on the triangle.
-    pub(super) low: Lanes,
-    /// The bound K of the second derivative.
-    pub(super) bend: f64,
+/// No number of the face exceeds this: `corners` are at least the values at the corners, `low` at
+/// most any value on the face, `K` the bound of the second derivative.
+pub(super) fn most_on(face: &Face, corners: [f64; 3], low: f64, K: f64) -> f64 {
+    let raised = corners.map(|f| K + (f - low));
+    inside(&face.corners, raised).unwrap_or_else(|| on_edges(&face.corners, raised)) - K + low
 }
 
-impl WithSimd for MostOn {
-    /// No number of the triangle exceeds this.
-    type Output = Lanes;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Lanes {
-        let mut most = [0.0; LANES];
-        for l in 0..LANES {
-            let raise = self.bend - self.low[l];
-            let [a, b, c] = &self.corners;
-            let corner = |a: &[Lanes; 3]| [a[0][l], a[1][l], a[2][l]];
-            let raised = [
-                self.values[0][l] + raise,
-                self.values[1][l] + raise,
-                self.values[2][l] + raise,
-            ];
-            most[l] = most_raised(corner(a), corner(b), corner(c), raised) - raise;
-        }
-        most
-    }
-}
-
-/// The largest S/|v| on a triangle.
-#[inline(always)]
-fn most_raised(a: [f64; 3], b: [f64; 3], c: [f64; 3], [s_a, s_b, s_c]: [f64; 3]) -> f64 {
+/// The largest S/|v| of the plane of the corners, if it is in the triangle.
+fn inside([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> Option<f64> {
     let (p, q) = (minus(b, a), minus(c, a));
     let normal = cross(p, q);
-    let over = 1.0 / dot(normal, normal);
+    let square = dot(normal, normal);
     let (across_q, across_p) = (cross(q, normal), cross(normal, p));
-    let (by_p, by_q) = ((s_b - s_a) * over, (s_c - s_a) * over);
-    let g = [
-        by_p * across_q[0] + by_q * across_p[0],
-        by_p * across_q[1] + by_q * across_p[1],
-        by_p * across_q[2] + by_q * across_p[2],
-    ];
-    let height = dot(normal, a);
-    let h_squared = height * height * over;
-    let at_foot = s_a - dot(g, a);
+    let (by_p, by_q) = ((s_b - s_a) / square, (s_c - s_a) / square);
+    let g: [f64; 3] = [0, 1, 2].map(|d| by_p * across_q[d] + by_q * across_p[d]);
+    let height = dot(normal, *a);
+    let h_squared = height * height / square;
+    let at_foot = s_a - dot(g, *a);
     // From the first corner to the foot and on to the top.
-    let (foot, on) = (height * over, h_squared / at_foot);
-    let y = [
-        foot * normal[0] - a[0] + on * g[0],
-        foot * normal[1] - a[1] + on * g[1],
-        foot * normal[2] - a[2] + on * g[2],
-    ];
-    let (w_b, w_c) = (dot(y, across_q) * over, dot(y, across_p) * over);
-    let inside = at_foot * at_foot / h_squared + dot(g, g);
-    let on_edges =
-        on_edge(p, s_a, s_b)
-            .max(on_edge(q, s_a, s_c))
-            .max(on_edge(minus(c, b), s_b, s_c));
-    let within = (w_b >= 0.0) & (w_c >= 0.0) & (w_b + w_c <= 1.0);
-    (if within { inside } else { on_edges }).sqrt()
+    let (foot, on) = (height / square, h_squared / at_foot);
+    let y = [0, 1, 2].map(|d| foot * normal[d] - a[d] + on * g[d]);
+    let (w_b, w_c) = (dot(y, across_q) / square, dot(y, across_p) / square);
+    let within = w_b >= 0.0 && w_c >= 0.0 && w_b + w_c <= 1.0;
+    within.then(|| (at_foot * at_foot / h_squared + dot(g, g)).sqrt())
 }
 
-/// The square of the largest S/|v| of an edge.
-#[inline(always)]
-fn on_edge(chord: [f64; 3], s_a: f64, s_b: f64) -> f64 {
-    let length_squared = dot(chord, chord);
-    let h_squared = 1.0 - length_squared / 4.0;
-    let (middle, change) = (0.5 * (s_a + s_b), s_b - s_a);
-    let top = middle * middle / h_squared + change * change / length_squared;
-    let end = if s_a > s_b { s_a } else { s_b };
-    if change.abs() * h_squared <= middle * length_squared / 2.0 {
-        top
-    } else {
-        end * end
-    }
+/// The largest S/|v| of the edges.
+fn on_edges([a, b, c]: &Triangle, [s_a, s_b, s_c]: [f64; 3]) -> f64 {
+    let edge = |a: &[f64; 3], b: &[f64; 3], s_a: f64, s_b: f64| {
+        let chord = minus(b, a);
+        let length_squared = dot(chord, chord);
+        let h_squared = 1.0 - length_squared / 4.0;
+        let (middle, change) = (f64::midpoint(s_a, s_b), s_b - s_a);
+        if change.abs() * h_squared <= middle * length_squared / 2.0 {
+            middle * middle / h_squared + change * change / length_squared
+        } else {
+            s_a.max(s_b).powi(2)
+        }
+    };
+    let most = edge(a, b, s_a, s_b).max(edge(b, c, s_b, s_c));
+    most.max(edge(c, a, s_c, s_a)).sqrt()
 }
 
-#[inline(always)]
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+fn minus(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }

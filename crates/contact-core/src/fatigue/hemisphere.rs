@@ -2,7 +2,6 @@
 
 use std::sync::LazyLock;
 
-use super::lanes::LANES;
 use super::path::{cross, dot, unit};
 
 /// Corners of a triangle on the sphere, as unit vectors.
@@ -32,8 +31,6 @@ impl Face {
 pub(super) struct Hemisphere {
     /// A normal of every plane.
     pub(super) planes: Vec<[f64; 3]>,
-    /// Of every plane the nearest one of those measured before it, eight at a time.
-    pub(super) near: Vec<usize>,
     pub(super) faces: Vec<Face>,
     /// The largest [`sag`] of the faces.
     pub(super) sag: f64,
@@ -60,19 +57,7 @@ pub(super) static HEMISPHERE: LazyLock<Hemisphere> = LazyLock::new(|| {
         .map(|corners| Face::new(corners, corners.map(&mut number)))
         .collect::<Vec<_>>();
     let sag = faces.iter().map(|f: &Face| f.sag).fold(0.0, f64::max);
-    let near = (0..planes.len()).map(|k| {
-        let angle = |n: &usize| dot(planes[*n], planes[k]).abs();
-        let before = 0..k / LANES * LANES;
-        before
-            .max_by(|a, b| angle(a).total_cmp(&angle(b)))
-            .unwrap_or(0)
-    });
-    Hemisphere {
-        near: near.collect(),
-        planes,
-        faces,
-        sag,
-    }
+    Hemisphere { planes, faces, sag }
 });
 
 /// Ten faces of a regular icosahedron of which none lies opposite another.

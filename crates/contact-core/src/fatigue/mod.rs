@@ -11,7 +11,6 @@ mod ball;
 mod circle;
 mod criterion;
 mod critical_plane;
-mod eight_circles;
 mod eight_planes;
 mod evaluate;
 mod face_bound;

@@ -9,7 +9,7 @@
 use super::circle::{Circles, half_chord};
 use super::criterion::Criterion;
 use super::critical_plane::{Bend, Enough, Plane, PlaneFunction};
-use super::eight_planes::Instants;
+use super::eight_planes::{Instants, OfThree};
 use super::lanes::{LANES, Lanes, Real};
 use super::path::{Frame, Path, normal_weights};
 use super::refine::{Deciding, First};
@@ -154,27 +154,29 @@ impl<'a> OnPlanes<'a> {
                 plane.instants[k] = swept.at[at][l].wide() as usize;
             }
         }
-        let mut of_three: Lanes =
-            std::array::from_fn(|l| planes.get(l).map_or(0.0, |p| p.parts[0]));
+        let mut of_three = planes_low(planes);
         if self.has_shear {
-            let (mut on, mut enough_squares) = ([[0.0; LANES]; 3], [f64::INFINITY; LANES]);
-            for (l, plane) in planes.iter().enumerate() {
+            let mut lanes = [OfThree {
+                on: [0; 3],
+                enough: 0.0,
+                square: 0.0,
+            }; LANES];
+            for (lane, plane) in lanes.iter_mut().zip(&*planes) {
                 let first = self
                     .first_for(enough.value, plane.parts[1])
                     .min(enough.first);
                 let radius = ((first - slack[0]) / self.shear_scale).max(0.0);
-                enough_squares[l] = radius * radius;
-                for (on, instant) in on.iter_mut().zip(plane.instants) {
-                    on[l] = instant as f64;
-                }
+                *lane = OfThree {
+                    on: first_three(plane.instants),
+                    enough: radius * radius,
+                    square: 0.0,
+                };
             }
-            let found = instants.circles(on, enough_squares);
+            let squares = instants.circles(&mut lanes[..planes.len()]);
             for (l, plane) in planes.iter_mut().enumerate() {
-                plane.parts[0] = self.shear_scale * found.of_all[l].sqrt() + slack[0];
-                of_three[l] = self.shear_scale * found.of_three[l].sqrt() + slack[0];
-                for (instant, on) in plane.instants.iter_mut().zip(&found.on) {
-                    *instant = on[l] as usize;
-                }
+                plane.parts[0] = self.shear_scale * squares[l].sqrt() + slack[0];
+                of_three[l] = self.shear_scale * lanes[l].square.sqrt() + slack[0];
+                plane.instants[..3].copy_from_slice(&lanes[l].on);
                 plane.instants[..3].sort_unstable();
             }
         }
@@ -330,6 +332,14 @@ impl PlaneFunction for OnPlanes<'_> {
             slope,
         }
     }
+}
+
+fn planes_low(planes: &[Plane]) -> [f64; LANES] {
+    std::array::from_fn(|l| planes.get(l).map_or(0.0, |p| p.parts[0]))
+}
+
+fn first_three([a, b, c, ..]: [usize; 6]) -> [usize; 3] {
+    [a, b, c]
 }
 
 /// The normal strain on a plane as a sum of the components of the stress.
