@@ -138,7 +138,7 @@ def test_residual_stress_is_part_of_envelopes_and_volumes(tmp_path: Path) -> Non
     depths = [0.0, *result.scene.interfaces()]
     given = [-5e8, 1e8]
     of = ("s_xx", "s_zz", "von_mises")
-    without, with_it = (result.envelope(depths, of=of, residual=r) for r in (None, given))
+    without, with_it = (result.envelope(depths, y=0.0, of=of, residual=r) for r in (None, given))
     of_depth = np.array(given)[without.layer.values][:, None]
     for kind in ("max", "min", "mean"):
         change = (with_it[f"s_xx_{kind}"] - without[f"s_xx_{kind}"]).values

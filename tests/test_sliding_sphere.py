@@ -44,8 +44,8 @@ def root_J2(s: NDArray[np.float64]) -> NDArray[np.float64]:
 def melan(s: NDArray[np.float64]) -> float:
     """The least over constant r_xx, r_yy of the largest sqrt J2, convex: by shrinking grids.
 
-    What is the same all along the track has no other components on y = 0: r_zz counts as r_xx = r_yy
-    of the other sign.
+    What is the same all along the track has no other components on y = 0: r_zz counts as
+    r_xx = r_yy of the other sign.
     """
     middle, reach, least = np.zeros(2), 1.0, np.inf
     while reach > 1e-5:
