@@ -96,6 +96,7 @@ __all__ = [
     "resume_wear",
     "rims",
     "run_command",
+    "section_of_states",
     "solve",
     "stress_at",
     "stress_coefficients",
@@ -2010,6 +2011,28 @@ def probe_labels() -> dict[str, tuple[str, str]]:
 
 def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
     """Depths [m] with their layers; on an interface both, the upper one first."""
+
+def section_of_states(
+    body: Body,
+    grid: Grid,
+    z: Sequence[float],
+    layer: Sequence[int],
+    *,
+    p: _Array,
+    q_x: _Array,
+    q_y: _Array,
+    stick: NDArray[np.bool_],
+    sigma_B: Sequence[float],
+    residual: Sequence[float] | None = None,
+    x: float | None = None,
+    y: float | None = None,
+    body_number: int = 2,
+) -> _Array:
+    """Stress [Pa] on a section in several states, shape (states, 6, depths, places).
+
+    Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
+    vary within the cells. States share the kernels, which cost as much as about ten of them.
+    """
 
 def residual_of_layers(body: Body, residual: Sequence[float] | None = None) -> _Array:
     """Residual stress of every layer of a body [Pa]: those given, or zero."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core, subsurface
-from pyfret.fatigue import COMPONENTS, cycle_increments
+from pyfret.fatigue import cycle_increments
 from pyfret.lazy import xr
 
 if TYPE_CHECKING:
@@ -22,6 +22,8 @@ __all__ = ["CycleStress", "judge"]
 
 #: Largest size of the stress that is held at a time [bytes].
 CHUNK = 64e6
+#: Increments whose stresses are computed together: the kernels of a depth cost as much as ten.
+STATES = 32
 
 
 class CycleStress:
@@ -40,30 +42,37 @@ class CycleStress:
     def history(
         self, z: ArrayLike, *, residual: bool = True
     ) -> tuple[NDArray[np.float64], xr.Dataset]:
-        """The stress of shape (time, depth, along, 6) [Pa], and a dataset with its places.
+        """The stress of shape (time, depth, along, 6) [Pa], and the coordinates of its places.
 
         Without `residual` it is what the loads alone cause.
         """
-        moments = []
-        for n in self.kept:
-            now = self.result.at(int(n))
-            stress = subsurface.stress(
+        depths, layers = _core.depths(self.body, np.atleast_1d(np.asarray(z, float)).tolist())
+        number = self.section.body_number
+        x = self.place if self.section.across == "x" else None
+        y = self.place if self.section.across == "y" else None
+        parts = []
+        for some in np.array_split(self.kept, int(np.ceil(self.kept.size / STATES))):
+            moments = [self.result.at(int(n)) for n in some]
+            fields = {
+                name: np.stack([now.dataset[name].values for now in moments])
+                for name in ("p", "q_x", "q_y", "stick")
+            }
+            fields["stick"] = fields["stick"].astype(bool)
+            stress = _core.section_of_states(
                 self.body,
                 self.grid,
-                z,
-                p=now.p.values,
-                q_x=now.q_x.values,
-                q_y=now.q_y.values,
-                x=self.place if self.section.across == "x" else None,
-                y=self.place if self.section.across == "y" else None,
-                body_number=self.section.body_number,
-                sigma_B=now.bulk_stress(self.section.body_number),
+                depths,
+                layers,
+                **fields,
+                sigma_B=[now.bulk_stress(number) for now in moments],
                 residual=self.section.residual if residual else None,
-                rim=True,
-                stick=now.dataset["stick"].values,
-            ).dataset
-            moments.append(np.stack([stress[c].values for c in COMPONENTS], axis=-1))
-        return np.stack(moments), stress
+                x=x,
+                y=y,
+                body_number=number,
+            )
+            parts.append(np.moveaxis(stress, 1, -1))
+        places = subsurface.coordinates(self.grid, depths, layers, x, y)
+        return np.concatenate(parts), xr.Dataset(coords=places)
 
     def chunks(self, z: NDArray[np.float64]) -> list[NDArray[np.float64]]:
         """The depths, as many together as memory allows."""
@@ -130,7 +139,7 @@ def _on_one(
     parts = []
     for some in of.chunks(np.unique(np.asarray(z, dtype=float))):
         history, places = of.history(some, residual=residual)
-        layers, dims = places.layer.values, places[COMPONENTS[0]].dims
+        layers, dims = places.layer.values, ("depth", of.section.along)
         shown = xr.Dataset(coords={**places.coords, "axis": ["x", "y", "z"]})
         whole: Found = {}
         for layer in np.unique(layers).tolist():

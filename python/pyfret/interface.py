@@ -17,7 +17,6 @@ import numpy as np
 
 from pyfret import subsurface
 from pyfret.cycle_stress import CycleStress
-from pyfret.fatigue import COMPONENTS
 from pyfret.lazy import xr
 from pyfret.section import Section
 
@@ -84,7 +83,7 @@ def over_cycle(
     history = history[:, ::2]
     peel = np.maximum(history[..., 2], 0.0)
     shear = history[..., 4:6]
-    along = str(places[COMPONENTS[0]].dims[1])
+    along = of.section.along
     dims = ("interface", along)
     pascal = {"units": "Pa"}
     found = xr.Dataset(

@@ -50,9 +50,10 @@ def interfaces(body: Body) -> list[float]:
     return [float(depth) for depth in np.cumsum([c.thickness for c in body.coatings])]
 
 
-def _coords(
+def coordinates(
     grid: Grid, z: list[float], layer: list[int], x: float | None, y: float | None
 ) -> dict[str, object]:
+    """Depths with their layers, and x and y: the cells, or where they are constant."""
     metres = {"units": "m"}
     coords: dict[str, object] = {
         "z": ("depth", z, {"units": "m", "long_name": "depth below the surface"}),
@@ -203,7 +204,7 @@ def _sampled(
         values = np.stack([np.stack(plane) for plane in planes], axis=1)
     else:
         values = below.section(depths, layers, x=x, y=y, displacement=displacement)
-    coords = _coords(grid, depths, layers, x, y)
+    coords = coordinates(grid, depths, layers, x, y)
     dims = ["depth", *(k for k in ("x", "y") if coords[k][0] == k)]  # type: ignore[index]
     labels = DISPLACEMENTS if displacement else {name: LABELS[name] for name in COMPONENTS}
     variables = {
@@ -322,7 +323,7 @@ def envelope(
         number, branch = (int(snapshot.dataset[k]) for k in ("increment", "branch_of_increment"))
         sigma_B = snapshot.bulk_stress(body_number) if bulk else 0.0
         stream.push(number, branch, stick=stick, sigma_B=sigma_B, **fields)
-    coords = _coords(scene.grid, depths, layers, x, y)
+    coords = coordinates(scene.grid, depths, layers, x, y)
     along = [name for name, at in (("x", x), ("y", y)) if at is None]
     dims = ("depth", *along)
     shape = (len(depths), *(getattr(scene.grid, name).size for name in along))
