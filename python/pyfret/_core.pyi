@@ -2030,8 +2030,8 @@ def section_of_states(
 ) -> _Array:
     """Stress [Pa] on a section in several states of a contact, shape (states, 6, depths, places).
 
-    Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions vary
-    within the cells. States share the kernels, which cost as much as about ten of them.
+    Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
+    vary within the cells. States share the kernels, which cost as much as about ten of them.
     """
 
 def residual_of_layers(body: Body, residual: Sequence[float] | None = None) -> _Array:

@@ -61,8 +61,8 @@ pub(crate) fn chosen_depths(
 
 /// Stress [Pa] on a section in several states of a contact, shape (states, 6, depths, places).
 ///
-/// Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions vary
-/// within the cells. States share the kernels, which cost as much as about ten of them.
+/// Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
+/// vary within the cells. States share the kernels, which cost as much as about ten of them.
 #[pyfunction]
 #[pyo3(signature = (body, grid, z, layer, *, p, q_x, q_y, stick, sigma_B, residual = None, x = None, y = None, body_number = 2))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
@@ -133,11 +133,11 @@ pub(crate) fn section_of_states<'py>(
 /// Residual stress of every layer of a body [Pa]: those given, or zero.
 #[pyfunction]
 #[pyo3(signature = (body, residual = None))]
-pub(crate) fn residual_of_layers<'py>(
-    py: Python<'py>,
+pub(crate) fn residual_of_layers(
+    py: Python<'_>,
     body: Body,
     residual: Option<Vec<f64>>,
-) -> PyResult<Bound<'py, PyArray1<f64>>> {
+) -> PyResult<Bound<'_, PyArray1<f64>>> {
     let given = residual.unwrap_or_default();
     let of_layers = core::residual_of_layers(&body.0, &given).map_err(to_python)?;
     Ok(of_layers.into_pyarray(py))
