@@ -107,6 +107,16 @@ def test_stress_below_is_that_of_python(coated: fret.Result, tmp_path: Path) -> 
     )
     for name in of:
         np.testing.assert_array_equal(volume[name], ours[name])
+    pressed = result.at(-1).stress(z, y=0.0, residual=[-1e9, 2e8])
+    out = tmp_path / "pressed.zarr"
+    run = fret_run("stress", store, *common, "--residual=-1e9,2e8", "-o", out)
+    assert run.returncode == 0, run.stderr
+    for name in of:
+        np.testing.assert_array_equal(xr.open_zarr(out, chunks=None)[name], pressed.measure(name))
+    wrong = fret_run("stress", store, "--residual=1e8", "-o", tmp_path / "wrong.zarr")
+    assert wrong.returncode == 2
+    assert "one for each of the 2 layers" in wrong.stderr
+    assert not (tmp_path / "wrong.zarr").exists()
     first = fret_run("stress", store, "--increment", "10", "--along-y", "0", "--body", "1")
     assert first.returncode == 0, first.stderr
     assert first.stdout.startswith("increment 10: largest von_mises")

@@ -5,10 +5,12 @@ from __future__ import annotations
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+import xarray as xr
 
 import pyfret as fret
 from conftest import MU, T_MAX, sphere_on_flat
 from conftest import W as LOAD
+from pyfret import fatigue
 from pyfret.heat import Conductor
 
 STEEL = Conductor(conductivity=45.0, heat_capacity=3.6e6)
@@ -93,6 +95,20 @@ def test_time_within_a_branch(sliding: fret.Result) -> None:
         for wave in ("sine", "linear")
     ]
     assert slow[0] > 1.2 * slow[1]
+
+
+def test_materials_stand_for_conductors(coated: fret.Result) -> None:
+    table = fatigue.Materials()
+    titanium, alumina = table["titanium_6Al4V"], table["alumina"]
+    named = coated.temperature(titanium, [alumina, STEEL], frequency=10.0)
+    given = coated.temperature(
+        Conductor(conductivity=6.7, heat_capacity=4430.0 * 610.0),
+        [Conductor(conductivity=33.0, heat_capacity=3984.0 * 755.0), STEEL],
+        frequency=10.0,
+    )
+    xr.testing.assert_identical(named, given)
+    with pytest.raises(ValueError, match=r"steel_4340.*conductivity"):
+        coated.temperature(table["steel_4340"], STEEL, frequency=10.0)
 
 
 def test_refusals(coated: fret.Result) -> None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+import xarray as xr
 
 import pyfret as fret
 from conftest import T_MAX, sphere_on_flat
@@ -100,6 +103,15 @@ def test_thermal_stress_keeps_the_coating_as_wide_as_its_substrate() -> None:
         residual.thermal(
             COATING.material, alpha_coating=np.nan, alpha_substrate=a_s, temperature_change=1.0
         )
+    # By materials.
+    table = fatigue.Materials()
+    steel, alumina = table["steel_4340"], table["alumina"]
+    named = residual.thermal(alumina, alpha_substrate=steel, temperature_change=-100.0)
+    assert named == pytest.approx(416e9 / (1 - 0.231) * (12.3e-6 - 7.4e-6) * -100.0, rel=1e-12)
+    with pytest.raises(ValueError, match=r"TiN.*nu .Poisson"):
+        residual.thermal(table["TiN"], alpha_substrate=steel, temperature_change=-100.0)
+    with pytest.raises(ValueError, match="alpha_coating is missing"):
+        residual.thermal(COATING.material, alpha_substrate=steel, temperature_change=1.0)
 
 
 def test_residual_stress_is_part_of_every_stress() -> None:
@@ -117,3 +129,35 @@ def test_residual_stress_is_part_of_every_stress() -> None:
             np.testing.assert_array_equal(with_it.measure(name), without.measure(name))
     with pytest.raises(ValueError, match="one for each of the 2 layers"):
         now.stress(depths, y=0.0, residual=[1e8])
+    with pytest.raises(ValueError, match=r"residual\[1\] = NaN"):
+        now.stress(depths, y=0.0, residual=[1e8, np.nan])
+
+
+def test_residual_stress_is_part_of_envelopes_and_volumes(tmp_path: Path) -> None:
+    result = cycled(ratio=2.0)
+    depths = [0.0, *result.scene.interfaces()]
+    given = [-5e8, 1e8]
+    of = ("s_xx", "s_zz", "von_mises")
+    without, with_it = (result.envelope(depths, y=0.0, of=of, residual=r) for r in (None, given))
+    of_depth = np.array(given)[without.layer.values][:, None]
+    for kind in ("max", "min", "mean"):
+        change = (with_it[f"s_xx_{kind}"] - without[f"s_xx_{kind}"]).values
+        np.testing.assert_allclose(change, np.broadcast_to(of_depth, change.shape), atol=10.0)
+    xr.testing.assert_equal(with_it.s_zz_max, without.s_zz_max)
+    histories = (result.at(int(n)).stress(depths, y=0.0, residual=given) for n in saved(result))
+    mises = np.max([of.von_mises.values for of in histories], axis=0)
+    np.testing.assert_allclose(with_it.von_mises_max, mises, rtol=1e-9)
+    now = result.at(-1)
+    now.write_volume(tmp_path / "pressed.zarr", depths, of=of, residual=given)
+    stored = xr.open_zarr(tmp_path / "pressed.zarr", chunks=None)
+    planes = now.stress(depths, residual=given)
+    # Of the two values on the interface the volume has that of the coating.
+    for name in of:
+        np.testing.assert_allclose(stored[name], planes.measure(name)[:2], rtol=1e-9, atol=1.0)
+    with pytest.raises(ValueError, match="one for each of the 2 layers"):
+        now.write_volume(tmp_path / "other.zarr", depths, residual=[1e8])
+    assert not (tmp_path / "other.zarr").exists()
+
+
+def saved(result: fret.Result) -> list[int]:
+    return [int(n) for n in result.dataset.saved_increment.values]

@@ -96,7 +96,7 @@ def test_each_layer_with_its_own_material(cycled: fret.Result) -> None:
         cycled.life([STEEL], "crossland")
     with pytest.raises(ValueError, match="no layer has a material"):
         cycled.life([None, None], "crossland")
-    with pytest.raises(ValueError, match="residual has 1 numbers"):
+    with pytest.raises(ValueError, match="residual = 1 numbers"):
         cycled.life(STEEL, "crossland", residual=[1e6])
     with pytest.raises(ValueError, match=r"aluminium_7075_T6`\.s_D"):
         cycled.life(fatigue.Materials()["aluminium_7075_T6"], "crossland")

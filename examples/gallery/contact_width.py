@@ -2,18 +2,22 @@
 The width of a contact under a bulk stress
 ==========================================
 
-Cylinders of Al-4%Cu on a flat that is pulled to and fro, all with the same peak pressure, shear
-and bulk stress, so that the stress at their surfaces is the same: only the size of the field
-differs. Narrow contacts did not break such specimens within ten million cycles, and wide ones
-did, with a change at some tenths of a millimetre of half-width (D. Nowell, D. A. Hills, Wear 136
-(1990) 329-343; these are the loads of the first series, p_0 = 157 MPa, bulk stress 92.7 MPa, T =
-0.45 mu W, mu = 0.75).
+Cylinders of an aluminium-copper alloy on a flat that is pulled to and fro, all with the same peak
+pressure, shear and bulk stress, so that the stress at their surfaces is the same: only the size of
+the field differs. Below a critical width such specimens had infinite lives (D. Nowell, D. A. Hills,
+Wear 136 (1990) 329-343).
 
 The Smith-Watson-Topper parameter at the surface knows nothing of the width. Its mean over a
-critical distance does: L = (dK_th/(2 s_D))^2/pi with dK_th = 4.2 MPa m^0.5 and s_D = 124 MPa (J.
-A. Araujo, D. Nowell, Int. J. Fatigue 24 (2002) 763-775). It passes the limit of a smooth
-specimen, s_D^2/E, at a half-width of 0.44 mm. The trend and the size of that width agree with the
-tests; lives do not follow, since they would need a strain-life curve of this alloy.
+critical distance does: with L = (dK_th/(2 s_D))^2/pi it passes the limit of a smooth specimen,
+s_D^2/E, at a half-width of 0.44 mm.
+
+Where the numbers are from: the abstract of the paper tells the alloy, that the width alone was
+varied, and that lives were infinite below a critical one, which is the trend shown here. The loads,
+p_0 = 157 MPa, bulk stress 92.7 MPa, T = 0.45 mu W, mu = 0.75, the threshold dK_th = 4.2 MPa m^0.5
+and the limit s_D = 124 MPa are those under which these tests are quoted (J. A. Araujo, D. Nowell,
+Int. J. Fatigue 24 (2002) 763-775); they were not read again in the papers, nor was the critical
+width, some tenths of a millimetre. Lives do not follow: they would need a strain-life curve of this
+alloy.
 """
 
 import matplotlib.pyplot as plt

@@ -91,10 +91,12 @@ __all__ = [
     "measure",
     "principal",
     "probe_labels",
+    "residual_of_layers",
     "resume",
     "resume_wear",
     "rims",
     "run_command",
+    "section_of_states",
     "solve",
     "stress_at",
     "stress_coefficients",
@@ -2010,6 +2012,31 @@ def probe_labels() -> dict[str, tuple[str, str]]:
 def depths(body: Body, z: Sequence[float]) -> tuple[list[float], list[int]]:
     """Depths [m] with their layers; on an interface both, the upper one first."""
 
+def section_of_states(
+    body: Body,
+    grid: Grid,
+    z: Sequence[float],
+    layer: Sequence[int],
+    *,
+    p: _Array,
+    q_x: _Array,
+    q_y: _Array,
+    stick: NDArray[np.bool_],
+    sigma_B: Sequence[float],
+    residual: Sequence[float] | None = None,
+    x: float | None = None,
+    y: float | None = None,
+    body_number: int = 2,
+) -> _Array:
+    """Stress [Pa] on a section in several states of a contact, shape (states, 6, depths, places).
+
+    Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
+    vary within the cells. States share the kernels, which cost as much as about ten of them.
+    """
+
+def residual_of_layers(body: Body, residual: Sequence[float] | None = None) -> _Array:
+    """Residual stress of every layer of a body [Pa]: those given, or zero."""
+
 def chosen_depths(
     body: Body, *, a: float, deepest: float, finer: float = 1.0
 ) -> tuple[list[float], list[int]]:
@@ -2084,6 +2111,7 @@ class Subsurface:
         q_y: ArrayLike | None = None,
         body_number: int = 2,
         sigma_B: float = 0.0,
+        residual: Sequence[float] | None = None,
         rim: bool = False,
         stick: NDArray[np.bool_] | None = None,
     ) -> Subsurface: ...
@@ -2128,6 +2156,7 @@ class Envelope:
         x: float | None = None,
         y: float | None = None,
         body_number: int = 2,
+        residual: Sequence[float] | None = None,
         rim: bool = True,
     ) -> Envelope: ...
     @property

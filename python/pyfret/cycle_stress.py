@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core, subsurface
-from pyfret.fatigue import COMPONENTS, cycle_increments
+from pyfret.fatigue import cycle_increments
 from pyfret.lazy import xr
 
 if TYPE_CHECKING:
@@ -22,6 +22,8 @@ __all__ = ["CycleStress", "judge"]
 
 #: Largest size of the stress that is held at a time [bytes].
 CHUNK = 64e6
+#: Increments whose stresses are computed together: the kernels of a depth cost as much as ten.
+STATES = 32
 
 
 class CycleStress:
@@ -36,35 +38,41 @@ class CycleStress:
         self.body = scene.body1 if section.body_number == 1 else scene.body2
         self.grid = scene.grid
         self.layers = len(self.body.coatings) + 1
-        self.residual = subsurface.residual_of_layers(self.body, section.residual)
 
-    def of_load(self, z: ArrayLike) -> tuple[NDArray[np.float64], xr.Dataset]:
-        """What the loads cause, of shape (time, depth, along, 6), and a dataset with its places."""
-        moments = []
-        for n in self.kept:
-            now = self.result.at(int(n))
-            stress = subsurface.stress(
+    def history(
+        self, z: ArrayLike, *, residual: bool = True
+    ) -> tuple[NDArray[np.float64], xr.Dataset]:
+        """The stress of shape (time, depth, along, 6) [Pa], and the coordinates of its places.
+
+        Without `residual` it is what the loads alone cause.
+        """
+        depths, layers = _core.depths(self.body, np.atleast_1d(np.asarray(z, float)).tolist())
+        number = self.section.body_number
+        x = self.place if self.section.across == "x" else None
+        y = self.place if self.section.across == "y" else None
+        parts = []
+        for some in np.array_split(self.kept, int(np.ceil(self.kept.size / STATES))):
+            moments = [self.result.at(int(n)) for n in some]
+            fields = {
+                name: np.stack([now.dataset[name].values for now in moments])
+                for name in ("p", "q_x", "q_y", "stick")
+            }
+            fields["stick"] = fields["stick"].astype(bool)
+            stress = _core.section_of_states(
                 self.body,
                 self.grid,
-                z,
-                p=now.p.values,
-                q_x=now.q_x.values,
-                q_y=now.q_y.values,
-                x=self.place if self.section.across == "x" else None,
-                y=self.place if self.section.across == "y" else None,
-                body_number=self.section.body_number,
-                sigma_B=now.bulk_stress(self.section.body_number),
-                rim=True,
-                stick=now.dataset["stick"].values,
-            ).dataset
-            moments.append(np.stack([stress[c].values for c in COMPONENTS], axis=-1))
-        return np.stack(moments), stress
-
-    def history(self, z: ArrayLike) -> tuple[NDArray[np.float64], xr.Dataset]:
-        """The stress with the residual stress of the layers, as :meth:`of_load` gives it."""
-        history, places = self.of_load(z)
-        history[..., :2] += self.residual[places.layer.values][:, None, None]
-        return history, places
+                depths,
+                layers,
+                **fields,
+                sigma_B=[now.bulk_stress(number) for now in moments],
+                residual=self.section.residual if residual else None,
+                x=x,
+                y=y,
+                body_number=number,
+            )
+            parts.append(np.moveaxis(stress, 1, -1))
+        places = subsurface.coordinates(self.grid, depths, layers, x, y)
+        return np.concatenate(parts), xr.Dataset(coords=places)
 
     def chunks(self, z: NDArray[np.float64]) -> list[NDArray[np.float64]]:
         """The depths, as many together as memory allows."""
@@ -81,7 +89,9 @@ def judge(
     result: Result,
     section: Section,
     z: ArrayLike | None,
-    judge_layer: Callable[[NDArray[np.float64], int, float], Found | None],
+    judge_layer: Callable[[NDArray[np.float64], int], Found | None],
+    *,
+    residual: bool = True,
 ) -> xr.Dataset:
     """Judge the layers of a section over its cycle, a few depths at a time.
 
@@ -92,9 +102,10 @@ def judge(
     z : array, optional
         Depths [m] (default: those that the layers ask for, both sides of every interface).
     judge_layer : callable
-        Takes the stress that the loads cause of shape (time, depth, along, 6), the layer from the
-        surface down, and its residual stress [Pa]; gives names, values and attrs of what it finds,
-        or None where the layer is not judged.
+        Takes the stress of shape (time, depth, along, 6) [Pa] and the layer from the surface down;
+        gives names, values and attrs of what it finds, or None where the layer is not judged.
+    residual : bool
+        Whether the residual stress of the section is part of the stress.
 
     Returns
     -------
@@ -103,7 +114,9 @@ def judge(
         NaN in layers that are not judged.
     """
     sections = section.each()
-    found = [_on_one(CycleStress(result, one), z, judge_layer) for one in sections]
+    found = [
+        _on_one(CycleStress(result, one), z, judge_layer, residual=residual) for one in sections
+    ]
     if np.ndim(section.places) == 0:
         whole = found[0]
     else:
@@ -117,21 +130,21 @@ def judge(
 def _on_one(
     of: CycleStress,
     z: ArrayLike | None,
-    judge_layer: Callable[[NDArray[np.float64], int, float], Found | None],
+    judge_layer: Callable[[NDArray[np.float64], int], Found | None],
+    *,
+    residual: bool,
 ) -> xr.Dataset:
     if z is None:
         z, _ = _core.chosen_depths(of.body, a=of.result.length, deepest=2.0 * of.result.length)
     parts = []
     for some in of.chunks(np.unique(np.asarray(z, dtype=float))):
-        history, places = of.of_load(some)
-        layers, dims = places.layer.values, places[COMPONENTS[0]].dims
+        history, places = of.history(some, residual=residual)
+        layers, dims = places.layer.values, ("depth", of.section.along)
         shown = xr.Dataset(coords={**places.coords, "axis": ["x", "y", "z"]})
         whole: Found = {}
         for layer in np.unique(layers).tolist():
             here = layers == layer
-            for name, (values, attrs) in (
-                judge_layer(history[:, here], layer, float(of.residual[layer])) or {}
-            ).items():
+            for name, (values, attrs) in (judge_layer(history[:, here], layer) or {}).items():
                 shape = (layers.size, *values.shape[1:])
                 whole.setdefault(name, (np.full(shape, np.nan), attrs))[0][here] = values
         for name, (values, attrs) in whole.items():

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from pyfret import _core
+from pyfret._core import Material
 from pyfret.fatigue import cycle_increments
 from pyfret.lazy import xr
 
@@ -49,15 +50,26 @@ class Conductor:
     #: Heat capacity of the volume, density times specific heat [J/(m^3 K)].
     heat_capacity: float
 
+    @classmethod
+    def of(cls, material: Material) -> Conductor:
+        """Give what a material has as ``conductivity``, ``density`` and ``specific_heat``.
+
+        A ValueError says which of them is missing.
+        """
+        conductivity = material.number("conductivity")
+        heat_capacity = material.number("density") * material.number("specific_heat")
+        return cls(conductivity=conductivity, heat_capacity=heat_capacity)
+
 
 #: A material for all layers, or one for each from the surface down, the substrate's last.
-Conductors = Conductor | Sequence[Conductor]
+Conductors = Conductor | Material | Sequence[Conductor | Material]
 
 
 def _of_layers(conductors: Conductors, layers: int) -> list[tuple[float, float]]:
-    if isinstance(conductors, Conductor):
+    if not isinstance(conductors, Sequence):
         conductors = [conductors] * layers
-    return [(c.conductivity, c.heat_capacity) for c in conductors]
+    each = [Conductor.of(c) if isinstance(c, Material) else c for c in conductors]
+    return [(c.conductivity, c.heat_capacity) for c in each]
 
 
 def _ends(result: Result, kept: NDArray[np.int64], wave: str) -> NDArray[np.float64]:
@@ -132,9 +144,9 @@ def temperature(
     ----------
     result : Result
         Solved with ``save="all"``, or with the increments of the cycle and the one before it.
-    conductor1, conductor2 : Conductor or sequence of Conductor
+    conductor1, conductor2 : Conductor, Material, or sequence of them
         Of each body one for all layers, or one for each from the surface down, the substrate's
-        last. The thicknesses are those of the scene.
+        last; materials as in :meth:`Conductor.of`. The thicknesses are those of the scene.
     frequency : float
         Cycles per second [Hz].
     bulk : float or two floats

@@ -17,7 +17,6 @@ import numpy as np
 
 from pyfret import subsurface
 from pyfret.cycle_stress import CycleStress
-from pyfret.fatigue import COMPONENTS
 from pyfret.lazy import xr
 from pyfret.section import Section
 
@@ -79,12 +78,12 @@ def over_cycle(
     for name, value in strengths.items():
         if value is not None and not (value > 0.0 and np.isfinite(value)):
             raise ValueError(f"{name} = {value}: must be a positive stress in Pa")
-    history, places = of.of_load(depths)
+    history, places = of.history(depths)
     # Both sides carry the same traction; that of the upper layer stands for it.
     history = history[:, ::2]
     peel = np.maximum(history[..., 2], 0.0)
     shear = history[..., 4:6]
-    along = str(places[COMPONENTS[0]].dims[1])
+    along = of.section.along
     dims = ("interface", along)
     pascal = {"units": "Pa"}
     found = xr.Dataset(

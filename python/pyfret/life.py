@@ -181,12 +181,11 @@ def life(
     assessments = _assessments(materials, criterion, len(body.coatings) + 1)
     name, meaning = margin_name(assessments)
 
-    def of_layer(load: NDArray[np.float64], layer: int, residual: float) -> Found | None:
+    def of_layer(stress: NDArray[np.float64], layer: int) -> Found | None:
         assessment = assessments[layer]
         if assessment is None:
             return None
-        load[..., :2] += residual
-        found = evaluate(load, assessment.criterion, tolerance=tolerance)
+        found = evaluate(stress, assessment.criterion, tolerance=tolerance)
         margins = [margin_of(assessment, v) for v in found.value.values.ravel().tolist()]
         values: Found = {str(k): (v.values, v.attrs) for k, v in found.data_vars.items()}
         attrs = {"units": "1", "long_name": meaning}

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 import numpy as np
 
+from pyfret import _core
 from pyfret._core import Material
 from pyfret.cycle_stress import judge
 from pyfret.fatigue import first_yield
@@ -143,13 +144,17 @@ def load_factors(
     body = scene.body1 if where.body_number == 1 else scene.body2
     limits = _yield_stresses(s_y, len(body.coatings) + 1)
 
-    def of_layer(load: NDArray[np.float64], layer: int, residual: float) -> Found | None:
+    residual = _core.residual_of_layers(body, where.residual).tolist()
+
+    def of_layer(load: NDArray[np.float64], layer: int) -> Found | None:
         limit = limits[layer]
         if limit is None:
             return None
-        found = first_yield(load, s_y=limit, constant=(residual, residual, 0, 0, 0, 0))
+        found = first_yield(
+            load, s_y=limit, constant=(residual[layer], residual[layer], 0, 0, 0, 0)
+        )
         return {of: (found[of].values, found[of].attrs) for of in get_args(Factor)}
 
-    whole = judge(result, where, z, of_layer)
+    whole = judge(result, where, z, of_layer, residual=False)
     present = np.unique(whole.layer.values).tolist()
     return LoadFactors(whole, [n for n in present if limits[n] is not None])

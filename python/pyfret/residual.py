@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._core import Material
+
 if TYPE_CHECKING:
     from pyfret._core import Elastic
 
@@ -13,7 +15,11 @@ __all__ = ["thermal"]
 
 
 def thermal(
-    coating: Elastic, *, alpha_coating: float, alpha_substrate: float, temperature_change: float
+    coating: Elastic | Material,
+    *,
+    temperature_change: float,
+    alpha_coating: float | Material | None = None,
+    alpha_substrate: float | Material,
 ) -> float:
     """Thermal stress of a thin coating on a thick substrate [Pa], biaxial, tension positive.
 
@@ -28,10 +34,11 @@ def thermal(
 
     Parameters
     ----------
-    coating : Elastic
+    coating : Elastic or Material
         Modulus and Poisson's ratio of the coating.
-    alpha_coating, alpha_substrate : float
-        Coefficients of linear thermal expansion [1/K]; ``alpha_T`` of a material.
+    alpha_coating, alpha_substrate : float or Material
+        Coefficients of linear thermal expansion [1/K], or materials that have ``alpha_T``; that of
+        the coating by default the coating's own, where it is a material.
     temperature_change : float
         Temperature less that at which the coating was free of stress [K], negative after cooling.
 
@@ -50,15 +57,27 @@ def thermal(
     >>> round(s / 1e6)
     -818
     """
-    if not np.isfinite(coating.E):
+    if isinstance(coating, Material):
+        alpha_coating = coating if alpha_coating is None else alpha_coating
+        E, nu = coating.number("E"), coating.number("nu")
+    else:
+        E, nu = coating.E, coating.nu
+    if alpha_coating is None:
+        raise ValueError("alpha_coating is missing: a coating that is no material has no alpha_T")
+    if not np.isfinite(E):
         raise ValueError("the coating is rigid: it has no finite thermal stress")
     given = {
-        "alpha_coating": alpha_coating,
-        "alpha_substrate": alpha_substrate,
+        "alpha_coating": _expansion(alpha_coating),
+        "alpha_substrate": _expansion(alpha_substrate),
         "temperature_change": temperature_change,
     }
     for name, value in given.items():
         if not np.isfinite(value):
             raise ValueError(f"{name} = {value}: must be a finite number")
-    mismatch = (alpha_substrate - alpha_coating) * temperature_change
-    return coating.E / (1.0 - coating.nu) * mismatch
+    mismatch = (given["alpha_substrate"] - given["alpha_coating"]) * temperature_change
+    return E / (1.0 - nu) * mismatch
+
+
+def _expansion(alpha: float | Material) -> float:
+    """A coefficient of thermal expansion, or that of a material [1/K]."""
+    return alpha.number("alpha_T") if isinstance(alpha, Material) else alpha

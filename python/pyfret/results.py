@@ -255,6 +255,7 @@ class Result(OfRun):
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
         bulk: bool = True,
+        residual: Sequence[float] | None = None,
     ) -> xr.Dataset:
         """Extremes of stress over the increments whose fields were kept, on a section or on planes.
 
@@ -263,7 +264,15 @@ class Result(OfRun):
         """
         kept = (self.at(int(n)) for n in self.dataset.saved_increment.values)
         return subsurface.envelope(
-            self.scene, kept, z, x=x, y=y, of=of, body_number=body_number, bulk=bulk
+            self.scene,
+            kept,
+            z,
+            x=x,
+            y=y,
+            of=of,
+            body_number=body_number,
+            bulk=bulk,
+            residual=residual,
         )
 
     def life(

@@ -231,6 +231,7 @@ class Snapshot(OfRun):
         of: Sequence[str] = ("von_mises",),
         body_number: int = 2,
         bulk: bool = True,
+        residual: Sequence[float] | None = None,
         rim: bool = True,
     ) -> None:
         """Write stress, displacement in the volume: :func:`pyfret.subsurface.write_volume`."""
@@ -243,6 +244,7 @@ class Snapshot(OfRun):
             of=of,
             body_number=body_number,
             sigma_B=self.bulk_stress(body_number) if bulk else 0.0,
+            residual=residual,
             rim=rim,
             stick=self.dataset["stick"].values,
             title=repr(self),

@@ -50,22 +50,10 @@ def interfaces(body: Body) -> list[float]:
     return [float(depth) for depth in np.cumsum([c.thickness for c in body.coatings])]
 
 
-def residual_of_layers(body: Body, residual: Sequence[float] | None) -> NDArray[np.float64]:
-    """Residual stress of every layer of a body from the surface down, zero by default [Pa]."""
-    layers = len(body.coatings) + 1
-    if residual is None:
-        return np.zeros(layers)
-    if len(residual) != layers:
-        raise ValueError(
-            f"residual has {len(residual)} numbers: must be one for each of the {layers} layers, "
-            "the substrate last"
-        )
-    return np.asarray(residual, dtype=float)
-
-
-def _coords(
+def coordinates(
     grid: Grid, z: list[float], layer: list[int], x: float | None, y: float | None
 ) -> dict[str, object]:
+    """Depths with their layers, and x and y: the cells, or where they are constant."""
     metres = {"units": "m"}
     coords: dict[str, object] = {
         "z": ("depth", z, {"units": "m", "long_name": "depth below the surface"}),
@@ -82,6 +70,7 @@ def _subsurface(
     loads: tuple[ArrayLike | None, ArrayLike | None, ArrayLike | None],
     body_number: int,
     sigma_B: float = 0.0,
+    residual: Sequence[float] | None = None,
     *,
     rim: bool = False,
     stick: ArrayLike | None = None,
@@ -95,6 +84,7 @@ def _subsurface(
         q_y=q_y,
         body_number=body_number,
         sigma_B=sigma_B,
+        residual=residual,
         rim=rim,
         stick=None if stick is None else np.asarray(stick, dtype=bool),
     )
@@ -157,15 +147,10 @@ def stress(
         Of dims (depth, x), (depth, y), (depth) or (depth, x, y).
     """
     loads = (p, q_x, q_y)
-    below = _subsurface(body, grid, loads, body_number, sigma_B, rim=rim, stick=stick)
+    below = _subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
     at = _line(z, x, y)
     length = loaded_length(grid, *loads) if length is None else length
     sampled = _sampled(below, body, grid, _depths(body, z, length), at, displacement=False)
-    if residual is not None:
-        of_depth = residual_of_layers(body, residual)[sampled.layer.values]
-        for name in ("s_xx", "s_yy"):
-            # The depths are the first axis.
-            sampled[name].values = (sampled[name].values.T + of_depth).T
     return Stress(sampled.assign_attrs(interfaces=interfaces(body), length=length))
 
 
@@ -219,7 +204,7 @@ def _sampled(
         values = np.stack([np.stack(plane) for plane in planes], axis=1)
     else:
         values = below.section(depths, layers, x=x, y=y, displacement=displacement)
-    coords = _coords(grid, depths, layers, x, y)
+    coords = coordinates(grid, depths, layers, x, y)
     dims = ["depth", *(k for k in ("x", "y") if coords[k][0] == k)]  # type: ignore[index]
     labels = DISPLACEMENTS if displacement else {name: LABELS[name] for name in COMPONENTS}
     variables = {
@@ -241,6 +226,7 @@ def write_volume(
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     sigma_B: float = 0.0,
+    residual: Sequence[float] | None = None,
     rim: bool = False,
     stick: ArrayLike | None = None,
     title: str = "",
@@ -249,7 +235,7 @@ def write_volume(
 
     Parameters
     ----------
-    body, grid, z, p, q_x, q_y, body_number, sigma_B, rim, stick
+    body, grid, z, p, q_x, q_y, body_number, sigma_B, residual, rim, stick
         As in :func:`stress`; on an interface the value is that of the upper layer.
     out : path
         A ``.vti`` file (VTK image data for ParaView and PyVista; depths evenly spaced) or a Zarr
@@ -262,7 +248,7 @@ def write_volume(
     depths, layers = _depths(body, z, loaded_length(grid, p, q_x, q_y))
     once = [n for n, depth in enumerate(depths) if n == 0 or depth != depths[n - 1]]
     loads = (p, q_x, q_y)
-    below = _subsurface(body, grid, loads, body_number, sigma_B, rim=rim, stick=stick)
+    below = _subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
     z_once, layer_once = [depths[n] for n in once], [layers[n] for n in once]
     below.volume(out, z_once, layer_once, of=list(of), title=title)
 
@@ -277,6 +263,7 @@ def envelope(
     of: Sequence[str] = ("von_mises",),
     body_number: int = 2,
     bulk: bool = True,
+    residual: Sequence[float] | None = None,
     rim: bool = True,
 ) -> xr.Dataset:
     """Extremes of stress over a load path, none of whose increments is kept.
@@ -293,6 +280,8 @@ def envelope(
         Measures, as in :class:`Stress`.
     bulk : bool
         Whether the body's bulk stress is part of the stress.
+    residual : sequence of float, optional
+        Residual stress of the layers [Pa], as in :func:`stress`.
     rim : bool
         Whether tractions vary within the cells, as in :func:`stress`.
 
@@ -325,6 +314,7 @@ def envelope(
         x=x,
         y=y,
         body_number=body_number,
+        residual=residual,
         rim=rim,
     )
     for snapshot in increments:
@@ -333,7 +323,7 @@ def envelope(
         number, branch = (int(snapshot.dataset[k]) for k in ("increment", "branch_of_increment"))
         sigma_B = snapshot.bulk_stress(body_number) if bulk else 0.0
         stream.push(number, branch, stick=stick, sigma_B=sigma_B, **fields)
-    coords = _coords(scene.grid, depths, layers, x, y)
+    coords = coordinates(scene.grid, depths, layers, x, y)
     along = [name for name, at in (("x", x), ("y", y)) if at is None]
     dims = ("depth", *along)
     shape = (len(depths), *(getattr(scene.grid, name).size for name in along))

@@ -9,6 +9,7 @@ use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::fields::{
     Depth, Line, Maximum, Probe, Section, Side, Slices, States, chosen_depths, depths,
+    residual_of_layers,
 };
 use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volume};
 use contact_core::scene::{Body, Scene};
@@ -50,6 +51,15 @@ pub(crate) struct Options {
     /// Print one JSON object per measure, for programs
     #[arg(long)]
     json: bool,
+    /// Residual stress of each layer from the surface down, the substrate's last [Pa], tension positive;
+    /// write --residual=-1e9,0 if the first is negative
+    #[arg(
+        long,
+        value_name = "STRESSES",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    residual: Vec<f64>,
     /// Leave out the bulk stress of the body
     #[arg(long)]
     no_bulk: bool,
@@ -87,6 +97,8 @@ struct Task {
     json: bool,
     probes: Vec<Probe>,
     loads: Loads,
+    /// Residual stress of every layer in Pa.
+    residual: Vec<f64>,
     /// Raised by Ctrl-C.
     stop: Arc<AtomicBool>,
 }
@@ -182,6 +194,7 @@ impl Task {
         }
         say_thin(&scene, body);
         Ok(Self {
+            residual: residual_of_layers(body, &options.residual)?,
             probes,
             loads,
             scene,
@@ -227,6 +240,7 @@ impl Task {
         States {
             tractions,
             sigma_B: std::slice::from_ref(&self.loads.sigma_B),
+            residual: &self.residual,
             stick: (!options.no_rim).then_some(stick),
             stop: self.stop.clone(),
         }

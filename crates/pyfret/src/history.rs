@@ -32,7 +32,7 @@ pub(crate) struct Envelope {
 #[pymethods]
 impl Envelope {
     #[new]
-    #[pyo3(signature = (body, grid, path, z, layer, *, of, x = None, y = None, body_number = 2, rim = true))]
+    #[pyo3(signature = (body, grid, path, z, layer, *, of, x = None, y = None, body_number = 2, residual = None, rim = true))]
     fn new(
         py: Python<'_>,
         body: Body,
@@ -44,6 +44,7 @@ impl Envelope {
         x: Option<f64>,
         y: Option<f64>,
         body_number: u8,
+        residual: Option<Vec<f64>>,
         rim: bool,
     ) -> PyResult<Self> {
         let cycles = core::cycles(&path.0);
@@ -73,7 +74,10 @@ impl Envelope {
         );
         let depths = Subsurface::depths(&z, &layer)?;
         let side = side(body_number)?;
-        let new = || Stream::new(&body.0, side, &grid.0, line, depths, accumulate);
+        let new = || {
+            let stream = Stream::new(&body.0, side, &grid.0, line, depths, accumulate)?;
+            stream.residual(&residual.unwrap_or_default())
+        };
         let stream = interruptible(py, &Arc::default(), new)?;
         let stream = stream.map_err(to_python)?;
         Ok(Self {

@@ -84,7 +84,9 @@ mod _core {
     #[pymodule_export]
     use crate::stress::{maximum, measure, principal, probe_labels, rims};
     #[pymodule_export]
-    use crate::subsurface::{Subsurface, chosen_depths, depths};
+    use crate::subsurface::{
+        Subsurface, chosen_depths, depths, residual_of_layers, section_of_states,
+    };
     #[pymodule_export]
     use crate::wear::{Archard, DissipatedEnergy, resume_wear, wear};
 

@@ -9,8 +9,10 @@ use contact_core::fields as core;
 use contact_core::fields::{Depth, Line, Side};
 use contact_core::output::{ImageData, StressStore, VolumeSink, write_volume};
 use contact_core::scene;
-use ndarray::Array2;
-use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray2};
+use ndarray::{Array2, Axis};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray2, PyReadonlyArray3,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -57,6 +59,90 @@ pub(crate) fn chosen_depths(
     Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
 }
 
+/// Stress [Pa] on a section in several states of a contact, shape (states, 6, depths, places).
+///
+/// Tractions [Pa] and cells that stick are of shape (states, nx, ny); near the surface tractions
+/// vary within the cells. States share the kernels, which cost as much as about ten of them.
+#[pyfunction]
+#[pyo3(signature = (body, grid, z, layer, *, p, q_x, q_y, stick, sigma_B, residual = None, x = None, y = None, body_number = 2))]
+#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+pub(crate) fn section_of_states<'py>(
+    py: Python<'py>,
+    body: Body,
+    grid: Grid,
+    z: Vec<f64>,
+    layer: Vec<usize>,
+    p: PyReadonlyArray3<'_, f64>,
+    q_x: PyReadonlyArray3<'_, f64>,
+    q_y: PyReadonlyArray3<'_, f64>,
+    stick: PyReadonlyArray3<'_, bool>,
+    sigma_B: Vec<f64>,
+    residual: Option<Vec<f64>>,
+    x: Option<f64>,
+    y: Option<f64>,
+    body_number: u8,
+) -> PyResult<Bound<'py, PyArray4<f64>>> {
+    let shape = (sigma_B.len(), grid.0.nx, grid.0.ny);
+    for (name, found) in [
+        ("p", p.as_array().dim()),
+        ("q_x", q_x.as_array().dim()),
+        ("q_y", q_y.as_array().dim()),
+        ("stick", stick.as_array().dim()),
+    ] {
+        if found != shape {
+            return Err(PyValueError::new_err(format!(
+                "{name} has the shape {found:?}: must be that of the states and the grid, {shape:?}"
+            )));
+        }
+    }
+    let cells = grid.0.cells();
+    let fields = [q_x, q_y, p].map(|f| f.as_array().iter().copied().collect::<Vec<_>>());
+    let stick: Vec<bool> = stick.as_array().iter().copied().collect();
+    let of = |state: usize, field: usize| &fields[field][state * cells..(state + 1) * cells];
+    let tractions: Vec<_> = (0..shape.0)
+        .map(|n| Tractions {
+            q_x: Some(of(n, 0)),
+            q_y: Some(of(n, 1)),
+            p: Some(of(n, 2)),
+        })
+        .collect();
+    let stick: Vec<&[bool]> = stick.chunks(cells).collect();
+    let (depths, line, side) = (
+        Subsurface::depths(&z, &layer)?,
+        line(x, y)?,
+        side(body_number)?,
+    );
+    let stop = Arc::default();
+    let residual = residual.unwrap_or_default();
+    let found = interruptible(py, &stop, || {
+        let states = core::States {
+            tractions: &tractions,
+            sigma_B: &sigma_B,
+            residual: &residual,
+            stick: Some(&stick),
+            stop: stop.clone(),
+        };
+        core::Section::new(&body.0, side, &grid.0, line, states)?.stress(&depths)
+    })?;
+    let found = found.map_err(to_python)?;
+    let views: Vec<_> = found.iter().map(|state| state.view()).collect();
+    let stacked = ndarray::stack(Axis(0), &views).unwrap_or_default();
+    Ok(stacked.into_pyarray(py))
+}
+
+/// Residual stress of every layer of a body [Pa]: those given, or zero.
+#[pyfunction]
+#[pyo3(signature = (body, residual = None))]
+pub(crate) fn residual_of_layers(
+    py: Python<'_>,
+    body: Body,
+    residual: Option<Vec<f64>>,
+) -> PyResult<Bound<'_, PyArray1<f64>>> {
+    let given = residual.unwrap_or_default();
+    let of_layers = core::residual_of_layers(&body.0, &given).map_err(to_python)?;
+    Ok(of_layers.into_pyarray(py))
+}
+
 /// Tractions on a body, and what they cause below its surface.
 ///
 /// Use :func:`pyfret.subsurface.stress`, which labels what this one gives.
@@ -66,6 +152,7 @@ pub(crate) struct Subsurface {
     grid: Grid,
     side: Side,
     sigma_B: f64,
+    residual: Vec<f64>,
     fields: [Option<Vec<f64>>; 3],
     /// Whether they are those of a contact, and the cells that stick.
     rim: bool,
@@ -96,6 +183,7 @@ impl Subsurface {
         let states = core::States {
             tractions: &tractions,
             sigma_B: &[self.sigma_B],
+            residual: &self.residual,
             stick: self.rim.then_some(&stick[..]),
             stop: stop.clone(),
         };
@@ -120,7 +208,7 @@ impl Subsurface {
 #[pymethods]
 impl Subsurface {
     #[new]
-    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number = 2, sigma_B = 0.0, rim = false, stick = None))]
+    #[pyo3(signature = (body, grid, *, p = None, q_x = None, q_y = None, body_number = 2, sigma_B = 0.0, residual = None, rim = false, stick = None))]
     fn new(
         body: Body,
         grid: Grid,
@@ -129,6 +217,7 @@ impl Subsurface {
         q_y: Option<Field<'_>>,
         body_number: u8,
         sigma_B: f64,
+        residual: Option<Vec<f64>>,
         rim: bool,
         stick: Option<PyReadonlyArray2<'_, bool>>,
     ) -> PyResult<Self> {
@@ -154,6 +243,7 @@ impl Subsurface {
             fields: [cells("q_x", q_x)?, cells("q_y", q_y)?, cells("p", p)?],
             side: side(body_number)?,
             sigma_B,
+            residual: residual.unwrap_or_default(),
             body,
             grid,
         })

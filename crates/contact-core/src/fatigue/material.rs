@@ -75,6 +75,9 @@ pub const QUANTITIES: &[Quantity] = &[
         "threshold range of the stress intensity, R = -1",
     ),
     quantity("alpha_T", "1/K", "thermal expansion"),
+    quantity("density", "kg/m^3", "density"),
+    quantity("specific_heat", "J/(kg K)", "specific heat"),
+    quantity("conductivity", "W/(m K)", "thermal conductivity"),
 ];
 
 /// A number and where it is from.

@@ -8,14 +8,13 @@
 //!
 //! Depth z is counted into the body; components are those of the axes of `docs/conventions.md`,
 //! in body 1 as well. At an interface s_xx, s_yy and s_xy have two values: a [`Depth`] names the
-//! layer. The stress is that which the tractions cause, and where one is named the body's bulk
-//! stress with it; displacements are those that the tractions cause in the stretched body.
+//! layer. The stress is that which the tractions cause, and where they are named the body's bulk
+//! stress and the residual stress of its layers with it; displacements are those that the tractions cause in the stretched body.
 //!
 //! From a depth of eight cells on, the uniform load of a cell is replaced by point loads
 //! on it and its neighbours that act alike to 1e-9 of the traction there; nearer to the surface it
 //! is integrated over the cell.
 
-mod bulk;
 mod depth;
 mod derived;
 mod energy;
@@ -34,6 +33,7 @@ mod section;
 mod slices;
 mod states;
 mod stream;
+mod uniform;
 
 pub use depth::{Depth, Side, chosen_depths, depths};
 pub use derived::{
@@ -53,3 +53,4 @@ pub use section::{Line, Section};
 pub use slices::Slices;
 pub use states::States;
 pub use stream::{Accumulate, Moment, Stream};
+pub use uniform::residual_of_layers;

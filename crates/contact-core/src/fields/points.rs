@@ -70,9 +70,9 @@ impl Points {
         })?;
         for (state, stresses) in all.iter_mut().enumerate() {
             for (stress, (_, _, depth)) in stresses.iter_mut().zip(points) {
-                let bulk = self.loaded.bulk(state, *depth);
-                for (s, bulk) in stress.iter_mut().zip(bulk) {
-                    *s += bulk;
+                let uniform = self.loaded.uniform(state, *depth);
+                for (s, uniform) in stress.iter_mut().zip(uniform) {
+                    *s += uniform;
                 }
             }
         }

@@ -148,9 +148,9 @@ impl Section {
         let mut lines = self.at(&kernel, depth)?;
         self.add_rim(&kernel, depth, &mut lines);
         for (state, line) in lines.iter_mut().enumerate() {
-            let bulk = self.loaded.bulk(state, depth);
-            for (mut row, bulk) in line.rows_mut().into_iter().zip(bulk) {
-                row += bulk;
+            let uniform = self.loaded.uniform(state, depth);
+            for (mut row, uniform) in line.rows_mut().into_iter().zip(uniform) {
+                row += uniform;
             }
         }
         Ok(lines)

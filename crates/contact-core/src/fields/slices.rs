@@ -50,9 +50,9 @@ impl Slices {
         let mut planes = self.at(&kernel, depth)?;
         self.add_rim(&kernel, depth, &mut planes);
         for (state, planes) in planes.iter_mut().enumerate() {
-            let bulk = self.loaded.bulk(state, depth);
-            for (plane, bulk) in planes.iter_mut().zip(bulk) {
-                *plane += bulk;
+            let uniform = self.loaded.uniform(state, depth);
+            for (plane, uniform) in planes.iter_mut().zip(uniform) {
+                *plane += uniform;
             }
         }
         Ok(planes)

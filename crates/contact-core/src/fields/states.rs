@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::bulk::Bulk;
 use super::near_rim::NearRim;
+use super::uniform::Uniform;
 use super::{Depth, Side};
 use crate::convolution::Tractions;
 use crate::error::Error;
@@ -22,6 +22,9 @@ pub struct States<'a> {
     /// Bulk stress of the body in each state \[Pa\] (default: 0, also for states beyond the list). The
     /// stress has that of each layer's own modulus besides what the tractions cause.
     pub sigma_B: &'a [f64],
+    /// Residual stress of every layer from the surface down, the substrate's last \[Pa\], tension
+    /// positive: [`super::residual_of_layers`] (default: none).
+    pub residual: &'a [f64],
     /// The cells that stick in each state, by which the tractions are those of contacts (for states beyond
     /// the list: of contacts that slip at their rim). Near the surface and near the rim and the stick
     /// zone the stress is then that of tractions that vary within the cells (default: `None`, constant
@@ -63,7 +66,7 @@ pub(super) struct Loaded {
     pub(super) rim: Option<NearRim>,
     pub(super) stop: Arc<AtomicBool>,
     stack: Stack,
-    bulk: Bulk,
+    uniform: Uniform,
 }
 
 impl Loaded {
@@ -85,7 +88,7 @@ impl Loaded {
             side,
             grid: *grid,
             states: states.tractions.len(),
-            bulk: Bulk::new(states.sigma_B, grid),
+            uniform: Uniform::new(body, states.sigma_B, states.residual, grid)?,
             rim: states.stick.map(near),
             stop: states.stop.clone(),
         })
@@ -103,8 +106,8 @@ impl Loaded {
         DepthKernel::new(&self.stack, place, reach)
     }
 
-    /// s_xx and s_yy of a state's bulk stress at a depth \[Pa\].
-    pub(super) fn bulk(&self, state: usize, depth: Depth) -> [f64; 2] {
-        self.bulk.stress(&self.body, state, depth.layer)
+    /// s_xx and s_yy of a state at a depth that are the same all over the layer \[Pa\].
+    pub(super) fn uniform(&self, state: usize, depth: Depth) -> [f64; 2] {
+        self.uniform.stress(&self.body, state, depth.layer)
     }
 }

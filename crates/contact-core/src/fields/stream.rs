@@ -10,7 +10,7 @@ use std::sync::atomic::AtomicBool;
 
 use ndarray::Array2;
 
-use super::{Depth, Line, Section, Side, Slices, States};
+use super::{Depth, Line, Section, Side, Slices, States, residual_of_layers};
 use crate::convolution::Tractions;
 use crate::error::Error;
 use crate::march::{Increment, March, Observer};
@@ -91,6 +91,8 @@ pub struct Stream<A: Accumulate> {
     kept: Vec<A::Kept>,
     /// Whether the tractions are taken for those of contacts.
     rim: bool,
+    /// Of every layer.
+    residual: Vec<f64>,
     waiting: Vec<Waiting>,
     stop: Arc<AtomicBool>,
 }
@@ -130,6 +132,7 @@ impl<A: Accumulate> Stream<A> {
             accumulate,
             kept,
             rim: false,
+            residual: residual_of_layers(body, &[])?,
             waiting: Vec::with_capacity(BATCH),
             stop: Arc::default(),
         })
@@ -146,6 +149,12 @@ impl<A: Accumulate> Stream<A> {
     pub fn rim(mut self, rim: bool) -> Self {
         self.rim = rim;
         self
+    }
+
+    /// Adds the residual stress of every layer \[Pa\]: [`States::residual`] (default: none).
+    pub fn residual(mut self, residual: &[f64]) -> Result<Self, Error> {
+        self.residual = residual_of_layers(&self.body, residual)?;
+        Ok(self)
     }
 
     /// Takes the tractions q_x, q_y, p of a moment \[Pa\] and the cells that stick, each of shape
@@ -207,6 +216,7 @@ impl<A: Accumulate> Stream<A> {
         let states = States {
             tractions: &tractions,
             sigma_B: &sigma_B,
+            residual: &self.residual,
             stick: self.rim.then_some(&stick[..]),
             stop: self.stop.clone(),
         };

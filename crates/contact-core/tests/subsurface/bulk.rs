@@ -236,3 +236,59 @@ fn a_fatigue_criterion_streams_with_the_bulk_stress() -> Result<(), Error> {
     }
     Ok(())
 }
+
+/// A residual stress of each layer adds to s_xx and s_yy of that layer alone, below lines, on planes,
+/// at points and along a path; other numbers of layers and stresses that are none are refused.
+#[test]
+fn residual_stress_is_added_in_its_layer_alone() {
+    let body = coated();
+    let grid = Grid::from_spacing((15, 12), (1.0, 0.8)).unwrap();
+    let q = tractions(&grid);
+    let tractions = [states(&q)];
+    let residual = [-3.0, 0.5, 0.25];
+    let with = |residual| States {
+        residual,
+        sigma_B: &[SIGMA],
+        ..States::from(&tractions)
+    };
+    let (line, side) = (Line::AlongX(0.4), Side::Body2);
+    let depths = depths(&body, &[0.0, 4.0, 9.5, 11.0, 40.0]).unwrap();
+    let section = |states| Section::new(&body, side, &grid, line, states).unwrap();
+    let [bare, pressed] = [&[][..], &residual].map(|given| {
+        let below = section(with(given)).stress(&depths).unwrap().remove(0);
+        let slices = Slices::new(&body, side, &grid, with(given)).unwrap();
+        let points = Points::new(&body, side, &grid, with(given)).unwrap();
+        (below, slices, points)
+    });
+    for (k, depth) in depths.iter().enumerate() {
+        let (mut planes, mut points) = (Vec::new(), Vec::new());
+        for (_, slices, at) in [&bare, &pressed] {
+            planes.push(slices.stress(*depth).unwrap().remove(0));
+            points.push(at.stress(&[(0.5, 0.4, *depth)]).unwrap()[0][0]);
+        }
+        for c in 0..6 {
+            let own = if c < 2 { residual[depth.layer] } else { 0.0 };
+            let added = [
+                pressed.0[(c, k, 7)] - bare.0[(c, k, 7)],
+                planes[1][c][(7, 4)] - planes[0][c][(7, 4)],
+                points[1][c] - points[0][c],
+            ];
+            for added in added {
+                assert!((added - own).abs() < 1e-14, "{depth:?} {c}: {added} {own}");
+            }
+        }
+    }
+    for (wrong, message) in [
+        (
+            &[1.0, 2.0][..],
+            "residual = 2 numbers: must be one for each of the 3 layers",
+        ),
+        (
+            &[0.0, f64::NAN, 0.0],
+            "residual[1] = NaN: must be a finite stress",
+        ),
+    ] {
+        let error = Slices::new(&body, side, &grid, with(wrong)).err().unwrap();
+        assert!(error.to_string().starts_with(message), "{error}");
+    }
+}
