@@ -17,57 +17,49 @@ use contact_core::scene::Reach;
 use contact_core::wear::{Jumps, Wear, WearRun};
 use ndarray::Array2;
 
-/// Tolerance of the run that the others are compared with, over the smallest of those compared.
-const FINER: f64 = 0.1;
+/// Tolerance of the run that the others are compared with.
+const FINEST: f64 = 1e-3;
 /// Fewest explicit jumps, and processor time after which no more are tried \[s\].
 const FEWEST: usize = 8;
 const LONGEST: f64 = 120.0;
-/// Title, scene, changes of it, tolerances of the implicit jumps (0.01 by default).
-const CASES: [Case; 6] = [
-    Case {
-        title: "coated sphere, 64 x 64",
-        scene: "wear_coated",
-        settings: &["grid.n=64"],
-        tolerances: &[0.04, 0.01],
-    },
-    Case {
-        title: "the same, 128 x 128",
-        scene: "wear_coated",
-        settings: &[],
-        tolerances: &[0.04, 0.01],
-    },
-    Case {
-        title: "64 x 64, ten times as long",
-        scene: "wear_coated",
-        settings: &["grid.n=64", "wear.cycles=180000"],
-        tolerances: &[0.04, 0.01],
-    },
-    Case {
-        title: "64 x 64, a hundred times as long",
-        scene: "wear_coated",
-        settings: &["grid.n=64", "wear.cycles=1.8e6"],
-        tolerances: &[0.04, 0.01],
-    },
-    Case {
-        title: "gross slip of a cylinder, 160 cells",
-        scene: "wear_mccoll",
-        settings: &["grid.n=[160, 1]"],
-        tolerances: &[0.04, 0.01],
-    },
-    Case {
-        title: "the same, 320 cells",
-        scene: "wear_mccoll",
-        settings: &["grid.n=[320, 1]"],
-        tolerances: &[0.04, 0.01],
-    },
+/// Title, scene and changes of it.
+const CASES: [Case; 7] = [
+    (
+        "partial slip, 32 x 32 cells, 18 000 cycles",
+        "wear_coated",
+        &["grid.n=32"],
+    ),
+    (
+        "180 000 cycles",
+        "wear_coated",
+        &["grid.n=32", "wear.cycles=180000"],
+    ),
+    (
+        "1 800 000 cycles",
+        "wear_coated",
+        &["grid.n=32", "wear.cycles=1.8e6"],
+    ),
+    (
+        "64 x 64 cells, 18 000 cycles",
+        "wear_coated",
+        &["grid.n=64"],
+    ),
+    (
+        "180 000 cycles",
+        "wear_coated",
+        &["grid.n=64", "wear.cycles=180000"],
+    ),
+    (
+        "gross slip, 80 cells, 18 000 cycles",
+        "wear_mccoll",
+        &["grid.n=[80, 1]"],
+    ),
+    ("160 cells", "wear_mccoll", &["grid.n=[160, 1]"]),
 ];
+/// Tolerances of the implicit jumps, the larger one first; 0.01 is the default.
+const TOLERANCES: [f64; 2] = [0.04, 0.01];
 
-struct Case {
-    title: &'static str,
-    scene: &'static str,
-    settings: &'static [&'static str],
-    tolerances: &'static [f64],
-}
+type Case = (&'static str, &'static str, &'static [&'static str]);
 
 /// A run that is done.
 struct Done {
@@ -84,7 +76,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .to_owned();
     println!("{table}");
     for case in CASES {
-        for line in case.lines()? {
+        for line in lines(case)? {
             println!("{line}");
             table = format!("{table}\n{line}");
         }
@@ -95,74 +87,64 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-impl Case {
-    /// A line for each tolerance.
-    fn lines(&self) -> Result<Vec<String>, Error> {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
-        let settings: Vec<String> = self.settings.iter().map(ToString::to_string).collect();
-        let file = format!("{folder}/{}.toml", self.scene);
-        let (scene, wear) = Wear::from_file(&file, &settings, Reach::Folder)?;
-        let run = |jumps| {
-            run(
-                &scene,
-                &Wear {
-                    jumps,
-                    ..wear.clone()
-                },
-            )
+/// A line for each tolerance.
+fn lines((title, scene, settings): Case) -> Result<Vec<String>, Error> {
+    let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
+    let file = format!("{}/../../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
+    let (scene, wear) = Wear::from_file(&file, &settings, Reach::Folder)?;
+    let run = |jumps| {
+        let wear = Wear {
+            jumps,
+            ..wear.clone()
         };
-        let least = self
-            .tolerances
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, f64::min);
-        let finest = run(Jumps::Tolerance(FINER * least))?;
-        let implicit = self
-            .tolerances
-            .iter()
-            .map(|tolerance| run(Jumps::Tolerance(*tolerance)));
-        let implicit = implicit.collect::<Result<Vec<Done>, Error>>()?;
-        let errors: Vec<f64> = implicit.iter().map(|done| finest.off(done)).collect();
-        let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
-        let mut explicit: Vec<(Done, f64)> = Vec::new();
-        let mut jumps = FEWEST;
-        while explicit
-            .last()
-            .is_none_or(|(done, error)| *error > least && done.seconds < LONGEST)
-        {
-            let done = run(Jumps::Explicit(jumps))?;
-            let error = finest.off(&done);
-            explicit.push((done, error));
-            jumps *= 2;
+        run(&scene, &wear)
+    };
+    let finest = run(Jumps::Tolerance(FINEST))?;
+    let mut implicit = Vec::new();
+    for tolerance in TOLERANCES {
+        let done = run(Jumps::Tolerance(tolerance))?;
+        implicit.push((tolerance, finest.off(&done), done));
+    }
+    let least = implicit.iter().fold(f64::INFINITY, |m, of| m.min(of.1));
+    let mut explicit: Vec<(f64, Done)> = Vec::new();
+    for halvings in 0.. {
+        let done = run(Jumps::Explicit(FEWEST << halvings))?;
+        let error = finest.off(&done);
+        let ends = error <= least || done.seconds > LONGEST;
+        explicit.push((error, done));
+        if ends {
+            break;
         }
-        let lines = self.tolerances.iter().zip(implicit.iter().zip(&errors));
-        Ok(lines
-            .map(|(tolerance, (done, error))| {
-                let as_exact = explicit.iter().find(|(_, of)| of <= error);
-                self.line(*tolerance, done, *error, as_exact.map(|(done, _)| done))
-            })
-            .collect())
     }
-
-    fn line(&self, tolerance: f64, done: &Done, error: f64, explicit: Option<&Done>) -> String {
-        let numbers =
-            |done: &Done| format!("{} | {} | {:.1} s", done.jumps, done.work, done.seconds);
-        let over = |of: fn(&Done) -> usize, explicit| of(explicit) as f64 / of(done) as f64;
-        let beside = match explicit {
-            None => format!("none in {LONGEST:.0} s | | | |"),
-            Some(explicit) => format!(
-                "{} | {:.1} | {:.1}",
-                numbers(explicit),
-                over(|done| done.jumps, explicit),
-                over(|done| done.work, explicit)
-            ),
-        };
-        let (title, percent, implicit) = (self.title, 100.0 * error, numbers(done));
-        format!("| {title} | {percent:.2} % | {tolerance} | {implicit} | {beside} |")
-    }
+    let line = |(tolerance, error, done): &(f64, f64, Done)| {
+        let as_exact = explicit.iter().find(|(of, _)| of <= error);
+        let beside = as_exact.map_or_else(
+            || {
+                format!(
+                    "more than {} | | | | ",
+                    explicit[explicit.len() - 1].1.jumps
+                )
+            },
+            |(_, other)| {
+                let jumps = other.jumps as f64 / done.jumps as f64;
+                let work = other.work as f64 / done.work as f64;
+                format!("{} | {jumps:.1} | {work:.1}", other.numbers())
+            },
+        );
+        let percent = 100.0 * error;
+        format!(
+            "| {title} | {percent:.2} % | {tolerance} | {} | {beside} |",
+            done.numbers()
+        )
+    };
+    Ok(implicit.iter().map(line).collect())
 }
 
 impl Done {
+    fn numbers(&self) -> String {
+        format!("{} | {} | {:.1} s", self.jumps, self.work, self.seconds)
+    }
+
     /// Distance of another worn profile (root mean square) over the deepest depth.
     fn off(&self, other: &Self) -> f64 {
         let deepest = self.worn.iter().fold(0.0, |m: f64, w| m.max(*w));
