@@ -19,6 +19,8 @@ use ndarray::Array2;
 
 /// Tolerance of the run that the others are compared with.
 const FINEST: f64 = 1e-3;
+/// Smaller errors are those that the solvers leave, and count as this one.
+const LEAST: f64 = 1e-4;
 /// Fewest explicit jumps, and processor time after which no more are tried \[s\].
 const FEWEST: usize = 8;
 const LONGEST: f64 = 25.0;
@@ -145,11 +147,11 @@ impl Done {
         format!("{} | {} | {:.1} s", self.jumps, self.work, self.seconds)
     }
 
-    /// Distance of another worn profile (root mean square) over the deepest depth.
+    /// Distance of another worn profile (root mean square) over the deepest depth, not below [`LEAST`].
     fn off(&self, other: &Self) -> f64 {
         let deepest = self.worn.iter().fold(0.0, |m: f64, w| m.max(*w));
         let square = (&other.worn - &self.worn).mapv(|x| x * x).mean();
-        square.unwrap_or(0.0).sqrt() / deepest
+        (square.unwrap_or(0.0).sqrt() / deepest).max(LEAST)
     }
 }
 
