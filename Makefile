@@ -75,8 +75,8 @@ wear: ## 300 random runs of wear, audited, and partial slip fully worn on 256 x 
 	FRET_WEAR=300 FRET_WEAR_CELLS=256 cargo test --release --locked --package contact-core --test wear -- \
 		--nocapture --test-threads=1 random partial_slip
 
-wear-jumps: ## implicit and explicit jumps over cycles: what they cost and miss
-	cargo run --release --locked --package contact-core --example wear_jumps -- scenes/wear_coated.toml
+wear-jumps: ## implicit jumps over cycles beside the explicit ones that are as exact; the numbers go to docs/wear.md
+	cargo run --release --locked --package contact-core --example wear_jumps -- $(CURDIR)/docs/wear.md
 
 check: setup ## formats, lints, circles of imports, types, spelling
 	cargo fmt --all --check

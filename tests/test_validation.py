@@ -8,6 +8,7 @@ import pytest
 from validation import pages, runner
 from validation.truth import Known, order
 from validation.truths import TRUTHS, bodies
+from validation.worn import Worn, WornCylinder, WornSphere
 
 import pyfret as fret
 
@@ -69,3 +70,38 @@ def test_error_bars_tell_their_parts() -> None:
         fret.solve(HERTZ.scene(32), progress=False).error_bars()
     with pytest.raises(fret.InvalidSceneError, match="20 or more cells"):
         fret.solve(HERTZ.scene(16), progress=False, error=True)
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "c", "approach", "p", "b", "deepest", "volume"),
+    [
+        (0.5, 0.793701, 1.049934, 1.058267, 1.136091, 0.094485, 0.132158),
+        (0.7, 0.669433, 1.145248, 1.190103, 1.258594, 0.219995, 0.517739),
+    ],
+)
+def test_a_worn_sphere_has_known_numbers(
+    amplitude: float, c: float, approach: float, p: float, b: float, deepest: float, volume: float
+) -> None:
+    worn = WornSphere(amplitude)
+    found = (worn.c, worn.approach, worn.p(np.zeros(1))[0], worn.b, worn.deepest, worn.volume)
+    assert found == pytest.approx((c, approach, p, b, deepest, volume), abs=6e-7)
+
+
+@pytest.mark.parametrize("amplitude", [0.3, 0.7])
+@pytest.mark.parametrize(
+    ("kind", "force"), [(WornSphere, 2 * np.pi / 3), (WornCylinder, np.pi / 2)]
+)
+def test_the_pressure_of_a_worn_contact_carries_the_whole_force(
+    kind: type[Worn], force: float, amplitude: float
+) -> None:
+    worn = kind(amplitude)
+    # x = c sin(t) takes the root singularity at c away.
+    t = (np.arange(4000) + 0.5) * np.pi / 8000
+    x, weight = worn.c * np.sin(t), worn.c * np.cos(t) * np.pi / 8000
+    assert (worn.p(x) * worn.measure(x) * weight).sum() == pytest.approx(force, rel=1e-6)
+
+
+def test_a_worn_cylinder_has_the_area_of_its_integral() -> None:
+    worn = WornCylinder(0.5)
+    rest = worn.b**2 - worn.c**2
+    assert worn.volume == pytest.approx(np.sqrt(rest) * (worn.b**2 - 1 - rest / 3), rel=1e-6)

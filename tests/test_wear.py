@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -74,6 +74,23 @@ def test_bad_input_is_refused_by_name() -> None:
         worn(lambda pressed_way, *_: -pressed_way)
     with pytest.raises(fret.InvalidSceneError, match=r"wear\.tolerance = 3"):
         worn(fret.Archard(1e-14), tolerance=3.0)
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ({"cycling": "slide"}, r"cycling = 'slide': must be \"march\" or \"sliding\""),
+        ({"worn_through": "on"}, r"worn_through = 'on': must be \"stop\" or \"go_on\""),
+        ({"jumps": -1}, r"jumps = -1: must be 1 or more"),
+        ({"first_branch": 0}, r"first_branch = 0: must be 1 or more"),
+        ({"tolerance": 0.01, "jumps": 3}, "one of them at most"),
+        ({"share1": 0.5}, r"share1 = 0.5: must come with a law, body1"),
+    ],
+)
+def test_options_are_refused_by_name(options: dict[str, Any], told: str) -> None:
+    wears: dict[str, Any] = {"cycles": 10, "first_branch": 2, "body2": fret.Archard(1e-14)}
+    with pytest.raises(ValueError, match=told):
+        fret.wear(line(), progress=False, **{**wears, **options})
 
 
 def test_figures_are_drawn() -> None:

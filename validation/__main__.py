@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 import pyfret as fret
-from validation import elements, kernels, pages, paper, path_order, rows, work_precision
+from validation import elements, kernels, pages, paper, path_order, rows, wear, work_precision
 from validation.runner import run
 from validation.truths import TRUTHS
 
 #: Pages that are no truths.
-OTHERS = ("path_order", "rows", "kernels", "elements", "paper", "work_precision")
+OTHERS = ("path_order", "rows", "wear", "kernels", "elements", "paper", "work_precision")
 #: Cells a side of the paper's runs, and of a quick look.
 CELLS, WORK_CELLS, QUICK_CELLS = 256, 64, 32
 
@@ -44,6 +44,9 @@ def main() -> None:
         print(lines[-1], flush=True)
     if options.only is None or "rows" in options.only:
         lines.append(rows.write(out, n=QUICK_CELLS * 2 if options.quick else rows.CELLS))
+        print(lines[-1], flush=True)
+    if options.only is None or "wear" in options.only:
+        lines.append(wear.write(out, quick=options.quick))
         print(lines[-1], flush=True)
     if options.only is None or "kernels" in options.only:
         lines.append(kernels.write(out))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from pyfret import _core
 from pyfret.lazy import xr
@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from pyfret._core import _WearLaw as WearLaw
 
 __all__ = ["WearResult", "open_wear", "resume_wear", "wear"]
+
+#: How the contact of a cycle is solved, and what happens when a coating is worn through.
+Cycling = Literal["march", "sliding"]
+WornThrough = Literal["stop", "go_on"]
 
 
 class WearResult:
@@ -73,12 +77,12 @@ def wear(
     share1: float | None = None,
     share2: float | None = None,
     first_branch: int = 1,
-    cycling: Literal["march", "sliding"] = "march",
+    cycling: Cycling = "march",
     rig_stiffness: float = math.inf,
     tolerance: float | None = None,
     jumps: int | None = None,
     explicit_jumps: int | None = None,
-    worn_through: Literal["stop", "go_on"] = "stop",
+    worn_through: WornThrough = "stop",
     tell_from: float = 0.1,
     out: str | os.PathLike[str] | None = None,
     progress: bool = True,
@@ -127,9 +131,18 @@ def wear(
 
     Raises
     ------
-    InvalidSceneError
+    InvalidSceneError, ValueError
         Scene or wear have no meaning; the message names the key, the value and what is allowed.
     """
+    check_choice("cycling", cycling, get_args(Cycling))
+    check_choice("worn_through", worn_through, get_args(WornThrough))
+    check_counts(first_branch=first_branch, jumps=jumps, explicit_jumps=explicit_jumps)
+    given = {"tolerance": tolerance, "jumps": jumps, "explicit_jumps": explicit_jumps}
+    if sum(value is not None for value in given.values()) > 1:
+        raise ValueError(f"{', '.join(given)}: one of them at most")
+    for name, share, law in (("1", share1, body1), ("2", share2, body2)):
+        if share is not None and law is None:
+            raise ValueError(f"share{name} = {share}: must come with a law, body{name}")
     if path is not None:
         scene = scene.replace(path=path)
 
@@ -161,6 +174,20 @@ def wear(
         store = Path(folder) / "wear.zarr"
         run(store)
         return WearResult(open_wear(store).dataset.load())
+
+
+def check_choice(name: str, value: str, allowed: tuple[str, ...]) -> None:
+    """Refuse what is none of the words that are allowed."""
+    if value not in allowed:
+        words = " or ".join(f'"{word}"' for word in allowed)
+        raise ValueError(f"{name} = {value!r}: must be {words}")
+
+
+def check_counts(**counts: int | None) -> None:
+    """Refuse numbers below 1; None is left to its default."""
+    for name, count in counts.items():
+        if count is not None and count < 1:
+            raise ValueError(f"{name} = {count}: must be 1 or more")
 
 
 def resume_wear(store: str | os.PathLike[str], *, progress: bool = True) -> WearResult:

@@ -30,6 +30,7 @@ mod stored;
 mod stress_store;
 mod variable;
 mod volume;
+mod wear_catalogue;
 mod wear_checkpoint;
 mod wear_store;
 mod writer;

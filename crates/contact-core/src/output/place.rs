@@ -20,6 +20,7 @@ use super::catalogue::{FIELDS, SCALARS};
 use super::checkpoint::{self, Checkpoints};
 use super::folder::{Folder, beside};
 use super::reader::Store;
+use super::{wear_catalogue, wear_checkpoint};
 use crate::error::Error;
 use crate::fields::Probe;
 
@@ -47,7 +48,7 @@ impl Unfinished {
         }
         clear(&folder, folder.root())?;
         let replaced = beside(place, "replaced");
-        if place.exists() || Store::open(&replaced).is_err() {
+        if place.exists() || !is_store(&replaced) {
             clear(&folder, &replaced)?;
         }
         let begin = || {
@@ -161,17 +162,27 @@ fn is_of_an_array(name: &OsStr) -> bool {
         return false;
     };
     let is_chunk = !name.is_empty() && name.chars().all(|c| c.is_ascii_digit() || c == '.');
-    is_chunk || is_on_its_way(name) || ARRAY.contains(&name) || checkpoint::FILES.contains(&name)
+    is_chunk || is_on_its_way(name) || ARRAY.contains(&name) || is_of_a_checkpoint(name)
+}
+
+fn is_of_a_checkpoint(name: &str) -> bool {
+    checkpoint::FILES.contains(&name) || name == wear_checkpoint::FILE
 }
 
 fn is_on_its_way(name: &str) -> bool {
     name.starts_with('.') && name.ends_with(".unfinished")
 }
 
+/// Whether there is a store, of a run, of wear or of the stress below: one on its way out loses its
+/// metadata first.
+pub(super) fn is_store(path: &Path) -> bool {
+    Store::open(path).is_ok() || path.join(".zmetadata").is_file()
+}
+
 /// Puts a store back that a killed process had moved aside to replace it, but did not.
 pub(super) fn mend(place: &Path) {
     let replaced = beside(place, "replaced");
-    if !place.exists() && Store::open(&replaced).is_ok() {
+    if !place.exists() && is_store(&replaced) {
         // If that fails, the place is as it was found.
         let _ = fs::rename(replaced, place);
     }
@@ -227,6 +238,7 @@ fn is_of_a_store(name: &OsStr) -> bool {
         || SCALARS.iter().any(|s| s.name == name)
         || FIELDS.iter().any(|f| f.name == name)
         || Probe::all().any(|p| p.name() == name)
+        || wear_catalogue::holds(name)
 }
 
 #[cfg(test)]

@@ -6,6 +6,8 @@ use super::folder::Folder;
 use crate::error::Error;
 use crate::wear::WearState;
 
+/// Its name in the folder of a checkpoint.
+pub(super) const FILE: &str = "wear";
 const CHECKPOINT: &str = "checkpoint/wear";
 /// The first bytes of a checkpoint; the number is that of the layout.
 const MAGIC: &[u8] = b"fret wear checkpoint 1\n";

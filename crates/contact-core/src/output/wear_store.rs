@@ -13,75 +13,14 @@ use serde_json::{Map, Value, json};
 
 use super::catalogue::Kind;
 use super::folder::Folder;
-use super::place::{Unfinished, mend};
-use super::reader::Store;
+use super::place::{Unfinished, is_store, mend};
 use super::schema::SCHEMA;
+use super::wear_catalogue::{SCALARS, Scalar};
 use super::wear_checkpoint::{read_checkpoint, write_checkpoint};
 use super::{column::Column, variable::Variable};
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::wear::{Block, EventKind, Jump, Wear, WearRun};
-
-type Scalar = (&'static str, &'static str, &'static str, fn(&Jump) -> f64);
-
-/// Name, unit, meaning and value of every scalar.
-const SCALARS: [Scalar; 16] = [
-    ("cycles", "1", "cycles at the end of the jump", |j| j.cycles),
-    ("length", "1", "cycles that the jump is long", |j| j.length),
-    ("volume1", "m^3", "volume that body 1 has lost", |j| {
-        j.volume[0]
-    }),
-    ("volume2", "m^3", "volume that body 2 has lost", |j| {
-        j.volume[1]
-    }),
-    ("depth1", "m", "deepest worn depth of body 1", |j| {
-        j.depth[0]
-    }),
-    ("depth2", "m", "deepest worn depth of body 2", |j| {
-        j.depth[1]
-    }),
-    (
-        "dissipated",
-        "J",
-        "energy dissipated by friction so far",
-        |j| j.dissipated,
-    ),
-    (
-        "dissipated_per_cycle",
-        "J",
-        "energy dissipated in one cycle on the worn surfaces",
-        |j| j.dissipated_per_cycle,
-    ),
-    ("p_max", "Pa", "largest pressure", |j| j.p_max),
-    ("contact_area", "m^2", "area of the contact", |j| {
-        j.contact_area
-    }),
-    (
-        "stick_ratio",
-        "1",
-        "area that sticks all through a cycle over that of the contact",
-        |j| j.stick_ratio,
-    ),
-    (
-        "error",
-        "1",
-        "estimated error of the depth that the jump adds, over the depth (root mean squares)",
-        |j| j.error,
-    ),
-    ("pressure_error", "1", "the same of the pressure", |j| {
-        j.pressure_error
-    }),
-    (
-        "depth_error",
-        "1",
-        "bound of the error that the jumps leave of the deepest depth, over it",
-        |j| j.depth_error,
-    ),
-    ("retries", "1", "times that the jump was tried anew", |j| {
-        j.retries as f64
-    }),
-    ("index", "1", "jump, from 1", |j| j.index as f64),
-];
+use crate::wear::{Block, EventKind, Wear, WearRun};
 
 /// Writes a run of wear while it goes on.
 pub struct WearStore {
@@ -98,8 +37,7 @@ impl WearStore {
     pub fn create(path: impl AsRef<Path>, overwrite: bool) -> Result<Self, Error> {
         let place = path.as_ref().to_owned();
         mend(&place);
-        let is_store = || Store::open(&place).is_ok() || place.join(".zmetadata").is_file();
-        if place.exists() && !(overwrite && is_store()) {
+        if place.exists() && !(overwrite && is_store(&place)) {
             let message =
                 "exists: choose another path, or allow to overwrite a result store (--overwrite)";
             return Err(Folder::new(&place).error(&message));
@@ -332,6 +270,7 @@ pub fn resume_wear(
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<(WearRun, WearStore)>, Error> {
     let place = path.as_ref().to_owned();
+    mend(&place);
     let folder = Folder::new(&place);
     let text = folder.read(".zattrs").map_err(|e| folder.error(&e))?;
     let text = text.ok_or_else(|| folder.error(&"holds no run of wear"))?;

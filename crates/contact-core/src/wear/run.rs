@@ -104,10 +104,7 @@ impl WearRun {
         match self.wear.jumps {
             Jumps::Number(n) | Jumps::Explicit(n) => Ok(all / n as f64),
             Jumps::Tolerance(_) => {
-                let before = self.model.state();
-                let one = self.model.jump(&self.state.worn, 0.0, 1.0, false)?;
-                self.model.restore(&before);
-                let rate = one.depth.iter().flatten().fold(0.0, |m: f64, w| m.max(*w));
+                let rate = self.rate()?;
                 let first = if rate > 0.0 {
                     FIRST * self.scene.approach() / rate
                 } else {
@@ -116,6 +113,14 @@ impl WearRun {
                 Ok(first.clamp(SHORTEST * all, all))
             }
         }
+    }
+
+    /// Deepest depth that one cycle takes from the present surfaces \[m\].
+    fn rate(&mut self) -> Result<f64, Error> {
+        let (worn, cycles) = (&self.state.worn, self.state.cycles);
+        let one = self.model.jump(worn, cycles, 1.0, false)?;
+        self.model.restore(&self.state.model);
+        Ok(one.depth.iter().flatten().fold(0.0, |m, w| m.max(*w)))
     }
 
     /// Does the next jump; `None` at the end. After an error the state is that of the last jump.
@@ -132,8 +137,23 @@ impl WearRun {
     }
 
     /// An error in the words of a run over cycles.
-    fn told(&self, error: Error) -> Error {
+    fn told(&mut self, error: Error) -> Error {
         match error {
+            Error::NotConverged {
+                increment,
+                solver,
+                residual,
+                tolerance,
+                iterations,
+                why,
+            } if why.is_empty() => Error::NotConverged {
+                why: self.why(),
+                increment,
+                solver,
+                residual,
+                tolerance,
+                iterations,
+            },
             Error::OffGrid {
                 extent_x,
                 extent_y,
@@ -147,6 +167,18 @@ impl WearRun {
             },
             error => error,
         }
+    }
+
+    /// What makes jumps hard, as the end of a sentence: wear that is much in one cycle.
+    fn why(&mut self) -> String {
+        let (rate, approach) = (self.rate().unwrap_or(0.0), self.scene.approach());
+        if rate < FIRST * approach {
+            return String::new();
+        }
+        format!(
+            ": one cycle wears {rate:.1e} m, of an approach of {approach:.1e} m (k is in m^2/N, alpha in \
+             m^3/J)"
+        )
     }
 
     fn jump(&mut self, left: f64) -> Result<Jump, Error> {

@@ -1,6 +1,8 @@
 //! Bad input is refused with key, value and what is allowed.
 
-use contact_core::wear::Wear;
+use std::sync::Arc;
+
+use contact_core::wear::{Wear, WearRun};
 
 const SCENE: &str = include_str!("../../../../scenes/wear_mccoll.toml");
 
@@ -63,6 +65,19 @@ fn what_has_no_meaning_is_refused_by_name() {
             "{setting}: {message}"
         );
     }
+}
+
+#[test]
+fn a_coefficient_in_another_unit_is_told() {
+    let text = include_str!("../../../../scenes/wear_partial_slip.toml");
+    let settings = ["grid.n=16".to_owned(), "wear.body1.k=1.0".to_owned()];
+    let (scene, wear) = Wear::from_toml_str(text, "scene.toml", &settings).unwrap();
+    let mut run = WearRun::new(&scene, &wear, &Arc::default()).unwrap();
+    let told = run.advance().unwrap().unwrap_err().to_string();
+    assert!(
+        told.contains("one cycle wears") && told.contains("m^2/N"),
+        "{told}"
+    );
 }
 
 #[test]

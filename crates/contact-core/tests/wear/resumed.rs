@@ -106,6 +106,32 @@ fn a_store_taken_up_again_has_the_same_bytes() {
 }
 
 #[test]
+fn a_store_is_replaced_where_that_is_allowed() {
+    let (scene, wear) = cases()[0].clone();
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path().join("worn");
+    let begin = |overwrite| {
+        let mut run = WearRun::new(&scene, &wear, &Arc::default()).unwrap();
+        run.advance().unwrap().unwrap();
+        WearStore::create(&place, overwrite)?.write(&mut run)
+    };
+    begin(false).unwrap();
+    let once = files(&place);
+    begin(true).unwrap();
+    assert!(files(&place) == once);
+    let refused = begin(false).unwrap_err().to_string();
+    assert!(refused.contains("--overwrite"), "{refused}");
+    // Killed between the two steps that replace a store.
+    std::fs::rename(&place, folder.path().join(".worn.replaced")).unwrap();
+    assert!(resume_wear(&place, Some((&scene, &wear)), &Arc::default()).is_ok());
+    assert!(files(&place) == once);
+    // What is of no store is not thrown away.
+    std::fs::write(place.join("notes.txt"), "").unwrap();
+    let refused = begin(true).unwrap_err().to_string();
+    assert!(refused.contains("notes.txt"), "{refused}");
+}
+
+#[test]
 fn a_stopped_run_keeps_its_last_jump() {
     let (scene, wear) = cases()[0].clone();
     let stop = Arc::<AtomicBool>::default();
