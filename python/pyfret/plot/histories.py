@@ -68,7 +68,10 @@ def fretting_loop(
     """
     d = run_of(result).dataset
     ax = axes(ax)
-    force, shift, force_symbol, shift_symbol = NAMES[direction or driven(result.scene.path)]
+    direction = direction or driven(result.scene.path)
+    if direction not in NAMES:
+        raise ValueError(f'direction = {direction!r}: must be "x", "y" or "torsion"')
+    force, shift, force_symbol, shift_symbol = NAMES[direction]
     started = np.flatnonzero(d.branch_of_increment.values == 0)[-1]
     by_force, by_shift = loop_scales(result, units, torsion=force == "M_z")
     moved = (d[shift] - d[shift][started]) / by_shift.value
@@ -140,6 +143,7 @@ DRIVEN = {
     "phi_z": (r"\varphi_z", "rad"),
     "sigma_B": (r"\sigma_B", "Pa"),
     "sigma_B1": (r"\sigma_{B1}", "Pa"),
+    "rolled": (r"x_\mathrm{rolled}", "m"),
 }
 
 
