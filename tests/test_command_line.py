@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 
 import pyfret as fret
-from conftest import ROOT, W
+from conftest import ROOT, W, sphere_on_flat
 
 FRET = ROOT / "target" / "release" / "fret"
 
@@ -70,6 +70,21 @@ def test_what_is_there_is_not_overwritten(scene_file: Path, tmp_path: Path) -> N
     run = fret_run("run", scene_file, "-o", tmp_path / "out.zarr")
     assert run.returncode == 2
     assert (tmp_path / "out.zarr").read_text() == "precious"
+
+
+def test_tables_have_no_digits_of_rounding(tmp_path: Path) -> None:
+    """Alike bodies under a force along y: along x nothing moves, but for rounding."""
+    scene = sphere_on_flat(n=16).replace(
+        path=fret.LoadPath.start().normal(W, increments=2).cycles(1, T_y=150.0, increments=4)
+    )
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    run = fret_run("run", tmp_path / "scene.toml", "-o", tmp_path / "out.zarr")
+    shifts = fret.open(tmp_path / "out.zarr").delta_x.values
+    assert np.abs(shifts).max() > 0.0
+    cells = [line.split() for line in run.stdout.splitlines() if re.match(r"\|\d", line)]
+    titles = next(line for line in run.stdout.splitlines() if "delta_x" in line).split()
+    column = titles.index("delta_x")
+    assert [row[column] for row in cells] == ["0"] * 4
 
 
 def test_check_solves_nothing_and_says_what_is_skipped(scene_file: Path) -> None:

@@ -86,6 +86,18 @@ def test_a_thin_layer_is_not_missed() -> None:
     assert any(shear.z == pytest.approx(z) for z in scene.interfaces())
 
 
+def test_a_rim_beside_a_narrow_slip_zone_is_not_extrapolated() -> None:
+    """The shear rises to the border of the stick zone among the samples that show the rim."""
+    path = fret.LoadPath.start().normal(W, increments=1).tangential(0.15 * W, increments=2)
+    scene = sphere_on_flat(n=36).replace(path=path)
+    finer = sphere_on_flat(n=128).replace(path=path)
+    surface = [
+        fret.solve(of, progress=False).at(-1).stress(z=[0.0], y=0.0).maximum().value
+        for of in (scene, finer)
+    ]
+    assert surface[0] == pytest.approx(surface[1], rel=0.1)
+
+
 def test_interface_measures_need_an_interface() -> None:
     contact = fret.solve(sphere_on_flat(n=16), PATH, progress=False).at(-1)
     with pytest.raises(ValueError, match="no interface lies among the depths"):

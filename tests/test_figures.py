@@ -141,6 +141,33 @@ def test_every_number_is_told(result: fret.Result) -> None:
         assert result.summary().count("[MPa]") == 1
 
 
+def test_a_summary_has_no_digits_of_rounding() -> None:
+    result = fret.solve(SCENES["torsion"], progress=False)
+    shifts = np.abs(result.delta_x.values)
+    assert 0.0 < shifts.max() < 1e-9 * float(result.dataset.delta_z.max())
+    titles, *rows = result.summary().splitlines()[1:5]
+    end = titles.index("delta_x [um]") + len("delta_x [um]")
+    assert all(row[:end].split()[-1] == "0" for row in rows[1:])
+    # What is given is told as it is, however small.
+    tiny = scene(fret.Sphere(R), PRESSED.tangential(1e-5, increments=1))
+    assert " 1e-05 " in fret.solve(tiny, progress=False).summary()
+
+
+def test_empty_axes_say_why() -> None:
+    result = fret.solve(SCENES["cone"], progress=False)
+    (said,) = fret.plot.fretting_loop(result).texts
+    assert said.get_text() == "the path ends with the indentation"
+    (said,) = fret.plot.loop_evolution(result).texts
+    assert said.get_text() == "the path closes no cycle"
+    assert fret.plot.slip_map(result).images[0].get_clim() == (0.0, 1.0)
+    assert fret.plot.shear_streamlines(result).images[0].get_clim() == (0.0, 1.0)
+
+
+def test_a_path_that_rolls_shows_it() -> None:
+    labels = fret.plot.load_path(SCENES["rolling"].path).get_legend().get_texts()
+    assert any("rolled" in label.get_text() for label in labels)
+
+
 def test_envelopes_of_a_cycle_are_drawn() -> None:
     result = fret.solve(SCENES["thin layers"], progress=False)
     fret.plot.envelope_maps(result.envelope(y=0.0)).canvas.draw()

@@ -59,7 +59,6 @@ def test_a_scene_without_meaning_is_refused(broken: Callable[[], fret.Scene], me
     ("path", "message"),
     [
         (fret.LoadPath.start(), r"path = empty: must be at least one branch"),
-        (fret.LoadPath.start().normal(W, increments=0), r"path\[0\]\.increments = 0"),
         (
             INDENTED.tangential(1.01 * 0.3 * W, increments=1),
             r"path\[1\]\.T_x = 303: must be \|T\| <= mu W",

@@ -53,3 +53,17 @@ def read(path: str | os.PathLike[str]) -> xr.Dataset:
         # How it lies in this file is of no use to the next one, and its codecs would not do there.
         variable.encoding.clear()
     return dataset
+
+
+def is_copy(path: str | os.PathLike[str]) -> bool:
+    """Whether a Zarr folder is one that :meth:`pyfret.Result.save` wrote, which has no checksums.
+
+    Those of schema 1 are stores: they had none either, and are refused as such.
+    """
+    try:
+        consolidated = json.loads((Path(path) / ".zmetadata").read_bytes())
+        schema = consolidated["metadata"][".zattrs"]["schema"]
+    except (OSError, ValueError, LookupError, TypeError):
+        return False
+    sums = {"checksums", "crc32"} & set(consolidated)
+    return not sums and isinstance(schema, int) and schema > 1

@@ -178,7 +178,7 @@ def _line(row: dict[str, object]) -> str:
     """A row for people."""
     name = "life" if "life" in row else "safety_factor"
     margin = f"{row[name]:.4g} cycles" if name == "life" else f"safety factor {row[name]:.4g}"
-    error = f" (depths +- {row['error']:.1e})" if "error" in row else ""
+    error = f" (depths +- {row['error']:.2g})" if "error" in row else ""
     places = ", ".join(f"{axis} = {row[axis]:.4e} m" for axis in "xyz" if axis in row)
     line = f"layer {row['layer']}: {margin}, {row['criterion']} {row['value']:.5e} {row['unit']}"
     line += f"{error} at {places}"

@@ -222,6 +222,8 @@ class Result(OfRun):
             ``opening`` of the loop [m], ``energy_ratio``, ``sliding_ratio``, ``status``, and the
             branches it spans.
         """
+        if direction not in ("x", "y", "torsion"):
+            raise ValueError(f'direction = {direction!r}: must be "x", "y" or "torsion"')
         d = self.dataset
         torsion = direction == "torsion"
         force, shift = ("M_z", "phi_z") if torsion else (f"T_{direction}", f"delta_{direction}")
@@ -331,8 +333,7 @@ class Result(OfRun):
     def summary(self) -> str:
         """Tabulate what the run ended with: a line per branch, then one per cycle.
 
-        Lengths are over a_H and pressures over p_H where there is a Hertz contact, else in um and
-        MPa; in plane strain a is half the width of the contact.
+        Over a_H and p_H, or in um and MPa; in plane strain a is half the width of the contact.
         """
         return summary(self)
 
@@ -383,20 +384,6 @@ class Result(OfRun):
         )
 
 
-def is_copy(path: str | os.PathLike[str]) -> bool:
-    """Whether a Zarr folder is one that :meth:`Result.save` wrote, which has no checksums.
-
-    Those of schema 1 are stores: they had none either, and are refused as such.
-    """
-    try:
-        consolidated = json.loads((Path(path) / ".zmetadata").read_bytes())
-        schema = consolidated["metadata"][".zattrs"]["schema"]
-    except (OSError, ValueError, LookupError, TypeError):
-        return False
-    sums = {"checksums", "crc32"} & set(consolidated)
-    return not sums and isinstance(schema, int) and schema > 1
-
-
 def open(path: str | os.PathLike[str]) -> Result:
     """Open a result: a Zarr store, or what :meth:`Result.save` wrote (``.zarr``, ``.nc``).
 
@@ -413,7 +400,7 @@ def open(path: str | os.PathLike[str]) -> Result:
     if Path(path).suffix == ".nc":
         return Result(files.read(path))
     # Zarr reads the attributes of the group from a file that no checksum covers.
-    attributes = {} if is_copy(path) else json.loads(_core.verify(path))
+    attributes = {} if files.is_copy(path) else json.loads(_core.verify(path))
     try:
         dataset = files.read(path)
     except Exception as error:

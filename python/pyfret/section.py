@@ -90,6 +90,9 @@ def for_each_layer(given: Any, layers: int, one: str, several: str) -> list[Any]
     `one` and `several` name it in the errors: a ValueError for another number of layers, and where
     nothing is judged.
     """
+    if isinstance(given, str):
+        # A sequence, but of letters.
+        raise TypeError(f"{given!r}: must be one of the {several}, or one for each layer")
     each = list(given) if isinstance(given, Sequence) else [given] * layers
     if len(each) != layers:
         raise ValueError(

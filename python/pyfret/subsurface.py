@@ -31,7 +31,10 @@ def _depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float]
     """Depths with their layers: those given, or those that the layers ask for."""
     if z is None:
         return _core.chosen_depths(body, a=length, deepest=2.0 * length)
-    return _core.depths(body, np.atleast_1d(np.asarray(z, dtype=float)).tolist())
+    depths = np.atleast_1d(np.asarray(z, dtype=float)).tolist()
+    if not depths:
+        raise ValueError("z is empty: give depths in m, or leave it out for those of the layers")
+    return _core.depths(body, depths)
 
 
 def loaded_length(grid: Grid, *loads: ArrayLike | None) -> float:
@@ -297,6 +300,8 @@ def envelope(
     """
     if x is not None and y is not None:
         raise ValueError("give x or y for a section, or neither for whole planes")
+    if isinstance(of, str):
+        of = (of,)
     body = scene.body1 if body_number == 1 else scene.body2
     hertz, grid = scene.hertz, scene.grid
     # Without a yardstick, what a grid of the usual 2.4 radii has room for.

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
 if TYPE_CHECKING:
     import xarray as xr
+    from numpy.typing import NDArray
 
     from pyfret.results import Result
 
 __all__ = ["summary"]
 
+#: Motions in the plane, and the loads that drive them.
+IN_PLANE = (("delta_x", "T_x"), ("delta_y", "T_y"), ("phi_z", "M_z"))
 #: What the codes of ``status`` mean.
 STATUS = ("no contact", "full stick", "partial slip", "gross slip")
 
@@ -41,10 +46,33 @@ def columns(result: Result, ends: xr.Dataset) -> list[list[str]]:
         if any(drives(result, name) for _, name, _ in pair):
             numbers[3:3] = pair
     table = [
-        [title, *(f"{value:.5g}" for value in scale * ends[name].values)]
+        [title, *(f"{value:.5g}" for value in scale * told(result, ends, name))]
         for title, name, scale in numbers
     ]
     return [*table, ["state", *(STATUS[int(code)] for code in ends.status)]]
+
+
+def told(result: Result, ends: xr.Dataset, name: str) -> NDArray[np.float64]:
+    """Give a number at the end of every branch, 0 where the run cannot tell it from zero.
+
+    The slip in stick cells is held to `tolerance` mu times the approach; a shift that answers to a
+    load is no better known, nor is a force that answers to a shift than `tolerance` mu W. The arm
+    of rotations and moments is the radius of the contact.
+    """
+    values = ends[name].values
+    branches = result.scene.path.branches
+    part = (result.scene.settings.tolerance or 0.0) * min(result.scene.mu, 1.0)
+    for motion, load in IN_PLANE:
+        arm = ends.contact_radius.values if motion == "phi_z" else 1.0
+        if name == motion:
+            small = arm * np.abs(values) < part * np.abs(ends.delta_z.values)
+        elif name == load:
+            small = np.abs(values) < part * ends.W.values * arm
+        else:
+            continue
+        answers = [getattr(branches[int(n)], name) is None for n in ends.branch]
+        return np.where(answers & small, 0.0, values)
+    return values
 
 
 def drives(result: Result, name: str) -> bool:

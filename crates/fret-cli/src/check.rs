@@ -9,6 +9,7 @@ use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
 use crate::scene_options::{SceneOptions, say_doubts};
+use crate::summary::short;
 use crate::terminal::print;
 
 /// Options of `fret check`.
@@ -114,7 +115,7 @@ fn body(body: &Body, cell: f64) -> String {
         if m.is_rigid() {
             "rigid".to_owned()
         } else {
-            format!("E = {:.4} GPa, nu = {}", m.E / 1e9, m.nu)
+            format!("E = {} GPa, nu = {}", short(m.E / 1e9), m.nu)
         }
     };
     let layers = body.coatings.iter().map(|c| {

@@ -17,6 +17,7 @@ use ndarray::Axis;
 
 use crate::failure::Failure;
 use crate::loads::Loads;
+use crate::summary::short;
 use crate::terminal::{print, say};
 
 /// Options of `fret stress`.
@@ -340,8 +341,14 @@ impl Task {
             .hertz()
             .filter(|_| matches!(probe, Probe::Stress(_)));
         let value = hertz.map_or_else(
-            || format!("{value:.5e} {} (depths +- {error:.1e})", probe.unit()),
-            |h| format!("{:.5} p_H (depths +- {:.1e})", value / h.p0, error / h.p0),
+            || format!("{value:.5e} {} (depths +- {})", probe.unit(), short(error)),
+            |h| {
+                format!(
+                    "{:.5} p_H (depths +- {})",
+                    value / h.p0,
+                    short(error / h.p0)
+                )
+            },
         );
         let z = self.length(depth.z);
         let layers = self.body().coatings.len();

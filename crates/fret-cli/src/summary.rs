@@ -60,7 +60,7 @@ impl Measures {
 /// One line for a branch that has ended at path time `t`.
 pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
     let Measures { radius, pressure } = Measures::of(scene);
-    let loads = branch.loads;
+    let loads = branch.told(scene).loads;
     let held = loads.given.motions();
     let others = OTHERS.iter().fold(String::new(), |text, of| {
         match (loads.forces()[of.index()], held[of.index()]) {
@@ -305,7 +305,7 @@ pub(crate) fn table(scene: &Scene, increments: &[Increment], wide: bool) -> Stri
     let mut done = 0;
     for branch in summarise(increments) {
         done += branch.increments;
-        let row = (&branch, &increments[done - 1]);
+        let row = (&branch.told(scene), &increments[done - 1]);
         table.add_row(columns.iter().map(|(_, cell)| cell(&row)));
     }
     for column in table.column_iter_mut() {

@@ -6,9 +6,9 @@ of the paper from its four runs in one call.
 """
 
 from pyfret.plot.animation import animate
-from pyfret.plot.fretting_map import fretting_map
+from pyfret.plot.fretting_map import fretting_map, running_map
 from pyfret.plot.heat import temperature, temperature_map
-from pyfret.plot.histories import fretting_loop, load_path, stick_ratio
+from pyfret.plot.histories import fretting_loop, load_path, loop_evolution, stick_ratio
 from pyfret.plot.life import (
     criterion_map,
     critical_plane_rose,
@@ -21,8 +21,6 @@ from pyfret.plot.paper import paper_figures
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
 from pyfret.plot.stresses import (
     envelope_maps,
-    loop_evolution,
-    running_map,
     section_map,
     stress_along_depth,
     stress_history,

@@ -9,6 +9,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from pyfret.plot.stresses import COLOURS
 from pyfret.plot.studies import in_figures
 from pyfret.plot.style import axes, styled
 
@@ -90,3 +91,38 @@ def lines(
     )
     ax.clabel(drawn, fontsize=7, fmt="%g")
     return [Line2D([], [], color=colour, linestyle=style, linewidth=1.0, label=meaning)]
+
+
+@styled
+def running_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+    r"""Running conditions over W and the amplitude of T or of the shift, from the sweep.
+
+    Coloured by the energy ratio, which tells gross slip (0.2 and more) from partial slip. Over
+    shifts a line parts them by the status; over forces it is grey where there is no static
+    solution, above the dashed line :math:`T = \mu W`.
+    """
+    ax = axes(ax)
+    driven = "T" if "T" in table.dims else "delta"
+    scale, label = AXES[driven]
+    W, amplitude = table.W.values, table[driven].values * scale
+    ratio = table.energy_ratio.transpose(driven, "W").values
+    slides = table.status.transpose(driven, "W").values == 3
+    image = ax.pcolormesh(
+        W, amplitude, np.ma.masked_invalid(ratio), cmap=COLOURS, shading="nearest"
+    )
+    unsolved = np.ma.masked_where(np.isfinite(ratio), np.ones_like(ratio))
+    ax.pcolormesh(W, amplitude, unsolved, cmap="Greys", vmin=0, vmax=3, shading="nearest")
+    bar = ax.get_figure().colorbar(image, ax=ax)  # type: ignore[union-attr]
+    bar.set_label("energy ratio")
+    limits = ax.get_xlim(), ax.get_ylim()
+    if driven == "delta" and slides.any() and not slides.all():
+        ax.contour(W, amplitude, slides, levels=[0.5], colors="0.2", linewidths=1.0)
+    if driven == "T":
+        ends = np.array([0.0, W.max() * 1.1])
+        ax.plot(ends, table.attrs["mu"] * ends, color="0.2", linestyle="--", linewidth=0.9)
+    ax.set_xlim(*limits[0])
+    ax.set_ylim(*limits[1])
+    ax.set_xlabel(r"$W$ [N]")
+    ax.set_ylabel(label)
+    ax.grid(visible=False)
+    return ax

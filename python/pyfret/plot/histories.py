@@ -9,7 +9,7 @@ from matplotlib.ticker import EngFormatter, MaxNLocator
 
 from pyfret._core import LoadPath
 from pyfret.plot.scales import MICRO, Scale, Units, bears, run_of, scales
-from pyfret.plot.style import axes, styled
+from pyfret.plot.style import axes, note, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,11 +68,16 @@ def fretting_loop(
     """
     d = run_of(result).dataset
     ax = axes(ax)
-    force, shift, force_symbol, shift_symbol = NAMES[direction or driven(result.scene.path)]
+    direction = direction or driven(result.scene.path)
+    if direction not in NAMES:
+        raise ValueError(f'direction = {direction!r}: must be "x", "y" or "torsion"')
+    force, shift, force_symbol, shift_symbol = NAMES[direction]
     started = np.flatnonzero(d.branch_of_increment.values == 0)[-1]
     by_force, by_shift = loop_scales(result, units, torsion=force == "M_z")
     moved = (d[shift] - d[shift][started]) / by_shift.value
     ax.plot(moved[started:], d[force][started:] / by_force.value, **line)
+    if started + 1 == d.sizes["increment"]:
+        note(ax, "the path ends with the indentation")
     # Few enough ticks for labels of five signs.
     ax.xaxis.set_major_locator(MaxNLocator(5))
     ax.set_xlabel(by_shift.label(shift_symbol))
@@ -138,6 +143,7 @@ DRIVEN = {
     "phi_z": (r"\varphi_z", "rad"),
     "sigma_B": (r"\sigma_B", "Pa"),
     "sigma_B1": (r"\sigma_{B1}", "Pa"),
+    "rolled": (r"x_\mathrm{rolled}", "m"),
 }
 
 
@@ -187,3 +193,30 @@ def histories(
         columns = {name: path.dataset[name].values for name in names}
         t = path.dataset.t.values
     return np.r_[0.0, t], {name: np.r_[0.0, values] for name, values in columns.items()}
+
+
+@styled
+def loop_evolution(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
+    """Energy ratio, sliding ratio and dissipated energy of each cycle, the last over its mean.
+
+    Of the first motion that the path drives: along x, along y or in torsion. Of a single cycle the
+    ratios alone.
+    """
+    ax = axes(ax)
+    loops = result.loops(direction=driven(result.scene.path))
+    number = np.arange(1, loops.sizes["cycle"] + 1)
+    line = {"marker": "o", "markersize": 4, **line}
+    shown = [(loops.energy_ratio, "energy ratio"), (loops.sliding_ratio, "sliding ratio")]
+    if number.size > 1:
+        mean = float(loops.dissipated.mean())
+        shown.append((loops.dissipated / (mean or 1.0), "dissipated energy over its mean"))
+    for values, label in shown:
+        ax.plot(number, values, label=label, **line)
+    ax.set_xlabel("cycle")
+    ax.set_xticks(number)
+    ax.set_ylim(bottom=0.0)
+    if number.size:
+        ax.legend()
+    else:
+        note(ax, "the path closes no cycle")
+    return ax

@@ -130,6 +130,9 @@ def field_map(
     contact = snapshot.dataset.contact.values.astype(bool)
     shown = np.where(contact, values / scale.value, np.nan)
     look = {"cmap": "YlGnBu", "aspect": ax.get_aspect(), **image}
+    if not np.any(values[contact]):
+        # A scale for a field that is zero everywhere.
+        look["vmax"] = look.get("vmax") or 1.0
     drawn = ax.imshow(shown.T, origin="lower", extent=extent, **look)
     ax.set_xlim(extent[:2])
     ax.set_ylim(extent[2:])

@@ -12,7 +12,6 @@ from matplotlib.ticker import MaxNLocator
 
 from pyfret.plot.depth_axis import interfaces, thin
 from pyfret.plot.depth_axis import stretch as stretch_axis
-from pyfret.plot.histories import driven
 from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.style import axes, styled
 from pyfret.stress import Stress
@@ -149,7 +148,9 @@ def section_map(
         _mark(ax, maximum, by)
     name = symbol if symbol is not None else SYMBOLS.get(str(values.name), str(values.name))
     if colorbar and image is not None:
-        bar = ax.get_figure().colorbar(image, ax=ax, shrink=0.9, pad=0.02)  # type: ignore[union-attr]
+        # Within the axes, so that it is as high as the section.
+        beside = ax.inset_axes((1.03, 0.0, 0.05, 1.0))
+        bar = ax.get_figure().colorbar(image, cax=beside)  # type: ignore[union-attr]
         bar.outline.set_visible(False)
         bar.set_label(by.stress.label(name))
     else:
@@ -236,7 +237,9 @@ def stress_along_depth(
         for part in np.unique(layer):
             here = layer == part
             label = f"${SYMBOLS.get(name, name)}$" if part == layer[0] else None
-            ax.plot(z[here], values[here], color=f"C{n}", label=label)
+            # On an axis of symmetry two of the stresses are one line.
+            dashes = (0, (3, 3)) if name == "s_yy" else "-"
+            ax.plot(z[here], values[here], color=f"C{n}", linestyle=dashes, label=label)
     for depth in inner:
         ax.axvline(depth, color="0.6", linewidth=0.8, linestyle=(0, (6, 3)), zorder=0)
     ax.set_xlim(z[0], z[-1])
@@ -292,7 +295,13 @@ def stress_history(
     value = envelope[f"{of}_largest"] / by.stress.value
     z = envelope[f"{of}_largest_z"] / by.length.value
     ax.plot(value.increment, value, color="0.7", zorder=1, **line)
+    # A depth that stays is one colour, its last digits are none.
+    middle, half = (float(z.max()) + float(z.min())) / 2, (float(z.max()) - float(z.min())) / 2
+    half = max(half, 0.05 * middle)
     points = ax.scatter(value.increment, value, c=z, s=9, cmap="viridis", zorder=2)
+    points.set_clim(middle - half, middle + half)
+    ax.xaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
+    ax.set_xlim(float(value.increment[0]) - 0.5, float(value.increment[-1]) + 0.5)
     bar = ax.get_figure().colorbar(points, ax=ax)  # type: ignore[union-attr]
     bar.set_label(by.length.label("z"))
     # Room above the largest value, and none below where it can't be negative.
@@ -335,63 +344,3 @@ def stress_maps(
         ax.set_title(rf"({letter})  $E_1/E_2 = {ratio:g}$")
         ax.label_outer()
     return figure
-
-
-@styled
-def loop_evolution(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
-    """Energy ratio, sliding ratio and dissipated energy of each cycle, the last over its mean.
-
-    Of the first motion that the path drives: along x, along y or in torsion. Of a single cycle the
-    ratios alone.
-    """
-    ax = axes(ax)
-    loops = result.loops(direction=driven(result.scene.path))
-    number = np.arange(1, loops.sizes["cycle"] + 1)
-    line = {"marker": "o", "markersize": 4, **line}
-    shown = [(loops.energy_ratio, "energy ratio"), (loops.sliding_ratio, "sliding ratio")]
-    if number.size > 1:
-        mean = float(loops.dissipated.mean())
-        shown.append((loops.dissipated / (mean or 1.0), "dissipated energy over its mean"))
-    for values, label in shown:
-        ax.plot(number, values, label=label, **line)
-    ax.set_xlabel("cycle")
-    ax.set_xticks(number)
-    ax.set_ylim(bottom=0.0)
-    if number.size:
-        ax.legend()
-    return ax
-
-
-@styled
-def running_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
-    r"""Running conditions over W and the amplitude of T or of the shift, from the sweep.
-
-    Coloured by the energy ratio, which tells gross slip (0.2 and more) from partial slip. Over
-    shifts a line parts them by the status; over forces it is grey where there is no static
-    solution, above the dashed line :math:`T = \mu W`.
-    """
-    ax = axes(ax)
-    driven = "T" if "T" in table.dims else "delta"
-    scale, label = {"T": (1.0, r"$T$ [N]"), "delta": (1e6, r"$\delta$ [µm]")}[driven]
-    W, amplitude = table.W.values, table[driven].values * scale
-    ratio = table.energy_ratio.transpose(driven, "W").values
-    slides = table.status.transpose(driven, "W").values == 3
-    image = ax.pcolormesh(
-        W, amplitude, np.ma.masked_invalid(ratio), cmap=COLOURS, shading="nearest"
-    )
-    unsolved = np.ma.masked_where(np.isfinite(ratio), np.ones_like(ratio))
-    ax.pcolormesh(W, amplitude, unsolved, cmap="Greys", vmin=0, vmax=3, shading="nearest")
-    bar = ax.get_figure().colorbar(image, ax=ax)  # type: ignore[union-attr]
-    bar.set_label("energy ratio")
-    limits = ax.get_xlim(), ax.get_ylim()
-    if driven == "delta" and slides.any() and not slides.all():
-        ax.contour(W, amplitude, slides, levels=[0.5], colors="0.2", linewidths=1.0)
-    if driven == "T":
-        ends = np.array([0.0, W.max() * 1.1])
-        ax.plot(ends, table.attrs["mu"] * ends, color="0.2", linestyle="--", linewidth=0.9)
-    ax.set_xlim(*limits[0])
-    ax.set_ylim(*limits[1])
-    ax.set_xlabel(r"$W$ [N]")
-    ax.set_ylabel(label)
-    ax.grid(visible=False)
-    return ax

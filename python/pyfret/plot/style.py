@@ -45,3 +45,8 @@ def axes(ax: Axes | None, *, square: bool = False) -> Axes:
         ax.set_aspect("equal")
         ax.grid(visible=False)
     return ax
+
+
+def note(ax: Axes, text: str) -> None:
+    """Say in the middle of empty axes why they are."""
+    ax.text(0.5, 0.5, text, transform=ax.transAxes, ha="center", va="center", color="0.4")

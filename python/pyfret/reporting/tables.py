@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import LoadPath, Scene
+from pyfret.summary import told
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -28,6 +29,8 @@ ENDS = (
     ("M<sub>z</sub> [N m]", "M_z", 1.0),
     ("&delta;<sub>z</sub> [µm]", "delta_z", 1e6),
     ("&delta;<sub>x</sub> [µm]", "delta_x", 1e6),
+    ("&delta;<sub>y</sub> [µm]", "delta_y", 1e6),
+    ("&phi;<sub>z</sub> [µrad]", "phi_z", 1e6),
     ("contact radius [µm]", "contact_radius", 1e6),
     ("p<sub>max</sub> [MPa]", "p_max", 1e-6),
     ("stick ratio", "stick_ratio", 1.0),
@@ -132,13 +135,13 @@ def ends_table(result: Result) -> str:
     """Numbers at the end of every branch, with their error bars where there are any."""
     ends = result.branches()
     bars = result.error_bars().sel(part="total") if result.dataset.attrs.get("error_bars") else None
-    shown = [of for of in ENDS if of[1] == "W" or np.any(ends[of[1]].values)]
-    tiny = {name: 1e-9 * float(np.abs(ends[name]).max()) for _, name, _ in shown}
+    values = {name: told(result, ends, name) for _, name, _ in ENDS}
+    shown = [of for of in ENDS if of[1] == "W" or np.any(values[of[1]])]
     rows = []
     for n in range(ends.sizes["branch"]):
         cells = [str(int(ends.branch[n]))]
         for _, name, factor in shown:
-            cell = number(factor * float(ends[name][n]) if abs(ends[name][n]) > tiny[name] else 0.0)
+            cell = number(factor * float(values[name][n]))
             if bars is not None and name in bars:
                 cell += f" &plusmn; {factor * float(bars[name][n]):.1g}"
             cells.append(cell)

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::{Increment, March, Motion, Work};
 use crate::error::Error;
-use crate::scene::{LoadPoint, Loads, SaveFields, Scene};
+use crate::scene::{LoadPoint, Loads, RigidMotion, SaveFields, Scene};
 
 /// Watches a run: progress, files, a stop from outside. The solution does not depend on it.
 pub trait Observer {
@@ -97,6 +97,38 @@ pub struct BranchSummary {
     pub dissipated: f64,
     /// Work done by the solvers in it.
     pub work: Work,
+}
+
+impl BranchSummary {
+    /// The same for people: motions and loads in the plane that the run cannot tell from zero are 0.
+    ///
+    /// The slip in stick cells is held to `tolerance` mu times the approach; a shift that answers to a load
+    /// is no better known, nor is a force that answers to a shift than `tolerance` mu W. The arm of rotations
+    /// and moments is the radius of the contact.
+    #[must_use]
+    pub fn told(mut self, scene: &Scene) -> Self {
+        let part = scene.tolerance() * scene.friction.mu.min(1.0);
+        let (shift, force) = (part * self.motion.delta_z.abs(), part * self.loads.W);
+        let (mut forces, given) = (self.loads.forces(), self.loads.given);
+        let mut told = |of: RigidMotion, motion: &mut f64| {
+            let arm = if of.is_rotation() {
+                self.contact_radius
+            } else {
+                1.0
+            };
+            let load = &mut forces[of.index()];
+            if given.motions()[of.index()].is_none() && arm * motion.abs() < shift {
+                *motion = 0.0;
+            } else if given.motions()[of.index()].is_some() && load.abs() < force * arm {
+                *load = 0.0;
+            }
+        };
+        told(RigidMotion::DeltaX, &mut self.motion.delta_x);
+        told(RigidMotion::DeltaY, &mut self.motion.delta_y);
+        told(RigidMotion::PhiZ, &mut self.motion.phi_z);
+        self.loads = self.loads.with_forces(forces, given);
+        self
+    }
 }
 
 /// One summary per branch begun.

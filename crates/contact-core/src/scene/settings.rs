@@ -162,7 +162,8 @@ pub enum SaveFields {
 }
 
 impl Settings {
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    /// Fails at a number without meaning.
+    pub fn check(&self) -> Result<(), Error> {
         let lambda = match self.kernel.method {
             KernelMethod::Hankel => 1,
             KernelMethod::InverseFft { lambda, .. } | KernelMethod::FrequencyDomain { lambda } => {

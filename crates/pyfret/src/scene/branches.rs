@@ -46,6 +46,11 @@ pub(super) fn moved(
     let several = |v: &Option<Values>| matches!(v, Some(Values::Several(_)));
     let first = |v: &Option<Values>| v.as_ref().and_then(|v| v.slice().first().copied());
     let motions = named.each_ref().map(|v| first(v).map(Prescribed::Motion));
+    if named.iter().all(Option::is_none) {
+        return Err(PyValueError::new_err(
+            "displace: give a motion, such as delta_x=2e-6",
+        ));
+    }
     if named.iter().filter(|v| several(v)).count() > 1 {
         return Err(PyValueError::new_err(
             "displace: one motion at a time may be a sequence; waypoints(delta_x=.., delta_y=..) \

@@ -1,7 +1,6 @@
 //! Numbers of increments, and values to visit.
 
 use contact_core::scene as core;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::must_be;
@@ -72,8 +71,11 @@ impl<'py> FromPyObject<'_, 'py> for Count {
         if value.extract::<&str>().is_ok_and(|word| word == "auto") {
             return Ok(Self(None));
         }
-        let wrong = |_| PyValueError::new_err("increments: a whole number >= 1, or \"auto\"");
-        value.extract().map(|n| Self(Some(n))).map_err(wrong)
+        let wanted = "a whole number of increments >= 1, or \"auto\"";
+        let given = value.extract().ok().filter(|&n: &usize| n >= 1);
+        given
+            .map(|n| Self(Some(n)))
+            .ok_or_else(|| must_be(&value, wanted))
     }
 }
 

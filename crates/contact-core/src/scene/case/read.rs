@@ -49,7 +49,7 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
             nx: 0,
             ny: 0,
             dx: 0.0,
-            dy: 0.0,
+            dy: row(&root)?,
             plane_strain: plane_strain(&root)?,
         },
         path: path(&root, files, mu)?,
@@ -115,6 +115,20 @@ fn plane_strain(root: &Section<'_>) -> Result<bool, Fault> {
     section.flag_or("plane_strain", false)
 }
 
+/// The length along y of the row of cells in plane strain \[m\], on which a_H depends: 1 m, so that forces are
+/// those per metre, or the second of two lengths.
+fn row(root: &Section<'_>) -> Result<f64, Fault> {
+    let section = root.need_section("grid", &GRID)?;
+    let two =
+        ["extent", "spacing"].map(|name| Some((name, section.get(name)?.as_array()?.get(1)?)));
+    match two.into_iter().flatten().next() {
+        Some((name, along_y)) if plane_strain(root)? => {
+            measure::number(&format!("{}[1]", section.path(name)), along_y, &[])
+        }
+        _ => Ok(1.0),
+    }
+}
+
 /// Cells by number, and either the extent of the grid or the size of a cell.
 fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
     let section = root.need_section("grid", &GRID)?;
@@ -136,7 +150,7 @@ fn grid(root: &Section<'_>, a_H: Measure) -> Result<Grid, Fault> {
         let value = section.need(name, "a length in m, or two along x and y")?;
         // One length in plane strain: forces are reckoned per metre.
         if plane_strain && !value.is_array() {
-            return Ok((length(&section.path(name), value)?, 1.0));
+            return Ok((length(&section.path(name), value)?, row(root)?));
         }
         pair(&section.path(name), value, length)
     };

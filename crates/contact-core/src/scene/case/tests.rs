@@ -269,6 +269,30 @@ fn a_missing_yardstick_is_named() {
 }
 
 #[test]
+fn a_line_contact_has_its_yardstick() {
+    let line = GOOD
+        .replace("sphere", "cylinder")
+        .replace("n = 32", "n = 32\nplane_strain = true");
+    let read = |line: &str| Scene::from_toml_str(line, FILE, &[]).unwrap();
+    let per_metre = read(&line);
+    let a = per_metre.hertz().unwrap().a;
+    // a^2 = 4 W R/(pi E*) with W per metre, Johnson eq. (4.43).
+    let E_star = 210e9 / (2.0 * (1.0 - 0.3 * 0.3));
+    let johnson = (4.0 * 1000.0 * 0.018 / (std::f64::consts::PI * E_star)).sqrt();
+    assert!((a / johnson - 1.0).abs() < 1e-12, "{a:e} {johnson:e}");
+    assert_eq!(
+        (per_metre.grid.dx, per_metre.grid.dy),
+        (2.4 * a / 32.0, 1.0)
+    );
+    // On a row of 4 m the same force is a quarter of the load per metre.
+    let long = read(&line.replace("{ a_H = 2.4 }", "[{ a_H = 2.4 }, 4.0]"));
+    assert_eq!(long.grid.dy, 4.0);
+    assert!((long.grid.dx / per_metre.grid.dx - 0.5).abs() < 1e-12);
+    let not_finite = line.replace("{ a_H = 2.4 }", "[{ a_H = 2.4 }, 0.0]");
+    assert!(Scene::from_toml_str(&not_finite, FILE, &[]).is_err());
+}
+
+#[test]
 fn a_scene_written_reads_back_equal() {
     let mut scene = set(&["body1.E=rigid", "body1.nu=0.0", "grid.n=[33, 47]"]).unwrap();
     let read = |scene: &Scene| Scene::from_toml_str(&scene.to_toml(), FILE, &[]).unwrap();

@@ -105,9 +105,12 @@ impl LoadPath {
     ) -> Self {
         let increments = increments.into();
         let (middle, t0) = self.last();
-        let at = |angle: f64| {
+        let at = |part: f64| {
             let mut to = middle;
-            let (along, across) = (T_x * angle.cos(), T_y * angle.sin());
+            // The sine of half a turn is 1e-16 in floating point, and no force.
+            let exact = |x: f64| if x.abs() < f64::EPSILON { 0.0 } else { x };
+            let (sin, cos) = (TAU * part.fract()).sin_cos();
+            let (along, across) = (T_x * exact(cos), T_y * exact(sin));
             to.prescribe(RigidMotion::DeltaX, Prescribed::Load(middle.T_x + along));
             to.prescribe(RigidMotion::DeltaY, Prescribed::Load(middle.T_y + across));
             to
@@ -119,7 +122,7 @@ impl LoadPath {
             let part = i as f64 / chords as f64;
             let t = t0 + 1.0 + part;
             let of_chord = increments.map(|_| 1);
-            self.branches.push(Branch::new(at(TAU * part), of_chord, t));
+            self.branches.push(Branch::new(at(part), of_chord, t));
         }
         self
     }

@@ -8,6 +8,7 @@ mod skip;
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
+use crate::error::to_python;
 use crate::parts::parts;
 use kernel_method::Method;
 pub(crate) use kernel_method::{FrequencyDomain, Hankel, InverseFft};
@@ -96,6 +97,7 @@ impl Settings {
         if let Some(save) = save {
             settings.save = save.into_core()?;
         }
+        settings.check().map_err(to_python)?;
         Ok(Self(settings))
     }
 

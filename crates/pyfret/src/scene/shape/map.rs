@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use super::super::Pitch;
 use crate::arguments::Field;
-use crate::error::to_python;
+use crate::error::{must_be, to_python};
 use crate::parts::parts;
 
 /// Numbers over the contact plane, the middle of the map over the origin.
@@ -36,7 +36,9 @@ parts!(SurfaceMap: values, spacing);
 impl SurfaceMap {
     #[new]
     #[pyo3(signature = (values, *, spacing, missing = "refuse"))]
-    fn new(values: Field<'_>, spacing: Pitch, missing: &str) -> PyResult<Self> {
+    fn new(values: &Bound<'_, PyAny>, spacing: Pitch, missing: &str) -> PyResult<Self> {
+        let wanted = "an array of numbers of shape (points along x, points along y)";
+        let values: Field<'_> = values.extract().map_err(|_| must_be(values, wanted))?;
         let values = values.as_array().to_owned();
         core::SurfaceMap::new(values, spacing.0, word(missing)?)
             .map(Self)
