@@ -115,7 +115,6 @@ fn bars(
     path: &PathError,
     finer: Option<&Differs>,
 ) -> ErrorBars {
-    let value = numbers(fine);
     let tolerance = scene.tolerance();
     let by_solver = solver_parts(
         scene,

@@ -177,7 +177,8 @@ fn cannot_be(scene: &Scene, key: &str) -> bool {
         }
         "body1.shape" => {
             let gap = scene.h_init();
-            let inside = gap.slice(s![1..-1, 1..-1]);
+            let (nx, ny) = gap.dim();
+            let inside = gap.slice(s![1..nx - 1, 1..ny - 1]);
             let lowest =
                 |gaps: ArrayView2<'_, f64>| gaps.iter().copied().fold(f64::INFINITY, f64::min);
             lowest(inside) > lowest(gap.view())
