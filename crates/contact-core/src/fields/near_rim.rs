@@ -5,6 +5,7 @@
 //! sample the smaller, and what the continued tractions are more than constant on each is added. The
 //! parts' responses depend on offsets and depth alone: all samples of a depth share them.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::loads::{Plane, snapped};
@@ -16,16 +17,16 @@ use crate::zones::Continued;
 
 /// Deepest samples, in cells.
 const DEEPEST: f64 = 6.0;
-/// Farthest cells from the border that are cut for samples below the surface, in cells along or across: farther in
+/// Farthest cells from the border that count in full for samples below the surface, in cells along or across: farther in
 /// constant tractions are right to second order there, and those interpolated between the middles of the cells, with
 /// a kink in each, are not (4e-4 of p_H on the axis of a contact of 28 cells across).
 const FARTHEST_CUT: u8 = 3;
-/// Farthest samples from the border, on the surface, where constant tractions are off by their slope as well, and
-/// below, where no cell farther away is cut.
+/// Farthest samples from the border, near the surface, where constant tractions are off by their slope as well, and
+/// below, where no cell farther away counts.
 const FARTHEST_AT_SURFACE: u8 = 24;
 const FARTHEST: u8 = FARTHEST_CUT + REACH as u8;
-/// What counts as the surface: at half a cell's depth, 4 % of that is left.
-const AT_SURFACE: f64 = 0.5;
+/// Depth in cells down to which the slope counts: what varies from cell to cell falls like exp(-2 pi z).
+const AT_SURFACE: f64 = 1.0;
 /// Cells on each side of a sample that are cut.
 const REACH: usize = 3;
 /// A part is smaller than its distance from the sample over this, or of the smallest size, a cell
@@ -48,8 +49,8 @@ pub(super) struct Parts {
     cells: Vec<((isize, isize), Vec<Part>)>,
     /// Whether the sample is on the surface, where s_zz, s_xz, s_yz are the tractions themselves.
     on_surface: bool,
-    /// Farthest of them from the border that count.
-    farthest: u8,
+    /// How much those count that are farther from the border than [`FARTHEST_CUT`].
+    far: f64,
 }
 
 /// The middle of a part from that of its cell, in cells, and the stress at the sample under unit
@@ -130,10 +131,10 @@ impl NearRim {
         Some(Parts {
             cells,
             on_surface: depth.z <= 0.0,
-            farthest: if z < AT_SURFACE {
-                u8::MAX
+            far: if z < AT_SURFACE {
+                (-TAU * z).exp()
             } else {
-                FARTHEST_CUT
+                0.0
             },
         })
     }
@@ -162,12 +163,18 @@ impl NearRim {
             let cell = i
                 .checked_add_signed(*columns)
                 .zip(j.checked_add_signed(*rows));
-            let Some(cell) = cell.filter(|cell| state.distance(*cell) <= parts.farthest) else {
-                continue;
+            let Some(cell) = cell else { continue };
+            let counts = if state.distance(cell) > FARTHEST_CUT {
+                parts.far
+            } else {
+                1.0
             };
+            if counts == 0.0 {
+                continue;
+            }
             state.each_excess(cell, cut, |q, response| {
                 for (stress, row) in stress.iter_mut().zip(response) {
-                    *stress += row[0] * q[0] + row[1] * q[1] + row[2] * q[2];
+                    *stress += counts * (row[0] * q[0] + row[1] * q[1] + row[2] * q[2]);
                 }
             });
         }

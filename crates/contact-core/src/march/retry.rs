@@ -8,6 +8,8 @@
 //! have a bound on their work; then the increment is given up, and [`why`] says what in the physics makes it
 //! hard.
 
+use std::f64::consts::TAU;
+
 use super::domain::{AROUND, Domain};
 use super::first_growth::steps;
 use super::increment::increment;
@@ -15,14 +17,17 @@ use super::problem::Problem;
 use super::setup::{Failure, Workspace};
 use super::{Energy, Increment, Residuals, State, Work};
 use crate::error::Error;
-use crate::material::dundurs_beta;
-use crate::scene::{LoadPoint, Preset};
+use crate::kernels::Stack;
+use crate::scene::{Body, LoadPoint, Preset, Scene};
 
 /// Halvings of an increment before the run gives up.
 const HALVINGS: u32 = 5;
 /// Most convolutions for an increment, all tries together. Increments that are solved take a few, at the limits
 /// of friction and coupling some thousand.
 pub(super) const CONVOLUTIONS: usize = 10_000;
+
+/// Waves that are looked at for the coupling of the bodies.
+const WAVES: u32 = 64;
 
 /// The increment to `point`, whole if that can be, or in pieces; after a failure the state is as before.
 pub(super) fn reach(
@@ -74,14 +79,42 @@ pub(super) fn why(problem: &Problem, domain: &Domain) -> String {
     } else if problem.plan.coupling && friction.mu.is_infinite() {
         parts.push("; friction without a limit holds cells that shear would lift: a finite mu lets them slip".to_owned());
     } else if problem.plan.coupling && friction.mu > 0.0 {
-        let scene = &problem.scene;
-        let beta = dundurs_beta(scene.body1.outermost(), scene.body2.outermost());
-        let product = friction.mu * beta.abs();
+        let product = friction.mu * coupling(&problem.scene);
         parts.push(format!(
-            "; mu times Dundurs' beta of the surfaces is {product:.2}: the larger it is, the less a solution is certain"
+            "; mu times the coupling of the bodies, Dundurs' beta where they have no coatings, is {product:.2}: the larger it is, \
+             the less a solution is certain"
         ));
     }
     parts.concat()
+}
+
+/// How much shear moves the surfaces towards each other over how much pressure does: the largest of
+///
+/// ```text
+/// |rz_1 - rz_2| / (zz_1 + zz_2)
+/// ```
+///
+/// over the waves from the length of the grid down to two cells; of half-spaces Dundurs' beta. A soft layer that keeps its
+/// volume has more.
+fn coupling(scene: &Scene) -> f64 {
+    let bodies = [(1.0, &scene.body1), (-1.0, &scene.body2)];
+    let rigid = |body: &Body| body.substrate.is_rigid() && body.coatings.is_empty();
+    let elastic = bodies.into_iter().filter(|(_, body)| !rigid(body));
+    let stacks: Vec<_> = elastic
+        .map(|(sign, body)| (sign, Stack::new(body)))
+        .collect();
+    let (longest, shortest) = (scene.grid.extent().0, 2.0 * scene.grid.dx);
+    let at = |part: f64| {
+        let k = TAU / (longest * (shortest / longest).powf(part));
+        let sums = stacks.iter().fold([0.0; 2], |[rz, zz], (sign, stack)| {
+            let response = stack.response(k);
+            [rz + sign * response.rz, zz + response.zz]
+        });
+        (sums[0] / sums[1]).abs()
+    };
+    (0..=WAVES)
+        .map(|n| at(f64::from(n) / f64::from(WAVES)))
+        .fold(0.0, f64::max)
 }
 
 fn stalled(ended: &Result<Increment, Failure>) -> bool {

@@ -8,11 +8,11 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use contact_core::Error;
+use contact_core::kernels::Stack;
 use contact_core::march::Fields;
 use contact_core::march::{Increment, March};
-use contact_core::plan::Plan;
 use contact_core::reference::hertz;
-use contact_core::scene::{Scene, Shape};
+use contact_core::scene::{Body, Scene, Shape};
 use ndarray::{ArrayView2, s};
 
 use crate::audit::{Audit, Violations};
@@ -22,8 +22,8 @@ use crate::twins::{compared, has_twins};
 /// A scene that takes longer is stopped: most take a second, the largest half a minute, and the
 /// machine may have other things to do.
 pub(crate) const LIMIT: Duration = Duration::from_mins(5);
-/// Friction from which on the limit of the alternation is known.
-const STRONG: f64 = 2.0;
+/// Friction times [`coupling`] from which on an increment may have no solution, or many.
+const STRONG: f64 = 1.0;
 /// How an increment says that it took all the work that it is allowed.
 const BOUND: &str = "convolutions are the most for an increment";
 
@@ -35,8 +35,8 @@ pub(crate) enum Fate {
     /// Refused with the reason that it was drawn for: past friction, or off the grid; there, solved
     /// on the grid that the error asks for.
     Refused,
-    /// The documented limits: friction above [`STRONG`] on coupled bodies, where alternating between pressure and
-    /// shear may find no solution, and the most work of an increment. Refused with the residual that is left.
+    /// The documented limits: [`STRONG`] friction on coupled bodies, where alternating between pressure and shear may
+    /// find no solution, and the most work of an increment. Refused with the residual that is left.
     Unsolved(String),
     /// Did not end within its time.
     Stopped,
@@ -187,9 +187,27 @@ fn cannot_be(scene: &Scene, key: &str) -> bool {
     }
 }
 
+/// What a wave of shear does to the gap over what one of pressure does, of the wave for which it is most.
+fn coupling(scene: &Scene) -> f64 {
+    let rigid = |body: &Body| body.substrate.is_rigid() && body.coatings.is_empty();
+    let of = |body: &Body, k: f64| {
+        let response = (!rigid(body)).then(|| Stack::new(body).response(k));
+        response.map_or([0.0; 2], |response| [response.rz, response.zz])
+    };
+    let at = |k: f64| {
+        let ([rz_1, zz_1], [rz_2, zz_2]) = (of(&scene.body1, k), of(&scene.body2, k));
+        ((rz_1 - rz_2) / (zz_1 + zz_2)).abs()
+    };
+    let (extent, _) = scene.grid.extent();
+    let longest = 2.0 * std::f64::consts::PI / extent;
+    (1..=scene.grid.nx / 2)
+        .map(|n| at(n as f64 * longest))
+        .fold(0.0, f64::max)
+}
+
 /// What an error comes to: a limit that is documented, too little time, or a failure.
 pub(crate) fn ended(scene: &Scene, of: &str, error: &Error) -> Fate {
-    let strong = scene.friction.mu > STRONG && Plan::new(scene).coupling;
+    let strong = scene.friction.mu * coupling(scene) > STRONG;
     match error {
         Error::Interrupted { .. } => Fate::Stopped,
         // Right is the reason of an error whose numbers say that the tolerance was missed.

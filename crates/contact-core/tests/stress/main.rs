@@ -108,7 +108,7 @@ fn random_scenes_are_solved_or_refused() {
     let count = |is: fn(&Fate) -> bool| outcomes.iter().filter(|o| is(&o.fate)).count();
     let failed = count(|fate| matches!(fate, Fate::Failed(_) | Fate::Stopped));
     assert_eq!(failed, 0, "errors without a right reason");
-    // Friction above 2 with strong coupling may leave an increment without a solution, and a coating that is as stiff as
+    // Friction times coupling above 1 may leave an increment without a solution, and a coating that is as stiff as
     // a plate one that takes more work than is allowed.
     let unsolved = count(|fate| matches!(fate, Fate::Unsolved(_)));
     assert!(200 * unsolved <= outcomes.len(), "{unsolved} unsolved");

@@ -48,7 +48,7 @@ pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> Stri
     );
     let _ = writeln!(
         text,
-        "| friction above 2 and strong coupling, or an increment of more than 10 000 convolutions: refused with the residual that is left | {unsolved} |"
+        "| mu times the coupling of the bodies above 1, or an increment of more than 10 000 convolutions: refused with the residual that is left | {unsolved} |"
     );
     let _ = writeln!(
         text,
