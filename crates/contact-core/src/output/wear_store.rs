@@ -22,6 +22,9 @@ use crate::error::Error;
 use crate::scene::Scene;
 use crate::wear::{Block, EventKind, Wear, WearRun};
 
+/// Attributes of the store, its status among them.
+const ATTRIBUTES: &str = ".zattrs";
+
 /// Writes a run of wear while it goes on.
 pub struct WearStore {
     place: PathBuf,
@@ -93,8 +96,7 @@ impl WearStore {
         };
         self.write_documents(folder, run, &run.block(), status)?;
         if status == "done" {
-            // What cannot be removed is no reason to fail: the store is whole.
-            let _ = std::fs::remove_dir_all(folder.root().join("checkpoint"));
+            clear_checkpoint(folder);
         }
         Ok(())
     }
@@ -109,7 +111,7 @@ impl WearStore {
         let jumps = run.history();
         let mut documents = Map::new();
         documents.insert(".zgroup".into(), json!({ "zarr_format": 2 }));
-        documents.insert(".zattrs".into(), attributes(run, status));
+        documents.insert(ATTRIBUTES.into(), attributes(run, status));
         let grid = &run.scene().grid;
         let scalar = |(name, unit, what, of): &Scalar| {
             let kind = if matches!(*name, "retries" | "index") {
@@ -149,14 +151,22 @@ impl WearStore {
                 .write(key, bytes.as_bytes())
                 .map_err(|e| folder.error(&format!("{key}: {e}")))
         };
-        for (key, document) in &documents {
+        for (key, document) in documents.iter().filter(|(key, _)| *key != ATTRIBUTES) {
             write(key, document)?;
         }
         write(
             ".zmetadata",
             &json!({ "zarr_consolidated_format": 1, "metadata": documents }),
-        )
+        )?;
+        // The status comes last: a store that says "done" is whole.
+        write(ATTRIBUTES, &documents[ATTRIBUTES])
     }
+}
+
+/// Removes the checkpoint of a run that is done, which a process that died at its very end has left. What cannot be
+/// removed is no reason to fail: the store is whole.
+fn clear_checkpoint(folder: &Folder) {
+    let _ = std::fs::remove_dir_all(folder.root().join("checkpoint"));
 }
 
 /// The variables over `block`, each with its number of dimensions, and the values of a block.
@@ -272,7 +282,7 @@ pub fn resume_wear(
     let place = path.as_ref().to_owned();
     mend(&place);
     let folder = Folder::new(&place);
-    let text = folder.read(".zattrs").map_err(|e| folder.error(&e))?;
+    let text = folder.read(ATTRIBUTES).map_err(|e| folder.error(&e))?;
     let text = text.ok_or_else(|| folder.error(&"holds no run of wear"))?;
     let attributes: Value = serde_json::from_slice(&text).map_err(|e| folder.error(&e))?;
     let differs = |key: &str, given: Option<String>| attributes[key].as_str() != given.as_deref();
@@ -284,6 +294,7 @@ pub fn resume_wear(
         );
     }
     if attributes["status"] == "done" {
+        clear_checkpoint(&folder);
         return Ok(None);
     }
     let (Some(scene), Some(wear)) = (attributes["scene"].as_str(), attributes["wear"].as_str())

@@ -89,10 +89,16 @@ impl Victim {
         let text = String::from_utf8_lossy(&end.stderr);
         assert!(end.status.success(), "{text}");
         let found = files(&out);
-        assert!(
-            found.keys().eq(self.expected.keys()),
-            "killed after {kept:?}"
-        );
+        let odd: Vec<_> = (found
+            .keys()
+            .filter(|name| !self.expected.contains_key(*name)))
+        .chain(
+            self.expected
+                .keys()
+                .filter(|name| !found.contains_key(*name)),
+        )
+        .collect();
+        assert!(odd.is_empty(), "{odd:?}, killed after {kept:?}");
         for (name, bytes) in &self.expected {
             let same = found[name] == *bytes;
             assert!(same, "{} differs, killed after {kept:?}", name.display());
