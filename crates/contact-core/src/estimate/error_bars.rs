@@ -145,11 +145,11 @@ fn bars(
         contact_radius: bar(0),
         stick_ratio: bar(STICK_RATIO),
         p_max: bar(P_MAX),
-        delta_z: bar(3),
+        delta_z: bar(DELTA_Z),
         delta_x: bar(4),
         delta_y: bar(5),
         phi_z: bar(6),
-        dissipated: bar(7),
+        dissipated: bar(DISSIPATED),
         p: Bar::new(told.fields[0], path.p, tolerance),
         q: Bar::new(told.fields[1], path.q, tolerance),
     }
@@ -159,8 +159,7 @@ fn bars(
 const STICK_RATIO: usize = 1;
 const P_MAX: usize = 2;
 const DELTA_Z: usize = 3;
-/// Of delta_x, delta_y, phi_z and the dissipated energy.
-const SLIDES: std::ops::RangeInclusive<usize> = 4..=7;
+const DISSIPATED: usize = 7;
 
 /// What a tolerance leaves of each number, in its unit: of most a part of the number.
 ///
@@ -168,8 +167,7 @@ const SLIDES: std::ops::RangeInclusive<usize> = 4..=7;
 /// cells d, C = 2 d/(pi E*), takes the most of it: of a Hertz contact, with g = tol delta_z, delta_z = a^2/R and
 /// p_max = 2 E* a/(pi R), that is p/p_max = tol (pi^2/4) a/d.
 ///
-/// Slip is left up to tol mu delta_z, also where shifts and slip are next to nothing; over the radius of the contact
-/// it is a rotation, under a shear of mu W an energy.
+/// Slip is left up to tol mu delta_z, also where cells hardly slip: under a shear of mu W it dissipates tol mu^2 W delta_z.
 fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NUMBERS] {
     let value = numbers(fine).map(f64::abs);
     let mut parts = value.map(|value| tolerance * value);
@@ -177,12 +175,8 @@ fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NU
     parts[P_MAX] *= 1.0_f64.max(0.25 * std::f64::consts::PI.powi(2) * across);
     if may_slip(scene) {
         let mu = scene.friction.mu;
-        let slip = mu * value[DELTA_Z];
-        let rotation = slip / fine.contact_radius.max(f64::MIN_POSITIVE);
-        let energy = mu * fine.loads.W * slip;
-        for (part, slip) in parts[SLIDES].iter_mut().zip([slip, slip, rotation, energy]) {
-            *part = part.max(tolerance * slip);
-        }
+        let least = tolerance * mu * mu * fine.loads.W * value[DELTA_Z];
+        parts[DISSIPATED] = parts[DISSIPATED].max(least);
     }
     parts
 }
