@@ -98,7 +98,7 @@ fn modes(x: f64, y: f64, [xx, xy, yy]: [f64; 3]) -> [f64; 6] {
 
 /// What rounding may leave of the sums: a part of all that friction can carry, or of the loads
 /// where the bound is infinite.
-fn rounding(problem: &TangentialProblem<'_>) -> f64 {
+pub(crate) fn rounding(problem: &TangentialProblem<'_>) -> f64 {
     let finite = |g: f64| if g.is_finite() { g } else { 0.0 };
     let [carried] = sums([problem.bound], |_, [g]| [finite(g)]);
     let asked = problem.drive.sums.iter().map(|s| s.abs()).sum::<f64>();

@@ -21,7 +21,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::admissible::admissible;
+use super::admissible::{admissible, rounding};
 use super::contact_shear::{Before, ContactShear};
 use super::newton_system::NewtonSystem;
 use super::projected_gradient::ProjectedGradient;
@@ -281,6 +281,10 @@ fn hold_one(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64;
             0.0
         }
     });
+    // Mirror images all slip, in balance: which of them stuck would be chance, and the shift with it.
+    if size(rest) <= rounding(problem) {
+        return;
+    }
     let least = (0..slip.len())
         .filter(|&n| power([q[0][n], q[1][n]], rest) > 0.0)
         .map(|n| (n, size(problem.slip(u, shift, n))))
