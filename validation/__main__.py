@@ -89,11 +89,11 @@ def front(
         f"of them took {seconds:.0f} s. Errors are ours less the truth, over the truth; those of "
         "fields are L2 norms over the cells. The order is that of the error in the number of "
         "cells a side, over several places of the rim within the cells where these matter; the "
-        "run time is that of one run and of that on half as many cells, for "
+        "processor time is that of one run and of that on half as many cells, for "
         "its error bars.",
         "\n".join(
             [
-                "| truth | cells a side | largest error: of | error | order | run time |",
+                "| truth | cells a side | largest error: of | error | order | processor time |",
                 "|---|---|---|---|---|---|",
                 *rows,
             ]

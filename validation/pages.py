@@ -29,10 +29,10 @@ def percent(error: float) -> str:
 
 
 def table(ladder: Ladder, counted: str, order: Callable[[str], float] | None) -> str:
-    """Errors of every number at every size, its order, and the run time."""
+    """Errors of every number at every size, its order, and the processor time."""
     names = ladder.names()
     rows = [
-        "| " + " | ".join([counted, *names, "run time"]) + " |",
+        "| " + " | ".join([counted, *names, "processor time"]) + " |",
         "|---" * (len(names) + 2) + "|",
     ]
     for n, (size, seconds) in enumerate(zip(ladder.sizes, ladder.seconds, strict=True)):

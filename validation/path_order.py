@@ -93,7 +93,7 @@ def shear(scene: fret.Scene) -> Array:
 
 def write(folder: Path, *, quick: bool = False) -> str:
     """Solve every scene, write the page; give its line of the front page."""
-    started = time.perf_counter()
+    started = time.process_time()
     counts = COUNTS[:2] if quick else COUNTS
     table = [
         "| scene | cells a side | " + " | ".join(map(str, counts)) + " | order | of means |",
@@ -147,7 +147,7 @@ def write(folder: Path, *, quick: bool = False) -> str:
         "[All pages](README.md)",
     ]
     (folder / "path_order.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
-    seconds = time.perf_counter() - started
+    seconds = time.process_time() - started
     return (
         f"| [Error along the path](path_order.md) | {PUSHED}, {PRESSED} | means of q against the "
         f"increments, least order | | {min(orders.values()):.1f} | {seconds:.0f} s |"

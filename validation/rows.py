@@ -32,9 +32,9 @@ def write(folder: Path, *, n: int = CELLS) -> str:
         material = fret.Elastic(E=210e9, nu=(1 - 2 * beta) / (2 - 2 * beta))
         path = fret.LoadPath.start().force(W=W)
         scene = sphere(material, fret.RIGID, path, n=n, mu=mu, extent=2.2)
-        started = time.perf_counter()
+        started = time.process_time()
         result = fret.solve(scene, progress=False)
-        seconds = time.perf_counter() - started
+        seconds = time.process_time() - started
         truth = fret.reference.coupled_indentation(beta=beta, mu=mu)
         round_, at = hertz(material, fret.RIGID), result.at(-1)
         a = round_.a / np.cbrt(truth.W)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Ladder:
-    """A truth met by ever finer runs: errors of every number, order, run times with error bars."""
+    """A truth met by ever finer runs: errors of every number, order, processor times and error bars."""
 
     sizes: tuple[int, ...]
     seconds: list[float]
@@ -82,9 +82,9 @@ def climb(
     """Solve the scene at every size, with error bars; the ladder, and the last result."""
     seconds, known, bars = [], [], []
     for size in sizes:
-        started = time.perf_counter()
+        started = time.process_time()
         result = fret.solve(scene(size), progress=False, error=truth.has_error_bars)
-        seconds.append(time.perf_counter() - started)
+        seconds.append(time.process_time() - started)
         known.append(truth.known(result))
         bars.append(error_bars(result, known[-1]) if truth.has_error_bars else {})
     return Ladder(sizes, seconds, known, bars), result
@@ -119,9 +119,9 @@ def over_places(
     """Solve the scene at every size with the rim at several places within the cells."""
     seconds, known = [], []
     for size in sizes:
-        started = time.perf_counter()
+        started = time.process_time()
         runs = [fret.solve(scene(size, k), progress=False) for k in range(places)]
-        seconds.append((time.perf_counter() - started) / places)
+        seconds.append((time.process_time() - started) / places)
         numbers = [truth.known(run) for run in runs]
         known.append(numbers[0] if places == 1 else root_mean_square(numbers))
     return Ladder(sizes, seconds, known, [{} for _ in sizes])

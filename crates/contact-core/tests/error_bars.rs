@@ -244,7 +244,7 @@ fn report(scenes: usize, lines: &[String]) -> std::io::Result<()> {
          error has its sign. Where cells and increments are off to the same side their errors add up; where they are off\n\
          to opposite sides they are not taken to cancel, since neither is known so well: such a bar may be too large. A\n\
          slip ring narrower than half a cell may be missed as a whole, and so may one that the cells show and that is\n\
-         none. Bars of rotations are too large in most of the few scenes with torsion.\n",
+         none.\n",
         lines.join("\n")
     );
     std::fs::write(path, text)

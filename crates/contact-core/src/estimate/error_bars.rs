@@ -14,8 +14,7 @@
 //!
 //! **Increments.** The change from fewer or to more of them (`path_error`), of every number.
 //!
-//! **Solver.** Its tolerance, and that of the runs that tell the errors; what it leaves in the pressure of a cell is
-//! more.
+//! **Solver.** Its tolerance, and that of the runs that tell the errors.
 //!
 //! Errors of cells and of increments whose signs are the same add up; where they are opposite they are not taken
 //! to cancel (`bar`).
@@ -129,7 +128,7 @@ fn bars(
             None => Bar::new(told.numbers[n].hypot(least), path.numbers[n].abs(), solver),
             Some(finer) => {
                 // What the finer grid leaves of an error.
-                let left = finer.ratio.powf(-ORDER);
+                let left = finer.ratio.powf(-ORDER[n]);
                 let scatter = (left * told.numbers[n]).hypot(least);
                 Bar::signed(
                     finer.off[n] / (1.0 - left),
@@ -144,7 +143,7 @@ fn bars(
         branch: fine.branch,
         contact_radius: bar(0),
         stick_ratio: bar(STICK_RATIO),
-        p_max: bar(P_MAX),
+        p_max: bar(2),
         delta_z: bar(DELTA_Z),
         delta_x: bar(4),
         delta_y: bar(5),
@@ -157,22 +156,15 @@ fn bars(
 
 /// Places of some of the [`numbers`].
 const STICK_RATIO: usize = 1;
-const P_MAX: usize = 2;
 const DELTA_Z: usize = 3;
 const DISSIPATED: usize = 7;
 
 /// What a tolerance leaves of each number, in its unit: of most a part of the number.
 ///
-/// A gap g that is left is borne by a pressure of g/C in a wave that the bodies answer with C. The shortest wave on
-/// cells d, C = 2 d/(pi E*), takes the most of it: of a Hertz contact, with g = tol delta_z, delta_z = a^2/R and
-/// p_max = 2 E* a/(pi R), that is p/p_max = tol (pi^2/4) a/d.
-///
 /// Slip is left up to tol mu delta_z, also where cells hardly slip: under a shear of mu W it dissipates tol mu^2 W delta_z.
 fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NUMBERS] {
     let value = numbers(fine).map(f64::abs);
     let mut parts = value.map(|value| tolerance * value);
-    let across = fine.contact_radius / cell(scene);
-    parts[P_MAX] *= 1.0_f64.max(0.25 * std::f64::consts::PI.powi(2) * across);
     if may_slip(scene) {
         let mu = scene.friction.mu;
         let least = tolerance * mu * mu * fine.loads.W * value[DELTA_Z];
