@@ -81,7 +81,10 @@ KERNELS: tuple[tuple[str, str, Callable[[list[Entry]], Errors]], ...] = (
 
 def write(folder: Path) -> str:
     """Compare every table, draw the errors, write the page; give its line of the front page."""
-    rows = ["| kernel | entries | layers | largest error | processor time |", "|---|---|---|---|---|"]
+    rows = [
+        "| kernel | entries | layers | largest error | processor time |",
+        "|---|---|---|---|---|",
+    ]
     worst = 0.0
     with fret.plot.style():
         figure, axes = plt.subplots(1, len(KERNELS), figsize=(9.6, 3.0), sharey=True)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Ladder:
-    """A truth met by ever finer runs: errors of every number, order, processor times and error bars."""
+    """A truth met by ever finer runs: errors of every number, order, processor time, error bars."""
 
     sizes: tuple[int, ...]
     seconds: list[float]

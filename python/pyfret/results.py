@@ -17,6 +17,7 @@ from pyfret import load_factors as factors
 from pyfret._core import StoreError
 from pyfret.guesses import no_attribute
 from pyfret.lazy import xr
+from pyfret.loops import of_cycles
 from pyfret.of_run import OfRun
 from pyfret.snapshot import Snapshot
 from pyfret.summary import summary
@@ -50,21 +51,6 @@ SUMMED = frozenset(
         "parts",
     )
 )
-
-#: What :meth:`Result.loops` gives: unit and meaning.
-LOOP = {
-    "first_branch": ("1", "first branch of the cycle, from 0"),
-    "last_branch": ("1", "last branch of the cycle"),
-    "dissipated": ("J", "energy dissipated in the cycle"),
-    "T": ("N", "half the range of the force"),
-    "delta": ("m", "half the range of the shift"),
-    "stiffness": ("N/m", "stiffness right after the reversals"),
-    "secant_stiffness": ("N/m", "stiffness of the whole loop"),
-    "opening": ("m", "half the opening of the loop at the middle force"),
-    "energy_ratio": ("1", "dissipated energy over that of the surrounding rectangle"),
-    "sliding_ratio": ("1", "opening over the range of the shift"),
-    "status": ("1", "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"),
-}
 
 
 class Result(OfRun):
@@ -222,31 +208,7 @@ class Result(OfRun):
             ``opening`` of the loop [m], ``energy_ratio``, ``sliding_ratio``, ``status``, and the
             branches it spans.
         """
-        if direction not in ("x", "y", "torsion"):
-            raise ValueError(f'direction = {direction!r}: must be "x", "y" or "torsion"')
-        d = self.dataset
-        torsion = direction == "torsion"
-        force, shift = ("M_z", "phi_z") if torsion else (f"T_{direction}", f"delta_{direction}")
-        found = _core.loops(
-            self.scene.path,
-            branch=d.branch_of_increment.values.tolist(),
-            T=d[force].values.tolist(),
-            delta=d[shift].values.tolist(),
-            dissipated=d.dissipated.values.tolist(),
-            status=d.status.values.tolist(),
-        )
-        units = {"N": "N m", "m": "rad", "N/m": "N m/rad"} if torsion else {}
-        return xr.Dataset(
-            {
-                name: (
-                    "cycle",
-                    [cycle[name] for cycle in found],
-                    {"units": units.get(unit, unit), "long_name": of},
-                )
-                for name, (unit, of) in LOOP.items()
-            },
-            attrs=d.attrs,
-        )
+        return of_cycles(self.dataset, self.scene.path, direction)
 
     def envelope(
         self,

@@ -9,6 +9,7 @@
 mod check;
 mod failure;
 mod json;
+mod largest;
 mod loads;
 mod new;
 mod out;

@@ -16,8 +16,8 @@ use contact_core::scene::{Body, Scene};
 use ndarray::Axis;
 
 use crate::failure::Failure;
+use crate::largest::Largest;
 use crate::loads::Loads;
-use crate::summary::short;
 use crate::terminal::{print, say};
 
 /// Options of `fret stress`.
@@ -214,6 +214,15 @@ impl Task {
         }
     }
 
+    fn largest(&self) -> Largest<'_> {
+        Largest {
+            scene: &self.scene,
+            layers: self.body().coatings.len(),
+            increment: self.loads.increment,
+            json: self.json,
+        }
+    }
+
     fn store(&self, options: &Options, line: Option<Line>) -> Result<Option<StressStore>, Error> {
         let Some(out) = &options.out else {
             return Ok(None);
@@ -268,13 +277,14 @@ impl Task {
             .filter(|n| self.depths.contains(&all[*n]))
             .collect();
         let found = section.probe(&all, &along, &self.probes)?;
+        let largest_of = self.largest();
         let mut lines = Vec::new();
         for (n, (probe, (values, largest))) in self.probes.iter().zip(&found).enumerate() {
             if let Some(store) = &store {
                 store.put_section(n, &values.select(Axis(0), &rows))?;
             }
             if let Some(m) = largest {
-                lines.push(self.line(probe, m, &[(axis, m.place[0])]));
+                lines.push(largest_of.line(probe, m, &[(axis, m.place[0])]));
             }
         }
         store.map_or(Ok(()), StressStore::finish)?;
@@ -300,73 +310,13 @@ impl Task {
         let largest = write_volume(&slices, &self.depths, &self.chosen, &self.probes, &sinks)?;
         image.map_or(Ok(()), ImageData::finish)?;
         store.map_or(Ok(()), StressStore::finish)?;
+        let largest_of = self.largest();
         let line = |(probe, m): (&Probe, Option<Maximum<2>>)| {
             let m = m?;
             let [x, y] = m.place;
-            Some(self.line(probe, &m, &[("x", x), ("y", y)]))
+            Some(largest_of.line(probe, &m, &[("x", x), ("y", y)]))
         };
         Ok(self.probes.iter().zip(largest).filter_map(line).collect())
-    }
-
-    /// The largest value of a probe with what the depths leave of an error, and where it is.
-    fn line<const D: usize>(
-        &self,
-        probe: &Probe,
-        m: &Maximum<D>,
-        places: &[(&str, f64)],
-    ) -> String {
-        let Maximum {
-            value,
-            depth,
-            error,
-            ..
-        } = *m;
-        if self.json {
-            let mut of = serde_json::json!({
-                "increment": self.loads.increment, "name": probe.name(), "unit": probe.unit(),
-                "value": value, "error": error, "z": depth.z, "layer": depth.layer,
-            });
-            for (axis, place) in places {
-                of[*axis] = (*place).into();
-            }
-            return of.to_string();
-        }
-        let places: Vec<_> = places
-            .iter()
-            .map(|(axis, place)| format!("{axis} = {}", self.length(*place)))
-            .collect();
-        let place = places.join(", ");
-        let hertz = self
-            .scene
-            .hertz()
-            .filter(|_| matches!(probe, Probe::Stress(_)));
-        let value = hertz.map_or_else(
-            || format!("{value:.5e} {} (depths +- {})", probe.unit(), short(error)),
-            |h| {
-                format!(
-                    "{:.5} p_H (depths +- {})",
-                    value / h.p0,
-                    short(error / h.p0)
-                )
-            },
-        );
-        let z = self.length(depth.z);
-        let layers = self.body().coatings.len();
-        let layer = match (layers, depth.layer) {
-            (0, _) => String::new(),
-            (layers, n) if n == layers => ", in the substrate".into(),
-            (_, n) => format!(", in coating {n}"),
-        };
-        let name = probe.name();
-        let increment = self.loads.increment;
-        format!("increment {increment}: largest {name} {value} at {place}, z = {z}{layer}")
-    }
-
-    fn length(&self, v: f64) -> String {
-        match self.scene.hertz() {
-            Some(hertz) => format!("{:.4} a_H", v / hertz.a),
-            None => format!("{v:.4e} m"),
-        }
     }
 }
 

@@ -10,6 +10,8 @@ mod friction;
 mod measure;
 mod path;
 mod read;
+#[cfg(test)]
+mod refused;
 mod section;
 mod settings;
 mod shape;

@@ -4,8 +4,8 @@
 use super::*;
 use crate::scene::{KernelMethod, LoadPath, Preset, SaveFields, Spacing};
 
-const FILE: &str = "scene.toml";
-const GOOD: &str = r#"schema = 1
+pub(super) const FILE: &str = "scene.toml";
+pub(super) const GOOD: &str = r#"schema = 1
 title = "A \"test\" scene"
 
 [body1]
@@ -40,24 +40,24 @@ T_x = { mu_W = 0.9 }
 increments = 10
 "#;
 
-fn set(settings: &[&str]) -> Result<Scene, Error> {
+pub(super) fn set(settings: &[&str]) -> Result<Scene, Error> {
     let settings: Vec<_> = settings.iter().map(|&s| s.to_owned()).collect();
     Scene::from_toml_str(GOOD, FILE, &settings)
 }
 
 /// The good scene with one line changed.
-fn changed(from: &str, to: &str) -> Result<Scene, Error> {
+pub(super) fn changed(from: &str, to: &str) -> Result<Scene, Error> {
     assert!(GOOD.contains(from), "{from}");
     Scene::from_toml_str(&GOOD.replacen(from, to, 1), FILE, &[])
 }
 
-fn complaint(result: Result<Scene, Error>) -> String {
+pub(super) fn complaint(result: Result<Scene, Error>) -> String {
     result.unwrap_err().to_string()
 }
 
 /// The complaint is one line that starts with the file and the line and holds all the parts.
 #[track_caller]
-fn assert_refused(result: Result<Scene, Error>, line: usize, parts: &[&str]) {
+pub(super) fn assert_refused(result: Result<Scene, Error>, line: usize, parts: &[&str]) {
     let text = complaint(result);
     let prefix = format!("scene.toml:{line}: ");
     assert!(text.starts_with(&prefix), "{text:?} is not at line {line}");
@@ -119,153 +119,6 @@ fn a_setting_may_change_the_measure() {
     assert_eq!(by_stress.body2.coatings[0].material.E, 100.0 * p_H);
     let from_number = set(&["path.0.W=500", "path.1.T_x=10", "path.1.T_x.mu_W=0.5"]).unwrap();
     assert_eq!(from_number.path.branches[1].to.T_x, 0.5 * (0.3 * 500.0));
-}
-
-#[test]
-fn bad_settings_are_named() {
-    for (setting, part) in [
-        ("friction.mmu=0.5", "the nearest valid key is `friction.mu`"),
-        ("frition.mu=0.5", "the nearest valid key is `friction`"),
-        ("friction.mu", "of the form key=value"),
-        ("=1", "the key is empty"),
-        ("friction.mu=", "is not a TOML value"),
-        ("friction.mu=[1", "is not a TOML value"),
-        (
-            "friction.mu=high",
-            "friction.mu = \"high\": must be a number",
-        ),
-        (
-            "friction.mu.x=3",
-            "friction.mu = { x = 3 }: must be a number",
-        ),
-        ("body2.coatings.1.nu=0.2", "body2.coatings has 1 entries"),
-        ("body2.coatings.last.nu=0.2", "none is `last`"),
-        ("grid.n=0", "grid.n = 0: must be a whole number >= 1"),
-        (
-            "path.1.T_x.mu_W=1.2",
-            "path[1].T_x = 360: must be |T| <= mu W = 300",
-        ),
-    ] {
-        let error = set(&[setting]).unwrap_err();
-        assert!(matches!(&error, Error::Setting { setting: s, .. } if s == setting));
-        let text = error.to_string();
-        assert!(text.contains(part), "{text:?} lacks {part:?}");
-    }
-}
-
-#[test]
-fn unknown_keys_name_the_nearest() {
-    assert_refused(
-        changed("[friction]", "[frcition]"),
-        19,
-        &["unknown key `frcition`", "nearest valid key is `friction`"],
-    );
-    assert_refused(
-        changed("thickness =", "thicknes ="),
-        17,
-        &[
-            "unknown key `body2.coatings[0].thicknes`",
-            "nearest valid key is `body2.coatings[0].thickness`",
-        ],
-    );
-    assert_refused(
-        changed("T_x = {", "Tx = {"),
-        32,
-        &["unknown key `path[1].Tx`", "`path[1].T_x`"],
-    );
-    assert_refused(
-        changed("shape.sphere.R", "shape.sphere.radius"),
-        5,
-        &["`body1.shape.sphere.radius`", "`body1.shape.sphere.R`"],
-    );
-    assert_refused(
-        changed("{ a_H = 2.4 }", "{ a_h = 2.4 }"),
-        24,
-        &["grid.extent = { a_h = 2.4 }", "{ a_H = number }"],
-    );
-}
-
-/// What the good scene says; what it is changed to; the line; the key and value named; what is allowed.
-const WITHOUT_MEANING: &str = r#"
-E = 210e9;  E = -210e9;  6;  body1.E = -210000000000;  a positive modulus in Pa
-E = 210e9;  E = nan;  6;  body1.E = nan;  a number
-nu = 0.3;  nu = 0.5;  7;  body1.nu = 0.5;  -1 < nu < 0.5
-nu = 0.3;  nu = -1.0;  7;  body1.nu = -1;  -1 < nu < 0.5
-R = 0.018;  R = 0.0;  5;  body1.shape.sphere.R = 0;  a finite radius in m
-{ E_substrate = 2.0 };  -1.0;  15;  body2.coatings[0].E = -1;  a positive modulus
-{ E_substrate = 2.0 };  inf;  15;  body2.coatings[0].E = inf;  a finite modulus
-{ a_H = 1.0 };  0.0;  17;  body2.coatings[0].thickness = 0;  a positive length
-{ a_H = 1.0 };  { a_H = nan };  17;  thickness.a_H = nan;  a number
-mu = 0.3;  mu = -0.1;  20;  friction.mu = -0.1;  >= 0
-mu = 0.3;  mu = inf;  20;  friction.mu = inf;  a finite number >= 0
-n = 32;  n = 0;  23;  grid.n = 0;  a whole number >= 1
-n = 32;  n = [32, -2];  23;  grid.n[1] = -2;  a whole number >= 1
-n = 32;  n = [1, 2, 3];  23;  grid.n = [1, 2, 3];  two along x and y
-{ a_H = 2.4 };  -1e-3;  24;  grid.extent = -0.001;  a positive length
-W = 1000.0;  W = -1.0;  27;  path[0].W = -1;  a finite compressive force
-increments = 10;  increments = 0;  28;  path[0].increments = 0;  >= 1
-increments = 10;  increments = 1.5;  28;  path[0].increments = 1.5;  a whole number
-t = 0.1;  t = 0.0;  29;  path[0].t = 0;  a time after 0
-mu_W = 0.9;  mu_W = 1.1;  32;  path[1].T_x = 330;  |T| <= mu W = 300 N
-mu_W = 0.9;  a_H = 0.9;  32;  path[1].T_x = { a_H = 0.9 };  { mu_W = number }
-schema = 1;  schema = 2;  1;  schema = 2;  must be 1
-"flat";  "flot";  10;  body2.shape = "flot";  "flat" or a table such as { sphere
-"#;
-
-#[test]
-fn values_without_meaning_are_refused() {
-    let rows = WITHOUT_MEANING.trim().lines();
-    let mut count = 0;
-    for row in rows {
-        let parts: Vec<_> = row.split(';').map(str::trim).collect();
-        let [from, to, line, value, allowed] = parts[..] else {
-            panic!("{row}");
-        };
-        assert_refused(changed(from, to), line.parse().unwrap(), &[value, allowed]);
-        count += 1;
-    }
-    assert_eq!(count, 23);
-}
-
-#[test]
-fn missing_values_are_named() {
-    assert_refused(changed("E = 210e9\n", ""), 4, &["body1.E is missing"]);
-    assert_refused(changed("n = 32\n", ""), 22, &["grid.n is missing"]);
-    assert_refused(changed("schema = 1\n", ""), 1, &["schema is missing"]);
-    assert_refused(
-        changed("[friction]\nmu = 0.3\n", ""),
-        1,
-        &["friction is missing"],
-    );
-    assert_refused(
-        changed("extent = { a_H = 2.4 }", ""),
-        22,
-        &["grid.extent is missing"],
-    );
-    let both = changed("n = 32", "n = 32\nspacing = 1e-5");
-    assert_refused(both, 24, &["grid.extent and grid.spacing"]);
-}
-
-#[test]
-fn broken_toml_names_its_line() {
-    assert_refused(changed("mu = 0.3", "mu = = 0.3"), 20, &[]);
-    assert_refused(
-        changed("nu = 0.3", "nu = 0.3\nnu = 0.2"),
-        8,
-        &["duplicate key"],
-    );
-    assert_refused(changed("W = 1000.0", "W = 1e999"), 27, &[]);
-}
-
-#[test]
-fn a_missing_yardstick_is_named() {
-    let flat = changed("shape.sphere.R = 0.018", "shape = \"flat\"");
-    assert_refused(flat, 17, &["thickness is given in a_H", "no Hertz contact"]);
-    let rigid = GOOD
-        .replace("E = 210e9", "E = \"rigid\"")
-        .replace("{ a_H = 1.0 }", "1e-4");
-    let rigid = Scene::from_toml_str(&rigid, FILE, &[]);
-    assert_refused(rigid, 15, &["in E_substrate", "the substrate is rigid"]);
 }
 
 #[test]
