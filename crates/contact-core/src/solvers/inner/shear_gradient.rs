@@ -189,12 +189,13 @@ fn misfit(problem: &TangentialProblem<'_>, shear: &Shear<'_>, shift: [f64; 3]) -
         }
         count += 1;
         let slip = problem.slip(&shear.u, shift, n);
-        let squares = slip[0] * slip[0] + slip[1] * slip[1];
         if shear.slip[n] {
-            let along = (slip[0] * shear.q[0][n] + slip[1] * shear.q[1][n]) / g;
-            slipping += squares - along.min(0.0).powi(2);
+            let e = [shear.q[0][n] / g, shear.q[1][n] / g];
+            let along = slip[0] * e[0] + slip[1] * e[1];
+            let across = slip[0] * e[1] - slip[1] * e[0];
+            slipping += across * across + along.max(0.0).powi(2);
         } else {
-            stick += squares;
+            stick += slip[0] * slip[0] + slip[1] * slip[1];
         }
     }
     (((stick + slipping) / f64::from(count.max(1))).sqrt(), stick)
