@@ -67,7 +67,7 @@ fn ratio(a: f64, b: f64) -> f64 {
 
 /// First and last branch of every cycle of a load path: from a turning point, the first time that
 /// its loads, the motions given in place of loads and the bulk stresses return; cycles follow each
-/// other and do not overlap.
+/// other and do not overlap. A branch that changes nothing is no cycle.
 pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
     let ends: Vec<Loads> = std::iter::once(Loads::default())
         .chain(path.branches.iter().map(|b| b.to))
@@ -107,7 +107,7 @@ pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut start = 0;
     while start < ends.len() {
-        let back = (start + 1..ends.len()).find(|end| same(&ends[start], &ends[*end]));
+        let back = (start + 2..ends.len()).find(|end| same(&ends[start], &ends[*end]));
         match back {
             // Branch n ends at the n + 1st of the turning points.
             Some(end) => {
@@ -238,6 +238,8 @@ mod tests {
             .normal(2.0, 1);
         assert_eq!(cycles(&repeated), [(0, 1)]);
         assert!(cycles(&LoadPath::start().normal(1.0, 1)).is_empty());
+        let held = LoadPath::start().normal(1.0, 1).normal(1.0, 3);
+        assert!(cycles(&held).is_empty());
         let torsion = LoadPath::start()
             .normal(10.0, 1)
             .torsion(&[0.2, -0.2, 0.2], 10);

@@ -117,11 +117,12 @@ fn random_scenes_are_solved_or_refused() {
 /// Seeds of scenes that are hard to solve: slip in cells said to stick (192, 675, 833, 1192, 1544), coatings stiff as
 /// plates that the preconditioned normal solver did not settle (811, 821), minutes of work (932, 936),
 /// slip sets that went in circles for a thousand steps (401, 819, 1348), twins whose slip turned
-/// otherwise (2, 18), slip that turns back in a short increment after a long one (608, 1766).
+/// otherwise (2, 18), slip that turns back in a short increment after a long one (608, 1766), mirror images
+/// that all slip in balance (6544).
 #[test]
 fn scenes_that_are_hard_to_solve_are_solved() {
     let seeds = [
-        192, 675, 833, 1192, 1544, 811, 821, 932, 936, 401, 819, 1348, 2, 18, 608, 1766,
+        192, 675, 833, 1192, 1544, 811, 821, 932, 936, 401, 819, 1348, 2, 18, 608, 1766, 6544,
     ];
     for seed in seeds {
         let outcome = outcome(seed, &draw::draw(seed), 4 * LIMIT);
