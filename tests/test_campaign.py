@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).parent / "campaign"))
 
 from audit import Audit
 from draw import draw
-from run import campaign, told
+from run import campaign, fate, told
 
 SCENE = """
 schema = 1
@@ -66,3 +66,11 @@ def test_scenes_of_everything_are_solved_or_rightly_refused() -> None:
     """A slice of the campaign through scene files: `python tests/campaign/run.py 0 5000`."""
     lines, right = told(list(campaign(0, 80)))
     assert right, "\n".join(lines)
+
+
+def test_the_papers_method_solves_contacts_that_slide_far() -> None:
+    """Gross slip and a rotation many times the reach of the contact, under `spinu2020`."""
+    for seed in (449, 748, 768, 867, 1175, 1331):
+        assert "spinu2020" in draw(seed)
+        of = fate(seed)
+        assert of["fate"] == "solved", (seed, of)

@@ -115,6 +115,14 @@ def test_parts_are_read_back_as_they_were_given() -> None:
     assert not settings.skip.mirror
 
 
+def test_no_slip_is_said_as_in_scene_files() -> None:
+    held = sphere_on_flat().replace(mu="stick")
+    assert held.mu == math.inf
+    assert 'mu = "stick"' in held.to_toml()
+    with pytest.raises(TypeError, match='"stick" for no slip'):
+        sphere_on_flat().replace(mu="glued")
+
+
 def test_a_scene_survives_its_file() -> None:
     settings = fret.Settings(
         tolerance=1e-6, skip=fret.Skip(mirror=False), preset=fret.Preset.SPINU2020

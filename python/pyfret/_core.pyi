@@ -1414,8 +1414,8 @@ class Scene:
     ----------
     body1, body2 : Body
         The upper body (the indenter) and the lower one.
-    mu : float or Friction
-        Friction coefficient, >= 0, or a friction law.
+    mu : float, Friction or "stick"
+        Friction coefficient, >= 0, a friction law, or no slip.
     grid : Grid
         Mesh of the contact plane; it has to hold the contact.
     path : LoadPath, optional
@@ -1431,7 +1431,7 @@ class Scene:
         *,
         body1: Body,
         body2: Body,
-        mu: float | Friction,
+        mu: float | Friction | Literal["stick"],
         grid: Grid,
         path: LoadPath | None = None,
         settings: Settings | None = None,
@@ -1474,7 +1474,7 @@ class Scene:
         path: LoadPath | None = None,
         settings: Settings | None = None,
         save: _Save | None = None,
-        mu: float | Friction | None = None,
+        mu: float | Friction | Literal["stick"] | None = None,
         title: str | None = None,
     ) -> Scene:
         """The same scene with some of its parts exchanged."""

@@ -133,7 +133,7 @@ impl Friction {
     }
 }
 
-/// A coefficient or a law.
+/// A coefficient, a law, or `"stick"`, as in scene files.
 pub(crate) struct AnyFriction(pub(crate) core::Friction);
 
 impl<'py> FromPyObject<'_, 'py> for AnyFriction {
@@ -143,9 +143,14 @@ impl<'py> FromPyObject<'_, 'py> for AnyFriction {
         if let Ok(law) = value.extract::<Friction>() {
             return Ok(Self(law.0));
         }
-        let Ok(mu) = value.extract::<f64>() else {
-            let wanted =
-                "a coefficient, such as 0.3, or a law, such as Friction(0.3, kinetic=0.25)";
+        let sticks = value.extract::<&str>().is_ok_and(|word| word == "stick");
+        let mu = if sticks {
+            f64::INFINITY
+        } else if let Ok(mu) = value.extract() {
+            mu
+        } else {
+            let wanted = "a coefficient, such as 0.3, a law, such as Friction(0.3, kinetic=0.25), or \"stick\" \
+                          for no slip";
             return Err(must_be(&value, wanted));
         };
         let law = core::Friction::coulomb(mu);

@@ -18,8 +18,8 @@ use crate::reference::Hertz;
 /// ----------
 /// body1, body2 : Body
 ///     The upper body (the indenter) and the lower one.
-/// mu : float or Friction
-///     Friction coefficient, >= 0, or a friction law.
+/// mu : float, Friction or "stick"
+///     Friction coefficient, >= 0, a friction law, or no slip.
 /// grid : Grid
 ///     Mesh of the contact plane; it has to hold the contact.
 /// path : LoadPath, optional
