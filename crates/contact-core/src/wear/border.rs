@@ -22,12 +22,15 @@ use serde::{Deserialize, Serialize};
 
 use super::loss::Worn;
 use crate::cells::Lattice;
-use crate::zones::{SHRINKS, STICK, Stencil};
+use crate::zones::{Level, SHRINKS, STICK, Stencil};
 
 /// B over the difference of the responses to pressure of a cell and of the one beside it, `3 ln 3/pi dx/E*`.
 const STIFFENS: f64 = 1.643_621;
 /// How far from the border of the outermost of whole cells their edge lies, in cells.
 const WITHIN: f64 = 0.174_65;
+/// Where cells that fill a zone but for a part f of the next cell have all of its shear, the level of theirs vanishes
+/// f + FURTHER f^2 cells out: that of half-lines of cells for f below 0.9, to 0.006.
+const FURTHER: f64 = 0.36;
 
 /// A cell that the border runs through.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,32 +40,70 @@ pub(crate) struct Cut {
     inner: usize,
     /// Part that sticks, above 0 and below 1.
     share: f64,
-    /// Way that the part that slips does in a cycle, times that part, of a cell that the march has stick \[m\].
+    /// Way of the part that slips in a cycle, times that part, if the march has the whole cell stick \[m\].
     pub(crate) way: Option<f64>,
 }
 
+/// What tells where the border runs.
+pub(crate) struct Signs<'a> {
+    /// Cells that stick all through a cycle.
+    pub(crate) stick: &'a [bool],
+    /// What the shear falls short of its bound in all of it, over the coefficient of friction \[Pa\].
+    pub(crate) short: &'a [f64],
+    /// Way of each cell against the next \[m\].
+    pub(crate) apart: &'a [f64],
+    pub(crate) worn: &'a Worn,
+    /// Difference of the responses of a cell and of the one beside it \[m/Pa\].
+    pub(crate) response: f64,
+}
+
 impl Cut {
-    /// The cut cells of a line contact, by what the shear of each cell falls short of its bound all through a cycle
-    /// \[Pa\] and the way that each cell goes against the next in it \[m\].
-    pub(crate) fn cells(lattice: Lattice, stick: &[bool], short: &[f64], apart: &[f64]) -> Vec<Self> {
-        let stencils = [Stencil::ROOT, Stencil::LINEAR];
-        let edges = lattice.edges(stick, stencils, |_| (STICK, |n: usize| short[n]));
-        let cut = edges.into_iter().filter_map(|(cell, edge)| {
-            let level = edge.level.filter(|level| level.law == SHRINKS)?;
-            let inside = level.middle / level.gradient[0].abs() - level.bias;
-            let share = inside + 0.5 + WITHIN;
-            let line = level.line;
-            let slips = 1.0 - share;
-            // The slip grows linearly from the border to the middle of the next cell.
-            let way = || apart[cell.min(line.outside)] * slips * slips / (1.0 + 2.0 * slips);
-            (share > 0.0 && share < 1.0).then(|| Self {
-                cell,
-                inner: line.cells()[usize::from(stick[cell])],
-                share,
-                way: stick[cell].then(way),
-            })
-        });
-        cut.collect()
+    /// The cut cells of a line contact.
+    pub(crate) fn cells(lattice: Lattice, signs: &Signs<'_>) -> Vec<Self> {
+        let mut inside = signs.stick.to_vec();
+        for n in lattice.border(signs.stick) {
+            inside[n] = false;
+        }
+        // Next to the stick zone, and the outermost of it.
+        let zones = [signs.stick, &inside[..]];
+        let cut = |zone: &[bool]| -> Vec<Self> {
+            let stencils = [Stencil::ROOT, Stencil::LINEAR];
+            let edges = lattice.edges(zone, stencils, |_| (STICK, |n: usize| signs.short[n]));
+            let outside = edges.into_iter().filter(|(n, _)| !zone[*n]);
+            outside
+                .filter_map(|(n, edge)| Self::at(n, &edge.level?, signs))
+                .collect()
+        };
+        zones.map(cut).concat()
+    }
+
+    /// A cell next to a zone whose level is extrapolated to it, if the border runs through it.
+    fn at(cell: usize, level: &Level, signs: &Signs<'_>) -> Option<Self> {
+        let inner = level.line.outermost();
+        let mut cut = Self {
+            cell,
+            inner,
+            share: 0.0,
+            way: None,
+        };
+        let sticks = signs.stick[cell];
+        // The part of its shear that it does not take: all if it slips; if not, by how much it is worn.
+        let lacks = if sticks {
+            let worn = cut.deeper(signs.worn) / (STIFFENS * signs.response);
+            worn / (worn + signs.short[cell].max(0.0)).max(f64::MIN_POSITIVE)
+        } else {
+            1.0
+        };
+        let shown = level.middle / level.gradient[0].abs() + 0.5;
+        let part = 2.0 * shown / (1.0 + (1.0 + 4.0 * FURTHER * lacks * shown.max(0.0)).sqrt());
+        cut.share = part + WITHIN;
+        if sticks {
+            // The slip grows like a root from the border to the middle of the next cell, as it does on worn surfaces.
+            let slips = 1.0 - cut.share;
+            let mean = slips * (slips / (slips + 0.5)).sqrt() / 1.5;
+            cut.way = Some(signs.apart[cell.min((2 * cell).saturating_sub(inner))] * mean);
+        }
+        (level.law == SHRINKS && cut.share > 0.0 && cut.share < 1.0).then_some(cut)
     }
 
     /// 1/beta \[Pa/m\], given the difference of the responses of a cell and of the one beside it \[m/Pa\].

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::border::Cut;
+use super::border::{Cut, Signs};
+use super::loss::Worn;
 use super::pressing::Pressing;
 use crate::cells::{Lattice, size};
 use crate::march::{Increment, State};
@@ -43,7 +44,7 @@ pub(crate) struct Sums {
     shape: usize,
     /// The coefficient of friction where it is one.
     mu: Option<f64>,
-    /// Least that the shear falls short of its bound \[Pa\].
+    /// Least that the shear falls short of its bound, over the coefficient \[Pa\].
     short: Vec<f64>,
     /// Way of each cell against the next \[m\].
     apart: Vec<f64>,
@@ -107,15 +108,16 @@ impl Sums {
     fn add_to_border(&mut self, before: &Interface, now: &Interface) {
         let moved = |c: usize| [0, 1].map(|k| now.u[k][c] - before.u[k][c]);
         for c in 0..self.shape {
-            let bound = self.mu.map_or(0.0, |mu| mu * now.p[c]);
-            let short = bound - size([now.q[0][c], now.q[1][c]]);
-            self.short[c] = self.short[c].min(short);
+            if let Some(mu) = self.mu {
+                let short = now.p[c] - size([now.q[0][c], now.q[1][c]]) / mu;
+                self.short[c] = self.short[c].min(short);
+            }
             let [here, next] = [c, (c + 1).min(self.shape - 1)].map(moved);
             self.apart[c] += size([next[0] - here[0], next[1] - here[1]]);
         }
     }
 
-    pub(crate) fn cycled(self, pressing: &mut Pressing, coupled: bool) -> Cycled {
+    pub(crate) fn cycled(self, pressing: &mut Pressing, coupled: bool, worn: &Worn) -> Cycled {
         let mut cycled = self.cycled;
         cycled.dissipated.iter_mut().for_each(|d| *d = d.max(0.0));
         if let Some(mu) = self.mu {
@@ -123,12 +125,26 @@ impl Sums {
             let ways = cycled.pressed_way.iter_mut().zip(&cycled.dissipated);
             ways.for_each(|(way, dissipated)| *way = dissipated / mu);
         }
-        if self.mu.is_some() && pressing.grid.plane_strain {
-            let lattice = Lattice::new(&pressing.grid, pressing.mirror);
-            cycled.cuts = Cut::cells(lattice, &cycled.stick, &self.short, &self.apart);
-        }
         let weight = self.weight;
         cycled.p.iter_mut().for_each(|p| *p /= weight);
+        if let Some(mu) = self.mu.filter(|_| pressing.grid.plane_strain) {
+            let signs = Signs {
+                stick: &cycled.stick,
+                short: &self.short,
+                apart: &self.apart,
+                worn,
+                response: pressing.shortest_waves(),
+            };
+            cycled.cuts = Cut::cells(Lattice::new(&pressing.grid, pressing.mirror), &signs);
+            for cut in &cycled.cuts {
+                let c = cut.cell;
+                let way = cut
+                    .way
+                    .unwrap_or(cycled.pressed_way[c] / cycled.p[c].max(f64::MIN_POSITIVE));
+                let borne = cut.stiffness(signs.response) * cut.deeper(worn);
+                cycled.dissipated[c] = mu * way * (cycled.p[c] - borne).max(0.0);
+            }
+        }
         cycled.mean.iter_mut().for_each(|m| *m /= weight);
         if coupled {
             let u_p = pressing.response(&cycled.p);

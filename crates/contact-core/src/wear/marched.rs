@@ -226,7 +226,7 @@ impl Marched {
         self.cycles_solved += 1;
         let state = self.march.state().clone();
         let coupling = self.march.plan().coupling;
-        Ok((sums.cycled(&mut self.pressing, coupling), state))
+        Ok((sums.cycled(&mut self.pressing, coupling, worn), state))
     }
 
     /// How fast every cell wears per pressure; cells outside the contact as those beside them.
@@ -243,10 +243,12 @@ impl Marched {
             slips.then(|| cycled.dissipated[c] / cycled.pressed_way[c])
         });
         let mut way = outward(rows, cells, |c| pressed(c).then(|| cycled.way[c]));
-        for (cut, own) in cycled.cuts.iter().filter_map(|cut| Some((cut, cut.way?))) {
-            sigma[cut.cell] = own;
-            way[cut.cell] = own;
-            mu[cut.cell] = self.plain_mu.unwrap_or(0.0);
+        for cut in &cycled.cuts {
+            let c = cut.cell;
+            mu[c] = self.plain_mu.unwrap_or(mu[c]);
+            if let Some(own) = cut.way {
+                (sigma[c], way[c]) = (own, own);
+            }
         }
         let pressed_way: Vec<f64> = (0..cells)
             .map(|c| sigma[c] * cycled.p[c].max(1e-6 * largest))
