@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -26,18 +26,25 @@ POINTS = 20001
 class Worn(ABC):
     """What both contacts have in common."""
 
+    #: Of the half-width, to which the force of a Hertz contact grows.
+    power: ClassVar[int]
+
     def __init__(self, amplitude: float) -> None:
         self.amplitude = amplitude
 
     @property
-    @abstractmethod
     def c(self) -> float:
-        """Half-width of the stick zone."""
+        """Half-width of the stick zone, Cattaneo's (1 - T/(mu W))^(1/power)."""
+        return float((1 - self.amplitude) ** (1 / self.power))
 
     @property
-    @abstractmethod
     def punch(self) -> float:
-        """Pressure of the flat punch, times (c^2 - x^2)^(1/2)."""
+        """Pressure of the flat punch that carries the rest of W, times (c^2 - x^2)^(1/2).
+
+        Of a sphere 1 - c^3 of W = 2 pi a^2 p0/3 as P/(2 pi c) (c^2 - x^2)^(-1/2), of a cylinder
+        1 - c^2 of W = pi a p0/2 as P/pi (c^2 - x^2)^(-1/2).
+        """
+        return (1 - self.c**self.power) / (self.power * self.c ** (self.power - 2))
 
     @abstractmethod
     def overlap(self, x: Array) -> Array:
@@ -90,15 +97,7 @@ class Worn(ABC):
 class WornSphere(Worn):
     """A sphere on a flat."""
 
-    @property
-    def c(self) -> float:
-        """Cattaneo's stick radius (1 - T/(mu W))^(1/3)."""
-        return float(np.cbrt(1 - self.amplitude))
-
-    @property
-    def punch(self) -> float:
-        """The punch carries 1 - c^3 of W = 2 pi a^2 p0/3 as P/(2 pi c) (c^2 - x^2)^(-1/2)."""
-        return (1 - self.c**3) / (3 * self.c)
+    power = 3
 
     @property
     def approach(self) -> float:
@@ -120,15 +119,7 @@ class WornSphere(Worn):
 class WornCylinder(Worn):
     """A cylinder on a flat, plane strain."""
 
-    @property
-    def c(self) -> float:
-        """Stick half-width (1 - T/(mu W))^(1/2)."""
-        return float(np.sqrt(1 - self.amplitude))
-
-    @property
-    def punch(self) -> float:
-        """The punch carries 1 - c^2 of W = pi a p0/2 as P/pi (c^2 - x^2)^(-1/2)."""
-        return (1 - self.c**2) / 2
+    power = 2
 
     def overlap(self, x: Array) -> Array:
         """Minus the gap, whose slope is [(x^2 - c^2)^(1/2) - (1 - c^2)/2 (x^2 - c^2)^(-1/2)]."""

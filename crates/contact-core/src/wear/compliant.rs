@@ -121,7 +121,7 @@ impl ApproximateInverse for CompliantInverse {
 }
 
 /// The response to waves of two cells, about \[m/Pa\].
-fn shortest_waves(kernel: &InfluenceCoefficients) -> f64 {
+pub(crate) fn shortest_waves(kernel: &InfluenceCoefficients) -> f64 {
     let zz = &kernel.zz;
     let beside = zz.get((1, 0)).or_else(|| zz.get((0, 1)));
     zz[(0, 0)] - beside.copied().unwrap_or(0.0)

@@ -2,8 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::border::{Cut, Signs};
+use super::loss::Worn;
 use super::pressing::Pressing;
+use crate::cells::{Lattice, size};
 use crate::march::{Increment, State};
+use crate::solvers::Interface;
 
 /// What one cycle does to every kept cell.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -26,6 +30,8 @@ pub(crate) struct Cycled {
     pub(crate) stick_ratio: f64,
     /// Cells in contact that slip nowhere in the cycle.
     pub(crate) stick: Vec<bool>,
+    /// Cells of a line contact that the border of the stick zone runs through.
+    pub(crate) cuts: Vec<Cut>,
 }
 
 /// Sums over the increments of a cycle.
@@ -36,10 +42,16 @@ pub(crate) struct Sums {
     weight: f64,
     contact_area: f64,
     shape: usize,
+    /// The coefficient of friction where it is one.
+    mu: Option<f64>,
+    /// Least that the shear falls short of its bound, over the coefficient \[Pa\].
+    short: Vec<f64>,
+    /// Way of each cell against the next \[m\].
+    apart: Vec<f64>,
 }
 
 impl Sums {
-    pub(crate) fn new(cells: usize) -> Self {
+    pub(crate) fn new(cells: usize, mu: Option<f64>) -> Self {
         let field = || vec![0.0; cells];
         Self {
             cycled: Cycled {
@@ -55,10 +67,14 @@ impl Sums {
             weight: 0.0,
             contact_area: 0.0,
             shape: cells,
+            mu,
+            short: vec![f64::INFINITY; cells],
+            apart: field(),
         }
     }
 
     pub(crate) fn add(&mut self, before: &State, now: &State, increment: &Increment) {
+        self.add_to_border(&before.interface, &now.interface);
         let cycled = &mut self.cycled;
         // An increment that dissipates nothing counts a little, so that a contact that sticks has a mean.
         let weight = increment.energy.dissipated.max(0.0)
@@ -88,16 +104,47 @@ impl Sums {
         self.contact_area = increment.contact_area;
     }
 
-    pub(crate) fn cycled(self, pressing: &mut Pressing, coupled: bool, mu: Option<f64>) -> Cycled {
+    /// What tells where the border of the stick zone runs.
+    fn add_to_border(&mut self, before: &Interface, now: &Interface) {
+        let moved = |c: usize| [0, 1].map(|k| now.u[k][c] - before.u[k][c]);
+        for c in 0..self.shape {
+            if let Some(mu) = self.mu {
+                let short = now.p[c] - size([now.q[0][c], now.q[1][c]]) / mu;
+                self.short[c] = self.short[c].min(short);
+            }
+            let [here, next] = [c, (c + 1).min(self.shape - 1)].map(moved);
+            self.apart[c] += size([next[0] - here[0], next[1] - here[1]]);
+        }
+    }
+
+    pub(crate) fn cycled(self, pressing: &mut Pressing, coupled: bool, worn: &Worn) -> Cycled {
         let mut cycled = self.cycled;
         cycled.dissipated.iter_mut().for_each(|d| *d = d.max(0.0));
-        if let Some(mu) = mu {
+        if let Some(mu) = self.mu {
             // |q| = mu p wherever something slips: the energy, which the march reckons more closely, tells.
             let ways = cycled.pressed_way.iter_mut().zip(&cycled.dissipated);
             ways.for_each(|(way, dissipated)| *way = dissipated / mu);
         }
         let weight = self.weight;
         cycled.p.iter_mut().for_each(|p| *p /= weight);
+        if let Some(mu) = self.mu.filter(|_| pressing.grid.plane_strain) {
+            let signs = Signs {
+                stick: &cycled.stick,
+                short: &self.short,
+                apart: &self.apart,
+                worn,
+                response: pressing.shortest_waves(),
+            };
+            cycled.cuts = Cut::cells(Lattice::new(&pressing.grid, pressing.mirror), &signs);
+            for cut in &cycled.cuts {
+                let c = cut.cell;
+                let way = cut
+                    .way
+                    .unwrap_or(cycled.pressed_way[c] / cycled.p[c].max(f64::MIN_POSITIVE));
+                let borne = cut.stiffness(signs.response) * cut.deeper(worn);
+                cycled.dissipated[c] = mu * way * (cycled.p[c] - borne).max(0.0);
+            }
+        }
         cycled.mean.iter_mut().for_each(|m| *m /= weight);
         if coupled {
             let u_p = pressing.response(&cycled.p);

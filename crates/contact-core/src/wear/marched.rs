@@ -19,6 +19,7 @@ use std::sync::atomic::AtomicBool;
 
 use serde::{Deserialize, Serialize};
 
+use super::border::Cut;
 use super::cycled::{Cycled, Sums};
 use super::law::CellCycle;
 use super::loss::{Loss, Worn};
@@ -147,34 +148,37 @@ impl Marched {
     ) -> Result<Loss, Error> {
         let mut rates = self.rates(worn, cycles, &self.state.cycled)?;
         let mut p = self.state.cycled.p.clone();
+        let area = self.pressing.cell_area();
         if !implicit {
-            return Ok(self.loss(n, &rates, &p));
+            return Ok(self.takes(n, &rates, worn, &p).from(&rates, &p, area));
         }
         self.pressing.begin();
         let mut last: Option<Vec<f64>> = None;
         for correction in 0..=CORRECTIONS {
+            let takes = self.takes(n, &rates, worn, &p);
             let cells = self.h.len();
             let compliance: Vec<f64> = (0..cells)
-                .map(|c| n * (rates.k[0][c] + rates.k[1][c]) * rates.sigma[c])
+                .map(|c| (rates.k[0][c] + rates.k[1][c]) * takes.way[c])
                 .collect();
             let gap = self.gap(worn);
-            let h: Vec<f64> = gap.iter().zip(&rates.u_q).map(|(g, u)| g + u).collect();
+            let h: Vec<f64> = (0..cells)
+                .map(|c| gap[c] + rates.u_q[c] - compliance[c] * takes.borne[c])
+                .collect();
             self.pressing
                 .solve(&h, &compliance, rates.drive, &mut p, 1.0)?;
+            let loss = takes.from(&rates, &p, area);
             if correction == CORRECTIONS || last.as_ref().is_some_and(|last| agree(last, &p)) {
-                break;
+                self.p = p;
+                return Ok(loss);
             }
             last = Some(p.clone());
-            let loss = self.loss(n, &rates, &p);
             let mut end = worn.clone();
             end.add(&loss);
             let (cycled, _) = self.cycle(&end)?;
             rates = self.rates(worn, cycles, &cycled)?;
             self.state.cycled = cycled;
         }
-        let loss = self.loss(n, &rates, &p);
-        self.p = p;
-        Ok(loss)
+        unreachable!("the last correction returns")
     }
 
     /// What the last cycle did.
@@ -182,14 +186,21 @@ impl Marched {
         &self.state.cycled
     }
 
-    fn loss(&self, n: f64, rates: &Rates, p: &[f64]) -> Loss {
-        let way = |c: usize| n * rates.sigma[c] * p[c];
-        let depth = [0, 1].map(|b| (0..p.len()).map(|c| rates.k[b][c] * way(c)).collect());
-        let dissipated: f64 = (0..p.len()).map(|c| rates.mu[c] * way(c)).sum();
-        Loss {
-            depth,
-            dissipated: dissipated * self.pressing.cell_area(),
+    /// What a jump takes from the surfaces as they are, under about the pressure p.
+    fn takes(&self, n: f64, rates: &Rates, worn: &Worn, p: &[f64]) -> Takes {
+        let mut way: Vec<f64> = rates.sigma.iter().map(|sigma| n * sigma).collect();
+        let mut borne = vec![0.0; way.len()];
+        for cut in &rates.cuts {
+            let c = cut.cell;
+            let stiffness = cut.stiffness(self.pressing.shortest_waves());
+            borne[c] = stiffness * cut.deeper(worn);
+            way[c] = if p[c] > borne[c] {
+                way[c] / (1.0 + stiffness * (rates.k[0][c] + rates.k[1][c]) * way[c])
+            } else {
+                0.0
+            };
         }
+        Takes { way, borne }
     }
 
     fn gap(&self, worn: &Worn) -> Vec<f64> {
@@ -205,7 +216,7 @@ impl Marched {
         // The contact goes over to the worn surfaces; what slips thereby is of no cycle.
         advance(&mut self.march)?;
         let cells = self.h.len();
-        let mut sums = Sums::new(cells);
+        let mut sums = Sums::new(cells, self.plain_mu);
         let increments = self.march.points().len() - self.lead_in - 1;
         for _ in 0..increments {
             let before = self.march.state().clone();
@@ -215,10 +226,7 @@ impl Marched {
         self.cycles_solved += 1;
         let state = self.march.state().clone();
         let coupling = self.march.plan().coupling;
-        Ok((
-            sums.cycled(&mut self.pressing, coupling, self.plain_mu),
-            state,
-        ))
+        Ok((sums.cycled(&mut self.pressing, coupling, worn), state))
     }
 
     /// How fast every cell wears per pressure; cells outside the contact as those beside them.
@@ -227,14 +235,21 @@ impl Marched {
         let largest = cycled.p.iter().fold(0.0, |m: f64, p| m.max(*p));
         let pressed = |c: usize| cycled.p[c] > 1e-6 * largest && cycled.pressed_way[c] >= 0.0;
         let rows = self.pressing.rows();
-        let sigma = outward(rows, cells, |c| {
+        let mut sigma = outward(rows, cells, |c| {
             pressed(c).then(|| cycled.pressed_way[c] / cycled.p[c])
         });
-        let mu = outward(rows, cells, |c| {
+        let mut mu = outward(rows, cells, |c| {
             let slips = pressed(c) && cycled.pressed_way[c] > 0.0;
             slips.then(|| cycled.dissipated[c] / cycled.pressed_way[c])
         });
-        let way = outward(rows, cells, |c| pressed(c).then(|| cycled.way[c]));
+        let mut way = outward(rows, cells, |c| pressed(c).then(|| cycled.way[c]));
+        for cut in &cycled.cuts {
+            let c = cut.cell;
+            mu[c] = self.plain_mu.unwrap_or(mu[c]);
+            if let Some(own) = cut.way {
+                (sigma[c], way[c]) = (own, own);
+            }
+        }
         let pressed_way: Vec<f64> = (0..cells)
             .map(|c| sigma[c] * cycled.p[c].max(1e-6 * largest))
             .collect();
@@ -264,6 +279,7 @@ impl Marched {
             sigma,
             mu,
             u_q: cycled.u_q.clone(),
+            cuts: cycled.cuts.clone(),
             drive,
         })
     }
@@ -278,7 +294,29 @@ struct Rates {
     /// Energy dissipated over the pressed way.
     mu: Vec<f64>,
     u_q: Vec<f64>,
+    cuts: Vec<Cut>,
     drive: Drive,
+}
+
+/// What a jump takes: of each body k way (p - borne).
+struct Takes {
+    /// Way slipped in all its cycles \[m\].
+    way: Vec<f64>,
+    /// Pressure that wears nothing \[Pa\]: what the part of a cut cell that sticks bears.
+    borne: Vec<f64>,
+}
+
+impl Takes {
+    /// The loss under the pressure at its end.
+    fn from(&self, rates: &Rates, p: &[f64], cell_area: f64) -> Loss {
+        let way = |c: usize| self.way[c] * (p[c] - self.borne[c]).max(0.0);
+        let depth = [0, 1].map(|b| (0..p.len()).map(|c| rates.k[b][c] * way(c)).collect());
+        let dissipated: f64 = (0..p.len()).map(|c| rates.mu[c] * way(c)).sum();
+        Loss {
+            depth,
+            dissipated: dissipated * cell_area,
+        }
+    }
 }
 
 /// Whether two pressures agree.

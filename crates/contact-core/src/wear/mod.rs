@@ -10,6 +10,7 @@
 //! second order, and as long as the difference of both allows (`run`).
 
 mod block;
+mod border;
 mod compliant;
 mod cycled;
 mod events;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::compliant::{Compliant, CompliantInverse};
+use super::compliant::{Compliant, CompliantInverse, shortest_waves};
 use crate::cells::{Arms, Drive};
 use crate::convolution::{DcFft, Displacements, SurfaceOperator, Tractions};
 use crate::error::Error;
@@ -96,6 +96,11 @@ impl Pressing {
             },
         );
         u_z
+    }
+
+    /// Difference of the responses of a cell and of the one beside it \[m/Pa\].
+    pub(crate) fn shortest_waves(&self) -> f64 {
+        shortest_waves(&self.kernel)
     }
 
     /// Cells that follow one another along y.
