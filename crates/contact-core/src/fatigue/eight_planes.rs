@@ -29,6 +29,14 @@ pub(super) struct Swept<F> {
     pub(super) at: [Eight<F>; 3],
 }
 
+/// What two vectors a and b have of the stresses, for eight pairs: the most of a.S.b, and half the range of
+/// a.e.b, e being the strain.
+#[derive(Clone, Copy)]
+pub(super) struct Mixed<F> {
+    pub(super) normal_max: Eight<F>,
+    pub(super) strain_amplitude: Eight<F>,
+}
+
 /// The circle of three instants on a plane, and when one of at most this square need not be better.
 #[derive(Clone, Copy)]
 pub(super) struct OfThree {
@@ -93,6 +101,23 @@ impl<F: Real> Instants<F> {
                 strain,
             })
         }
+    }
+
+    /// a.S.b of eight pairs of vectors; a.e.b is `strain[0]` times it less `strain[1]` a.b times the sum of
+    /// the normal stresses.
+    pub(super) fn mixed(
+        &self,
+        a: &[Eight<f64>; 3],
+        b: &[Eight<f64>; 3],
+        strain: [f64; 2],
+    ) -> Mixed<F> {
+        let near = |v: &[Eight<f64>; 3]| v.map(|d| d.map(F::near));
+        self.arch.dispatch(Mix {
+            stress: &self.stress,
+            a: near(a),
+            b: near(b),
+            strain: strain.map(F::near),
+        })
     }
 
     /// Squares of radii of circles round the shear on each plane: the smallest circle's, or one
@@ -196,6 +221,60 @@ impl<F: Real, const SHEAR: bool, const STRAIN: bool> WithSimd for Sweep<'_, F, S
             strain_max,
             strain_min,
             at,
+        }
+    }
+}
+
+/// [`Instants::mixed`], compiled for the processor.
+struct Mix<'a, F> {
+    stress: &'a [[F; 6]],
+    a: [Eight<F>; 3],
+    b: [Eight<F>; 3],
+    strain: [F; 2],
+}
+
+impl<F: Real> WithSimd for Mix<'_, F> {
+    type Output = Mixed<F>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Mixed<F> {
+        let Self {
+            stress,
+            a,
+            b,
+            strain,
+        } = self;
+        let mut weights = [[F::near(0.0); LANES]; 6];
+        let mut across = [F::near(0.0); LANES];
+        for l in 0..LANES {
+            for c in 0..3 {
+                weights[c][l] = a[c][l] * b[c][l];
+                across[l] = across[l] - weights[c][l];
+            }
+            for (c, i, j) in [(3, 0, 1), (4, 0, 2), (5, 1, 2)] {
+                weights[c][l] = a[i][l] * b[j][l] + a[j][l] * b[i][l];
+            }
+        }
+        let [low, high] = [F::near(f64::NEG_INFINITY), F::near(f64::INFINITY)];
+        let mut normal_max = [low; LANES];
+        let (mut most, mut least) = (normal_max, [high; LANES]);
+        for s in stress {
+            let mut value = weighted(&weights, s);
+            F::raise(simd, &mut normal_max, &value);
+            let trace = strain[1] * (s[0] + s[1] + s[2]);
+            for l in 0..LANES {
+                value[l] = across[l].mul_add(trace, strain[0] * value[l]);
+            }
+            F::raise(simd, &mut most, &value);
+            F::lower(simd, &mut least, &value);
+        }
+        let mut strain_amplitude = most;
+        for l in 0..LANES {
+            strain_amplitude[l] = F::near(0.5) * (most[l] - least[l]);
+        }
+        Mixed {
+            normal_max,
+            strain_amplitude,
         }
     }
 }
