@@ -12,7 +12,7 @@
 //!
 //! For criteria that are products f is a sum of their parts ([`Tangent`]). Where that does not rule a
 //! triangle out, the bound of [`super::face_bound`] is taken, which counts how the corners differ, and
-//! then that of [`super::product_bound`] for the product of two forms. The triangles that may hold more
+//! then those of [`super::forms`]. The triangles that may hold more
 //! than the best plane known are cut into four until the bound is within the tolerance of the best.
 //! Planes are measured eight at a time, in single precision where rounding, which is added to what is
 //! measured, is small against the tolerance, and a circle is not made the smallest where its plane
@@ -25,7 +25,7 @@ use super::hemisphere::{Face, midway};
 use super::lanes::LANES;
 use super::limit::Limit;
 use super::path::dot;
-use super::plane_function::{Bend, Enough, NO_EDGE, Plane, PlaneFunction};
+use super::plane_function::{Bend, Enough, Known, NO_EDGE, Plane, PlaneFunction};
 use super::refine::{nearly, refine};
 use super::tangent::Tangent;
 
@@ -90,6 +90,7 @@ impl Search {
             f.to_double();
             bend = room.first_planes(f);
         }
+        let mut known = f.known(best.n, best.value, self.tolerance);
         let mut missed = 0.0;
         let mut seen = room.planes.len();
         for cuts in 0..=self.cuts {
@@ -97,9 +98,14 @@ impl Search {
                 planes, faces, cut, ..
             } = room;
             let among = if cuts == 0 { &start.faces } else { &*cut };
-            let parts = f.parts(best.n);
-            let tangent = f.tangent(parts);
-            let near = best.value + self.tolerance * best.value.abs();
+            if known.n != best.n {
+                known = f.known(best.n, best.value, self.tolerance);
+            }
+            let Known {
+                tangent,
+                values: [_, tied, near],
+                ..
+            } = known;
             faces.clear();
             let limit = Limit::of(&bend, tangent, best.value);
             for face in among {
@@ -108,14 +114,14 @@ impl Search {
                     faces.push(Face { most, ..*face });
                 }
             }
-            if f.has_forms() {
-                f.bounds(faces, planes, &tangent, [best.value, near]);
+            if !faces.is_empty() {
+                f.bounds(faces, planes, &known);
                 faces.retain(|face| face.most > best.value);
             }
             let most = faces.iter().fold(best.value, |m, face| m.max(face.most));
             missed = most - best.value;
-            let open = f.has_ties() && faces.len() <= FEW && missed > f.lead() * best.value.abs();
-            let done = best.value + missed <= near && !open;
+            let open = tied > best.value && faces.len() <= FEW && most > tied;
+            let done = most <= near && !open;
             if faces.is_empty() || done || cuts == self.cuts {
                 break;
             }

@@ -56,6 +56,12 @@ impl<F: Real> Instants<F> {
         }
     }
 
+    /// Takes other tensors than stresses, for [`Self::mixed`] alone.
+    pub(super) fn load_tensors(&mut self, tensors: impl Iterator<Item = [f64; 6]>) {
+        self.stress.clear();
+        self.stress.extend(tensors.map(|s| s.map(F::near)));
+    }
+
     /// Takes the stresses of a path.
     pub(super) fn load(&mut self, path: &Path) {
         self.stress.clear();
@@ -103,21 +109,44 @@ impl<F: Real> Instants<F> {
         }
     }
 
-    /// a.S.b of eight pairs of vectors; a.e.b is `strain[0]` times it less `strain[1]` a.b times the sum of
-    /// the normal stresses.
+    /// What eight pairs of vectors a and b have of the stresses. a.e.b is `strain[0]` times a.S.b less
+    /// `strain[1]` a.b times the sum of the normal stresses; without it the amplitude is 0.
     pub(super) fn mixed(
         &self,
         a: &[Eight<f64>; 3],
         b: &[Eight<f64>; 3],
-        strain: [f64; 2],
+        strain: Option<[f64; 2]>,
     ) -> Mixed<F> {
-        let near = |v: &[Eight<f64>; 3]| v.map(|d| d.map(F::near));
-        self.arch.dispatch(Mix {
-            stress: &self.stress,
-            a: near(a),
-            b: near(b),
-            strain: strain.map(F::near),
-        })
+        let mut weights = [[F::near(0.0); LANES]; 6];
+        let mut across = [F::near(0.0); LANES];
+        for l in 0..LANES {
+            let [a, b] = [a, b].map(|v| [v[0][l], v[1][l], v[2][l]].map(F::near));
+            for c in 0..3 {
+                weights[c][l] = a[c] * b[c];
+                across[l] = across[l] - weights[c][l];
+            }
+            for (c, i, j) in [(3, 0, 1), (4, 0, 2), (5, 1, 2)] {
+                weights[c][l] = a[i] * b[j] + a[j] * b[i];
+            }
+        }
+        let (arch, stress) = (self.arch, &self.stress);
+        if let Some(strain) = strain {
+            let strain = strain.map(F::near);
+            arch.dispatch(Mix::<F, true> {
+                stress,
+                weights,
+                across,
+                strain,
+            })
+        } else {
+            let strain = [F::near(0.0); 2];
+            arch.dispatch(Mix::<F, false> {
+                stress,
+                weights,
+                across,
+                strain,
+            })
+        }
     }
 
     /// Squares of radii of circles round the shear on each plane: the smallest circle's, or one
@@ -226,51 +255,45 @@ impl<F: Real, const SHEAR: bool, const STRAIN: bool> WithSimd for Sweep<'_, F, S
 }
 
 /// [`Instants::mixed`], compiled for the processor.
-struct Mix<'a, F> {
+struct Mix<'a, F, const STRAIN: bool> {
     stress: &'a [[F; 6]],
-    a: [Eight<F>; 3],
-    b: [Eight<F>; 3],
+    weights: [Eight<F>; 6],
+    /// -a.b.
+    across: Eight<F>,
     strain: [F; 2],
 }
 
-impl<F: Real> WithSimd for Mix<'_, F> {
+impl<F: Real, const STRAIN: bool> WithSimd for Mix<'_, F, STRAIN> {
     type Output = Mixed<F>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Mixed<F> {
         let Self {
             stress,
-            a,
-            b,
+            weights,
+            across,
             strain,
         } = self;
-        let mut weights = [[F::near(0.0); LANES]; 6];
-        let mut across = [F::near(0.0); LANES];
-        for l in 0..LANES {
-            for c in 0..3 {
-                weights[c][l] = a[c][l] * b[c][l];
-                across[l] = across[l] - weights[c][l];
-            }
-            for (c, i, j) in [(3, 0, 1), (4, 0, 2), (5, 1, 2)] {
-                weights[c][l] = a[i][l] * b[j][l] + a[j][l] * b[i][l];
-            }
-        }
         let [low, high] = [F::near(f64::NEG_INFINITY), F::near(f64::INFINITY)];
         let mut normal_max = [low; LANES];
         let (mut most, mut least) = (normal_max, [high; LANES]);
         for s in stress {
             let mut value = weighted(&weights, s);
             F::raise(simd, &mut normal_max, &value);
-            let trace = strain[1] * (s[0] + s[1] + s[2]);
-            for l in 0..LANES {
-                value[l] = across[l].mul_add(trace, strain[0] * value[l]);
+            if STRAIN {
+                let trace = strain[1] * (s[0] + s[1] + s[2]);
+                for l in 0..LANES {
+                    value[l] = across[l].mul_add(trace, strain[0] * value[l]);
+                }
+                F::raise(simd, &mut most, &value);
+                F::lower(simd, &mut least, &value);
             }
-            F::raise(simd, &mut most, &value);
-            F::lower(simd, &mut least, &value);
         }
-        let mut strain_amplitude = most;
-        for l in 0..LANES {
-            strain_amplitude[l] = F::near(0.5) * (most[l] - least[l]);
+        let mut strain_amplitude = [F::near(0.0); LANES];
+        if STRAIN {
+            for l in 0..LANES {
+                strain_amplitude[l] = F::near(0.5) * (most[l] - least[l]);
+            }
         }
         Mixed {
             normal_max,

@@ -5,6 +5,7 @@
 //! [`Criterion`] to all points in parallel; [`Assessment`] has a criterion's weights, limit and
 //! lives from a [`Material`]; [`yielding`] gives load factors of first yield and shakedown.
 
+mod acting;
 mod assessment;
 mod at_point;
 mod ball;
@@ -15,9 +16,11 @@ mod critical_plane;
 mod eight_planes;
 mod evaluate;
 mod face_bound;
+mod forms;
 mod hemisphere;
 mod invariants;
 mod lanes;
+mod law;
 mod life;
 mod limit;
 mod material;
@@ -27,6 +30,7 @@ mod plane_function;
 mod product_bound;
 mod refine;
 mod shakedown;
+mod shear_bound;
 mod tangent;
 
 pub use assessment::{Assessment, CRITERIA, Judge, strain_life};

@@ -6,40 +6,33 @@
 //! most (1 + nu)/E D, D bounding Tresca's stress of the deviation of any instant from a constant
 //! stress (derived).
 
-use super::circle::{Circles, half_chord};
+use super::circle::Circles;
 use super::criterion::Criterion;
 use super::eight_planes::{Instants, OfThree};
+use super::forms::{EDGES, corners_of};
 use super::hemisphere::{COARSE, FINE, Face, Hemisphere};
-use super::lanes::{LANES, Lanes, Real};
+use super::lanes::{LANES, Lanes, ROUNDING, Real};
+use super::law::{Law, TIE};
 use super::path::{Frame, Path, normal_weights};
-use super::plane_function::{Bend, Enough, Plane, PlaneFunction};
-use super::product_bound::ProductBound;
+use super::plane_function::{Bend, Enough, Known, Plane, PlaneFunction};
+use super::product_bound::product_bounds;
 use super::refine::{Deciding, First};
+use super::shear_bound::About;
 use super::tangent::Tangent;
 use crate::fields::StressTensor;
-
-/// Weight of the second quantity where the plane is that of the largest first one: enough to choose
-/// between equal planes, and too little to move the plane by more than this.
-const TIE: f64 = 1e-7;
-
-/// [`PlaneFunction::lead`] where planes tie: more than TIE, and than what tops of pieces are off before
-/// they are refined.
-const TIED: f64 = 2e-5;
 
 /// [`PlaneFunction::lead`] of products, whose faces are large: 3 of 1000 cycles of two random harmonics
 /// keep a plane that is not the best (by 3e-4 at most), 16 with 0.
 const LEAD: f64 = 0.01;
 
-/// Rounding of a stress on a plane, in spacings of the numbers next to 1 and largest components: a
-/// sum of nine products whose factors are rounded, counted generously.
-const ROUNDING: f64 = 32.0;
-
 /// Room for the shear path on a plane, and for eight planes in single and double precision.
 pub(super) struct ShearRoom {
-    shear: Vec<[Lanes; 2]>,
-    circles: Circles,
+    pub(super) shear: Vec<[Lanes; 2]>,
+    pub(super) circles: Circles,
     single: Instants<f32>,
     double: Instants<f64>,
+    /// What [`About`] needs.
+    squares: Instants<f32>,
 }
 
 impl Default for ShearRoom {
@@ -49,19 +42,9 @@ impl Default for ShearRoom {
             circles: Circles::default(),
             single: Instants::new(),
             double: Instants::new(),
+            squares: Instants::new(),
         }
     }
-}
-
-/// How the criterion follows from the two parts.
-#[derive(Clone, Copy, Debug)]
-enum Law {
-    /// a + w b.
-    Sum(f64),
-    /// a b where b > 0.
-    Product,
-    /// a (1 + w b) where that is positive.
-    Raised(f64),
 }
 
 /// A criterion on the planes of one point.
@@ -77,6 +60,9 @@ pub(super) struct OnPlanes<'a> {
     /// Largest component of any instant.
     size: f64,
     in_double: bool,
+    /// The best plane, and the squares about it, where they are of use.
+    best: [f64; 3],
+    about: Option<About>,
 }
 
 impl<'a> OnPlanes<'a> {
@@ -114,6 +100,8 @@ impl<'a> OnPlanes<'a> {
             tresca,
             size: path.size(),
             in_double: false,
+            best: [0.0; 3],
+            about: None,
         })
     }
 
@@ -191,6 +179,53 @@ impl<'a> OnPlanes<'a> {
         }
     }
 
+    /// No plane has more of the second part: no component of a unit normal is larger than 1.
+    fn most_of_second(&self) -> f64 {
+        let of_stress = self.strain.map_or(1.0, |[along, across]| along + across);
+        3.0 * of_stress * self.size
+    }
+
+    /// Bounds about the best plane, where two instants make its circle, as long as they help.
+    fn shear_bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &Known) {
+        if self.best != known.n {
+            self.best = known.n;
+            let First::Shear(_, [a, b, c]) = self.deciding(known.n).first else {
+                return;
+            };
+            let two = if a == b {
+                Some([a, c])
+            } else {
+                (b == c).then_some([a, b])
+            };
+            self.about = two.map(|on| About::plane(known.n, on, self.path, &mut self.room.squares));
+        }
+        let Some(about) = &self.about else {
+            return;
+        };
+        let slack = self.slack()[1];
+        let second = |eight: &[Face]| {
+            if self.law.tie() > 0.0 {
+                // It counts for next to nothing: what it is at most anywhere is enough.
+                return [[self.most_of_second(); LANES]; 3];
+            }
+            let corners = corners_of(eight);
+            EDGES.map(|(i, j)| {
+                let (a, b) = (&corners[i], &corners[j]);
+                let normal_max = if self.in_double {
+                    self.room.double.mixed(a, b, None).normal_max
+                } else {
+                    let mixed = self.room.single.mixed(a, b, None);
+                    mixed.normal_max.map(f64::from)
+                };
+                normal_max.map(|most| most + slack)
+            })
+        };
+        let parts = [self.shear_scale, known.parts[0].max(f64::MIN_POSITIVE)];
+        if !about.bounds(&self.room.squares, parts, second, (faces, planes), known) {
+            self.about = None;
+        }
+    }
+
     /// Half the range of the normal strain on a plane.
     fn strain_amplitude(&self, n: [f64; 3], strain: [f64; 2]) -> f64 {
         self.path.range(&strain_weights(n, strain)).amplitude()
@@ -261,42 +296,30 @@ impl PlaneFunction for OnPlanes<'_> {
         self.room.double.load(self.path);
     }
 
-    fn value(&self, [a, b]: [f64; 2]) -> f64 {
-        match self.law {
-            Law::Sum(weight) => a + weight * b,
-            Law::Product => a * b.max(0.0),
-            Law::Raised(weight) => a * (1.0 + weight * b).max(0.0),
-        }
+    fn value(&self, parts: [f64; 2]) -> f64 {
+        self.law.value(parts)
     }
 
-    fn has_forms(&self) -> bool {
-        matches!(self.law, Law::Product)
-    }
-
-    fn bounds(&self, faces: &mut [Face], planes: &[Plane], tangent: &Tangent, values: [f64; 2]) {
-        let product = ProductBound {
-            strain: self.strain.unwrap_or_default(),
-            slack: self.slack(),
-            tangent,
-            values,
-        };
-        if self.in_double {
-            product.bounds(&self.room.double, faces, planes);
+    fn bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &Known) {
+        if self.has_shear {
+            self.shear_bounds(faces, planes, known);
         } else {
-            product.bounds(&self.room.single, faces, planes);
+            let (strain, slack) = (self.strain.unwrap_or_default(), self.slack());
+            let on = (faces, planes);
+            if self.in_double {
+                product_bounds(&self.room.double, strain, slack, on, known);
+            } else {
+                product_bounds(&self.room.single, strain, slack, on, known);
+            }
         }
     }
 
     fn lead(&self) -> f64 {
-        match self.law {
-            Law::Product => LEAD,
-            Law::Sum(_) if self.has_ties() => TIED,
-            Law::Sum(_) | Law::Raised(_) => 0.0,
-        }
+        if self.has_shear { self.law.tie() } else { LEAD }
     }
 
-    fn has_ties(&self) -> bool {
-        matches!(self.law, Law::Sum(weight) if weight == TIE)
+    fn tie(&self) -> f64 {
+        self.law.tie()
     }
 
     fn piece(&self, instants: [usize; 6]) -> Deciding {
@@ -334,11 +357,7 @@ impl PlaneFunction for OnPlanes<'_> {
     }
 
     fn tangent(&self, parts: [f64; 2]) -> Tangent {
-        match self.law {
-            Law::Sum(weight) => Tangent::sum(weight),
-            Law::Product => Tangent::of_product(0.0, 1.0, parts),
-            Law::Raised(weight) => Tangent::of_product(1.0, weight, parts),
-        }
+        self.law.tangent(parts)
     }
 
     fn bend(&self, largest: f64, sag: f64) -> Bend {
@@ -369,26 +388,4 @@ fn strain_weights(n: [f64; 3], [along, across]: [f64; 2]) -> [f64; 6] {
         *w -= across;
     }
     weights
-}
-
-/// What acts on the plane of a unit normal, for people.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Acting {
-    pub(super) shear_amplitude: f64,
-    pub(super) shear_chord: f64,
-    pub(super) normal_max: f64,
-    pub(super) normal_min: f64,
-}
-
-impl Acting {
-    pub(super) fn on(path: &Path, n: [f64; 3], room: &mut ShearRoom) -> Self {
-        path.resolve(&Frame::across(n), &mut room.shear);
-        let normal = path.normal(n);
-        Self {
-            shear_amplitude: room.circles.round(&room.shear).radius,
-            shear_chord: half_chord(&room.shear),
-            normal_max: normal.max,
-            normal_min: normal.min,
-        }
-    }
 }

@@ -32,6 +32,18 @@ pub(super) struct Enough {
     pub(super) sum: f64,
 }
 
+/// The best plane known.
+#[derive(Clone, Copy)]
+pub(super) struct Known {
+    pub(super) n: [f64; 3],
+    pub(super) parts: [f64; 2],
+    /// At the parts.
+    pub(super) tangent: Tangent,
+    /// Its value, the one from which on planes tie with it, and the one that is within the tolerance:
+    /// what is not above these need not be known better.
+    pub(super) values: [f64; 3],
+}
+
 /// Bounds on second derivatives of the parts along great circles, which are nowhere below -K, and on
 /// their slopes, up and down.
 #[derive(Clone, Copy, Debug)]
@@ -59,21 +71,30 @@ pub(super) trait PlaneFunction {
     /// The bounds, from the largest first part on the first planes and the largest 1/cos r - 1 of
     /// their triangles.
     fn bend(&self, largest: f64, sag: f64) -> Bend;
-    /// Whether forms of the corners bound it on a face, closer than second derivatives do.
-    fn has_forms(&self) -> bool;
-    /// Finds by those what the faces may hold: no more than the first value, or the second, or else
-    /// some bound.
-    fn bounds(&self, faces: &mut [Face], planes: &[Plane], tangent: &Tangent, values: [f64; 2]);
+    /// Lowers what the faces may hold, where forms of their corners prove that.
+    fn bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &Known);
     /// Tops of pieces that are lower than the best by less than this part of it are refined: they may
     /// lead to a better one.
     fn lead(&self) -> f64;
-    /// Whether a second quantity chooses between planes of equal first ones: complementary planes
-    /// have the same shear.
-    fn has_ties(&self) -> bool;
+    /// Part of the value from which on planes tie and a second quantity chooses, since complementary
+    /// planes have the same shear; 0 where none does.
+    fn tie(&self) -> f64;
     /// The piece of instants.
     fn piece(&self, instants: [usize; 6]) -> Deciding;
     /// The piece of the instants that decide on the plane of a unit normal, to rounding.
     fn deciding(&mut self, n: [f64; 3]) -> Deciding;
+
+    /// What is known of the best plane.
+    fn known(&mut self, n: [f64; 3], value: f64, tolerance: f64) -> Known {
+        let parts = self.parts(n);
+        let above = |share: f64| value + share * value.abs();
+        Known {
+            n,
+            parts,
+            tangent: self.tangent(parts),
+            values: [value, above(self.tie()), above(tolerance)],
+        }
+    }
 
     /// The criterion on the plane of a unit normal, to rounding.
     fn at(&mut self, n: [f64; 3]) -> f64 {

@@ -46,11 +46,6 @@ impl Tangent {
         }
     }
 
-    /// Whether it bounds anything.
-    pub(super) fn is_some(&self) -> bool {
-        self.constant.is_finite()
-    }
-
     /// The sum of two parts.
     pub(super) fn of(&self, [a, b]: [f64; 2]) -> f64 {
         self.first * a + self.second * b + self.constant

@@ -199,6 +199,39 @@ fn little_tension_beside_much_pressure() {
     }
 }
 
+/// Where two instants make the circle, the bounds are those about the best plane.
+#[test]
+fn in_proportion_and_nearly_so() {
+    let mut draw = Draw(43);
+    let tolerance = Search::default().tolerance;
+    for share in [0.0, 1e-3, 0.05] {
+        let (part, rest) = (smooth(&mut draw, 2), smooth(&mut draw, 6));
+        let history: Vec<Tensor> = (0..6)
+            .map(|t| {
+                let cos = (std::f64::consts::PI * t as f64 / 5.0).cos();
+                std::array::from_fn(|c| part[0][c] + cos * part[1][c] + share * rest[t][c])
+            })
+            .collect();
+        for criterion in all().into_iter().filter(searches) {
+            let found = one(&criterion, &history);
+            let ours = sought(&criterion, &found);
+            let brute = normals(200_000)
+                .map(|n| on_plane(&criterion, &history, n).0)
+                .fold(f64::NEG_INFINITY, f64::max);
+            assert!(
+                ours >= brute - 1e-9 * brute.abs(),
+                "{criterion:?} {share}: {ours} {brute}"
+            );
+            assert!(
+                ours - brute < tolerance * ours,
+                "{criterion:?} {share}: {ours} {brute}"
+            );
+            // A few triangles at most are left after the first 81 planes.
+            assert!(found.planes < 180, "{criterion:?} {share}: {found:?}");
+        }
+    }
+}
+
 /// Without tension on any plane the product is 0, and that is proved.
 #[test]
 fn no_tension_no_product() {
