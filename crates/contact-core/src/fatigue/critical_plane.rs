@@ -10,20 +10,24 @@
 //!
 //! f(n) <= largest f of the corners + K (1/cos r - 1) in the triangle of circumradius r.
 //!
-//! Where that does not rule a triangle out, the bound of [`most_on`] is taken, which counts how the
-//! corners differ. The triangles that may hold more than the best plane known are cut into four until
-//! the bound is within the tolerance of the best. Planes are measured eight at a time, in single
-//! precision where rounding, which is added to what is measured, is small against the tolerance, and
-//! a circle is not made the smallest where its plane cannot matter. What is left is refined: the instants that decide on a plane
-//! make a smooth function of it, a piece, whose top Newton's steps find; where other instants decide
-//! there, their piece is next. The largest value of several smooth functions is the top of one of
-//! them, so the place is found to rounding, much nearer than what is proved.
+//! For criteria that are products f is a sum of their parts ([`Tangent`]). Where that does not rule a
+//! triangle out, the bound of [`super::face_bound`] is taken, which counts how the corners differ, and
+//! then those of [`super::forms`]. The triangles that may hold more
+//! than the best plane known are cut into four until the bound is within the tolerance of the best.
+//! Planes are measured eight at a time, in single precision where rounding, which is added to what is
+//! measured, is small against the tolerance, and a circle is not made the smallest where its plane
+//! cannot matter. What is left is refined: the instants that decide on a plane make a smooth function of
+//! it, a piece, whose top Newton's steps find; where other instants decide there, their piece is next.
+//! The largest value of several smooth functions is the top of one of them, so the place is found to
+//! rounding, much nearer than what is proved.
 
-use super::face_bound::most_on;
-use super::hemisphere::{Face, HEMISPHERE, midway};
+use super::hemisphere::{Face, midway};
 use super::lanes::LANES;
+use super::limit::Limit;
 use super::path::dot;
-use super::refine::{Deciding, nearly, refine};
+use super::plane_function::{Bend, Enough, Known, NO_EDGE, Plane, PlaneFunction};
+use super::refine::{nearly, refine};
+use super::tangent::Tangent;
 
 /// How far the search goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +35,7 @@ pub struct Search {
     /// Largest part of the value by which a plane may be proved better than the one found
     /// (default: 1e-3). The plane found is usually the best one to rounding.
     pub tolerance: f64,
-    /// Times the first 160 triangles may be cut into four (default: 12).
+    /// Times the first triangles may be cut into four (default: 12).
     pub cuts: usize,
 }
 
@@ -41,68 +45,6 @@ impl Default for Search {
             tolerance: 1e-3,
             cuts: 12,
         }
-    }
-}
-
-/// A plane that was looked at.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Plane {
-    /// Unit normal.
-    pub(super) n: [f64; 3],
-    /// Two quantities, and the criterion, which rises with both: no less than they are.
-    pub(super) parts: [f64; 2],
-    pub(super) value: f64,
-    /// The criterion is no less than this.
-    pub(super) low: f64,
-    /// The instants that decide, as in [`Deciding`]; before it is measured a guess.
-    pub(super) instants: [usize; 6],
-    /// First of the edges that have this as the end of the smaller number.
-    edge: usize,
-}
-
-/// A plane whose first part and value are at most these need not be known better.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Enough {
-    pub(super) first: f64,
-    pub(super) value: f64,
-}
-
-/// Bounds on second derivatives along great circles: those are nowhere below -K.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bend {
-    pub(super) parts: [f64; 2],
-    pub(super) value: f64,
-    /// Bound on slopes of the value, up and down.
-    pub(super) slope: f64,
-}
-
-/// A criterion on planes.
-pub(super) trait PlaneFunction {
-    /// Parts and values of planes, of which some need to be no better than `enough`.
-    fn measure(&mut self, planes: &mut [Plane], enough: Enough);
-    /// What rounding may add to the value of these parts as measured.
-    fn rounding(&self, parts: [f64; 2]) -> f64;
-    /// Measures in double precision from here on.
-    fn to_double(&mut self);
-    /// The two quantities on the plane of a unit normal, to rounding.
-    fn parts(&mut self, n: [f64; 3]) -> [f64; 2];
-    /// The criterion, which rises with both.
-    fn value(&self, parts: [f64; 2]) -> f64;
-    /// The bounds, from the largest parts on the first planes and the largest 1/cos r - 1 of their
-    /// triangles.
-    fn bend(&self, largest: [f64; 2], sag: f64) -> Bend;
-    /// Whether a second quantity chooses between planes of equal first ones: complementary planes
-    /// have the same shear.
-    fn has_ties(&self) -> bool;
-    /// The piece of instants.
-    fn piece(&self, instants: [usize; 6]) -> Deciding;
-    /// The piece of the instants that decide on the plane of a unit normal, to rounding.
-    fn deciding(&mut self, n: [f64; 3]) -> Deciding;
-
-    /// The criterion on the plane of a unit normal, to rounding.
-    fn at(&mut self, n: [f64; 3]) -> f64 {
-        let parts = self.parts(n);
-        self.value(parts)
     }
 }
 
@@ -129,8 +71,6 @@ pub(super) struct Room {
     tried: Vec<([usize; 6], [f64; 3])>,
 }
 
-/// No edge.
-const NONE: usize = usize::MAX;
 /// Triangles that are so few that they are cut on beyond the tolerance where planes may tie.
 const FEW: usize = 48;
 /// Planes nearer to each other than this cosine, 18 degrees, lead to the same top of a piece.
@@ -138,32 +78,19 @@ const NEAR: f64 = 0.95;
 /// Pieces whose top is refined at most.
 const PIECES: usize = 24;
 
-impl Plane {
-    /// Not yet measured.
-    fn of(n: [f64; 3], instants: [usize; 6]) -> Self {
-        Self {
-            n,
-            parts: [f64::NAN; 2],
-            value: f64::NAN,
-            low: f64::NAN,
-            instants,
-            edge: NONE,
-        }
-    }
-}
-
 impl Search {
     /// The plane on which `f` is largest.
     pub(super) fn peak(&self, f: &mut impl PlaneFunction, room: &mut Room) -> Peak {
-        let start = &*HEMISPHERE;
+        let start = f.start();
         room.tried.clear();
         let mut bend = room.first_planes(f);
-        let first = room.planes[room.best(0..room.planes.len())];
-        if f.rounding(first.parts) > 0.05 * self.tolerance * first.value.abs() {
+        let mut best = room.refined(f, room.best(0..room.planes.len()));
+        // Of a value that is 0 nothing tells what rounding may hide.
+        if f.rounding(best.n) >= 0.05 * self.tolerance * best.value.abs() {
             f.to_double();
             bend = room.first_planes(f);
         }
-        let mut best = room.refined(f, room.best(0..room.planes.len()));
+        let mut known = f.known(best.n, best.value, self.tolerance);
         let mut missed = 0.0;
         let mut seen = room.planes.len();
         for cuts in 0..=self.cuts {
@@ -171,18 +98,30 @@ impl Search {
                 planes, faces, cut, ..
             } = room;
             let among = if cuts == 0 { &start.faces } else { &*cut };
-            let mut most = best.value;
+            if known.n != best.n {
+                known = f.known(best.n, best.value, self.tolerance);
+            }
+            let Known {
+                tangent,
+                values: [_, tied, near],
+                ..
+            } = known;
             faces.clear();
+            let limit = Limit::of(&bend, tangent, best.value);
             for face in among {
-                let bound = bound(f, face, planes, &bend, best.value);
-                if bound > best.value {
-                    most = most.max(bound);
-                    faces.push(*face);
+                let most = limit.bound(f, face, planes);
+                if most > best.value {
+                    faces.push(Face { most, ..*face });
                 }
             }
+            if !faces.is_empty() {
+                f.bounds(faces, planes, &known);
+                faces.retain(|face| face.most > best.value);
+            }
+            let most = faces.iter().fold(best.value, |m, face| m.max(face.most));
             missed = most - best.value;
-            let few = if f.has_ties() { FEW } else { 0 };
-            let done = missed <= self.tolerance * best.value.abs() && faces.len() > few;
+            let open = tied > best.value && faces.len() <= FEW && most > tied;
+            let done = most <= near && !open;
             if faces.is_empty() || done || cuts == self.cuts {
                 break;
             }
@@ -190,7 +129,8 @@ impl Search {
             let sag = room.cut.iter().map(|f| f.sag).fold(0.0, f64::max);
             let enough = Enough {
                 first: f64::INFINITY,
-                value: best.value - bend.value * sag,
+                tangent,
+                sum: tangent.sum_of(best.value) - bend.of(&tangent) * sag,
             };
             f.measure(&mut room.planes[seen..], enough);
             let higher = room.best(seen..room.planes.len());
@@ -212,37 +152,19 @@ impl Search {
     }
 }
 
-/// No plane in the face has more; not the least such number where it is below the best.
-fn bound(f: &impl PlaneFunction, face: &Face, planes: &[Plane], bend: &Bend, best: f64) -> f64 {
-    let [a, b, c] = face.planes;
-    let [a, b, c] = [&planes[a], &planes[b], &planes[c]];
-    let most = |a: f64, b: f64, c: f64| a.max(b).max(c);
-    let whole = most(a.value, b.value, c.value) + bend.value * face.sag;
-    if whole <= best {
-        return whole;
-    }
-    let low = most(a.low, b.low, c.low) - bend.slope * 2.0 * (2.0 * face.sag).sqrt();
-    let whole = most_on(face, [a.value, b.value, c.value], low, bend.value);
-    if whole <= best {
-        return whole;
-    }
-    let part = |k: usize| most(a.parts[k], b.parts[k], c.parts[k]) + bend.parts[k] * face.sag;
-    let parts = [part(0), part(1)];
-    whole.min(f.value(parts))
-}
-
 impl Room {
     /// Measures the first planes, and the bounds that follow. Where a plane cannot matter, its circle
     /// is not made the smallest.
     fn first_planes(&mut self, f: &mut impl PlaneFunction) -> Bend {
-        let start = &*HEMISPHERE;
+        let start = f.start();
         self.planes.clear();
         self.planes
             .extend(start.planes.iter().map(|n| Plane::of(*n, [0; 6])));
-        let (mut largest, mut best) = ([f64::NEG_INFINITY; 2], f64::NEG_INFINITY);
+        let (mut largest, mut best) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
         let mut enough = Enough {
             first: f64::NEG_INFINITY,
-            value: f64::NEG_INFINITY,
+            tangent: Tangent::NONE,
+            sum: f64::NEG_INFINITY,
         };
         let mut instants = [0; 6];
         for planes in self.planes.chunks_mut(LANES) {
@@ -251,14 +173,15 @@ impl Room {
             }
             f.measure(planes, enough);
             for plane in &*planes {
-                largest = [0, 1].map(|k| plane.parts[k].max(largest[k]));
-                best = plane.value.max(best);
+                largest = plane.parts[0].max(largest);
+                if plane.value > best {
+                    (best, enough.tangent) = (plane.value, f.tangent(plane.parts));
+                }
             }
             instants = planes[planes.len() - 1].instants;
-            enough = Enough {
-                first: largest[0],
-                value: best - f.bend(largest, start.sag).value * start.sag,
-            };
+            let K = f.bend(largest, start.sag).of(&enough.tangent);
+            enough.first = largest;
+            enough.sum = enough.tangent.sum_of(best) - K * start.sag;
         }
         f.bend(largest, start.sag)
     }
@@ -319,8 +242,9 @@ impl Room {
             }
             self.tried.push((instants, n));
             let piece = f.piece(instants);
-            let (_, top) = nearly(&|n| f.value(piece.quick_parts(n)), n, best.value);
-            if top > best.value {
+            let enough = best.value - f.lead() * best.value.abs();
+            let (_, top) = nearly(&|n| f.value(piece.quick_parts(n)), n, enough);
+            if top > enough {
                 let other = self.refined(f, plane);
                 if other.value > best.value {
                     *best = other;
@@ -333,7 +257,7 @@ impl Room {
     fn cut(&mut self) {
         self.edges.clear();
         for plane in &mut self.planes {
-            plane.edge = NONE;
+            plane.edge = NO_EDGE;
         }
         let mut cut = std::mem::take(&mut self.cut);
         let faces = std::mem::take(&mut self.faces);
@@ -365,7 +289,7 @@ impl Room {
     ) -> ([f64; 3], usize) {
         let (n, low, high) = (midway(a, b), i.min(j), i.max(j));
         let mut edge = self.planes[low].edge;
-        while edge != NONE {
+        while edge != NO_EDGE {
             let [end, middle, next] = self.edges[edge];
             // Opposite corners are one plane: two edges may have the same ends.
             if end == high && dot(self.planes[middle].n, n).abs() > 1.0 - 1e-9 {

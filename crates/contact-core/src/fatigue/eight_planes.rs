@@ -29,6 +29,14 @@ pub(super) struct Swept<F> {
     pub(super) at: [Eight<F>; 3],
 }
 
+/// What two vectors a and b have of the stresses, for eight pairs: the most of a.S.b, and half the range of
+/// a.e.b, e being the strain.
+#[derive(Clone, Copy)]
+pub(super) struct Mixed<F> {
+    pub(super) normal_max: Eight<F>,
+    pub(super) strain_amplitude: Eight<F>,
+}
+
 /// The circle of three instants on a plane, and when one of at most this square need not be better.
 #[derive(Clone, Copy)]
 pub(super) struct OfThree {
@@ -46,6 +54,12 @@ impl<F: Real> Instants<F> {
             shear: Vec::new(),
             arch: Arch::new(),
         }
+    }
+
+    /// Takes other tensors than stresses, for [`Self::mixed`] alone.
+    pub(super) fn load_tensors(&mut self, tensors: impl Iterator<Item = [f64; 6]>) {
+        self.stress.clear();
+        self.stress.extend(tensors.map(|s| s.map(F::near)));
     }
 
     /// Takes the stresses of a path.
@@ -90,6 +104,46 @@ impl<F: Real> Instants<F> {
                 stress,
                 shear,
                 n,
+                strain,
+            })
+        }
+    }
+
+    /// What eight pairs of vectors a and b have of the stresses. a.e.b is `strain[0]` times a.S.b less
+    /// `strain[1]` a.b times the sum of the normal stresses; without it the amplitude is 0.
+    pub(super) fn mixed(
+        &self,
+        a: &[Eight<f64>; 3],
+        b: &[Eight<f64>; 3],
+        strain: Option<[f64; 2]>,
+    ) -> Mixed<F> {
+        let mut weights = [[F::near(0.0); LANES]; 6];
+        let mut across = [F::near(0.0); LANES];
+        for l in 0..LANES {
+            let [a, b] = [a, b].map(|v| [v[0][l], v[1][l], v[2][l]].map(F::near));
+            for c in 0..3 {
+                weights[c][l] = a[c] * b[c];
+                across[l] = across[l] - weights[c][l];
+            }
+            for (c, i, j) in [(3, 0, 1), (4, 0, 2), (5, 1, 2)] {
+                weights[c][l] = a[i] * b[j] + a[j] * b[i];
+            }
+        }
+        let (arch, stress) = (self.arch, &self.stress);
+        if let Some(strain) = strain {
+            let strain = strain.map(F::near);
+            arch.dispatch(Mix::<F, true> {
+                stress,
+                weights,
+                across,
+                strain,
+            })
+        } else {
+            let strain = [F::near(0.0); 2];
+            arch.dispatch(Mix::<F, false> {
+                stress,
+                weights,
+                across,
                 strain,
             })
         }
@@ -196,6 +250,54 @@ impl<F: Real, const SHEAR: bool, const STRAIN: bool> WithSimd for Sweep<'_, F, S
             strain_max,
             strain_min,
             at,
+        }
+    }
+}
+
+/// [`Instants::mixed`], compiled for the processor.
+struct Mix<'a, F, const STRAIN: bool> {
+    stress: &'a [[F; 6]],
+    weights: [Eight<F>; 6],
+    /// -a.b.
+    across: Eight<F>,
+    strain: [F; 2],
+}
+
+impl<F: Real, const STRAIN: bool> WithSimd for Mix<'_, F, STRAIN> {
+    type Output = Mixed<F>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Mixed<F> {
+        let Self {
+            stress,
+            weights,
+            across,
+            strain,
+        } = self;
+        let [low, high] = [F::near(f64::NEG_INFINITY), F::near(f64::INFINITY)];
+        let mut normal_max = [low; LANES];
+        let (mut most, mut least) = (normal_max, [high; LANES]);
+        for s in stress {
+            let mut value = weighted(&weights, s);
+            F::raise(simd, &mut normal_max, &value);
+            if STRAIN {
+                let trace = strain[1] * (s[0] + s[1] + s[2]);
+                for l in 0..LANES {
+                    value[l] = across[l].mul_add(trace, strain[0] * value[l]);
+                }
+                F::raise(simd, &mut most, &value);
+                F::lower(simd, &mut least, &value);
+            }
+        }
+        let mut strain_amplitude = [F::near(0.0); LANES];
+        if STRAIN {
+            for l in 0..LANES {
+                strain_amplitude[l] = F::near(0.5) * (most[l] - least[l]);
+            }
+        }
+        Mixed {
+            normal_max,
+            strain_amplitude,
         }
     }
 }

@@ -5,12 +5,13 @@ use std::sync::atomic::AtomicBool;
 use ndarray::ArrayView3;
 use rayon::prelude::*;
 
+use super::acting::Acting;
 use super::at_point::AtPoint;
 use super::ball::Search as Balls;
 use super::criterion::Criterion;
 use super::critical_plane::{Room, Search};
 use super::invariants;
-use super::on_planes::{Acting, OnPlanes, ShearRoom};
+use super::on_planes::{OnPlanes, ShearRoom};
 use super::path::Path;
 use crate::error::Error;
 use crate::fields::StressTensor;

@@ -14,6 +14,8 @@ pub(super) struct Face {
     pub(super) planes: [usize; 3],
     /// [`sag`] of the corners.
     pub(super) sag: f64,
+    /// No plane in it is known to have more.
+    pub(super) most: f64,
 }
 
 impl Face {
@@ -23,11 +25,12 @@ impl Face {
             corners,
             planes,
             sag,
+            most: f64::INFINITY,
         }
     }
 }
 
-/// What the search starts from: ten faces of an icosahedron, each in 16.
+/// What a search starts from: ten faces of an icosahedron, cut into four a few times.
 pub(super) struct Hemisphere {
     /// A normal of every plane.
     pub(super) planes: Vec<[f64; 3]>,
@@ -36,12 +39,14 @@ pub(super) struct Hemisphere {
     pub(super) sag: f64,
 }
 
-/// Times each of the ten faces is cut into four.
-const CUTS: usize = 2;
+/// 40 faces, for bounds that are close on large ones.
+pub(super) static COARSE: LazyLock<Hemisphere> = LazyLock::new(|| hemisphere(1));
+/// 160 faces.
+pub(super) static FINE: LazyLock<Hemisphere> = LazyLock::new(|| hemisphere(2));
 
-pub(super) static HEMISPHERE: LazyLock<Hemisphere> = LazyLock::new(|| {
+fn hemisphere(cuts: usize) -> Hemisphere {
     let mut faces: Vec<Triangle> = half_icosahedron();
-    for _ in 0..CUTS {
+    for _ in 0..cuts {
         faces = faces.iter().flat_map(cut).collect();
     }
     let mut planes: Vec<[f64; 3]> = Vec::new();
@@ -58,7 +63,7 @@ pub(super) static HEMISPHERE: LazyLock<Hemisphere> = LazyLock::new(|| {
         .collect::<Vec<_>>();
     let sag = faces.iter().map(|f: &Face| f.sag).fold(0.0, f64::max);
     Hemisphere { planes, faces, sag }
-});
+}
 
 /// Ten faces of a regular icosahedron of which none lies opposite another.
 fn half_icosahedron() -> Vec<Triangle> {
@@ -123,7 +128,7 @@ mod tests {
 
     #[test]
     fn every_plane_once() {
-        let sphere = &*HEMISPHERE;
+        let sphere = &*FINE;
         // Euler on the projective plane: planes - edges + faces = 1, edges = 3/2 faces.
         assert_eq!((sphere.planes.len(), sphere.faces.len()), (81, 160));
         // The solid angles of the faces fill half of the sphere.

@@ -11,6 +11,10 @@ use pulp::Simd;
 
 /// Numbers side by side.
 pub(super) const LANES: usize = 8;
+/// Rounding of a stress on a plane, in spacings of the numbers next to 1 and largest components: a
+/// sum of nine products whose factors are rounded, counted generously.
+pub(super) const ROUNDING: f64 = 32.0;
+
 /// A number at eight instants, or on eight planes.
 pub(super) type Eight<F> = [F; LANES];
 /// A number at eight instants.

@@ -5,24 +5,33 @@
 //! [`Criterion`] to all points in parallel; [`Assessment`] has a criterion's weights, limit and
 //! lives from a [`Material`]; [`yielding`] gives load factors of first yield and shakedown.
 
+mod acting;
 mod assessment;
 mod at_point;
 mod ball;
 mod circle;
+mod copositive;
 mod criterion;
 mod critical_plane;
 mod eight_planes;
 mod evaluate;
 mod face_bound;
+mod forms;
 mod hemisphere;
 mod invariants;
 mod lanes;
+mod law;
 mod life;
+mod limit;
 mod material;
 mod on_planes;
 mod path;
+mod plane_function;
+mod product_bound;
 mod refine;
 mod shakedown;
+mod shear_bound;
+mod tangent;
 
 pub use assessment::{Assessment, CRITERIA, Judge, strain_life};
 pub use at_point::AtPoint;

@@ -6,29 +6,33 @@
 //! most (1 + nu)/E D, D bounding Tresca's stress of the deviation of any instant from a constant
 //! stress (derived).
 
-use super::circle::{Circles, half_chord};
+use super::circle::Circles;
 use super::criterion::Criterion;
-use super::critical_plane::{Bend, Enough, Plane, PlaneFunction};
 use super::eight_planes::{Instants, OfThree};
-use super::lanes::{LANES, Lanes, Real};
+use super::forms::{EDGES, corners_of};
+use super::hemisphere::{COARSE, FINE, Face, Hemisphere};
+use super::lanes::{LANES, Lanes, ROUNDING, Real};
+use super::law::{Law, TIE};
 use super::path::{Frame, Path, normal_weights};
+use super::plane_function::{Bend, Enough, Known, Plane, PlaneFunction};
+use super::product_bound::product_bounds;
 use super::refine::{Deciding, First};
+use super::shear_bound::About;
+use super::tangent::Tangent;
 use crate::fields::StressTensor;
 
-/// Weight of the second quantity where the plane is that of the largest first one: enough to choose
-/// between equal planes, and too little to move the plane by more than this.
-const TIE: f64 = 1e-7;
-
-/// Rounding of a stress on a plane, in spacings of the numbers next to 1 and largest components: a
-/// sum of nine products whose factors are rounded, counted generously.
-const ROUNDING: f64 = 32.0;
+/// [`PlaneFunction::lead`] of products, whose faces are large: 3 of 1000 cycles of two random harmonics
+/// keep a plane that is not the best (by 3e-4 at most), 16 with 0.
+const LEAD: f64 = 0.01;
 
 /// Room for the shear path on a plane, and for eight planes in single and double precision.
 pub(super) struct ShearRoom {
-    shear: Vec<[Lanes; 2]>,
-    circles: Circles,
+    pub(super) shear: Vec<[Lanes; 2]>,
+    pub(super) circles: Circles,
     single: Instants<f32>,
     double: Instants<f64>,
+    /// What [`About`] needs.
+    squares: Instants<f32>,
 }
 
 impl Default for ShearRoom {
@@ -38,19 +42,9 @@ impl Default for ShearRoom {
             circles: Circles::default(),
             single: Instants::new(),
             double: Instants::new(),
+            squares: Instants::new(),
         }
     }
-}
-
-/// How the criterion follows from the two parts.
-#[derive(Clone, Copy, Debug)]
-enum Law {
-    /// a + w b.
-    Sum(f64),
-    /// a b where b > 0.
-    Product,
-    /// a (1 + w b) where that is positive.
-    Raised(f64),
 }
 
 /// A criterion on the planes of one point.
@@ -66,6 +60,9 @@ pub(super) struct OnPlanes<'a> {
     /// Largest component of any instant.
     size: f64,
     in_double: bool,
+    /// The best plane, and the squares about it, where they are of use.
+    best: [f64; 3],
+    about: Option<About>,
 }
 
 impl<'a> OnPlanes<'a> {
@@ -103,6 +100,8 @@ impl<'a> OnPlanes<'a> {
             tresca,
             size: path.size(),
             in_double: false,
+            best: [0.0; 3],
+            about: None,
         })
     }
 
@@ -120,15 +119,6 @@ impl<'a> OnPlanes<'a> {
         match (self.has_shear, strain) {
             (true, strain) => [self.shear_scale * stress, strain.unwrap_or(stress)],
             (false, strain) => [strain.unwrap_or(stress), stress],
-        }
-    }
-
-    /// The first part for which the criterion has a value beside the second part.
-    fn first_for(&self, value: f64, b: f64) -> f64 {
-        match self.law {
-            Law::Sum(weight) => value - weight * b,
-            Law::Product => value / b,
-            Law::Raised(weight) => value / (1.0 + weight * b),
         }
     }
 
@@ -154,7 +144,10 @@ impl<'a> OnPlanes<'a> {
                 plane.instants[k] = swept.at[at][l].wide() as usize;
             }
         }
-        let mut of_three = planes_low(planes);
+        let mut low = [0.0; LANES];
+        for (low, plane) in low.iter_mut().zip(&*planes) {
+            *low = plane.parts[0];
+        }
         if self.has_shear {
             let mut lanes = [OfThree {
                 on: [0; 3],
@@ -162,9 +155,9 @@ impl<'a> OnPlanes<'a> {
                 square: 0.0,
             }; LANES];
             for (lane, plane) in lanes.iter_mut().zip(&*planes) {
-                let first = self
-                    .first_for(enough.value, plane.parts[1])
-                    .min(enough.first);
+                let tangent = &enough.tangent;
+                let rest = tangent.second * plane.parts[1] + tangent.constant;
+                let first = ((enough.sum - rest) / tangent.first).min(enough.first);
                 let radius = ((first - slack[0]) / self.shear_scale).max(0.0);
                 *lane = OfThree {
                     on: first_three(plane.instants),
@@ -175,15 +168,61 @@ impl<'a> OnPlanes<'a> {
             let squares = instants.circles(&mut lanes[..planes.len()]);
             for (l, plane) in planes.iter_mut().enumerate() {
                 plane.parts[0] = self.shear_scale * squares[l].sqrt() + slack[0];
-                of_three[l] = self.shear_scale * lanes[l].square.sqrt() + slack[0];
+                low[l] = self.shear_scale * lanes[l].square.sqrt() + slack[0];
                 plane.instants[..3].copy_from_slice(&lanes[l].on);
                 plane.instants[..3].sort_unstable();
             }
         }
-        for (plane, of_three) in planes.iter_mut().zip(of_three) {
+        for (plane, low) in planes.iter_mut().zip(low) {
             plane.value = self.value(plane.parts);
-            let low = [of_three - 2.0 * slack[0], plane.parts[1] - 2.0 * slack[1]];
-            plane.low = self.value(low);
+            plane.low = [low - 2.0 * slack[0], plane.parts[1] - 2.0 * slack[1]];
+        }
+    }
+
+    /// No plane has more of the second part: no component of a unit normal is larger than 1.
+    fn most_of_second(&self) -> f64 {
+        let of_stress = self.strain.map_or(1.0, |[along, across]| along + across);
+        3.0 * of_stress * self.size
+    }
+
+    /// Bounds about the best plane, where two instants make its circle, as long as they help.
+    fn shear_bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &Known) {
+        if self.best != known.n {
+            self.best = known.n;
+            let First::Shear(_, [a, b, c]) = self.deciding(known.n).first else {
+                return;
+            };
+            let two = if a == b {
+                Some([a, c])
+            } else {
+                (b == c).then_some([a, b])
+            };
+            self.about = two.map(|on| About::plane(known.n, on, self.path, &mut self.room.squares));
+        }
+        let Some(about) = &self.about else {
+            return;
+        };
+        let slack = self.slack()[1];
+        let second = |eight: &[Face]| {
+            if self.law.tie() > 0.0 {
+                // It counts for next to nothing: what it is at most anywhere is enough.
+                return [[self.most_of_second(); LANES]; 3];
+            }
+            let corners = corners_of(eight);
+            EDGES.map(|(i, j)| {
+                let (a, b) = (&corners[i], &corners[j]);
+                let normal_max = if self.in_double {
+                    self.room.double.mixed(a, b, None).normal_max
+                } else {
+                    let mixed = self.room.single.mixed(a, b, None);
+                    mixed.normal_max.map(f64::from)
+                };
+                normal_max.map(|most| most + slack)
+            })
+        };
+        let parts = [self.shear_scale, known.parts[0].max(f64::MIN_POSITIVE)];
+        if !about.bounds(&self.room.squares, parts, second, (faces, planes), known) {
+            self.about = None;
         }
     }
 
@@ -240,9 +279,16 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
-    fn rounding(&self, parts: [f64; 2]) -> f64 {
-        let slack = self.slack();
-        self.value(parts) - self.value([parts[0] - slack[0], parts[1] - slack[1]])
+    fn start(&self) -> &'static Hemisphere {
+        match self.law {
+            Law::Product => &COARSE,
+            Law::Sum(_) | Law::Raised(_) => &FINE,
+        }
+    }
+
+    fn rounding(&mut self, n: [f64; 3]) -> f64 {
+        let ([a, b], slack) = (self.parts(n), self.slack());
+        self.value([a + slack[0], b + slack[1]]) - self.value([a, b])
     }
 
     fn to_double(&mut self) {
@@ -250,16 +296,30 @@ impl PlaneFunction for OnPlanes<'_> {
         self.room.double.load(self.path);
     }
 
-    fn value(&self, [a, b]: [f64; 2]) -> f64 {
-        match self.law {
-            Law::Sum(weight) => a + weight * b,
-            Law::Product => a * b.max(0.0),
-            Law::Raised(weight) => a * (1.0 + weight * b).max(0.0),
+    fn value(&self, parts: [f64; 2]) -> f64 {
+        self.law.value(parts)
+    }
+
+    fn bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &Known) {
+        if self.has_shear {
+            self.shear_bounds(faces, planes, known);
+        } else {
+            let (strain, slack) = (self.strain.unwrap_or_default(), self.slack());
+            let on = (faces, planes);
+            if self.in_double {
+                product_bounds(&self.room.double, strain, slack, on, known);
+            } else {
+                product_bounds(&self.room.single, strain, slack, on, known);
+            }
         }
     }
 
-    fn has_ties(&self) -> bool {
-        matches!(self.law, Law::Sum(weight) if weight == TIE)
+    fn lead(&self) -> f64 {
+        if self.has_shear { self.law.tie() } else { LEAD }
+    }
+
+    fn tie(&self) -> f64 {
+        self.law.tie()
     }
 
     fn piece(&self, instants: [usize; 6]) -> Deciding {
@@ -296,46 +356,25 @@ impl PlaneFunction for OnPlanes<'_> {
         self.piece([on[0], on[1], on[2], most, least, at])
     }
 
-    fn bend(&self, largest: [f64; 2], sag: f64) -> Bend {
+    fn tangent(&self, parts: [f64; 2]) -> Tangent {
+        self.law.tangent(parts)
+    }
+
+    fn bend(&self, largest: f64, sag: f64) -> Bend {
         let (whole, deviation) = self.tresca;
-        // Second derivative and slope of the first part; its largest value.
-        let (bend_a, slope_a, most_a) = if self.has_shear {
-            let most = largest[0] / (1.0 - 4.0 * sag);
-            (4.0 * most, 2.0 * most, most)
+        let along = self.strain.map(|[along, _]| along * deviation);
+        let shear = largest / (1.0 - 4.0 * sag);
+        let first = if self.has_shear {
+            2.0 * shear
         } else {
-            let scale = self.strain.map_or(0.0, |[along, _]| along) * deviation;
-            (2.0 * scale, scale, largest[0] + 2.0 * scale * sag)
+            along.unwrap_or_default()
         };
-        let (bend_b, slope_b) = match self.strain {
-            Some([along, _]) if self.has_shear => (2.0 * along * deviation, along * deviation),
-            _ => (2.0 * whole, whole),
-        };
-        let most_b = largest[1] + bend_b * sag;
-        let of_product = |weight: f64, factor: f64| {
-            bend_a * factor.max(0.0) + weight * (most_a * bend_b + 2.0 * slope_a * slope_b)
-        };
-        let sloped =
-            |weight: f64, factor: f64| slope_a * factor.max(0.0) + weight * most_a * slope_b;
-        let slope = match self.law {
-            Law::Sum(weight) => slope_a + weight * slope_b,
-            Law::Product => sloped(1.0, most_b),
-            Law::Raised(weight) => sloped(weight, 1.0 + weight * most_b),
-        };
-        let value = match self.law {
-            Law::Sum(weight) => bend_a + weight * bend_b,
-            Law::Product => of_product(1.0, most_b),
-            Law::Raised(weight) => of_product(weight, 1.0 + weight * most_b),
-        };
+        let second = along.filter(|_| self.has_shear).unwrap_or(whole);
         Bend {
-            parts: [bend_a, bend_b],
-            value,
-            slope,
+            parts: [2.0 * first, 2.0 * second],
+            slopes: [first, second],
         }
     }
-}
-
-fn planes_low(planes: &[Plane]) -> [f64; LANES] {
-    std::array::from_fn(|l| planes.get(l).map_or(0.0, |p| p.parts[0]))
 }
 
 fn first_three([a, b, c, ..]: [usize; 6]) -> [usize; 3] {
@@ -349,26 +388,4 @@ fn strain_weights(n: [f64; 3], [along, across]: [f64; 2]) -> [f64; 6] {
         *w -= across;
     }
     weights
-}
-
-/// What acts on the plane of a unit normal, for people.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Acting {
-    pub(super) shear_amplitude: f64,
-    pub(super) shear_chord: f64,
-    pub(super) normal_max: f64,
-    pub(super) normal_min: f64,
-}
-
-impl Acting {
-    pub(super) fn on(path: &Path, n: [f64; 3], room: &mut ShearRoom) -> Self {
-        path.resolve(&Frame::across(n), &mut room.shear);
-        let normal = path.normal(n);
-        Self {
-            shear_amplitude: room.circles.round(&room.shear).radius,
-            shear_chord: half_chord(&room.shear),
-            normal_max: normal.max,
-            normal_min: normal.min,
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use contact_core::fatigue::{Criterion, Search};
 
 use super::splitmix::Draw;
-use super::{Tensor, all, many, one, random, smooth};
+use super::{Tensor, all, many, one, pressed, random, smooth};
 
 /// Normals spread evenly over the hemisphere on a spiral.
 fn normals(count: usize) -> impl Iterator<Item = [f64; 3]> {
@@ -159,4 +159,119 @@ fn a_thousand_histories_against_two_thousand_planes() {
             );
         }
     }
+}
+
+/// Where nearly all planes are in compression at all instants, the values are small against the stress.
+#[test]
+fn little_tension_beside_much_pressure() {
+    let mut draw = Draw(31);
+    let tolerance = Search::default().tolerance;
+    let value_is_sought = |c: &Criterion| {
+        matches!(
+            c,
+            Criterion::Findley { .. }
+                | Criterion::SmithWatsonTopper { .. }
+                | Criterion::FatemiSocie { .. }
+        )
+    };
+    for share in [0.3, 0.1, 0.03] {
+        let history = pressed(&mut draw, 8, share);
+        for criterion in all().into_iter().filter(value_is_sought) {
+            let found = one(&criterion, &history);
+            let values = normals(200_000).map(|n| on_plane(&criterion, &history, n).0);
+            let (mut brute, mut positive) = (f64::NEG_INFINITY, 0);
+            for value in values {
+                brute = brute.max(value);
+                positive += usize::from(value > 0.0);
+            }
+            let ours = found.value;
+            assert!(ours >= brute, "{criterion:?} {share}: {ours} {brute}");
+            assert!(
+                ours - brute < tolerance * ours,
+                "{criterion:?} {share}: {ours} {brute}"
+            );
+            assert!(found.missed <= tolerance * ours * 1.0001, "{found:?}");
+            if matches!(criterion, Criterion::SmithWatsonTopper { .. }) {
+                assert!(positive > 0 && positive < 100_000, "{positive}");
+                assert!(found.planes < 400, "{found:?}");
+            }
+        }
+    }
+}
+
+/// Where two instants make the circle, the bounds are those about the best plane.
+#[test]
+fn in_proportion_and_nearly_so() {
+    let mut draw = Draw(43);
+    let tolerance = Search::default().tolerance;
+    for share in [0.0, 1e-3, 0.05] {
+        let (part, rest) = (smooth(&mut draw, 2), smooth(&mut draw, 6));
+        let history: Vec<Tensor> = (0..6)
+            .map(|t| {
+                let cos = (std::f64::consts::PI * t as f64 / 5.0).cos();
+                std::array::from_fn(|c| part[0][c] + cos * part[1][c] + share * rest[t][c])
+            })
+            .collect();
+        for criterion in all().into_iter().filter(searches) {
+            let found = one(&criterion, &history);
+            let ours = sought(&criterion, &found);
+            let brute = normals(200_000)
+                .map(|n| on_plane(&criterion, &history, n).0)
+                .fold(f64::NEG_INFINITY, f64::max);
+            assert!(
+                ours >= brute - 1e-9 * brute.abs(),
+                "{criterion:?} {share}: {ours} {brute}"
+            );
+            assert!(
+                ours - brute < tolerance * ours,
+                "{criterion:?} {share}: {ours} {brute}"
+            );
+            // A few triangles at most are left after the first 81 planes.
+            assert!(found.planes < 180, "{criterion:?} {share}: {found:?}");
+        }
+    }
+}
+
+/// Without tension on any plane the product is 0, and that is proved.
+#[test]
+fn no_tension_no_product() {
+    let mut draw = Draw(37);
+    let (E, nu) = super::STEEL;
+    let criterion = Criterion::SmithWatsonTopper { E, nu };
+    for _ in 0..100 {
+        let mut history = smooth(&mut draw, 8);
+        for s in &mut history {
+            for normal in &mut s[..3] {
+                *normal -= 4e9;
+            }
+        }
+        let found = one(&criterion, &history);
+        assert_eq!((found.value, found.missed), (0.0, 0.0));
+        assert!(found.planes < 30, "{found:?}");
+    }
+}
+
+/// The plane of Smith, Watson and Topper's product is seldom another than the best.
+#[test]
+fn products_are_the_best_on_nearly_all_points() {
+    let mut draw = Draw(41);
+    let (E, nu) = super::STEEL;
+    let criterion = Criterion::SmithWatsonTopper { E, nu };
+    let mut histories: Vec<_> = (0..1500).map(|_| smooth(&mut draw, 8)).collect();
+    histories.extend((0..1500).map(|_| pressed(&mut draw, 8, 0.1)));
+    let found = many(&criterion, &histories);
+    let fine = Search {
+        tolerance: 1e-6,
+        ..Search::default()
+    };
+    let best = super::searched(&criterion, &histories, &fine);
+    let mut others = 0;
+    for (found, best) in found.iter().zip(&best) {
+        assert!(
+            best.value <= found.value + found.missed * (1.0 + 1e-9),
+            "{found:?} {best:?}"
+        );
+        others += usize::from(found.value < best.value * (1.0 - 1e-9));
+    }
+    assert!(others <= 30, "{others}");
 }

@@ -49,10 +49,14 @@ fn one(criterion: &Criterion, history: &[Tensor]) -> AtPoint {
 
 /// Points of equally long histories.
 fn many(criterion: &Criterion, histories: &[Vec<Tensor>]) -> Vec<AtPoint> {
+    searched(criterion, histories, &Search::default())
+}
+
+fn searched(criterion: &Criterion, histories: &[Vec<Tensor>], search: &Search) -> Vec<AtPoint> {
     let shape = (histories[0].len(), histories.len(), 6);
     let stress = Array3::from_shape_fn(shape, |(t, p, c)| histories[p][t][c]);
     let never = AtomicBool::new(false);
-    evaluate(criterion, &stress.view(), &Search::default(), &never).unwrap()
+    evaluate(criterion, &stress.view(), search, &never).unwrap()
 }
 
 /// A non-proportional history of independent stresses \[Pa\].
@@ -76,4 +80,16 @@ fn smooth(draw: &mut Draw, instants: usize) -> Vec<Tensor> {
             })
         })
         .collect()
+}
+
+/// A cycle of two harmonics beside a pressure in one direction that leaves little tension, on a ring of
+/// planes, as beside a contact \[Pa\].
+fn pressed(draw: &mut Draw, instants: usize, share: f64) -> Vec<Tensor> {
+    let axis: [f64; 3] = std::array::from_fn(|_| draw.next() - 0.5);
+    let [x, y, z] = axis;
+    let pressure = -4e8 / (x * x + y * y + z * z);
+    let pressure = [x * x, y * y, z * z, x * y, x * z, y * z].map(|n| pressure * n);
+    let rest = smooth(draw, instants);
+    let add = |s: &Tensor| std::array::from_fn(|c| pressure[c] + share * s[c]);
+    rest.iter().map(add).collect()
 }
