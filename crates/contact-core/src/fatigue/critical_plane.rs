@@ -69,12 +69,16 @@ pub(super) struct Room {
     edges: Vec<[usize; 3]>,
     corners: Vec<usize>,
     tried: Vec<([usize; 6], [f64; 3])>,
+    /// Planes that refining led to, and their values.
+    tops: Vec<([f64; 3], f64)>,
 }
 
 /// Triangles that are so few that they are cut on beyond the tolerance where planes may tie.
 const FEW: usize = 48;
 /// Planes nearer to each other than this cosine, 18 degrees, lead to the same top of a piece.
 const NEAR: f64 = 0.95;
+/// Planes nearer to each other than this cosine, twice what a top is off before it is refined, are one.
+const SAME: f64 = 1.0 - 2e-6;
 /// Pieces whose top is refined at most.
 const PIECES: usize = 24;
 
@@ -83,6 +87,7 @@ impl Search {
     pub(super) fn peak(&self, f: &mut impl PlaneFunction, room: &mut Room) -> Peak {
         let start = f.start();
         room.tried.clear();
+        room.tops.clear();
         let mut bend = room.first_planes(f);
         let mut best = room.refined(f, room.best(0..room.planes.len()));
         // Of a value that is 0 nothing tells what rounding may hide.
@@ -217,6 +222,7 @@ impl Room {
         if value >= best.1 - 4.0 * f64::EPSILON * value.abs() {
             best = (top, value);
         }
+        self.tops.push(best);
         Peak {
             n: best.0,
             value: best.1,
@@ -243,8 +249,9 @@ impl Room {
             self.tried.push((instants, n));
             let piece = f.piece(instants);
             let enough = best.value - f.lead() * best.value.abs();
-            let (_, top) = nearly(&|n| f.value(piece.quick_parts(n)), n, enough);
-            if top > enough {
+            let (place, top) = nearly(&|n| f.value(piece.quick_parts(n)), n, enough);
+            let known = |(m, value): &([f64; 3], f64)| dot(*m, place).abs() > SAME && *value >= top;
+            if top > enough && !self.tops.iter().any(known) {
                 let other = self.refined(f, plane);
                 if other.value > best.value {
                     *best = other;
