@@ -40,7 +40,8 @@ pub(crate) struct Cut {
     inner: usize,
     /// Part that sticks, above 0 and below 1.
     share: f64,
-    /// Way of the part that slips in a cycle, times that part, if the march has the whole cell stick \[m\].
+    /// Way of the part that slips in a cycle, times that part, if it is the smaller one: the march then has the whole
+    /// cell stick, or hardly slip \[m\].
     pub(crate) way: Option<f64>,
 }
 
@@ -64,8 +65,6 @@ impl Cut {
         for n in lattice.border(signs.stick) {
             inside[n] = false;
         }
-        // Next to the stick zone, and the outermost of it.
-        let zones = [signs.stick, &inside[..]];
         let cut = |zone: &[bool]| -> Vec<Self> {
             let stencils = [Stencil::ROOT, Stencil::LINEAR];
             let edges = lattice.edges(zone, stencils, |_| (STICK, |n: usize| signs.short[n]));
@@ -74,7 +73,14 @@ impl Cut {
                 .filter_map(|(n, edge)| Self::at(n, &edge.level?, signs))
                 .collect()
         };
-        zones.map(cut).concat()
+        // The outermost of the stick zone, and the cells next to those that it does not run through.
+        let mut cuts = cut(&inside);
+        let next = cut(signs.stick).into_iter();
+        let next: Vec<Self> = next
+            .filter(|cut| !cuts.iter().any(|other| other.cell == cut.inner))
+            .collect();
+        cuts.extend(next);
+        cuts
     }
 
     /// A cell next to a zone whose level is extrapolated to it, if the border runs through it.
@@ -97,11 +103,12 @@ impl Cut {
         let shown = level.middle / level.gradient[0].abs() + 0.5;
         let part = 2.0 * shown / (1.0 + (1.0 + 4.0 * FURTHER * lacks * shown.max(0.0)).sqrt());
         cut.share = part + WITHIN;
-        if sticks {
+        if cut.share > 0.5 {
             // The slip grows like a root from the border to the middle of the next cell, as it does on worn surfaces.
             let slips = 1.0 - cut.share;
             let mean = slips * (slips / (slips + 0.5)).sqrt() / 1.5;
-            cut.way = Some(signs.apart[cell.min((2 * cell).saturating_sub(inner))] * mean);
+            let next = cell.min((2 * cell).saturating_sub(inner));
+            cut.way = Some((signs.apart[cell.min(inner)] + signs.apart[next]) * mean);
         }
         (level.law == SHRINKS && cut.share > 0.0 && cut.share < 1.0).then_some(cut)
     }

@@ -154,7 +154,12 @@ fn line(q: f64) -> Row {
 #[test]
 fn a_cylinder_wears_until_it_rests_on_its_stick_zone() {
     let everywhere = (0..10).map(|k| (0.5, 256, 56.0 + 0.1 * f64::from(k)));
-    let others = [(0.3, 256, 72.6), (0.7, 256, 44.4), (0.7, 256, 44.7), (0.7, 2048, 360.3)];
+    let others = [
+        (0.3, 256, 72.6),
+        (0.7, 256, 44.4),
+        (0.7, 256, 44.7),
+        (0.7, 2048, 360.3),
+    ];
     for (q, n, cells) in everywhere.chain(others) {
         let (W, c) = (2e5, f64::sqrt(1.0 - q));
         let grid = |a: f64| Grid::strip(n as f64 * c / cells * a, n, 1.0).unwrap();
