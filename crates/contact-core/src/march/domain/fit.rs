@@ -53,7 +53,39 @@ impl Domain {
         if self.is_narrow(problem, state, point, expected) {
             return self.widen(problem, state, point, Some(expected));
         }
+        if let Some(shape) = self.without_growth(problem, state, point, half) {
+            let moved = self.move_into(problem, state, shape)?;
+            // What was found clear lay beyond the wider one.
+            state.clear = 0.0;
+            return Ok(moved);
+        }
         Ok(None)
+    }
+
+    /// The shape of a narrower window once the last cells have entered: if the last increment pressed harder than any
+    /// later one will, and no cell beyond it has been in contact.
+    fn without_growth(
+        &self,
+        problem: &Problem,
+        state: &State,
+        point: &LoadPoint,
+        half: [usize; 2],
+    ) -> Option<(usize, usize)> {
+        let grown = state.step.W > 0.0 && growth(problem, state, point).iter().all(|g| *g <= 1.0);
+        let (now, mirror) = (self.shape(), problem.plan.mirror);
+        let shape = shape_for(&problem.scene.grid, half.map(|half| 2 * (half + MARGIN)));
+        let shape = (shape.0.min(now.0), shape.1.min(now.1));
+        if !grown || shape == now {
+            return None;
+        }
+        let [from, to] = [shape, now].map(|(nx, ny)| (nx, mirror.rows(ny)));
+        let kept = embed::embedded(&vec![true; from.0 * from.1], from, to, mirror, false);
+        let untouched = |n: usize| {
+            state.p_before[n] == 0.0 && state.dissipated[n] == 0.0 && state.slip_length[n] == 0.0
+        };
+        (0..kept.len())
+            .all(|n| kept[n] || untouched(n))
+            .then_some(shape)
     }
 
     /// Whether the window has no margin around a contact of these half-lengths \[cells\] in an increment
