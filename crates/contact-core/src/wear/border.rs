@@ -1,19 +1,21 @@
 //! The cell of a line contact that the border of the stick zone runs through.
 //!
 //! It sticks with a part phi of its width and wears with the rest. Where nothing wears any more the pressure is
-//! that of a punch whose edge runs through the cell, with a root singularity. Whole cells stand for such a punch if
-//! the outermost, of the pressure p, has given way by beta p: worn to this depth. With T the responses of a half-line of
-//! cells to one another that moves the edge, as seen from the others, by `beta/(1/t + beta)` cells from where it is
-//! for beta = 0, t being the corner of T^-1 (J. Sherman, W. J. Morrison, Ann. Math. Stat. 21 (1950) 124). So
+//! that of a punch whose edge runs through the cell, with a root singularity. Whole cells stand for such a punch
+//! if the outermost, of the pressure p, has given way by beta p: worn to this depth. With T the responses of a
+//! half-line of cells to one another this moves the edge, as seen from the others, by `beta/(1/t + beta)` cells
+//! from where it is for beta = 0, t being the corner of T^-1 (J. Sherman, W. J. Morrison, Ann. Math. Stat. 21
+//! (1950) 124). So
 //!
 //! ```text
 //! beta = B (1 - phi)/phi,   B = 1/t = exp[1/(2 pi) int_-pi^pi ln K(w) dw],
 //! K(w) = sum_n 2 dx/(E* |w_n|) sin(w_n/2)/(w_n/2),   w_n = w + 2 pi n
 //! ```
 //!
-//! K being the response to waves of w per cell (E* the modulus of the pair), B its geometric mean (G. Szego, Math. Ann. 76
-//! (1915) 490): 1.7243 dx/E*. The edge itself lies within the outermost of whole cells, 1/4 - 1/2 sum_m m r_m cells from
-//! its border, r_m the cosine coefficients of ln [2 |sin(w/2)| K(w) E*/(2 dx)] (0.1747 in all).
+//! K being the response to waves of w per cell (E* the modulus of the pair), B its geometric mean (G. Szego, Math.
+//! Ann. 76 (1915) 490): 1.7243 dx/E*. The edge itself lies within the outermost of whole cells,
+//! 1/4 - 1/2 sum_m m r_m cells from its border, r_m the cosine coefficients of ln [2 |sin(w/2)| K(w) E*/(2 dx)]
+//! (0.1747 in all).
 //!
 //! Until then the part that slips, which alone wears and dissipates, has what is left of the cell's pressure,
 //! p - w/beta, for a depth w.
