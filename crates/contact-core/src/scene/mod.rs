@@ -230,27 +230,37 @@ impl Scene {
 
     /// The length that approaches are compared with \[m\]: Hertz's approach, or where there is none
     /// the largest approach that is given or that the largest force would cause under a punch as
-    /// wide as the grid.
+    /// wide as the grid; between rigid substrates at most what it would press their layers together by.
     pub fn approach(&self) -> f64 {
         self.hertz().map_or_else(
-            || {
-                let softest = |body: &Body| {
-                    let coatings = body.coatings.iter().map(|c| c.material);
-                    let layers = coatings.chain([body.substrate]);
-                    layers.fold(Elastic::RIGID, |s, m| if m.E < s.E { m } else { s })
-                };
-                let E_star = contact_modulus(softest(&self.body1), softest(&self.body2));
-                let (length, width) = self.grid.extent();
-                let wide = if self.grid.plane_strain {
-                    width
-                } else {
-                    length.max(width)
-                };
-                let under_punch = self.path.W_max() / (E_star * wide);
-                self.path.delta_z_max().max(under_punch)
-            },
+            || self.path.delta_z_max().max(self.approach_of_a_punch()),
             |hertz| hertz.delta_z,
         )
+    }
+
+    /// The approach under the largest force, spread over the grid \[m\].
+    fn approach_of_a_punch(&self) -> f64 {
+        let bodies = [&self.body1, &self.body2];
+        let softest = |body: &Body| {
+            let coatings = body.coatings.iter().map(|c| c.material);
+            let layers = coatings.chain([body.substrate]);
+            layers.fold(Elastic::RIGID, |s, m| if m.E < s.E { m } else { s })
+        };
+        let E_star = contact_modulus(softest(bodies[0]), softest(bodies[1]));
+        let (length, width) = self.grid.extent();
+        let wide = if self.grid.plane_strain {
+            width
+        } else {
+            length.max(width)
+        };
+        let W = self.path.W_max();
+        let of_half_spaces = W / (E_star * wide);
+        if !bodies.iter().all(|body| body.substrate.is_rigid()) {
+            return of_half_spaces;
+        }
+        let layers = bodies.iter().flat_map(|body| &body.coatings);
+        let soft: f64 = layers.map(|c| c.thickness / c.material.E).sum();
+        of_half_spaces.min(W / (length * width) * soft)
     }
 
     /// Relative tolerance of the solution: that of the settings, or 1e-6, or where increments are chosen
