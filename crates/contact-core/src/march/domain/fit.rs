@@ -17,6 +17,7 @@ const MARGIN: usize = 2;
 /// What the contact is expected to grow by until the next, wider window, if the loads still grow by as
 /// much.
 const GROWTH: f64 = 1.08;
+
 impl Domain {
     /// Puts the state into a window wide enough for the contact that is expected in the increment to
     /// `point`; returns it as it was in another one. Fails where the run is stopped meanwhile; nothing is changed then.
