@@ -16,8 +16,8 @@ friction.mu = 0.4
 grid = { n = 20, extent = { a_H = 2.6 } }
 path = [
     { W = 1000.0, increments = 1 },
-    { T_x = { mu_W = 0.8 }, increments = 1 },
-    { T_x = { mu_W = -0.8 }, increments = 1 },
+    { T_x = { mu_W = 0.95 }, increments = 1 },
+    { T_x = { mu_W = -0.95 }, increments = 1 },
 ]
 "#;
 
@@ -31,7 +31,7 @@ fn scene(settings: &[&str]) -> Scene {
 fn an_increment_that_does_not_converge_is_solved_in_pieces() {
     let whole = solve(&scene(&[]), &mut ()).unwrap();
     assert!(whole.iter().all(|i| i.work.parts == 1));
-    let tight = scene(&["skip.digits=false", "solver.max_iterations=5"]);
+    let tight = scene(&["skip.digits=false", "solver.max_iterations=3"]);
     let pieces = solve(&tight, &mut ()).unwrap();
     assert_eq!(pieces.len(), 3);
     let mut done = 0.0;
@@ -81,7 +81,7 @@ fn a_run_that_gives_up_keeps_the_last_good_state() {
     assert_eq!(error, Error::Interrupted { increment: 1 });
     assert_eq!(*march.state(), state);
 
-    let error = solve(&scene(&["solver.max_iterations=2"]), &mut ()).unwrap_err();
+    let error = solve(&scene(&["solver.max_iterations=1"]), &mut ()).unwrap_err();
     assert!(
         matches!(error, Error::NotConverged { increment: 1, .. }),
         "{error}"

@@ -26,7 +26,7 @@ struct Method {
     files: &'static [&'static str],
 }
 
-const METHODS: [Method; 12] = [
+const METHODS: [Method; 14] = [
     Method {
         name: "preconditioner",
         off: |m| m.preconditioner = false,
@@ -95,6 +95,16 @@ const METHODS: [Method; 12] = [
     Method {
         name: "correction of the residual slip",
         off: |m| m.residual_slip = false,
+        files: &[],
+    },
+    Method {
+        name: "inexact inner loops",
+        off: |m| m.inexact = false,
+        files: &[],
+    },
+    Method {
+        name: "slip of new cells",
+        off: |m| m.new_cells_slip = false,
         files: &[],
     },
     Method {

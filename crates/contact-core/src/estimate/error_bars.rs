@@ -32,7 +32,7 @@ use super::numbers::{NUMBERS, numbers};
 use super::path_error::path_errors;
 use super::trial::PathError;
 use crate::error::Error;
-use crate::march::{BranchSummary, Increment, Tractions, summarise};
+use crate::march::{BranchSummary, Increment, TANGENTIAL_SHARE, Tractions, summarise};
 use crate::plan::Plan;
 use crate::scene::Scene;
 
@@ -161,13 +161,15 @@ const DISSIPATED: usize = 7;
 
 /// What a tolerance leaves of each number, in its unit: of most a part of the number.
 ///
-/// Slip is left up to tol mu delta_z, also where cells hardly slip: under a shear of mu W it dissipates tol mu^2 W delta_z.
+/// Slip is left up to a share s of tol mu delta_z, also where cells hardly slip: under a shear of mu W it dissipates
+/// s tol mu^2 W delta_z.
 fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NUMBERS] {
     let value = numbers(fine).map(f64::abs);
     let mut parts = value.map(|value| tolerance * value);
     if may_slip(scene) {
         let mu = scene.friction.mu;
-        let least = tolerance * mu * mu * fine.loads.W * value[DELTA_Z];
+        let slip = TANGENTIAL_SHARE * tolerance * mu;
+        let least = slip * mu * fine.loads.W * value[DELTA_Z];
         parts[DISSIPATED] = parts[DISSIPATED].max(least);
     }
     parts

@@ -31,6 +31,7 @@ mod transmitted;
 mod worn;
 
 pub use fields::{Fields, Tractions};
+pub(crate) use problem::TANGENTIAL_SHARE;
 pub use results::{Energy, Increment, Motion, Residuals, Status, Work};
 pub use run::{BranchSummary, Observer, solve, summarise};
 pub use state::State;

@@ -71,7 +71,11 @@ const PREDICTED_SHARE: f64 = 0.8;
 /// Share of the tolerance that the normal solver iterates to.
 const NORMAL_SHARE: f64 = 0.4;
 /// Share of the tolerance that the tangential solver iterates to; nothing moves after it.
-const TANGENTIAL_SHARE: f64 = 0.9;
+pub(crate) const TANGENTIAL_SHARE: f64 = 0.6;
+/// Part of the tolerance of the tangential solver that a change of the shear may move a cell by and yet be neglected.
+const NEGLIGIBLE_SHARE: f64 = 0.1;
+/// Part of the gap that a pass of the alternation begins with down to which its inner loops solve.
+const FORCING: f64 = 0.1;
 
 impl Problem {
     /// Fails once the flag is raised: [`Error::Interrupted`] after so many increments.
@@ -112,6 +116,8 @@ impl Problem {
     pub(super) fn params(&self, share: f64) -> AlternationParams {
         let solver = &self.scene.settings.solver;
         let gap = share * self.scene.tolerance() * self.approach;
+        // What the shear misses acts on the gap, however large mu is.
+        let slip = TANGENTIAL_SHARE * self.scene.friction.scale().min(1.0) * gap;
         AlternationParams {
             tolerance: gap,
             normal: NormalParams {
@@ -121,13 +127,19 @@ impl Problem {
             },
             tangential: TangentialParams {
                 method: self.plan.methods.tangential,
-                // What the shear misses acts on the gap, however large mu is.
-                tolerance: TANGENTIAL_SHARE * self.scene.friction.scale().min(1.0) * gap,
+                tolerance: slip,
+                negligible: NEGLIGIBLE_SHARE * slip,
                 max_iterations: solver.max_iterations,
                 forcing: 0.2,
                 max_passes: 12,
             },
             max_alternations: solver.max_alternations,
+            forcing: if self.plan.methods.inexact {
+                FORCING
+            } else {
+                0.0
+            },
+            new_cells_slip: self.plan.methods.new_cells_slip,
             anderson: self.plan.methods.anderson,
         }
     }

@@ -91,7 +91,7 @@ impl Setup<'_> {
             Some(rolled) => (&rolled.p_before, &rolled.q_before),
             None => (&self.state.p_before, &self.state.q_before),
         };
-        Earlier { p, q, ratio }
+        Earlier::new(p, q, ratio)
     }
 
     /// What the slip is reckoned from; with the shear an increment earlier where it is to follow its turn.

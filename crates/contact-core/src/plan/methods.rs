@@ -33,6 +33,10 @@ pub struct Methods {
     pub extrapolation: bool,
     /// Begin a first contact from the pressure of a paraboloid (default true).
     pub first_contact: bool,
+    /// End the inner loops early in a pass that others follow (default true).
+    pub inexact: bool,
+    /// Let cells slip that come into contact after the first pass, where friction does not hold them (default true).
+    pub new_cells_slip: bool,
     /// Accelerate an alternation that is slow (default true).
     pub anderson: bool,
     /// Retry an increment that does not converge, without extrapolation and in halves (default true).
@@ -65,6 +69,8 @@ impl Methods {
             residual_slip: fast,
             extrapolation: fast,
             first_contact: true,
+            inexact: fast,
+            new_cells_slip: fast,
             anderson: true,
             retries: true,
             partial_cells: true,

@@ -4,22 +4,52 @@ use super::TangentialProblem;
 use crate::cells::{add, inverse, product};
 use crate::cells::{set, sums, sweep};
 use crate::cells::{set_cells, size};
+use crate::solvers::Shear;
 
 /// Rounds of clipping and balancing before the stick cells are taken to be too few.
 const ROUNDS: usize = 8;
 
 /// Makes the shear admissible without asking for its response: slip cells and cells beyond the
 /// bound go to the circle |q| = g, cells outside the contact to zero, and stick cells share the
-/// force that is missing. Where they cannot carry it, the nearest admissible shear is taken.
-pub(crate) fn admissible(
-    problem: &TangentialProblem<'_>,
-    q: &mut [&mut [f64]; 2],
-    slip: &mut [bool],
-) {
-    if !share_force(problem, q, slip) {
-        project(problem, q, &mut [0.0; 3]);
-        mark_circle(problem, q, slip);
+/// force that is missing. Where they cannot carry it and the rigid motion is about `shift` \[m\] another cell sticks,
+/// or the nearest admissible shear is taken.
+pub(crate) fn admissible(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
+    if share_force(problem, &mut shear.q, shear.slip) {
+        return;
     }
+    if hold_one(problem, shear, shift) && share_force(problem, &mut shear.q, shear.slip) {
+        return;
+    }
+    project(problem, &mut shear.q, &mut [0.0; 3]);
+    mark_circle(problem, &shear.q, shear.slip);
+}
+
+/// Where every cell slips none can take up what the bounds leave of a force: the cell with the least slip sticks, of
+/// those whose shear the rest makes smaller; whether there is one. So it is where the stick zone is narrower than a cell.
+fn hold_one(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) -> bool {
+    let [free_x, free_y, _] = problem.drive.free;
+    if !(free_x || free_y) {
+        return false;
+    }
+    mark_circle(problem, &shear.q, shear.slip);
+    let Shear { q, u, slip, .. } = shear;
+    if (0..slip.len()).any(|n| problem.bound[n] > 0.0 && !slip[n]) {
+        return false;
+    }
+    let [x, y] = sums([&*q[0], &*q[1]], |_, q| q);
+    let rest = missing(problem, [x, y, 0.0]).map(|m| -m);
+    // Mirror images all slip, in balance: which of them stuck would be chance, and the shift with it.
+    if rest[0].hypot(rest[1]) <= rounding(problem) {
+        return false;
+    }
+    let least = (0..slip.len())
+        .filter(|&n| q[0][n] * rest[0] + q[1][n] * rest[1] > 0.0)
+        .map(|n| (n, size(problem.slip(u, shift, n))))
+        .min_by(|(_, a), (_, b)| a.total_cmp(b));
+    if let Some((n, _)) = least {
+        slip[n] = false;
+    }
+    least.is_some()
 }
 
 /// Cuts the shear to the bound and lets the stick cells share the missing loads, by the smallest
@@ -70,6 +100,9 @@ fn share_force(
         let missing = missing(problem, [a, b, moment]);
         if missing.iter().all(|m| m.abs() <= enough) {
             return true;
+        }
+        if count == 0.0 {
+            return false;
         }
         let gram = [[count, 0.0, -y], [0.0, count, x], [-y, x, r2]];
         share = product(&inverse(gram, problem.drive.free), missing);

@@ -54,6 +54,13 @@ pub struct NormalInfo {
     pub iterations: usize,
 }
 
+impl NormalInfo {
+    /// The larger of gap and penetration \[m\].
+    pub fn misfit(&self) -> f64 {
+        self.gap.max(self.penetration)
+    }
+}
+
 /// Buffers of the normal solver.
 #[derive(Debug, Default)]
 pub struct NormalWorkspace {
@@ -112,7 +119,7 @@ pub fn normal(
             iterations,
             ..assess(problem, p, u_z)
         };
-        let misfit = info.gap.max(info.penetration);
+        let misfit = info.misfit();
         descent.watch(misfit);
         let tolerance = if iterations == 0 {
             params.enough

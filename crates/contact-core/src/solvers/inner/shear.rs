@@ -37,6 +37,8 @@ pub struct TangentialParams {
     pub method: TangentialMethod,
     /// Largest root-mean-square misfit of the slip conditions over the contact \[m\].
     pub tolerance: f64,
+    /// Displacement that a change of the shear may cause and yet be neglected \[m\].
+    pub negligible: f64,
     /// Most Newton steps.
     pub max_iterations: usize,
     /// Each linear system is solved to this fraction of its first residual.

@@ -168,7 +168,7 @@ impl GradientBuffers {
                 shear.slip[n] = size([shear.q[0][n], shear.q[1][n]]) > g;
             }
         }
-        admissible(problem, &mut shear.q, shear.slip);
+        admissible(problem, shear, shift);
         for c in 0..2 {
             let terms = self.change[c].iter_mut().zip(shear.q[c].iter());
             for ((change, q), before) in terms.zip(&self.q_before[c]) {

@@ -21,13 +21,13 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::admissible::{admissible, rounding};
+use super::admissible::admissible;
 use super::contact_shear::{Before, ContactShear};
 use super::newton_system::NewtonSystem;
 use super::projected_gradient::ProjectedGradient;
 use super::shear::{TangentialInfo, TangentialParams, TangentialProblem, first_shift};
 use super::shear_gradient::GradientBuffers;
-use crate::cells::{ContactCells, set_cells, size, sums, sweep};
+use crate::cells::{ContactCells, set_cells, size, sweep};
 use crate::solvers::{Response, Shear, SolverError};
 
 /// Buffers of the tangential solver.
@@ -56,7 +56,7 @@ impl TangentialWorkspace {
 }
 
 /// A slip set counts as settled when no slip cell moves along its shear by more than this part of
-/// the tolerance, and a change of q is negligible when it moves no cell by more than that.
+/// the tolerance.
 const SETTLED: f64 = 0.1;
 
 /// Part of the tolerance that the last conjugate gradients aim at: returning to the circles adds to it.
@@ -219,20 +219,19 @@ impl<'a> Newton<'a> {
         response.changed(self.system.squares());
         self.info.shift = (self.system).take(self.cells, &self.inside, &mut self.now);
         mark_slip(&self.inside, &mut self.now, self.info.shift);
-        hold_one(&self.inside, &mut self.now, self.info.shift);
         let Self {
             system, now, cells, ..
         } = self;
         let [x, y] = &mut system.change;
         let [q_x, q_y] = &now.q;
         let [] = sweep([&**q_x, q_y], [&mut x[..], y], |_, q, _| (q, []));
-        admissible(&self.inside, &mut now.q, now.slip);
+        admissible(&self.inside, now, self.info.shift);
         let [q_x, q_y] = &now.q;
         let [squares] = sweep([&**q_x, q_y], [&mut x[..], y], |_, q, before| {
             let change = [q[0] - before[0], q[1] - before[1]];
             (change, [change[0] * change[0] + change[1] * change[1]])
         });
-        if squares.sqrt() > self.settled / self.c_xx {
+        if squares.sqrt() > params.negligible / self.c_xx {
             response.changed(squares);
             system.respond(response, cells, now);
         }
@@ -261,39 +260,6 @@ fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64
     });
 }
 
-/// Where every cell slips none can take up what the bounds leave of a force: the cell with the least slip sticks, of
-/// those whose shear the rest makes smaller. So it is where the stick zone is narrower than a cell.
-fn hold_one(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
-    let [free_x, free_y, _] = problem.drive.free;
-    let Shear { q, u, slip, .. } = shear;
-    if !(free_x || free_y) || slip.contains(&false) {
-        return;
-    }
-    let sums = sums([problem.bound, &*q[0], &*q[1]], |_, [g, x, y]| {
-        let factor = g / size([x, y]);
-        [factor * x, factor * y]
-    });
-    let rest = [0, 1].map(|k| {
-        let free = problem.drive.free[k];
-        if free {
-            sums[k] - problem.drive.sums[k]
-        } else {
-            0.0
-        }
-    });
-    // Mirror images all slip, in balance: which of them stuck would be chance, and the shift with it.
-    if size(rest) <= rounding(problem) {
-        return;
-    }
-    let least = (0..slip.len())
-        .filter(|&n| power([q[0][n], q[1][n]], rest) > 0.0)
-        .map(|n| (n, size(problem.slip(u, shift, n))))
-        .min_by(|(_, a), (_, b)| a.total_cmp(b));
-    if let Some((n, _)) = least {
-        slip[n] = false;
-    }
-}
-
 /// Releases slip cells that move along their shear by more than `tolerance` \[m\]; whether any did.
 fn release(
     problem: &TangentialProblem<'_>,
@@ -315,6 +281,6 @@ fn release(
 }
 
 /// q . ds, negative where friction dissipates \[Pa m\].
-fn power(q: [f64; 2], slip: [f64; 2]) -> f64 {
+pub(super) fn power(q: [f64; 2], slip: [f64; 2]) -> f64 {
     q[0] * slip[0] + q[1] * slip[1]
 }

@@ -8,7 +8,7 @@ use crate::solvers::inner::{
     Sliding, TangentialInfo, admissible, first_shift, newton_step, shear_gradient, sliding,
     tangential,
 };
-use crate::solvers::no_slip::NoSlip;
+use crate::solvers::no_slip::{NoSlip, slip};
 use crate::solvers::{Interface, Response, SolverError, friction_bound};
 
 /// Newton steps without a smaller misfit, each halving the part of the way that u_0 follows, after which
@@ -17,12 +17,14 @@ const STALLED: usize = 5;
 const UNSETTLED: usize = 3;
 
 /// Brings the shear within the bound mu p of the present pressure and to the loads asked for; how near
-/// these are to sliding. Cells in contact that have no friction slip; cells out of contact carry nothing.
+/// these are to sliding, by a motion that is about `shift` \[m\]. Cells in contact that have no friction slip; cells
+/// out of contact carry nothing.
 pub(super) fn bring_within_bound(
     problem: &IncrementProblem<'_>,
     no_slip: &NoSlip<'_>,
     now: &mut Interface,
     ws: &mut AlternationWorkspace,
+    shift: [f64; 3],
 ) -> Sliding {
     set([problem.mu, &now.p], [&mut ws.bound], |_, [mu, p], _| {
         [friction_bound(mu, p)]
@@ -48,10 +50,34 @@ pub(super) fn bring_within_bound(
             }
         }
     } else {
-        let [q_x, q_y] = &mut now.q;
-        admissible(&shear, &mut [q_x, q_y], &mut now.slip);
+        admissible(&shear, &mut now.shear(), shift);
     }
     slides
+}
+
+/// Lets cells slip that the normal solver has brought into contact after the first pass, where friction does not hold
+/// what they have moved: taken to stick they would be the largest misfit of all. One that is held alone moves by
+/// about 2 C_xx(0,0) times its shear.
+pub(super) fn let_new_cells_slip(
+    problem: &IncrementProblem<'_>,
+    no_slip: &NoSlip<'_>,
+    now: &mut Interface,
+    p_before: &[f64],
+    shift: [f64; 3],
+    c_xx: f64,
+) {
+    let [x_0, y_0] = no_slip.displacement();
+    for n in (0..now.p.len()).filter(|&n| p_before[n] <= 0.0 && now.p[n] > 0.0) {
+        let u = [now.u[0][n], now.u[1][n]];
+        let slip = slip(u, [x_0[n], y_0[n]], problem.arms.in_plane(shift, n));
+        let (moved, bound) = (size(slip), friction_bound(problem.mu[n], now.p[n]));
+        if moved > 2.0 * c_xx * bound {
+            now.slip[n] = true;
+            for c in 0..2 {
+                now.q[c][n] = -bound * slip[c] / moved;
+            }
+        }
+    }
 }
 
 /// u_t after the pressure changed from `p_before` and the shear from `q_before`.

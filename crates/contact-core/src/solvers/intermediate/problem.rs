@@ -61,8 +61,30 @@ pub struct AlternationParams {
     pub tangential: TangentialParams,
     /// Most passes.
     pub max_alternations: usize,
+    /// Part of the gap that the pass before left down to which the inner loops solve; 0 solves to their tolerance in
+    /// each pass \[1\].
+    pub forcing: f64,
+    /// Whether cells slip that come into contact after the first pass, where friction does not hold them (default
+    /// true).
+    pub new_cells_slip: bool,
     /// Whether slow alternation is accelerated (default true).
     pub anderson: bool,
+}
+
+impl AlternationParams {
+    /// The settings with the tolerances of the inner loops in a pass that begins with such a `residual` of the gap
+    /// \[m\], and whether these are those of the end.
+    pub(super) fn inner(&self, residual: f64) -> (Self, bool) {
+        let looser = self.forcing * residual / self.tolerance;
+        if !(looser > 1.0) {
+            return (*self, true);
+        }
+        let mut inner = *self;
+        inner.normal.enough *= looser;
+        inner.normal.tolerance *= looser;
+        inner.tangential.tolerance *= looser;
+        (inner, false)
+    }
 }
 
 /// What the intermediate loop ended with.

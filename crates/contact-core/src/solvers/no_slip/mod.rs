@@ -141,9 +141,9 @@ impl<'a> NoSlip<'a> {
                 return ([0.0; 2], 0.0);
             }
             let at = |u: &[Vec<f64>; 2]| [u[0][n], u[1][n]];
-            let slip = slip(at(&now.u), at(&last.u), arms.in_plane(shift, n));
+            let slip = size(slip(at(&now.u), at(&last.u), arms.in_plane(shift, n)));
             // Where a cell slips by as much as the shear can move a surface the bodies slide.
-            let slides = (2.0 - 2.0 * size(slip) / elastic_slip).clamp(0.0, 1.0);
+            let slides = (2.0 - 2.0 * slip / elastic_slip).clamp(0.0, 1.0);
             turn(last, &earlier, now, slip, n).map_or(([0.0; 2], 0.0), |(across, follows)| {
                 (across.map(|t| slides * t), part * slides * follows)
             })

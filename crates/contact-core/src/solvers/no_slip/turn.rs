@@ -43,30 +43,35 @@ const SLIPPED: f64 = 0.9;
 /// Cosines of the angle between two directions over which the turn is faded in: beyond 60 degrees the path of
 /// the direction in between is not known.
 const FADE: [f64; 2] = [0.5, 0.7];
-/// Part of the way to the end that the onset of slip is nearer than the start from which the turn counts in
-/// full; it is faded in, so that rounding decides nothing.
-const NEARER: f64 = 0.1;
+/// Part by which the onset of slip is farther from the end than the start of the increment was from which on its turn
+/// does not count; it is faded out, so that rounding decides nothing.
+const FARTHER: f64 = 0.1;
 
 /// The tractions an increment earlier.
 #[derive(Clone, Copy)]
 pub struct Earlier<'a> {
-    /// Pressure \[Pa\].
-    pub p: &'a [f64],
-    /// Shear \[Pa\].
-    pub q: &'a [Vec<f64>; 2],
+    p: &'a [f64],
+    q: &'a [Vec<f64>; 2],
     /// The increment over the last one.
-    pub ratio: f64,
+    ratio: f64,
+    /// The weights a and b of a cell that slips all the time.
+    weights: [f64; 2],
 }
 
-impl Earlier<'_> {
-    /// The weights a and b of a cell that slips all the time.
-    fn weights(&self) -> [f64; 2] {
-        let a = 2.0 / (1.0 + (2.0 + 2.0 / self.ratio).sqrt());
-        [a, 0.25 * a * a]
+impl<'a> Earlier<'a> {
+    /// Of pressure and shear \[Pa\], and of the increment over the last one.
+    pub fn new(p: &'a [f64], q: &'a [Vec<f64>; 2], ratio: f64) -> Self {
+        let a = 2.0 / (1.0 + (2.0 + 2.0 / ratio).sqrt());
+        Self {
+            p,
+            q,
+            ratio,
+            weights: [a, 0.25 * a * a],
+        }
     }
 }
 
-/// The part t of the slip across the final shear in cell n \[m\], as far as the way there is known,
+/// The part t of a `slip` \[m\] of cell n across its final shear \[m\], as far as the way there is known,
 ///
 /// ```text
 /// |ds| fade(cos c) w sin(c)/|w e + e_1|,   c the angle from e to e_1,
@@ -77,63 +82,77 @@ pub(super) fn turn(
     last: &Interface,
     earlier: &Earlier<'_>,
     now: &Interface,
-    slip: [f64; 2],
+    slip: f64,
     n: usize,
 ) -> Option<([f64; 2], f64)> {
     let at = |q: &[Vec<f64>; 2]| [q[0][n], q[1][n]];
-    let end = at(&now.q);
-    if size(end) == 0.0 {
+    let (e_1, bound) = direction(at(&now.q));
+    if bound == 0.0 {
         return None;
     }
-    let (begin, w) = match last.slip[n] {
+    let (e, w, known) = match last.slip[n] {
         true if earlier.p[n] <= 0.0 => return None,
-        true => goes_on(last, earlier, end, n),
-        false => (meets(at(earlier.q), at(&last.q), size(end))?, STARTS),
+        true => goes_on(last, earlier, e_1, n),
+        false => starts(at(earlier.q), at(&last.q), e_1, bound)?,
     };
-    // Slip begins with a shear that is nearer to the one at the end than the one at the start was.
-    let far = |q: [f64; 2]| size([q[0] - end[0], q[1] - end[1]]);
-    let start = far(at(&last.q)).max(f64::MIN_POSITIVE);
-    let nearer = if last.slip[n] {
-        1.0
-    } else {
-        ((1.0 - far(begin) / start) / NEARER).clamp(0.0, 1.0)
-    };
-    let (e_0, e_1) = (unit(begin), unit(end));
-    let cos = dot(e_0, e_1).clamp(-1.0, 1.0);
+    let cos = dot(e, e_1).clamp(-1.0, 1.0);
+    let sin = e[0] * e_1[1] - e[1] * e_1[0];
     let part = (cos - FADE[0]) / (FADE[1] - FADE[0]);
-    let fade = nearer * part.clamp(0.0, 1.0);
-    let mean = [0, 1].map(|c| w * e_0[c] + e_1[c]);
-    let (length, m) = (size(mean), unit(mean));
-    let along = dot(m, e_1);
-    let across = [0, 1].map(|c| fade * size(slip) * (along * e_1[c] - m[c]));
+    let fade = known * part.clamp(0.0, 1.0);
+    let square = w * w + 2.0 * w * cos + 1.0;
+    let length = square.sqrt();
+    let across = fade * slip * w * sin / length;
     let of_fade = if (0.0..=1.0).contains(&part) {
-        nearer * w * (1.0 - cos * cos) / (length * (FADE[1] - FADE[0]))
+        known * w * (1.0 - cos * cos) / (length * (FADE[1] - FADE[0]))
     } else {
         0.0
     };
-    let follows = fade * along * w * (w + cos) / (length * length) - of_fade;
-    Some((across, follows))
+    let follows = fade * (1.0 + w * cos) * w * (w + cos) / (square * length) - of_fade;
+    Some(([-across * e_1[1], across * e_1[0]], follows))
 }
 
-/// The direction e of a cell that has slipped before, of any length, and its weight w. A turn of the last increment
+/// The direction e of a cell that starts to slip, where its shear, extrapolated from `before` through `last`, meets
+/// the bound \[Pa\], its weight, and how far that is known: slip begins with a shear that is no farther from the one
+/// at the end than the one at the start was.
+fn starts(
+    before: [f64; 2],
+    last: [f64; 2],
+    e_1: [f64; 2],
+    bound: f64,
+) -> Option<([f64; 2], f64, f64)> {
+    let begin = meets(before, last, bound)?;
+    let far = |q: [f64; 2]| size([q[0] - bound * e_1[0], q[1] - bound * e_1[1]]);
+    let start = far(last).max(f64::MIN_POSITIVE);
+    let known = (1.0 + (1.0 - far(begin) / start) / FARTHER).clamp(0.0, 1.0);
+    Some((direction(begin).0, STARTS, known))
+}
+
+/// The direction e of a cell that has slipped before, its weight w, and how far it is known. A turn of the last increment
 /// counts as far as it is no larger than that of this one and, where it went the other way, b times it no larger than
 /// a times this one, so that the mean lies between e_0 and e_1.
-fn goes_on(last: &Interface, earlier: &Earlier<'_>, end: [f64; 2], n: usize) -> ([f64; 2], f64) {
+fn goes_on(
+    last: &Interface,
+    earlier: &Earlier<'_>,
+    e_1: [f64; 2],
+    n: usize,
+) -> ([f64; 2], f64, f64) {
     let at = |q: &[Vec<f64>; 2]| [q[0][n], q[1][n]];
-    let (q, before) = (at(&last.q), at(earlier.q));
-    let (e_0, e_before, e_1) = (unit(q), unit(before), unit(end));
+    let ((e_0, bound), (e_before, before)) = (direction(at(&last.q)), direction(at(earlier.q)));
     // The shear over the pressure is as large in all cells that slip.
-    let of_bound = size(before) * last.p[n] / (size(q) * earlier.p[n]).max(f64::MIN_POSITIVE);
+    let of_bound = before * last.p[n] / (bound * earlier.p[n]).max(f64::MIN_POSITIVE);
     let slipped = (of_bound - SLIPPED) / (1.0 - SLIPPED);
     let turned = (dot(e_0, e_before) - FADE[0]) / (FADE[1] - FADE[0]);
-    let between = |a: [f64; 2], b: [f64; 2]| size([a[0] - b[0], a[1] - b[1]]);
-    let [a, b] = earlier.weights();
-    let turn_before = earlier.ratio.max(b / a) * between(e_before, e_0);
+    let between = |a: [f64; 2], b: [f64; 2]| {
+        let apart = [a[0] - b[0], a[1] - b[1]];
+        dot(apart, apart)
+    };
+    let [a, b] = earlier.weights;
+    let turn_before = earlier.ratio.max(b / a).powi(2) * between(e_before, e_0);
     let alike = (between(e_0, e_1) / turn_before.max(f64::MIN_POSITIVE)).min(1.0);
-    let part = slipped.clamp(0.0, 1.0) * turned.clamp(0.0, 1.0) * alike;
+    let part = slipped.clamp(0.0, 1.0) * turned.clamp(0.0, 1.0) * alike.sqrt();
     let (a, b) = (STARTED + part * (a - STARTED), part * b);
-    let mean = [0, 1].map(|c| a * e_0[c] + b * e_before[c]);
-    (mean, size(mean))
+    let (e, w) = direction([0, 1].map(|c| a * e_0[c] + b * e_before[c]));
+    (e, w, 1.0)
 }
 
 /// Where a shear extrapolated from `before` through `last` meets the circle of radius `bound` \[Pa\].
@@ -153,7 +172,9 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-fn unit(a: [f64; 2]) -> [f64; 2] {
-    let size = size(a).max(f64::MIN_POSITIVE);
-    [a[0] / size, a[1] / size]
+/// The direction and the size of a vector.
+fn direction(a: [f64; 2]) -> ([f64; 2], f64) {
+    let size = size(a);
+    let over = 1.0 / size.max(f64::MIN_POSITIVE);
+    ([a[0] * over, a[1] * over], size)
 }
