@@ -45,8 +45,8 @@ stress: ## 10 000 random scenes, 30 minutes at most; the numbers go to docs/reli
 path-errors: ## the estimated error of the path against the true one in 50 random scenes
 	FRET_PATH_ERRORS=50 cargo test --release --locked --package contact-core --test path_error -- --nocapture
 
-error-bars: ## error bars against the true errors in 80 random scenes; the numbers go to docs/error_bars.md
-	FRET_ERROR_BARS=80 FRET_ERROR_BARS_REPORT=$(CURDIR)/docs/error_bars.md \
+error-bars: ## error bars against the true errors in 160 random scenes; the numbers go to docs/error_bars.md
+	FRET_ERROR_BARS=160 FRET_ERROR_BARS_REPORT=$(CURDIR)/docs/error_bars.md \
 		cargo test --release --locked --package contact-core --test error_bars -- --nocapture
 
 fuzz: ## ten minutes of hostile input for each reader; the numbers go to docs/reliability.md

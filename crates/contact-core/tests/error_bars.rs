@@ -1,7 +1,7 @@
 //! Error bars: is the error of cells, increments and solver together what it is said to be?
 //!
 //! Random scenes with the increments that are chosen by default, each against four times the cells each way and four
-//! times the increments. A few in the test; `FRET_ERROR_BARS=40` for as many (`make error-bars`).
+//! times the increments. A few in the test; `FRET_ERROR_BARS=160` for as many (`make error-bars`).
 
 #![allow(clippy::print_stdout, reason = "a report for people")]
 
@@ -189,8 +189,10 @@ fn ratios(seed: u64) -> Option<Ratios> {
             if value(truth).abs() > 1e-6 * largest && error > 1e-12 * largest && moves {
                 numbers.push((name, error / of(bar).total));
                 println!(
-                    "  {name} of branch {}: {error:.2e}, {:?}",
+                    "  {name} of branch {}: {error:.2e} of {:.2e} at stick ratio {:.4}, {:?}",
                     bar.branch,
+                    value(truth),
+                    truth.stick_ratio,
                     of(bar)
                 );
             }
@@ -245,29 +247,10 @@ fn report(scenes: usize, lines: &[String]) -> std::io::Result<()> {
          error has its sign. Where cells and increments are off to the same side their errors add up; where they are off\n\
          to opposite sides they are not taken to cancel, since neither is known so well: such a bar may be too large. A\n\
          slip ring narrower than half a cell may be missed as a whole, and so may one that the cells show and that is\n\
-         none.\n",
+         none: so may be the energy that it dissipates while dissimilar bodies are pressed together.\n",
         lines.join("\n")
     );
     std::fs::write(path, text)
-}
-
-/// The fewest of so many numbers that meet a bound which each meets with this probability: of a few numbers, which a
-/// scene or two have in common, as few as chance leaves in one of a hundred samples.
-fn fewest(numbers: usize, probability: f64) -> usize {
-    let n = numbers as f64;
-    if numbers >= 20 {
-        return (probability * n).ceil() as usize;
-    }
-    let (mut at_most, mut exactly) = (0.0, (1.0 - probability).powf(n));
-    for k in 0..numbers {
-        at_most += exactly;
-        if at_most > 0.01 {
-            return k;
-        }
-        let k = k as f64;
-        exactly *= (n - k) / (k + 1.0) * probability / (1.0 - probability);
-    }
-    numbers
 }
 
 #[test]
@@ -278,7 +261,9 @@ fn error_bars_are_honest() {
     let (mut lines, mut dishonest, mut all) = (Vec::new(), Vec::new(), Vec::new());
     let mut look = |name: &str, ratios: &[f64]| {
         let ([below, above], line) = summary(name, ratios);
-        if below < fewest(ratios.len(), 0.95) || above < fewest(ratios.len(), 0.8) {
+        // Of a few scenes one number more may be odd.
+        let odd = usize::from(ratios.len() < 20);
+        if 100 * (below + odd) < 95 * ratios.len() || 100 * (above + odd) < 80 * ratios.len() {
             dishonest.push(line.clone());
         }
         lines.push(line);

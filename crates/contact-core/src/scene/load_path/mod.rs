@@ -100,6 +100,15 @@ impl Branch {
     pub(crate) fn set_equal_increments(&mut self, count: usize) {
         self.increments = Some(count + self.spacing.extra());
     }
+
+    /// Whether nothing but normal forces and tilting moments, or their motions, act at its end.
+    pub(crate) fn only_presses(&self) -> bool {
+        let to = &self.to;
+        let in_plane = |of: RigidMotion| of.is_in_plane() && to.prescribed(of).value() != 0.0;
+        let shears = RigidMotion::ALL.into_iter().any(in_plane);
+        let strained = [to.sigma_B, to.sigma_B1, to.rolled];
+        !shears && strained.iter().all(|s| *s == 0.0)
+    }
 }
 
 /// The load history, from the unloaded state.
@@ -122,14 +131,7 @@ impl LoadPath {
 
     /// Whether nothing but normal forces and tilting moments, or their motions, act.
     pub(crate) fn only_presses(&self) -> bool {
-        self.branches.iter().all(|Branch { to, .. }| {
-            let in_plane = |of: RigidMotion| of.is_in_plane() && to.prescribed(of).value() != 0.0;
-            let shears = RigidMotion::ALL.into_iter().any(in_plane);
-            let strains = [to.sigma_B, to.sigma_B1, to.rolled]
-                .iter()
-                .any(|s| *s != 0.0);
-            !(shears || strains)
-        })
+        self.branches.iter().all(Branch::only_presses)
     }
 
     /// Whether the increments of a branch are yet to be chosen.
