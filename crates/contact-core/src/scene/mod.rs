@@ -264,7 +264,7 @@ impl Scene {
     }
 
     /// Relative tolerance of the solution: that of the settings, or 1e-6, or where increments are chosen
-    /// 1/100 of the tolerance on the path (1/2500 of a path that only presses) if that is more.
+    /// 1/125 of the tolerance on the path (1/2500 of a path that only presses) if that is more.
     pub fn tolerance(&self) -> f64 {
         let solver = &self.settings.solver;
         let default = if self.path.is_open() && self.friction.mu > 0.0 {

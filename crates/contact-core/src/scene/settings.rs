@@ -17,9 +17,11 @@ pub struct Settings {
 
 /// Tolerance of the solution, and where the increments are chosen its part of the tolerance on the
 /// path, which is the larger error: of one that only presses the bodies together, where slip is
-/// about the rim alone, and of others.
+/// about the rim alone, and of others: on the paper's scene with E1/E2 = 0.5, 2, 4 (256 x 256 cells)
+/// five eighths of it take 7 % more convolutions for shear at the ends of branches that is 0, 5 and
+/// 4 % better, five quarters 3 % fewer for 2 % worse, 1 % better and 8 % worse.
 pub(super) const TOLERANCE: f64 = 1e-6;
-pub(super) const PATH_PART: [f64; 2] = [4e-4, 1e-2];
+pub(super) const PATH_PART: [f64; 2] = [4e-4, 8e-3];
 
 /// Highest order of an alias sum; its work grows with the square.
 pub(crate) const MOST_ALIASES: usize = 32;

@@ -23,7 +23,7 @@ pub(crate) use skip::Skip;
 /// preset : Preset, optional
 ///     Which algorithms (default ``Preset.FAST``).
 /// tolerance : float, optional
-///     Relative tolerance of the solution (default 1e-6; where increments are chosen 1/100 of
+///     Relative tolerance of the solution (default 1e-6; where increments are chosen 1/125 of
 ///     ``path_tolerance`` if that is more, 1/2500 where loads only press): gap error in the
 ///     contact over the Hertz approach, tangential misfit over mu times it, change of the
 ///     tractions in the last pass.
