@@ -62,6 +62,16 @@ grid = { n = 128, extent = { a_H = 2.2 } }
 path = [{ W = 1000.0 }, { M_z = MOMENT }, { M_z = -MOMENT }, { M_z = MOMENT }]
 "#;
 
+/// A rigid sphere on a body with nu = 0 under much friction: mu times Dundurs' beta is 1.
+const STRONG: &str = r#"
+schema = 1
+body1 = { shape.sphere.R = 0.018, E = inf, nu = 0.3 }
+body2 = { shape = "flat", E = 210e9, nu = 0.0 }
+friction.mu = 2.0
+grid = { n = 64, extent = { a_H = 4.0 } }
+path = [{ W = 1000.0, spacing = "equal_radius" }, { T_x = { mu_W = 0.5 } }, { T_x = { mu_W = -0.5 } }]
+"#;
+
 /// Branches of so many increments.
 fn with(text: &str, increments: &[usize]) -> Result<Scene, Error> {
     let settings: Vec<String> = increments
@@ -99,11 +109,17 @@ fn trial(
 /// All of them.
 pub(crate) fn trials() -> Result<Vec<Trial>, Error> {
     let finer = [400, 200, 400, 400, 400, 400];
-    let thousand = [100, 100, 200, 200, 200, 200];
+    let (twenty, thousand) = ([20; 6], [100, 100, 200, 200, 200, 200]);
     // M/(mu W a) = 0.53: the stick zone has half the contact radius (Lubkin).
     let torsion = TORSION.replace("MOMENT", "0.0762");
     Ok(vec![
         trial("paper's scene, chosen increments", PAPER, None, &finer)?,
+        trial(
+            "paper's scene, 256 x 256 cells, 20 increments a branch",
+            &PAPER.replace("n = 128", "n = 256"),
+            Some(&twenty),
+            &finer,
+        )?,
         trial(
             "paper's scene, 1000 increments",
             PAPER,
@@ -127,6 +143,12 @@ pub(crate) fn trials() -> Result<Vec<Trial>, Error> {
             &torsion,
             Some(&[1, 5, 10, 10]),
             &[1, 60, 120, 120],
+        )?,
+        trial(
+            "strong coupling",
+            STRONG,
+            Some(&[20, 10, 20]),
+            &[200, 100, 200],
         )?,
     ])
 }

@@ -127,7 +127,7 @@ impl Anderson {
         self.since_least += 1;
         if size < SLOW * self.least {
             (self.least, self.since_least) = (size, 0);
-        } else if self.since_least == TRIALS {
+        } else if self.accelerates() && self.since_least >= TRIALS {
             self.damping = (0.5 * self.damping).max(LEAST);
             self.since_least = 0;
             self.changes.clear();
