@@ -97,7 +97,7 @@ fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
             scene.path.W_max()
         ),
     );
-    line("work", work(scene));
+    line("work", work(scene, plan));
     let (needed, available) = (plan.memory(scene), available_memory());
     line(
         "memory",
@@ -150,24 +150,30 @@ fn increments(scene: &Scene) -> String {
     }
 }
 
-/// Increments of a branch where they are chosen, as a rule.
-const CHOSEN: usize = 20;
-/// Convolutions of an increment, as a rule.
-const CONVOLUTIONS: (usize, usize) = (5, 12);
+/// Increments of a branch where they are chosen, at least and at most as a rule.
+const CHOSEN: [usize; 2] = [12, 60];
+/// Convolutions of an increment, at least and at most as a rule: where pressure and shear act on one another, and
+/// where they do not.
+const COUPLED: [usize; 2] = [8, 60];
+const UNCOUPLED: [usize; 2] = [3, 12];
 
 /// What a solution takes, as a rule.
-fn work(scene: &Scene) -> String {
+fn work(scene: &Scene, plan: &Plan) -> String {
     let branches = &scene.path.branches;
-    let count: usize = branches
-        .iter()
-        .map(|b| b.increments.unwrap_or(CHOSEN))
-        .sum();
-    let about = if scene.path.is_open() { "some " } else { "" };
-    let (few, many) = CONVOLUTIONS;
+    let [least, most] = CHOSEN.map(|chosen| -> usize {
+        let counts = branches.iter().map(|b| b.increments.unwrap_or(chosen));
+        counts.sum()
+    });
+    let increments = if scene.path.is_open() {
+        format!("some {least} to {most} increments")
+    } else {
+        format!("{least} increments")
+    };
+    let [few, many] = if plan.coupling { COUPLED } else { UNCOUPLED };
     let (nx, ny) = (scene.grid.nx, scene.grid.ny);
     format!(
-        "{about}{count} increments of {few} to {many} convolutions each, {} to {} of {nx} x {ny} cells",
-        count * few,
-        count * many
+        "{increments} of {few} to {many} convolutions each, {} to {} of {nx} x {ny} cells",
+        least * few,
+        most * many
     )
 }

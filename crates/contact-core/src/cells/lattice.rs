@@ -61,6 +61,11 @@ impl Lattice {
             .any(|(_, m)| m.is_some_and(|m| zone[m]) != zone[n])
     }
 
+    /// Whether a cell or one around it is in a zone.
+    pub(crate) fn is_beside(self, n: usize, zone: &[bool]) -> bool {
+        self.around(n, 1).any(|(_, m)| m.is_some_and(|m| zone[m]))
+    }
+
     /// The direction, out of eight, that leads most squarely into the zone.
     pub(crate) fn inwards(self, n: usize, zone: &[bool]) -> Option<[isize; 2]> {
         const REACH: isize = 2;

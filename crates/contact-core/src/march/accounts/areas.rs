@@ -169,9 +169,11 @@ impl<'a> Cells<'a> {
                 *edge = by_slip.other_side(self.stick[*n]);
             }
         }
+        // Where no cell slips the zone ends at the rim, unless a level shows a ring narrower than a cell.
         for (n, edge) in &mut border {
             if let Ok(at) = rim.binary_search_by_key(n, |(n, _)| *n)
-                && edge.share() > rim[at].1.share()
+                && (edge.share() > rim[at].1.share()
+                    || edge.level.is_none() && !self.lattice.is_beside(*n, &self.slips))
             {
                 *edge = rim[at].1;
             }
