@@ -41,7 +41,6 @@ SCAN = [
     ("solvers/no_slip/turn.rs", "FARTHER", ("0.05", "0.2")),
     ("solvers/intermediate/known_pressure.rs", "STALLED", ("3", "10")),
     ("solvers/intermediate/known_pressure.rs", "UNSETTLED", ("2", "6")),
-    ("solvers/intermediate/lifted.rs", "PART", ("0.125", "0.5")),
     ("solvers/intermediate/anderson.rs", "DEPTH", ("4", "16")),
     ("solvers/intermediate/anderson.rs", "SLOW", ("0.25", "0.8")),
     ("solvers/intermediate/anderson.rs", "PATIENCE", ("1", "4")),

@@ -1,9 +1,9 @@
 //! Whether a contact that never slips holds: friction without a limit, and cells that their shear would lift.
 //!
 //! On dissimilar bodies shear along the surface moves it up or down. At the rim of a contact that sticks there may be
-//! cells that have no place: held, they would be under tension; parted, they overlap. Such a cell slips under
-//! a shear that leaves it pressed ([`solvers::intermediate`](crate::solvers::intermediate)), which is what large
-//! coefficients of friction tend to: the region shrinks towards the rim. Where cells within the contact are
+//! cells that have no place: held, they would be under tension; parted, they overlap. Such a cell is pressed without
+//! shear ([`solvers::intermediate`](crate::solvers::intermediate)): what large coefficients of friction tend to are
+//! cells that slip in a region that shrinks towards the rim. Where cells within the contact are
 //! lifted, or all of them, the bodies are shifted so far that no contact that sticks everywhere is in equilibrium.
 
 use super::setup::Setup;
