@@ -10,16 +10,16 @@ from measuring import Task, Work, measure, threads_allowed
 import pyfret as fret
 
 STEEL = fret.Elastic(E=hertz.E, nu=hertz.NU)
-PRESETS = {"fast": fret.Preset.FAST, "spinu2020": fret.Preset.SPINU2020}
+PRESETS = {"fast": fret.settings.Preset.FAST, "spinu2020": fret.settings.Preset.SPINU2020}
 
 
 def prepare(task: Task) -> fret._core.March:
     """Everything up to the first increment: coefficients, transforms, buffers."""
-    shape: fret.Sphere | fret.Sum = fret.Sphere(R=hertz.R)
+    shape: fret.Sphere | fret.shapes.Sum = fret.Sphere(R=hertz.R)
     amplitude, wavelength, phase = task.shape.amplitude, task.shape.wavelength, task.shape.phase
     if amplitude > 0:
         for angle in (0.0, math.pi / 2):
-            shape += fret.Waviness(
+            shape += fret.shapes.Waviness(
                 amplitude=amplitude, wavelength=wavelength, angle=angle, phase=phase
             )
     scene = fret.Scene(

@@ -45,7 +45,7 @@ html_theme = "furo"
 html_title = f"pyfret {release}"
 html_copy_source = False
 
-warnings.filterwarnings("ignore", category=pyfret.SceneWarning)
+warnings.filterwarnings("ignore", category=pyfret.errors.SceneWarning)
 sphinx_gallery_conf = {
     "examples_dirs": [str(Path(__file__).parents[1] / "examples" / "gallery")],
     "gallery_dirs": ["gallery"],

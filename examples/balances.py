@@ -142,7 +142,7 @@ def tilt(file: Path, n: int) -> str:
     """Moments on a flat punch with a rounded edge and on a ball in a seat."""
     a = 1e-3
     seat_hertz = fret.reference.hertz(R=1 / (1 / R - 1 / (1.1 * R)), bodies=(STEEL, STEEL), W=W)
-    punch = fret.Body(STEEL, shape=fret.FlatPunch(radius=0.8 * a, edge=0.02))
+    punch = fret.Body(STEEL, shape=fret.shapes.FlatPunch(radius=0.8 * a, edge=0.02))
     contacts = {
         "flat punch, rounded edge": (punch, fret.Body(SOFT), 0.8 * a, 2.6 * a),
         "ball in a seat of 1.1 R": (

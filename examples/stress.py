@@ -52,8 +52,8 @@ def running_maps(scene: fret.Scene) -> Figure:
     uncoated = fret.reference.CattaneoMindlin(hertz, bodies=bodies, mu=scene.mu)
     T, delta = uncoated.T_limit, uncoated.shift_limit
     maps = (
-        fret.sweep.running_map(scene, W=W, T=np.linspace(0.1, 1.2, 12) * T),
-        fret.sweep.running_map(scene, W=W, delta=np.linspace(0.2, 2.0, 10) * delta),
+        fret.study.running_conditions(scene, W=W, T=np.linspace(0.1, 1.2, 12) * T),
+        fret.study.running_conditions(scene, W=W, delta=np.linspace(0.2, 2.0, 10) * delta),
     )
     figure, row = plt.subplots(1, 2, figsize=(9.0, 3.6), layout="constrained")
     for ax, table in zip(row, maps, strict=True):

@@ -64,7 +64,7 @@ def main() -> None:
                 print(f"{done} points done: worker {pid} killed")
 
         started = time.perf_counter()
-        study = fret.study(
+        study = fret.study.solve(
             contact(options.cells),
             parameters,
             measure=MEASURES,
@@ -78,7 +78,7 @@ def main() -> None:
     draw(study, options.out / "study.png")
 
 
-def draw(study: fret.Study, file: Path) -> None:
+def draw(study: fret.study.Study, file: Path) -> None:
     """Contours of every measure."""
     with fret.plot.style():
         figure, axes = plt.subplots(2, 2, figsize=(9.6, 7.2), layout="constrained")

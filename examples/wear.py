@@ -56,8 +56,8 @@ def wear_rate(out: Path) -> None:
     strokes = onset * np.geomspace(0.3, 6.0, 9)
     rates = []
     for stroke in strokes:
-        law = fret.Archard(K)
-        result = fret.wear(
+        law = fret.wear.Archard(K)
+        result = fret.wear.solve(
             scene,
             moved(W, stroke),
             cycles=2000,
@@ -98,13 +98,13 @@ def coating_life(out: Path) -> None:
     thickness = 2e-6
     for i, W in enumerate(loads):
         for j, stroke in enumerate(strokes):
-            result = fret.wear(
+            result = fret.wear.solve(
                 contact(W, coating=thickness, reach=5.5, n=64),
                 moved(W, stroke, increments=4),
                 cycles=1e9,
                 first_branch=2,
                 cycling="sliding",
-                body2=[fret.Archard(K), fret.Archard(10 * K)],
+                body2=[fret.wear.Archard(K), fret.wear.Archard(10 * K)],
                 tolerance=0.03,
                 progress=False,
             )
@@ -122,7 +122,9 @@ def coating_life(out: Path) -> None:
         figure.savefig(out / "coating_life.png", dpi=150)
 
 
-def panels(result: fret.WearResult, file: Path, *, of: Literal["body2", "both"] = "both") -> None:
+def panels(
+    result: fret.wear.WearResult, file: Path, *, of: Literal["body2", "both"] = "both"
+) -> None:
     """Write profiles, map, history and loops of a run; a line contact has no map."""
     with fret.plot.style():
         figure, axes = plt.subplots(2, 2, figsize=(9, 7.5), layout="constrained")
@@ -141,11 +143,11 @@ def panels(result: fret.WearResult, file: Path, *, of: Literal["body2", "both"] 
 
 def partial_slip(out: Path) -> None:
     """Partial slip of a bare and of a coated sphere until the stick zone carries nearly all."""
-    W, law = 50.0, fret.Archard(5 * K)
+    W, law = 50.0, fret.wear.Archard(5 * K)
     T = 0.5 * MU * W
     path = fret.LoadPath.start().normal(W, increments=1).tangential([T, -T, T], increments=18)
     for name, coating in (("worn_sphere", None), ("worn_coated_sphere", 20e-6)):
-        result = fret.wear(
+        result = fret.wear.solve(
             contact(W, n=64, reach=1.4, coating=coating),
             path,
             cycles=1e5,
@@ -160,14 +162,14 @@ def partial_slip(out: Path) -> None:
 def gross_slip(out: Path) -> None:
     """Gross slip of a sphere, the stroke half as long as the contact: the flat wears over more."""
     W = 50.0
-    result = fret.wear(
+    result = fret.wear.solve(
         contact(W, n=72, reach=3.4),
         moved(W, 80e-6, increments=8),
         cycles=3000,
         first_branch=2,
         cycling="sliding",
-        body1=fret.Archard(K),
-        body2=fret.Archard(K),
+        body1=fret.wear.Archard(K),
+        body2=fret.wear.Archard(K),
         tolerance=0.03,
         progress=False,
     )
@@ -180,7 +182,7 @@ def mccoll(out: Path) -> None:
     path = fret.LoadPath.start().normal(18.5e3, increments=1)
     for to, increments in ((25e-6, 1), (-25e-6, 8), (25e-6, 8)):
         path = path.displace(delta_x=to, increments=increments)
-    result = fret.wear(
+    result = fret.wear.solve(
         fret.Scene(
             body1=fret.Body(steel, shape=fret.Cylinder(R=6e-3)),
             body2=fret.Body(steel),
@@ -192,8 +194,8 @@ def mccoll(out: Path) -> None:
         first_branch=2,
         cycling="sliding",
         rig_stiffness=24.6e9,  # of both half-planes down to 6 mm, docs/wear.md
-        body1=fret.Archard(1.9e-14),
-        body2=fret.Archard(2.9e-14),
+        body1=fret.wear.Archard(1.9e-14),
+        body2=fret.wear.Archard(2.9e-14),
         tolerance=0.02,
         progress=False,
     )

@@ -57,7 +57,7 @@ def test_most_of_what_is_drawn_is_a_scene() -> None:
     for seed in range(100):
         try:
             fret.Scene.from_toml(draw(seed))
-        except fret.InvalidSceneError:
+        except fret.errors.InvalidSceneError:
             refused += 1
     assert refused < 25
 

@@ -296,7 +296,7 @@ def test_a_contact_beyond_the_grid_is_told_by_check(scene_file: Path) -> None:
 
 
 def test_the_package_brings_the_command_along(tmp_path: Path) -> None:
-    code = "from pyfret.command import main; main()"
+    code = "from pyfret._cli import main; main()"
     scene = tmp_path / "scene.toml"
     written = subprocess.run(
         [sys.executable, "-c", code, "new", "coated_ball", "-o", scene], check=False

@@ -49,7 +49,7 @@ def test_a_damaged_store_is_read_as_it_was_or_refused_by_name(tmp_path: Path) ->
         damage(bad / name, rng)
         try:
             read = fret.open(bad).dataset.load()
-        except fret.StoreError as error:
+        except fret.errors.StoreError as error:
             text = str(error)
             assert str(bad) in text, text
             assert "\n" not in text, text
@@ -69,5 +69,5 @@ def test_what_is_no_store_is_refused_by_name(tmp_path: Path, name: str) -> None:
     if name == "others.zarr":
         (tmp_path / name / ".zmetadata").write_text('{"metadata": {".zattrs": {}}}')
     why = "no such file or folder" if name == "nothing.zarr" else "is not a result store"
-    with pytest.raises(fret.StoreError, match=f"{name}.*{why}"):
+    with pytest.raises(fret.errors.StoreError, match=f"{name}.*{why}"):
         fret.open(tmp_path / name)

@@ -43,7 +43,7 @@ PATH = fret.LoadPath.start().normal(W, increments=1).tangential(0.6 * 0.3 * W, i
 
 
 @pytest.mark.timeout(600)
-@pytest.mark.filterwarnings("ignore::pyfret.SceneWarning")
+@pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
 def test_chosen_depths_find_the_largest_stress_of_random_layered_contacts() -> None:
     random = np.random.default_rng(1)
     covered, worst = [], 0.0
@@ -79,7 +79,9 @@ def test_a_thin_layer_is_not_missed() -> None:
     assert set(np.unique(below.dataset.layer)) == {0, 1, 2}
     largest = below.maximum()
     assert largest.layer == 1, largest
-    with pytest.warns(fret.SceneWarning, match="interfaces at z = .* are not among the depths"):
+    with pytest.warns(
+        fret.errors.SceneWarning, match="interfaces at z = .* are not among the depths"
+    ):
         even = contact.stress(np.linspace(0.0, 2 * HERTZ.a, 18), y=0.0).maximum()
     assert even.value < 0.9 * largest.value
     shear = below.maximum("interface_shear")
@@ -109,7 +111,7 @@ def test_interface_measures_need_an_interface() -> None:
 def test_a_layer_above_the_first_row_of_cells_is_told() -> None:
     scene = layered([fret.Coating(STEEL, thickness=HERTZ.a / 50)], n=16)
     contact = fret.solve(scene, fret.LoadPath.start().normal(W, increments=1), progress=False)
-    with pytest.warns(fret.SceneWarning, match="cells"):
+    with pytest.warns(fret.errors.SceneWarning, match="cells"):
         contact.at(-1).stress()
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -16,8 +16,8 @@ import pytest
 
 import pyfret as fret
 from conftest import ROOT, sphere_on_flat
-from pyfret import plot, stress
-from pyfret.section import Section
+from pyfret import plot
+from pyfret.fatigue import Section
 
 DOCS = ROOT / "docs"
 DOCUMENTS = [
@@ -34,9 +34,10 @@ FRET = ROOT / "target" / "release" / "fret"
 OWNERS: list[Any] = [
     fret,
     plot,
-    fret.sweep,
-    fret.studies,
-    fret.Study,
+    fret.study,
+    fret.fatigue,
+    fret.wear,
+    fret.study.Study,
     fret.subsurface,
     fret.kernels,
     fret.reference,
@@ -46,7 +47,7 @@ OWNERS: list[Any] = [
     fret.Snapshot,
     fret.Result,
     fret.Settings,
-    stress.Stress,
+    fret.subsurface.Stress,
 ]
 
 
@@ -69,7 +70,7 @@ def found(dotted: str) -> list[Any]:
     first, *rest = dotted.split(".")
     if first in ("fret", "pyfret"):
         return [resolved(fret, rest)]
-    return [resolved(owner, [first, *rest]) for owner in OWNERS if hasattr(owner, first)]
+    return [resolved(owner, [first, *rest]) for owner in OWNERS if first in dir(owner)]
 
 
 def resolved(owner: Any, names: list[str]) -> Any:

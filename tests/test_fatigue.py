@@ -69,7 +69,7 @@ def test_materials_and_lives(tmp_path: Path) -> None:
     )
     assert fatigue.Materials(mine)["mine"].number("t_D") == 2.5e8
     mine.write_text("schema = 1\n[materials.mine]\ns_D = 4e8\n", encoding="utf-8")
-    with pytest.raises(fret.InvalidSceneError, match=r"mine\.toml:3: .*source"):
+    with pytest.raises(fret.errors.InvalidSceneError, match=r"mine\.toml:3: .*source"):
         fatigue.Materials(mine)
 
 

@@ -40,7 +40,7 @@ def thin_layers() -> fret.Scene:
 
 
 ROUGH = fret.Rough(rms=1e-7, hurst=0.8, longest=A, shortest=0.4 * A, seed=2)
-PUNCH = fret.FlatPunch(radius=0.6 * A, edge=R)
+PUNCH = fret.shapes.FlatPunch(radius=0.6 * A, edge=R)
 STRIP = fret.Grid.strip(extent=2.6 * A, n=32)
 LINE_LOAD = 1e5
 SCENES = {
@@ -62,14 +62,15 @@ SCENES = {
     "frictionless": scene(fret.Sphere(R), PRESSED, mu=0.0),
     "never slips": scene(fret.Sphere(R), PRESSED.tangential(0.1 * W, increments=1), mu=np.inf),
     "crowned roller along a moment": scene(
-        fret.CrownedRoller(R=R, length=0.5 * A, crown=R), PRESSED.cycles(1, M_z=1e-2, increments=4)
+        fret.shapes.CrownedRoller(R=R, length=0.5 * A, crown=R),
+        PRESSED.cycles(1, M_z=1e-2, increments=4),
     ),
     "wedge": scene(
-        fret.Wedge(slope=0.005) + fret.Sphere(R),
+        fret.shapes.Wedge(slope=0.005) + fret.Sphere(R),
         fret.LoadPath.start().normal(W / 4, increments=2).cycles(1, delta_y=1e-7, increments=4),
     ),
     "wavy flat under a ball, shear that goes round": scene(
-        fret.Sphere(R) + fret.Waviness(amplitude=1e-8, wavelength=A),
+        fret.Sphere(R) + fret.shapes.Waviness(amplitude=1e-8, wavelength=A),
         PRESSED.ellipse(T_x=0.3 * MU * W, T_y=0.2 * MU * W, increments=2),
     ),
     "measured surface": scene(
@@ -82,7 +83,7 @@ SCENES = {
     ),
     "rolling": scene(fret.Sphere(R), PRESSED.force(rolled=2 * GRID.dx, T_x=50.0, increments=2)),
     "tilted": scene(PUNCH, GENTLE.displace(phi_y=1e-6, increments=1)),
-    "cone": scene(fret.Cone(slope=0.01), fret.LoadPath.start().normal(W / 4, increments=2)),
+    "cone": scene(fret.shapes.Cone(slope=0.01), fret.LoadPath.start().normal(W / 4, increments=2)),
 }
 
 
@@ -97,7 +98,7 @@ def _close_figures() -> Iterator[None]:
     plt.close("all")
 
 
-pytestmark = pytest.mark.filterwarnings("ignore::pyfret.SceneWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::pyfret.errors.SceneWarning")
 
 
 @pytest.mark.parametrize("units", ["auto", "SI"])

@@ -39,7 +39,7 @@ def test_a_history_or_a_scene_that_is_no_file_is_refused_at_once(tmp_path: Path,
         name.symlink_to("/dev/zero")
     else:
         name.mkdir()
-    with pytest.raises(fret.StoreError, match="is not a file"):
+    with pytest.raises(fret.errors.StoreError, match="is not a file"):
         fret.LoadPath.from_csv(name)
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE + 'path.file = "history.csv"\n')
@@ -55,7 +55,7 @@ def test_columns_that_say_the_same_are_refused(tmp_path: Path, columns: str) -> 
     name = tmp_path / "history.csv"
     row = ",".join("1" for _ in columns.split(","))
     name.write_text(f"{columns}\n{row}\n")
-    with pytest.raises(fret.StoreError, match="says the same"):
+    with pytest.raises(fret.errors.StoreError, match="says the same"):
         fret.LoadPath.from_csv(name)
 
 
@@ -111,5 +111,7 @@ def test_increments_that_the_path_has_not_are_not_kept(tmp_path: Path) -> None:
     scene = sphere_on_flat(n=8)
     path = fret.LoadPath.start().normal(W, increments=3)
     for index in (0, 4, 99):
-        with pytest.raises(fret.InvalidSceneError, match="1 to 3, the increments of the path"):
+        with pytest.raises(
+            fret.errors.InvalidSceneError, match="1 to 3, the increments of the path"
+        ):
             fret.solve(scene, path, save=[index], progress=False)

@@ -25,16 +25,16 @@ def test_a_material_of_ones_own_needs_its_sources() -> None:
         ([("s_D", -1.0, SOURCE)], r"`mine`\.s_D: -1: must be positive"),
         ([("sD", 1.0, SOURCE)], r"`mine`\.sD: unknown; nearest is s_"),
     ):
-        with pytest.raises(fret.InvalidSceneError, match=says):
+        with pytest.raises(fret.errors.InvalidSceneError, match=says):
             fatigue.Material("mine", numbers)
 
 
 def test_the_map_holds_what_each_point_gives() -> None:
     """Against a solution of one point by itself; more shear cracks sooner and dissipates more."""
-    cracking = fret.studies.Cracking(STEEL, "crossland")
+    cracking = fret.study.Cracking(STEEL, "crossland")
     scene = sphere_on_flat(n=20)
     loads = {"W": [600.0, 1000.0], "T": [60.0, 150.0, 200.0]}
-    table = fret.sweep.running_map(scene, **loads, increments=(3, 6), cracking=cracking)
+    table = fret.study.running_conditions(scene, **loads, increments=(3, 6), cracking=cracking)
     assert table.status.values.tolist() == [[2, 2, 3], [2, 2, 2]]
     assert np.isnan(table.safety_factor[0, 2])
     assert (

@@ -13,6 +13,7 @@ from typing import Any
 import pyfret as fret
 from conftest import ROOT
 from pyfret import _core, plot
+from pyfret.run import State
 
 STUB = ast.parse((ROOT / "python" / "pyfret" / "_core.pyi").read_text(encoding="utf-8"))
 
@@ -39,8 +40,14 @@ def test_every_public_name_has_its_docstring() -> None:
         fret.kernels,
         fret.reference,
         fret.subsurface,
-        fret.sweep,
-        fret.studies,
+        fret.study,
+        fret.fatigue,
+        fret.wear,
+        fret.heat,
+        fret.fracture,
+        fret.errors,
+        fret.settings,
+        fret.shapes,
     )
     empty = []
     for module in modules:
@@ -73,5 +80,5 @@ def test_the_stub_has_the_members_and_the_docstrings_of_the_module() -> None:
 
 
 def test_a_snapshot_declares_every_variable_of_the_store() -> None:
-    declared = set(fret.Snapshot.__annotations__)
+    declared = set(State.__annotations__)
     assert declared == {*_core.labels(), "x", "y"}

@@ -11,7 +11,7 @@ import xarray as xr
 import pyfret as fret
 from conftest import T_MAX, sphere_on_flat
 from conftest import W as LOAD
-from pyfret import fatigue, interface, residual
+from pyfret import fatigue, fracture, subsurface
 
 COATING = fret.Coating(fret.Elastic(E=300e9, nu=0.2), thickness=3e-6)
 
@@ -26,7 +26,7 @@ def cycled(*, ratio: float) -> fret.Result:
 def test_interface_over_a_cycle_is_the_largest_of_its_increments() -> None:
     result = cycled(ratio=2.0)
     Z, S = 150e6, 400e6
-    found = interface.over_cycle(result, peel_strength=Z, shear_strength=S)
+    found = fracture.over_cycle(result, peel_strength=Z, shear_strength=S)
     kept = fatigue.cycle_increments(result)
     depths = result.scene.interfaces()
     below = [result.at(int(n)).stress(depths, y=0.0) for n in kept]
@@ -40,22 +40,22 @@ def test_interface_over_a_cycle_is_the_largest_of_its_increments() -> None:
     assert float(found.shear.max()) > 0.0
     assert found.z.values.tolist() == depths
     with pytest.raises(ValueError, match="peel_strength is given alone"):
-        interface.over_cycle(result, peel_strength=Z)
+        fracture.over_cycle(result, peel_strength=Z)
     with pytest.raises(ValueError, match="shear_strength = -1"):
-        interface.over_cycle(result, peel_strength=Z, shear_strength=-1.0)
+        fracture.over_cycle(result, peel_strength=Z, shear_strength=-1.0)
 
 
 def test_a_body_without_a_coating_has_no_interface() -> None:
     with pytest.raises(ValueError, match="body 2 has no coating"):
-        interface.over_cycle(cycled(ratio=1.0))
+        fracture.over_cycle(cycled(ratio=1.0))
 
 
 def test_edge_release_is_the_energy_of_plane_strain() -> None:
     E, nu, h, s = 300e9, 0.2, 3e-6, 1e9
     # Energy per area of a layer under s with no strain along the front, less that without s.
     strain = s * (1 - nu**2) / E
-    assert interface.edge_release(COATING, s) == pytest.approx(s * strain / 2 * h, rel=1e-12)
-    assert interface.edge_release(COATING, -s) == interface.edge_release(COATING, s)
+    assert fracture.edge_release(COATING, s) == pytest.approx(s * strain / 2 * h, rel=1e-12)
+    assert fracture.edge_release(COATING, -s) == fracture.edge_release(COATING, s)
 
 
 def test_buckling_releases_what_the_energy_loses() -> None:
@@ -67,51 +67,53 @@ def test_buckling_releases_what_the_energy_loses() -> None:
         return 2 * b * h / (2 * plane) * (2 * s * s_c - s_c**2 - s**2)
 
     for b in (40e-6, 60e-6, 200e-6):
-        found = interface.buckling_release(COATING, -s, 2 * b)
+        found = fracture.buckling_release(COATING, -s, 2 * b)
         d = 1e-5 * b
         # Two fronts take up what the energy loses.
         loss = -(energy(b + d) - energy(b - d)) / (2 * d) / 2
         assert found.release == pytest.approx(loss, rel=1e-6)
         assert found.deflection > 0.0
-    wide = interface.buckling_release(COATING, -s, 1e-2)
-    assert wide.release == pytest.approx(interface.edge_release(COATING, s), rel=1e-4)
+    wide = fracture.buckling_release(COATING, -s, 1e-2)
+    assert wide.release == pytest.approx(fracture.edge_release(COATING, s), rel=1e-4)
     # A strip of half width b is a clamped column of length 2 b: s_c = 4 pi^2 EI/(h (2 b)^2).
     column = 4 * np.pi**2 * plane * h**2 / 12 / (2e-2 / 2) ** 2
     assert wide.critical_stress == pytest.approx(column, rel=1e-12)
-    narrow = interface.buckling_release(COATING, -s, 10e-6)
+    narrow = fracture.buckling_release(COATING, -s, 10e-6)
     assert (narrow.deflection, narrow.release) == (0.0, 0.0)
-    assert interface.buckling_release(COATING, s, 1e-3).release == 0.0
+    assert fracture.buckling_release(COATING, s, 1e-3).release == 0.0
     with pytest.raises(ValueError, match="width = 0"):
-        interface.buckling_release(COATING, -s, 0.0)
+        fracture.buckling_release(COATING, -s, 0.0)
 
 
 def test_thermal_stress_keeps_the_coating_as_wide_as_its_substrate() -> None:
     E, nu, a_c, a_s = 300e9, 0.2, 5e-6, 12e-6
     for dT in (-400.0, 150.0):
-        s = residual.thermal(
+        s = subsurface.thermal_stress(
             COATING.material, alpha_coating=a_c, alpha_substrate=a_s, temperature_change=dT
         )
         # Free expansion and Hooke's law in both directions: the strain is that of the substrate.
         assert a_c * dT + (s - nu * s) / E == pytest.approx(a_s * dT, rel=1e-12)
-    cooled = residual.thermal(
+    cooled = subsurface.thermal_stress(
         COATING.material, alpha_coating=a_c, alpha_substrate=a_s, temperature_change=-400.0
     )
     assert cooled < 0.0
     with pytest.raises(ValueError, match="rigid"):
-        residual.thermal(fret.RIGID, alpha_coating=a_c, alpha_substrate=a_s, temperature_change=1.0)
+        subsurface.thermal_stress(
+            fret.RIGID, alpha_coating=a_c, alpha_substrate=a_s, temperature_change=1.0
+        )
     with pytest.raises(ValueError, match="alpha_coating = nan"):
-        residual.thermal(
+        subsurface.thermal_stress(
             COATING.material, alpha_coating=np.nan, alpha_substrate=a_s, temperature_change=1.0
         )
     # By materials.
     table = fatigue.Materials()
     steel, alumina = table["steel_4340"], table["alumina"]
-    named = residual.thermal(alumina, alpha_substrate=steel, temperature_change=-100.0)
+    named = subsurface.thermal_stress(alumina, alpha_substrate=steel, temperature_change=-100.0)
     assert named == pytest.approx(416e9 / (1 - 0.231) * (12.3e-6 - 7.4e-6) * -100.0, rel=1e-12)
     with pytest.raises(ValueError, match=r"TiN.*nu .Poisson"):
-        residual.thermal(table["TiN"], alpha_substrate=steel, temperature_change=-100.0)
+        subsurface.thermal_stress(table["TiN"], alpha_substrate=steel, temperature_change=-100.0)
     with pytest.raises(ValueError, match="alpha_coating is missing"):
-        residual.thermal(COATING.material, alpha_substrate=steel, temperature_change=1.0)
+        subsurface.thermal_stress(COATING.material, alpha_substrate=steel, temperature_change=1.0)
 
 
 def test_residual_stress_is_part_of_every_stress() -> None:

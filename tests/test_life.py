@@ -12,8 +12,9 @@ import pytest
 import pyfret as fret
 from conftest import T_MAX, sphere_on_flat
 from conftest import W as LOAD
-from pyfret import averages, cycle_stress, fatigue, life
-from pyfret.section import Section, SectionOptions
+from pyfret import fatigue
+from pyfret.fatigue import averages, cycle_stress
+from pyfret.fatigue.section import Section, SectionOptions
 
 STEEL = fatigue.Materials()["steel_42CrMo4"]
 
@@ -179,7 +180,7 @@ def test_ruiz_work_adds_up_to_the_energy_of_the_loop(cycled: fret.Result) -> Non
     whole = float(work.sum()) * grid.dx * grid.dy
     assert whole == pytest.approx(float(cycled.loops().dissipated[-1]), rel=1e-6)
     y = float(grid.y[16])
-    ruiz = life.ruiz(cycled, y=y)
+    ruiz = fatigue.ruiz(cycled, y=y)
     np.testing.assert_allclose(ruiz.F1, work.values[:, 16], rtol=1e-12)
     tension = fatigue.history(cycled, [0.0], y=y).sel(component="s_xx").max("increment")[0]
     np.testing.assert_allclose(ruiz.F2, ruiz.F1 * np.maximum(tension, 0.0))
@@ -191,11 +192,11 @@ def test_what_was_not_kept_is_refused() -> None:
     result = fret.solve(sphere_on_flat(n=16), path, save="branches", progress=False)
     # The ends are enough for the work of the cycle.
     whole = fret.solve(sphere_on_flat(n=16), path, save="all", progress=False)
-    F1 = life.ruiz(result).F1
-    np.testing.assert_allclose(F1, life.ruiz(whole).F1, rtol=1e-9, atol=1e-9 * float(F1.max()))
+    F1 = fatigue.ruiz(result).F1
+    np.testing.assert_allclose(F1, fatigue.ruiz(whole).F1, rtol=1e-9, atol=1e-9 * float(F1.max()))
     last = fret.solve(sphere_on_flat(n=16), path, save=[4, 8], progress=False)
     with pytest.raises(ValueError, match=r"increment \d was not kept"):
-        life.ruiz(last)
+        fatigue.ruiz(last)
     short = fret.LoadPath.start().normal(LOAD, increments=2)
     with pytest.raises(ValueError, match="no closed cycle"):
         fret.solve(sphere_on_flat(n=16), short, progress=False).life(STEEL, "crossland")

@@ -14,7 +14,8 @@ import pytest
 import pyfret as fret
 from conftest import ROOT, T_MAX, sphere_on_flat
 from conftest import W as LOAD
-from pyfret import averages, fatigue, files
+from pyfret import fatigue
+from pyfret._util import files
 
 FRET = ROOT / "target" / "release" / "fret"
 STEEL = fatigue.Materials()["steel_42CrMo4"]
@@ -70,7 +71,7 @@ def test_lines_figure_and_distance(store: Path, tmp_path: Path) -> None:
     run = life(store, *own, "--distance", "3e-5", "--json")
     assert run.returncode == 0, run.stderr
     mine = fatigue.Materials(tmp_path / "mine.toml")["mine"]
-    mean = averages.average(fret.open(store), mine, "dang_van", L=3e-5)
+    mean = fatigue.average(fret.open(store), mine, "dang_van", L=3e-5)
     assert json.loads(run.stdout)["value"] == float(mean.value.max())
 
 

@@ -51,7 +51,7 @@ def test_a_friction_law_survives_the_scene_file() -> None:
     ],
 )
 def test_a_law_without_meaning_is_refused(law: Callable[[], fret.Friction], message: str) -> None:
-    with pytest.raises(fret.InvalidSceneError, match=message):
+    with pytest.raises(fret.errors.InvalidSceneError, match=message):
         sphere_on_flat().replace(mu=law(), path=PRESSED).check()
 
 
@@ -67,7 +67,7 @@ def test_a_measured_history_is_a_path(tmp_path: Path) -> None:
     assert fret.LoadPath.from_csv(file, increments=2) == path
     fine = fret.LoadPath.from_csv(file, increments=fret.PerRange(40))
     assert fine.branches[0].increments == 40
-    with pytest.raises(fret.InvalidSceneError, match="the nearest is T_x"):
+    with pytest.raises(fret.errors.InvalidSceneError, match="the nearest is T_x"):
         fret.LoadPath.start().waypoints(T_X=[1.0])
 
 
@@ -111,7 +111,7 @@ def test_a_line_contact_is_that_of_hertz() -> None:
     x = end.p.x.to_numpy()
     p = end.p.to_numpy()[:, 0]
     assert np.linalg.norm(p - line.p(x)) < 0.005 * np.linalg.norm(p)
-    with pytest.raises(fret.InvalidSceneError, match=r"left out in plane strain"):
+    with pytest.raises(fret.errors.InvalidSceneError, match=r"left out in plane strain"):
         scene.replace(path=PRESSED.torsion(1.0, increments=1)).check()
 
 
@@ -122,7 +122,7 @@ def test_rolling_needs_whole_cells() -> None:
         if good:
             scene.replace(path=path).check()
         else:
-            with pytest.raises(fret.InvalidSceneError, match="must be whole cells"):
+            with pytest.raises(fret.errors.InvalidSceneError, match="must be whole cells"):
                 scene.replace(path=path).check()
 
 

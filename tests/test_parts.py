@@ -29,10 +29,10 @@ BODY = fret.Body(
     STEEL, coatings=[fret.Coating(STEEL, thickness=1e-5)], shape=fret.Sphere(1.0) + MAP
 )
 SETTINGS = fret.Settings(
-    preset=fret.Preset.SPINU2020,
+    preset=fret.settings.Preset.SPINU2020,
     tolerance=1e-7,
-    kernel=fret.InverseFft(enlargement=4, aliases=1),
-    skip=fret.Skip(mirror=False),
+    kernel=fret.settings.InverseFft(enlargement=4, aliases=1),
+    skip=fret.settings.Skip(mirror=False),
     save=[3, 4],
 )
 
@@ -41,15 +41,15 @@ PARTS: list[tuple[Any, dict[str, Any]]] = [
     (STEEL, {"nu": 0.2}),
     (fret.RIGID, {}),
     (fret.Coating(STEEL, thickness=1e-6), {"thickness": 2e-6}),
-    (fret.Flat(), {}),
+    (fret.shapes.Flat(), {}),
     (fret.Sphere(0.01), {"R": 0.02}),
     (fret.Ellipsoid(R_x=0.1, R_y=0.2, angle=0.3), {"angle": 0.4}),
     (fret.Cylinder(R=0.1), {"length": 1e-3}),
-    (fret.CrownedRoller(R=0.1, length=1e-3, crown=1.0), {"crown": 2.0}),
-    (fret.Cone(slope=0.01), {"slope": 0.02}),
-    (fret.Wedge(slope=0.01), {"angle": 0.1}),
-    (fret.FlatPunch(radius=1e-3, edge=1e-4), {"edge": 2e-4}),
-    (fret.Waviness(amplitude=1e-7, wavelength=1e-5), {"phase": 1.0}),
+    (fret.shapes.CrownedRoller(R=0.1, length=1e-3, crown=1.0), {"crown": 2.0}),
+    (fret.shapes.Cone(slope=0.01), {"slope": 0.02}),
+    (fret.shapes.Wedge(slope=0.01), {"angle": 0.1}),
+    (fret.shapes.FlatPunch(radius=1e-3, edge=1e-4), {"edge": 2e-4}),
+    (fret.shapes.Waviness(amplitude=1e-7, wavelength=1e-5), {"phase": 1.0}),
     (fret.Rough(rms=1e-7, hurst=0.8, longest=1e-4, shortest=1e-5, seed=3), {"seed": 4}),
     (MAP, {"spacing": (3e-6, 3e-6)}),
     (fret.Sphere(1.0) + MAP, {"parts": [fret.Sphere(2.0), MAP]}),
@@ -63,12 +63,12 @@ PARTS: list[tuple[Any, dict[str, Any]]] = [
     (PATH.branches[2], {"increments": 3}),
     (fret.PerRange(40), {"increments": 20}),
     (SETTINGS, {"save": "all"}),
-    (fret.Skip(far=False), {"far": True}),
-    (fret.Hankel(), {}),
-    (fret.InverseFft(enlargement=4), {"aliases": 2}),
-    (fret.FrequencyDomain(enlargement=4), {"enlargement": 5}),
-    (fret.Archard(1e-14, threshold=1e-9), {"k": 2e-14}),
-    (fret.DissipatedEnergy(1e-14), {"threshold": 1.0}),
+    (fret.settings.Skip(far=False), {"far": True}),
+    (fret.settings.Hankel(), {}),
+    (fret.settings.InverseFft(enlargement=4), {"aliases": 2}),
+    (fret.settings.FrequencyDomain(enlargement=4), {"enlargement": 5}),
+    (fret.wear.Archard(1e-14, threshold=1e-9), {"k": 2e-14}),
+    (fret.wear.DissipatedEnergy(1e-14), {"threshold": 1.0}),
     (
         fret.Scene(
             body1=BODY,
@@ -106,7 +106,7 @@ def test_a_part_that_does_not_exist_is_refused(part: Any) -> None:
         part.replace(nonsense=1.0)
 
 
-@pytest.mark.parametrize("kind", [fret.Preset, fret.Spacing, fret.History])
+@pytest.mark.parametrize("kind", [fret.settings.Preset, fret.Spacing, fret.History])
 def test_members_of_enumerations_are_pickled(kind: Any) -> None:
     for name in (n for n in dir(kind) if n.isupper()):
         member = getattr(kind, name)

@@ -78,7 +78,7 @@ def test_the_stick_zone_moves_against_x_below_a_soft_coating(ratio: float, sign:
 
 
 def test_answers_do_not_depend_on_the_mirror(coated: fret.Result) -> None:
-    settings = fret.Settings(tolerance=TOLERANCE, skip=fret.Skip(mirror=False))
+    settings = fret.Settings(tolerance=TOLERANCE, skip=fret.settings.Skip(mirror=False))
     scene = coated.scene.replace(settings=settings)
     whole = fret.solve(scene, progress=False)
     # Waves of a few cells make of a misfit a hundred times as much traction.

@@ -16,7 +16,8 @@ import pytest
 
 import pyfret as fret
 from conftest import ROOT, W, sphere_on_flat
-from pyfret.reporting import content
+from pyfret import verification
+from pyfret.report import content
 
 PATH = fret.LoadPath.start().normal(W, increments=3).cycles(1, T_x=200.0, increments=8)
 #: Widths and heights of a laptop and of a phone.
@@ -30,15 +31,15 @@ def result() -> fret.Result:
 
 
 @pytest.fixture(scope="module")
-def worn() -> fret.WearResult:
+def worn() -> fret.wear.WearResult:
     scene = sphere_on_flat(ratio=2.0, n=16)
-    return fret.wear(
-        scene, PATH, cycles=1e4, first_branch=2, body2=fret.Archard(1e-14), progress=False
+    return fret.wear.solve(
+        scene, PATH, cycles=1e4, first_branch=2, body2=fret.wear.Archard(1e-14), progress=False
     )
 
 
 @pytest.fixture(scope="module")
-def page(result: fret.Result, worn: fret.WearResult, tmp_path_factory: Any) -> Path:
+def page(result: fret.Result, worn: fret.wear.WearResult, tmp_path_factory: Any) -> Path:
     place: Path = tmp_path_factory.mktemp("page") / "run.html"
     figure = fret.plot.load_path(result).figure
     result.report(place, wear=worn, figures={"Load path": figure})
@@ -138,7 +139,7 @@ def test_notebooks_show_tables(result: fret.Result) -> None:
     assert "coating 1" in scene._repr_html_()
     assert "T_x = -200 N" in path._repr_html_()
     assert "partial slip" in result._repr_html_()
-    study = fret.study(scene, {"mu": [0.3]}, measure="p_max", executor=1)
+    study = fret.study.solve(scene, {"mu": [0.3]}, measure="p_max", executor=1)
     assert "p_max" in study._repr_html_()
 
 
@@ -173,7 +174,7 @@ def test_verification_ships_with_the_package() -> None:
     told = str(found)
     assert "Lubkin" in told
     assert "all passed" in told
-    worse = fret.verifying.Check("x", "y", ours=1.1, truth=1.0, scale=1.0, last=0.01)
+    worse = verification.Check("x", "y", ours=1.1, truth=1.0, scale=1.0, last=0.01)
     assert not worse.passed
     assert "1 FAILED" in str(fret.Verification([worse], 1.0))
 

@@ -132,7 +132,7 @@ def test_a_store_is_not_overwritten(tmp_path: Path) -> None:
     (tmp_path / "run.zarr").mkdir()
     (tmp_path / "run.zarr" / "precious").write_text("data")
     path = fret.LoadPath.start().normal(W, increments=1)
-    with pytest.raises(fret.StoreError, match="exists"):
+    with pytest.raises(fret.errors.StoreError, match="exists"):
         fret.solve(sphere_on_flat(), path, out=tmp_path / "run.zarr", progress=False)
     assert (tmp_path / "run.zarr" / "precious").read_text() == "data"
 
@@ -239,7 +239,7 @@ def test_an_interrupted_run_is_resumed_to_the_same_bits(
     resumed = fret.resume(store, progress=False)
     assert resumed.dataset.identical(coated.dataset)
     assert fret.resume(store, progress=False).dataset.identical(coated.dataset)
-    with pytest.raises(fret.StoreError, match="is not a result store"):
+    with pytest.raises(fret.errors.StoreError, match="is not a result store"):
         fret.resume(tmp_path, progress=False)
 
 

@@ -26,7 +26,7 @@ STEEL = fret.Elastic(E=210e9, nu=0.3)
     ],
 )
 def test_a_material_out_of_range_is_refused(E: float, nu: float, message: str) -> None:
-    with pytest.raises(fret.InvalidSceneError, match=message):
+    with pytest.raises(fret.errors.InvalidSceneError, match=message):
         fret.Elastic(E=E, nu=nu)
 
 
@@ -51,7 +51,7 @@ INDENTED = fret.LoadPath.start().normal(W, increments=1)
     ],
 )
 def test_a_scene_without_meaning_is_refused(broken: Callable[[], fret.Scene], message: str) -> None:
-    with pytest.raises(fret.InvalidSceneError, match=message):
+    with pytest.raises(fret.errors.InvalidSceneError, match=message):
         broken().replace(path=INDENTED).check()
 
 
@@ -66,7 +66,7 @@ def test_a_scene_without_meaning_is_refused(broken: Callable[[], fret.Scene], me
     ],
 )
 def test_a_path_beyond_reach_is_refused(path: fret.LoadPath, message: str) -> None:
-    with pytest.raises(fret.InvalidSceneError, match=message):
+    with pytest.raises(fret.errors.InvalidSceneError, match=message):
         fret.solve(sphere_on_flat(), path, progress=False)
 
 
@@ -74,7 +74,7 @@ def test_a_grid_too_small_for_the_contact_says_how_large_it_should_be() -> None:
     scene = sphere_on_flat()
     tight = fret.Grid.centred(extent=0.5 * scene.grid.nx * scene.grid.dx, n=16)
     cramped = fret.Scene(body1=scene.body1, body2=scene.body2, mu=0.3, grid=tight)
-    with pytest.raises(fret.OffGridError, match=r"should be about .* m wide"):
+    with pytest.raises(fret.errors.OffGridError, match=r"should be about .* m wide"):
         fret.solve(cramped, INDENTED, progress=False)
 
 
@@ -104,14 +104,14 @@ def test_the_grid_is_centred_on_the_initial_point_of_contact() -> None:
 def test_parts_are_read_back_as_they_were_given() -> None:
     scene = sphere_on_flat(ratio=2.0)
     assert scene.body1.shape == fret.Sphere(R=R)
-    assert scene.body2.shape == fret.Flat()
+    assert scene.body2.shape == fret.shapes.Flat()
     assert scene.body2.coatings[0].material == fret.Elastic(E=420e9, nu=0.3)
     assert scene.replace(mu=0.5).mu == 0.5
     assert scene.replace(mu=0.5) != scene
-    skip = fret.Skip(mirror=False)
-    settings = fret.Settings(kernel=fret.InverseFft(enlargement=4), skip=skip)
+    skip = fret.settings.Skip(mirror=False)
+    settings = fret.Settings(kernel=fret.settings.InverseFft(enlargement=4), skip=skip)
     assert scene.replace(settings=settings).settings == settings
-    assert settings.kernel == fret.InverseFft(enlargement=4, aliases=0)
+    assert settings.kernel == fret.settings.InverseFft(enlargement=4, aliases=0)
     assert not settings.skip.mirror
 
 
@@ -125,7 +125,7 @@ def test_no_slip_is_said_as_in_scene_files() -> None:
 
 def test_a_scene_survives_its_file() -> None:
     settings = fret.Settings(
-        tolerance=1e-6, skip=fret.Skip(mirror=False), preset=fret.Preset.SPINU2020
+        tolerance=1e-6, skip=fret.settings.Skip(mirror=False), preset=fret.settings.Preset.SPINU2020
     )
     path = INDENTED.tangential([100.0, -100.0], increments=3)
     scene = sphere_on_flat(ratio=2.0).replace(path=path, settings=settings)
@@ -134,7 +134,7 @@ def test_a_scene_survives_its_file() -> None:
 
 def test_an_unknown_key_names_the_nearest_valid_one_and_the_line() -> None:
     text = sphere_on_flat().replace(path=INDENTED).to_toml().replace("mu =", "mue =")
-    with pytest.raises(fret.InvalidSceneError, match=r":\d+: .*mue.*mu"):
+    with pytest.raises(fret.errors.InvalidSceneError, match=r":\d+: .*mue.*mu"):
         fret.Scene.from_toml(text)
 
 
@@ -143,7 +143,7 @@ def test_a_graded_coating_is_a_stack_with_the_properties_of_each_middle() -> Non
     stack = fret.graded(E=profile, nu=fret.Profile.constant(0.3), thickness=1e-3, layers=4)
     assert [c.material.E for c in stack] == pytest.approx([375e9, 325e9, 275e9, 225e9])
     assert sum(c.thickness for c in stack) == pytest.approx(1e-3)
-    with pytest.raises(fret.InvalidSceneError, match="layers"):
+    with pytest.raises(fret.errors.InvalidSceneError, match="layers"):
         fret.graded(E=profile, nu=fret.Profile.constant(0.3), thickness=1e-3, layers=0)
 
 
@@ -166,6 +166,6 @@ def test_a_scene_reads_no_file_outside_its_folder(tmp_path: Path) -> None:
         path = [{ W = 1.0, increments = 1 }]
         """
     )
-    with pytest.raises(fret.InvalidSceneError, match="outside the folder"):
+    with pytest.raises(fret.errors.InvalidSceneError, match="outside the folder"):
         fret.Scene.from_file(scene)
     assert fret.Scene.from_file(scene, allow_outside=True).grid.nx == 8

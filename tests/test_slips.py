@@ -12,7 +12,7 @@ import pytest
 
 import pyfret as fret
 from conftest import R, W, pair, sphere_on_flat
-from pyfret.progress import Progress
+from pyfret._util.progress import Progress
 
 STEEL, _ = pair(0.3)
 BALL = fret.Body(STEEL, shape=fret.Sphere(R))
@@ -38,7 +38,7 @@ PRESSED = fret.LoadPath.start().normal(W, increments=1)
     ],
 )
 def test_a_constructor_refuses_at_once(make: Callable[[], object], says: str) -> None:
-    with pytest.raises(fret.InvalidSceneError, match=says):
+    with pytest.raises(fret.errors.InvalidSceneError, match=says):
         make()
 
 
@@ -105,7 +105,7 @@ def test_what_is_plain_is_taken() -> None:
 
 def flat_of(coatings: list[fret.Coating], shape: object = None) -> fret.Scene:
     scene = sphere_on_flat()
-    body = fret.Body(STEEL, coatings=coatings, shape=shape or fret.Flat())  # type: ignore[arg-type]
+    body = fret.Body(STEEL, coatings=coatings, shape=shape or fret.shapes.Flat())  # type: ignore[arg-type]
     return fret.Scene(body1=scene.body1, body2=body, mu=0.3, grid=scene.grid, path=PRESSED)
 
 
@@ -115,7 +115,7 @@ def test_moduli_in_another_unit_are_refused_with_what_was_understood() -> None:
     scene = fret.Scene(
         body1=fret.Body(soft, shape=fret.Sphere(R)), body2=fret.Body(soft), mu=0.3, grid=scene.grid
     )
-    with pytest.raises(fret.InvalidSceneError, match=r"E\* = 6.*114 GPa is 114e9"):
+    with pytest.raises(fret.errors.InvalidSceneError, match=r"E\* = 6.*114 GPa is 114e9"):
         scene.replace(path=PRESSED).check()
 
 
@@ -124,7 +124,7 @@ def test_heights_in_another_unit_are_refused() -> None:
     scene = sphere_on_flat()
     spacing = scene.grid.dx
     with pytest.raises(
-        fret.InvalidSceneError, match=r"heights over a range of .* m: must be below"
+        fret.errors.InvalidSceneError, match=r"heights over a range of .* m: must be below"
     ):
         flat_of([], fret.SurfaceMap(heights, spacing=spacing)).check()
     steep = fret.SurfaceMap(heights * spacing, spacing=spacing)
@@ -147,7 +147,7 @@ def test_heights_in_another_unit_are_refused() -> None:
 )
 def test_what_is_hardly_meant_is_warned_of(scene: fret.Scene, says: str) -> None:
     scene.check()
-    with pytest.warns(fret.SceneWarning, match=says):
+    with pytest.warns(fret.errors.SceneWarning, match=says):
         next(iter(fret.march(scene)))
 
 
@@ -160,7 +160,7 @@ def test_a_contact_that_cannot_fit_is_refused_before_it_is_solved() -> None:
     scene = sphere_on_flat()
     tight = fret.Grid.centred(extent=0.5 * scene.grid.nx * scene.grid.dx, n=16)
     scene = fret.Scene(body1=scene.body1, body2=scene.body2, mu=0.3, grid=tight, path=PRESSED)
-    with pytest.raises(fret.OffGridError, match="does not fit on the grid"):
+    with pytest.raises(fret.errors.OffGridError, match="does not fit on the grid"):
         scene.check()
 
 

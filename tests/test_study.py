@@ -27,23 +27,23 @@ MEASURES = ["loop_energy", "stick_ratio", "p_max"]
 HERE = ThreadPoolExecutor(1)
 
 
-def run(*, measure: Any = MEASURES, executor: Any = HERE, **options: Any) -> fret.Study:
-    return fret.study(
+def run(*, measure: Any = MEASURES, executor: Any = HERE, **options: Any) -> fret.study.Study:
+    return fret.study.solve(
         SCENE, PARAMETERS, measure=measure, executor=executor, progress=False, **options
     )
 
 
-def numbers(study: fret.Study) -> xr.Dataset:
+def numbers(study: fret.study.Study) -> xr.Dataset:
     """All but the times."""
     return study.dataset.drop_vars("seconds")
 
 
 @pytest.fixture(scope="module")
-def whole() -> fret.Study:
+def whole() -> fret.study.Study:
     return run()
 
 
-def test_a_point_is_the_solution_of_its_scene(whole: fret.Study) -> None:
+def test_a_point_is_the_solution_of_its_scene(whole: fret.study.Study) -> None:
     assert whole.count() == {"open": 0, "done": 6, "failed": 0}
     point = whole.dataset.isel({"body2.coatings.0.E": 1, "mu": 2})
     coat = fret.Coating(fret.Elastic(E=4e11, nu=0.3), thickness=SCENE.body2.coatings[0].thickness)
@@ -57,16 +57,16 @@ def test_a_point_is_the_solution_of_its_scene(whole: fret.Study) -> None:
     assert float(point.seconds) > 0
 
 
-def test_values_in_step_and_samples(whole: fret.Study) -> None:
+def test_values_in_step_and_samples(whole: fret.study.Study) -> None:
     sample = {"body2.coatings.0.E": np.array([1e11, 4e11]), "mu": np.array([0.3, 0.2])}
-    study = fret.study(
+    study = fret.study.solve(
         SCENE, sample, combine="zip", measure=MEASURES, executor=HERE, progress=False
     )
     assert study.dataset.sizes == {"point": 2}
     there = whole.dataset.p_max
     assert study.dataset.p_max.values.tolist() == [float(there[0, 1]), float(there[1, 0])]
     with pytest.raises(ValueError, match="must be the same"):
-        fret.study(SCENE, {"mu": [0.1, 0.2], "grid.n": [16]}, combine="zip")
+        fret.study.solve(SCENE, {"mu": [0.1, 0.2], "grid.n": [16]}, combine="zip")
 
 
 def tractions(result: fret.Result) -> dict[str, Any]:
@@ -76,11 +76,13 @@ def tractions(result: fret.Result) -> dict[str, Any]:
 
 def test_a_function_of_the_user_gives_numbers_and_fields() -> None:
     stiff = {"body2.coatings.0.E": [3e11, 4e11], "mu": [0.2, 0.3]}
-    study = fret.study(SCENE, stiff, measure=["p_max", tractions], executor=HERE)
+    study = fret.study.solve(SCENE, stiff, measure=["p_max", tractions], executor=HERE)
     assert study.dataset.pressure.dims == ("body2.coatings.0.E", "mu", "x", "y")
     assert (study.dataset.pressure.max(("x", "y")) <= study.dataset.p_max).all()
     assert (study.dataset.cells > 100).all()
-    soft = fret.study(SCENE, {"body2.coatings.0.E": [3e11, 1e11]}, measure=tractions, executor=HERE)
+    soft = fret.study.solve(
+        SCENE, {"body2.coatings.0.E": [3e11, 1e11]}, measure=tractions, executor=HERE
+    )
     assert "{'x': 22, 'y': 22}" in soft.failed()[0][1]
     with pytest.raises(ValueError, match="field over x, y"):
         study.map("pressure")
@@ -91,26 +93,26 @@ def test_a_function_of_the_user_gives_numbers_and_fields() -> None:
 def test_failed_points_say_why_and_are_solved_again_if_asked(tmp_path: Path) -> None:
     where = {"mu": [0.1, 0.3]}  # 150 N are more than 0.1 of 1000 N
     options: dict[str, Any] = {"measure": MEASURES, "executor": HERE, "out": tmp_path / "s.zarr"}
-    study = fret.study(SCENE, where, **options)
+    study = fret.study.solve(SCENE, where, **options)
     ((values, reason),) = study.failed()
     assert values == {"mu": 0.1}
     assert "mu W" in reason
     assert np.isnan(study.dataset.p_max[0])
     solved: list[int] = []
-    fret.study(SCENE, where, **options, on_point=lambda n, _: solved.append(n))
+    fret.study.solve(SCENE, where, **options, on_point=lambda n, _: solved.append(n))
     assert solved == []
-    fret.study(SCENE, where, **options, again=True, on_point=lambda n, _: solved.append(n))
+    fret.study.solve(SCENE, where, **options, again=True, on_point=lambda n, _: solved.append(n))
     assert solved == [2]
 
 
-def test_an_interrupted_study_goes_on(whole: fret.Study, tmp_path: Path) -> None:
+def test_an_interrupted_study_goes_on(whole: fret.study.Study, tmp_path: Path) -> None:
     def stop(done: int, total: int) -> None:
         if done == 2:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         run(out=tmp_path / "s.zarr", on_point=stop)
-    half = fret.open_study(tmp_path / "s.zarr")
+    half = fret.study.open(tmp_path / "s.zarr")
     assert half.count() == {"open": 4, "done": 2, "failed": 0}
     assert "4 open, 2 done" in repr(half)
     told: list[tuple[int, int]] = []
@@ -121,24 +123,24 @@ def test_an_interrupted_study_goes_on(whole: fret.Study, tmp_path: Path) -> None
 
 def test_the_store_of_another_study_is_refused(tmp_path: Path) -> None:
     place = tmp_path / "s.zarr"
-    fret.study(SCENE, {"mu": [0.3]}, measure="p_max", executor=HERE, out=place)
-    with pytest.raises(fret.StoreError, match="differ in parameters"):
-        fret.study(SCENE, {"mu": [0.4]}, measure="p_max", executor=HERE, out=place)
-    with pytest.raises(fret.StoreError, match="it measures p_max, not q_max"):
-        fret.study(SCENE, {"mu": [0.3]}, measure="q_max", executor=HERE, out=place)
+    fret.study.solve(SCENE, {"mu": [0.3]}, measure="p_max", executor=HERE, out=place)
+    with pytest.raises(fret.errors.StoreError, match="differ in parameters"):
+        fret.study.solve(SCENE, {"mu": [0.4]}, measure="p_max", executor=HERE, out=place)
+    with pytest.raises(fret.errors.StoreError, match="it measures p_max, not q_max"):
+        fret.study.solve(SCENE, {"mu": [0.3]}, measure="q_max", executor=HERE, out=place)
     fret.solve(SCENE, out=tmp_path / "run.zarr", progress=False)
-    with pytest.raises(fret.StoreError, match="not the store of a study"):
-        fret.open_study(tmp_path / "run.zarr")
+    with pytest.raises(fret.errors.StoreError, match="not the store of a study"):
+        fret.study.open(tmp_path / "run.zarr")
 
 
 def test_a_grid_that_is_too_small_grows() -> None:
     small = SCENE.replace(grid=SCENE.grid.replace(dx=SCENE.grid.dx / 2.5, dy=SCENE.grid.dy / 2.5))
     softer = {"body2.coatings.0.E": [1e11]}
-    study = fret.study(small, softer, measure="p_max", executor=HERE)
+    study = fret.study.solve(small, softer, measure="p_max", executor=HERE)
     assert study.count()["done"] == 1
     assert study.dataset.nx.item() > 16
     assert study.dataset.nx.item() == study.dataset.ny.item()
-    kept = fret.study(small, softer, measure="p_max", executor=HERE, grow=False)
+    kept = fret.study.solve(small, softer, measure="p_max", executor=HERE, grow=False)
     assert kept.failed()[0][1].startswith("OffGridError")
 
 
@@ -157,7 +159,9 @@ def dies(result: fret.Result) -> float:
     return float(result.dataset.p_max.max())
 
 
-def test_processes_share_the_points_and_one_may_die(whole: fret.Study, tmp_path: Path) -> None:
+def test_processes_share_the_points_and_one_may_die(
+    whole: fret.study.Study, tmp_path: Path
+) -> None:
     measure = partial(dies_once, tmp_path / "died")
     study = run(measure=[*MEASURES, measure], executor=2, out=tmp_path / "s.zarr")
     assert (tmp_path / "died").exists()
@@ -166,12 +170,14 @@ def test_processes_share_the_points_and_one_may_die(whole: fret.Study, tmp_path:
 
 
 def test_a_point_that_kills_its_process_is_given_up() -> None:
-    study = fret.study(SCENE, {"mu": [0.2, MU, 0.4]}, measure=dies, executor=1)
+    study = fret.study.solve(SCENE, {"mu": [0.2, MU, 0.4]}, measure=dies, executor=1)
     assert study.dataset.status.values.tolist() == [1, 2, 1]
     assert "killed 3 times" in study.failed()[0][1]
 
 
-def test_a_cluster_of_dask_loses_nothing_with_a_worker(whole: fret.Study, tmp_path: Path) -> None:
+def test_a_cluster_of_dask_loses_nothing_with_a_worker(
+    whole: fret.study.Study, tmp_path: Path
+) -> None:
     distributed = pytest.importorskip("distributed")
     measure = partial(dies_once, tmp_path / "died")
     cluster = distributed.LocalCluster(
@@ -190,7 +196,7 @@ def test_a_cluster_of_dask_loses_nothing_with_a_worker(whole: fret.Study, tmp_pa
     assert numbers(study)[MEASURES].equals(numbers(whole)[MEASURES])
 
 
-def test_a_study_file_is_the_same_study(whole: fret.Study, tmp_path: Path) -> None:
+def test_a_study_file_is_the_same_study(whole: fret.study.Study, tmp_path: Path) -> None:
     (tmp_path / "scene.toml").write_text(SCENE.to_toml())
     file = tmp_path / "study.toml"
     file.write_text(
@@ -204,7 +210,7 @@ def test_a_study_file_is_the_same_study(whole: fret.Study, tmp_path: Path) -> No
     assert ran.returncode == 0, ran.stderr
     assert "6 done" in ran.stdout
     assert (tmp_path / "map.png").stat().st_size > 10_000
-    found = fret.open_study(tmp_path / "study.zarr")
+    found = fret.study.open(tmp_path / "study.zarr")
     np.testing.assert_allclose(found.dataset.mu, whole.dataset.mu)
     assert np.array_equal(found.dataset.p_max[:, 0], whole.dataset.p_max[:, 0])
     file.write_text('scene = "scene.toml"\nparameter = 1\n')
@@ -219,8 +225,8 @@ def test_stresses_wear_and_a_scene_file_with_its_measures(tmp_path: Path) -> Non
     start = text.index("[[path]]\nT_x = { mu_W = -0.9 }\nincrements = 40\nt = 0.8")
     (tmp_path / "scene.toml").write_text(text[:start])
     thick = {"body2.coatings.0.thickness.a_H": [0.5, 1.0], "grid.n": [24]}
-    worn = fret.studies.Wear(1e4, body2=fret.Archard(1e-14), first_branch=2)
-    study = fret.study(
+    worn = fret.study.Wear(1e4, body2=fret.wear.Archard(1e-14), first_branch=2)
+    study = fret.study.solve(
         tmp_path / "scene.toml",
         thick,
         measure=["von_mises", "interface_shear", worn],
@@ -232,18 +238,18 @@ def test_stresses_wear_and_a_scene_file_with_its_measures(tmp_path: Path) -> Non
     assert (d.worn_depth2 > 0).all()
     assert (d.worn_depth1 == 0).all()
     hertz = fret.reference.hertz(R=R, bodies=(SCENE.body1, SCENE.body1), W=W)
-    varied = fret.varied(tmp_path / "scene.toml", {"body2.coatings.0.thickness.a_H": 0.5})
+    varied = fret.study.varied(tmp_path / "scene.toml", {"body2.coatings.0.thickness.a_H": 0.5})
     assert varied.body2.coatings[0].thickness == pytest.approx(0.5 * hertz.a, rel=1e-12)
 
 
-def test_maps_of_studies(whole: fret.Study) -> None:
+def test_maps_of_studies(whole: fret.study.Study) -> None:
     ax = whole.map("p_max")
     assert ax.get_ylabel() == "mu"
     line = fret.plot.study_map(whole, "p_max", at={"mu": 0.21})
     assert "largest pressure of the path [GPa]" in line.get_ylabel()
     with pytest.raises(ValueError, match="must be one of"):
         whole.map("life")
-    fine = fret.Study(
+    fine = fret.study.Study(
         whole.dataset.interp(
             mu=np.linspace(0.2, 0.4, 5), **{"body2.coatings.0.E": np.geomspace(1e11, 4e11, 5)}
         )
@@ -255,22 +261,22 @@ def test_maps_of_studies(whole: fret.Study) -> None:
 
 def test_what_is_no_study_is_refused() -> None:
     with pytest.raises(ValueError, match="no parameters"):
-        fret.study(SCENE, {})
+        fret.study.solve(SCENE, {})
     with pytest.raises(ValueError, match="has no values"):
-        fret.study(SCENE, {"mu": []})
+        fret.study.solve(SCENE, {"mu": []})
     with pytest.raises(ValueError, match='E1/E2: a "/" parts folders'):
-        fret.study(SCENE, {"E1/E2": [1.0]})
+        fret.study.solve(SCENE, {"E1/E2": [1.0]})
     with pytest.raises(ValueError, match="must be a list"):
-        fret.study(SCENE, {"mu": 0.3})
+        fret.study.solve(SCENE, {"mu": 0.3})
     with pytest.raises(ValueError, match="loop_energy"):
-        fret.study(SCENE, {"mu": [0.3]}, measure="energy")
+        fret.study.solve(SCENE, {"mu": [0.3]}, measure="energy")
     with pytest.raises(TypeError, match="number of processes"):
-        fret.study(SCENE, {"mu": [0.3]}, executor="many")
-    unknown = fret.study(SCENE, {"body2.coatings.0.modulus": [1e-5]}, executor=HERE)
+        fret.study.solve(SCENE, {"mu": [0.3]}, executor="many")
+    unknown = fret.study.solve(SCENE, {"body2.coatings.0.modulus": [1e-5]}, executor=HERE)
     assert "nearest valid key" in unknown.failed()[0][1]
 
 
-def test_a_study_can_be_pickled(whole: fret.Study) -> None:
+def test_a_study_can_be_pickled(whole: fret.study.Study) -> None:
     assert pickle.loads(pickle.dumps(whole)).dataset.identical(whole.dataset)
 
 

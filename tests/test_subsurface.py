@@ -148,7 +148,7 @@ def test_volumes_open_in_vtk_and_xarray(coated: fret.Result, tmp_path: Path) -> 
         np.testing.assert_allclose(drawn.transpose(0, 2, 1), stored[name], rtol=1e-6)
     with pytest.raises(ValueError, match="one of s_xx"):
         snapshot.write_volume(tmp_path / "other.vti", z, of=("mises",))
-    with pytest.raises(fret.StoreError, match="exists"):
+    with pytest.raises(fret.errors.StoreError, match="exists"):
         snapshot.write_volume(tmp_path / "stress.vti", z)
 
 
@@ -172,7 +172,7 @@ def test_the_envelope_streams(tmp_path: Path) -> None:
     np.testing.assert_allclose(streamed.s_xx_amplitude.isel(cycle=1), amplitude)
     with warnings.catch_warnings():
         # The depths leave the interface out.
-        warnings.simplefilter("ignore", fret.SceneWarning)
+        warnings.simplefilter("ignore", fret.errors.SceneWarning)
         largest = [result.at(n).stress(z, y=0.0).maximum("s_xx") for n in range(1, len(path) + 1)]
     for n, name in enumerate(("", "_x", "_z", "_layer")):
         found = streamed[f"s_xx_largest{name}"]
@@ -258,7 +258,7 @@ def test_loops_of_torsion_and_of_given_shifts() -> None:
 
 
 def test_the_running_map_slides_above_the_friction_limit() -> None:
-    table = fret.sweep.running_map(
+    table = fret.study.running_conditions(
         sphere_on_flat(n=24), W=[500.0, W], T=[30.0, 120.0, 240.0], increments=(4, 8)
     )
     assert table.status.values.tolist() == [[2, 2, 3], [2, 2, 2]]
@@ -268,13 +268,13 @@ def test_the_running_map_slides_above_the_friction_limit() -> None:
     assert ratio[0, 1] > ratio[1, 1]
     assert fret.plot.running_map(table).get_ylabel() == "$T$ [N]"
     with pytest.raises(ValueError, match="one of them"):
-        fret.sweep.running_map(sphere_on_flat(n=24), W=W)
+        fret.study.running_conditions(sphere_on_flat(n=24), W=W)
 
 
 def test_the_running_map_of_shifts_parts_partial_from_gross_slip() -> None:
     uncoated = fret.reference.CattaneoMindlin(scene_hertz(pair(0.3)), bodies=pair(0.3), mu=MU)
     shifts = np.array([0.5, 3.0]) * uncoated.shift_limit
-    table = fret.sweep.running_map(
+    table = fret.study.running_conditions(
         sphere_on_flat(n=24), W=[500.0, W], delta=shifts, increments=(4, 12)
     )
     assert table.status.values.tolist() == [[2, 3], [2, 3]]

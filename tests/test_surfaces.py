@@ -50,24 +50,26 @@ def test_holes_are_named_cut_off_or_filled(tmp_path: Path) -> None:
     says = (
         r"3 of 12 points have no number, the first in row 1 and column 1, all within 1 of the edges"
     )
-    with pytest.raises(fret.StoreError, match=says):
+    with pytest.raises(fret.errors.StoreError, match=says):
         fret.SurfaceMap.from_file(file, spacing=1e-6)
-    with pytest.raises(fret.InvalidSceneError, match="3 of 12 points have no number"):
+    with pytest.raises(fret.errors.InvalidSceneError, match="3 of 12 points have no number"):
         fret.SurfaceMap(holed, spacing=1e-6)
     cut = fret.SurfaceMap.from_file(file, spacing=1e-6, missing="crop")
     np.testing.assert_array_equal(cut.values, HEIGHTS[1:])
     filled = fret.SurfaceMap(holed, spacing=1e-6, missing="fill").values
     np.testing.assert_allclose(filled[0], [-1.5, -1.0, -0.5])
-    with pytest.raises(fret.InvalidSceneError, match=r'missing = leave: must be "refuse", "crop"'):
+    with pytest.raises(
+        fret.errors.InvalidSceneError, match=r'missing = leave: must be "refuse", "crop"'
+    ):
         fret.SurfaceMap(holed, spacing=1e-6, missing="leave")  # type: ignore[arg-type]
 
 
 def test_an_empty_table_holds_no_number(tmp_path: Path) -> None:
     file = tmp_path / "empty.csv"
     file.write_text("")
-    with pytest.raises(fret.StoreError, match=r"empty\.csv.*(no number|no line|empty)"):
+    with pytest.raises(fret.errors.StoreError, match=r"empty\.csv.*(no number|no line|empty)"):
         fret.SurfaceMap.from_file(file, spacing=1e-6)
-    with pytest.raises(fret.InvalidSceneError, match="no number"):
+    with pytest.raises(fret.errors.InvalidSceneError, match="no number"):
         fret.SurfaceMap(np.zeros((0, 4)), spacing=1e-6)
 
 

@@ -68,7 +68,7 @@ def test_error_bars_tell_their_parts() -> None:
     assert 0.2 < error / float(total.p) < 1.5
     with pytest.raises(ValueError, match="error=True"):
         fret.solve(HERTZ.scene(32), progress=False).error_bars()
-    with pytest.raises(fret.InvalidSceneError, match="20 or more cells"):
+    with pytest.raises(fret.errors.InvalidSceneError, match="20 or more cells"):
         fret.solve(HERTZ.scene(16), progress=False, error=True)
 
 

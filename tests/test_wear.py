@@ -29,15 +29,15 @@ def line(n: int = 96) -> fret.Scene:
     )
 
 
-def worn(law: object, **options: object) -> fret.WearResult:
+def worn(law: object, **options: object) -> fret.wear.WearResult:
     """Wear the flat of :func:`line` by a law."""
-    return fret.wear(
+    return fret.wear.solve(
         line(), cycles=2000, first_branch=2, cycling="sliding", body2=law, progress=False, **options
     )
 
 
 def test_a_law_of_ones_own_that_says_the_same_wears_the_same() -> None:
-    built_in = worn(fret.Archard(2e-14))
+    built_in = worn(fret.wear.Archard(2e-14))
     own = worn(lambda pressed_way, way, dissipated, worn, cycles: 2e-14 * pressed_way)
     assert np.allclose(built_in.worn2, own.worn2, rtol=1e-9, atol=0)
     energy = worn(lambda pressed_way, way, dissipated, worn, cycles: 2e-14 / 0.9 * dissipated)
@@ -45,7 +45,7 @@ def test_a_law_of_ones_own_that_says_the_same_wears_the_same() -> None:
 
 
 def test_volume_follows_from_energy_and_depth() -> None:
-    result = worn(fret.DissipatedEnergy(2e-14))
+    result = worn(fret.wear.DissipatedEnergy(2e-14))
     d = result.dataset
     assert np.allclose(d.volume2, 2e-14 * d.dissipated, rtol=1e-9)
     assert np.isclose(float(d.worn2[-1].max()), float(d.depth2[-1]))
@@ -55,25 +55,25 @@ def test_volume_follows_from_energy_and_depth() -> None:
 
 
 def test_a_store_is_the_result(tmp_path: Path) -> None:
-    in_memory = worn(fret.Archard(2e-14))
-    stored = worn(fret.Archard(2e-14), out=tmp_path / "wear.zarr")
+    in_memory = worn(fret.wear.Archard(2e-14))
+    stored = worn(fret.wear.Archard(2e-14), out=tmp_path / "wear.zarr")
     assert in_memory.dataset.equals(stored.dataset.load())
-    assert fret.resume_wear(tmp_path / "wear.zarr", progress=False).status == "done"
-    with pytest.raises(fret.StoreError, match="exists"):
-        worn(fret.Archard(2e-14), out=tmp_path / "wear.zarr")
+    assert fret.wear.resume(tmp_path / "wear.zarr", progress=False).status == "done"
+    with pytest.raises(fret.errors.StoreError, match="exists"):
+        worn(fret.wear.Archard(2e-14), out=tmp_path / "wear.zarr")
 
 
 def test_bad_input_is_refused_by_name() -> None:
-    with pytest.raises(fret.InvalidSceneError, match=r"wear\.body2\.k = -1"):
-        worn(fret.Archard(-1.0))
+    with pytest.raises(fret.errors.InvalidSceneError, match=r"wear\.body2\.k = -1"):
+        worn(fret.wear.Archard(-1.0))
     with pytest.raises(TypeError, match="wear law"):
         worn("archard")
-    with pytest.raises(fret.InvalidSceneError, match=r"wear\.law"):
+    with pytest.raises(fret.errors.InvalidSceneError, match=r"wear\.law"):
         worn(lambda *_: np.zeros(3))
-    with pytest.raises(fret.InvalidSceneError, match="nothing grows"):
+    with pytest.raises(fret.errors.InvalidSceneError, match="nothing grows"):
         worn(lambda pressed_way, *_: -pressed_way)
-    with pytest.raises(fret.InvalidSceneError, match=r"wear\.tolerance = 3"):
-        worn(fret.Archard(1e-14), tolerance=3.0)
+    with pytest.raises(fret.errors.InvalidSceneError, match=r"wear\.tolerance = 3"):
+        worn(fret.wear.Archard(1e-14), tolerance=3.0)
 
 
 @pytest.mark.parametrize(
@@ -88,13 +88,13 @@ def test_bad_input_is_refused_by_name() -> None:
     ],
 )
 def test_options_are_refused_by_name(options: dict[str, Any], told: str) -> None:
-    wears: dict[str, Any] = {"cycles": 10, "first_branch": 2, "body2": fret.Archard(1e-14)}
+    wears: dict[str, Any] = {"cycles": 10, "first_branch": 2, "body2": fret.wear.Archard(1e-14)}
     with pytest.raises(ValueError, match=told):
-        fret.wear(line(), progress=False, **{**wears, **options})
+        fret.wear.solve(line(), progress=False, **{**wears, **options})
 
 
 def test_figures_are_drawn() -> None:
-    result = worn([fret.Archard(2e-14)])
+    result = worn([fret.wear.Archard(2e-14)])
     axes = fret.plot.wear_profiles(result)
     assert axes.get_ylabel() == "worn depth [um]"
     assert len(axes.lines) > 2

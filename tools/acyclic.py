@@ -1,9 +1,9 @@
 """Fails on a circle of imports among the source files, or among the folders that hold them.
 
 Read are the `use` statements and the paths of the Rust crates and the imports of the Python
-package that run. A name counts for the file that defines it: one that only hands it on (`pub use`,
-`__init__.py`) is no dependency. Within a folder, its files and its folders must be without a circle
-too, each folder taken as one.
+package, those for types alone included. A name counts for the file that defines it: one that only
+hands it on (`pub use`, `__init__.py`) is no dependency. Within a folder, its files and its folders
+must be without a circle too, each folder taken as one.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ from __future__ import annotations
 import ast
 import re
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 CRATES = ("crates/contact-core/src", "crates/pyfret/src", "crates/fret-cli/src")
@@ -163,15 +162,6 @@ class Crate:
         return graph
 
 
-def running(tree: ast.AST) -> Iterator[ast.AST]:
-    """The nodes of a Python file, but for what `if TYPE_CHECKING` keeps from running."""
-    yield tree
-    for node in ast.iter_child_nodes(tree):
-        test = node.test if isinstance(node, ast.If) else None
-        if not (isinstance(test, ast.Name) and test.id == "TYPE_CHECKING"):
-            yield from running(node)
-
-
 def package(root: Path) -> Graph:
     """Which files of a Python package each file imports from."""
     files = {}
@@ -182,7 +172,7 @@ def package(root: Path) -> Graph:
     trees = {name: ast.parse(file.read_text()) for name, file in files.items()}
     for name, tree in trees.items():
         parent = name if files[name].name == "__init__.py" else name[:-1]
-        for node in running(tree):
+        for node in ast.walk(tree):
             if isinstance(node, ast.ImportFrom):
                 base = parent[: len(parent) - node.level + 1] if node.level else ()
                 module = base + tuple((node.module or "").split(".") if node.module else ())

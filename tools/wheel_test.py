@@ -50,7 +50,7 @@ class Bare:
     def fret(self, *arguments: str) -> str:
         """What the command prints."""
         if self.emulated:
-            return self.python("-c", "from pyfret.command import main; main()", *arguments)
+            return self.python("-c", "from pyfret._cli import main; main()", *arguments)
         return told([str(self.bin / "fret"), *arguments], self.folder, dict(os.environ))
 
 

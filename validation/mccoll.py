@@ -24,12 +24,12 @@ DEPTHS = {1000: 0.378, 5000: 1.131, 10000: 1.815, 18000: 2.713}
 AREA, END = 9.38e-4, 0.26
 
 
-def worn() -> fret.WearResult:
+def worn() -> fret.wear.WearResult:
     """Wear both bodies over 18 000 cycles, as scenes/wear_mccoll.toml."""
     path = fret.LoadPath.start().normal(18.5e3, increments=1)
     for to, increments in ((25e-6, 1), (-25e-6, 10), (25e-6, 10)):
         path = path.displace(delta_x=to, increments=increments)
-    return fret.wear(
+    return fret.wear.solve(
         fret.Scene(
             body1=fret.Body(STEEL, shape=fret.Cylinder(R=6e-3)),
             body2=fret.Body(STEEL),
@@ -41,8 +41,8 @@ def worn() -> fret.WearResult:
         first_branch=2,
         cycling="sliding",
         rig_stiffness=24.6e9,
-        body1=fret.Archard(1.9e-14),
-        body2=fret.Archard(2.9e-14),
+        body1=fret.wear.Archard(1.9e-14),
+        body2=fret.wear.Archard(2.9e-14),
         progress=False,
     )
 
@@ -57,7 +57,7 @@ class Row(NamedTuple):
     asked: str
 
 
-def rows(result: fret.WearResult) -> list[Row]:
+def rows(result: fret.wear.WearResult) -> list[Row]:
     """Depths of the flat, its worn area and the ends of its scar."""
     d = result.dataset
     found = []
@@ -77,7 +77,7 @@ def rows(result: fret.WearResult) -> list[Row]:
     return found
 
 
-def profiles(result: fret.WearResult, file: Path) -> None:
+def profiles(result: fret.wear.WearResult, file: Path) -> None:
     """Draw ours, the finite elements and the measured scar."""
     elements = np.loadtxt(DATA / "mccoll_finite_elements.csv", delimiter=",", skiprows=1)
     measured = np.loadtxt(DATA / "mccoll_measured.csv", delimiter=",", skiprows=1)

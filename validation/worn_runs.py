@@ -82,12 +82,12 @@ def fully_worn(truth: Worn, *, n: int, extent: float) -> FullyWorn:
         grid=grid(extent=extent * a, n=n),
         path=pulled(LINE_W if line else W, truth.amplitude),
     )
-    result = fret.wear(
+    result = fret.wear.solve(
         scene,
         cycles=CYCLES,
         first_branch=2,
-        body1=fret.Archard(K),
-        body2=fret.Archard(K),
+        body1=fret.wear.Archard(K),
+        body2=fret.wear.Archard(K),
         tolerance=LINE_TOLERANCE if line else TOLERANCE,
         progress=False,
     )
@@ -153,7 +153,7 @@ def slid(kind: str) -> Slid:
         path = path.displace(delta_x=to, increments=1)
     b = float(np.cbrt(1.5 * R * lost)) if line else (4 * R * lost / np.pi) ** 0.25
     grid = fret.Grid.strip if line else fret.Grid.centred
-    result = fret.wear(
+    result = fret.wear.solve(
         fret.Scene(
             body1=fret.Body(STEEL, shape=fret.Cylinder(R=R) if line else fret.Sphere(R=R)),
             body2=fret.Body(STEEL),
@@ -164,8 +164,8 @@ def slid(kind: str) -> Slid:
         cycles=cycles,
         first_branch=2,
         cycling="sliding",
-        body1=fret.Archard(K),
-        body2=fret.Archard(K),
+        body1=fret.wear.Archard(K),
+        body2=fret.wear.Archard(K),
         progress=False,
     )
     end = result.dataset.isel(block=-1)

@@ -27,7 +27,7 @@ path = fret.LoadPath.start().normal(W, increments=2).tangential([T, -T, T], incr
 result = fret.solve(scene, path, save="all", progress=False)
 z = np.linspace(0.0, 0.9 * a, 46)
 material = fatigue.Materials()["steel_30NCD16"]
-cooled = fret.residual.thermal(
+cooled = fret.subsurface.thermal_stress(
     hard, alpha_coating=9.4e-6, alpha_substrate=12e-6, temperature_change=-400.0
 )
 

@@ -20,11 +20,11 @@ scene = fret.Scene(
     mu=0.7,
     grid=fret.Grid.centred(extent=3.6e-4, n=24),
 )
-table = fret.sweep.running_map(
+table = fret.study.running_conditions(
     scene,
     W=np.linspace(5.0, 20.0, 4),
     delta=np.linspace(0.15e-6, 1.2e-6, 6),
     increments=(3, 10),
-    cracking=fret.studies.Cracking(fatigue.Materials()["steel_42CrMo4"], "crossland"),
+    cracking=fret.study.Cracking(fatigue.Materials()["steel_42CrMo4"], "crossland"),
 )
 ax = fret.plot.fretting_map(table)

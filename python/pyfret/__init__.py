@@ -18,168 +18,101 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from pyfret import (
-    averages,
+    errors,
     fatigue,
+    fracture,
     heat,
-    interface,
     kernels,
-    life,
-    load_factors,
     reference,
-    residual,
-    studies,
+    settings,
+    shapes,
+    study,
     subsurface,
-    sweep,
+    wear,
 )
 from pyfret._core import (
     RIGID,
-    Archard,
     Body,
     Branch,
     Coating,
-    Cone,
-    CrownedRoller,
     Cylinder,
-    DissipatedEnergy,
     Elastic,
     Ellipsoid,
-    Flat,
-    FlatPunch,
-    FrequencyDomain,
     Friction,
     Grid,
-    Hankel,
     History,
-    InvalidSceneError,
-    InverseFft,
-    KernelInaccurateError,
     LoadPath,
-    NoConvergenceError,
-    OffGridError,
     PerRange,
-    Preset,
     Profile,
     Rough,
     Scene,
     Settings,
-    Skip,
-    SlidingError,
     Spacing,
     Sphere,
-    StoreError,
-    Sum,
     SurfaceMap,
     SurfaceOperator,
-    Waviness,
-    Wedge,
     __version__,
     graded,
 )
-from pyfret.citing import cite
-from pyfret.doubts import SceneWarning
-from pyfret.notebook import show_in_notebooks
-from pyfret.reporting import report
-from pyfret.results import Result, Snapshot, open
-from pyfret.solving import Increment, march, resume, solve
-from pyfret.studies import Study, open_study, study, varied
-from pyfret.surfaces import read_surface
-from pyfret.verifying import Verification, verify
-from pyfret.wearing import WearResult, open_wear, resume_wear, wear
+from pyfret._util.names import MOVED, OTHER_NAMES, listing, moved
+from pyfret.citation import cite
+from pyfret.result import Result, Snapshot, open
+from pyfret.scene.surfaces import read_surface
+from pyfret.scene.tables import show_in_notebooks
+from pyfret.solution import march, resume, solve
+from pyfret.verification import verify
 
 if TYPE_CHECKING:
     from pyfret import plot
 
 __all__ = [
     "RIGID",
-    "Archard",
     "Body",
     "Branch",
     "Coating",
-    "Cone",
-    "CrownedRoller",
     "Cylinder",
-    "DissipatedEnergy",
     "Elastic",
     "Ellipsoid",
-    "Flat",
-    "FlatPunch",
-    "FrequencyDomain",
     "Friction",
     "Grid",
-    "Hankel",
     "History",
-    "Increment",
-    "InvalidSceneError",
-    "InverseFft",
-    "KernelInaccurateError",
     "LoadPath",
-    "NoConvergenceError",
-    "OffGridError",
     "PerRange",
-    "Preset",
     "Profile",
     "Result",
     "Rough",
     "Scene",
-    "SceneWarning",
     "Settings",
-    "Skip",
-    "SlidingError",
     "Snapshot",
     "Spacing",
     "Sphere",
-    "StoreError",
-    "Study",
-    "Sum",
     "SurfaceMap",
     "SurfaceOperator",
-    "Verification",
-    "Waviness",
-    "WearResult",
-    "Wedge",
     "__version__",
-    "averages",
     "cite",
+    "errors",
     "fatigue",
+    "fracture",
     "graded",
     "heat",
-    "interface",
     "kernels",
-    "life",
-    "load_factors",
     "march",
     "open",
-    "open_study",
-    "open_wear",
     "plot",
     "read_surface",
     "reference",
-    "report",
-    "residual",
     "resume",
-    "resume_wear",
+    "settings",
+    "shapes",
     "solve",
-    "studies",
     "study",
     "subsurface",
-    "sweep",
-    "varied",
     "verify",
     "wear",
 ]
-
+__dir__ = listing(__all__)
 
 show_in_notebooks()
-
-#: What other programs call things.
-OTHER_NAMES = {
-    "load": "open",
-    "run": "solve",
-    "Material": "Elastic",
-    "Layer": "Coating",
-    "Surface": "SurfaceMap",
-    "Roughness": "Rough",
-}
 
 
 def __getattr__(name: str) -> Any:
@@ -192,6 +125,8 @@ def __getattr__(name: str) -> Any:
                 raise
             message = 'figures need matplotlib: pip install "fretting[plot]"'
             raise ModuleNotFoundError(message, name="matplotlib") from absent
+    if name in MOVED:
+        return moved(name)
     meant = OTHER_NAMES.get(name)
     hint = f"; it is called pyfret.{meant}" if meant else ""
     raise AttributeError(f"module 'pyfret' has no attribute {name!r}{hint}")

@@ -21,15 +21,17 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import Material
-from pyfret.fatigue import cycle_increments
-from pyfret.lazy import xr
+from pyfret._util.lazy import xr
+from pyfret._util.names import listing
+from pyfret.fatigue.cycles import cycle_increments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pyfret.results import Result
+    from pyfret.run import Run
 
 __all__ = ["Conductor", "Conductors", "temperature"]
+__dir__ = listing(__all__)
 
 #: Largest default number of harmonics.
 HARMONICS = 32
@@ -72,7 +74,7 @@ def _of_layers(conductors: Conductors, layers: int) -> list[tuple[float, float]]
     return [(c.conductivity, c.heat_capacity) for c in each]
 
 
-def _ends(result: Result, kept: NDArray[np.int64], wave: str) -> NDArray[np.float64]:
+def _ends(result: Run, kept: NDArray[np.int64], wave: str) -> NDArray[np.float64]:
     """Ends of the kept increments of a cycle as parts of its period."""
     if wave not in ("sine", "linear"):
         raise ValueError(f'wave = {wave!r}: must be "sine" or "linear"')
@@ -93,7 +95,7 @@ def _ends(result: Result, kept: NDArray[np.int64], wave: str) -> NDArray[np.floa
     return np.concatenate(parts) / period
 
 
-def _heat(result: Result, kept: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def _heat(result: Run, kept: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Work of every kept increment of a cycle [J/m^2], and the cells in contact."""
     branch = result.dataset.branch_of_increment
     whole = branch.increment.values[np.isin(branch.values, branch.sel(increment=kept).values)]
@@ -125,7 +127,7 @@ def _maximum(table: xr.Dataset, bulk: tuple[float, float]) -> dict[str, Any]:
 
 
 def temperature(
-    result: Result,
+    result: Run,
     conductor1: Conductors,
     conductor2: Conductors,
     *,
@@ -218,7 +220,7 @@ def temperature(
     )
 
 
-def _table(result: Result, found: dict[str, Any]) -> xr.Dataset:
+def _table(result: Run, found: dict[str, Any]) -> xr.Dataset:
     """What was found, with coordinates, units and meanings."""
     coords = {"body": [1, 2], "x": result.dataset.x, "y": result.dataset.y}
     table = xr.Dataset(coords={**coords, "time": found["instants"]})

@@ -12,6 +12,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import influence_coefficients, stress_at, stress_coefficients
+from pyfret._util.names import listing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from pyfret._core import Body, Grid
 
 __all__ = ["convert", "influence_coefficients", "stress_at", "stress_coefficients", "surface_frf"]
+__dir__ = listing(__all__)
 
 
 def surface_frf(body: Body, k_x: ArrayLike, k_y: ArrayLike) -> NDArray[np.complex128]:

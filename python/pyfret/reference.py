@@ -18,6 +18,7 @@ from pyfret._core import (
     hertz_ellipse,
     line_contact,
 )
+from pyfret._util.names import listing
 
 __all__ = [
     "CattaneoMindlin",
@@ -37,3 +38,4 @@ __all__ = [
     "hertz_ellipse",
     "line_contact",
 ]
+__dir__ = listing(__all__)

@@ -138,7 +138,7 @@ class Audit:
                 u_y -= sign * body["nu"] * stress / body["E"] * self.y
         return u_x, u_y
 
-    def look(self, increment: fret.Increment) -> dict[str, float]:
+    def look(self, increment: fret.solution.Increment) -> dict[str, float]:
         """Violations of an increment over what is allowed; above 1 is wrong."""
         d = increment.dataset
         number = lambda name: float(d[name])  # noqa: E731
@@ -260,7 +260,7 @@ class Audit:
             factor *= min(factors) / max(factors)
         return factor * bound
 
-    def ends_branch(self, increment: fret.Increment) -> bool:
+    def ends_branch(self, increment: fret.solution.Increment) -> bool:
         """Whether the increment is the last of its branch."""
         counts = np.cumsum([b["increments"] for b in self.file["path"]])
         return int(increment.dataset["increment"]) in counts

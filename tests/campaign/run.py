@@ -41,12 +41,12 @@ def fate(seed: int) -> dict[str, object]:
             for name, off in audit.look(increment).items():
                 if off > worst.get(name, (0.0, 0))[0]:
                     worst[name] = (off, number)
-    except fret.InvalidSceneError as error:
-        kind = "off grid" if isinstance(error, fret.OffGridError) else "refused"
+    except fret.errors.InvalidSceneError as error:
+        kind = "off grid" if isinstance(error, fret.errors.OffGridError) else "refused"
         return {"fate": kind, "why": str(error), "worst": worst, "increment": number}
-    except fret.SlidingError as error:
+    except fret.errors.SlidingError as error:
         return {"fate": "beyond friction", "why": str(error), "worst": worst, "increment": number}
-    except fret.NoConvergenceError as error:
+    except fret.errors.NoConvergenceError as error:
         return {"fate": "not converged", "why": str(error), "worst": worst, "increment": number}
     except BaseException as error:
         kind = type(error).__name__

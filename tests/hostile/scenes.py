@@ -100,19 +100,19 @@ CALLS: list[Call] = [
     ("Cylinder", lambda **k: shaped(fret.Cylinder(**k)), {"R": 0.01, "length": 1e-4, "angle": 0.1}),
     (
         "CrownedRoller",
-        lambda **k: shaped(fret.CrownedRoller(**k)),
+        lambda **k: shaped(fret.shapes.CrownedRoller(**k)),
         {"R": 0.01, "length": 1e-4, "crown": 0.01, "angle": 0.1},
     ),
-    ("Cone", lambda **k: shaped(fret.Cone(**k)), {"slope": 0.01}),
+    ("Cone", lambda **k: shaped(fret.shapes.Cone(**k)), {"slope": 0.01}),
     (
         "Wedge",
-        lambda **k: shaped(fret.Wedge(**k) + fret.Sphere(R=0.01)),
+        lambda **k: shaped(fret.shapes.Wedge(**k) + fret.Sphere(R=0.01)),
         {"slope": 0.01, "angle": 0.1},
     ),
-    ("FlatPunch", lambda **k: shaped(fret.FlatPunch(**k)), {"radius": 1e-4, "edge": 0.01}),
+    ("FlatPunch", lambda **k: shaped(fret.shapes.FlatPunch(**k)), {"radius": 1e-4, "edge": 0.01}),
     (
         "Waviness",
-        lambda **k: shaped(fret.Waviness(**k) + fret.Sphere(R=0.01)),
+        lambda **k: shaped(fret.shapes.Waviness(**k) + fret.Sphere(R=0.01)),
         {"amplitude": 1e-8, "wavelength": 1e-4, "angle": 0.1, "phase": 0.1},
     ),
     ("Rough", lambda **k: shaped(fret.Rough(**k) + fret.Sphere(R=0.01)), ROUGH),
@@ -197,13 +197,15 @@ CALLS: list[Call] = [
     (
         "InverseFft",
         lambda **k: marched(
-            scene(body2=COATED, settings=fret.Settings(kernel=fret.InverseFft(**k)))
+            scene(body2=COATED, settings=fret.Settings(kernel=fret.settings.InverseFft(**k)))
         ),
         {"enlargement": 2, "aliases": 1},
     ),
     (
         "FrequencyDomain",
-        lambda **k: marched(scene(settings=fret.Settings(kernel=fret.FrequencyDomain(**k)))),
+        lambda **k: marched(
+            scene(settings=fret.Settings(kernel=fret.settings.FrequencyDomain(**k)))
+        ),
         {"enlargement": 2},
     ),
     (

@@ -14,7 +14,7 @@ from pyfret import reference
 Call = tuple[str, Callable[..., Any], dict[str, Any]]
 #: What may be raised, apart from the package's own errors.
 ALLOWED = (ValueError, TypeError, OverflowError, KeyError, MemoryError, OSError)
-OWN = (fret.NoConvergenceError, fret.SlidingError, fret.KernelInaccurateError)
+OWN = (fret.errors.NoConvergenceError, fret.errors.SlidingError, fret.errors.KernelInaccurateError)
 
 NAN, INF = float("nan"), float("inf")
 FLOATS = [NAN, INF, -INF, 0.0, -1.0, 1e300, -1e300, 1e-300, 1e9, 1e30]

@@ -8,37 +8,37 @@ use pyo3::exceptions::{
 use pyo3::prelude::*;
 
 create_exception!(
-    pyfret,
+    pyfret.errors,
     InvalidSceneError,
     PyValueError,
     "A scene, or a scene file, has no meaning; the message says where and what is allowed."
 );
 create_exception!(
-    pyfret,
+    pyfret.errors,
     OffGridError,
     InvalidSceneError,
     "The contact reaches the border of the grid; the message says how wide the grid should be."
 );
 create_exception!(
-    pyfret,
+    pyfret.errors,
     NoConvergenceError,
     PyRuntimeError,
     "A solver stopped before its tolerance; the message gives the residual reached."
 );
 create_exception!(
-    pyfret,
+    pyfret.errors,
     SlidingError,
     PyRuntimeError,
     "Loads that friction cannot carry, that nothing carries, or that lift a stuck contact."
 );
 create_exception!(
-    pyfret,
+    pyfret.errors,
     KernelInaccurateError,
     PyRuntimeError,
     "Influence or stress coefficients missed the tolerance asked for."
 );
 create_exception!(
-    pyfret,
+    pyfret.errors,
     StoreError,
     PyOSError,
     "A file or a result store could not be read or written."

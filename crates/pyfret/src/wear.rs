@@ -16,7 +16,7 @@ use crate::parts::parts;
 use crate::scene::Scene;
 
 /// Archard's law.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.wear")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Archard(core::Archard);
 
@@ -48,7 +48,7 @@ impl Archard {
 }
 
 /// Wear by the energy dissipated.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.wear")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct DissipatedEnergy(core::DissipatedEnergy);
 

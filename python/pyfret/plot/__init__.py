@@ -5,6 +5,7 @@ results can be laid over each other and figures composed. :func:`paper_figures` 
 of the paper from its four runs in one call.
 """
 
+from pyfret._util.names import listing
 from pyfret.plot.animation import animate
 from pyfret.plot.fretting_map import fretting_map, running_map
 from pyfret.plot.heat import temperature, temperature_map
@@ -67,3 +68,4 @@ __all__ = [
     "wear_loops",
     "wear_profiles",
 ]
+__dir__ = listing(__all__)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Sequence
 
-    from pyfret.results import Result
+    from pyfret.run import Run
 
 #: What a file is written with, by its ending.
 WRITERS = {".mp4": FFMpegWriter, ".gif": PillowWriter}
@@ -25,7 +25,7 @@ WRITERS = {".mp4": FFMpegWriter, ".gif": PillowWriter}
 
 @styled
 def animate(
-    result: Result,
+    result: Run,
     path: str | os.PathLike[str],
     *,
     increments: Sequence[int] | None = None,

@@ -40,7 +40,7 @@ def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     table : xarray.Dataset
-        Of :func:`pyfret.sweep.running_map` with `cracking`; without, the risk is left out.
+        Of :func:`pyfret.study.running_conditions` with `cracking`; without, the risk is left out.
     ax : matplotlib Axes, optional
         Where to draw.
     """

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from pyfret.results import Result, Snapshot
+    from pyfret.run import Run, State
 
 Direction = Literal["x", "y", "torsion"]
 
@@ -39,7 +39,7 @@ def driven(path: LoadPath) -> Direction:
 
 @styled
 def fretting_loop(
-    result: Result,
+    result: Run,
     *,
     direction: Direction | None = None,
     units: Units = "auto",
@@ -85,7 +85,7 @@ def fretting_loop(
     return ax
 
 
-def loop_point(result: Result, at: Snapshot) -> tuple[list[float], list[float]]:
+def loop_point(result: Run, at: State) -> tuple[list[float], list[float]]:
     """Where an increment lies on the drawn loop of :func:`fretting_loop`."""
     force, shift, *_ = NAMES[driven(result.scene.path)]
     d = result.dataset
@@ -95,7 +95,7 @@ def loop_point(result: Result, at: Snapshot) -> tuple[list[float], list[float]]:
     return [moved], [float(at.dataset[force]) / by_force.value]
 
 
-def loop_scales(result: Result, units: Units, *, torsion: bool) -> tuple[Scale, Scale]:
+def loop_scales(result: Run, units: Units, *, torsion: bool) -> tuple[Scale, Scale]:
     """Scales of the force, or moment, and of the shift, or rotation."""
     W, mu = result.W_max, result.mu
     if not (scales(result.dataset.attrs, units).dimensionless and bears(mu) and W > 0.0):
@@ -115,7 +115,7 @@ def loop_scales(result: Result, units: Units, *, torsion: bool) -> tuple[Scale, 
 
 
 @styled
-def stick_ratio(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
+def stick_ratio(result: Run, *, ax: Axes | None = None, **line: Any) -> Axes:
     r"""Stick area over contact area along the load path, over :math:`t/\tau`."""
     t = run_of(result).dataset.t
     ax = axes(ax)
@@ -148,7 +148,7 @@ DRIVEN = {
 
 
 @styled
-def load_path(path: LoadPath | Result, *, mu: float = 1.0, ax: Axes | None = None) -> Axes:
+def load_path(path: LoadPath | Run, *, mu: float = 1.0, ax: Axes | None = None) -> Axes:
     r"""Loads and motions that a path drives over :math:`t/\tau`, the end of which is 1.
 
     Normal forces are over their largest value, tangential ones over `mu` times that of the normal
@@ -177,7 +177,7 @@ def load_path(path: LoadPath | Result, *, mu: float = 1.0, ax: Axes | None = Non
 
 
 def histories(
-    path: LoadPath | Result,
+    path: LoadPath | Run,
 ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
     """Path time, and what the path drives, from the unloaded state."""
     branches = path.branches if isinstance(path, LoadPath) else path.scene.path.branches
@@ -196,7 +196,7 @@ def histories(
 
 
 @styled
-def loop_evolution(result: Result, *, ax: Axes | None = None, **line: Any) -> Axes:
+def loop_evolution(result: Run, *, ax: Axes | None = None, **line: Any) -> Axes:
     """Energy ratio, sliding ratio and dissipated energy of each cycle, the last over its mean.
 
     Of the first motion that the path drives: along x, along y or in torsion. Of a single cycle the

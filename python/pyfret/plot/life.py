@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from pyfret._core import Material
-    from pyfret.life import Life
-    from pyfret.load_factors import Factor, LoadFactors
+    from pyfret.fatigue.factors import Factor, LoadFactors
+    from pyfret.fatigue.lives import Life
     from pyfret.plot.scales import Units
 
 #: How criteria are written in figures.

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.image import AxesImage
     from numpy.typing import NDArray
 
-    from pyfret.results import Result, Snapshot
+    from pyfret.run import Run, State
 
 #: Room around a contact, over half its length.
 MARGIN = 0.3
@@ -27,7 +27,7 @@ MARGIN = 0.3
 INNER = 0.97
 
 
-def frame(ax: Axes, snapshot: Snapshot, length: Scale) -> tuple[float, float, float, float]:
+def frame(ax: Axes, snapshot: State, length: Scale) -> tuple[float, float, float, float]:
     """Label the axes, draw the Hertz circle and give the edges of the grid over the length."""
     grid = snapshot.scene.grid
     x, y = (snapshot.dataset[k].values / length.value for k in ("x", "y"))
@@ -46,7 +46,7 @@ def frame(ax: Axes, snapshot: Snapshot, length: Scale) -> tuple[float, float, fl
     return x[0] - dx / 2, x[-1] + dx / 2, y[0] - dy / 2, y[-1] + dy / 2
 
 
-def look_at_contact(ax: Axes, snapshot: Snapshot, length: Scale) -> None:
+def look_at_contact(ax: Axes, snapshot: State, length: Scale) -> None:
     """Leave cells far from the contact out of the picture."""
     contact = snapshot.dataset.contact.values.astype(bool)
     grid = snapshot.scene.grid
@@ -66,7 +66,7 @@ def look_at_contact(ax: Axes, snapshot: Snapshot, length: Scale) -> None:
         ax.set_ylim(max(low, ax.get_ylim()[0]), min(high, ax.get_ylim()[1]))
 
 
-def is_round(snapshot: Snapshot) -> bool:
+def is_round(snapshot: State) -> bool:
     """Whether the bodies are spheres or flats."""
     scene = snapshot.scene
     shapes = (scene.body1.shape, scene.body2.shape)
@@ -74,7 +74,7 @@ def is_round(snapshot: Snapshot) -> bool:
 
 
 @styled
-def stick_slip(shown: Snapshot | Result, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
+def stick_slip(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
     """Where the contact sticks and where it slips; dashed, the Hertz circle of spheres.
 
     Parameters
@@ -118,7 +118,7 @@ def stick_slip(shown: Snapshot | Result, *, units: Units = "auto", ax: Axes | No
 
 def field_map(
     ax: Axes | None,
-    snapshot: Snapshot,
+    snapshot: State,
     values: NDArray[np.float64],
     scale: Scale,
     length: Scale,
@@ -142,7 +142,7 @@ def field_map(
 
 @styled
 def pressure_map(
-    shown: Snapshot | Result,
+    shown: State | Run,
     *,
     units: Units = "auto",
     ax: Axes | None = None,
@@ -171,7 +171,7 @@ def pressure_map(
 
 @styled
 def slip_map(
-    shown: Snapshot | Result,
+    shown: State | Run,
     *,
     units: Units = "auto",
     ax: Axes | None = None,
@@ -197,7 +197,7 @@ def slip_map(
 
 @styled
 def shear_streamlines(
-    shown: Snapshot | Result,
+    shown: State | Run,
     *,
     units: Units = "auto",
     ax: Axes | None = None,

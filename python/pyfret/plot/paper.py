@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from pyfret.results import Result, Snapshot
+    from pyfret.run import Run, State
 
 #: Line of each ratio E1/E2 wherever several share the axes.
 COLOURS = {0.5: "#0072B2", 1.0: "#000000", 2.0: "#D55E00", 4.0: "#009E73"}
@@ -38,12 +38,12 @@ def name(ratio: float) -> str:
     return f"$E_1/E_2 = {ratio:g}$"
 
 
-def loading_history(result: Result, jump: Result) -> Figure:
+def loading_history(result: Run, jump: Run) -> Figure:
     """Figure 5: tractions after indentation, with and without reproduction of the load path."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(7.6, 3.2))
     ends = result.dataset.branch_of_increment.values
     indented = int(np.flatnonzero(ends == ends[0])[-1]) + 1
-    curves: list[tuple[Snapshot, str, dict[str, Any]]] = [
+    curves: list[tuple[State, str, dict[str, Any]]] = [
         (result.at(indented), f"{indented} increments", {"color": COLOURS[2.0]}),
         (jump.at(-1), "one increment", {"color": "0.25", "linestyle": "--"}),
     ]
@@ -54,7 +54,7 @@ def loading_history(result: Result, jump: Result) -> Figure:
     return figure
 
 
-def similar_bodies(result: Result) -> Figure:
+def similar_bodies(result: Run) -> Figure:
     """Figure 6: shear along the fretting loop of similar bodies over the closed form, in grey."""
     figure, ax = plt.subplots(figsize=(6.4, 4.2))
     r = np.linspace(-1.1, 1.1, 1101)
@@ -66,7 +66,7 @@ def similar_bodies(result: Result) -> Figure:
     return figure
 
 
-def mindlin_shear(result: Result, increment: int, r: NDArray[np.float64]) -> NDArray[np.float64]:
+def mindlin_shear(result: Run, increment: int, r: NDArray[np.float64]) -> NDArray[np.float64]:
     """Closed form of q_x at the distance `r` after an increment of a cycle between -T_m and T_m."""
     scene = result.scene
     hertz = scene.hertz
@@ -82,7 +82,7 @@ def mindlin_shear(result: Result, increment: int, r: NDArray[np.float64]) -> NDA
     return back(r, T=T[-1], T_m=np.abs(T).max())
 
 
-def profiles(result: Result, ratio: float) -> Figure:
+def profiles(result: Run, ratio: float) -> Figure:
     """Figure 7: shear along the fretting loop."""
     figure, ax = plt.subplots(figsize=(6.4, 4.2))
     shear_profiles(result, ax=ax)
@@ -90,7 +90,7 @@ def profiles(result: Result, ratio: float) -> Figure:
     return figure
 
 
-def streamlines(results: Mapping[float, Result], times: tuple[float, ...]) -> Figure:
+def streamlines(results: Mapping[float, Run], times: tuple[float, ...]) -> Figure:
     r"""Figures 8 to 10: directions of the shear at the given :math:`t/\tau`."""
     shown = [
         (ratio, results[ratio].at(t * tau(results[ratio])), t) for ratio in results for t in times
@@ -106,12 +106,12 @@ def streamlines(results: Mapping[float, Result], times: tuple[float, ...]) -> Fi
     return figure
 
 
-def tau(result: Result) -> float:
+def tau(result: Run) -> float:
     """Path time at the end of the load history."""
     return float(result.dataset.t[-1])
 
 
-def compare(draw: Callable[..., Axes], results: Mapping[float, Result], **legend: Any) -> Figure:
+def compare(draw: Callable[..., Axes], results: Mapping[float, Run], **legend: Any) -> Figure:
     """Figures 11 and 12: the same curve of every ratio."""
     figure, ax = plt.subplots()
     for ratio, result in sorted(results.items()):
@@ -121,10 +121,10 @@ def compare(draw: Callable[..., Axes], results: Mapping[float, Result], **legend
 
 
 def paper_figures(
-    results: Mapping[float, Result],
+    results: Mapping[float, Run],
     out: str | os.PathLike[str],
     *,
-    jump: Result | None = None,
+    jump: Run | None = None,
 ) -> list[Path]:
     """Draw figures 4 to 13 of the paper into the folder `out`; give the files written.
 

@@ -14,12 +14,12 @@ from pyfret.plot.style import axes, styled
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from pyfret.results import Result, Snapshot
+    from pyfret.run import Run, State
 
 
 @styled
 def pressure_profile(
-    shown: Snapshot | Result, *, units: Units = "auto", ax: Axes | None = None, **line: Any
+    shown: State | Run, *, units: Units = "auto", ax: Axes | None = None, **line: Any
 ) -> Axes:
     """Pressure along y = 0, over p_H and a_H or in MPa and um.
 
@@ -45,7 +45,7 @@ def pressure_profile(
 
 @styled
 def shear_profile(
-    shown: Snapshot | Result,
+    shown: State | Run,
     *,
     of: Literal["q_x", "q_y"] | None = None,
     units: Units = "auto",
@@ -72,7 +72,7 @@ def shear_profile(
 
 
 @styled
-def shear_profiles(result: Result, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
+def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
     """Shear traction along y = 0 for every increment whose fields were kept.
 
     A load state that was visited before is drawn as markers in the colour of its first visit:
@@ -107,7 +107,7 @@ def shear_profiles(result: Result, *, units: Units = "auto", ax: Axes | None = N
 MARKERS = ("o", "x", "s", "^")
 
 
-def load_states(result: Result) -> list[tuple[int, int]]:
+def load_states(result: Run) -> list[tuple[int, int]]:
     """Number the load states of the kept increments and count the visits of each.
 
     Two increments share a state if the path gives them the same loads or motions, reached in the

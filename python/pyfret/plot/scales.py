@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
+from pyfret.run import Run, State
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-    from pyfret.results import Result, Snapshot
 
 #: Dimensionless where there is a Hertz contact and SI elsewhere, or one of both.
 Units: TypeAlias = Literal["auto", "dimensionless", "SI"]
@@ -70,23 +70,19 @@ def scales(attrs: Mapping[Any, Any], units: Units, *, mu: float = 1.0) -> Scales
     return Scales(length, stress, shear)
 
 
-def of_snapshot(snapshot: Snapshot, units: Units) -> Scales:
+def of_snapshot(snapshot: State, units: Units) -> Scales:
     """Scales of an increment."""
     return scales(snapshot.dataset.attrs, units, mu=snapshot.mu)
 
 
-def last_of(shown: Result | Snapshot) -> Snapshot:
+def last_of(shown: Run | State) -> State:
     """The increment itself, or the last one that a result has kept."""
-    from pyfret.results import Result
-
-    return shown.at(-1) if isinstance(shown, Result) else shown
+    return shown.at(-1) if isinstance(shown, Run) else shown
 
 
-def run_of(shown: Any) -> Result:
+def run_of(shown: Any) -> Run:
     """The result of a run; anything else is refused."""
-    from pyfret.results import Result
-
-    if not isinstance(shown, Result):
+    if not isinstance(shown, Run):
         raise TypeError(
             f"{type(shown).__name__}: must be the result of a run, as solve(...) or open(...) "
             "give it: the figure shows all increments"

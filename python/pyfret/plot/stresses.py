@@ -14,7 +14,8 @@ from pyfret.plot.depth_axis import interfaces, thin
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.style import axes, styled
-from pyfret.stress import Stress
+from pyfret.subsurface.contact import stress_below
+from pyfret.subsurface.tensor import Stress
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,8 +24,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from pyfret.results import Result
-    from pyfret.stress import Maximum
+    from pyfret.run import Run
+    from pyfret.subsurface.tensor import Maximum
 
 #: Names of measures in figures.
 SYMBOLS = {
@@ -315,7 +316,7 @@ def stress_history(
 
 @styled
 def stress_maps(
-    results: Mapping[float, Result],
+    results: Mapping[float, Run],
     *,
     depth: float = 2.0,
     layers: int = 256,
@@ -340,7 +341,7 @@ def stress_maps(
     )
     for ax, letter, (ratio, result) in zip(row[0], "abcdef", sorted(results.items()), strict=False):
         z = np.union1d(np.linspace(0.0, depth * result.a_H, layers), result.scene.interfaces())
-        stress_map(result.at(-1).stress(z, y=0.0), of=of, ax=ax)
+        stress_map(stress_below(result.at(-1), z, y=0.0), of=of, ax=ax)
         ax.set_title(rf"({letter})  $E_1/E_2 = {ratio:g}$")
         ax.label_outer()
     return figure

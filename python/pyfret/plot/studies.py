@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
@@ -15,16 +15,29 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-    from pyfret.studies import Study
 
 #: Values along both parameters from which on contours are drawn.
 CONTOURED = 4
 COLOURS = "YlGnBu"
 
 
+class Tabulated(Protocol):
+    """Measures over parameters, as a :class:`pyfret.study.Study` has them."""
+
+    dataset: xr.Dataset
+
+    @property
+    def parameters(self) -> list[str]:
+        """Names of the parameters."""
+
+    @property
+    def measures(self) -> list[str]:
+        """Names of the measures."""
+
+
 @styled
 def study_map(
-    study: Study,
+    study: Tabulated,
     of: str | None = None,
     *,
     at: Mapping[str, float] | None = None,

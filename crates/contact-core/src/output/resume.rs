@@ -47,7 +47,7 @@ pub fn resume(
     let path = place(path.as_ref())?;
     mend(&path);
     if WearStore::is_at(&path) {
-        let message = "holds a run of wear: `fret resume` or pyfret.resume_wear goes on with it";
+        let message = "holds a run of wear: `fret resume` or pyfret.wear.resume goes on with it";
         return Err(Folder::new(&path).error(&message));
     }
     let store = Store::open(&path)?;

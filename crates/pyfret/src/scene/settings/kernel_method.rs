@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use crate::parts::parts;
 
 /// Influence coefficients by Hankel integrals: exact to round-off.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.settings")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Hankel;
 
@@ -28,7 +28,7 @@ impl Hankel {
 ///     How many times larger the domain is, the paper's lambda, 1 to 12 (default 8).
 /// aliases : int
 ///     Order of the alias sums (default 0, as in the paper).
-#[pyclass(frozen, eq, get_all, from_py_object, module = "pyfret")]
+#[pyclass(frozen, eq, get_all, from_py_object, module = "pyfret.settings")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct InverseFft {
     /// How many times larger the domain is.
@@ -57,7 +57,7 @@ impl InverseFft {
 /// ----------
 /// enlargement : int
 ///     How many times larger the domain is, 1 to 12 (default 8).
-#[pyclass(frozen, eq, get_all, from_py_object, module = "pyfret")]
+#[pyclass(frozen, eq, get_all, from_py_object, module = "pyfret.settings")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct FrequencyDomain {
     /// How many times larger the domain is.

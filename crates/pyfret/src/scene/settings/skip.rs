@@ -24,7 +24,7 @@ use crate::parts::parts;
 ///     Leave out the increments of branches whose end does not depend on the way there
 ///     (default False: results have a row for every increment asked for); they are solved if
 ///     their fields are to be kept.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.settings")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Skip(pub(super) core::SkipSettings);
 

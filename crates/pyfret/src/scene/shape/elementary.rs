@@ -4,7 +4,7 @@
 macro_rules! elementary {
     ($(#[$doc:meta])* $name:ident { $($(#[$about:meta])* $field:ident),* }, ($($signature:tt)*)) => {
         $(#[$doc])*
-        #[pyo3::pyclass(frozen, eq, from_py_object, module = "pyfret")]
+        #[pyo3::pyclass(frozen, eq, from_py_object, module = "pyfret.shapes")]
         #[derive(Clone, Copy, PartialEq)]
         pub(crate) struct $name {
             $($(#[$about])* #[pyo3(get)] pub(super) $field: f64,)*

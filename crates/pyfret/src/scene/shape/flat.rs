@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use crate::parts::parts;
 
 /// The contact plane itself.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.shapes")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Flat;
 

@@ -26,7 +26,7 @@ use crate::parts::parts;
 /// missing : "refuse", "crop" or "fill"
 ///     What becomes of points that are NaN: an error that says where they are; lines taken off the
 ///     edges; the mean of the neighbours.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.shapes")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct SurfaceMap(pub(crate) core::SurfaceMap);
 

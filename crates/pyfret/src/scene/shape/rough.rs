@@ -21,7 +21,7 @@ use crate::parts::parts;
 ///     Wavelengths between which it is self-affine [m]; the shortest is at least two cells.
 /// seed : int
 ///     Seed of the phases (default 0).
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.shapes")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Rough(pub(super) core::Rough);
 

@@ -13,7 +13,7 @@ use crate::error::must_be;
 use crate::parts::parts;
 
 /// Several shapes on top of one another, made by adding them.
-#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
+#[pyclass(frozen, eq, from_py_object, module = "pyfret.shapes")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Sum(Vec<core::Shape>);
 

@@ -1,0 +1,110 @@
+"""The commands that need Python: ``fret study`` is ``python -m pyfret study``, and so on."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pyfret import verification, wear
+from pyfret._cli import life
+from pyfret.citation import cite as sources
+from pyfret.result import open as open_result
+from pyfret.study.file import run_file
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+#: Exit codes, those of ``fret``: done; ended early or with failures; bad input.
+DONE, ENDED_EARLY, BAD_INPUT = 0, 1, 2
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    top = argparse.ArgumentParser(
+        prog="fret", description="The commands of fret that need Python: python -m pyfret ..."
+    )
+    commands = top.add_subparsers(dest="command", required=True)
+    study = commands.add_parser("study", help="solve a scene for many values of its parameters")
+    study.add_argument("file", help="study file (TOML)")
+    study.add_argument("-o", "--out", help="store (default: that of the file, or NAME.zarr)")
+    study.add_argument("--workers", type=int, help="processes (default: one for each processor)")
+    study.add_argument("--scheduler", help="address of a Dask cluster, such as tcp://host:8786")
+    study.add_argument("--again", action="store_true", help="also points that failed before")
+    study.add_argument("--map", metavar="FILE", help="figure of the first measure (.png, .svg)")
+    life.add_options(commands)
+    report = commands.add_parser("report", help="write a result as one page for a browser")
+    report.add_argument("store", help="result")
+    report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
+    report.add_argument("--wear", metavar="STORE", help="result of fret wear, shown as well")
+    commands.add_parser("verify", help="check this installation against closed forms, in minutes")
+    cite = commands.add_parser("cite", help="say what to cite for a result")
+    cite.add_argument("store", nargs="?", help="result (default: all methods)")
+    return top
+
+
+def study(options: argparse.Namespace) -> int:
+    """Run the study of a file and say what came out."""
+    client = None
+    if options.scheduler:
+        from distributed import Client
+
+        client = Client(options.scheduler)
+    try:
+        found, place = run_file(
+            options.file,
+            out=options.out,
+            executor=client or options.workers,
+            again=options.again,
+        )
+    except KeyboardInterrupt:
+        print("fret: stopped; the same command goes on", file=sys.stderr)
+        return ENDED_EARLY
+    finally:
+        if client is not None:
+            client.close()
+    print(f"{place}: {found!r}")
+    failed = found.failed()
+    for values, reason in failed:
+        print(f"{', '.join(f'{k} = {v}' for k, v in values.items())}: {reason}")
+    if options.map:
+        import matplotlib.pyplot as plt
+
+        figure, ax = plt.subplots(layout="constrained")
+        found.map(ax=ax)
+        figure.savefig(options.map)
+    return ENDED_EARLY if failed else DONE
+
+
+def report(options: argparse.Namespace) -> int:
+    """Write the page of a result."""
+    place = Path(options.out or Path(options.store).with_suffix(".html").name)
+    worn = wear.open(options.wear) if options.wear else None
+    open_result(options.store).report(place, wear=worn)
+    print(f"{place}: {place.stat().st_size / 1e6:.1f} MB")
+    return DONE
+
+
+def verify(_: argparse.Namespace) -> int:
+    """Compare with closed forms, a line for every number."""
+    found = verification.verify()
+    print(found)
+    return DONE if found.passed else ENDED_EARLY
+
+
+def cite(options: argparse.Namespace) -> int:
+    """Say what to cite."""
+    print(sources(open_result(options.store) if options.store else None))
+    return DONE
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; its exit code."""
+    options = parser().parse_args(arguments)
+    commands = {"study": study, "life": life.run, "report": report, "verify": verify, "cite": cite}
+    try:
+        return commands[options.command](options)
+    except (ValueError, OSError, ImportError) as error:
+        print(f"fret: {' '.join(str(error).split())}", file=sys.stderr)
+        return BAD_INPUT

@@ -1,0 +1,81 @@
+"""Names of modules: what ``dir`` lists, and where names that are elsewhere are found."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+__all__ = ["MOVED", "OTHER_NAMES", "called", "listing", "moved"]
+
+#: What other programs call things of ``pyfret``.
+OTHER_NAMES = {
+    "load": "open",
+    "Material": "Elastic",
+    "Layer": "Coating",
+    "Surface": "SurfaceMap",
+    "Roughness": "Rough",
+}
+#: Deprecated names of ``pyfret``, and where they are.
+MOVED = {
+    **dict.fromkeys(
+        (
+            "InvalidSceneError",
+            "KernelInaccurateError",
+            "NoConvergenceError",
+            "OffGridError",
+            "SceneWarning",
+            "SlidingError",
+            "StoreError",
+        ),
+        "errors",
+    ),
+    **dict.fromkeys(
+        ("Cone", "CrownedRoller", "Flat", "FlatPunch", "Sum", "Waviness", "Wedge"), "shapes"
+    ),
+    **dict.fromkeys(("FrequencyDomain", "Hankel", "InverseFft", "Preset", "Skip"), "settings"),
+    **dict.fromkeys(("Archard", "DissipatedEnergy", "WearResult"), "wear"),
+    **dict.fromkeys(("Study", "varied"), "study"),
+    "Increment": "solution",
+    "Verification": "verification",
+    "open_study": "study.open",
+    "open_wear": "wear.open",
+    "resume_wear": "wear.resume",
+}
+
+
+def listing(names: Sequence[str]) -> Callable[[], list[str]]:
+    """Give the ``__dir__`` of a module: its public names and no others."""
+    return lambda: list(names)
+
+
+def moved(name: str) -> Any:
+    """Give what a deprecated name of ``pyfret`` stands for, and warn of where it is."""
+    module, _, renamed = MOVED[name].partition(".")
+    place = f"pyfret.{module}.{renamed or name}"
+    warnings.warn(f"pyfret.{name} is {place}", DeprecationWarning, stacklevel=3)
+    return getattr(import_module(f"pyfret.{module}"), renamed or name)
+
+
+class _Called(ModuleType):
+    """A module whose call, which is deprecated, goes to its verb."""
+
+    def __call__(self, *arguments: Any, **keywords: Any) -> Any:
+        """Call the verb of the module, with a warning that names it."""
+        name = f"{self.__name__}.{VERBS[self.__name__]}"
+        warnings.warn(f"{self.__name__}(...) is {name}(...)", DeprecationWarning, stacklevel=2)
+        return getattr(self, VERBS[self.__name__])(*arguments, **keywords)
+
+
+#: Modules that are called as a function by deprecated programs, and what they mean by it.
+VERBS = {"pyfret.report": "report", "pyfret.study": "solve", "pyfret.wear": "solve"}
+
+
+def called(module: str) -> None:
+    """Let a deprecated call of a module go to its verb."""
+    sys.modules[module].__class__ = _Called

@@ -1,0 +1,64 @@
+"""From stress to decision: crack initiation, first yield and shakedown of stress histories.
+
+Histories are arrays of shape (time, ..., 6), Voigt order xx, yy, zz, xy, xz, yz, tension positive,
+in Pa. No contact is needed; ``docs/fatigue.md`` has the equations and their sources. ::
+
+    from pyfret import fatigue
+
+    steel = fatigue.Materials()["steel_42CrMo4"]
+    found = fatigue.assess(stress, steel, "dang_van")
+    found.safety_factor.min()
+"""
+
+from pyfret._util.names import listing
+from pyfret.fatigue.averages import average, critical_distance
+from pyfret.fatigue.criteria import (
+    COMPONENTS,
+    CRITERIA,
+    Assessment,
+    Criterion,
+    Material,
+    Materials,
+    assess,
+    dang_van_path,
+    evaluate,
+    first_yield,
+    mean_stress_slope,
+    moving_load,
+    rainflow,
+    to_pylife,
+)
+from pyfret.fatigue.cycles import cycle_increments, history
+from pyfret.fatigue.factors import Least, LoadFactors, load_factors
+from pyfret.fatigue.lives import Life, Worst, life, ruiz
+from pyfret.fatigue.section import Section
+
+__all__ = [
+    "COMPONENTS",
+    "CRITERIA",
+    "Assessment",
+    "Criterion",
+    "Least",
+    "Life",
+    "LoadFactors",
+    "Material",
+    "Materials",
+    "Section",
+    "Worst",
+    "assess",
+    "average",
+    "critical_distance",
+    "cycle_increments",
+    "dang_van_path",
+    "evaluate",
+    "first_yield",
+    "history",
+    "life",
+    "load_factors",
+    "mean_stress_slope",
+    "moving_load",
+    "rainflow",
+    "ruiz",
+    "to_pylife",
+]
+__dir__ = listing(__all__)

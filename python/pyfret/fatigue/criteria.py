@@ -1,0 +1,312 @@
+"""Criteria, first yield and shakedown of stress histories, and their materials."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Literal, get_args
+
+import numpy as np
+
+from pyfret import _core
+from pyfret._core import Assessment, Criterion, Material
+from pyfret._util.lazy import xr
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Iterator, Sequence
+
+    import pandas as pd
+    from numpy.typing import ArrayLike, NDArray
+
+
+__all__ = [
+    "COMPONENTS",
+    "CRITERIA",
+    "Assessment",
+    "Criterion",
+    "Material",
+    "Materials",
+    "assess",
+    "dang_van_path",
+    "evaluate",
+    "first_yield",
+    "mean_stress_slope",
+    "moving_load",
+    "rainflow",
+    "to_pylife",
+]
+
+#: The last axis of a stress history.
+COMPONENTS = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
+
+#: Names of the criteria.
+CriterionName = Literal[
+    "crossland",
+    "dang_van",
+    "findley",
+    "matake",
+    "mcdiarmid",
+    "smith_watson_topper",
+    "fatemi_socie",
+    "brown_miller",
+]
+CRITERIA: tuple[CriterionName, ...] = get_args(CriterionName)
+
+
+class Materials(Mapping[str, Material]):
+    """The materials that come with the package and, over them, those of a TOML file.
+
+    Parameters
+    ----------
+    file : path, optional
+        ``schema = 1`` and tables ``[materials.NAME]`` of numbers
+        ``{ value = 207e9, source = "where it is from" }``; ``docs/fatigue.md`` lists them.
+    """
+
+    def __init__(self, file: str | os.PathLike[str] | None = None) -> None:
+        self._materials = {m.name: m for m in _core.materials()}
+        if file is not None:
+            self._materials.update({m.name: m for m in _core.materials(file)})
+
+    def __getitem__(self, name: str) -> Material:
+        """Give a material by its name."""
+        if name not in self._materials:
+            raise KeyError(f"no material {name!r}; there are {', '.join(self._materials)}")
+        return self._materials[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names."""
+        return iter(self._materials)
+
+    def __len__(self) -> int:
+        """Count the materials."""
+        return len(self._materials)
+
+
+def _points(stress: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
+    """A history as an array of shape (time, points, 6), and the shape of the points."""
+    stress = np.asarray(stress, dtype=float)
+    if stress.ndim < 2:
+        raise ValueError(
+            f"stress has the shape {stress.shape}: must be (time, ..., 6), "
+            "the last axis xx, yy, zz, xy, xz, yz"
+        )
+    shape = stress.shape[1:-1]
+    return stress.reshape(stress.shape[0], -1, stress.shape[-1]), shape
+
+
+def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3) -> xr.Dataset:
+    """Give the value of a criterion at every point, and the critical plane.
+
+    Parameters
+    ----------
+    stress : array of shape (time, ..., 6)
+        Stress history [Pa]. The order of the instants does not matter.
+    criterion : Criterion
+        With its numbers, such as ``Criterion.findley(k=0.3)``.
+    tolerance : float
+        Largest part of the value by which another plane may be proved better. The plane found is
+        much nearer to the best than what is proved.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over the axes of the points, named ``dim_0``, ``dim_1``, ...: ``value``, and ``missed`` (no
+        plane has more than value + missed); ``normal`` of the critical plane (last dimension
+        ``axis``; NaN without a plane); there ``shear_amplitude`` by the smallest circle,
+        ``shear_chord`` (half of the longest chord of the shear path), ``normal_max``,
+        ``normal_min``, ``normal_mean`` and ``normal_amplitude`` [Pa]. For Crossland's and Dang
+        Van's criteria ``shear_amplitude`` is sqrt(J2,a), or the mesoscopic shear when it
+        decides, and ``normal_max`` the hydrostatic stress that goes with it.
+
+    Raises
+    ------
+    ValueError
+        The stress is not finite, has one instant only, is zero everywhere, or its last axis is not
+        6 long.
+    """
+    points, shape = _points(stress)
+    found = _core.criterion_on(criterion, points, tolerance=tolerance)
+    dims = tuple(f"dim_{n}" for n in range(len(shape)))
+    labels = {
+        "value": (criterion.unit, f"value of the criterion {criterion.name}"),
+        "planes": ("1", "planes looked at"),
+        "missed": (criterion.unit, "most that another plane may have more"),
+        "shear_amplitude": ("Pa", "shear amplitude, radius of the smallest circle"),
+        "shear_chord": ("Pa", "half of the longest chord of the shear path"),
+        "normal_max": ("Pa", "largest normal stress on the critical plane"),
+        "normal_min": ("Pa", "smallest normal stress on the critical plane"),
+    }
+    result = xr.Dataset(attrs={"criterion": criterion.name})
+    for name, (unit, meaning) in labels.items():
+        attrs = {"units": unit, "long_name": meaning}
+        result[name] = (dims, found[name].reshape(shape), attrs)
+    most, least = result.normal_max, result.normal_min
+    mean = {"units": "Pa", "long_name": "mean normal stress on the critical plane"}
+    amplitude = {"units": "Pa", "long_name": "amplitude of the normal stress there"}
+    result["normal_mean"] = ((most + least) / 2).assign_attrs(mean)
+    result["normal_amplitude"] = ((most - least) / 2).assign_attrs(amplitude)
+    attrs = {"units": "1", "long_name": "normal of the critical plane"}
+    result["normal"] = ((*dims, "axis"), found["normal"].reshape(*shape, 3), attrs)
+    return result.assign_coords(axis=["x", "y", "z"])
+
+
+def assess(
+    stress: ArrayLike,
+    material: Material,
+    criterion: CriterionName,
+    *,
+    tolerance: float = 1e-3,
+) -> xr.Dataset:
+    """Evaluate a criterion with the numbers of a material: safety factors and lives.
+
+    Parameters and result are those of :func:`evaluate`; beside it ``safety_factor`` (limit over
+    value) for criteria with a limit, and ``life`` [cycles] for those with a strain-life curve.
+
+    Raises
+    ------
+    ValueError
+        As :func:`evaluate`, and if the material lacks a number; the message says which.
+    """
+    assessment = material.assessment(criterion)
+    result = evaluate(stress, assessment.criterion, tolerance=tolerance)
+    result.attrs["material"] = material.title
+    name, unit, meaning = (
+        ("life", "1", "cycles until a crack has started")
+        if assessment.limit is None
+        else ("safety_factor", "1", "limit over value")
+    )
+    of = assessment.life if assessment.limit is None else assessment.safety_factor
+    values = np.array([of(float(v)) for v in result.value.values.ravel()])
+    attrs = {"units": unit, "long_name": meaning}
+    result[name] = (result.value.dims, values.reshape(result.value.shape), attrs)
+    return result
+
+
+def first_yield(
+    stress: ArrayLike, *, s_y: float, constant: Sequence[float] = (0, 0, 0, 0, 0, 0)
+) -> xr.Dataset:
+    """Give load factors of first yield and of elastic shakedown.
+
+    Parameters
+    ----------
+    stress : array of shape (time, ..., 6)
+        Stress that grows with the load [Pa].
+    s_y : float
+        Yield stress [Pa].
+    constant : six numbers
+        Stress that does not grow with the load, such as a residual stress [Pa].
+
+    Returns
+    -------
+    xarray.Dataset
+        Factors ``von_mises`` and ``tresca`` at which yield begins, and ``shakedown`` up to which
+        Melan's theorem finds elastic cycles at the point (an upper bound for the body, since it is
+        not asked that the ``residual`` stress of neighbouring points balances); infinite without
+        stress.
+    """
+    points, shape = _points(stress)
+    xx, yy, zz, xy, xz, yz = (float(s) for s in constant)
+    found = _core.yielding_on(points, s_y=s_y, constant=(xx, yy, zz, xy, xz, yz))
+    dims = tuple(f"dim_{n}" for n in range(len(shape)))
+    labels = {
+        "von_mises": "load factor of first yield, von Mises",
+        "tresca": "load factor of first yield, Tresca",
+        "shakedown": "load factor of elastic shakedown, upper bound",
+    }
+    result = xr.Dataset(coords={"component": list(COMPONENTS)})
+    for name, meaning in labels.items():
+        attrs = {"units": "1", "long_name": meaning}
+        result[name] = (dims, found[name].reshape(shape), attrs)
+    attrs = {"units": "Pa", "long_name": "deviatoric residual stress that serves best"}
+    result["residual"] = ((*dims, "component"), found["residual"].reshape(*shape, 6), attrs)
+    return result
+
+
+def moving_load(stress: ArrayLike, *, s_y: float) -> NDArray[np.float64]:
+    """Give the load factor of elastic shakedown under a load that moves along the surface.
+
+    What a load leaves behind that passes again and again, the same everywhere along its track,
+    depends on depth alone: its balance leaves s_xx, s_yy and s_xy, and no stress on planes parallel
+    to the surface. Melan's theorem with these alone is what K. L. Johnson, Contact Mechanics
+    (1985), section 9.2, does: for a cylinder p_0 = 4 k without friction, and p_0 = k/mu for
+    mu > 0.367, where the surface decides, k being s_y/sqrt 3. A history and its mirror image in the
+    surface, which turns s_xz and s_yz round, have a smallest sphere whose centre is such a stress.
+
+    Parameters
+    ----------
+    stress : array of shape (time, ..., 6)
+        Stress that a place of every depth sees as the load passes [Pa].
+    s_y : float
+        Yield stress [Pa], by von Mises' condition.
+
+    Returns
+    -------
+    array of shape (...)
+        Load factor of every place.
+    """
+    stress = np.asarray(stress, dtype=float)
+    mirrored = stress * np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
+    both = np.concatenate([stress, mirrored])
+    return np.asarray(first_yield(both, s_y=s_y).shakedown)
+
+
+def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Give the path of one point in Dang Van's plane.
+
+    Parameters
+    ----------
+    stress : array of shape (time, 6)
+        Stress history [Pa].
+
+    Returns
+    -------
+    tau, p_h : arrays of shape (time,)
+        Mesoscopic shear and hydrostatic stress, tension positive [Pa].
+    """
+    path = _core.dang_van_path(np.ascontiguousarray(stress, dtype=float))
+    return path[:, 0], path[:, 1]
+
+
+def mean_stress_slope(material: Material) -> tuple[float, str]:
+    """Give how much amplitude of uniaxial stress a mean stress costs, and after whom.
+
+    The limit is amplitude = s_D - slope mean. With the strength ``s_u``, s_D/s_u (J. Goodman,
+    Mechanics Applied to Engineering, 1899); else with ``t_D`` by Dang Van's criterion, whose
+    s_a/2 + alpha (s_a + s_m)/3 = t_D is slope = 1 - s_D/(2 t_D) with alpha = 3 t_D/s_D - 3/2.
+    A ValueError says which number is missing.
+    """
+    s_D = material.number("s_D")
+    if any(name == "s_u" for name, _, _ in material.numbers()):
+        return s_D / material.number("s_u"), "Goodman"
+    return 1.0 - s_D / (2.0 * material.number("t_D")), "Dang Van"
+
+
+def to_pylife(stress: ArrayLike) -> pd.DataFrame:
+    """Give a history as pyLife takes it: columns S11, S22, S33, S12, S13, S23, a row per instant.
+
+    Rows are indexed by ``element_id`` (the points in C order) and ``load_step``. Needs pandas.
+    """
+    import pandas as pd
+
+    points, _ = _points(stress)
+    time, count, _ = points.shape
+    index = pd.MultiIndex.from_product(
+        [range(count), range(time)], names=["element_id", "load_step"]
+    )
+    rows = points.transpose(1, 0, 2).reshape(-1, 6)
+    return pd.DataFrame(rows, index=index, columns=["S11", "S22", "S33", "S12", "S13", "S23"])
+
+
+def rainflow(signal: ArrayLike) -> NDArray[np.float64]:
+    """Count the cycles of a signal: rows of range, mean, count (1 or 1/2).
+
+    Needs the package ``rainflow`` (``pip install fretting[fatigue]``), which follows ASTM E1049-85.
+    """
+    try:
+        import rainflow as counter
+    except ImportError as error:
+        raise ImportError("rainflow is missing: pip install fretting[fatigue]") from error
+    cycles = counter.extract_cycles(np.asarray(signal, dtype=float))
+    rows = [(size, mean, count) for size, mean, count, _, _ in cycles]
+    return np.array(rows, dtype=float).reshape(-1, 3)

@@ -1,0 +1,94 @@
+"""The stress of a run over a closed cycle of its load path."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret._util.lazy import xr
+from pyfret.fatigue.criteria import COMPONENTS
+from pyfret.subsurface.contact import stress_below
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from pyfret.run import Run
+
+__all__ = ["cycle_increments", "history"]
+
+
+def cycle_increments(result: Run, cycle: int | None = -1) -> NDArray[np.int64]:
+    """Give the kept increments of a closed cycle of the load path, from 1; all of them for None.
+
+    A ValueError says where there is no such cycle or fewer than two of its increments were kept.
+    """
+    saved = np.asarray(result.dataset.saved_increment.values)
+    kept = saved if cycle is None else saved[_inside(result, saved, cycle)]
+    if kept.size < 2:
+        of = "path" if cycle is None else "cycle"
+        raise ValueError(
+            f"{kept.size} increments of the {of} were kept: solve with save='all' or more of them"
+        )
+    return kept
+
+
+def _inside(result: Run, saved: NDArray[np.int64], cycle: int) -> NDArray[np.bool_]:
+    """Which of the kept increments lie in a cycle."""
+    cycles = result.loops()
+    count = cycles.sizes["cycle"]
+    if count == 0:
+        raise ValueError(
+            "the load path has no closed cycle, and one is needed: end where a cycle began"
+        )
+    if not -count <= cycle < count:
+        raise ValueError(f"cycle = {cycle}: must be {-count} to {count - 1}, a cycle of the path")
+    ends = cycles.isel(cycle=cycle)
+    branch = result.dataset.branch_of_increment.sel(increment=saved).values
+    return np.asarray((branch >= int(ends.first_branch)) & (branch <= int(ends.last_branch)))
+
+
+def history(
+    result: Run,
+    z: ArrayLike,
+    *,
+    x: float | None = None,
+    y: float | None = None,
+    body_number: int = 2,
+    cycle: int | None = -1,
+    residual: Sequence[float] | None = None,
+) -> xr.DataArray:
+    """Stress over a closed cycle of a run whose increments were kept, ready for a criterion.
+
+    Parameters
+    ----------
+    result : Result
+        Solved with ``save="all"``, or with the increments of the cycle.
+    z, x, y, body_number
+        Where, as in :meth:`Snapshot.stress`.
+    cycle : int, optional
+        Which of the closed cycles of the load path, the last by default; None for all increments
+        that were kept.
+    residual : sequence of float, optional
+        Residual stress of every layer from the surface down, the substrate's last [Pa]: biaxial
+        and uniform, added to s_xx and s_yy. It has no effect on the contact.
+
+    Returns
+    -------
+    DataArray of dims (increment, ..., component)
+        Stress [Pa] with the coordinates of the places, ``layer`` among them.
+    """
+    kept = cycle_increments(result, cycle)
+    snapshots = (
+        stress_below(result.at(int(n)), z, x=x, y=y, body_number=body_number, residual=residual)
+        for n in kept
+    )
+    # Its scalars differ from increment to increment; the places are the same.
+    stresses = [stress.dataset[list(COMPONENTS)].to_array("component") for stress in snapshots]
+    stacked = xr.concat(stresses, dim="increment", coords="minimal", compat="override")
+    stacked = stacked.assign_coords(increment=kept)
+    others = [d for d in stacked.dims if d not in ("increment", "component")]
+    stacked = stacked.transpose("increment", *others, "component").copy()
+    return stacked.assign_attrs(units="Pa", long_name="stress").rename("stress")

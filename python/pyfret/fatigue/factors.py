@@ -1,0 +1,160 @@
+"""Will it yield, and will it go on? First yield and elastic shakedown below a contact.
+
+Load factors say by how much the stresses that the loads cause may grow until something happens.
+A contact grows with its load: without coatings p_H may grow by the factor, with it W by its cube
+below a sphere and by its square below a cylinder, other forces keeping their ratio to W. ::
+
+    factors = result.load_factors(900e6)
+    factors.least("von_mises")  # factor and place of first yield
+    fret.plot.load_factor_map(factors, of="shakedown")
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
+
+import numpy as np
+
+from pyfret import _core
+from pyfret._core import Material
+from pyfret.fatigue.criteria import first_yield
+from pyfret.fatigue.cycle_stress import judge
+from pyfret.fatigue.section import Section, for_each_layer
+from pyfret.fatigue.worst import largest
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import ArrayLike, NDArray
+    from typing_extensions import Unpack
+
+    from pyfret.fatigue.cycle_stress import Found
+    from pyfret.fatigue.section import SectionOptions
+    from pyfret.run import Run
+
+__all__ = ["Factor", "Least", "LoadFactors", "YieldStresses", "load_factors"]
+
+#: First yield by von Mises' or Tresca's condition, or the end of elastic shakedown.
+Factor = Literal["von_mises", "tresca", "shakedown"]
+#: A yield stress [Pa] or a material that has one for all layers, or one for each from the surface
+#: down, the substrate's last; layers of ``None`` are not judged.
+YieldStresses = float | Material | Sequence[float | Material | None]
+
+
+class Least(NamedTuple):
+    """The least load factor and where it decides, between the samples."""
+
+    #: Load factor.
+    factor: float
+    #: Place [m].
+    x: float
+    y: float
+    #: Depth [m].
+    z: float
+    #: Layer from the surface down; their number for the substrate.
+    layer: int
+    #: What the distances of the depths leave of an error of the factor, estimated.
+    error: float
+
+
+class LoadFactors:
+    """Load factors of first yield and shakedown on a section below the contact, or on several.
+
+    :attr:`dataset` has ``von_mises``, ``tresca`` and ``shakedown`` over (depth, x) or (depth, y),
+    for several sections over (depth, x, y) or (depth, y, x); NaN in layers that are not judged,
+    infinite without stress.
+    """
+
+    def __init__(self, dataset: xr.Dataset, layers: Sequence[int]) -> None:
+        self.dataset = dataset
+        #: The layers that are judged, from the surface down.
+        self.layers = list(layers)
+
+    def use(self, of: Factor) -> xr.DataArray:
+        """Give load over limit, the inverse of a factor: 1 where the limit is reached."""
+        if of not in get_args(Factor):
+            raise ValueError(f"{of!r}: must be one of {', '.join(get_args(Factor))}")
+        return 1.0 / self.dataset[of]
+
+    def least_of(self, layer: int, of: Factor = "von_mises") -> Least:
+        """Give the least factor of a layer; a ValueError where it is not judged."""
+        use, x, y, z, layer, error = largest(self.use(of), layer)
+        return Least(
+            1.0 / use if use > 0.0 else np.inf, x, y, z, layer, error / max(use, 1e-300) ** 2
+        )
+
+    def least(self, of: Factor = "von_mises") -> Least:
+        """Give the least factor of all layers."""
+        return min(
+            (self.least_of(layer, of) for layer in self.layers), key=lambda least: least.factor
+        )
+
+    def __repr__(self) -> str:
+        """Say what decides."""
+        found = ", ".join(f"{of} {self.least(of).factor:.4g}" for of in get_args(Factor))
+        return f"LoadFactors({found})"
+
+
+def _yield_stresses(given: YieldStresses, layers: int) -> list[float | None]:
+    """The yield stress of every layer [Pa]."""
+    each = for_each_layer(given, layers, "yield stress", "yield stresses")
+    return [one.number("s_y") if isinstance(one, Material) else one for one in each]
+
+
+def load_factors(
+    result: Run,
+    s_y: YieldStresses,
+    z: ArrayLike | None = None,
+    **section: Unpack[SectionOptions],
+) -> LoadFactors:
+    """Give load factors of first yield and shakedown below the contact over a closed cycle.
+
+    Parameters
+    ----------
+    result : Result
+        Solved with ``save="all"``, or with the increments of the cycle.
+    s_y : float, Material, or sequence of them or None
+        Yield stress [Pa] of all layers, or of each from the surface down, the substrate's last;
+        layers of ``None`` are not judged.
+    z : array, optional
+        Depths [m] (default: those that the layers ask for, both sides of every interface).
+    **section
+        ``x`` or ``y`` (several for a volume), ``body_number``, ``cycle`` (None: the whole path as
+        far as its increments were kept), ``residual``: the fields of
+        :class:`pyfret.fatigue.Section`. The residual stress counts for first yield and does not
+        grow with the load; shakedown finds its own.
+
+    Returns
+    -------
+    LoadFactors
+        As :func:`pyfret.fatigue.first_yield` at every place.
+
+    Raises
+    ------
+    ValueError
+        As :func:`pyfret.fatigue.life`; a yield stress is not positive, or the residual stress alone
+        is beyond it.
+
+    Examples
+    --------
+    >>> result.load_factors(900e6).least("shakedown")  # doctest: +SKIP
+    """
+    where = Section(**section)
+    scene = result.scene
+    body = scene.body1 if where.body_number == 1 else scene.body2
+    limits = _yield_stresses(s_y, len(body.coatings) + 1)
+
+    residual = _core.residual_of_layers(body, where.residual).tolist()
+
+    def of_layer(load: NDArray[np.float64], layer: int) -> Found | None:
+        limit = limits[layer]
+        if limit is None:
+            return None
+        found = first_yield(
+            load, s_y=limit, constant=(residual[layer], residual[layer], 0, 0, 0, 0)
+        )
+        return {of: (found[of].values, found[of].attrs) for of in get_args(Factor)}
+
+    whole = judge(result, where, z, of_layer, residual=False)
+    present = np.unique(whole.layer.values).tolist()
+    return LoadFactors(whole, [n for n in present if limits[n] is not None])

@@ -1,0 +1,175 @@
+"""Stress on the interfaces over a cycle, and energy release rates of coatings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from pyfret._util.lazy import xr
+from pyfret.fatigue.cycle_stress import CycleStress
+from pyfret.fatigue.section import Section
+from pyfret.subsurface.fields import interfaces
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from pyfret._core import Coating
+    from pyfret.fatigue.section import SectionOptions
+    from pyfret.run import Run
+
+__all__ = ["Buckling", "buckling_release", "edge_release", "over_cycle"]
+
+
+def over_cycle(
+    result: Run,
+    *,
+    peel_strength: float | None = None,
+    shear_strength: float | None = None,
+    **section: Unpack[SectionOptions],
+) -> xr.Dataset:
+    """Follow peel and shear on the interfaces below the contact over a closed cycle.
+
+    A residual stress of the layers, uniform and biaxial, has no part in the stress on an interface
+    away from its edges.
+
+    Parameters
+    ----------
+    result : Result
+        Solved with ``save="all"``, or with the increments of the cycle.
+    peel_strength, shear_strength : float, optional
+        Strengths of the interface in tension and in shear [Pa]; both or neither.
+    **section
+        ``x`` or ``y``, ``body_number``, ``cycle``, as in :func:`pyfret.fatigue.life`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over (interface, x) or (interface, y): ``peel``, the largest s_zz of the cycle, 0 without
+        tension, ``shear``, the largest size of (s_xz, s_yz), ``shear_amplitude``, half the longest
+        chord of its path [Pa]; with strengths ``criterion``, the largest
+        (s_zz/Z)^2 + (s_xz^2 + s_yz^2)/S^2 of the cycle with s_zz where it is tension, which reaches
+        1 where the interface fails: J. C. Brewer, P. A. Lagace, J. Compos. Mater. 22 (1988)
+        1141-1155, with one shear strength for both directions.
+
+    Raises
+    ------
+    ValueError
+        The body has no coating, one of the strengths is missing or not positive, or as
+        :func:`pyfret.fatigue.life`.
+    """
+    of = CycleStress(result, Section(**section))
+    depths = interfaces(of.body)
+    if not depths:
+        raise ValueError(f"body {of.section.body_number} has no coating and no interface")
+    strengths = {"peel_strength": peel_strength, "shear_strength": shear_strength}
+    given = [name for name, value in strengths.items() if value is not None]
+    if len(given) == 1:
+        raise ValueError(f"{given[0]} is given alone: the criterion needs both strengths")
+    for name, value in strengths.items():
+        if value is not None and not (value > 0.0 and np.isfinite(value)):
+            raise ValueError(f"{name} = {value}: must be a positive stress in Pa")
+    history, places = of.history(depths)
+    # Both sides carry the same traction; that of the upper layer stands for it.
+    history = history[:, ::2]
+    peel = np.maximum(history[..., 2], 0.0)
+    shear = history[..., 4:6]
+    along = of.section.along
+    dims = ("interface", along)
+    pascal = {"units": "Pa"}
+    found = xr.Dataset(
+        {
+            "peel": (dims, peel.max(axis=0), {**pascal, "long_name": "largest peel of the cycle"}),
+            "shear": (
+                dims,
+                np.linalg.norm(shear, axis=-1).max(axis=0),
+                {**pascal, "long_name": "largest shear of the cycle"},
+            ),
+            "shear_amplitude": (
+                dims,
+                _half_chord(shear),
+                {**pascal, "long_name": "half the longest chord of the shear path"},
+            ),
+        },
+        coords={"z": ("interface", depths, {"units": "m"}), along: places[along]},
+    )
+    if peel_strength is not None and shear_strength is not None:
+        square = (peel / peel_strength) ** 2 + (shear**2).sum(axis=-1) / shear_strength**2
+        attrs = {"units": "1", "long_name": "quadratic criterion of the interface, 1 at failure"}
+        found["criterion"] = (dims, square.max(axis=0), attrs)
+    return found
+
+
+def _half_chord(path: np.ndarray) -> np.ndarray:
+    """Half the longest chord of paths of shape (time, ..., 2)."""
+    longest = np.zeros(path.shape[1:-1])
+    for n in range(1, len(path)):
+        chords = np.linalg.norm(path[n:] - path[:-n], axis=-1)
+        longest = np.maximum(longest, chords.max(axis=0))
+    return longest / 2
+
+
+def edge_release(coating: Coating, stress: float) -> float:
+    """Give what a coating releases that parts from its substrate along a straight front [J/m^2].
+
+    G = (1 - nu^2) h stress^2/(2 E), the steady state far from the edge from which the crack runs;
+    the strain along the front does not change. Tension and compression release the same; a
+    compressed coating has to be free to move away, or slide, along the crack.
+
+    J. W. Hutchinson, Z. Suo, Adv. Appl. Mech. 29 (1992) 63-191.
+
+    Parameters
+    ----------
+    coating : Coating
+        Its modulus, Poisson's ratio and thickness.
+    stress : float
+        Stress across the front, residual and of the load [Pa].
+    """
+    E, nu = coating.material.E, coating.material.nu
+    return (1.0 - nu * nu) * coating.thickness * stress * stress / (2.0 * E)
+
+
+class Buckling(NamedTuple):
+    """A compressed coating above a debonded strip."""
+
+    #: Compressive stress at which it buckles [Pa], positive.
+    critical_stress: float
+    #: Deflection in the middle [m].
+    deflection: float
+    #: Energy release rate along the sides of the strip [J/m^2].
+    release: float
+
+
+def buckling_release(coating: Coating, stress: float, width: float) -> Buckling:
+    """Give how a compressed coating buckles above a long debonded strip, and what that releases.
+
+    With the half width b, h the thickness and s the compression::
+
+        s_c = pi^2/12 E/(1 - nu^2) (h/b)^2
+        deflection = h sqrt(4/3 (s/s_c - 1))
+        G = (1 - nu^2) h/(2 E) (s - s_c) (s + 3 s_c)
+
+    and nothing below s_c. The substrate is taken for rigid against the coating.
+
+    J. W. Hutchinson, Z. Suo, Adv. Appl. Mech. 29 (1992) 63-191, straight-sided blister.
+
+    Parameters
+    ----------
+    coating : Coating
+        Its modulus, Poisson's ratio and thickness.
+    stress : float
+        Stress of the coating across the strip [Pa], compression negative.
+    width : float
+        Width of the strip, 2 b [m], much longer than the thickness.
+    """
+    if not (width > 0.0 and np.isfinite(width)):
+        raise ValueError(f"width = {width}: must be a positive length in m")
+    E, nu, h = coating.material.E, coating.material.nu, coating.thickness
+    plane = E / (1.0 - nu * nu)
+    critical = np.pi**2 / 12.0 * plane * (2.0 * h / width) ** 2
+    s = -stress
+    if s <= critical:
+        return Buckling(float(critical), 0.0, 0.0)
+    deflection = h * np.sqrt(4.0 / 3.0 * (s / critical - 1.0))
+    release = h / (2.0 * plane) * (s - critical) * (s + 3.0 * critical)
+    return Buckling(float(critical), float(deflection), float(release))

@@ -1,0 +1,12 @@
+"""Results for people without pyfret: one page for a browser.
+
+``content`` collects the numbers of the figures, ``page`` puts all into one file; ``page.html``,
+``page.css`` and ``page.js`` are its looks.
+"""
+
+from pyfret._util.names import called, listing
+from pyfret.report.page import report
+
+__all__ = ["report"]
+__dir__ = listing(__all__)
+called(__name__)

@@ -1,0 +1,162 @@
+"""The numbers of the figures of a report: SI prefixes, few digits, no more points than are seen."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pyfret.run.summary import directions
+from pyfret.subsurface.contact import stress_below
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pyfret.run import Run, State
+    from pyfret.wear.runs import WearResult
+
+__all__ = ["figures"]
+
+#: Most cells along a side that a map shows: more are not seen.
+SIDE = 128
+#: Most increments whose fields are shown.
+KEPT = 60
+#: Most points along a section of stress.
+ALONG, DOWN = 160, 120
+#: Force and shift of the loop, and what they are shown in.
+LOOPS = {
+    "x": ("T_x", "delta_x", "T<sub>x</sub> [N]", "δ<sub>x</sub> [µm]"),
+    "y": ("T_y", "delta_y", "T<sub>y</sub> [N]", "δ<sub>y</sub> [µm]"),
+    "torsion": ("M_z", "phi_z", "M<sub>z</sub> [N m]", "φ<sub>z</sub> [µrad]"),
+}
+
+
+def short(values: Any, digits: int = 4) -> Any:
+    """Numbers in a few digits as lists; what is no number becomes None."""
+    array = np.asarray(values, dtype=float)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        power = digits - 1 - np.floor(np.log10(np.abs(array)))
+        power = np.where(np.isfinite(power), power, 0.0)
+        rounded = np.round(array * 10.0**power) / 10.0**power
+    listed = np.where(np.isfinite(rounded), rounded, np.nan).astype(object)
+    listed[~np.isfinite(rounded)] = None
+    return listed.tolist()
+
+
+def chosen(n: int, most: int) -> NDArray[np.int64]:
+    """At most so many of n indices, evenly, the first and the last among them."""
+    return np.unique(np.linspace(0, n - 1, min(n, most)).round().astype(int))
+
+
+def frame(result: Run, snapshots: list[State]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Columns and rows of cells to show: the box around all contacts with some room."""
+    touched = np.logical_or.reduce([at.contact.values.astype(bool) for at in snapshots])
+    found = []
+    for axis, n in ((1, touched.shape[0]), (0, touched.shape[1])):
+        inside = np.flatnonzero(touched.any(axis=axis))
+        first, last = (inside[0], inside[-1]) if inside.size else (0, n - 1)
+        room = max((last - first + 1) // 12, 1)
+        cells = np.arange(max(first - room, 0), min(last + room, n - 1) + 1)
+        found.append(cells[chosen(cells.size, SIDE)])
+    return found[0], found[1]
+
+
+def increments(result: Run) -> dict[str, Any]:
+    """Pressure, shear and zones of the increments with fields, and their middle lines."""
+    numbers = result.dataset.saved_increment.values
+    snapshots = [result.at(int(numbers[k])) for k in chosen(numbers.size, KEPT)]
+    columns, rows = frame(result, snapshots)
+    shown = []
+    for at in snapshots:
+        d = at.dataset
+        contact = d.contact.values.astype(bool)
+        p = np.where(contact, d.p.values, np.nan)
+        q = np.where(contact, np.hypot(d.q_x.values, d.q_y.values), np.nan)
+        zone = np.where(contact, np.where(d.stick.values.astype(bool), 2.0, 1.0), np.nan)
+        line = at.along_x(y=0.0 if d.y.size > 1 else float(d.y[0]))
+        cut = {k: short(1e-6 * line[k].values[columns]) for k in ("p", "q_x")}
+        pick = np.ix_(columns, rows)
+        shown.append(
+            {
+                "increment": int(d.increment),
+                "says": f"W = {float(d.W):.4g} N, T\u2093 = {float(d.T_x):.4g} N, "
+                f"stick ratio {float(d.stick_ratio):.3f}",
+                **{
+                    name: short(field[pick].T, 3)
+                    for name, field in (("p", 1e-6 * p), ("q", 1e-6 * q), ("zone", zone))
+                },
+                "line": {**cut, "bound": short(at.mu * 1e-6 * line.p.values[columns])}
+                if np.isfinite(at.mu)
+                else cut,
+            }
+        )
+    x, y = (1e6 * result.dataset[k].values for k in ("x", "y"))
+    largest = {
+        name: float(max(np.nanmax(np.array(of[name], dtype=float), initial=0) for of in shown))
+        for name in ("p", "q")
+    }
+    flat = bool(result.scene.grid.plane_strain)
+    return {
+        "x": short(x[columns]),
+        "y": short(y[rows]),
+        "shown": shown,
+        "largest": largest,
+        "flat": flat,
+    }
+
+
+def loop(result: Run) -> dict[str, Any]:
+    """Force over shift from the end of the first branch on, with the increments of the points."""
+    direction = next(iter(directions(result)), "x")
+    force, shift, y, x = LOOPS[direction]
+    d = result.dataset
+    started = int(np.flatnonzero(d.branch_of_increment.values == 0)[-1])
+    moved = 1e6 * (d[shift].values - float(d[shift][started]))
+    return {
+        "x": short(moved[started:], 5),
+        "y": short(d[force].values[started:], 5),
+        "increment": d.increment.values[started:].astype(int).tolist(),
+        "labels": [x, y],
+    }
+
+
+def stress(result: Run) -> dict[str, Any] | None:
+    """Von Mises stress on the section y = 0 of the lower body at the last increment."""
+    at = result.at(-1)
+    if not bool(at.contact.any()) or not np.isfinite(result.scene.body2.substrate.E):
+        return None
+    below = stress_below(at)
+    largest = below.maximum()
+    values = 1e-6 * below.von_mises.values
+    z, x = below.von_mises.z.values, below.von_mises.x.values
+    depths, along = chosen(z.size, DOWN), chosen(x.size, ALONG)
+    return {
+        "x": short(1e6 * x[along]),
+        "z": short(1e6 * z[depths]),
+        "values": short(values[np.ix_(depths, along)], 3),
+        "interfaces": short(1e6 * np.asarray(result.scene.interfaces())),
+        "largest": [1e6 * largest.along, 1e6 * largest.z, 1e-6 * largest.value],
+        "error": 1e-6 * largest.error,
+    }
+
+
+def wear(worn: WearResult) -> dict[str, Any]:
+    """Depths over cycles, and the worn profiles of both bodies at the end."""
+    d = worn.dataset
+    middle = d.sizes["y"] // 2
+    return {
+        "cycles": short(d.cycles.values, 6),
+        "depth": [short(1e6 * d[f"depth{n}"].values) for n in (1, 2)],
+        "x": short(1e6 * d.x.values),
+        "profile": [short(1e6 * d[f"worn{n}"][-1].values[:, middle]) for n in (1, 2)],
+    }
+
+
+def figures(result: Run, worn: WearResult | None) -> dict[str, Any]:
+    """All numbers of the figures of a page."""
+    return {
+        "fields": increments(result),
+        "loop": loop(result),
+        "stress": stress(result),
+        "wear": None if worn is None else wear(worn),
+    }

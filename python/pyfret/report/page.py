@@ -1,0 +1,145 @@
+"""One page for a browser: everything in one file, nothing fetched."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import io
+import json
+from html import escape
+from pathlib import Path
+from string import Template
+from typing import TYPE_CHECKING
+
+from pyfret._core import __version__
+from pyfret.citation import sources
+from pyfret.report.content import figures as numbers
+from pyfret.run.summary import directions
+from pyfret.run.tables import cycles_table, ends_table
+from pyfret.scene.tables import scene_html, table
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping
+
+    from matplotlib.figure import Figure
+
+    from pyfret.run import Run
+    from pyfret.wear.runs import WearResult
+
+__all__ = ["report"]
+
+#: Folder of the looks of the page.
+HERE = Path(__file__).parent
+
+
+def report(
+    result: Run,
+    path: str | os.PathLike[str],
+    *,
+    wear: WearResult | None = None,
+    figures: Mapping[str, Figure] | None = None,
+) -> None:
+    """Write a result as one page for a browser, which needs neither pyfret nor a network.
+
+    The page says what was solved and what was left out, has numbers with their error bars, the
+    loop, maps and profiles of every increment that kept its fields, the stress below the last one,
+    and the sources to cite.
+
+    Parameters
+    ----------
+    result : Result
+        The run.
+    path : path
+        File to write, ``.html``; one that is there is replaced.
+    wear : WearResult, optional
+        What many cycles wore off.
+    figures : mapping of str to Figure, optional
+        Figures of matplotlib to append, by their captions: lives, yours.
+
+    Raises
+    ------
+    ImportError
+        If the package plotly is missing: ``pip install "fretting[report]"``.
+    ValueError
+        The ending of the file is another.
+    """
+    place = Path(path)
+    if place.suffix not in (".html", ".htm"):
+        raise ValueError(f"{place}: must end in .html")
+    page = Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
+        title=escape(str(result.dataset.attrs["title"]) or "Fretting contact"),
+        version=escape(str(result.dataset.attrs.get("version", __version__))),
+        status=escape(result.status),
+        scene=scene_html(result.scene),
+        ends=ends_table(result),
+        bars=bars(result),
+        cycles="".join(cycles_table(result, of) for of in directions(result)),
+        plan=plan(result),
+        sources=cited(result),
+        more="".join(picture(caption, of) for caption, of in (figures or {}).items()),
+        toml=escape(result.scene.to_toml()),
+        css=(HERE / "page.css").read_text(encoding="utf-8"),
+        js=(HERE / "page.js").read_text(encoding="utf-8"),
+        numbers=packed(json.dumps(numbers(result, wear), allow_nan=False)),
+        plotly=packed(drawing()),
+    )
+    place.write_text(page, encoding="utf-8")
+
+
+def drawing() -> str:
+    """The program that draws, plotly.js."""
+    try:
+        from plotly.offline import get_plotlyjs
+    except ImportError as absent:
+        message = 'reports need plotly: pip install "fretting[report]"'
+        raise ImportError(message) from absent
+    return str(get_plotlyjs())
+
+
+def packed(text: str) -> str:
+    """Text for the page: compressed, in letters; the browser unpacks it."""
+    return base64.b64encode(gzip.compress(text.encode("utf-8"), 9, mtime=0)).decode("ascii")
+
+
+def bars(result: Run) -> str:
+    """What the error bars are, or how to get them."""
+    if result.dataset.attrs.get("error_bars"):
+        return (
+            "Behind &plusmn; stand estimated errors: of the cells, told by runs on other grids, of "
+            "the increments, told by a run with fewer, and of the solver."
+        )
+    return (
+        "This run has no error bars; <code>fret run --error</code> or "
+        "<code>solve(..., error=True)</code> estimates them."
+    )
+
+
+def plan(result: Run) -> str:
+    """What was left out and what was kept, and why."""
+    rows = []
+    for line in result.dataset.attrs.get("plan", ()):
+        what, _, why = str(line).partition(" (")
+        kind, _, of = what.partition(": ")
+        rows.append([escape(kind), escape(of), escape(why.removesuffix(")"))])
+    return table(["", "what", "why"], rows, words=True)
+
+
+def cited(result: Run) -> str:
+    """The sources of the methods."""
+    rows = [
+        f"<li><b>{escape(s.what)}</b>: {escape(s.text)}, doi:{escape(s.doi)}</li>"
+        for s in sources(result)
+    ]
+    return f"<ul>{''.join(rows)}</ul>"
+
+
+def picture(caption: str, figure: Figure) -> str:
+    """A figure of matplotlib inside the page."""
+    file = io.BytesIO()
+    figure.savefig(file, format="png", dpi=150)
+    data = base64.b64encode(file.getvalue()).decode("ascii")
+    return (
+        f'<section><h2>{escape(caption)}</h2><img alt="{escape(caption)}" '
+        f'src="data:image/png;base64,{data}"></section>'
+    )

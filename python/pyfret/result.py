@@ -1,0 +1,304 @@
+"""The result of a run: the datum, and all that follows from it."""
+
+from __future__ import annotations
+
+import json
+from os import fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from pyfret import _core, fatigue
+from pyfret import heat as heating
+from pyfret._core import StoreError
+from pyfret._util import files
+from pyfret.report.page import report
+from pyfret.run import Run, State
+from pyfret.run.summary import summary
+from pyfret.run.tables import run_html
+from pyfret.subsurface import contact, fields
+from pyfret.subsurface.tensor import LABELS
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping, Sequence
+
+    import xarray as xr
+    from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
+    from typing_extensions import Unpack
+
+    from pyfret.fatigue.criteria import CriterionName
+    from pyfret.fatigue.factors import LoadFactors, YieldStresses
+    from pyfret.fatigue.lives import Life, Materials
+    from pyfret.fatigue.section import SectionOptions
+    from pyfret.subsurface.tensor import Stress
+    from pyfret.wear.runs import WearResult
+
+__all__ = ["Result", "Snapshot", "open"]
+
+
+class Snapshot(State):
+    """The contact at the end of one increment: its scalars and its fields.
+
+    Every variable of :attr:`dataset` is an attribute as well, e.g. ``snapshot.p``.
+    """
+
+    def _elsewhere(self, name: str) -> dict[str, str]:
+        stresses = {of: f"it is a stress, snapshot.stress().{of}" for of in LABELS}
+        return {**stresses, **super()._elsewhere(name)}
+
+    def stress(
+        self,
+        z: ArrayLike | None = None,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        body_number: int = 2,
+        bulk: bool = True,
+        rim: bool = True,
+        residual: Sequence[float] | None = None,
+    ) -> Stress:
+        """Stress below the contact, in the lower body unless `body_number` is 1.
+
+        Parameters
+        ----------
+        z : float or array, optional
+            Depths [m]; those on an interface appear twice, once in each layer (default: those that
+            the layers ask for, down to twice :attr:`length`).
+        x, y : float, optional
+            With `y`, the section along x at that y; with `x`, that along y; with both, the line
+            below a point; with neither, the whole plane at every depth given, or where none is, the
+            section at y = 0.
+        body_number : 1 or 2
+            The body.
+        bulk : bool
+            Whether its bulk stress is part of the stress.
+        rim : bool
+            Whether tractions vary within the cells beside the rim and the stick zone, as in
+            :func:`pyfret.subsurface.stress`.
+        residual : sequence of float, optional
+            Residual stress of every layer from the surface down, the substrate's last [Pa], tension
+            positive: biaxial and uniform, added to s_xx and s_yy. It has no effect on the contact.
+
+        Warns
+        -----
+        SceneWarning
+            The first interface is nearer to the surface than a cell is long.
+
+        Examples
+        --------
+        >>> below = result.at(-1).stress()  # doctest: +SKIP
+        >>> below.maximum("von_mises")  # doctest: +SKIP
+        """
+        return contact.stress_below(
+            self,
+            z,
+            x=x,
+            y=y,
+            body_number=body_number,
+            bulk=bulk,
+            rim=rim,
+            residual=residual,
+        )
+
+    def displacement(
+        self,
+        z: ArrayLike | None = None,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        body_number: int = 2,
+    ) -> xr.Dataset:
+        """Displacements u_x, u_y, u_z of a body below the contact [m], as in :meth:`stress`."""
+        return contact.displacement_below(self, z, x=x, y=y, body_number=body_number)
+
+    def write_volume(
+        self,
+        out: str | os.PathLike[str],
+        z: ArrayLike | None = None,
+        *,
+        of: Sequence[str] = ("von_mises",),
+        body_number: int = 2,
+        bulk: bool = True,
+        residual: Sequence[float] | None = None,
+        rim: bool = True,
+    ) -> None:
+        """Write stress, displacement in the volume: :func:`pyfret.subsurface.write_volume`."""
+        contact.write_below(
+            self, out, z, of=of, body_number=body_number, bulk=bulk, residual=residual, rim=rim
+        )
+
+
+class Result(Run):
+    """The result of a run.
+
+    Its ``dataset`` has scalars over ``increment`` and fields over (``saved``, ``x``, ``y``) for the
+    increments whose fields were kept; ``attrs`` holds the scene, the version, ``a_H``, ``p_H`` and
+    ``mu``. Every variable carries ``units`` and ``long_name``. Its scalars are attributes as well,
+    e.g. ``result.T_x``; fields are those of an increment, e.g. ``result.at(-1).p``.
+    """
+
+    def at(self, which: float) -> Snapshot:
+        """Give the contact at the end of one increment whose fields were kept.
+
+        Parameters
+        ----------
+        which : int or float
+            An integer counts increments from 1; negative ones count the kept increments from the
+            last. A float is a path time t.
+
+        Raises
+        ------
+        KeyError
+            The fields of that increment were not kept; the message lists those that were.
+        """
+        return Snapshot(*self._kept(which))
+
+    def envelope(
+        self,
+        z: ArrayLike | None = None,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        of: Sequence[str] = ("von_mises",),
+        body_number: int = 2,
+        bulk: bool = True,
+        residual: Sequence[float] | None = None,
+    ) -> xr.Dataset:
+        """Extremes of stress over the increments whose fields were kept, on a section or on planes.
+
+        Use :func:`pyfret.subsurface.envelope` with :func:`pyfret.march` for all increments of a
+        path without keeping their fields; parameters and result are those of that function.
+        """
+        kept = (self.at(int(n)) for n in self.dataset.saved_increment.values)
+        return fields.envelope(
+            self.scene,
+            kept,
+            z,
+            x=x,
+            y=y,
+            of=of,
+            body_number=body_number,
+            bulk=bulk,
+            residual=residual,
+        )
+
+    def life(
+        self,
+        materials: Materials,
+        criterion: CriterionName,
+        z: ArrayLike | None = None,
+        *,
+        tolerance: float = 1e-3,
+        **section: Unpack[SectionOptions],
+    ) -> Life:
+        """Judge a section below the contact, or several, over a closed cycle by a criterion.
+
+        Parameters and result are those of :func:`pyfret.fatigue.life`.
+        """
+        return fatigue.life(self, materials, criterion, z, tolerance=tolerance, **section)
+
+    def load_factors(
+        self,
+        s_y: YieldStresses,
+        z: ArrayLike | None = None,
+        **section: Unpack[SectionOptions],
+    ) -> LoadFactors:
+        """Give load factors of first yield and shakedown below the contact over a closed cycle.
+
+        Parameters and result are those of :func:`pyfret.fatigue.load_factors`.
+        """
+        return fatigue.load_factors(self, s_y, z, **section)
+
+    def temperature(
+        self,
+        conductor1: heating.Conductors,
+        conductor2: heating.Conductors,
+        *,
+        frequency: float,
+        bulk: float | tuple[float, float] = 0.0,
+        wave: Literal["sine", "linear"] = "sine",
+        harmonics: int | None = None,
+        cycle: int = -1,
+    ) -> xr.Dataset:
+        """Give the surface temperature under the frictional heat of a closed cycle.
+
+        Parameters and result are those of :func:`pyfret.heat.temperature`.
+        """
+        return heating.temperature(
+            self,
+            conductor1,
+            conductor2,
+            frequency=frequency,
+            bulk=bulk,
+            wave=wave,
+            harmonics=harmonics,
+            cycle=cycle,
+        )
+
+    def summary(self) -> str:
+        """Tabulate what the run ended with: a line per branch, then one per cycle.
+
+        Over a_H and p_H, or in um and MPa; in plane strain a is half the width of the contact.
+        """
+        return summary(self)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
+
+        :func:`pyfret.open` opens both. The place must be free. NetCDF needs the package h5netcdf or
+        netCDF4: ``pip install "fretting[netcdf]"``.
+
+        Parameters
+        ----------
+        path : path
+            Where to write; its ending says in which format.
+
+        Raises
+        ------
+        FileExistsError
+            There is something at the place.
+        ValueError
+            The ending is another.
+        """
+        files.write(self.dataset, path)
+
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        wear: WearResult | None = None,
+        figures: Mapping[str, Figure] | None = None,
+    ) -> None:
+        """Write one page for a browser, for people without pyfret: :meth:`pyfret.Result.report`."""
+        report(self, path, wear=wear, figures=figures)
+
+    def _repr_html_(self) -> str:
+        """Tables for notebooks."""
+        return run_html(self)
+
+
+def open(path: str | os.PathLike[str]) -> Result:
+    """Open a result: a Zarr store, or what :meth:`Result.save` wrote (``.zarr``, ``.nc``).
+
+    Fields are read when they are asked for. Every file of a store is checked before: what is read
+    is what was written. What :meth:`Result.save` wrote has no checksums and is not checked.
+
+    Raises
+    ------
+    StoreError
+        There is no store, or a file of it is missing or damaged; the message names both.
+    """
+    if not Path(path).exists():
+        raise StoreError(f"{fspath(path)}: no such file or folder")
+    if Path(path).suffix == ".nc":
+        return Result(files.read(path))
+    # Zarr reads the attributes of the group from a file that no checksum covers.
+    attributes = {} if files.is_copy(path) else json.loads(_core.verify(path))
+    try:
+        dataset = files.read(path)
+    except Exception as error:
+        message = " ".join(str(error).split())
+        raise StoreError(f"{fspath(path)}: {type(error).__name__}: {message}") from error
+    kept = {name: value for name, value in attributes.items() if name in dataset.attrs}
+    return Result(dataset.assign_attrs(kept))

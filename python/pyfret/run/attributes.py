@@ -1,0 +1,68 @@
+"""What a result and each of its snapshots know of their run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret._core import Scene
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["OfRun"]
+
+
+class OfRun:
+    """A dataset whose attributes say which run it belongs to."""
+
+    def __init__(self, dataset: xr.Dataset, scene: Scene | None = None) -> None:
+        self._dataset = dataset
+        self._scene = scene
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Variables with units and meaning, and the attributes of the run."""
+        return self._dataset
+
+    def __getitem__(self, name: str) -> xr.DataArray:
+        """Give a variable of the dataset by its name."""
+        if not isinstance(name, str):
+            raise TypeError(
+                f"{name!r}: must be the name of a variable, such as 'T_x'; result.at(-1) is the "
+                "last increment that kept its fields"
+            )
+        return self.dataset[name]
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that was solved."""
+        if self._scene is None:
+            self._scene = Scene.from_toml(self.dataset.attrs["scene"])
+        return self._scene
+
+    @property
+    def a_H(self) -> float:
+        """Hertz radius of the uncoated pair at the largest load [m]."""
+        return self._yardstick("a_H")
+
+    @property
+    def p_H(self) -> float:
+        """Hertz peak pressure of the uncoated pair at the largest load [Pa]."""
+        return self._yardstick("p_H")
+
+    @property
+    def mu(self) -> float:
+        """Friction coefficient; infinite for a contact that never slips."""
+        mu = self.dataset.attrs["mu"]
+        return np.inf if mu is None or mu == "stick" else float(mu)
+
+    def _yardstick(self, name: str) -> float:
+        """A number of the Hertz contact; a ValueError where there is none."""
+        if name not in self.dataset.attrs:
+            raise ValueError(
+                f"no {name}: these bodies have no Hertz contact (a flat, a punch, a rough surface, "
+                "or nothing presses); lengths are measured by .length, stresses in Pa"
+            )
+        return float(self.dataset.attrs[name])

@@ -1,0 +1,205 @@
+"""A run: scalars of every increment, fields of some, the scene inside."""
+
+from __future__ import annotations
+
+import numbers
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from pyfret._util.guesses import no_attribute
+from pyfret._util.lazy import xr
+from pyfret.run.attributes import OfRun
+from pyfret.run.loops import of_cycles
+from pyfret.run.state import State
+
+if TYPE_CHECKING:
+    from pyfret._core import Scene
+
+__all__ = ["Run"]
+
+#: Scalars of an increment that add up over a branch.
+SUMMED = frozenset(
+    (
+        "work",
+        "elastic",
+        "dissipated",
+        "opening",
+        "quadrature",
+        "convolutions",
+        "alternations",
+        "normal_iterations",
+        "tangential_iterations",
+        "parts",
+    )
+)
+
+
+class Run(OfRun):
+    """What a run gave.
+
+    Its ``dataset`` has scalars over ``increment`` and fields over (``saved``, ``x``, ``y``) for the
+    increments whose fields were kept; ``attrs`` holds the scene, the version, ``a_H``, ``p_H`` and
+    ``mu``. Every variable carries ``units`` and ``long_name``. Its scalars are attributes as well,
+    e.g. ``result.T_x``; fields are those of an increment, e.g. ``result.at(-1).p``.
+    """
+
+    def __getattr__(self, name: str) -> xr.DataArray:
+        """Give the scalar `name` of every increment."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        scalars = [str(k) for k, v in self.dataset.variables.items() if v.dims == ("increment",)]
+        if name in scalars:
+            return self.dataset[name]
+        fields = {
+            str(k): f"it is a field of every increment that kept it, result.at(-1).{k}"
+            for k, v in self.dataset.variables.items()
+            if "x" in v.dims
+        }
+        public = (member for member in dir(type(self)) if not member.startswith("_"))
+        raise no_attribute("result", name, [*scalars, *public], fields)
+
+    @property
+    def status(self) -> str:
+        """``"done"``, ``"running"``, or the sentence that says why the run stopped."""
+        return str(self.dataset.attrs["status"])
+
+    @property
+    def length(self) -> float:
+        """The length that results are measured in [m].
+
+        a_H, or where there is no Hertz contact half the longer side of the box around the contact
+        of the last increment whose fields were kept.
+        """
+        return self.at(-1).length
+
+    @property
+    def delta_H(self) -> float:
+        """Hertz approach of the uncoated pair at the largest load [m], a_H^2/R."""
+        return self.a_H**2 / self._yardstick("R")
+
+    @property
+    def W_max(self) -> float:
+        """Largest normal force of the path [N]."""
+        return float(self.dataset.W.max())
+
+    @property
+    def stick_ratio(self) -> xr.DataArray:
+        """Stick area over contact area, every increment."""
+        return self.dataset["stick_ratio"]
+
+    @property
+    def delta_x(self) -> xr.DataArray:
+        """Relative tangential shift of the bodies along x [m], every increment."""
+        return self.dataset["delta_x"]
+
+    @property
+    def dissipated_energy(self) -> xr.DataArray:
+        """Energy dissipated by friction since the start of the path [J], every increment."""
+        total = self.dataset["dissipated"].cumsum("increment")
+        return total.assign_attrs(units="J", long_name="energy dissipated since the start")
+
+    def at(self, which: float) -> State:
+        """Give the contact at the end of one increment whose fields were kept.
+
+        Parameters
+        ----------
+        which : int or float
+            An integer counts increments from 1; negative ones count the kept increments from the
+            last. A float is a path time t.
+
+        Raises
+        ------
+        KeyError
+            The fields of that increment were not kept; the message lists those that were.
+        """
+        return State(*self._kept(which))
+
+    def _kept(self, which: float) -> tuple[xr.Dataset, Scene]:
+        """The fields and scalars of an increment of :meth:`at`, and the scene."""
+        if not isinstance(which, numbers.Real):
+            raise TypeError(
+                f"{which!r}: must be an increment, such as 5, or -1 for the last that kept its "
+                "fields, or a path time, such as 1.0"
+            )
+        saved = self.dataset.saved_increment.values
+        times = self.dataset.saved_t.values
+        if not isinstance(which, numbers.Integral):
+            places = np.flatnonzero(np.isclose(times, which, rtol=1e-9, atol=1e-12))
+        elif which > 0:
+            places = np.flatnonzero(saved == which)
+        else:
+            places = np.flatnonzero(np.arange(saved.size) == saved.size + which)
+        if places.size == 0 or which == 0:
+            raise KeyError(
+                f"no fields were kept at {which!r}; kept are the increments {saved.tolist()} "
+                f"at t = {times.tolist()}"
+            )
+        place = int(places[-1])
+        fields = self.dataset.isel(saved=place)
+        increment = int(saved[place])
+        here = fields.sel(increment=increment).drop_vars(("saved_increment", "saved_t"))
+        return here, self.scene
+
+    def error_bars(self) -> xr.Dataset:
+        """Estimated errors of the numbers at the end of every branch: dims (branch, part).
+
+        Parts are ``total``, and what makes it: ``cells``, told by runs on two coarser grids and, of
+        numbers on up to 256 x 256 cells, by one on a finer grid, ``path``, told by a run with fewer
+        increments, and ``solver``, its tolerance. ``p`` and ``q`` are the tractions as fields: L2
+        norms over the largest of the path. The runs are those of ``solve(..., error=True)`` and
+        ``fret run --error``.
+        """
+        bars = self.dataset.attrs.get("error_bars")
+        if not bars:
+            raise ValueError(
+                "the run has no error bars: solve(..., error=True) or fret run --error"
+            )
+        parts = list(bars[0]["q"])
+        table = xr.Dataset(coords={"branch": [bar["branch"] for bar in bars], "part": parts})
+        for name in (name for name in bars[0] if name != "branch"):
+            of_field = name in ("p", "q")
+            attrs = {"units": "1"} if of_field else self.dataset[name].attrs
+            values = [[bar[name][part] for part in parts] for bar in bars]
+            table[name] = (("branch", "part"), values, attrs)
+        return table
+
+    def branches(self) -> xr.Dataset:
+        """Scalars at the end of every branch; energies and work are sums over the branch."""
+        of = self.dataset.branch_of_increment.values
+        starts = np.flatnonzero(np.diff(of, prepend=of[0] - 1))
+        ends = np.append(starts[1:], of.size) - 1
+        table = xr.Dataset(coords={"branch": of[ends]}, attrs=self.dataset.attrs)
+        for name, variable in self.dataset.variables.items():
+            if variable.dims == ("increment",) and name not in self.dataset.indexes:
+                values = variable.values
+                kept = np.add.reduceat(values, starts) if name in SUMMED else values[ends]
+                table[name] = ("branch", kept, variable.attrs)
+        return table
+
+    def loops(self, *, direction: Literal["x", "y", "torsion"] = "x") -> xr.Dataset:
+        """Energy and stiffness of every closed cycle of the load path.
+
+        Parameters
+        ----------
+        direction : "x", "y" or "torsion"
+            The fretting motion. In torsion ``T`` is the moment M_z [N m], ``delta`` the rotation
+            phi_z [rad], and the units of stiffness and opening are theirs.
+
+        Returns
+        -------
+        xarray.Dataset
+            Over ``cycle``: ``dissipated`` [J], half ranges ``T`` [N] and ``delta`` [m],
+            ``stiffness`` right after the reversals and ``secant_stiffness`` [N/m], half the
+            ``opening`` of the loop [m], ``energy_ratio``, ``sliding_ratio``, ``status``, and the
+            branches it spans.
+        """
+        return of_cycles(self.dataset, self.scene.path, direction)
+
+    def __repr__(self) -> str:
+        """Give the title and the size of the result."""
+        d = self.dataset
+        return (
+            f"{type(self).__name__}({d.attrs['title']!r}, {d.sizes['increment']} increments, "
+            f"{d.sizes['saved']} with fields of {d.sizes['x']} x {d.sizes['y']}, {self.status})"
+        )

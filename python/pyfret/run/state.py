@@ -1,0 +1,166 @@
+"""The contact at the end of one increment: its scalars and its fields."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret import _core
+from pyfret._util.guesses import no_attribute
+from pyfret.run.attributes import OfRun
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from pyfret._core import Body
+
+__all__ = ["State"]
+
+
+class State(OfRun):
+    """The contact at the end of one increment: its scalars and its fields.
+
+    Every variable of :attr:`dataset` is an attribute as well, e.g. ``snapshot.p``.
+    """
+
+    # The variables of a result store, for editors and type checkers.
+    x: xr.DataArray
+    y: xr.DataArray
+    increment: xr.DataArray
+    t: xr.DataArray
+    branch_of_increment: xr.DataArray
+    W: xr.DataArray
+    T_x: xr.DataArray
+    T_y: xr.DataArray
+    M_x: xr.DataArray
+    M_y: xr.DataArray
+    M_z: xr.DataArray
+    sigma_B: xr.DataArray
+    sigma_B1: xr.DataArray
+    rolled: xr.DataArray
+    delta_z: xr.DataArray
+    delta_x: xr.DataArray
+    delta_y: xr.DataArray
+    phi_x: xr.DataArray
+    phi_y: xr.DataArray
+    phi_z: xr.DataArray
+    status: xr.DataArray
+    contact_area: xr.DataArray
+    stick_area: xr.DataArray
+    stick_ratio: xr.DataArray
+    contact_radius: xr.DataArray
+    p_max: xr.DataArray
+    q_max: xr.DataArray
+    work: xr.DataArray
+    elastic: xr.DataArray
+    dissipated: xr.DataArray
+    opening: xr.DataArray
+    quadrature: xr.DataArray
+    residual_gap: xr.DataArray
+    residual_penetration: xr.DataArray
+    residual_coulomb: xr.DataArray
+    residual_stick: xr.DataArray
+    residual_direction: xr.DataArray
+    residual_angle: xr.DataArray
+    residual_balance: xr.DataArray
+    residual_energy: xr.DataArray
+    convolutions: xr.DataArray
+    alternations: xr.DataArray
+    normal_iterations: xr.DataArray
+    tangential_iterations: xr.DataArray
+    parts: xr.DataArray
+    p: xr.DataArray
+    q_x: xr.DataArray
+    q_y: xr.DataArray
+    u_x: xr.DataArray
+    u_y: xr.DataArray
+    u_z: xr.DataArray
+    gap: xr.DataArray
+    slip_x: xr.DataArray
+    slip_y: xr.DataArray
+    dissipated_density: xr.DataArray
+    contact: xr.DataArray
+    stick: xr.DataArray
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Fields of dims (x, y), the scalars of the increment, and the attrs of the run."""
+        return super().dataset
+
+    def __getattr__(self, name: str) -> xr.DataArray:
+        """Give the variable `name` of the dataset."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if name in self.dataset.variables:
+            return self.dataset[name]
+        public = (member for member in dir(type(self)) if not member.startswith("_"))
+        raise no_attribute("snapshot", name, [*self.names(), *public], self._elsewhere(name))
+
+    def _elsewhere(self, name: str) -> dict[str, str]:
+        """Names that this has not, and how what they mean is got from it."""
+        found = {}
+        for known, variable in self.dataset.variables.items():
+            meaning = str(variable.attrs.get("long_name", ""))
+            if meaning.split(",")[0] == name:
+                found[name] = f"it is called {known}, {meaning}"
+        return found
+
+    def names(self) -> list[str]:
+        """Names of all variables, in order."""
+        return sorted(str(name) for name in self.dataset.variables)
+
+    @property
+    def length(self) -> float:
+        """The length that results are measured in [m].
+
+        a_H, or where there is no Hertz contact half the longer side of the box around the contact.
+        """
+        return self.scene.length(self.dataset["p"].values)
+
+    def __dir__(self) -> list[str]:
+        """The variables beside the methods."""
+        return sorted({*super().__dir__(), *self.names()})
+
+    def body(self, body_number: int = 2) -> Body:
+        """The upper body (1) or the lower one (2)."""
+        scene = self.scene
+        return scene.body1 if body_number == 1 else scene.body2
+
+    def tractions(self) -> dict[str, NDArray[np.float64]]:
+        """Pressure, and shear tractions on body 2, by their names: arrays of (x, y) [Pa]."""
+        return {k: self.dataset[k].values for k in ("p", "q_x", "q_y")}
+
+    def bulk_stress(self, body_number: int = 2) -> float:
+        """Bulk stress along x of the substrate of a body [Pa]."""
+        return float(self.dataset["sigma_B1" if body_number == 1 else "sigma_B"])
+
+    def p_continued(self) -> xr.DataArray:
+        """Pressure at the centres of the cells [Pa], that at the rim continued from inside.
+
+        Cells at the rim carry what balances the others, up to a tenth more or less than the
+        pressure at their centres; this is nearer to that. The sum of ``p`` is the load.
+        """
+        p = self.dataset["p"]
+        return p.copy(data=_core.continued_pressure(p.values, self.scene.grid))
+
+    def along_x(self, *, y: float = 0.0) -> xr.Dataset:
+        """Fields along the line of constant `y` [m], linear between the rows of cells."""
+        rows = self.dataset.y.values
+        if not rows[0] <= y <= rows[-1]:
+            raise ValueError(f"y = {y}: must be {rows[0]} to {rows[-1]}, the rows of the grid")
+        above = int(np.clip(np.searchsorted(rows, y), 1, rows.size - 1)) if rows.size > 1 else 0
+        below = max(above - 1, 0)
+        share = (y - rows[below]) / (rows[above] - rows[below]) if above else 0.0
+        fields = self.dataset[[k for k, v in self.dataset.items() if v.dtype.kind == "f"]]
+        row = fields.isel(y=below, drop=True) * (1 - share)
+        return row + fields.isel(y=above, drop=True) * share
+
+    def __repr__(self) -> str:
+        """Say which increment this is and under which loads."""
+        d = self.dataset
+        return (
+            f"{type(self).__name__}(increment {int(d.increment)}, t = {float(d.t):.4g}, "
+            f"W = {float(d.W):.4g} N, T_x = {float(d.T_x):.4g} N)"
+        )

@@ -1,0 +1,1 @@
+"""What is in contact: measured surfaces, warnings of what is hardly meant, tables for notebooks."""

@@ -1,0 +1,29 @@
+"""Studies: the same contact for many values of its parameters.
+
+``design`` says which points, ``measures`` what is kept of each result, ``point`` solves one,
+``workers`` shares them out, ``store`` writes them down, ``loop`` goes over all; ``loads`` is the
+study of the load path that a map of running conditions needs. ::
+
+    found = fret.study.solve("scene.toml", {"friction.mu": [0.3, 0.5]}, measure="loop_energy")
+    found.map()
+"""
+
+from pyfret._util.names import called, listing
+from pyfret.study.design import varied
+from pyfret.study.loads import running_conditions
+from pyfret.study.loop import solve
+from pyfret.study.measures import MEASURES, Cracking, Wear
+from pyfret.study.outcome import Study, open
+
+__all__ = [
+    "MEASURES",
+    "Cracking",
+    "Study",
+    "Wear",
+    "open",
+    "running_conditions",
+    "solve",
+    "varied",
+]
+__dir__ = listing(__all__)
+called(__name__)

@@ -1,0 +1,153 @@
+"""Which points a study has, and the scene of each."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from pyfret._core import Scene
+from pyfret._util.lazy import xr
+
+__all__ = ["Combine", "Design", "Source", "varied"]
+
+#: How the values of several parameters are combined.
+Combine: TypeAlias = Literal["grid", "zip"]
+#: A scene, its file, or a function that makes one of the values of the parameters.
+Source: TypeAlias = "Scene | str | PathLike[str] | Callable[[dict[str, Any]], Scene]"
+
+#: Parameters with a short name, and their keys in a scene file.
+SHORT = {"mu": "friction.mu"}
+#: The dimension of a study whose parameters change together.
+TOGETHER = "point"
+
+
+def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Scene:
+    """Give a scene with other values of its parameters.
+
+    Parameters
+    ----------
+    scene : Scene or path
+        What is varied. A scene file keeps its own measures: a thickness of ``{ a_H = 1.0 }``
+        follows the radius; a :class:`Scene` has all numbers in SI units.
+    values : mapping of str to value
+        By the keys of a scene file, such as ``"body2.coatings.0.thickness"`` or
+        ``"path.1.T_x.mu_W"``; ``"mu"`` is short for ``"friction.mu"``.
+
+    Raises
+    ------
+    InvalidSceneError
+        A key does not exist, or a value has no meaning; the message names both.
+
+    Examples
+    --------
+    >>> harder = varied("coated.toml", {"body2.coatings.0.E": 3e11})  # doctest: +SKIP
+    """
+    settings = [f"{SHORT.get(key, key)}={toml(value)}" for key, value in values.items()]
+    if isinstance(scene, Scene):
+        return Scene.from_toml(scene.to_toml(), set=settings)
+    return Scene.from_file(scene, set=settings)
+
+
+def toml(value: Any) -> str:
+    """A value as a scene file has it."""
+    if isinstance(value, np.generic | np.ndarray):
+        value = value.tolist()
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    return json.dumps(value)
+
+
+@dataclass(frozen=True)
+class Design:
+    """The points of a study.
+
+    Attributes
+    ----------
+    parameters : mapping of str to list
+        Values of every parameter.
+    combine : "grid" or "zip"
+        Every combination, or the values in step with one another.
+    """
+
+    parameters: Mapping[str, Sequence[Any]]
+    combine: Combine
+
+    def __post_init__(self) -> None:
+        """Refuse what is no study."""
+        if not self.parameters:
+            raise ValueError('no parameters: give some, such as {"mu": [0.2, 0.4]}')
+        for key, values in self.parameters.items():
+            if len(values) == 0:
+                raise ValueError(f"{key}: has no values")
+            if "/" in key:
+                raise ValueError(f'{key}: a "/" parts folders of the store; write "_" or "over"')
+        lengths = {key: len(values) for key, values in self.parameters.items()}
+        if self.combine not in ("grid", "zip"):
+            raise ValueError(f'combine = {self.combine!r}: must be "grid" or "zip"')
+        if self.combine == "zip" and len(set(lengths.values())) > 1:
+            raise ValueError(f'combine = "zip": the numbers of values must be the same: {lengths}')
+
+    @staticmethod
+    def of(parameters: Mapping[str, Any], combine: Combine) -> Design:
+        """The design of values in any form: lists, arrays, ranges."""
+        plain: dict[str, list[Any]] = {}
+        for key, values in parameters.items():
+            if isinstance(values, str) or not hasattr(values, "__len__"):
+                raise ValueError(f"{key} = {values!r}: must be a list of values")
+            plain[key] = [v.tolist() if isinstance(v, np.generic) else v for v in values]
+        return Design(plain, combine)
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Dimensions of the study."""
+        if self.combine == "zip":
+            return {TOGETHER: len(next(iter(self.parameters.values())))}
+        return {key: len(values) for key, values in self.parameters.items()}
+
+    def __len__(self) -> int:
+        """Number of points."""
+        return math.prod(self.sizes.values())
+
+    def place(self, n: int) -> tuple[int, ...]:
+        """Indices of the n-th point along the dimensions; the last one changes first."""
+        return tuple(int(i) for i in np.unravel_index(n, tuple(self.sizes.values())))
+
+    def values(self, n: int) -> dict[str, Any]:
+        """Values of the parameters at the n-th point."""
+        place = self.place(n) if self.combine == "grid" else self.place(n) * len(self.parameters)
+        return {key: of[i] for (key, of), i in zip(self.parameters.items(), place, strict=True)}
+
+    def coords(self) -> dict[str, xr.Variable]:
+        """Coordinates of the study: numbers as they are, the rest as text."""
+        coords = {}
+        for key, values in self.parameters.items():
+            numbers = all(isinstance(v, int | float) for v in values)
+            data = np.array(values if numbers else [toml(v) for v in values])
+            dim = TOGETHER if self.combine == "zip" else key
+            coords[key] = xr.Variable((dim,), data, {"long_name": key})
+        return coords
+
+    def scene(self, source: Source, n: int) -> Scene:
+        """The scene of the n-th point."""
+        values = self.values(n)
+        if isinstance(source, Scene | str | PathLike):
+            return varied(source, values)
+        return source(values)
+
+    def describe(self, source: Source) -> str:
+        """Tell this study from others: what makes its points, as JSON."""
+        if isinstance(source, Scene):
+            what = source.to_toml()
+        elif isinstance(source, str | PathLike):
+            what = Path(source).read_text(encoding="utf-8")
+        else:
+            what = f"function {getattr(source, '__qualname__', type(source).__qualname__)}"
+        design = {"parameters": dict(self.parameters), "combine": self.combine, "scene": what}
+        return json.dumps(design)

@@ -1,0 +1,104 @@
+"""The study file: TOML that says what is varied, what is measured and where it goes."""
+
+from __future__ import annotations
+
+import difflib
+import sys
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pyfret.study.loop import DEFAULT, solve
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+if TYPE_CHECKING:
+    from pyfret.study.outcome import Study
+
+__all__ = ["run_file"]
+
+#: Keys of a study file.
+KEYS = ("scene", "parameters", "combine", "measure", "out", "grow")
+#: Keys of a range of values.
+RANGE = ("from", "to", "n", "scale")
+
+
+def run_file(
+    path: str | PathLike[str],
+    *,
+    out: str | PathLike[str] | None = None,
+    executor: Any = None,
+    again: bool = False,
+) -> tuple[Study, Path]:
+    """Run the study of a file, or go on with it; the study, and its store.
+
+    Parameters
+    ----------
+    path : path
+        The study file; names in it are relative to its folder.
+    out : path, optional
+        Store (default: that of the file, or the file's own name with the ending ``.zarr``).
+    executor, again
+        As in :func:`pyfret.study.solve`.
+
+    Raises
+    ------
+    ValueError
+        The file is no study; the message names the key and what is allowed.
+    """
+    file = Path(path)
+    try:
+        says = tomllib.loads(file.read_text(encoding="utf-8"))
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"{file}: {error}") from error
+    for key in says:
+        known(key, KEYS, str(file))
+    for key in ("scene", "parameters"):
+        if key not in says:
+            raise ValueError(f"{file}: the key `{key}` is missing")
+    if not isinstance(says["parameters"], dict):
+        raise ValueError(f"{file}: `parameters`: must be a table of keys and values")
+    place = Path(out) if out is not None else file.parent / says.get("out", f"{file.stem}.zarr")
+    parameters = {k: values(v, f"{file}: parameters.{k}") for k, v in says["parameters"].items()}
+    found = solve(
+        file.parent / says["scene"],
+        parameters,
+        combine=says.get("combine", "grid"),
+        measure=says.get("measure", DEFAULT),
+        grow=says.get("grow", True),
+        out=place,
+        executor=executor,
+        again=again,
+    )
+    return found, place
+
+
+def known(key: str, keys: tuple[str, ...], where: str) -> None:
+    """Refuse an unknown key and name the nearest one."""
+    if key not in keys:
+        nearest = difflib.get_close_matches(key, keys, n=1, cutoff=0.0)[0]
+        raise ValueError(f"{where}: unknown key `{key}`: the nearest valid key is `{nearest}`")
+
+
+def values(given: Any, where: str) -> list[Any]:
+    """Values of a parameter: a list, or a range ``{ from, to, n, scale }``."""
+    if isinstance(given, list):
+        return given
+    if not isinstance(given, dict):
+        raise ValueError(f"{where} = {given!r}: must be a list or {{ from = .., to = .., n = .. }}")
+    for key in given:
+        known(key, RANGE, where)
+    scale = given.get("scale", "linear")
+    if scale not in ("linear", "log"):
+        raise ValueError(f'{where}.scale = {scale!r}: must be "linear" or "log"')
+    try:
+        space = np.linspace if scale == "linear" else np.geomspace
+        spaced: list[Any] = space(given["from"], given["to"], int(given["n"])).tolist()
+    except KeyError as missing:
+        raise ValueError(f"{where}: {missing} is missing") from None
+    return spaced

@@ -1,0 +1,161 @@
+"""The same contact under many loads: running conditions, crack risk, frictional energy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pyfret._core import LoadPath, Scene
+from pyfret._util.lazy import xr
+from pyfret.study.loop import solve
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import ArrayLike
+
+    from pyfret.study.measures import Cracking, Measure
+
+__all__ = ["running_conditions"]
+
+#: Number of gross slip, and what the numbers mean.
+SLIDES = 3
+STATUS = "0 no contact, 1 full stick, 2 partial slip, 3 gross slip"
+
+#: What the map shows of the last cycle: its names, and those of the measures.
+SHOWN = {
+    "status": "regime",
+    "energy_ratio": "energy_ratio",
+    "sliding_ratio": "sliding_ratio",
+    "dissipated": "loop_energy",
+    "T": "T",
+    "delta": "delta",
+    "stiffness": "stiffness",
+}
+#: Name of a parameter of the map whose measure is called the same.
+AMPLITUDE = "amplitude"
+
+
+def running_conditions(
+    scene: Scene,
+    *,
+    W: ArrayLike,
+    T: ArrayLike | None = None,
+    delta: ArrayLike | None = None,
+    cycles: int = 1,
+    increments: tuple[int, int] = (20, 20),
+    cracking: Cracking | None = None,
+    executor: Any = None,
+    on_point: Callable[[int, int], object] | None = None,
+) -> xr.Dataset:
+    """Running conditions of fretting cycles under the normal force W: a study of the load path.
+
+    Every combination is solved: indentation, first loading, then `cycles` cycles between -T and T,
+    or between the shifts -delta and delta.
+
+    Parameters
+    ----------
+    scene : Scene
+        The contact; a grid that is too small for the largest W grows.
+    W : array
+        Normal forces [N].
+    T : array, optional
+        Amplitudes of the tangential force [N]; those above mu W slide and are marked so without
+        being solved, since no static solution exists.
+    delta : array, optional
+        Amplitudes of the shift [m], instead of `T`: gross slip is solved as well.
+    cycles : int
+        Number of cycles; the map shows the last.
+    increments : (int, int)
+        Increments of the indentation and of a full stroke.
+    cracking : Cracking, optional
+        A criterion of fatigue to judge the last cycle by:
+        ``study.Cracking(material, "dang_van")``.
+    executor : int, Executor or distributed.Client, optional
+        Who solves, as in :func:`pyfret.study.solve`.
+    on_point : callable, optional
+        Told how many points are done, and how many there are.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over W and T or delta: ``status`` (0 no contact, 1 full stick, 2 partial slip, 3 gross
+        slip), ``energy_ratio``, ``sliding_ratio``, ``dissipated`` [J], ``stiffness`` [N/m], and
+        ``delta`` [m] or ``T`` [N], half of their ranges, and with `cracking` its ``safety_factor``
+        or ``life`` [cycles] and ``crack_depth`` [m]; NaN where a force slides, except the status.
+
+    Raises
+    ------
+    RuntimeError
+        A point could not be solved; the message says which and why.
+    """
+    if (T is None) == (delta is None):
+        raise ValueError("give the amplitudes T or delta, one of them")
+    driven = "T" if delta is None else "delta"
+    given = T if delta is None else delta
+    normal, tangential = (np.atleast_1d(np.asarray(v, dtype=float)) for v in (W, given))
+    measures: list[Measure] = [name for shown, name in SHOWN.items() if shown != driven]
+    found = solve(
+        Cycles(scene, driven, cycles, increments, fields=cracking is not None),
+        {"W": normal, AMPLITUDE: tangential},
+        measure=[*measures, cracking] if cracking else measures,
+        executor=executor,
+        progress=False,
+        on_point=on_point,
+    )
+    for point, reason in found.failed():
+        if not reason.startswith(Slides.__name__):
+            raise RuntimeError(f"W = {point['W']} N, {driven} = {point[AMPLITUDE]}: {reason}")
+    return labelled(found.dataset, scene, driven)
+
+
+def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
+    """The study of the loads with the names of the map."""
+    units = {"T": ("N", "amplitude of the force"), "delta": ("m", "amplitude of the shift")}
+    judged = ("safety_factor", "life", "crack_depth")
+    kept = {name: shown for shown, name in SHOWN.items() if name in found}
+    kept |= {name: name for name in judged if name in found}
+    table = found[list(kept)].rename(kept).drop_vars(AMPLITUDE).rename({AMPLITUDE: driven})
+    table["status"] = table["status"].fillna(SLIDES).assign_attrs(long_name=STATUS)
+    unit, meaning = units[driven]
+    amplitude = found[AMPLITUDE].values
+    table = table.assign_coords(
+        {driven: (driven, amplitude, {"units": unit, "long_name": meaning})}
+    )
+    table["W"] = table["W"].assign_attrs(units="N", long_name="normal force")
+    return table.assign_attrs({"title": scene.title, "mu": scene.mu})
+
+
+class Slides(Exception):
+    """The force is more than friction can bear."""
+
+
+@dataclass(frozen=True)
+class Cycles:
+    """Makes the scene of a point: indentation, first loading, cycles."""
+
+    scene: Scene
+    driven: str
+    cycles: int
+    increments: tuple[int, int]
+    #: Whether the fields of the last cycle are kept, or of its end alone.
+    fields: bool
+
+    def __call__(self, point: dict[str, float]) -> Scene:
+        """The scene under the normal force and the amplitude of a point."""
+        W, amplitude = point["W"], point[AMPLITUDE]
+        if self.driven == "T" and amplitude > self.scene.mu * W * (1 - 1e-9):
+            raise Slides(f"T = {amplitude} N is more than mu W = {self.scene.mu * W} N")
+        indentation, stroke = self.increments
+        path = LoadPath.start().normal(W, increments=indentation)
+        for n, turn in enumerate([amplitude, *([-amplitude, amplitude] * self.cycles)]):
+            part = max(stroke // 2, 1) if n == 0 else stroke
+            if self.driven == "T":
+                path = path.force(T_x=turn, increments=part)
+            else:
+                path = path.displace(delta_x=turn, increments=part)
+        last = len(path)
+        first = last - 2 * stroke if self.fields else last
+        return self.scene.replace(path=path, save=list(range(first, last + 1)))

@@ -1,0 +1,156 @@
+"""The loop over all points of a study."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pyfret._core import OffGridError, Scene
+from pyfret._util.progress import Progress
+from pyfret.study.design import Combine, Design, Source
+from pyfret.study.measures import Measure, checked, names_of
+from pyfret.study.outcome import Study, open
+from pyfret.study.point import Outcome, failure, solve_point
+from pyfret.study.store import Store
+from pyfret.study.workers import Workers
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
+
+__all__ = ["solve"]
+
+#: What is measured unless something else is said.
+DEFAULT = ("loop_energy", "energy_ratio", "stick_ratio", "p_max")
+
+
+def solve(
+    scene: Source,
+    parameters: Mapping[str, Any],
+    *,
+    combine: Combine = "grid",
+    measure: Measure | Sequence[Measure] = DEFAULT,
+    executor: Any = None,
+    out: str | os.PathLike[str] | None = None,
+    grow: bool = True,
+    again: bool = False,
+    progress: bool = True,
+    on_point: Callable[[int, int], object] | None = None,
+) -> Study:
+    """Solve a contact for many values of its parameters.
+
+    Parameters
+    ----------
+    scene : Scene, path or callable
+        What is varied: a scene with its load path, its file, or a function that makes the scene
+        of a ``dict`` of values. A file keeps its own measures, such as ``{ a_H = 1.0 }``, a
+        :class:`Scene` has all numbers in SI units.
+    parameters : mapping of str to values
+        Values by the keys of a scene file, as after ``fret run --set``, such as
+        ``{"body2.coatings.0.E": [1e11, 2e11], "mu": [0.2, 0.4]}``; ``"mu"`` is short for
+        ``"friction.mu"``. Names of your own where `scene` is a function.
+    combine : "grid" or "zip"
+        Every combination of the values, or the values in step: the first of each, then the
+        second of each. Samples (SALib, Latin hypercubes) are of the second kind.
+    measure : str, callable, or sequence of these
+        What is kept of each result: names of :data:`pyfret.study.MEASURES`, or functions of
+        the :class:`Result` that give a number, an :class:`xarray.DataArray`, or a mapping or
+        dataset of these (default: energy and energy ratio of the last cycle, stick ratio at the
+        end, largest pressure).
+    executor : int, Executor or distributed.Client, optional
+        Who solves: so many processes of this machine (default: one for each processor, which
+        they share out), an executor of ``concurrent.futures``, or a client of a Dask cluster.
+    out : path, optional
+        Store that is filled while the study goes on. Where there is one of the same study its
+        points are kept and the open ones solved. Without it the study is in memory only.
+    grow : bool
+        Whether a grid that proves too small gets more cells of the same size, up to 7.5 times as
+        many along a side (default True).
+    again : bool
+        Whether points that failed before are solved again.
+    progress : bool
+        Whether to draw a progress bar on a terminal or in a notebook.
+    on_point : callable, optional
+        Told how many points are done, and how many there are.
+
+    Returns
+    -------
+    Study
+        The measures over the parameters; each point has its status, and its reason if it failed.
+
+    Raises
+    ------
+    StoreError
+        At `out` there is something else, or another study; the message says in what they differ.
+    ValueError
+        Parameters or measures have no meaning.
+
+    Examples
+    --------
+    >>> table = solve(
+    ...     "coated.toml",
+    ...     {"body2.coatings.0.E.E_substrate": [0.5, 1, 2], "mu": [0.2, 0.4]},
+    ...     measure=["loop_energy", "von_mises"],
+    ...     out="study.zarr",
+    ... )  # doctest: +SKIP
+    >>> table.map("von_mises")  # doctest: +SKIP
+    """
+    design, measures = Design.of(parameters, combine), checked(measure)
+    said = {
+        "study": design.describe(scene),
+        "measures": ", ".join(names_of(measures)),
+        "title": scene.title if isinstance(scene, Scene) else "",
+    }
+
+    def run(place: str | os.PathLike[str]) -> Study:
+        store = Store(place, design, said)
+        points = store.open_points(again=again)
+        done, total = len(design) - len(points), len(design)
+        with Progress(title=said["title"] or "study", shown=progress) as bar:
+            for n, outcome in outcomes(points, design, scene, measures, executor, grow=grow):
+                store.write(n, outcome)
+                done += 1
+                bar.update(done - total + len(points), len(points))
+                if on_point is not None:
+                    on_point(done, total)
+        return open(place)
+
+    if out is not None:
+        return run(out)
+    with tempfile.TemporaryDirectory(prefix="pyfret-") as folder:
+        return run(Path(folder) / "study.zarr")
+
+
+def outcomes(
+    points: list[int],
+    design: Design,
+    source: Source,
+    measures: list[Measure],
+    executor: Any,
+    *,
+    grow: bool,
+) -> Iterator[tuple[int, Outcome]]:
+    """Solve the points; pairs of a point and its outcome, as they come."""
+    scenes: dict[int, Scene] = {}
+    home = os.getpid()
+    for n in points:
+        try:
+            scenes[n] = design.scene(source, n)
+            scenes[n].check()
+        except Exception as error:
+            # A grid that is too small may grow.
+            if n not in scenes or not isinstance(error, OffGridError):
+                scenes.pop(n, None)
+                yield n, failure(error)
+    if not scenes:
+        return
+    workers = Workers(executor, len(scenes))
+
+    def submit(to: Executor, n: int) -> Future[Outcome]:
+        return to.submit(
+            solve_point, scenes[n], measures, grow=grow, threads=workers.threads, home=home
+        )
+
+    yield from workers.run(list(scenes), submit)

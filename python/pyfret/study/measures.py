@@ -1,0 +1,221 @@
+"""What is kept of the result of a point."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+
+from pyfret._util.lazy import xr
+from pyfret.run.summary import directions
+from pyfret.subsurface.tensor import LABELS
+from pyfret.wear.runs import solve
+
+if TYPE_CHECKING:
+    from pyfret._core import _WearLaw as WearLaw
+    from pyfret.fatigue.criteria import CriterionName
+    from pyfret.fatigue.lives import Materials
+    from pyfret.result import Result
+
+__all__ = ["MEASURES", "Measure", "Wear", "measured"]
+
+#: A name of :data:`MEASURES`, or a function of the result.
+Measure: TypeAlias = "str | Callable[[Result], Any]"
+
+
+def of_last_cycle(name: str) -> Callable[[Result], float]:
+    """A number of the last closed cycle; NaN without one."""
+
+    def measure(result: Result) -> float:
+        loops = result.loops(direction=next(iter(directions(result)), "x"))
+        return float(loops[name][-1]) if loops.sizes["cycle"] else math.nan
+
+    return measure
+
+
+def of_path(name: str, of: Callable[[xr.DataArray], Any]) -> Callable[[Result], float]:
+    """A number of a scalar over the path."""
+    return lambda result: float(of(result.dataset[name]))
+
+
+def largest(name: str) -> Callable[[Result], float]:
+    """The largest value of a measure of stress in body 2, over the increments with fields."""
+
+    def measure(result: Result) -> float:
+        layered = bool(result.scene.body2.coatings)
+        if name.startswith("interface") and not layered:
+            return math.nan
+        kept = (result.at(int(n)) for n in result.dataset.saved_increment.values)
+        loaded = (at for at in kept if bool(at.contact.any()))
+        return max((at.stress().maximum(name).value for at in loaded), default=math.nan)
+
+    return measure
+
+
+#: Ready measures: unit, meaning, function of the result.
+MEASURES: dict[str, tuple[str, str, Callable[[Result], float]]] = {
+    "loop_energy": ("J", "energy dissipated in the last cycle", of_last_cycle("dissipated")),
+    "energy_ratio": ("1", "energy ratio of the last cycle", of_last_cycle("energy_ratio")),
+    "sliding_ratio": ("1", "sliding ratio of the last cycle", of_last_cycle("sliding_ratio")),
+    "stiffness": ("N/m", "stiffness right after the reversals", of_last_cycle("stiffness")),
+    "T": ("N", "half the range of the force", of_last_cycle("T")),
+    "delta": ("m", "half the range of the shift", of_last_cycle("delta")),
+    "regime": (
+        "1",
+        "last cycle: 0 no contact, 1 full stick, 2 partial slip, 3 gross slip",
+        of_last_cycle("status"),
+    ),
+    "stick_ratio": (
+        "1",
+        "stick ratio at the end of the path",
+        of_path("stick_ratio", lambda v: v[-1]),
+    ),
+    "least_stick_ratio": (
+        "1",
+        "smallest stick ratio of the path",
+        of_path("stick_ratio", lambda v: v.min()),
+    ),
+    "contact_radius": (
+        "m",
+        "contact radius at the end",
+        of_path("contact_radius", lambda v: v[-1]),
+    ),
+    "dissipated": (
+        "J",
+        "energy dissipated over the path",
+        of_path("dissipated", lambda v: v.sum()),
+    ),
+    "p_max": ("Pa", "largest pressure of the path", of_path("p_max", lambda v: v.max())),
+    "q_max": ("Pa", "largest shear traction of the path", of_path("q_max", lambda v: v.max())),
+    **{
+        name: ("Pa", f"largest {LABELS[name][1]} in body 2", largest(name))
+        for name in ("von_mises", "tresca", "s_1", "interface_shear", "interface_peel")
+    },
+}
+
+
+@dataclass(frozen=True)
+class Wear:
+    """A measure: what many cycles wear off, by :func:`pyfret.wear.solve` on the scene of the point.
+
+    Gives ``worn_volume1``, ``worn_volume2`` [m^3], ``worn_depth1``, ``worn_depth2`` [m].
+
+    Parameters
+    ----------
+    cycles : float
+        Number of cycles.
+    body1, body2 : Archard, DissipatedEnergy, or list of these, optional
+        How a body wears; None: it does not.
+    first_branch : int
+        First branch of the path that belongs to the cycle, from 0.
+    cycling : "march" or "sliding"
+        As in :func:`pyfret.wear.solve`.
+    """
+
+    cycles: float
+    body1: WearLaw | list[WearLaw] | None = None
+    body2: WearLaw | list[WearLaw] | None = None
+    first_branch: int = 1
+    cycling: Literal["march", "sliding"] = "march"
+
+    def __call__(self, result: Result) -> dict[str, xr.DataArray]:
+        """Wear the scene of the result."""
+        worn = solve(
+            result.scene,
+            cycles=self.cycles,
+            body1=self.body1,
+            body2=self.body2,
+            first_branch=self.first_branch,
+            cycling=self.cycling,
+            progress=False,
+        ).dataset
+        numbers = {}
+        for of, unit in (("volume", "m^3"), ("depth", "m")):
+            for body in (1, 2):
+                attrs = {"units": unit, "long_name": f"worn {of} of body {body}"}
+                numbers[f"worn_{of}{body}"] = worn[f"{of}{body}"][-1].assign_attrs(attrs)
+        return numbers
+
+
+@dataclass(frozen=True)
+class Cracking:
+    """A measure: the smallest margin of a fatigue criterion over the last closed cycle.
+
+    Gives ``safety_factor``, or ``life`` [cycles] for criteria with a strain-life curve, and
+    ``crack_depth`` [m], the depth of the worst point, by :meth:`pyfret.Result.life`.
+
+    Parameters
+    ----------
+    materials : Material or sequence of Material or None
+        One for all layers, or one for each from the surface down, the substrate's last.
+    criterion : str
+        One of :data:`pyfret.fatigue.CRITERIA`.
+    body_number : 1 or 2
+        The body.
+    """
+
+    materials: Materials
+    criterion: CriterionName
+    body_number: int = 2
+
+    def __call__(self, result: Result) -> dict[str, xr.DataArray]:
+        """Judge the section y = 0 of the body."""
+        life = result.life(self.materials, self.criterion, y=0.0, body_number=self.body_number)
+        worst, margin = life.worst, life.margin
+        attrs = {"units": "m", "long_name": "depth of the worst point"}
+        return {
+            str(margin.name): xr.DataArray(worst.margin, attrs=margin.attrs),
+            "crack_depth": xr.DataArray(worst.z, attrs=attrs),
+        }
+
+
+def names_of(measures: Sequence[Measure]) -> list[str]:
+    """Names of measures, to tell studies apart."""
+    return [m if isinstance(m, str) else name_of(m) for m in measures]
+
+
+def name_of(function: Any) -> str:
+    """Name of a function, of that which a partial one was made of, or of a class."""
+    function = getattr(function, "func", function)
+    return str(getattr(function, "__name__", type(function).__name__))
+
+
+def checked(measure: Measure | Sequence[Measure]) -> list[Measure]:
+    """The measures as a list; a ValueError with what is allowed if there is no such measure."""
+    measures = [measure] if isinstance(measure, str) or callable(measure) else list(measure)
+    for one in measures:
+        if isinstance(one, str) and one not in MEASURES:
+            raise ValueError(f"measure {one!r}: must be a function or one of {', '.join(MEASURES)}")
+    return measures
+
+
+def measured(result: Result, measures: Sequence[Measure]) -> dict[str, xr.Variable]:
+    """All measures of a result by name."""
+    found: dict[str, xr.Variable] = {}
+    for one in measures:
+        if isinstance(one, str):
+            units, meaning, of = MEASURES[one]
+            found[one] = xr.Variable((), of(result), {"units": units, "long_name": meaning})
+        else:
+            found |= variables(one(result), name_of(one))
+    return found
+
+
+def variables(value: Any, name: str) -> dict[str, xr.Variable]:
+    """What a user's function gave, as variables: a number, an array of xarray, or several."""
+    if isinstance(value, xr.Dataset):
+        return {str(k): v.variable for k, v in value.data_vars.items()}
+    if isinstance(value, Mapping):
+        return {str(k): v for key, of in value.items() for k, v in variables(of, str(key)).items()}
+    if isinstance(value, xr.DataArray):
+        return {name: value.variable}
+    number = np.asarray(value, dtype=float)
+    if number.ndim:
+        raise TypeError(
+            f"measure {name}: gave an array of shape {number.shape}; arrays need names of their "
+            "dimensions: give an xarray.DataArray"
+        )
+    return {name: xr.Variable((), number)}

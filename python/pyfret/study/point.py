@@ -1,0 +1,97 @@
+"""One point of a study, solved in whatever process it lands in."""
+
+from __future__ import annotations
+
+import os
+import time
+import warnings
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from pyfret._core import Grid, OffGridError, Scene
+from pyfret.scene.warnings import SceneWarning
+from pyfret.solution import solve
+from pyfret.study.measures import measured
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray as xr
+
+    from pyfret.study.measures import Measure
+
+__all__ = ["DONE", "FAILED", "OPEN", "Outcome", "solve_point"]
+
+#: Codes of the status of a point, and their meanings.
+OPEN, DONE, FAILED = 0, 1, 2
+MEANINGS = "open done failed"
+#: What a grid that is too small grows by, its cells as they are, and how often at most: 7.5 times.
+GROWTH, GROWTHS = 1.4, 6
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a point."""
+
+    status: int
+    reason: str = ""
+    measures: dict[str, xr.Variable] = field(default_factory=dict)
+    #: Processor time of all threads [s].
+    seconds: float = 0.0
+    #: Cells along x and y that it took.
+    nx: int = 0
+    ny: int = 0
+
+
+def failure(error: BaseException) -> Outcome:
+    """A point that has no answer, and why."""
+    return Outcome(FAILED, f"{type(error).__name__}: {' '.join(str(error).split())}")
+
+
+def grown(grid: Grid) -> Grid:
+    """The grid with more cells of the same size, evenly many where they were."""
+
+    def more(n: int) -> int:
+        return n + 2 * max(round(n * (GROWTH - 1) / 2), 1)
+
+    return grid.replace(nx=more(grid.nx), ny=grid.ny if grid.plane_strain else more(grid.ny))
+
+
+def solve_point(
+    scene: Scene, measures: Sequence[Measure], *, grow: bool, threads: int | None, home: int
+) -> Outcome:
+    """Solve a scene and measure its result.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene with its load path.
+    measures : sequence of str or callable
+        What is kept.
+    grow : bool
+        Whether a grid that is too small grows.
+    threads : int, optional
+        Threads of this process, if it is another than `home` and has not begun to solve.
+    home : int
+        Number of the process that runs the study.
+    """
+    if threads is not None and os.getpid() != home:
+        os.environ.setdefault("RAYON_NUM_THREADS", str(threads))
+    started = time.process_time()
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SceneWarning)
+            result: Any = None
+            for left in reversed(range(GROWTHS + 1)):
+                try:
+                    result = solve(scene, progress=False)
+                    break
+                except OffGridError:
+                    if not (grow and left):
+                        raise
+                    scene = scene.replace(grid=grown(scene.grid))
+            found = measured(result, measures)
+    except Exception as error:
+        return failure(error)
+    seconds = time.process_time() - started
+    return Outcome(DONE, "", found, seconds, scene.grid.nx, scene.grid.ny)

@@ -1,0 +1,157 @@
+"""Sharing points out to processes, threads or a cluster."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    wait,
+)
+from typing import Any
+
+from pyfret.study.point import FAILED, Outcome, failure
+
+__all__ = ["Workers"]
+
+#: Points that are handed out for each worker: one at work, one waiting.
+AHEAD = 2
+#: How often a point may be at work when a worker dies before it is taken for the cause.
+DEATHS = 3
+
+#: Hands the n-th point to an executor.
+Submit = Callable[[Executor, int], "Future[Outcome]"]
+
+
+def processors() -> int:
+    """Processors that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+class Workers:
+    """An executor, whose it is, and how many points it takes at a time.
+
+    Parameters
+    ----------
+    executor : None, int, Executor or distributed.Client
+        None: one local process for each processor; a number: that many; an executor of
+        ``concurrent.futures``; or a client of a Dask cluster.
+    points : int
+        Number of points, more processes than which are of no use.
+    """
+
+    def __init__(self, executor: Any, points: int) -> None:
+        self.own: Callable[[], Executor] | None = None
+        if executor is None or isinstance(executor, int):
+            count = max(min(executor or processors(), points), 1)
+            self.threads: int | None = max(processors() // count, 1)
+            self.ahead = AHEAD * count
+            self.own = lambda: local(count, self.threads or 1)
+            self.executor = self.own()
+        elif hasattr(executor, "get_executor"):
+            # A client of Dask: it hands the points of a dead worker to others by itself.
+            self.executor = executor.get_executor(pure=False)
+            each = list(executor.nthreads().values())
+            self.threads = max(each, default=1)
+            self.ahead = AHEAD * max(sum(each), 1)
+        elif isinstance(executor, Executor):
+            count = int(getattr(executor, "_max_workers", None) or processors())
+            self.executor, self.threads = executor, max(processors() // count, 1)
+            self.ahead = AHEAD * count
+        else:
+            raise TypeError(
+                f"executor = {executor!r}: must be a number of processes, an executor of "
+                "concurrent.futures or a dask.distributed.Client"
+            )
+
+    def run(self, points: list[int], submit: Submit) -> Iterator[tuple[int, Outcome]]:
+        """Give the outcomes of all points as they come."""
+        waiting = points[::-1]
+        at_work: dict[Future[Outcome], int] = {}
+        deaths: dict[int, int] = {}
+        try:
+            while waiting or at_work:
+                broken = self.hand_out(waiting, at_work, deaths, submit)
+                done, _ = wait(at_work, return_when=FIRST_COMPLETED)
+                for future in done:
+                    point = at_work.pop(future)
+                    try:
+                        yield point, future.result()
+                    except (BrokenExecutor, CancelledError):
+                        broken = True
+                        at_work[future] = point
+                    except Exception as error:
+                        yield point, failure(error)
+                if broken:
+                    yield from self.mend(waiting, at_work, deaths)
+        finally:
+            for future in at_work:
+                future.cancel()
+            if self.own is not None:
+                shut(self.executor)
+
+    def hand_out(
+        self,
+        waiting: list[int],
+        at_work: dict[Future[Outcome], int],
+        deaths: dict[int, int],
+        submit: Submit,
+    ) -> bool:
+        """Hand out as many points as the workers take; whether the executor is broken.
+
+        Points that were at work when a process died are handed out alone, so that no other one is
+        taken for the cause.
+        """
+        while waiting and len(at_work) < self.ahead:
+            if at_work and (waiting[-1] in deaths or any(n in deaths for n in at_work.values())):
+                return False
+            try:
+                future = submit(self.executor, waiting[-1])
+            except BrokenExecutor:
+                return True
+            at_work[future] = waiting.pop()
+        return False
+
+    def mend(
+        self, waiting: list[int], at_work: dict[Future[Outcome], int], deaths: dict[int, int]
+    ) -> Iterator[tuple[int, Outcome]]:
+        """Start new processes in place of those that died, and hand out their points again."""
+        if self.own is None:
+            raise RuntimeError(
+                "the executor is broken: a worker was killed. Points that are done are in the "
+                "store; the same call with another executor goes on with the others"
+            )
+        lost = sorted(at_work.values(), key=lambda n: (deaths.get(n, 0), -n))
+        whole = [f for f in at_work if f.done() and not f.cancelled() and f.exception() is None]
+        finished = {at_work[future]: future for future in whole}
+        at_work.clear()
+        for point in lost:
+            deaths[point] = deaths.get(point, 0) + 1
+            if point in finished:
+                yield point, finished[point].result()
+            elif deaths[point] < DEATHS:
+                waiting.append(point)
+            else:
+                reason = f"its process was killed {DEATHS} times; is there enough memory?"
+                yield point, Outcome(FAILED, reason)
+        shut(self.executor)
+        self.executor = self.own()
+
+
+def local(count: int, threads: int) -> Executor:
+    """Processes of this machine that share its processors out."""
+    from loky import ProcessPoolExecutor
+
+    pool: Executor = ProcessPoolExecutor(count, env={"RAYON_NUM_THREADS": str(threads)})
+    return pool
+
+
+def shut(executor: Executor) -> None:
+    """End the processes of an executor of ours, whatever they are at."""
+    executor.shutdown(wait=True, kill_workers=True)  # type: ignore[call-arg]

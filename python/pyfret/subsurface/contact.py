@@ -1,0 +1,101 @@
+"""Stress and displacement below the contact of an increment."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pyfret.scene.warnings import doubt_layers
+from pyfret.subsurface import fields
+from pyfret.subsurface.tensor import Stress
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Sequence
+
+    import xarray as xr
+    from numpy.typing import ArrayLike
+
+    from pyfret.run import State
+
+__all__ = ["displacement_below", "stress_below", "write_below"]
+
+
+def stress_below(
+    state: State,
+    z: ArrayLike | None = None,
+    *,
+    x: float | None = None,
+    y: float | None = None,
+    body_number: int = 2,
+    bulk: bool = True,
+    rim: bool = True,
+    residual: Sequence[float] | None = None,
+) -> Stress:
+    """Stress below the contact of an increment: :meth:`pyfret.Snapshot.stress`."""
+    body, grid = state.body(body_number), state.scene.grid
+    doubt_layers(fields.interfaces(body), grid)
+    below = fields.stress(
+        body,
+        grid,
+        z,
+        x=x,
+        y=y,
+        body_number=body_number,
+        sigma_B=state.bulk_stress(body_number) if bulk else 0.0,
+        rim=rim,
+        stick=state.dataset["stick"].values,
+        length=state.length,
+        residual=residual,
+        **state.tractions(),
+    )
+    yardsticks = {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
+    return Stress(below.dataset.assign_attrs(yardsticks))
+
+
+def displacement_below(
+    state: State,
+    z: ArrayLike | None = None,
+    *,
+    x: float | None = None,
+    y: float | None = None,
+    body_number: int = 2,
+) -> xr.Dataset:
+    """Displacements below the contact of an increment: :meth:`pyfret.Snapshot.displacement`."""
+    return fields.displacement(
+        state.body(body_number),
+        state.scene.grid,
+        z,
+        x=x,
+        y=y,
+        body_number=body_number,
+        length=state.length,
+        **state.tractions(),
+    )
+
+
+def write_below(
+    state: State,
+    out: str | os.PathLike[str],
+    z: ArrayLike | None = None,
+    *,
+    of: Sequence[str] = ("von_mises",),
+    body_number: int = 2,
+    bulk: bool = True,
+    residual: Sequence[float] | None = None,
+    rim: bool = True,
+) -> None:
+    """Write the volume below the contact of an increment: :meth:`pyfret.Snapshot.write_volume`."""
+    fields.write_volume(
+        state.body(body_number),
+        state.scene.grid,
+        out,
+        z,
+        of=of,
+        body_number=body_number,
+        sigma_B=state.bulk_stress(body_number) if bulk else 0.0,
+        residual=residual,
+        rim=rim,
+        stick=state.dataset["stick"].values,
+        title=repr(state),
+        **state.tractions(),
+    )

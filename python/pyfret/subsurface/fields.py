@@ -1,0 +1,370 @@
+"""Stress and displacement under any tractions, and envelopes over a load path."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret import _core
+from pyfret._util.lazy import xr
+from pyfret.subsurface.tensor import COMPONENTS, DISPLACEMENTS, LABELS, Maximum, Stress
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Iterable, Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from pyfret._core import Body, Grid, Scene
+    from pyfret.run import State
+
+__all__ = ["Maximum", "Stress", "displacement", "envelope", "stress", "write_volume"]
+
+
+def _depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float], list[int]]:
+    """Depths with their layers: those given, or those that the layers ask for."""
+    if z is None:
+        return _core.chosen_depths(body, a=length, deepest=2.0 * length)
+    depths = np.atleast_1d(np.asarray(z, dtype=float)).tolist()
+    if not depths:
+        raise ValueError("z is empty: give depths in m, or leave it out for those of the layers")
+    return _core.depths(body, depths)
+
+
+def loaded_length(grid: Grid, *loads: ArrayLike | None) -> float:
+    """Half the longer side of the box around the cells that are loaded [m], or of the grid."""
+    given = [np.asarray(load, dtype=float) != 0.0 for load in loads if load is not None]
+    if not any(load.any() for load in given):
+        return grid.nx * grid.dx / 2
+    loaded = np.logical_or.reduce(given)
+    along_x, along_y = (np.ptp(np.flatnonzero(loaded.any(axis=axis))) + 1 for axis in (1, 0))
+    sides = (along_x * grid.dx, 0.0 if grid.plane_strain else along_y * grid.dy)
+    return float(max(sides)) / 2
+
+
+def interfaces(body: Body) -> list[float]:
+    """Depths of the interfaces of a body [m], from the surface down."""
+    return [float(depth) for depth in np.cumsum([c.thickness for c in body.coatings])]
+
+
+def coordinates(
+    grid: Grid, z: list[float], layer: list[int], x: float | None, y: float | None
+) -> dict[str, object]:
+    """Depths with their layers, and x and y: the cells, or where they are constant."""
+    metres = {"units": "m"}
+    coords: dict[str, object] = {
+        "z": ("depth", z, {"units": "m", "long_name": "depth below the surface"}),
+        "layer": ("depth", layer, {"long_name": "layer from the surface down"}),
+    }
+    for name, at, cells in (("x", x, grid.x), ("y", y, grid.y)):
+        coords[name] = (name, cells, metres) if at is None else ((), at, metres)
+    return coords
+
+
+def _subsurface(
+    body: Body,
+    grid: Grid,
+    loads: tuple[ArrayLike | None, ArrayLike | None, ArrayLike | None],
+    body_number: int,
+    sigma_B: float = 0.0,
+    residual: Sequence[float] | None = None,
+    *,
+    rim: bool = False,
+    stick: ArrayLike | None = None,
+) -> _core.Subsurface:
+    p, q_x, q_y = loads
+    return _core.Subsurface(
+        body,
+        grid,
+        p=p,
+        q_x=q_x,
+        q_y=q_y,
+        body_number=body_number,
+        sigma_B=sigma_B,
+        residual=residual,
+        rim=rim,
+        stick=None if stick is None else np.asarray(stick, dtype=bool),
+    )
+
+
+def stress(
+    body: Body,
+    grid: Grid,
+    z: ArrayLike | None = None,
+    *,
+    p: ArrayLike | None = None,
+    q_x: ArrayLike | None = None,
+    q_y: ArrayLike | None = None,
+    x: float | None = None,
+    y: float | None = None,
+    body_number: int = 2,
+    sigma_B: float = 0.0,
+    rim: bool = False,
+    stick: ArrayLike | None = None,
+    length: float | None = None,
+    residual: Sequence[float] | None = None,
+) -> Stress:
+    """Stress in a body under tractions on its surface.
+
+    Parameters
+    ----------
+    body : Body
+        The body; its shape does not matter.
+    grid : Grid
+        Cells on which the tractions are constant.
+    z : float or array, optional
+        Depths [m] (default: those that the layers ask for, down to twice `length`, both sides of
+        every interface among them).
+    p, q_x, q_y : array of shape (nx, ny), optional
+        Pressure, and shear tractions on body 2 [Pa] (default: none).
+    x, y : float, optional
+        With `y`, the section along x at that y; with `x`, that along y; with both, the line
+        below a point; with neither, the whole plane at every depth given, or where none is, the
+        section at y = 0.
+    body_number : 1 or 2
+        Whether `body` is the upper one, on which the shear acts reversed, or the lower one.
+    sigma_B : float
+        Bulk stress along x of its substrate [Pa]; coatings are stretched with it.
+    rim : bool
+        Whether the tractions are those of a contact (default: no): near the surface, beside the
+        rim and the stick zone, the stress is then that of tractions which vary within the cells
+        and vanish at the rim like a root.
+    stick : array of shape (nx, ny), optional
+        With `rim`, the cells that stick (default: those at the rim slip).
+    length : float, optional
+        Radius of the contact [m], for the choice of depths (default: half the longer side of the
+        box around the cells that are loaded).
+    residual : sequence of float, optional
+        Residual stress of every layer from the surface down, the substrate's last [Pa], tension
+        positive: biaxial and uniform, added to s_xx and s_yy.
+
+    Returns
+    -------
+    Stress
+        Of dims (depth, x), (depth, y), (depth) or (depth, x, y).
+    """
+    loads = (p, q_x, q_y)
+    below = _subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
+    at = _line(z, x, y)
+    length = loaded_length(grid, *loads) if length is None else length
+    sampled = _sampled(below, body, grid, _depths(body, z, length), at, displacement=False)
+    return Stress(sampled.assign_attrs(interfaces=interfaces(body), length=length))
+
+
+def _line(
+    z: ArrayLike | None, x: float | None, y: float | None
+) -> tuple[float | None, float | None]:
+    """The line or point asked for; without a word, where no depths are given, y = 0."""
+    return (x, 0.0) if z is None and x is None and y is None else (x, y)
+
+
+def displacement(
+    body: Body,
+    grid: Grid,
+    z: ArrayLike | None = None,
+    *,
+    p: ArrayLike | None = None,
+    q_x: ArrayLike | None = None,
+    q_y: ArrayLike | None = None,
+    x: float | None = None,
+    y: float | None = None,
+    body_number: int = 2,
+    length: float | None = None,
+) -> xr.Dataset:
+    """Displacements u_x, u_y, u_z in a body relative to infinity [m], as in :func:`stress`.
+
+    They are those that the tractions cause; what a bulk stress stretches comes on top.
+    """
+    below = _subsurface(body, grid, (p, q_x, q_y), body_number)
+    length = loaded_length(grid, p, q_x, q_y) if length is None else length
+    depths = _depths(body, z, length)
+    return _sampled(below, body, grid, depths, _line(z, x, y), displacement=True)
+
+
+def _sampled(
+    below: _core.Subsurface,
+    body: Body,
+    grid: Grid,
+    depths_and_layers: tuple[list[float], list[int]],
+    at: tuple[float | None, float | None],
+    *,
+    displacement: bool,
+) -> xr.Dataset:
+    """Stress or displacement on planes, below a line or below a point."""
+    depths, layers = depths_and_layers
+    pairs = list(zip(depths, layers, strict=True))
+    x, y = at
+    if x is not None and y is not None:
+        values = below.points([(x, y, *d) for d in pairs])[int(displacement)].T
+    elif x is None and y is None:
+        planes = [below.slice(*d, displacement=displacement) for d in pairs]
+        values = np.stack([np.stack(plane) for plane in planes], axis=1)
+    else:
+        values = below.section(depths, layers, x=x, y=y, displacement=displacement)
+    coords = coordinates(grid, depths, layers, x, y)
+    dims = ["depth", *(k for k in ("x", "y") if coords[k][0] == k)]  # type: ignore[index]
+    labels = DISPLACEMENTS if displacement else {name: LABELS[name] for name in COMPONENTS}
+    variables = {
+        name: (dims, of, {"units": units, "long_name": meaning})
+        for (name, (units, meaning)), of in zip(labels.items(), values, strict=True)
+    }
+    return xr.Dataset(variables, coords=coords)
+
+
+def write_volume(
+    body: Body,
+    grid: Grid,
+    out: str | os.PathLike[str],
+    z: ArrayLike | None = None,
+    *,
+    p: ArrayLike | None = None,
+    q_x: ArrayLike | None = None,
+    q_y: ArrayLike | None = None,
+    of: Sequence[str] = ("von_mises",),
+    body_number: int = 2,
+    sigma_B: float = 0.0,
+    residual: Sequence[float] | None = None,
+    rim: bool = False,
+    stick: ArrayLike | None = None,
+    title: str = "",
+) -> None:
+    """Write stress and displacement under the grid, plane by plane while they are computed.
+
+    Parameters
+    ----------
+    body, grid, z, p, q_x, q_y, body_number, sigma_B, residual, rim, stick
+        As in :func:`stress`; on an interface the value is that of the upper layer.
+    out : path
+        A ``.vti`` file (VTK image data for ParaView and PyVista; depths evenly spaced) or a Zarr
+        folder. It must not exist.
+    of : sequence of str
+        Measures, as in :class:`Stress`, and displacements ``u_x``, ``u_y``, ``u_z``.
+    title : str
+        What the Zarr group calls itself.
+    """
+    depths, layers = _depths(body, z, loaded_length(grid, p, q_x, q_y))
+    once = [n for n, depth in enumerate(depths) if n == 0 or depth != depths[n - 1]]
+    loads = (p, q_x, q_y)
+    below = _subsurface(body, grid, loads, body_number, sigma_B, residual, rim=rim, stick=stick)
+    z_once, layer_once = [depths[n] for n in once], [layers[n] for n in once]
+    below.volume(out, z_once, layer_once, of=list(of), title=title)
+
+
+def envelope(
+    scene: Scene,
+    increments: Iterable[State],
+    z: ArrayLike | None = None,
+    *,
+    x: float | None = None,
+    y: float | None = None,
+    of: Sequence[str] = ("von_mises",),
+    body_number: int = 2,
+    bulk: bool = True,
+    residual: Sequence[float] | None = None,
+    rim: bool = True,
+) -> xr.Dataset:
+    """Extremes of stress over a load path, none of whose increments is kept.
+
+    Parameters
+    ----------
+    scene : Scene
+        With the load path that the increments are of.
+    increments : iterable of Snapshot
+        What :func:`pyfret.march` yields, or some snapshots of a result.
+    z, x, y, body_number
+        The section, as in :func:`stress`: `x` or `y`, or neither for whole planes.
+    of : sequence of str
+        Measures, as in :class:`Stress`.
+    bulk : bool
+        Whether the body's bulk stress is part of the stress.
+    residual : sequence of float, optional
+        Residual stress of the layers [Pa], as in :func:`stress`.
+    rim : bool
+        Whether tractions vary within the cells, as in :func:`stress`.
+
+    Returns
+    -------
+    xarray.Dataset
+        For each measure ``<name>_max``, ``<name>_min`` and ``<name>_increment`` (of the largest
+        value) over depth and x or y, ``<name>_amplitude`` and ``<name>_mean`` over cycle, depth
+        and x or y; a cycle is the closed piece of the path between ``first_branch`` and
+        ``last_branch``. On a section also over ``increment``: the largest value on it,
+        ``<name>_largest``, and where it is between the samples, ``<name>_largest_x`` (or ``_y``),
+        ``<name>_largest_z`` and ``<name>_largest_layer``.
+    """
+    if x is not None and y is not None:
+        raise ValueError("give x or y for a section, or neither for whole planes")
+    if isinstance(of, str):
+        of = (of,)
+    body = scene.body1 if body_number == 1 else scene.body2
+    hertz, grid = scene.hertz, scene.grid
+    # Without a yardstick, what a grid of the usual 2.4 radii has room for.
+    side = grid.nx * grid.dx if grid.plane_strain else min(grid.nx * grid.dx, grid.ny * grid.dy)
+    length = side / 2.4 if hertz is None else hertz.a
+    x, y = _line(z, x, y)
+    depths, layers = _depths(body, z, length)
+    stream = _core.Envelope(
+        body,
+        scene.grid,
+        scene.path,
+        depths,
+        layers,
+        of=list(of),
+        x=x,
+        y=y,
+        body_number=body_number,
+        residual=residual,
+        rim=rim,
+    )
+    for snapshot in increments:
+        fields = {k: snapshot.dataset[k].values for k in ("p", "q_x", "q_y")}
+        stick = snapshot.dataset["stick"].values.astype(bool)
+        number, branch = (int(snapshot.dataset[k]) for k in ("increment", "branch_of_increment"))
+        sigma_B = snapshot.bulk_stress(body_number) if bulk else 0.0
+        stream.push(number, branch, stick=stick, sigma_B=sigma_B, **fields)
+    coords = coordinates(scene.grid, depths, layers, x, y)
+    along = [name for name, at in (("x", x), ("y", y)) if at is None]
+    dims = ("depth", *along)
+    shape = (len(depths), *(getattr(scene.grid, name).size for name in along))
+    result = xr.Dataset(coords=coords)
+    for name, kept in stream.finish().items():
+        meaning = LABELS[name][1]
+        for key in ("max", "min"):
+            attrs = {"units": "Pa", "long_name": f"{key} over the path: {meaning}"}
+            result[f"{name}_{key}"] = (dims, kept[key].reshape(shape), attrs)
+        attrs = {"long_name": f"increment of the largest {name}, from 1"}
+        when = kept["increment"].astype(int).reshape(shape)
+        result[f"{name}_increment"] = (dims, when, attrs)
+        for key in ("amplitude", "mean"):
+            values = np.array(kept[key]).reshape(-1, *shape)
+            attrs = {"units": "Pa", "long_name": f"{key} over a cycle: {meaning}"}
+            result[f"{name}_{key}"] = (("cycle", *dims), values, attrs)
+        if len(along) == 1:
+            result = result.merge(_largest(name, kept["largest"], along[0]))
+    result.attrs |= {"length": length, "interfaces": interfaces(body)}
+    if hertz is not None:
+        result.attrs |= {"a_H": hertz.a, "p_H": hertz.p0}
+    if stream.cycles:
+        first, last = np.array(stream.cycles).T
+        result = result.assign_coords(first_branch=("cycle", first), last_branch=("cycle", last))
+    return result
+
+
+def _largest(name: str, rows: NDArray[np.float64], along: str) -> xr.Dataset:
+    """Give the largest value of a measure on a section at every increment, and its place."""
+    increment, value, place, z, layer = rows.T
+    meaning = f"largest {name} on the section"
+    columns = {
+        name + "_largest": (value, "Pa", meaning),
+        f"{name}_largest_{along}": (place, "m", f"{along} of the {meaning}"),
+        name + "_largest_z": (z, "m", f"depth of the {meaning}"),
+        name + "_largest_layer": (layer.astype(int), "1", f"layer of the {meaning}"),
+    }
+    return xr.Dataset(
+        {
+            key: ("increment", values, {"units": units, "long_name": of})
+            for key, (values, units, of) in columns.items()
+        },
+        coords={"increment": increment.astype(int)},
+    )

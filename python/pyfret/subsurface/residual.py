@@ -1,0 +1,83 @@
+"""Residual stress of coatings: what a change of temperature leaves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret._core import Material
+
+if TYPE_CHECKING:
+    from pyfret._core import Elastic
+
+__all__ = ["thermal_stress"]
+
+
+def thermal_stress(
+    coating: Elastic | Material,
+    *,
+    temperature_change: float,
+    alpha_coating: float | Material | None = None,
+    alpha_substrate: float | Material,
+) -> float:
+    """Thermal stress of a thin coating on a thick substrate [Pa], biaxial, tension positive.
+
+    The coating has to follow the substrate, which strains by alpha_s dT where it would strain by
+    alpha_c dT itself::
+
+        s = E/(1 - nu) (alpha_s - alpha_c) dT
+
+    A coating that expands less than its substrate is compressed as both cool from the temperature
+    of its deposition. The stress of the substrate, less by the ratio of the thicknesses, is left
+    out. L. B. Freund, S. Suresh, Thin Film Materials, Cambridge University Press (2003).
+
+    Parameters
+    ----------
+    coating : Elastic or Material
+        Modulus and Poisson's ratio of the coating.
+    alpha_coating, alpha_substrate : float or Material
+        Coefficients of linear thermal expansion [1/K], or materials that have ``alpha_T``; that of
+        the coating by default the coating's own, where it is a material.
+    temperature_change : float
+        Temperature less that at which the coating was free of stress [K], negative after cooling.
+
+    Returns
+    -------
+    float
+        One number of ``residual`` of :class:`pyfret.fatigue.Section`.
+
+    Examples
+    --------
+    >>> import pyfret as fret
+    >>> nitride = fret.Elastic(E=590e9, nu=0.25)
+    >>> s = fret.subsurface.thermal_stress(
+    ...     nitride, alpha_coating=9.4e-6, alpha_substrate=12e-6, temperature_change=-400.0
+    ... )
+    >>> round(s / 1e6)
+    -818
+    """
+    if isinstance(coating, Material):
+        alpha_coating = coating if alpha_coating is None else alpha_coating
+        E, nu = coating.number("E"), coating.number("nu")
+    else:
+        E, nu = coating.E, coating.nu
+    if alpha_coating is None:
+        raise ValueError("alpha_coating is missing: a coating that is no material has no alpha_T")
+    if not np.isfinite(E):
+        raise ValueError("the coating is rigid: it has no finite thermal stress")
+    given = {
+        "alpha_coating": _expansion(alpha_coating),
+        "alpha_substrate": _expansion(alpha_substrate),
+        "temperature_change": temperature_change,
+    }
+    for name, value in given.items():
+        if not np.isfinite(value):
+            raise ValueError(f"{name} = {value}: must be a finite number")
+    mismatch = (given["alpha_substrate"] - given["alpha_coating"]) * temperature_change
+    return E / (1.0 - nu) * mismatch
+
+
+def _expansion(alpha: float | Material) -> float:
+    """A coefficient of thermal expansion, or that of a material [1/K]."""
+    return alpha.number("alpha_T") if isinstance(alpha, Material) else alpha

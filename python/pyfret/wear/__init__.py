@@ -1,0 +1,15 @@
+"""Wear: what many cycles do to the surfaces.
+
+A run of wear is solved, opened and gone on with::
+
+worn = fret.wear.solve(scene, cycles=18e3, body2=fret.wear.Archard(k=1e-13))
+worn.depth2[-1]
+"""
+
+from pyfret._core import Archard, DissipatedEnergy
+from pyfret._util.names import called, listing
+from pyfret.wear.runs import WearResult, open, resume, solve
+
+__all__ = ["Archard", "DissipatedEnergy", "WearResult", "open", "resume", "solve"]
+__dir__ = listing(__all__)
+called(__name__)
