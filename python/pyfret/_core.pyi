@@ -2181,6 +2181,11 @@ class Envelope:
 class Criterion:
     """A criterion with its numbers."""
 
+    def __new__(cls, name: str, /, **numbers: float) -> Criterion: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, float]]: ...
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Its numbers by their names."""
     @staticmethod
     def crossland(*, alpha: float) -> Criterion:
         """Give sqrt(J2,a) + alpha p_h,max [Pa]."""

@@ -26,16 +26,6 @@ pub enum Error {
         /// What is wrong and what is allowed.
         message: String,
     },
-    /// A number of a material is unknown, out of its range, or without a source.
-    #[error("material `{material}`.{key}: {why}")]
-    Material {
-        /// Name of the material.
-        material: String,
-        /// Name of the number.
-        key: String,
-        /// What is wrong and what is allowed.
-        why: String,
-    },
     /// A value set from outside the scene file (`--set key=value`) is wrong.
     #[error("setting {setting}: {message}")]
     Setting {
@@ -225,6 +215,9 @@ pub enum Error {
         /// Bytes that there are.
         available: f64,
     },
+    /// A criterion, or the numbers of a material for it.
+    #[error(transparent)]
+    Criterion(#[from] fatigue::Error),
     /// The run was stopped from outside (Ctrl-C, an observer).
     #[error("stopped after increment {increment}")]
     Interrupted {

@@ -15,8 +15,8 @@
 //!
 //! [`scene`] -> [`plan`] -> [`kernels`] -> [`convolution`] -> [`cells`] -> [`zones`] -> [`solvers`] ->
 //! [`march`] -> [`fields`] -> [`output`]; [`estimate`] and [`wear`] run marches, [`heat`] (contact temperature)
-//! stands on convolution, [`mod@reference`] (closed forms) and [`fatigue`] (criteria on plain stress histories) stand
-//! beside. The method is that of S. Spinu,
+//! stands on convolution, [`mod@reference`] (closed forms) stands
+//! beside; [`fatigue`] (criteria on plain stress histories) is a crate of its own. The method is that of S. Spinu,
 //! Tribology in Industry 42 (2020) 131-145, doi:10.24874/ti.2020.42.01.13 ("the paper"); where we
 //! left it, the module says why.
 
@@ -26,7 +26,6 @@ pub mod cells;
 pub mod convolution;
 pub mod error;
 pub mod estimate;
-pub mod fatigue;
 pub mod fields;
 mod gauss;
 pub mod heat;
@@ -45,4 +44,6 @@ pub mod wear;
 pub mod zones;
 
 pub use error::Error;
+#[doc(no_inline)]
+pub use fatigue;
 pub use scene::Scene;

@@ -1,6 +1,6 @@
 //! The table from errors of the core to Python exceptions.
 
-use contact_core::Error;
+use contact_core::{Error, fatigue};
 use pyo3::create_exception;
 use pyo3::exceptions::{
     PyKeyboardInterrupt, PyMemoryError, PyOSError, PyRuntimeError, PyTypeError, PyValueError,
@@ -48,10 +48,9 @@ create_exception!(
 pub(crate) fn to_python(error: Error) -> PyErr {
     let text = error.to_string();
     match error {
-        Error::InvalidScene { .. }
-        | Error::SceneFile { .. }
-        | Error::Material { .. }
-        | Error::Setting { .. } => InvalidSceneError::new_err(text),
+        Error::InvalidScene { .. } | Error::SceneFile { .. } | Error::Setting { .. } => {
+            InvalidSceneError::new_err(text)
+        }
         Error::OffGrid { .. } | Error::WornOffGrid { .. } | Error::GridTooSmall { .. } => {
             OffGridError::new_err(text)
         }
@@ -64,10 +63,21 @@ pub(crate) fn to_python(error: Error) -> PyErr {
         Error::KernelInaccurate { .. }
         | Error::StressInaccurate { .. }
         | Error::TemperatureInaccurate { .. } => KernelInaccurateError::new_err(text),
+        Error::Criterion(error) => of_criterion(error),
         Error::File { .. } => StoreError::new_err(text),
         Error::Interrupted { .. } => PyKeyboardInterrupt::new_err(text),
         Error::TooLarge { .. } => PyMemoryError::new_err(text),
         _ => PyRuntimeError::new_err(text),
+    }
+}
+
+/// The Python exception that says the same as an error of the criteria.
+pub(crate) fn of_criterion(error: fatigue::Error) -> PyErr {
+    let text = error.to_string();
+    match error {
+        fatigue::Error::File { .. } => StoreError::new_err(text),
+        fatigue::Error::Stopped => PyKeyboardInterrupt::new_err(text),
+        _ => PyValueError::new_err(text),
     }
 }
 

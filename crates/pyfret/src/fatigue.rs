@@ -1,75 +1,79 @@
 //! Fatigue criteria, yield and shakedown on plain stress histories.
 
+use std::collections::BTreeMap;
+use std::ffi::{CStr, CString};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use contact_core::fatigue as core;
 use ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyCFunction, PyDict, PyTuple};
 
-use crate::error::to_python;
+use crate::error::of_criterion as refused;
 use crate::interruptible::interruptible;
 
-/// A criterion with its numbers.
+/// A criterion with its numbers: its name, as in :data:`pyfret.fatigue.CRITERIA`, and they by theirs.
+///
+/// Examples
+/// --------
+/// >>> Criterion.findley(k=0.3) == Criterion("findley", k=0.3)
+/// True
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.fatigue")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Criterion(core::Criterion);
 
-fn checked(criterion: core::Criterion) -> PyResult<Criterion> {
-    criterion.check().map_err(to_python)?;
-    Ok(Criterion(criterion))
+/// A static method of the class for every criterion of the core: `Criterion.findley(k=0.3)`.
+pub(crate) fn add_criteria(class: &Bound<'_, PyAny>) -> PyResult<()> {
+    let py = class.py();
+    let text = |text: String| {
+        Ok::<&'static CStr, PyErr>(Box::leak(CString::new(text)?.into_boxed_c_str()))
+    };
+    for definition in core::CRITERIA {
+        let make = |args: &Bound<'_, PyTuple>, numbers: Option<&Bound<'_, PyDict>>| {
+            if !args.is_empty() {
+                let message = format!("{}() takes its numbers by name only", definition.name);
+                return Err(PyTypeError::new_err(message));
+            }
+            Criterion::new(definition.name, numbers)
+        };
+        let doc = format!("Give {}.\n\n{}.", definition.equation, definition.source);
+        let name = text(definition.name.to_owned())?;
+        let function = PyCFunction::new_closure(py, Some(name), Some(text(doc)?), make)?;
+        let of_class = py.import("builtins")?.getattr("staticmethod")?;
+        class.setattr(definition.name, of_class.call1((function,))?)?;
+    }
+    Ok(())
 }
 
 #[pymethods]
 impl Criterion {
-    #[staticmethod]
-    #[pyo3(signature = (*, alpha))]
-    fn crossland(alpha: f64) -> PyResult<Self> {
-        checked(core::Criterion::Crossland { alpha })
+    #[new]
+    #[pyo3(signature = (name, /, **numbers))]
+    fn new(name: &str, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let numbers: BTreeMap<String, f64> = match numbers {
+            Some(numbers) => numbers.extract()?,
+            None => BTreeMap::new(),
+        };
+        let numbers: Vec<_> = numbers.iter().map(|(n, v)| (n.as_str(), *v)).collect();
+        let made = core::Criterion::new(name, &numbers).map_err(refused)?;
+        Ok(Self(made))
     }
 
-    #[staticmethod]
-    #[pyo3(signature = (*, alpha))]
-    fn dang_van(alpha: f64) -> PyResult<Self> {
-        checked(core::Criterion::DangVan { alpha })
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((&str,), Bound<'py, PyDict>)> {
+        Ok(((self.name(),), self.numbers(py)?))
     }
 
-    #[staticmethod]
-    #[pyo3(signature = (*, k))]
-    fn findley(k: f64) -> PyResult<Self> {
-        checked(core::Criterion::Findley { k })
-    }
-
-    #[staticmethod]
-    #[pyo3(signature = (*, k))]
-    fn matake(k: f64) -> PyResult<Self> {
-        checked(core::Criterion::Matake { k })
-    }
-
-    #[staticmethod]
-    #[pyo3(signature = (*, k))]
-    fn mcdiarmid(k: f64) -> PyResult<Self> {
-        checked(core::Criterion::McDiarmid { k })
-    }
-
-    #[staticmethod]
-    #[pyo3(signature = (*, E, nu))]
-    fn smith_watson_topper(E: f64, nu: f64) -> PyResult<Self> {
-        checked(core::Criterion::SmithWatsonTopper { E, nu })
-    }
-
-    #[staticmethod]
-    #[pyo3(signature = (*, E, nu, k, s_y))]
-    fn fatemi_socie(E: f64, nu: f64, k: f64, s_y: f64) -> PyResult<Self> {
-        checked(core::Criterion::FatemiSocie { E, nu, k, s_y })
-    }
-
-    #[staticmethod]
-    #[pyo3(signature = (*, E, nu, S))]
-    fn brown_miller(E: f64, nu: f64, S: f64) -> PyResult<Self> {
-        checked(core::Criterion::BrownMiller { E, nu, S })
+    /// Its numbers by their names.
+    #[getter]
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let numbers = PyDict::new(py);
+        for (name, value) in self.0.numbers() {
+            numbers.set_item(name, value)?;
+        }
+        Ok(numbers)
     }
 
     /// Name of the criterion.
@@ -91,7 +95,7 @@ impl Criterion {
     }
 
     fn __repr__(&self) -> String {
-        format!("{:?}", self.0)
+        format!("Criterion.{:?}", self.0)
     }
 }
 
@@ -126,6 +130,14 @@ impl Assessment {
     fn life(&self, value: f64) -> f64 {
         self.0.life(value)
     }
+
+    fn __repr__(&self) -> String {
+        let criterion = self.criterion().__repr__();
+        match self.0.judge {
+            core::Judge::Limit(limit) => format!("Assessment({criterion}, limit={limit:?})"),
+            core::Judge::Life(_) => format!("Assessment({criterion}, lives)"),
+        }
+    }
 }
 
 /// A material and its numbers.
@@ -153,7 +165,7 @@ impl Material {
     #[pyo3(signature = (name, numbers, title = None))]
     fn new(name: &str, numbers: Vec<(String, f64, String)>, title: Option<&str>) -> PyResult<Self> {
         let made = core::Material::new(name, title.unwrap_or(name), numbers);
-        made.map(Self).map_err(to_python)
+        made.map(Self).map_err(refused)
     }
 
     fn __getnewargs__(&self) -> (&str, Vec<(&'static str, f64, String)>, &str) {
@@ -182,12 +194,12 @@ impl Material {
 
     /// A number of the material by its key.
     fn number(&self, name: &str) -> PyResult<f64> {
-        self.0.number(name).map_err(to_python)
+        self.0.number(name).map_err(refused)
     }
 
     /// The criterion of that name with the limit or life curve of the material.
     fn assessment(&self, criterion: &str) -> PyResult<Assessment> {
-        let found = core::Assessment::of(criterion, &self.0).map_err(to_python)?;
+        let found = core::Assessment::of(criterion, &self.0).map_err(refused)?;
         Ok(Assessment(found))
     }
 
@@ -202,7 +214,7 @@ impl Material {
 pub(crate) fn materials(file: Option<PathBuf>) -> PyResult<Vec<Material>> {
     let found = match file {
         None => core::materials(),
-        Some(file) => core::materials_from(&file).map_err(to_python)?,
+        Some(file) => core::materials_from(&file).map_err(refused)?,
     };
     Ok(found.into_values().map(Material).collect())
 }
@@ -229,7 +241,7 @@ pub(crate) fn criterion_on<'py>(
         ..core::Search::default()
     };
     let work = || core::evaluate(&criterion.0, &view, &search, &stop);
-    let points = interruptible(py, &stop, work)?.map_err(to_python)?;
+    let points = interruptible(py, &stop, work)?.map_err(refused)?;
     let of = |f: &dyn Fn(&core::AtPoint) -> f64| {
         let values: Array1<f64> = points.iter().map(f).collect();
         values.into_pyarray(py)
@@ -258,7 +270,7 @@ pub(crate) fn yielding_on<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let (view, stop) = (stress.as_array(), Arc::default());
     let work = || core::yielding(&view, s_y, &constant, &stop);
-    let points = interruptible(py, &stop, work)?.map_err(to_python)?;
+    let points = interruptible(py, &stop, work)?.map_err(refused)?;
     let of = |f: &dyn Fn(&core::Yield) -> f64| {
         let values: Array1<f64> = points.iter().map(f).collect();
         values.into_pyarray(py)
@@ -283,8 +295,9 @@ pub(crate) fn dang_van_path<'py>(
     let stress = stress.as_array();
     if stress.ncols() != 6 {
         let allowed = "6 long: xx, yy, zz, xy, xz, yz";
-        let error = contact_core::Error::invalid("last axis of stress", stress.ncols(), allowed);
-        return Err(to_python(error));
+        let found = stress.ncols();
+        let message = format!("last axis of stress = {found}: must be {allowed}");
+        return Err(PyValueError::new_err(message));
     }
     let rows = stress.rows().into_iter();
     let stress: Vec<_> = rows.map(|s| std::array::from_fn(|c| s[c])).collect();

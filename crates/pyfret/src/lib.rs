@@ -93,6 +93,7 @@ mod _core {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        crate::fatigue::add_criteria(&module.getattr("Criterion")?)?;
         module.add("RIGID", Elastic::RIGID)
     }
 }

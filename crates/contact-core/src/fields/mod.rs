@@ -16,13 +16,13 @@
 //! is integrated over the cell.
 
 mod depth;
-mod derived;
 mod energy;
 mod envelope;
 mod largest;
 mod line_transform;
 mod loads;
 mod maximum;
+mod measure;
 mod near_rim;
 mod parity;
 mod plane_transform;
@@ -35,17 +35,17 @@ mod states;
 mod stream;
 mod uniform;
 
-pub use depth::{Depth, Side, chosen_depths, depths};
-pub use derived::{
-    MEASURES, Measure, Principal, StressTensor, hydrostatic, measure_named, principal,
-    principal_values, tresca, von_mises,
+pub use ::fatigue::{
+    Principal, StressTensor, hydrostatic, principal, principal_values, tresca, von_mises,
 };
+pub use depth::{Depth, Side, chosen_depths, depths};
 pub use energy::{Cycle, Direction, LoopPoint, cycles, loops};
 pub use envelope::{DepthEnvelope, Envelope, Extremes};
 pub use largest::{DepthTops, Largest};
 pub use maximum::{
     Maximum, Top, maximum, maximum_of_tops, maximum_on_interfaces, top_of_line, top_of_plane,
 };
+pub use measure::{MEASURES, Measure, measure_named};
 pub use points::{Point, Points};
 pub use probe::{Component, DISPLACEMENTS, Probe, Probed};
 pub use rim::{Rim, rims};

@@ -12,8 +12,9 @@
 use ndarray::{Array3, ArrayView2, Axis};
 
 use super::Depth;
-use super::derived::{Measure, StressTensor};
 use super::maximum::{Maximum, Top, maximum_of_tops, maximum_on_interfaces, top_of_line};
+use super::measure::Measure;
+use fatigue::StressTensor;
 
 /// Share of the largest pressure below which a cell carries none.
 const NOTHING: f64 = 1e-9;

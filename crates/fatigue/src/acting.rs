@@ -1,0 +1,28 @@
+//! What acts on a plane.
+
+use crate::circle::half_chord;
+use crate::on_planes::ShearRoom;
+use crate::path::{Frame, Path};
+
+/// What acts on the plane of a unit normal, for people \[Pa\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Acting {
+    pub(crate) shear_amplitude: f64,
+    pub(crate) shear_chord: f64,
+    pub(crate) normal_max: f64,
+    pub(crate) normal_min: f64,
+}
+
+impl Acting {
+    pub(crate) fn on(path: &Path, n: [f64; 3], room: &mut ShearRoom) -> Self {
+        path.resolve(&Frame::across(n), &mut room.shear);
+        let (normal, unit) = (path.normal(n), path.unit());
+        let circle = room.circles.round(&room.shear);
+        Self {
+            shear_amplitude: unit * circle.radius,
+            shear_chord: unit * half_chord(&room.shear, &circle),
+            normal_max: unit * normal.max,
+            normal_min: unit * normal.min,
+        }
+    }
+}

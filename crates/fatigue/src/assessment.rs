@@ -1,0 +1,84 @@
+//! A criterion with its limit and its curve of lives, from the data of a material.
+
+use crate::criterion::Criterion;
+use crate::definition::Definition;
+use crate::error::Error;
+use crate::life::{Basquin, CoffinManson, inverted};
+use crate::material::Material;
+
+/// A criterion and what its values mean for a material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Assessment {
+    /// The criterion with the weights of the material.
+    pub criterion: Criterion,
+    /// What the values are compared with.
+    pub judge: Judge,
+}
+
+/// What a value is compared with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Judge {
+    /// A limit for endless life, in the unit of the value.
+    Limit(f64),
+    /// A curve of lives.
+    Life(CoffinManson),
+}
+
+impl Assessment {
+    /// The criterion of a name of [`crate::CRITERIA`] with the numbers of a material.
+    pub fn of(name: &str, material: &Material) -> Result<Self, Error> {
+        let definition = Definition::named(name)?;
+        let (numbers, judge) = (definition.of)(material)?;
+        let criterion = Criterion::with(definition, numbers)?;
+        Ok(Self { criterion, judge })
+    }
+
+    /// Limit over value: how often the stress may be multiplied; infinite where the value is not
+    /// positive. NaN for criteria that give lives.
+    pub fn safety_factor(&self, value: f64) -> f64 {
+        match self.judge {
+            Judge::Limit(_) if value <= 0.0 => f64::INFINITY,
+            Judge::Limit(limit) => limit / value,
+            Judge::Life(_) => f64::NAN,
+        }
+    }
+
+    /// Cycles until a crack has started; for criteria with a limit, infinite below it and NaN above.
+    pub fn life(&self, value: f64) -> f64 {
+        let Judge::Life(curve) = self.judge else {
+            let below = self.safety_factor(value) >= 1.0;
+            return if below { f64::INFINITY } else { f64::NAN };
+        };
+        let (of, numbers) = (self.criterion.definition().curve, self.criterion.in_order());
+        inverted(value, |N| of(&curve, numbers, N))
+    }
+
+    /// Life, or safety factor for criteria with a limit.
+    pub fn margin(&self, value: f64) -> f64 {
+        match self.judge {
+            Judge::Limit(_) => self.safety_factor(value),
+            Judge::Life(_) => self.life(value),
+        }
+    }
+
+    /// Whether [`Self::margin`] is a life \[cycles\].
+    pub fn gives_lives(&self) -> bool {
+        matches!(self.judge, Judge::Life(_))
+    }
+}
+
+/// The strain-life curve of a material.
+pub fn strain_life(material: &Material) -> Result<CoffinManson, Error> {
+    let number = |name: &str| material.number(name);
+    let curve = CoffinManson {
+        E: number("E")?,
+        elastic: Basquin {
+            coefficient: number("s_f")?,
+            exponent: number("b")?,
+        },
+        ductility: number("e_f")?,
+        exponent: number("c")?,
+    };
+    curve.check()?;
+    Ok(curve)
+}

@@ -1,0 +1,143 @@
+//! A criterion with its numbers.
+
+use std::fmt::{self, Debug, Formatter};
+
+use crate::definition::{Acts, CRITERIA, Definition, Numbers};
+use crate::error::Error;
+
+/// A criterion: one number for the stress history of a point, compared with a limit or a life.
+#[derive(Clone, Copy)]
+pub struct Criterion {
+    definition: &'static Definition,
+    numbers: Numbers,
+}
+
+impl Criterion {
+    /// The criterion of a name of [`CRITERIA`] with its numbers by their names, each once.
+    ///
+    /// ```
+    /// let findley = fatigue::Criterion::new("findley", &[("k", 0.3)])?;
+    /// assert_eq!(findley.unit(), "Pa");
+    /// # Ok::<(), fatigue::Error>(())
+    /// ```
+    pub fn new(name: &str, numbers: &[(&str, f64)]) -> Result<Self, Error> {
+        let definition = Definition::named(name)?;
+        let parameters = definition.parameters;
+        let known = || {
+            parameters
+                .iter()
+                .map(|p| p.name)
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        if let Some((other, value)) = numbers
+            .iter()
+            .find(|(name, _)| !parameters.iter().any(|p| p.name == *name))
+        {
+            let key = format!("{name}.{other}");
+            return Err(Error::argument(key, value, format!("one of {}", known())));
+        }
+        let mut found = [0.0; 4];
+        for (n, parameter) in parameters.iter().enumerate() {
+            let given = numbers.iter().find(|(name, _)| *name == parameter.name);
+            let (_, value) = given.ok_or_else(|| {
+                let key = format!("{name}.{}", parameter.name);
+                Error::argument(key, "nothing", format!("given; {name} takes {}", known()))
+            })?;
+            found[n] = *value;
+        }
+        Self::with(definition, found)
+    }
+
+    /// With the numbers in the order of the parameters.
+    pub(crate) fn with(definition: &'static Definition, numbers: Numbers) -> Result<Self, Error> {
+        for (parameter, value) in definition.parameters.iter().zip(numbers) {
+            if !parameter.allowed.holds(value) {
+                let key = format!("{}.{}", definition.name, parameter.name);
+                return Err(Error::argument(key, value, parameter.allowed.wanted()));
+            }
+        }
+        Ok(Self {
+            definition,
+            numbers,
+        })
+    }
+
+    /// Everything but its numbers.
+    pub fn definition(&self) -> &'static Definition {
+        self.definition
+    }
+
+    /// Name, as in Python and on the command line.
+    pub fn name(&self) -> &'static str {
+        self.definition.name
+    }
+
+    /// Unit of its value: Pa, or 1 for a strain.
+    pub fn unit(&self) -> &'static str {
+        self.definition.unit
+    }
+
+    /// Its numbers, each with its name.
+    pub fn numbers(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
+        let names = self.definition.parameters.iter().map(|p| p.name);
+        names.zip(self.numbers)
+    }
+
+    /// One of its numbers.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        self.numbers().find(|(n, _)| *n == name).map(|(_, v)| v)
+    }
+
+    /// The same with a number changed; one that it does not have is left out.
+    pub fn with_number(&self, name: &str, value: f64) -> Result<Self, Error> {
+        let mut numbers = self.numbers;
+        let place = self
+            .definition
+            .parameters
+            .iter()
+            .position(|p| p.name == name);
+        if let Some(n) = place {
+            numbers[n] = value;
+        }
+        Self::with(self.definition, numbers)
+    }
+
+    /// Whether it looks for a plane.
+    pub fn has_plane(&self) -> bool {
+        matches!(self.acts(1.0), Acts::OnPlanes(_))
+    }
+
+    /// How it follows from stresses in a unit \[Pa\].
+    pub(crate) fn acts(&self, unit: f64) -> Acts {
+        (self.definition.acts)(self.numbers, unit)
+    }
+
+    /// Its numbers in the order of the parameters.
+    pub(crate) fn in_order(&self) -> Numbers {
+        self.numbers
+    }
+}
+
+impl Definition {
+    /// The definition of a name.
+    pub fn named(name: &str) -> Result<&'static Self, Error> {
+        CRITERIA.iter().find(|d| d.name == name).ok_or_else(|| {
+            let names: Vec<_> = CRITERIA.iter().map(|d| d.name).collect();
+            Error::argument("criterion", name, format!("one of {}", names.join(", ")))
+        })
+    }
+}
+
+impl PartialEq for Criterion {
+    fn eq(&self, other: &Self) -> bool {
+        self.name() == other.name() && self.numbers == other.numbers
+    }
+}
+
+impl Debug for Criterion {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let numbers: Vec<_> = self.numbers().map(|(n, v)| format!("{n}={v:?}")).collect();
+        write!(f, "{}({})", self.name(), numbers.join(", "))
+    }
+}

@@ -1,0 +1,375 @@
+//! The plane on which a criterion is largest, with a bound on what the search may have missed.
+//!
+//! On a plane turned by the angle t about an axis in it, each component of the stress is
+//! m + r cos(2 t + c) or r cos(t + c). Normal stresses, strain ranges and shear amplitudes are
+//! largest values of such functions, so that along every great circle their second derivative is
+//! nowhere below some -K (where pieces meet, it is infinitely positive). Within a circle of radius r
+//! about c the function K (1 - cos d(n, c))/cos r has a second derivative of at least K. Added to
+//! such a quantity it makes it convex, and a convex function on a triangle is largest at a corner
+//! (derived):
+//!
+//! f(n) <= largest f of the corners + K (1/cos r - 1) in the triangle of circumradius r.
+//!
+//! For criteria that are products f is a sum of their parts ([`Tangent`]). Where that does not rule a
+//! triangle out, the bound of [`crate::face_bound`] is taken, which counts how the corners differ, and
+//! then those of [`crate::forms`]. The triangles that may hold more
+//! than the best plane known are cut into four until the bound is within the tolerance of the best.
+//! Planes are measured eight at a time, in single precision where rounding, which is added to what is
+//! measured, is small against the tolerance, and a circle is not made the smallest where its plane
+//! cannot matter. What is left is refined: the instants that decide on a plane make a smooth function of
+//! it, a piece, whose top Newton's steps find; where other instants decide there, their piece is next.
+//! The largest value of several smooth functions is the top of one of them, so the place is found to
+//! rounding, much nearer than what is proved.
+
+use crate::hemisphere::{Face, midway};
+use crate::lanes::LANES;
+use crate::limit::Limit;
+use crate::path::dot;
+use crate::plane_function::{Bend, Enough, Known, NO_EDGE, Plane, PlaneFunction};
+use crate::refine::{nearly, refine};
+use crate::tangent::Tangent;
+
+/// How far the search goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Search {
+    /// Largest part of the value by which a plane may be proved better than the one found
+    /// (default: 1e-3); of values that are small against what the stress could make, a thousandth of
+    /// this part of that. The plane found is usually the best one to rounding.
+    pub tolerance: f64,
+    /// Planes looked at, at most (default: 4096): a bound on time and memory, which histories reach that
+    /// are hardly in tension or hardly sheared. [`crate::AtPoint::missed`] says what is left then.
+    pub planes: usize,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-3,
+            planes: 4096,
+        }
+    }
+}
+
+/// The best plane found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Peak {
+    pub(crate) n: [f64; 3],
+    pub(crate) value: f64,
+    /// No plane has more than value + missed.
+    pub(crate) missed: f64,
+    /// Planes looked at.
+    pub(crate) planes: usize,
+}
+
+/// Room for the search.
+#[derive(Default)]
+pub(crate) struct Room {
+    planes: Vec<Plane>,
+    faces: Vec<Face>,
+    cut: Vec<Face>,
+    /// Middles of edges: the other end, the number of the middle, the next edge of the same end.
+    edges: Vec<[usize; 3]>,
+    corners: Vec<usize>,
+    tried: Vec<([usize; 6], [f64; 3])>,
+    /// Planes that refining led to, and their values.
+    tops: Vec<([f64; 3], f64)>,
+}
+
+/// Values below this part of what the stress could make are small.
+const SMALL: f64 = 1e-3;
+/// Planes whose first parts differ by less than this part of them are equal: rounding.
+const EQUAL: f64 = 1e-9;
+/// What rounding takes from a first part.
+const ROUNDED: f64 = 1e-14;
+/// Triangles that are so few that they are cut on beyond the tolerance where planes may tie.
+const FEW: usize = 48;
+/// Planes nearer to each other than this cosine, 18 degrees, lead to the same top of a piece.
+const NEAR: f64 = 0.95;
+/// Planes nearer to each other than this cosine, twice what a top is off before it is refined, are one.
+const SAME: f64 = 1.0 - 2e-6;
+/// Pieces whose top is refined at most.
+const PIECES: usize = 24;
+
+impl Search {
+    /// The plane on which `f` is largest.
+    pub(crate) fn peak(&self, f: &mut impl PlaneFunction, room: &mut Room) -> Peak {
+        let start = f.start();
+        room.tried.clear();
+        room.tops.clear();
+        let mut bend = room.first_planes(f);
+        let mut best = room.refined(f, room.best(0..room.planes.len()));
+        let yardstick = f.yardstick(&bend);
+        let tolerance = |value: f64| self.tolerance * value.abs().max(SMALL * yardstick);
+        if f.rounding(best.n) >= 0.05 * tolerance(best.value) {
+            f.to_double();
+            bend = room.first_planes(f);
+        }
+        let mut known = f.known(best.n, best.value, tolerance(best.value));
+        let ceiling = f.ceiling(&bend);
+        let mut missed = ceiling - best.value;
+        let mut seen = room.planes.len();
+        let at_once = ceiling <= known.values[2];
+        for cuts in 0.. {
+            if at_once {
+                room.faces.clear();
+                break;
+            }
+            let Room {
+                planes, faces, cut, ..
+            } = room;
+            let among = if cuts == 0 { &start.faces } else { &*cut };
+            if known.n != best.n {
+                known = f.known(best.n, best.value, tolerance(best.value));
+            }
+            let Known {
+                tangent,
+                values: [_, tied, near],
+                ..
+            } = known;
+            faces.clear();
+            let limit = Limit::of(&bend, tangent, best.value);
+            for face in among {
+                let most = limit.bound(f, face, planes);
+                if most > best.value {
+                    faces.push(Face { most, ..*face });
+                }
+            }
+            if !faces.is_empty() {
+                f.bounds(faces, planes, &known);
+                faces.retain(|face| face.most > best.value);
+            }
+            let most = faces.iter().fold(best.value, |m, face| m.max(face.most));
+            missed = most.min(ceiling) - best.value;
+            let open = tied > best.value && faces.len() <= FEW && most > tied;
+            let done = most <= near && !open;
+            // A face that is cut has three new middles at most.
+            let full = seen + 3 * faces.len() > self.planes;
+            if faces.is_empty() || done || full {
+                break;
+            }
+            room.cut();
+            let sag = room.cut.iter().map(|f| f.sag).fold(0.0, f64::max);
+            let enough = Enough {
+                first: f64::INFINITY,
+                tangent,
+                sum: tangent.sum_of(best.value) - bend.of(&tangent) * sag,
+            };
+            f.measure(&mut room.planes[seen..], enough);
+            let higher = room.best(seen..room.planes.len());
+            seen = room.planes.len();
+            if room.planes[higher].value > best.value {
+                let other = room.refined(f, higher);
+                if other.value > best.value {
+                    best = other;
+                }
+            }
+        }
+        let proved = best.value + missed;
+        room.try_the_rest(f, &mut best);
+        if f.tie() > 0.0 {
+            room.of_the_first_part(f, &mut best);
+        }
+        Peak {
+            missed: (proved - best.value).max(0.0),
+            planes: room.planes.len(),
+            ..best
+        }
+    }
+}
+
+impl Room {
+    /// Measures the first planes, and the bounds that follow. Where a plane cannot matter, its circle
+    /// is not made the smallest.
+    fn first_planes(&mut self, f: &mut impl PlaneFunction) -> Bend {
+        let start = f.start();
+        self.planes.clear();
+        self.planes
+            .extend(start.planes.iter().map(|n| Plane::of(*n, [0; 6])));
+        let (mut largest, mut best) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        let mut enough = Enough {
+            first: f64::NEG_INFINITY,
+            tangent: Tangent::NONE,
+            sum: f64::NEG_INFINITY,
+        };
+        let mut instants = [0; 6];
+        for planes in self.planes.chunks_mut(LANES) {
+            for plane in &mut *planes {
+                plane.instants = instants;
+            }
+            f.measure(planes, enough);
+            for plane in &*planes {
+                largest = plane.parts[0].max(largest);
+                if plane.value > best {
+                    (best, enough.tangent) = (plane.value, f.tangent(plane.parts));
+                }
+            }
+            instants = planes[planes.len() - 1].instants;
+            let K = f.bend(largest, start.sag).of(&enough.tangent);
+            enough.first = largest;
+            enough.sum = enough.tangent.sum_of(best) - K * start.sag;
+        }
+        f.bend(largest, start.sag)
+    }
+
+    /// The plane of the largest value.
+    fn best(&self, among: std::ops::Range<usize>) -> usize {
+        let value = |p: &usize| self.planes[*p].value;
+        let most = among.max_by(|a, b| value(a).total_cmp(&value(b)));
+        most.unwrap_or(0)
+    }
+
+    /// The top that the piece on a plane leads to.
+    fn refined(&mut self, f: &mut impl PlaneFunction, plane: usize) -> Peak {
+        let n = self.planes[plane].n;
+        let mut best = (n, f.at(n));
+        for _ in 0..8 {
+            let piece = f.deciding(best.0);
+            self.tried.push((piece.instants, best.0));
+            let (top, of_piece) = refine(&|n| f.value(piece.parts(n)), best.0);
+            let value = f.at(top);
+            let rounding = 4.0 * f64::EPSILON * value.abs();
+            if value < best.1 - rounding {
+                break;
+            }
+            best = (top, value);
+            if value <= of_piece + rounding {
+                break;
+            }
+        }
+        let piece = f.deciding(best.0);
+        let (top, _) = refine(&|n| f.value(piece.smooth_parts(n)), best.0);
+        let value = f.at(top);
+        if value >= best.1 - 4.0 * f64::EPSILON * value.abs() {
+            best = (top, value);
+        }
+        self.tops.push(best);
+        Peak {
+            n: best.0,
+            value: best.1,
+            missed: 0.0,
+            planes: 0,
+        }
+    }
+
+    /// Refines the pieces at the corners of the faces left that promise more than the best.
+    fn try_the_rest(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
+        self.corners.clear();
+        self.corners
+            .extend(self.faces.iter().flat_map(|face| face.planes));
+        self.corners.sort_unstable();
+        self.corners.dedup();
+        for k in 0..self.corners.len() {
+            let plane = self.corners[k];
+            let Plane { n, instants, .. } = self.planes[plane];
+            let again =
+                |(those, m): &([usize; 6], [f64; 3])| *those == instants && dot(*m, n).abs() > NEAR;
+            if self.tried.iter().any(again) || self.tried.len() > PIECES {
+                continue;
+            }
+            self.tried.push((instants, n));
+            let piece = f.piece(instants);
+            let enough = best.value - f.lead() * best.value.abs();
+            let (place, top) = nearly(&|n| f.value(piece.quick_parts(n)), n, enough);
+            let known = |(m, value): &([f64; 3], f64)| dot(*m, place).abs() > SAME && *value >= top;
+            if top > enough && !self.tops.iter().any(known) {
+                let other = self.refined(f, plane);
+                if other.value > best.value {
+                    *best = other;
+                }
+            }
+        }
+    }
+
+    /// Of the planes found, that of the largest first part; of equal ones, that of the larger second
+    /// part.
+    fn of_the_first_part(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
+        let enough = best.value - f.tie() * best.value.abs();
+        let mut found: Option<([f64; 3], [f64; 2])> = None;
+        for k in 0..self.tops.len() {
+            let (n, value) = self.tops[k];
+            if value < enough {
+                continue;
+            }
+            let (piece, mut n, mut parts) = (f.deciding(n), n, f.parts(n));
+            let (top, _) = refine(&|n| piece.parts(n)[0], n);
+            let (smooth, _) = refine(&|n| piece.smooth_parts(n)[0], top);
+            for top in [top, smooth] {
+                let higher = f.parts(top);
+                if higher[0] >= parts[0] * (1.0 - ROUNDED) {
+                    (n, parts) = (top, higher);
+                }
+            }
+            let better = found.is_none_or(|(_, [first, second])| {
+                let equal = (parts[0] - first).abs() <= EQUAL * first;
+                if equal {
+                    parts[1] > second
+                } else {
+                    parts[0] > first
+                }
+            });
+            if better {
+                found = Some((n, parts));
+            }
+        }
+        if let Some((n, _)) = found {
+            best.n = n;
+        }
+    }
+
+    /// Cuts every face into four.
+    fn cut(&mut self) {
+        self.edges.clear();
+        for plane in &mut self.planes {
+            plane.edge = NO_EDGE;
+        }
+        let mut cut = std::mem::take(&mut self.cut);
+        let faces = std::mem::take(&mut self.faces);
+        cut.clear();
+        for Face {
+            corners, planes, ..
+        } in &faces
+        {
+            let ([a, b, c], [i, j, k]) = (*corners, *planes);
+            let (ab, l) = self.middle((a, i), (b, j));
+            let (bc, m) = self.middle((b, j), (c, k));
+            let (ca, o) = self.middle((c, k), (a, i));
+            let face = Face::new;
+            cut.extend([
+                face([a, ab, ca], [i, l, o]),
+                face([ab, b, bc], [l, j, m]),
+                face([ca, bc, c], [o, m, k]),
+                face([ab, bc, ca], [l, m, o]),
+            ]);
+        }
+        (self.faces, self.cut) = (faces, cut);
+    }
+
+    /// The middle of an edge and the number of its plane, looked at once.
+    fn middle(
+        &mut self,
+        (a, i): ([f64; 3], usize),
+        (b, j): ([f64; 3], usize),
+    ) -> ([f64; 3], usize) {
+        let (n, low, high) = (midway(a, b), i.min(j), i.max(j));
+        let mut edge = self.planes[low].edge;
+        while edge != NO_EDGE {
+            let [end, middle, next] = self.edges[edge];
+            // Opposite corners are one plane: two edges may have the same ends.
+            if end == high && dot(self.planes[middle].n, n).abs() > 1.0 - 1e-9 {
+                return (n, middle);
+            }
+            edge = next;
+        }
+        let middle = self.planes.len();
+        let higher = if self.planes[i].value >= self.planes[j].value {
+            i
+        } else {
+            j
+        };
+        let guess = self.planes[higher].instants;
+        self.planes.push(Plane::of(n, guess));
+        self.edges.push([high, middle, self.planes[low].edge]);
+        self.planes[low].edge = self.edges.len() - 1;
+        (n, middle)
+    }
+}

@@ -1,0 +1,258 @@
+//! The criteria, a row each: name, numbers, equation, what a material has to tell, lives.
+//!
+//! s_n is the normal stress on a plane, tension positive, its largest value over time s_n,max;
+//! tau_a the shear amplitude there, the radius of the smallest circle round the path of the shear
+//! stress, and gamma_a = tau_a/G with G = E/(2 (1 + nu)); p_h the hydrostatic stress; sqrt(J2,a) the radius of
+//! the smallest sphere round the path of the deviatoric stress s, |s|^2 = s:s/2. Strains are those of the
+//! elastic stress.
+//!
+//! Dang Van's tau is half of Tresca's stress of the deviatoric stress from the centre of that sphere, the
+//! stress of a grain that has shaken down. Of planes with equal tau_a Matake's and McDiarmid's criterion takes
+//! that of the larger s_n,max, Brown and Miller's that of the larger range. Smith, Watson and Topper's product
+//! is 0 without tension, Fatemi and Socie's where the bracket is negative.
+
+use crate::allowed::Allowed;
+use crate::assessment::{Judge, strain_life};
+use crate::ball::Ball;
+use crate::error::Error;
+use crate::invariants::{OfInvariants, crossland, dang_van};
+use crate::law::Law;
+use crate::life::CoffinManson;
+use crate::material::Material;
+use crate::path::Path;
+
+/// A number of a criterion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name.
+    pub name: &'static str,
+    /// Its values.
+    pub allowed: Allowed,
+}
+
+/// The numbers of a criterion in the order of its parameters, the rest 0.
+pub(crate) type Numbers = [f64; 4];
+
+/// A criterion but for its numbers.
+#[derive(Debug)]
+pub struct Definition {
+    /// Name, as in Python and on the command line.
+    pub name: &'static str,
+    /// The equation, with the unit of its value.
+    pub equation: &'static str,
+    /// Publication.
+    pub source: &'static str,
+    /// Unit of its value: Pa, or 1 for a strain.
+    pub unit: &'static str,
+    /// Its numbers.
+    pub parameters: &'static [Parameter],
+    /// Numbers and judge for a material.
+    pub(crate) of: fn(&Material) -> Result<(Numbers, Judge), Error>,
+    /// Its value in a uniaxial test of fully reversed strain that lasts for N cycles, where it gives
+    /// lives.
+    pub(crate) curve: fn(&CoffinManson, Numbers, f64) -> f64,
+    /// How it follows from the stress, for stresses in a unit \[Pa\].
+    pub(crate) acts: fn(Numbers, f64) -> Acts,
+}
+
+/// How a criterion follows from the stress.
+pub(crate) enum Acts {
+    /// From the smallest sphere round the path of the deviatoric stress.
+    OfInvariants(fn(&Path, &Ball<5>, Numbers) -> OfInvariants),
+    /// From quantities on planes.
+    OnPlanes(OnPlane),
+}
+
+/// A criterion on a plane: a law of two parts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OnPlane {
+    pub(crate) law: Law,
+    /// Whether the first part is tau_a; else it is the strain amplitude.
+    pub(crate) shear: bool,
+    /// The strain is the first number times s_n less the second times the sum of the normal stresses.
+    /// The second part is s_n,max unless the strain amplitude is one and does not come first.
+    pub(crate) strain: Option<[f64; 2]>,
+    /// The value over that of the law.
+    pub(crate) factor: f64,
+}
+
+const fn parameter(name: &'static str, allowed: Allowed) -> Parameter {
+    Parameter { name, allowed }
+}
+
+const ALPHA: Parameter = parameter("alpha", Allowed::Weight);
+const K: Parameter = parameter("k", Allowed::Weight);
+const MODULUS: Parameter = parameter("E", Allowed::Stress);
+const NU: Parameter = parameter("nu", Allowed::Poisson);
+
+/// All criteria.
+///
+/// The weights of those with a limit follow from the fatigue limits s_D in fully reversed bending or
+/// tension and t_D in torsion, for which the criterion is to give the same (derived from its
+/// definition).
+pub const CRITERIA: &[Definition] = &[
+    Definition {
+        name: "crossland",
+        equation: "sqrt(J2,a) + alpha p_h,max [Pa]",
+        source: "B. Crossland, Proc. Int. Conf. on Fatigue of Metals, IMechE, London (1956) 138-149",
+        unit: "Pa",
+        parameters: &[ALPHA],
+        of: |m| {
+            let (s_D, t_D) = limits(m)?;
+            let alpha = 3.0 * t_D / s_D - 3.0_f64.sqrt();
+            Ok(([alpha, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
+        },
+        curve: without_lives,
+        acts: |_, _| Acts::OfInvariants(crossland),
+    },
+    Definition {
+        name: "dang_van",
+        equation: "the largest tau(t) + alpha p_h(t) of the mesoscopic shear [Pa]",
+        source: "K. Dang Van, ASTM STP 1191 (1993) 120-130",
+        unit: "Pa",
+        parameters: &[ALPHA],
+        of: |m| {
+            let (s_D, t_D) = limits(m)?;
+            let alpha = 3.0 * t_D / s_D - 1.5;
+            Ok(([alpha, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
+        },
+        curve: without_lives,
+        acts: |_, _| Acts::OfInvariants(dang_van),
+    },
+    Definition {
+        name: "findley",
+        equation: "the largest tau_a + k s_n,max of all planes [Pa]",
+        source: "W. N. Findley, J. Eng. Ind. 81 (1959) 301-305",
+        unit: "Pa",
+        parameters: &[K],
+        // k/sqrt(1 + k^2) = 2 t_D/s_D - 1, limit t_D sqrt(1 + k^2).
+        of: |m| {
+            let (s_D, t_D) = limits(m)?;
+            let sine = 2.0 * t_D / s_D - 1.0;
+            if sine >= 1.0 {
+                let allowed = "below s_D: the limits fit no weight of Findley's";
+                return Err(Error::argument("t_D", t_D, allowed));
+            }
+            let cosine = (1.0 - sine * sine).sqrt();
+            Ok(([sine / cosine, 0.0, 0.0, 0.0], Judge::Limit(t_D / cosine)))
+        },
+        curve: without_lives,
+        acts: |[k, ..], unit| of_stress(Law::Sum(k), unit),
+    },
+    Definition {
+        name: "matake",
+        equation: "tau_a + k s_n,max on the plane of the largest tau_a [Pa]",
+        source: "T. Matake, Bull. JSME 20 (1977) 257-263",
+        unit: "Pa",
+        parameters: &[K],
+        of: |m| {
+            let (s_D, t_D) = limits(m)?;
+            let k = 2.0 * t_D / s_D - 1.0;
+            Ok(([k, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
+        },
+        curve: without_lives,
+        acts: |[k, ..], unit| of_stress(Law::first(k), unit),
+    },
+    Definition {
+        name: "mcdiarmid",
+        equation: "tau_a + k s_n,max on the plane of the largest tau_a, k = t_D/(2 s_u) [Pa]",
+        source: "D. L. McDiarmid, Fatigue Fract. Eng. Mater. Struct. 14 (1991) 429-453",
+        unit: "Pa",
+        parameters: &[K],
+        of: |m| {
+            let t_D = m.number("t_D")?;
+            let k = t_D / (2.0 * m.number("s_u")?);
+            Ok(([k, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
+        },
+        curve: without_lives,
+        acts: |[k, ..], unit| of_stress(Law::first(k), unit),
+    },
+    Definition {
+        name: "smith_watson_topper",
+        equation: "the largest s_n,max times half the range of the normal strain [Pa]",
+        source: "K. N. Smith, P. Watson, T. H. Topper, J. Mater. 5 (1970) 767-778;\n\
+                 D. F. Socie, J. Eng. Mater. Technol. 109 (1987) 293-298",
+        unit: "Pa",
+        parameters: &[MODULUS, NU],
+        of: |m| {
+            let numbers = [m.number("E")?, m.number("nu")?, 0.0, 0.0];
+            Ok((numbers, Judge::Life(strain_life(m)?)))
+        },
+        curve: |curve, _, cycles| curve.smith_watson_topper(cycles),
+        acts: |[E, nu, ..], unit| {
+            Acts::OnPlanes(OnPlane {
+                law: Law::Product,
+                shear: false,
+                strain: Some([1.0 + nu, nu]),
+                factor: unit * (unit / E),
+            })
+        },
+    },
+    Definition {
+        name: "fatemi_socie",
+        equation: "the largest gamma_a (1 + k s_n,max/s_y) of all planes",
+        source: "A. Fatemi, D. F. Socie, Fatigue Fract. Eng. Mater. Struct. 11 (1988) 149-165",
+        unit: "1",
+        parameters: &[MODULUS, NU, K, parameter("s_y", Allowed::Stress)],
+        of: |m| {
+            let numbers = [
+                m.number("E")?,
+                m.number("nu")?,
+                m.number("k")?,
+                m.number("s_y")?,
+            ];
+            Ok((numbers, Judge::Life(strain_life(m)?)))
+        },
+        curve: |curve, [_, nu, k, s_y], cycles| curve.fatemi_socie(cycles, nu, k, s_y),
+        acts: |[E, nu, k, s_y], unit| {
+            Acts::OnPlanes(OnPlane {
+                law: Law::Raised(k / s_y * unit),
+                shear: true,
+                strain: None,
+                factor: 2.0 * (1.0 + nu) * (unit / E),
+            })
+        },
+    },
+    Definition {
+        name: "brown_miller",
+        equation: "gamma_a + S times the range of the normal strain, where gamma_a is largest",
+        source: "F. A. Kandil, M. W. Brown, K. J. Miller, The Metals Society Book 280 (1982) 203-210",
+        unit: "1",
+        parameters: &[MODULUS, NU, parameter("S", Allowed::Weight)],
+        of: |m| {
+            let numbers = [m.number("E")?, m.number("nu")?, m.number("S")?, 0.0];
+            Ok((numbers, Judge::Life(strain_life(m)?)))
+        },
+        curve: |curve, [_, nu, S, _], cycles| curve.brown_miller(cycles, nu, S),
+        // In multiples of tau/G: the normal strain over 2 (1 + nu)/E, whose range is twice the
+        // amplitude.
+        acts: |[E, nu, S, _], unit| {
+            Acts::OnPlanes(OnPlane {
+                law: Law::first(2.0 * S),
+                shear: true,
+                strain: Some([0.5, nu / (2.0 * (1.0 + nu))]),
+                factor: 2.0 * (1.0 + nu) * (unit / E),
+            })
+        },
+    },
+];
+
+/// Fatigue limits of a material in tension or bending and in torsion \[Pa\].
+fn limits(material: &Material) -> Result<(f64, f64), Error> {
+    Ok((material.number("s_D")?, material.number("t_D")?))
+}
+
+/// A law of tau_a and s_n,max.
+fn of_stress(law: Law, unit: f64) -> Acts {
+    Acts::OnPlanes(OnPlane {
+        law,
+        shear: true,
+        strain: None,
+        factor: unit,
+    })
+}
+
+/// The criterion has a limit.
+fn without_lives(_: &CoffinManson, _: Numbers, _: f64) -> f64 {
+    f64::NAN
+}

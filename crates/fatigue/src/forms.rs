@@ -1,0 +1,89 @@
+//! Two quadratic forms of the corners of a triangle of normals, which bound two parts of a criterion.
+//!
+//! With the corners a_i and v = sum of w_i a_i, w >= 0, the component n.T.n of a tensor on the plane of
+//! n = v/|v| is (sum of w_i w_j a_i.T.a_j)/|v|^2, and |v|^2 the sum of w_i w_j a_i.a_j. All w being
+//! positive, the largest component over several tensors is no larger than with the largest a_i.T.a_j
+//! of all, each for itself; half the range of the components likewise. With A_ij and B_ij of two parts
+//! the sum x a + y b + z of a [`Tangent`] is nowhere above s if
+//!
+//! sum of w_i w_j ((s - z) a_i.a_j - x A_ij - y B_ij) >= 0 for all w >= 0 (derived).
+//!
+//! Other than a bound on second derivatives this knows directions. Stresses of contacts are often near to
+//! pressure in one direction: nothing changes along a whole ring of planes, and much across it.
+
+use crate::copositive::is_copositive;
+use crate::hemisphere::{Face, Triangle};
+use crate::lanes::{Eight, LANES};
+use crate::path::dot;
+use crate::tangent::Tangent;
+
+/// Pairs of corners that are edges.
+pub(crate) const EDGES: [(usize, usize); 3] = [(0, 1), (1, 2), (2, 0)];
+
+/// A_ij and B_ij.
+pub(crate) struct Forms {
+    /// Both of a corner with itself.
+    pub(crate) corners: [[f64; 2]; 3],
+    pub(crate) edges: [[f64; 2]; 3],
+    /// a_i.a_j of the edges.
+    cosines: [f64; 3],
+}
+
+impl Forms {
+    pub(crate) fn new(corners: [[f64; 2]; 3], edges: [[f64; 2]; 3], face: &Triangle) -> Self {
+        Self {
+            corners,
+            edges,
+            cosines: EDGES.map(|(i, j)| dot(face[i], face[j])),
+        }
+    }
+
+    /// No plane of the triangle has more of a part.
+    pub(crate) fn largest(&self, part: usize) -> f64 {
+        let corners = self.corners.iter().map(|parts| parts[part]);
+        let edges = self.edges.iter().zip(self.cosines);
+        let edges = edges.map(|(parts, cosine)| parts[part] / cosine);
+        corners.chain(edges).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The least of rising values that the criterion is proved to be nowhere above.
+    pub(crate) fn least_of(&self, values: &[f64; 3], tangents: &[Tangent]) -> Option<f64> {
+        let proved = |value: &&f64| tangents.iter().any(|t| self.are_at_most(t, **value));
+        values.iter().rev().take_while(proved).last().copied()
+    }
+
+    /// Whether the tangent's sum is nowhere above what makes this value.
+    fn are_at_most(&self, tangent: &Tangent, value: f64) -> bool {
+        let level = tangent.sum_of(value) - tangent.constant;
+        let below = |parts: [f64; 2], cosine: f64| {
+            level * cosine - tangent.first * parts[0] - tangent.second * parts[1]
+        };
+        let edge = |k: usize| below(self.edges[k], self.cosines[k]);
+        is_copositive(
+            self.corners.map(|parts| below(parts, 1.0)),
+            [0, 1, 2].map(edge),
+        )
+    }
+}
+
+/// The corners of at most eight faces, the faces side by side.
+pub(crate) fn corners_of(faces: &[Face]) -> [[Eight<f64>; 3]; 3] {
+    let mut corners = [[[0.0; LANES]; 3]; 3];
+    for l in 0..LANES {
+        let face = &faces[l.min(faces.len() - 1)];
+        for k in 0..3 {
+            for d in 0..3 {
+                corners[k][d][l] = face.corners[k][d];
+            }
+        }
+    }
+    corners
+}
+
+/// Lowers what at most eight faces are known to hold.
+pub(crate) fn lower(faces: &mut [Face], most: impl Fn(usize, &Face) -> f64) {
+    debug_assert!(faces.len() <= LANES);
+    for (l, face) in faces.iter_mut().enumerate() {
+        face.most = face.most.min(most(l, face));
+    }
+}

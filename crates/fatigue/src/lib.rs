@@ -1,0 +1,80 @@
+//! Will it crack, yield or shake down? Criteria of multiaxial fatigue on plain stress histories.
+//!
+//! Arrays in, numbers out: nothing here knows where a stress comes from. A history is of shape
+//! (time, points, 6), components xx, yy, zz, xy, xz, yz, tension positive, in Pa. [`evaluate`] takes
+//! a [`Criterion`] to all points in parallel: its value, the critical plane, and the most that another
+//! plane may have. [`Assessment`] has a criterion's weights, limit and lives from the numbers of a
+//! [`Material`]; [`yielding`] gives load factors of first yield and of elastic shakedown.
+//!
+//! ```
+//! use std::sync::atomic::AtomicBool;
+//!
+//! use fatigue::{Assessment, Search, evaluate, materials};
+//! use ndarray::Array3;
+//!
+//! // Tension and torsion out of phase, 16 instants of one point.
+//! let mut stress = Array3::zeros((16, 1, 6));
+//! for t in 0..16 {
+//!     let (sin, cos) = (std::f64::consts::TAU * t as f64 / 16.0).sin_cos();
+//!     stress[(t, 0, 0)] = 300e6 * sin;
+//!     stress[(t, 0, 3)] = 150e6 * cos;
+//! }
+//! let steel = &materials()["steel_42CrMo4"];
+//! let findley = Assessment::of("findley", steel)?;
+//! let never = AtomicBool::new(false);
+//! let found = evaluate(&findley.criterion, &stress.view(), &Search::default(), &never)?;
+//! println!("on the plane {:?}: {:.3e} Pa", found[0].normal, found[0].value);
+//! assert!((findley.safety_factor(found[0].value) - 1.285).abs() < 5e-3);
+//! # Ok::<(), fatigue::Error>(())
+//! ```
+
+#![forbid(unsafe_code)]
+
+mod acting;
+mod allowed;
+mod assessment;
+mod at_point;
+mod ball;
+mod circle;
+mod copositive;
+mod criterion;
+mod critical_plane;
+mod definition;
+mod eight_planes;
+mod error;
+mod evaluate;
+mod face_bound;
+mod forms;
+mod hemisphere;
+mod invariants;
+mod lanes;
+mod law;
+mod life;
+mod limit;
+mod material;
+mod on_planes;
+mod path;
+mod plane_function;
+mod product_bound;
+mod refine;
+mod shakedown;
+mod shear_bound;
+mod tangent;
+mod tensor;
+
+pub use allowed::Allowed;
+pub use assessment::{Assessment, Judge, strain_life};
+pub use at_point::AtPoint;
+pub use ball::{Ball, smallest_ball};
+pub use criterion::Criterion;
+pub use critical_plane::Search;
+pub use definition::{CRITERIA, Definition, Parameter};
+pub use error::Error;
+pub use evaluate::evaluate;
+pub use invariants::dang_van_path;
+pub use life::{Basquin, CoffinManson};
+pub use material::{Material, QUANTITIES, Quantity, Sourced, materials, materials_from, read};
+pub use shakedown::{Yield, yielding};
+pub use tensor::{
+    Principal, StressTensor, hydrostatic, principal, principal_values, tresca, von_mises,
+};

@@ -1,0 +1,52 @@
+//! The most that a criterion may be on a triangle, from its corners and bounds on second derivatives.
+
+use crate::face_bound::most_on;
+use crate::hemisphere::Face;
+use crate::plane_function::{Bend, Plane, PlaneFunction};
+use crate::tangent::Tangent;
+
+/// What is needed to bound the criterion on a face.
+pub(crate) struct Limit {
+    tangent: Tangent,
+    bend: Bend,
+    /// Bounds on the second derivative and the slope of the tangent's sum.
+    K: f64,
+    slope: f64,
+    best: f64,
+}
+
+impl Limit {
+    pub(crate) fn of(bend: &Bend, tangent: Tangent, best: f64) -> Self {
+        Self {
+            tangent,
+            bend: *bend,
+            K: bend.of(&tangent),
+            slope: tangent.first * bend.slopes[0] + tangent.second * bend.slopes[1],
+            best,
+        }
+    }
+
+    /// No plane in the face has more; not the least such number where it is below the best.
+    pub(crate) fn bound(&self, f: &impl PlaneFunction, face: &Face, planes: &[Plane]) -> f64 {
+        let Self { tangent, K, .. } = self;
+        let [a, b, c] = face.planes;
+        let [a, b, c] = [&planes[a], &planes[b], &planes[c]];
+        let most = |a: f64, b: f64, c: f64| a.max(b).max(c);
+        let sums = [a, b, c].map(|plane| tangent.of(plane.parts));
+        let whole = tangent.value(most(sums[0], sums[1], sums[2]) + K * face.sag);
+        if whole <= self.best {
+            return whole;
+        }
+        let lows = [a, b, c].map(|plane| tangent.of(plane.low));
+        let reach = 2.0 * (2.0 * face.sag).sqrt();
+        let low = most(lows[0], lows[1], lows[2]) - self.slope * reach;
+        let whole = tangent.value(most_on(face, sums, low, *K));
+        if whole <= self.best {
+            return whole;
+        }
+        let part =
+            |k: usize| most(a.parts[k], b.parts[k], c.parts[k]) + self.bend.parts[k] * face.sag;
+        let parts = [part(0), part(1)];
+        whole.min(f.value(parts))
+    }
+}

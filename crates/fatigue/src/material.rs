@@ -1,0 +1,262 @@
+//! Material data for the criteria, every number with its source.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::{Spanned, Value};
+
+use crate::allowed::Allowed;
+use crate::error::Error;
+
+/// A number of a material that a criterion may need.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// Name, as in the file.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// What it is.
+    pub long_name: &'static str,
+    /// Its values.
+    pub allowed: Allowed,
+}
+
+const fn quantity(name: &'static str, unit: &'static str, long_name: &'static str) -> Quantity {
+    Quantity {
+        name,
+        unit,
+        long_name,
+        allowed: Allowed::Positive,
+    }
+}
+
+const fn exponent(name: &'static str, long_name: &'static str) -> Quantity {
+    Quantity {
+        name,
+        unit: "1",
+        long_name,
+        allowed: Allowed::Negative,
+    }
+}
+
+/// Everything that may stand in a file of materials.
+pub const QUANTITIES: &[Quantity] = &[
+    quantity("E", "Pa", "Young's modulus"),
+    Quantity {
+        allowed: Allowed::Poisson,
+        ..quantity("nu", "1", "Poisson's ratio")
+    },
+    quantity("s_y", "Pa", "yield stress"),
+    quantity("s_u", "Pa", "tensile strength"),
+    quantity(
+        "s_D",
+        "Pa",
+        "fatigue limit, amplitude of fully reversed tension or bending",
+    ),
+    quantity(
+        "t_D",
+        "Pa",
+        "fatigue limit, amplitude of fully reversed torsion",
+    ),
+    quantity("s_f", "Pa", "fatigue strength coefficient"),
+    exponent("b", "fatigue strength exponent"),
+    quantity("e_f", "1", "fatigue ductility coefficient"),
+    exponent("c", "fatigue ductility exponent"),
+    quantity(
+        "k",
+        "1",
+        "weight of the normal stress in Fatemi and Socie's criterion",
+    ),
+    quantity(
+        "S",
+        "1",
+        "weight of the normal strain in Brown and Miller's criterion",
+    ),
+    quantity(
+        "dK_th",
+        "Pa m^0.5",
+        "threshold range of the stress intensity, R = -1",
+    ),
+    quantity("alpha_T", "1/K", "thermal expansion"),
+    quantity("density", "kg/m^3", "density"),
+    quantity("specific_heat", "J/(kg K)", "specific heat"),
+    quantity("conductivity", "W/(m K)", "thermal conductivity"),
+];
+
+/// A number and where it is from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sourced {
+    /// Value, in the unit of its quantity.
+    pub value: f64,
+    /// Publication or test.
+    pub source: String,
+}
+
+impl Sourced {
+    /// Fails with the reason at a value that the quantity cannot have, and without a source.
+    fn new(value: f64, source: String, quantity: &Quantity) -> Result<Self, String> {
+        if source.trim().is_empty() {
+            return Err("has no source".into());
+        }
+        if !quantity.allowed.holds(value) {
+            return Err(format!("{value}: must be {}", quantity.allowed.wanted()));
+        }
+        Ok(Self { value, source })
+    }
+}
+
+/// What is known of a material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Name in the table.
+    pub name: String,
+    /// What it is.
+    pub title: String,
+    /// Its numbers by the names of [`QUANTITIES`].
+    pub numbers: BTreeMap<&'static str, Sourced>,
+}
+
+/// The form of a file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    schema: u32,
+    #[serde(default)]
+    sources: BTreeMap<String, String>,
+    materials: BTreeMap<String, BTreeMap<String, Spanned<Value>>>,
+}
+
+impl Material {
+    /// A material of one's own; every number with its name of [`QUANTITIES`], value and source.
+    pub fn new(
+        name: &str,
+        title: &str,
+        numbers: impl IntoIterator<Item = (String, f64, String)>,
+    ) -> Result<Self, Error> {
+        let mut material = Self {
+            name: name.to_owned(),
+            title: title.to_owned(),
+            numbers: BTreeMap::new(),
+        };
+        for (key, value, source) in numbers {
+            let found = known(&key)
+                .and_then(|of| Ok((of.name, Sourced::new(value, source, of)?)))
+                .map_err(|why| Error::Material {
+                    material: name.to_owned(),
+                    key,
+                    why,
+                })?;
+            material.numbers.insert(found.0, found.1);
+        }
+        Ok(material)
+    }
+
+    /// A number; fails with what is missing and what is known.
+    pub fn number(&self, name: &str) -> Result<f64, Error> {
+        if let Some(sourced) = self.numbers.get(name) {
+            return Ok(sourced.value);
+        }
+        let meaning = QUANTITIES.iter().find(|q| q.name == name);
+        let meaning = meaning.map_or("", |q| q.long_name);
+        let known: Vec<_> = self.numbers.keys().copied().collect();
+        Err(Error::Material {
+            material: self.name.clone(),
+            key: name.to_owned(),
+            why: format!(
+                "is missing ({meaning}); known of it are {}",
+                known.join(", ")
+            ),
+        })
+    }
+}
+
+/// The materials that come with the program.
+pub fn materials() -> BTreeMap<String, Material> {
+    read(include_str!("materials.toml"), "materials.toml").unwrap_or_default()
+}
+
+/// The materials of a file, in the form of `materials.toml`.
+pub fn materials_from(path: &Path) -> Result<BTreeMap<String, Material>, Error> {
+    let file = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|e| Error::File {
+        path: file.clone(),
+        message: e.to_string(),
+    })?;
+    read(&text, &file)
+}
+
+/// The materials of a text; `file` is what errors call it.
+pub fn read(text: &str, file: &str) -> Result<BTreeMap<String, Material>, Error> {
+    let wrong = |at: usize, message: String| Error::Table {
+        file: file.to_owned(),
+        line: 1 + text[..at.min(text.len())].matches('\n').count(),
+        message,
+    };
+    let parsed: File = toml::from_str(text)
+        .map_err(|e| wrong(e.span().map_or(0, |s| s.start), e.message().to_owned()))?;
+    if parsed.schema != 1 {
+        return Err(wrong(0, format!("schema = {}: must be 1", parsed.schema)));
+    }
+    let mut materials = BTreeMap::new();
+    for (name, entries) in parsed.materials {
+        let mut material = Material {
+            name: name.clone(),
+            title: name.clone(),
+            numbers: BTreeMap::new(),
+        };
+        for (key, entry) in entries {
+            let refused = |message: String| {
+                wrong(
+                    entry.span().start,
+                    format!("materials.{name}.{key}: {message}"),
+                )
+            };
+            if key == "title" {
+                let title = entry.get_ref().as_str();
+                let title = title.ok_or_else(|| refused("must be a text".into()))?;
+                title.clone_into(&mut material.title);
+                continue;
+            }
+            let quantity = known(&key).map_err(refused)?;
+            let sourced = sourced(entry.get_ref(), quantity, &parsed.sources).map_err(refused)?;
+            material.numbers.insert(quantity.name, sourced);
+        }
+        materials.insert(name, material);
+    }
+    Ok(materials)
+}
+
+fn known(key: &str) -> Result<&'static Quantity, String> {
+    if let Some(quantity) = QUANTITIES.iter().find(|q| q.name == key) {
+        return Ok(quantity);
+    }
+    let near = QUANTITIES
+        .iter()
+        .map(|q| (strsim::jaro_winkler(q.name, key), q.name));
+    let near = near
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map_or("", |(_, name)| name);
+    let names: Vec<_> = QUANTITIES.iter().map(|q| q.name).collect();
+    Err(format!(
+        "unknown; nearest is {near}; there are title, {}",
+        names.join(", ")
+    ))
+}
+
+fn sourced(
+    entry: &Value,
+    quantity: &Quantity,
+    sources: &BTreeMap<String, String>,
+) -> Result<Sourced, String> {
+    const FORM: &str = "must be { value = NUMBER, source = \"where it is from\" }";
+    let table = entry.as_table().filter(|t| t.len() == 2).ok_or(FORM)?;
+    let value = table.get("value").ok_or(FORM)?;
+    let value = value
+        .as_float()
+        .or_else(|| value.as_integer().map(|n| n as f64));
+    let value = value.ok_or(FORM)?;
+    let source = table.get("source").and_then(Value::as_str).ok_or(FORM)?;
+    let source = sources.get(source).map_or(source, String::as_str);
+    Sourced::new(value, source.to_owned(), quantity)
+}

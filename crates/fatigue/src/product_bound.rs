@@ -1,0 +1,38 @@
+//! The most that Smith, Watson and Topper's product may be on a triangle of normals: [`Forms`] of the
+//! strain amplitude and of the largest normal stress.
+
+use crate::eight_planes::Instants;
+use crate::forms::{EDGES, Forms, corners_of, lower};
+use crate::hemisphere::Face;
+use crate::lanes::{LANES, Real};
+use crate::plane_function::{Known, Plane};
+use crate::tangent::Tangent;
+
+/// The strain is the first number times the normal stress less the second times the sum of all three;
+/// rounding may take `slack` from the strain amplitude and from the normal stress.
+pub(crate) fn product_bounds<F: Real>(
+    instants: &Instants<F>,
+    strain: [f64; 2],
+    slack: [f64; 2],
+    (faces, planes): (&mut [Face], &[Plane]),
+    known: &Known,
+) {
+    for eight in faces.chunks_mut(LANES) {
+        let corners = corners_of(eight);
+        let mixed = EDGES.map(|(i, j)| instants.mixed(&corners[i], &corners[j], Some(strain)));
+        lower(eight, |l, face| {
+            let edge = |k: usize| {
+                let strain = mixed[k].strain_amplitude[l].wide() + slack[0];
+                [strain, mixed[k].normal_max[l].wide() + slack[1]]
+            };
+            let parts = face.planes.map(|plane| planes[plane].parts);
+            let forms = Forms::new(parts, [0, 1, 2].map(edge), &face.corners);
+            let largest = [forms.largest(0), forms.largest(1)];
+            // No value is above that of the tangent there, which is their product.
+            let there = Tangent::of_product(0.0, 1.0, largest);
+            let proved = forms.least_of(&known.values, &[known.tangent, there]);
+            let product = largest[0] * largest[1].max(0.0);
+            proved.map_or(product, |value| value.min(product))
+        });
+    }
+}

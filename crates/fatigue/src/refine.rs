@@ -1,0 +1,220 @@
+//! The top of a smooth function of the plane, by Newton's steps.
+
+use crate::circle::{radius_of_three, radius_through};
+use crate::path::{Frame, dot, normal_weights, shear_weights, unit};
+use crate::tensor::StressTensor;
+
+/// Turn of the planes from which slopes are taken \[rad\]: what these miss is its sixth power, what
+/// rounding adds 1e-16 over it.
+const TURN: f64 = 5e-3;
+/// Steps of this length end the search with simple slopes, which miss the top by less than the square
+/// of `TURN` \[rad\].
+const NEARLY: f64 = 1e-3;
+/// A step of this length ends the search with sharp slopes: the next one would be its product with
+/// the error of the bends, the square of `TURN` \[rad\].
+const CLOSE: f64 = 1e-7;
+/// Longest step \[rad\].
+const LONGEST: f64 = 0.2;
+
+/// The instants that decide on a plane, and the smooth function that they make of it: the largest of
+/// such functions is the criterion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Deciding {
+    /// Those on the smallest circle, those of the largest and smallest of a range, that of the
+    /// second part.
+    pub(crate) instants: [usize; 6],
+    /// Stresses on the smallest circle; or else a tensor whose normal
+    /// component the first part is.
+    pub(crate) first: First,
+    /// The tensor whose normal component is the second part.
+    pub(crate) second: StressTensor,
+}
+
+/// The first part of a piece.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum First {
+    /// The radius of the smallest circle round the shear of three stresses.
+    Shear([StressTensor; 3]),
+    /// The normal component of a tensor.
+    Normal(StressTensor),
+}
+
+impl Deciding {
+    /// The two parts on the plane of a unit normal.
+    pub(crate) fn parts(&self, n: [f64; 3]) -> [f64; 2] {
+        self.with_circle(n, radius_of_three)
+    }
+
+    /// The same with the circle through all three points, which is as smooth as the rest, but the
+    /// smallest only where their angles are acute.
+    pub(crate) fn smooth_parts(&self, n: [f64; 3]) -> [f64; 2] {
+        self.with_circle(n, radius_through)
+    }
+
+    /// The two parts on the plane of a unit normal, without a frame: the circle is known to half of
+    /// the digits where the shear is small against the normal stress.
+    pub(crate) fn quick_parts(&self, n: [f64; 3]) -> [f64; 2] {
+        let normal = |s: &StressTensor| dot(traction(s, n), n);
+        let first = match &self.first {
+            First::Normal(tensor) => normal(tensor),
+            First::Shear([a, b, c]) => {
+                let change = |s: &StressTensor| traction(&difference(s, a), n);
+                let (p, q) = (change(b), change(c));
+                let (along_p, along_q) = (dot(p, n), dot(q, n));
+                let (pp, qq) = (dot(p, p) - along_p * along_p, dot(q, q) - along_q * along_q);
+                let pq = dot(p, q) - along_p * along_q;
+                square_of_radius(pp, qq, pq).max(0.0).sqrt()
+            }
+        };
+        [first, normal(&self.second)]
+    }
+
+    fn with_circle(&self, n: [f64; 3], radius: impl Fn([[f64; 2]; 3]) -> f64) -> [f64; 2] {
+        let normal = normal_weights(n);
+        let of = |weights: &[f64; 6], s: &StressTensor| -> f64 {
+            weights.iter().zip(s).map(|(w, s)| w * s).sum()
+        };
+        let first = match &self.first {
+            First::Normal(tensor) => of(&normal, tensor),
+            First::Shear(stresses) => {
+                let Frame { u, v, .. } = Frame::across(n);
+                let (u, v) = (shear_weights(n, u), shear_weights(n, v));
+                radius(stresses.map(|s| [of(&u, &s), of(&v, &s)]))
+            }
+        };
+        [first, of(&normal, &self.second)]
+    }
+}
+
+/// The square of the radius of the smallest circle round 0, p and q, from p.p, q.q and p.q.
+fn square_of_radius(pp: f64, qq: f64, pq: f64) -> f64 {
+    let across = pp + qq - 2.0 * pq;
+    if pq <= 0.0 {
+        across / 4.0
+    } else if pp <= pq {
+        qq / 4.0
+    } else if qq <= pq {
+        pp / 4.0
+    } else {
+        pp * qq * across / (4.0 * (pp * qq - pq * pq))
+    }
+}
+
+/// S.n.
+fn traction(s: &StressTensor, n: [f64; 3]) -> [f64; 3] {
+    [
+        s[0] * n[0] + s[3] * n[1] + s[4] * n[2],
+        s[3] * n[0] + s[1] * n[1] + s[5] * n[2],
+        s[4] * n[0] + s[5] * n[1] + s[2] * n[2],
+    ]
+}
+
+fn difference(s: &StressTensor, from: &StressTensor) -> StressTensor {
+    let mut change = *s;
+    for c in 0..6 {
+        change[c] -= from[c];
+    }
+    change
+}
+
+/// The top that is reached from the plane n, and the value there, to rounding.
+pub(crate) fn refine(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3]) -> ([f64; 3], f64) {
+    let mut best = nearly(f, n, f64::NEG_INFINITY);
+    for _ in 0..8 {
+        let Some((turn, there)) = newton::<true>(f, best) else {
+            break;
+        };
+        let rounding = 4.0 * f64::EPSILON * best.1.abs();
+        if there.1 < best.1 - rounding {
+            break;
+        }
+        best = there;
+        if turn < CLOSE {
+            break;
+        }
+    }
+    best
+}
+
+/// The top that is reached from the plane n, and the value there, to the square of `NEARLY`; a plane
+/// on the way once the steps, each of which gains less than the one before, lead nowhere above
+/// `least`.
+pub(crate) fn nearly(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3], least: f64) -> ([f64; 3], f64) {
+    let mut best = (n, f(n));
+    for _ in 0..8 {
+        let Some((turn, there)) = newton::<false>(f, best) else {
+            break;
+        };
+        if there.1 < best.1 {
+            break;
+        }
+        let gain = there.1 - best.1;
+        best = there;
+        if turn < NEARLY || best.1 + gain < least {
+            break;
+        }
+    }
+    best
+}
+
+/// One step to the top of the quadratic through planes around; shorter ones while the value falls.
+/// How far it turns \[rad\], and where it leads. Slopes are to the sixth order of the turn if `SHARP`,
+/// else to the second.
+fn newton<const SHARP: bool>(
+    f: &impl Fn([f64; 3]) -> f64,
+    (n, here): ([f64; 3], f64),
+) -> Option<(f64, ([f64; 3], f64))> {
+    let Frame { n, u, v } = Frame::across(n);
+    let turned = |a: f64, b: f64| {
+        let along = |d: usize| n[d] + a * u[d] + b * v[d];
+        unit([along(0), along(1), along(2)])
+    };
+    let at = |a: f64, b: f64| f(turned(a * TURN, b * TURN));
+    let axis = |a: f64, b: f64| {
+        let [east, west] = [at(a, b), at(-a, -b)];
+        let bend = east + west - 2.0 * here;
+        if !SHARP {
+            return ((east - west) / 2.0, bend);
+        }
+        let second = at(2.0 * a, 2.0 * b) - at(-2.0 * a, -2.0 * b);
+        let third = at(3.0 * a, 3.0 * b) - at(-3.0 * a, -3.0 * b);
+        ((45.0 * (east - west) - 9.0 * second + third) / 60.0, bend)
+    };
+    let (slope_u, uu) = axis(1.0, 0.0);
+    let (slope_v, vv) = axis(0.0, 1.0);
+    let uv = (at(1.0, 1.0) + at(-1.0, -1.0) - 2.0 * here - uu - vv) / 2.0;
+    let [a, b] = top_of_quadratic([slope_u, slope_v], [uu, vv, uv], 1e-10 * here.abs())?;
+    let far = a.hypot(b) * TURN;
+    let mut share = (LONGEST / far).min(1.0);
+    for _ in 0..6 {
+        let (a, b) = (a * share * TURN, b * share * TURN);
+        let there = turned(a, b);
+        let value = f(there);
+        if value >= here || far < 1e-6 {
+            return Some((far * share, (there, value)));
+        }
+        share /= 3.0;
+    }
+    None
+}
+
+/// Where slope + bend x = 0 along the directions that bend down by more than `flat`; along others
+/// the longest step uphill.
+fn top_of_quadratic(slope: [f64; 2], [uu, vv, uv]: [f64; 3], flat: f64) -> Option<[f64; 2]> {
+    let angle = 0.5 * (2.0 * uv).atan2(uu - vv);
+    let (sin, cos) = angle.sin_cos();
+    let mut top = [0.0; 2];
+    for [a, b] in [[cos, sin], [-sin, cos]] {
+        let bend = a * a * uu + b * b * vv + 2.0 * a * b * uv;
+        let uphill = slope[0] * a + slope[1] * b;
+        let by = if bend < -flat {
+            -uphill / bend
+        } else if uphill.abs() > flat {
+            uphill.signum() * LONGEST / TURN
+        } else {
+            0.0
+        };
+        top = [top[0] + by * a, top[1] + by * b];
+    }
+    (top != [0.0; 2]).then_some(top)
+}

@@ -1,0 +1,107 @@
+//! The most that a criterion with the shear amplitude may be on a triangle of normals, about the best
+//! plane.
+//!
+//! Let C be a constant tensor and D = S - C. The smallest circle on a plane is no larger than that about
+//! the shear of C, and the shear of D on the plane of n no longer than (D - m) n for any number m, so
+//! that tau_a^2 is at most the largest n.(D - m)^2.n of all instants, with a number m for each (derived).
+//! C is the mean of the two stresses whose shear is a diameter of the circle on the best plane, m the normal
+//! component of D there. On that plane both sides are equal; turned about the axis across the shear, the
+//! normal stress of D is m + tau sin 2t and its shear tau cos 2t, and they stay so. Where three instants make the
+//! circle, its centre moves other than a constant tensor has it, and the bound is of no use.
+//!
+//! For any s > 0 the amplitude is at most tau_a^2/(2 s) + s/2; s is that of the best plane.
+
+use crate::eight_planes::Instants;
+use crate::forms::{EDGES, Forms, corners_of, lower};
+use crate::hemisphere::Face;
+use crate::lanes::{Eight, LANES, ROUNDING};
+use crate::path::{Path, dot, normal_weights};
+use crate::plane_function::{Known, Plane};
+use crate::tensor::StressTensor;
+
+/// Squares about the best plane.
+pub(crate) struct About {
+    /// What rounding may take from the squares \[Pa^2\].
+    slack: f64,
+}
+
+impl About {
+    /// The squares (D - m)^2 about a plane, where the shear of the stresses at two instants is a
+    /// diameter of the circle.
+    pub(crate) fn plane(
+        n: [f64; 3],
+        [a, b]: [StressTensor; 2],
+        path: &Path,
+        squares: &mut Instants<f32>,
+    ) -> Self {
+        let centre: StressTensor = std::array::from_fn(|c| f64::midpoint(a[c], b[c]));
+        let normal = normal_weights(n);
+        let mut largest = 0.0_f64;
+        squares.load_tensors(path.instants().map(|s| {
+            let mut d: StressTensor = std::array::from_fn(|c| s[c] - centre[c]);
+            let m: f64 = normal.iter().zip(&d).map(|(w, d)| w * d).sum();
+            for normal in &mut d[..3] {
+                *normal -= m;
+            }
+            let square = square(&d);
+            largest = largest.max(square[0] + square[1] + square[2]);
+            square
+        }));
+        let slack = ROUNDING * f64::from(f32::EPSILON) * largest;
+        Self { slack }
+    }
+
+    /// Lowers what the faces may hold. The amplitude is `s` on the best plane;
+    /// `second` gives what the second part has of the edges of eight faces. Ends and says so once less than
+    /// one face in four is done with.
+    pub(crate) fn bounds(
+        &self,
+        squares: &Instants<f32>,
+        s: f64,
+        second: impl Fn(&[Face]) -> [Eight<f64>; 3],
+        (faces, planes): (&mut [Face], &[Plane]),
+        known: &Known,
+    ) -> bool {
+        let (mut seen, mut done) = (0, 0);
+        let first = |square: f32, cosine: f64| {
+            (f64::from(square) + self.slack) / (2.0 * s) + s / 2.0 * cosine
+        };
+        for eight in faces.chunks_mut(LANES) {
+            let corners = corners_of(eight);
+            let pair =
+                |(i, j): (usize, usize)| squares.mixed(&corners[i], &corners[j], None).normal_max;
+            let own = [(0, 0), (1, 1), (2, 2)].map(pair);
+            let mixed = EDGES.map(pair);
+            let second = second(eight);
+            lower(eight, |l, face| {
+                let corner = |k: usize| [first(own[k][l], 1.0), planes[face.planes[k]].parts[1]];
+                let edge = |k: usize| {
+                    let (i, j) = EDGES[k];
+                    let cosine = dot(face.corners[i], face.corners[j]);
+                    [first(mixed[k][l], cosine), second[k][l]]
+                };
+                let forms = Forms::new([0, 1, 2].map(corner), [0, 1, 2].map(edge), &face.corners);
+                let proved = forms.least_of(&known.values, &[known.tangent]);
+                proved.unwrap_or(f64::INFINITY)
+            });
+            seen += eight.len();
+            done += eight.iter().filter(|f| f.most <= known.values[2]).count();
+            if 4 * done < seen {
+                return false;
+            }
+        }
+        true
+    }
+}
+
+/// D D.
+fn square(&[xx, yy, zz, xy, xz, yz]: &StressTensor) -> StressTensor {
+    [
+        xx * xx + xy * xy + xz * xz,
+        xy * xy + yy * yy + yz * yz,
+        xz * xz + yz * yz + zz * zz,
+        xx * xy + xy * yy + xz * yz,
+        xx * xz + xy * yz + xz * zz,
+        xy * xz + yy * yz + yz * zz,
+    ]
+}

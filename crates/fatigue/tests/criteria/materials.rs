@@ -1,0 +1,100 @@
+//! Material data: every number has a source, and criteria give back what their weights are from.
+
+use fatigue::{Assessment, Judge, Material, materials, read};
+
+use super::{Tensor, one};
+
+#[test]
+fn the_table_is_whole() {
+    let table = materials();
+    assert!(table.len() >= 10);
+    for material in table.values() {
+        assert!(!material.numbers.is_empty() && !material.title.is_empty());
+        for of in material.numbers.values() {
+            assert!(of.source.len() > 20, "{of:?}");
+        }
+    }
+}
+
+/// Criteria with limits have a safety factor of 1 in the two tests that their limits are from.
+#[test]
+fn limits_are_those_of_the_tests() {
+    let table = materials();
+    for name in ["steel_42CrMo4", "steel_34Cr4", "steel_30NCD16"] {
+        let material = &table[name];
+        let (s_D, t_D) = (
+            material.number("s_D").unwrap(),
+            material.number("t_D").unwrap(),
+        );
+        let bent = |s: f64| -> Tensor { [s, 0.0, 0.0, 0.0, 0.0, 0.0] };
+        let twisted = |t: f64| -> Tensor { [0.0, 0.0, 0.0, t, 0.0, 0.0] };
+        for criterion in ["crossland", "dang_van", "findley", "matake"] {
+            let of = Assessment::of(criterion, material).unwrap();
+            for history in [[bent(s_D), bent(-s_D)], [twisted(t_D), twisted(-t_D)]] {
+                let factor = of.safety_factor(one(&of.criterion, &history).value);
+                assert!((factor - 1.0).abs() < 1e-5, "{name} {criterion}: {factor}");
+            }
+        }
+    }
+}
+
+/// Criteria with curves give the life of the uniaxial test that the curve is from, while the strain is
+/// nearly elastic.
+#[test]
+fn lives_are_those_of_the_test() {
+    let table = materials();
+    let mut material: Material = table["titanium_6Al4V"].clone();
+    for (name, value) in [("k", 0.0), ("S", 0.5)] {
+        let of = material.numbers["E"].clone();
+        material
+            .numbers
+            .insert(name, fatigue::Sourced { value, ..of });
+    }
+    for criterion in ["smith_watson_topper", "fatemi_socie", "brown_miller"] {
+        let of = Assessment::of(criterion, &material).unwrap();
+        let Judge::Life(curve) = of.judge else {
+            panic!("{criterion} has a curve")
+        };
+        let N = 1e9;
+        let s = curve.elastic.amplitude(N);
+        let uniaxial: Tensor = [s, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let found = one(&of.criterion, &[uniaxial, uniaxial.map(|s| -s)]);
+        // The plastic strain, 2e-4 of the elastic one, is missing: over b, 2e-3 of the life.
+        let life = of.life(found.value);
+        assert!((life / N - 1.0).abs() < 0.01, "{criterion}: {life}");
+    }
+}
+
+#[test]
+fn wrong_files_and_missing_numbers() {
+    let refused = |text: &str| read(text, "mine.toml").unwrap_err().to_string();
+    let with = |line: &str| format!("schema = 1\n[materials.mine]\n{line}\n");
+    let unknown = refused(&with("s_yield = { value = 1.0, source = \"test\" }"));
+    assert!(
+        unknown.starts_with("mine.toml:3: materials.mine.s_yield: unknown; nearest is s_y"),
+        "{unknown}"
+    );
+    assert!(refused(&with("E = 210e9")).contains("source"));
+    assert!(refused(&with("E = { value = 210e9, source = \"\" }")).contains("has no source"));
+    assert!(refused(&with("E = { value = -1.0, source = \"test\" }")).contains("must be positive"));
+    assert!(refused(&with("b = { value = 0.1, source = \"test\" }")).contains("must be negative"));
+    assert!(refused("schema = 2\n[materials]\n").contains("must be 1"));
+    assert!(refused("schema = 1\n[materials.x\n").starts_with("mine.toml:2:"));
+    let mine = read(
+        &with("s_D = { value = 4e8, source = \"test\" }"),
+        "mine.toml",
+    )
+    .unwrap();
+    let error = Assessment::of("crossland", &mine["mine"])
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("mine`.t_D: is missing (fatigue limit")
+            && error.contains("known of it are s_D"),
+        "{error}"
+    );
+    let error = Assessment::of("crosland", &mine["mine"])
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("one of crossland"), "{error}");
+}
