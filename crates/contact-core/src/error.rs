@@ -217,7 +217,7 @@ pub enum Error {
     },
     /// A criterion, or the numbers of a material for it.
     #[error(transparent)]
-    Criterion(#[from] fatigue::Error),
+    Criterion(fatigue::Error),
     /// The run was stopped from outside (Ctrl-C, an observer).
     #[error("stopped after increment {increment}")]
     Interrupted {
