@@ -2179,7 +2179,13 @@ class Envelope:
 
 @final
 class Criterion:
-    """A criterion with its numbers."""
+    """A criterion by its name, one of :data:`pyfret.fatigue.CRITERIA`, and its numbers by theirs.
+
+    Examples
+    --------
+    >>> Criterion.findley(k=0.3) == Criterion("findley", k=0.3)
+    True
+    """
 
     def __new__(cls, name: str, /, **numbers: float) -> Criterion: ...
     def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, float]]: ...
@@ -2188,28 +2194,53 @@ class Criterion:
         """Its numbers by their names."""
     @staticmethod
     def crossland(*, alpha: float) -> Criterion:
-        """Give sqrt(J2,a) + alpha p_h,max [Pa]."""
+        """Give sqrt(J2,a) + alpha p_h,max [Pa].
+
+        B. Crossland, Proc. Int. Conf. on Fatigue of Metals, IMechE, London (1956) 138-149.
+        """
     @staticmethod
     def dang_van(*, alpha: float) -> Criterion:
-        """Give the largest tau(t) + alpha p_h(t) of the mesoscopic shear [Pa]."""
+        """Give the largest tau(t) + alpha p_h(t) of the mesoscopic shear [Pa].
+
+        K. Dang Van, ASTM STP 1191 (1993) 120-130.
+        """
     @staticmethod
     def findley(*, k: float) -> Criterion:
-        """Give the largest tau_a + k s_n,max of all planes [Pa]."""
+        """Give the largest tau_a + k s_n,max of all planes [Pa].
+
+        W. N. Findley, J. Eng. Ind. 81 (1959) 301-305.
+        """
     @staticmethod
     def matake(*, k: float) -> Criterion:
-        """Give tau_a + k s_n,max on the plane of the largest tau_a [Pa]."""
+        """Give tau_a + k s_n,max on the plane of the largest tau_a [Pa].
+
+        T. Matake, Bull. JSME 20 (1977) 257-263.
+        """
     @staticmethod
     def mcdiarmid(*, k: float) -> Criterion:
-        """Give tau_a + k s_n,max on the plane of the largest tau_a [Pa]; k = t_D/(2 s_u)."""
+        """Give tau_a + k s_n,max on the plane of the largest tau_a, k = t_D/(2 s_u) [Pa].
+
+        D. L. McDiarmid, Fatigue Fract. Eng. Mater. Struct. 14 (1991) 429-453.
+        """
     @staticmethod
     def smith_watson_topper(*, E: float, nu: float) -> Criterion:
-        """Give the largest s_n,max times half the range of the normal strain [Pa]."""
+        """Give the largest s_n,max times half the range of the normal strain [Pa].
+
+        K. N. Smith, P. Watson, T. H. Topper, J. Mater. 5 (1970) 767-778;
+        D. F. Socie, J. Eng. Mater. Technol. 109 (1987) 293-298.
+        """
     @staticmethod
     def fatemi_socie(*, E: float, nu: float, k: float, s_y: float) -> Criterion:
-        """Give the largest tau_a/G (1 + k s_n,max/s_y) of all planes."""
+        """Give the largest gamma_a (1 + k s_n,max/s_y) of all planes.
+
+        A. Fatemi, D. F. Socie, Fatigue Fract. Eng. Mater. Struct. 11 (1988) 149-165.
+        """
     @staticmethod
     def brown_miller(*, E: float, nu: float, S: float) -> Criterion:
-        """Give tau_a/G + S times the range of the normal strain, where tau_a is largest."""
+        """Give gamma_a + S times the range of the normal strain, where gamma_a is largest.
+
+        F. A. Kandil, M. W. Brown, K. J. Miller, The Metals Society Book 280 (1982) 203-210.
+        """
     @property
     def name(self) -> str:
         """Name of the criterion."""

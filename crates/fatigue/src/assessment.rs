@@ -3,7 +3,8 @@
 use crate::criterion::Criterion;
 use crate::definition::Definition;
 use crate::error::Error;
-use crate::life::{Basquin, CoffinManson, inverted};
+use crate::judge::Judge;
+use crate::life::inverted;
 use crate::material::Material;
 
 /// A criterion and what its values mean for a material.
@@ -13,15 +14,6 @@ pub struct Assessment {
     pub criterion: Criterion,
     /// What the values are compared with.
     pub judge: Judge,
-}
-
-/// What a value is compared with.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Judge {
-    /// A limit for endless life, in the unit of the value.
-    Limit(f64),
-    /// A curve of lives.
-    Life(CoffinManson),
 }
 
 impl Assessment {
@@ -65,20 +57,4 @@ impl Assessment {
     pub fn gives_lives(&self) -> bool {
         matches!(self.judge, Judge::Life(_))
     }
-}
-
-/// The strain-life curve of a material.
-pub fn strain_life(material: &Material) -> Result<CoffinManson, Error> {
-    let number = |name: &str| material.number(name);
-    let curve = CoffinManson {
-        E: number("E")?,
-        elastic: Basquin {
-            coefficient: number("s_f")?,
-            exponent: number("b")?,
-        },
-        ductility: number("e_f")?,
-        exponent: number("c")?,
-    };
-    curve.check()?;
-    Ok(curve)
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Debug, Formatter};
 
-use crate::definition::{Acts, CRITERIA, Definition, Numbers};
+use crate::definition::{Acts, Definition, Numbers};
 use crate::error::Error;
 
 /// A criterion: one number for the stress history of a point, compared with a limit or a life.
@@ -13,7 +13,7 @@ pub struct Criterion {
 }
 
 impl Criterion {
-    /// The criterion of a name of [`CRITERIA`] with its numbers by their names, each once.
+    /// The criterion of a name of [`crate::CRITERIA`] with its numbers by their names, each once.
     ///
     /// ```
     /// let findley = fatigue::Criterion::new("findley", &[("k", 0.3)])?;
@@ -116,16 +116,6 @@ impl Criterion {
     /// Its numbers in the order of the parameters.
     pub(crate) fn in_order(&self) -> Numbers {
         self.numbers
-    }
-}
-
-impl Definition {
-    /// The definition of a name.
-    pub fn named(name: &str) -> Result<&'static Self, Error> {
-        CRITERIA.iter().find(|d| d.name == name).ok_or_else(|| {
-            let names: Vec<_> = CRITERIA.iter().map(|d| d.name).collect();
-            Error::argument("criterion", name, format!("one of {}", names.join(", ")))
-        })
     }
 }
 

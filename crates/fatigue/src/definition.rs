@@ -12,10 +12,10 @@
 //! is 0 without tension, Fatemi and Socie's where the bracket is negative.
 
 use crate::allowed::Allowed;
-use crate::assessment::{Judge, strain_life};
 use crate::ball::Ball;
 use crate::error::Error;
 use crate::invariants::{OfInvariants, crossland, dang_van};
+use crate::judge::{Judge, strain_life};
 use crate::law::Law;
 use crate::life::CoffinManson;
 use crate::material::Material;
@@ -76,6 +76,16 @@ pub(crate) struct OnPlane {
     pub(crate) factor: f64,
 }
 
+impl Definition {
+    /// The definition of a name.
+    pub fn named(name: &str) -> Result<&'static Self, Error> {
+        CRITERIA.iter().find(|d| d.name == name).ok_or_else(|| {
+            let names: Vec<_> = CRITERIA.iter().map(|d| d.name).collect();
+            Error::argument("criterion", name, format!("one of {}", names.join(", ")))
+        })
+    }
+}
+
 const fn parameter(name: &'static str, allowed: Allowed) -> Parameter {
     Parameter { name, allowed }
 }
@@ -103,7 +113,7 @@ pub const CRITERIA: &[Definition] = &[
             Ok(([alpha, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
         },
         curve: without_lives,
-        acts: |_, _| Acts::OfInvariants(crossland),
+        acts: |_, _| Acts::OfInvariants(|path, sphere, [alpha, ..]| crossland(path, sphere, alpha)),
     },
     Definition {
         name: "dang_van",
@@ -117,7 +127,7 @@ pub const CRITERIA: &[Definition] = &[
             Ok(([alpha, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
         },
         curve: without_lives,
-        acts: |_, _| Acts::OfInvariants(dang_van),
+        acts: |_, _| Acts::OfInvariants(|path, sphere, [alpha, ..]| dang_van(path, sphere, alpha)),
     },
     Definition {
         name: "findley",

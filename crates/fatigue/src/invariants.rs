@@ -2,7 +2,6 @@
 
 use crate::at_point::AtPoint;
 use crate::ball::{Ball, Search as Balls};
-use crate::definition::Numbers;
 use crate::lanes::{LANES, Lanes};
 use crate::path::Path;
 use crate::tensor::{StressTensor, hydrostatic, tresca};
@@ -68,7 +67,7 @@ impl OfInvariants {
 }
 
 /// sqrt(J2,a) + alpha p_h,max.
-pub(crate) fn crossland(path: &Path, sphere: &Ball<5>, [alpha, ..]: Numbers) -> OfInvariants {
+pub(crate) fn crossland(path: &Path, sphere: &Ball<5>, alpha: f64) -> OfInvariants {
     let pressures = path.instants().map(|s| hydrostatic(&s));
     let pressure = pressures.fold(f64::NEG_INFINITY, f64::max);
     OfInvariants {
@@ -79,7 +78,7 @@ pub(crate) fn crossland(path: &Path, sphere: &Ball<5>, [alpha, ..]: Numbers) -> 
 }
 
 /// The largest tau(t) + alpha p_h(t).
-pub(crate) fn dang_van(path: &Path, sphere: &Ball<5>, [alpha, ..]: Numbers) -> OfInvariants {
+pub(crate) fn dang_van(path: &Path, sphere: &Ball<5>, alpha: f64) -> OfInvariants {
     let instants = tau_and_pressure(path, sphere).map(|(shear, pressure)| OfInvariants {
         value: shear + alpha * pressure,
         shear,

@@ -15,7 +15,7 @@ use pyo3::types::{PyCFunction, PyDict, PyTuple};
 use crate::error::of_criterion as refused;
 use crate::interruptible::interruptible;
 
-/// A criterion with its numbers: its name, as in :data:`pyfret.fatigue.CRITERIA`, and they by theirs.
+/// A criterion by its name, one of :data:`pyfret.fatigue.CRITERIA`, and its numbers by theirs.
 ///
 /// Examples
 /// --------
