@@ -13,7 +13,12 @@ import re
 import sys
 from pathlib import Path
 
-CRATES = ("crates/contact-core/src", "crates/fatigue/src", "crates/pyfret/src", "crates/fret-cli/src")
+CRATES = (
+    "crates/contact-core/src",
+    "crates/fatigue/src",
+    "crates/pyfret/src",
+    "crates/fret-cli/src",
+)
 PACKAGES = ("python/pyfret",)
 
 Graph = dict[Path, set[Path]]
