@@ -16,6 +16,7 @@ from pathlib import Path
 CRATES = (
     "crates/contact-core/src",
     "crates/fatigue/src",
+    "crates/fracture/src",
     "crates/pyfret/src",
     "crates/fret-cli/src",
 )

@@ -1,0 +1,125 @@
+//! Whether a crack stops.
+
+use super::Error;
+use super::curve::Curve;
+use super::threshold::Threshold;
+
+/// Parts into which a piece of a curve is divided to find where it crosses the threshold.
+const PARTS: usize = 8;
+/// Halvings of a part.
+const HALVINGS: usize = 50;
+
+/// What becomes of a crack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// It does not grow from its first length.
+    Dormant,
+    /// It stops at a length \[m\].
+    Stops(f64),
+    /// It grows up to the last length of the curve.
+    Grows,
+}
+
+/// Growth against the threshold along a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrest {
+    /// What becomes of the crack.
+    pub verdict: Verdict,
+    /// Lengths at which the range of K crosses the threshold \[m\]: down, up, ... or up, down, ...
+    pub crossings: Vec<f64>,
+    /// Smallest range of K over its threshold from the first length on; below 1 the crack stops.
+    pub margin: f64,
+    /// Length at which it is smallest \[m\].
+    pub margin_at: f64,
+}
+
+impl Curve {
+    /// Range of K at R = 0 over its threshold at a length \[m\].
+    pub fn over_threshold(&self, threshold: &Threshold, l: f64) -> f64 {
+        threshold.equivalent(self.at(l)) / threshold.at(l)
+    }
+
+    /// Whether a crack of the length `from` \[m\] grows, and where it stops: at the first length at
+    /// which the range of K falls below its threshold.
+    pub fn arrest(&self, threshold: &Threshold, from: f64) -> Result<Arrest, Error> {
+        threshold.check()?;
+        self.check("first length of the crack", from)?;
+        let excess = |l: f64| self.over_threshold(threshold, l) - 1.0;
+        let places = self.places(from);
+        let values: Vec<f64> = places.iter().map(|l| excess(*l)).collect();
+        let mut crossings = Vec::new();
+        let mut stop = None;
+        for n in 1..places.len() {
+            if (values[n - 1] > 0.0) != (values[n] > 0.0) {
+                let l = crossing(&excess, places[n - 1], places[n]);
+                if values[n - 1] > 0.0 && stop.is_none() {
+                    stop = Some(l);
+                }
+                crossings.push(l);
+            }
+        }
+        let (margin, margin_at) = smallest(&excess, &places, &values);
+        let verdict = match stop {
+            _ if values[0] <= 0.0 => Verdict::Dormant,
+            Some(l) => Verdict::Stops(l),
+            None => Verdict::Grows,
+        };
+        Ok(Arrest {
+            verdict,
+            crossings,
+            margin: margin + 1.0,
+            margin_at,
+        })
+    }
+
+    /// Lengths from `from` on at which the curve is looked at.
+    fn places(&self, from: f64) -> Vec<f64> {
+        let later = self.lengths().iter().copied().filter(|l| *l > from);
+        let mut places = vec![from];
+        for l in later {
+            let last = places[places.len() - 1];
+            let part = (l / last).powf(1.0 / PARTS as f64);
+            let between = (1..PARTS).map(|n| last * part.powi(n as i32));
+            places.extend(between.collect::<Vec<_>>());
+            places.push(l);
+        }
+        places
+    }
+}
+
+fn crossing(f: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let begins = f(low) > 0.0;
+    for _ in 0..HALVINGS {
+        let middle = (low * high).sqrt();
+        if (f(middle) > 0.0) == begins {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (low * high).sqrt()
+}
+
+/// The smallest value and its place, by a parabola through its neighbours where there are two.
+fn smallest(f: &impl Fn(f64) -> f64, places: &[f64], values: &[f64]) -> (f64, f64) {
+    let mut least = 0;
+    for n in 1..values.len() {
+        if values[n] < values[least] {
+            least = n;
+        }
+    }
+    let here = (values[least], places[least]);
+    if least == 0 || least + 1 == values.len() {
+        return here;
+    }
+    let x = |n: usize| (places[n] / places[least]).ln();
+    let (a, b) = (x(least - 1), x(least + 1));
+    let (fa, fb) = (values[least - 1] - here.0, values[least + 1] - here.0);
+    let curvature = (fa / a - fb / b) / (a - b);
+    let slope = fa / a - curvature * a;
+    let l = places[least] * (-slope / (2.0 * curvature)).exp();
+    if l > places[least - 1] && l < places[least + 1] && f(l) < here.0 {
+        return (f(l), l);
+    }
+    here
+}

@@ -1,0 +1,52 @@
+//! What can go wrong, with the numbers that say how.
+
+use std::fmt::Display;
+
+/// Every failure of this crate.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A value is out of its range.
+    #[error("{key} = {value}: must be {allowed}")]
+    Invalid {
+        /// What is wrong.
+        key: String,
+        /// The value found.
+        value: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// The faces of a crack found no state of opening, stick and slip.
+    #[error(
+        "the faces of the crack of length {length:.4e} m found no state of opening, stick and slip \
+         in {passes} passes (change of the pressure {change:.2e} of its largest); a smaller \
+         coefficient of friction or smaller increments help"
+    )]
+    Faces {
+        /// Length of the crack \[m\].
+        length: f64,
+        /// Passes made.
+        passes: usize,
+        /// Last change of the pressure between the faces over its largest.
+        change: f64,
+    },
+    /// The system of the dislocations has no solution.
+    #[error("the dislocations of the crack of length {length:.4e} m have no solution: {why}")]
+    Singular {
+        /// Length of the crack \[m\].
+        length: f64,
+        /// What to look at.
+        why: String,
+    },
+}
+
+impl Error {
+    /// A value that must be something else.
+    pub fn invalid(key: impl Display, value: impl Display, allowed: impl Display) -> Self {
+        Self::Invalid {
+            key: key.to_string(),
+            value: value.to_string(),
+            allowed: allowed.to_string(),
+        }
+    }
+}

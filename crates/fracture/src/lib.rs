@@ -1,0 +1,47 @@
+//! Cracks from a surface: stress intensity over a cycle, closure, growth, arrest.
+//!
+//! Plain stress histories in, numbers out: nothing here knows of contacts. Plane strain, half-plane
+//! z > 0, x along the surface, z the depth; tension is positive, lengths are in m, stresses in Pa,
+//! stress intensities in Pa m^0.5.
+//!
+//! A [`Path`] says where a crack runs, a [`Crack`] is that path with the dislocations that a state of
+//! stress puts into it. The stress of the body *without* the crack is asked for at
+//! [`Crack::points`]; [`Crack::intensity`] gives K with the faces free to pass through each other,
+//! [`Faces`] follows a history with faces that touch, without or with friction. [`grow`] finds the
+//! path; [`Curve`] is the cycle's K over the length of a crack, from which [`Curve::arrest`] and
+//! [`Curve::life`] follow. [`ellipse_factor`] is an estimate for cracks
+//! with a curved front.
+//!
+//! The crack changes neither the loads nor where they act: K is linear in the stress.
+
+mod arrest;
+mod closure;
+mod crack;
+mod curve;
+mod direction;
+mod dislocation;
+mod ellipse;
+mod error;
+mod friction;
+mod grow;
+mod influence;
+mod life;
+mod lu;
+mod path;
+mod rule;
+mod stress;
+mod threshold;
+
+pub use arrest::{Arrest, Verdict};
+pub use closure::Opening;
+pub use crack::{Crack, Intensity};
+pub use curve::{Curve, Extremes};
+pub use direction::{Direction, kinked};
+pub use ellipse::ellipse_factor;
+pub use error::Error;
+pub use friction::{Faces, State};
+pub use grow::{Growing, Grown, Tip, grow};
+pub use life::{Growth, Life, Rate};
+pub use path::{Leg, Path};
+pub use stress::{PlaneStress, Point, Traction};
+pub use threshold::{LoadRatio, Threshold};
