@@ -30,6 +30,8 @@ pub(crate) struct Contact {
     pub(crate) nt: Array2<f64>,
     /// Normal traction per opening while the shear traction is held.
     pub(crate) normal: Array2<f64>,
+    /// Factors of `normal`, for faces that are open all along.
+    all_open: Lu,
     /// Weight of the dislocation at the tip.
     pub(crate) tip: f64,
     /// Distances of the points from the mouth over the length.
@@ -74,8 +76,14 @@ impl Contact {
         })?;
         let tt_inverse = factors.inverse();
         let nt = n_t.dot(&tt_inverse);
+        let normal = &nn - &nt.dot(&tn);
+        let all_open = Lu::new(normal.clone()).ok_or_else(|| Error::Singular {
+            length,
+            why: "its legs touch or run along each other".into(),
+        })?;
         Ok(Self {
-            normal: &nn - &nt.dot(&tn),
+            normal,
+            all_open,
             tip: rule.dislocations[0].weight,
             s: rule.points.iter().map(|p| p.s).collect(),
             tn,
@@ -92,9 +100,16 @@ impl Contact {
     /// crack is nearly an M-matrix, for which this ends monotonically.
     pub(crate) fn open(&self, load: &Array1<f64>, open: &mut [bool]) -> Option<Opening> {
         let scale = largest(load);
+        if load.iter().all(|t| *t <= 0.0) {
+            open.fill(false);
+        }
         for _ in 0..MOST_CHANGES {
             let places: Vec<usize> = (0..open.len()).filter(|k| open[*k]).collect();
-            let gap = solve(&self.normal, &places, &(-load))?;
+            let gap = if places.len() == open.len() {
+                self.all_open.solve(&-load)
+            } else {
+                solve(&self.normal, &places, &(-load))?
+            };
             let normal = self.normal.dot(&gap) + load;
             let tight = ZERO * largest(&gap);
             let mut changed = false;

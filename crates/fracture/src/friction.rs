@@ -224,6 +224,13 @@ impl Faces {
         Ok(parts)
     }
 
+    /// Share of the crack's length that is open.
+    pub fn open_share(&self) -> Result<f64, Error> {
+        let parts = self.parts()?;
+        let open = parts.iter().filter(|part| part.0 == State::Open);
+        Ok(open.map(|(_, begin, end)| end - begin).sum())
+    }
+
     fn state(&self, k: usize) -> State {
         if self.opening.open[k] {
             State::Open

@@ -3,6 +3,7 @@
 use ndarray::{Array1, Array2};
 
 /// Factors of a square matrix with its rows exchanged.
+#[derive(Clone, Debug)]
 pub(crate) struct Lu {
     /// Unit lower and upper factor in one.
     factors: Array2<f64>,
