@@ -9,12 +9,31 @@ from pathlib import Path
 import numpy as np
 
 import pyfret as fret
-from validation import elements, kernels, pages, paper, path_order, rows, wear, work_precision
+from validation import (
+    elements,
+    finite_elements,
+    kernels,
+    pages,
+    paper,
+    path_order,
+    rows,
+    wear,
+    work_precision,
+)
 from validation.runner import run
 from validation.truths import TRUTHS
 
 #: Pages that are no truths.
-OTHERS = ("path_order", "rows", "wear", "kernels", "elements", "paper", "work_precision")
+OTHERS = (
+    "path_order",
+    "rows",
+    "wear",
+    "kernels",
+    "elements",
+    "finite_elements",
+    "paper",
+    "work_precision",
+)
 #: Cells a side of the paper's runs, and of a quick look.
 CELLS, WORK_CELLS, QUICK_CELLS = 256, 64, 32
 
@@ -54,6 +73,9 @@ def main() -> None:
     figures, others = [], []
     if options.only is None or "elements" in options.only:
         others.append(elements.write(out, quick=options.quick))
+    if options.only is None or "finite_elements" in options.only:
+        others.append(finite_elements.write(out, quick=options.quick))
+        print(others[-1], flush=True)
     if options.only is None or "paper" in options.only:
         figures = paper.write(out, n=QUICK_CELLS if options.quick else CELLS)
         print(*figures, sep="\n", flush=True)

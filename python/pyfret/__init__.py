@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret import (
     errors,
+    export,
     fatigue,
     fracture,
     heat,
@@ -91,6 +92,7 @@ __all__ = [
     "__version__",
     "cite",
     "errors",
+    "export",
     "fatigue",
     "fracture",
     "graded",

@@ -11,6 +11,7 @@ from pyfret import _core, fatigue
 from pyfret import heat as heating
 from pyfret._core import StoreError
 from pyfret._util import files
+from pyfret.export.write import write as export
 from pyfret.report.page import report
 from pyfret.run import Run, State
 from pyfret.run.summary import summary
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
     from typing_extensions import Unpack
 
+    from pyfret.export.frame import Frame
     from pyfret.fatigue.criteria import CriterionName
     from pyfret.fatigue.factors import LoadFactors, YieldStresses
     from pyfret.fatigue.lives import Life, Materials
@@ -126,6 +128,29 @@ class Snapshot(State):
         """Write stress, displacement in the volume: :func:`pyfret.subsurface.write_volume`."""
         contact.write_below(
             self, out, z, of=of, body_number=body_number, bulk=bulk, residual=residual, rim=rim
+        )
+
+    def export(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        frame: Frame | None = None,
+        body_number: int = 2,
+        form: Literal["csv", "abaqus", "aster"] = "csv",
+        of: Literal["p", "q_x", "q_y"] = "p",
+        mesh: str | os.PathLike[str] | None = None,
+        points: ArrayLike | None = None,
+    ) -> None:
+        """Write tractions, forces on a mesh or stress at points: :func:`pyfret.export.write`."""
+        export(
+            self,
+            path,
+            frame=frame,
+            body_number=body_number,
+            form=form,
+            of=of,
+            mesh=mesh,
+            points=points,
         )
 
 
@@ -262,6 +287,33 @@ class Result(Run):
             The ending is another.
         """
         files.write(self.dataset, path)
+
+    def export(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        at: float = -1,
+        frame: Frame | None = None,
+        body_number: int = 2,
+        form: Literal["csv", "abaqus", "aster"] = "csv",
+        of: Literal["p", "q_x", "q_y"] = "p",
+        mesh: str | os.PathLike[str] | None = None,
+        points: ArrayLike | None = None,
+    ) -> None:
+        """Write an increment for another program: :func:`pyfret.export.write`.
+
+        `at` says which, as in :meth:`at`; by default the last whose fields were kept.
+        """
+        export(
+            self.at(at),
+            path,
+            frame=frame,
+            body_number=body_number,
+            form=form,
+            of=of,
+            mesh=mesh,
+            points=points,
+        )
 
     def report(
         self,

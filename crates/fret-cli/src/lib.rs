@@ -82,6 +82,9 @@ enum Command {
     /// Judge the stress below the contact of a result over a cycle by a fatigue criterion (needs the
     /// Python package)
     Life(python::Options),
+    /// Write tractions, forces on a mesh or stress at points for another program (needs the Python
+    /// package)
+    Export(python::Options),
     /// Write a result as one page for a browser (needs the Python package)
     Report(python::Options),
     /// Check this installation against closed forms in minutes (needs the Python package)
@@ -117,6 +120,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Wear(options) => wear::wear(&options),
         Command::Study(options) => return in_python("study", &options),
         Command::Life(options) => return in_python("life", &options),
+        Command::Export(options) => return in_python("export", &options),
         Command::Report(options) => return in_python("report", &options),
         Command::Verify(options) => return in_python("verify", &options),
         Command::Cite(options) => return in_python("cite", &options),

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pyfret import verification, wear
-from pyfret._cli import life
+from pyfret._cli import export, life
 from pyfret.citation import cite as sources
 from pyfret.result import open as open_result
 from pyfret.study.file import run_file
@@ -34,6 +34,7 @@ def parser() -> argparse.ArgumentParser:
     study.add_argument("--again", action="store_true", help="also points that failed before")
     study.add_argument("--map", metavar="FILE", help="figure of the first measure (.png, .svg)")
     life.add_options(commands)
+    export.add_options(commands)
     report = commands.add_parser("report", help="write a result as one page for a browser")
     report.add_argument("store", help="result")
     report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
@@ -102,9 +103,16 @@ def cite(options: argparse.Namespace) -> int:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; its exit code."""
     options = parser().parse_args(arguments)
-    commands = {"study": study, "life": life.run, "report": report, "verify": verify, "cite": cite}
+    commands = {
+        "study": study,
+        "life": life.run,
+        "export": export.run,
+        "report": report,
+        "verify": verify,
+        "cite": cite,
+    }
     try:
         return commands[options.command](options)
-    except (ValueError, OSError, ImportError) as error:
+    except (ValueError, KeyError, OSError, ImportError) as error:
         print(f"fret: {' '.join(str(error).split())}", file=sys.stderr)
         return BAD_INPUT

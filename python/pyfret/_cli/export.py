@@ -1,0 +1,68 @@
+"""``fret export``: a result for another program."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret import export
+from pyfret.result import open as open_result
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_options", "run"]
+
+
+def add_options(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """The command and its options."""
+    command = commands.add_parser(
+        "export", help="write tractions, forces on a mesh or stress at points for another program"
+    )
+    command.add_argument("store", help="result")
+    command.add_argument("-o", "--out", required=True, help="file to write; .vti gives an image")
+    command.add_argument("--at", type=int, default=-1, help="increment, or -1 for the last kept")
+    command.add_argument("--body", type=int, choices=(1, 2), default=2, help="the body (default 2)")
+    command.add_argument("--form", choices=("csv", "abaqus", "aster"), default="csv")
+    command.add_argument("--of", choices=("p", "q_x", "q_y"), default="p", help="for abaqus")
+    command.add_argument("--mesh", help="forces on the nodes of this mesh (.inp, or by meshio)")
+    command.add_argument("--points", help="CSV file of places x,y,z: the stress there")
+    command.add_argument("--origin", default="0,0,0", help="middle of the grid in the model")
+    command.add_argument("--axis-x", default="1,0,0", help="the contact's x in the model")
+    command.add_argument("--axis-z", default="0,0,1", help="the contact's z, into body 2")
+    command.add_argument("--unit", choices=("m", "mm"), default="m", help="length of the model")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write the file."""
+    frame = export.Frame(
+        origin=_three(options.origin, "--origin"),
+        x=_three(options.axis_x, "--axis-x"),
+        z=_three(options.axis_z, "--axis-z"),
+        unit=options.unit,
+    )
+    points = None
+    if options.points:
+        points = np.loadtxt(options.points, delimiter=",", ndmin=2)
+    open_result(options.store).export(
+        options.out,
+        at=options.at,
+        frame=frame,
+        body_number=options.body,
+        form=options.form,
+        of=options.of,
+        mesh=options.mesh,
+        points=points,
+    )
+    print(options.out)
+    return 0
+
+
+def _three(text: str, option: str) -> tuple[float, float, float]:
+    """Three numbers with commas between."""
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+    except ValueError as error:
+        raise ValueError(f"{option} {text}: must be three numbers such as 0,0,1") from error
+    return x, y, z

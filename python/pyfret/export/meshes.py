@@ -1,0 +1,146 @@
+"""Meshes of finite elements: nodes with their numbers, and faces that lie in a plane."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import os
+
+    from numpy.typing import NDArray
+
+    from pyfret.export.frame import Frame
+
+__all__ = ["Mesh", "faces_in_plane", "read_mesh"]
+
+#: Faces of a tetrahedron, a wedge and a hexahedron: corners in turn, then the nodes between them.
+#: Linear elements have the first part of each, quadratic ones all of it.
+TETRAHEDRON = ((0, 1, 2, 4, 5, 6), (0, 3, 1, 7, 8, 4), (1, 3, 2, 8, 9, 5), (2, 3, 0, 9, 7, 6))
+WEDGE = (
+    (0, 1, 2, 6, 7, 8),
+    (3, 5, 4, 11, 10, 9),
+    (0, 3, 4, 1, 12, 9, 13, 6),
+    (1, 4, 5, 2, 13, 10, 14, 7),
+    (2, 5, 3, 0, 14, 11, 12, 8),
+)
+HEXAHEDRON = (
+    (0, 1, 2, 3, 8, 9, 10, 11),
+    (4, 7, 6, 5, 15, 14, 13, 12),
+    (0, 4, 5, 1, 16, 12, 17, 8),
+    (1, 5, 6, 2, 17, 13, 18, 9),
+    (2, 6, 7, 3, 18, 14, 19, 10),
+    (3, 7, 4, 0, 19, 15, 16, 11),
+)
+#: By nodes of an element.
+FACES = {4: TETRAHEDRON, 10: TETRAHEDRON, 6: WEDGE, 15: WEDGE, 8: HEXAHEDRON, 20: HEXAHEDRON}
+#: Elements without volume, whose faces are themselves: triangles and quadrilaterals of meshio.
+PLANE = ("triangle", "triangle6", "quad", "quad8")
+#: Distance from the plane of a face in it, over the extent of the mesh.
+IN_PLANE = 1e-6
+
+
+class Mesh(NamedTuple):
+    """Nodes and elements of a mesh."""
+
+    #: Number of each node.
+    numbers: NDArray[np.int64]
+    #: Places of the nodes, shape (n, 3).
+    points: NDArray[np.float64]
+    #: Elements as rows of node indices, by their number of nodes; volumes.
+    volumes: list[NDArray[np.int64]]
+    #: Faces given as elements.
+    faces: list[NDArray[np.int64]]
+
+
+def read_mesh(path: str | os.PathLike[str]) -> Mesh:
+    """Read the mesh of an ``.inp`` file of Abaqus or CalculiX, or of any format of meshio.
+
+    Nodes of an ``.inp`` keep their numbers; those of other formats count from 1.
+    """
+    if Path(path).suffix.lower() == ".inp":
+        return _read_inp(Path(path))
+    try:
+        import meshio
+    except ModuleNotFoundError as absent:
+        message = 'meshes other than .inp need meshio: pip install "fretting[mesh]"'
+        raise ModuleNotFoundError(message, name="meshio") from absent
+    found = meshio.read(path)
+    points = np.zeros((len(found.points), 3))
+    points[:, : found.points.shape[1]] = found.points
+    blocks = [(block.type, np.asarray(block.data, np.int64)) for block in found.cells]
+    volumes = [data for name, data in blocks if name not in PLANE and data.shape[1] in FACES]
+    faces = [data for name, data in blocks if name in PLANE]
+    return Mesh(np.arange(1, len(points) + 1), points, volumes, faces)
+
+
+def _read_inp(path: Path) -> Mesh:
+    """The ``*NODE`` and ``*ELEMENT`` blocks of a file; includes are not followed."""
+    nodes: list[list[float]] = []
+    elements: list[list[int]] = []
+    keyword, open_line = "", False
+    with path.open(encoding="latin-1") as file:
+        for number, text in enumerate(file, 1):
+            line = text.strip()
+            if not line or line.startswith("**"):
+                continue
+            if line.startswith("*"):
+                keyword, open_line = line.split(",")[0].strip().upper(), False
+                continue
+            if keyword not in ("*NODE", "*ELEMENT"):
+                continue
+            fields = [field.strip() for field in line.rstrip(",").split(",")]
+            try:
+                if keyword == "*NODE":
+                    nodes.append([float(field) for field in fields[:4]])
+                    continue
+                row = [int(field) for field in fields]
+            except ValueError as error:
+                raise ValueError(f"{path}, line {number}: {line!r}: {error}") from error
+            if open_line:
+                elements[-1].extend(row)
+            else:
+                elements.append(row)
+            # An element goes on in the next line after a comma.
+            open_line = line.endswith(",")
+    if not nodes:
+        raise ValueError(f"{path}: has no *NODE block with nodes")
+    table = np.array([node + [0.0] * (4 - len(node)) for node in nodes])
+    numbers = table[:, 0].astype(np.int64)
+    order = np.argsort(numbers)
+    volumes = []
+    for count in sorted({len(row) - 1 for row in elements}):
+        if count not in FACES:
+            continue
+        named = np.array([row[1:] for row in elements if len(row) == count + 1])
+        at = np.searchsorted(numbers, named, sorter=order)
+        known = order[np.minimum(at, numbers.size - 1)]
+        if (numbers[known] != named).any():
+            missing = named[numbers[known] != named][0]
+            raise ValueError(f"{path}: an element has the node {missing}, which *NODE lacks")
+        volumes.append(known)
+    return Mesh(numbers, table[:, 1:], volumes, [])
+
+
+def faces_in_plane(mesh: Mesh, frame: Frame) -> list[NDArray[np.int64]]:
+    """Faces of the elements that lie in the plane of the contact, rows of node indices."""
+    height = frame.contact_place(mesh.points)[:, 2]
+    extent = np.ptp(frame.contact_place(mesh.points), axis=0).max()
+    inside = np.abs(height) <= IN_PLANE * extent
+    found: dict[int, list[NDArray[np.int64]]] = {}
+    for elements in mesh.volumes:
+        count = elements.shape[1]
+        quadratic = count in (10, 15, 20)
+        for face in FACES[count]:
+            used = face if quadratic else face[: len(face) // 2]
+            rows = elements[:, used]
+            kept = rows[inside[rows].all(axis=1)]
+            found.setdefault(kept.shape[1], []).append(kept)
+    for rows in mesh.faces:
+        found.setdefault(rows.shape[1], []).append(rows[inside[rows].all(axis=1)])
+    whole = [np.concatenate(rows) for rows in found.values()]
+    # The same face may be given by an element and as an element of its own.
+    once = [rows[np.unique(np.sort(rows, axis=1), axis=0, return_index=True)[1]] for rows in whole]
+    return [rows for rows in once if rows.size]
