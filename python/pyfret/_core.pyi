@@ -22,6 +22,7 @@ __all__ = [
     "Cone",
     "Conversion",
     "CoupledIndentation",
+    "Crack",
     "Criterion",
     "CrownedRoller",
     "Cylinder",
@@ -2067,6 +2068,71 @@ def maximum(
 def rims(stress: ArrayLike, along: Sequence[float]) -> tuple[list[float], _Array]:
     """Places of the rims on a line on the surface, and stresses (6, rims), from stresses (6, n)."""
 
+@final
+class Crack:
+    def __new__(cls, *, legs: Sequence[tuple[float, float]], x: float = 0.0) -> Crack: ...
+    @property
+    def x(self) -> float: ...
+    @property
+    def legs(self) -> list[tuple[float, float]]: ...
+    @property
+    def length(self) -> float: ...
+    @property
+    def points(self) -> _Array: ...
+    def intensity(
+        self, stress: NDArray[np.float64], *, friction: float | None = None
+    ) -> dict[str, _Array]: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __replace__(self, **changes: Any) -> Crack: ...
+    def replace(self, **changes: Any) -> Crack: ...
+
+_Threshold: TypeAlias = tuple[
+    float, float | None, float, float | None, list[tuple[float, float]] | None
+]
+
+def crack_of_states(
+    body: Body,
+    grid: Grid,
+    *,
+    p: NDArray[np.float64],
+    q_x: NDArray[np.float64],
+    q_y: NDArray[np.float64],
+    stick: NDArray[np.bool_],
+    sigma_B: Sequence[float],
+    x: float,
+    lengths: Sequence[float],
+    angle: float = 0.0,
+    friction: float = 0.0,
+    residual: Sequence[float] | None = None,
+    body_number: int = 2,
+) -> dict[str, _Array]: ...
+def threshold_at(threshold_: _Threshold, lengths: Sequence[float]) -> tuple[list[float], float]: ...
+def equivalent_range(
+    threshold_: _Threshold, K_max: Sequence[float], K_min: Sequence[float]
+) -> list[float]: ...
+def arrest(
+    lengths: Sequence[float],
+    K_max: Sequence[float],
+    K_min: Sequence[float],
+    threshold_: _Threshold,
+    start: float,
+) -> tuple[Literal["dormant", "stops", "grows"], float | None, list[float], float, float]: ...
+def crack_life(
+    lengths: Sequence[float],
+    K_max: Sequence[float],
+    K_min: Sequence[float],
+    threshold_: _Threshold,
+    *,
+    C: float,
+    m: float,
+    growth: str,
+    short: bool,
+    start: float,
+    end: float,
+) -> tuple[float, float, bool]: ...
+def ellipse_factor(aspect: float) -> float: ...
+def channel_crack(film_: Elastic, below: Elastic) -> float: ...
+def partial_crack(film_: Elastic, below: Elastic, depth: float) -> float: ...
 def cycle_temperature(
     conductor1: Sequence[tuple[float, float]],
     conductor2: Sequence[tuple[float, float]],

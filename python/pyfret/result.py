@@ -7,7 +7,7 @@ from os import fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from pyfret import _core, fatigue
+from pyfret import _core, fatigue, fracture
 from pyfret import heat as heating
 from pyfret._core import StoreError
 from pyfret._util import files
@@ -234,6 +234,32 @@ class Result(Run):
         Parameters and result are those of :func:`pyfret.fatigue.load_factors`.
         """
         return fatigue.load_factors(self, s_y, z, **section)
+
+    def crack(
+        self,
+        x: float | None = None,
+        *,
+        lengths: ArrayLike | None = None,
+        angle: float = 0.0,
+        friction: float = 0.0,
+        body_number: int = 2,
+        cycle: int | None = -1,
+        residual: Sequence[float] | None = None,
+    ) -> fracture.Cracks:
+        """Take the stress of a closed cycle to the tips of cracks of several lengths.
+
+        Parameters and result are those of :func:`pyfret.fracture.crack`.
+        """
+        return fracture.crack(
+            self,
+            x,
+            lengths=lengths,
+            angle=angle,
+            friction=friction,
+            body_number=body_number,
+            cycle=cycle,
+            residual=residual,
+        )
 
     def temperature(
         self,

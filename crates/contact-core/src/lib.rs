@@ -22,6 +22,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod assess;
 pub mod cells;
 pub mod convolution;
 pub mod error;

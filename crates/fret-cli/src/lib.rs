@@ -85,6 +85,8 @@ enum Command {
     /// Write tractions, forces on a mesh or stress at points for another program (needs the Python
     /// package)
     Export(python::Options),
+    /// Say whether a crack below the contact of a result grows or stops (needs the Python package)
+    Crack(python::Options),
     /// Write a result as one page for a browser (needs the Python package)
     Report(python::Options),
     /// Check this installation against closed forms in minutes (needs the Python package)
@@ -121,6 +123,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Study(options) => return in_python("study", &options),
         Command::Life(options) => return in_python("life", &options),
         Command::Export(options) => return in_python("export", &options),
+        Command::Crack(options) => return in_python("crack", &options),
         Command::Report(options) => return in_python("report", &options),
         Command::Verify(options) => return in_python("verify", &options),
         Command::Cite(options) => return in_python("cite", &options),

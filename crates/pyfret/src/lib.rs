@@ -19,6 +19,7 @@ mod command_line;
 mod error;
 mod fatigue;
 mod forked;
+mod fracture;
 mod heat;
 mod history;
 mod interruptible;
@@ -76,6 +77,11 @@ mod _core {
     use crate::fatigue::{
         Assessment, Criterion, Material, criterion_on, dang_van_path, material_quantities,
         materials, yielding_on,
+    };
+    #[pymodule_export]
+    use crate::fracture::{
+        Crack, arrest, channel_crack, crack_life, crack_of_states, ellipse_factor,
+        equivalent_range, partial_crack, threshold_at,
     };
     #[pymodule_export]
     use crate::heat::cycle_temperature;

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pyfret import verification, wear
-from pyfret._cli import export, life
+from pyfret._cli import crack, export, life
 from pyfret.citation import cite as sources
 from pyfret.result import open as open_result
 from pyfret.study.file import run_file
@@ -35,6 +35,7 @@ def parser() -> argparse.ArgumentParser:
     study.add_argument("--map", metavar="FILE", help="figure of the first measure (.png, .svg)")
     life.add_options(commands)
     export.add_options(commands)
+    crack.add_options(commands)
     report = commands.add_parser("report", help="write a result as one page for a browser")
     report.add_argument("store", help="result")
     report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
@@ -107,6 +108,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "study": study,
         "life": life.run,
         "export": export.run,
+        "crack": crack.run,
         "report": report,
         "verify": verify,
         "cite": cite,

@@ -1,16 +1,42 @@
-"""Will the coating come off? Stress on the interfaces over a cycle, and energy release rates.
+"""Will a crack stop, will the coating come off? Stress intensity, arrest, energy release.
+
+:func:`crack` (or :meth:`pyfret.Result.crack`) takes the stress of a contact's cycle to the tips of
+cracks; :class:`Cracks` says with a :class:`Threshold` where they stop and with :class:`Paris` how
+long that takes; :class:`Crack` does so for any stress history, without a contact. ::
+
+    cracks = result.crack()
+    cracks.arrest(fracture.Threshold(dK_th=2.1e6, dS_0=124e6))
 
 The interfaces of a coated body carry a normal stress s_zz, which peels where it is tension, and a
 shear stress (s_xz, s_yz). :func:`over_cycle` follows both along a contact's cycle;
-:func:`edge_release` and :func:`buckling_release` give what a stressed coating releases where it
-parts from its substrate. ::
+:func:`edge_release`, :func:`buckling_release` and :func:`channel_release` give what a stressed
+coating releases where it parts from its substrate or cracks. ::
 
     found = fracture.over_cycle(result, peel_strength=200e6, shear_strength=300e6)
     found.criterion.max()  # 1 where the interface fails
 """
 
+from pyfret._core import Crack, ellipse_factor
 from pyfret._util.names import listing
+from pyfret.fracture.below import crack
+from pyfret.fracture.film import channel_release, film_intensity
+from pyfret.fracture.growth import Arrest, CrackLife, Cracks, Paris, Threshold
 from pyfret.fracture.interface import Buckling, buckling_release, edge_release, over_cycle
 
-__all__ = ["Buckling", "buckling_release", "edge_release", "over_cycle"]
+__all__ = [
+    "Arrest",
+    "Buckling",
+    "Crack",
+    "CrackLife",
+    "Cracks",
+    "Paris",
+    "Threshold",
+    "buckling_release",
+    "channel_release",
+    "crack",
+    "edge_release",
+    "ellipse_factor",
+    "film_intensity",
+    "over_cycle",
+]
 __dir__ = listing(__all__)

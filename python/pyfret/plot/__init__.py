@@ -7,6 +7,7 @@ of the paper from its four runs in one call.
 
 from pyfret._util.names import listing
 from pyfret.plot.animation import animate
+from pyfret.plot.cracks import crack_arrest, intensity_history, kitagawa
 from pyfret.plot.fretting_map import fretting_map, running_map
 from pyfret.plot.heat import temperature, temperature_map
 from pyfret.plot.histories import fretting_loop, load_path, loop_evolution, stick_ratio
@@ -34,6 +35,7 @@ from pyfret.plot.wear import depth_map, wear_history, wear_loops, wear_profiles
 
 __all__ = [
     "animate",
+    "crack_arrest",
     "criterion_map",
     "critical_plane_rose",
     "dang_van_diagram",
@@ -42,6 +44,8 @@ __all__ = [
     "fretting_loop",
     "fretting_map",
     "haigh_diagram",
+    "intensity_history",
+    "kitagawa",
     "load_factor_map",
     "load_path",
     "loop_evolution",

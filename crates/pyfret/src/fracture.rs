@@ -1,0 +1,373 @@
+//! Cracks: stress intensity, arrest, growth.
+
+use std::sync::Arc;
+
+use ::fracture as of_cracks;
+use contact_core::assess::crack as core;
+use contact_core::convolution::Tractions;
+use contact_core::fields::States;
+use ndarray::{Array1, Array2};
+use numpy::{IntoPyArray, PyReadonlyArray3};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arguments::side;
+use crate::error::to_python;
+use crate::interruptible::interruptible;
+use crate::material::Elastic;
+use crate::parts::parts;
+use crate::scene::{Body, Grid};
+
+fn refused(error: of_cracks::Error) -> PyErr {
+    to_python(core::refused(error))
+}
+
+/// A crack from the surface of a half-plane: where stress is wanted, and what it does at the tip.
+///
+/// Plane strain; nothing here knows of contacts. K_I + i K_II = lim sqrt(2 pi r) (s_nn + i s_tn) ahead
+/// of the tip, t along the crack, n = +x for a crack along the depth.
+///
+/// Parameters
+/// ----------
+/// x : float
+///     Place of the mouth [m].
+/// legs : list of (float, float)
+///     Length [m] and angle [rad] of each straight leg from the mouth on; angles are from the inward
+///     normal, positive towards +x.
+///
+/// Examples
+/// --------
+/// >>> crack = Crack(legs=[(1e-4, 0.0)])
+/// >>> tension = np.zeros((1, len(crack.points), 6)); tension[..., 0] = 100e6
+/// >>> K = crack.intensity(tension)["K_I"][0]
+/// >>> round(K / (100e6 * np.sqrt(np.pi * 1e-4)), 4)
+/// 1.1215
+#[pyclass(frozen, module = "pyfret.fracture")]
+#[derive(Clone)]
+pub(crate) struct Crack(of_cracks::Crack);
+
+parts!(Crack: legs, x);
+
+#[pymethods]
+impl Crack {
+    #[new]
+    #[pyo3(signature = (*, legs, x = 0.0))]
+    fn new(legs: Vec<(f64, f64)>, x: f64) -> PyResult<Self> {
+        let path = of_cracks::Path::kinked(x, &legs);
+        of_cracks::Crack::new(path).map(Self).map_err(refused)
+    }
+
+    /// Place of the mouth [m].
+    #[getter]
+    fn x(&self) -> f64 {
+        self.0.path().mouth
+    }
+
+    /// Length [m] and angle [rad] of each leg.
+    #[getter]
+    fn legs(&self) -> Vec<(f64, f64)> {
+        let legs = self.0.path().legs.iter();
+        legs.map(|leg| (leg.length(), leg.end())).collect()
+    }
+
+    /// Length along the crack [m].
+    #[getter]
+    fn length(&self) -> f64 {
+        self.0.length()
+    }
+
+    /// x and depth of the points at which the stress is wanted [m], shape (points, 2), from the tip to
+    /// the mouth.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> Bound<'py, numpy::PyArray2<f64>> {
+        let points = self.0.points();
+        let of = |(n, c): (usize, usize)| if c == 0 { points[n].x } else { points[n].z };
+        Array2::from_shape_fn((points.len(), 2), of).into_pyarray(py)
+    }
+
+    /// K over the instants of a history of stress at :attr:`points`.
+    ///
+    /// Parameters
+    /// ----------
+    /// stress : array of shape (time, points, 6)
+    ///     Stress of the body without the crack [Pa]: xx, yy, zz, xy, xz, yz, z the depth.
+    /// friction : float, optional
+    ///     Coefficient of friction between faces in contact; by default faces may pass through each
+    ///     other, and K is linear in the stress.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5], ``open``, the share of the crack that is
+    ///     open, each over time.
+    #[pyo3(signature = (stress, *, friction = None))]
+    fn intensity<'py>(
+        &self,
+        py: Python<'py>,
+        stress: PyReadonlyArray3<'_, f64>,
+        friction: Option<f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let stress = stress.as_array();
+        let (_, points, components) = stress.dim();
+        if points != self.0.points().len() || components != 6 {
+            return Err(PyValueError::new_err(format!(
+                "stress has the shape {:?}: must be (time, {}, 6)",
+                stress.dim(),
+                self.0.points().len()
+            )));
+        }
+        let start = of_cracks::Faces::new(&self.0, friction.unwrap_or(0.0)).map_err(refused)?;
+        let mut faces = start;
+        let (mut found, mut open) = (Vec::new(), Vec::new());
+        for instant in stress.outer_iter() {
+            let plane: Vec<_> = instant.outer_iter().map(|s| [s[0], s[2], s[4]]).collect();
+            if friction.is_some() {
+                faces = faces.next(&plane).map_err(refused)?;
+                found.push(faces.intensity);
+                open.push(faces.open_share().map_err(refused)?);
+            } else {
+                found.push(self.0.intensity(&plane).map_err(refused)?);
+                open.push(1.0);
+            }
+        }
+        let row = |f: &dyn Fn(&of_cracks::Intensity) -> f64| -> Array1<f64> {
+            found.iter().map(f).collect()
+        };
+        let result = PyDict::new(py);
+        result.set_item("K_I", row(&|k| k.K_I).into_pyarray(py))?;
+        result.set_item("K_II", row(&|k| k.K_II).into_pyarray(py))?;
+        result.set_item("error", row(&|k| k.error).into_pyarray(py))?;
+        result.set_item("open", Array1::from(open).into_pyarray(py))?;
+        Ok(result)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Crack(legs={:?}, x={:?})", self.legs(), self.x())
+    }
+}
+
+/// K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`.
+#[pyfunction]
+#[pyo3(signature = (body, grid, *, p, q_x, q_y, stick, sigma_B, x, lengths, angle = 0.0, friction = 0.0, residual = None, body_number = 2))]
+pub(crate) fn crack_of_states<'py>(
+    py: Python<'py>,
+    body: Body,
+    grid: Grid,
+    p: PyReadonlyArray3<'_, f64>,
+    q_x: PyReadonlyArray3<'_, f64>,
+    q_y: PyReadonlyArray3<'_, f64>,
+    stick: PyReadonlyArray3<'_, bool>,
+    sigma_B: Vec<f64>,
+    x: f64,
+    lengths: Vec<f64>,
+    angle: f64,
+    friction: f64,
+    residual: Option<Vec<f64>>,
+    body_number: u8,
+) -> PyResult<Bound<'py, PyDict>> {
+    let shape = (sigma_B.len(), grid.0.nx, grid.0.ny);
+    let shapes = [
+        p.as_array().dim(),
+        q_x.as_array().dim(),
+        q_y.as_array().dim(),
+    ];
+    if shapes.iter().any(|s| *s != shape) || stick.as_array().dim() != shape {
+        return Err(PyValueError::new_err(format!(
+            "p, q_x, q_y and stick must be of the shape {shape:?}, that of the states and the grid"
+        )));
+    }
+    let cells = grid.0.cells();
+    let fields = [q_x, q_y, p].map(|f| f.as_array().iter().copied().collect::<Vec<_>>());
+    let stick: Vec<bool> = stick.as_array().iter().copied().collect();
+    let of = |state: usize, field: usize| &fields[field][state * cells..(state + 1) * cells];
+    let tractions = |n: usize| Tractions {
+        q_x: Some(of(n, 0)),
+        q_y: Some(of(n, 1)),
+        p: Some(of(n, 2)),
+    };
+    let tractions: Vec<_> = (0..shape.0).map(tractions).collect();
+    let stick: Vec<&[bool]> = stick.chunks(cells).collect();
+    let residual = residual.unwrap_or_default();
+    let residual =
+        contact_core::fields::residual_of_layers(&body.0, &residual).map_err(to_python)?;
+    let cracks = core::Cracks {
+        x,
+        angle,
+        lengths,
+        friction,
+    };
+    let side = side(body_number)?;
+    let stop = Arc::default();
+    let found = interruptible(py, &stop, || {
+        let states = States {
+            tractions: &tractions,
+            sigma_B: &sigma_B,
+            residual: &residual,
+            stick: Some(&stick),
+            stop: stop.clone(),
+        };
+        core::over_cycle(&body.0, side, &grid.0, &states, &cracks)
+    })?;
+    let found = found.map_err(to_python)?;
+    let table = |f: &dyn Fn(&core::OverCycle, usize) -> f64| {
+        Array2::from_shape_fn((shape.0, found.len()), |(n, l)| f(&found[l], n)).into_pyarray(py)
+    };
+    let result = PyDict::new(py);
+    result.set_item("K_I", table(&|c, n| c.faces[n].K_I))?;
+    result.set_item("K_II", table(&|c, n| c.faces[n].K_II))?;
+    result.set_item("K_I_linear", table(&|c, n| c.linear[n].K_I))?;
+    result.set_item("K_II_linear", table(&|c, n| c.linear[n].K_II))?;
+    result.set_item("error", table(&|c, n| c.faces[n].error))?;
+    result.set_item("open", table(&|c, n| c.open[n]))?;
+    Ok(result)
+}
+
+/// A curve of K over lengths [m] from the largest and smallest K_I of the cycle [Pa m^0.5].
+fn curve(lengths: Vec<f64>, K_max: Vec<f64>, K_min: Vec<f64>) -> PyResult<of_cracks::Curve> {
+    if K_max.len() != K_min.len() {
+        return Err(PyValueError::new_err(
+            "K_max and K_min: must be of the same length",
+        ));
+    }
+    let extremes = K_max.into_iter().zip(K_min);
+    let extremes = extremes.map(|(K_max, K_min)| of_cracks::Extremes { K_max, K_min });
+    of_cracks::Curve::new(lengths, extremes.collect()).map_err(refused)
+}
+
+/// Threshold as its numbers: dK_th, dS_0, Y, Walker's exponent, table of R.
+type Numbers = (f64, Option<f64>, f64, Option<f64>, Option<Vec<(f64, f64)>>);
+
+fn threshold((dK_th, dS_0, Y, walker, table): Numbers) -> PyResult<of_cracks::Threshold> {
+    let ratio = match (walker, table) {
+        (None, None) => of_cracks::LoadRatio::None,
+        (Some(gamma), None) => of_cracks::LoadRatio::Walker { gamma },
+        (None, Some(rows)) => of_cracks::LoadRatio::Table(rows),
+        _ => return Err(PyValueError::new_err("walker and table: give one of both")),
+    };
+    let threshold = of_cracks::Threshold {
+        dK_th,
+        dS_0,
+        Y,
+        ratio,
+    };
+    threshold.check().map_err(refused)?;
+    Ok(threshold)
+}
+
+/// Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m].
+#[pyfunction]
+pub(crate) fn threshold_at(threshold_: Numbers, lengths: Vec<f64>) -> PyResult<(Vec<f64>, f64)> {
+    let of = threshold(threshold_)?;
+    Ok((lengths.iter().map(|l| of.at(*l)).collect(), of.a_0()))
+}
+
+/// Equivalent range of K at R = 0 [Pa m^0.5] of extremes of K.
+#[pyfunction]
+pub(crate) fn equivalent_range(
+    threshold_: Numbers,
+    K_max: Vec<f64>,
+    K_min: Vec<f64>,
+) -> PyResult<Vec<f64>> {
+    let of = threshold(threshold_)?;
+    let pairs = K_max.into_iter().zip(K_min);
+    let range = |(K_max, K_min)| of.equivalent(of_cracks::Extremes { K_max, K_min });
+    Ok(pairs.map(range).collect())
+}
+
+/// What becomes of a crack: verdict, length where it stops, crossings, margin and its length.
+#[pyfunction]
+pub(crate) fn arrest(
+    lengths: Vec<f64>,
+    K_max: Vec<f64>,
+    K_min: Vec<f64>,
+    threshold_: Numbers,
+    start: f64,
+) -> PyResult<(&'static str, Option<f64>, Vec<f64>, f64, f64)> {
+    let found = curve(lengths, K_max, K_min)?
+        .arrest(&threshold(threshold_)?, start)
+        .map_err(refused)?;
+    let (verdict, length) = match found.verdict {
+        of_cracks::Verdict::Dormant => ("dormant", Some(start)),
+        of_cracks::Verdict::Stops(l) => ("stops", Some(l)),
+        of_cracks::Verdict::Grows => ("grows", None),
+    };
+    Ok((
+        verdict,
+        length,
+        found.crossings,
+        found.margin,
+        found.margin_at,
+    ))
+}
+
+/// Cycles of growth by Paris' law, where it ends [m] and whether it stops there.
+#[pyfunction]
+#[pyo3(signature = (lengths, K_max, K_min, threshold_, *, C, m, growth, short, start, end))]
+pub(crate) fn crack_life(
+    lengths: Vec<f64>,
+    K_max: Vec<f64>,
+    K_min: Vec<f64>,
+    threshold_: Numbers,
+    C: f64,
+    m: f64,
+    growth: &str,
+    short: bool,
+    start: f64,
+    end: f64,
+) -> PyResult<(f64, f64, bool)> {
+    let growth = match growth {
+        "plain" => of_cracks::Growth::Plain,
+        "powers" => of_cracks::Growth::Powers,
+        "difference" => of_cracks::Growth::Difference,
+        other => {
+            return Err(PyValueError::new_err(format!(
+                "threshold_in = {other:?}: must be 'plain', 'powers' or 'difference'"
+            )));
+        }
+    };
+    let rate = of_cracks::Rate {
+        C,
+        m,
+        growth,
+        short,
+    };
+    let life = curve(lengths, K_max, K_min)?
+        .life(&threshold(threshold_)?, &rate, (start, end))
+        .map_err(refused)?;
+    Ok((life.cycles, life.to, life.stopped))
+}
+
+/// Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c, in 0..1.
+///
+/// Newman and Raju's K under uniform tension over that of a straight front: an estimate, which takes the
+/// stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
+#[pyfunction]
+pub(crate) fn ellipse_factor(aspect: f64) -> PyResult<f64> {
+    of_cracks::ellipse_factor(aspect).map_err(refused)
+}
+
+/// A film on another material: materials of both.
+fn film(film: Elastic, below: Elastic) -> PyResult<of_cracks::Film> {
+    let pair = |m: Elastic| (m.0.E, m.0.nu);
+    of_cracks::Film::of(pair(film), pair(below)).map_err(refused)
+}
+
+/// g of a crack that channels through a film; use :func:`pyfret.fracture.channel_release`.
+#[pyfunction]
+pub(crate) fn channel_crack(py: Python<'_>, film_: Elastic, below: Elastic) -> PyResult<f64> {
+    let film = film(film_, below)?;
+    py.detach(|| film.channel()).map_err(refused)
+}
+
+/// F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`.
+#[pyfunction]
+pub(crate) fn partial_crack(
+    py: Python<'_>,
+    film_: Elastic,
+    below: Elastic,
+    depth: f64,
+) -> PyResult<f64> {
+    let film = film(film_, below)?;
+    py.detach(|| film.partial(depth)).map_err(refused)
+}

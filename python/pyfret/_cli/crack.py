@@ -1,0 +1,153 @@
+"""``fret crack``: stress intensity over a cycle and arrest of a crack below a result's contact."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pyfret import fatigue
+from pyfret._util import files
+from pyfret.fracture import Threshold
+from pyfret.result import open
+
+if TYPE_CHECKING:
+    import argparse
+
+    from pyfret.fracture import Cracks
+
+__all__ = ["add_options", "run"]
+
+#: Endings of figures, and of files of the fields.
+FIGURES, FIELDS = (".png", ".svg", ".pdf"), (".nc", ".zarr")
+
+
+def add_options(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command to a command line."""
+    crack = commands.add_parser(
+        "crack", help="say whether a crack below the contact grows or stops"
+    )
+    crack.add_argument("store", help="result, the increments of its cycle kept")
+    crack.add_argument(
+        "--x", type=float, help="place of the mouth [m] (default: the worse rim of the contact)"
+    )
+    crack.add_argument(
+        "--angle", type=float, default=0.0, help="from the inward normal towards +x [degrees]"
+    )
+    crack.add_argument("--lengths", type=numbers, metavar="L,...", help="lengths of the crack [m]")
+    crack.add_argument("--friction", type=float, default=0.0, help="between its faces (default: 0)")
+    crack.add_argument("--body", type=int, choices=(1, 2), default=2, help="default: 2, the lower")
+    crack.add_argument("--cycle", type=int, default=-1, help="which cycle (default: the last)")
+    crack.add_argument(
+        "--residual",
+        type=numbers,
+        metavar="S,...",
+        help="residual stress of each layer from the surface down [Pa], tension positive; "
+        "write --residual=-1e9,0 if the first is negative",
+    )
+    crack.add_argument("--dK-th", type=float, dest="dK_th", help="threshold of K [Pa m^0.5]")
+    crack.add_argument(
+        "--dS-0", type=float, dest="dS_0", help="fatigue limit, range of stress [Pa]"
+    )
+    crack.add_argument("--material", help="takes dK_th and s_D of a material instead")
+    crack.add_argument("--materials", metavar="FILE", help="table of materials (TOML)")
+    crack.add_argument("--walker", type=float, help="exponent of the load ratio (default: none)")
+    crack.add_argument("--json", action="store_true", help="one JSON object per length and verdict")
+    crack.add_argument("-o", "--out", help="figure (.png, .svg, .pdf) or K over the cycle (.nc)")
+
+
+def numbers(text: str) -> list[float]:
+    """Numbers with commas between them."""
+    return [float(part) for part in text.split(",")]
+
+
+def run(options: argparse.Namespace) -> int:
+    """Take the stress of a result to the tips of cracks and say what came out."""
+    if options.out is not None and Path(options.out).suffix not in (*FIGURES, *FIELDS):
+        raise ValueError(f"--out {options.out}: must end in {', '.join((*FIGURES, *FIELDS))}")
+    threshold = _threshold(options)
+    if options.out and Path(options.out).suffix in FIGURES and threshold is None:
+        raise ValueError("--out: the figure needs a threshold, --dK-th or --material")
+    cracks = open(options.store).crack(
+        options.x,
+        lengths=options.lengths,
+        angle=math.radians(options.angle),
+        friction=options.friction,
+        body_number=options.body,
+        cycle=options.cycle,
+        residual=options.residual,
+    )
+    for row in _rows(cracks, threshold):
+        print(json.dumps(row) if options.json else _line(row))
+    if options.out and Path(options.out).suffix in FIELDS:
+        files.write(cracks.dataset, options.out)
+    elif options.out and threshold is not None:
+        from pyfret import plot
+
+        ax = plot.crack_arrest(cracks, threshold)
+        ax.get_figure().savefig(options.out, bbox_inches="tight")  # type: ignore[union-attr]
+    return 0
+
+
+def _threshold(options: argparse.Namespace) -> Threshold | None:
+    if options.material is not None:
+        if options.dK_th is not None or options.dS_0 is not None:
+            raise ValueError("--material: gives --dK-th and --dS-0 itself; leave these out")
+        table = fatigue.Materials(options.materials)
+        if options.material not in table:
+            raise ValueError(f"--material {options.material}: must be one of {', '.join(table)}")
+        return Threshold.of(table[options.material], walker=options.walker)
+    if options.dK_th is None:
+        if options.dS_0 is not None:
+            raise ValueError("--dS-0: needs --dK-th")
+        return None
+    return Threshold(options.dK_th, options.dS_0, walker=options.walker)
+
+
+def _rows(cracks: Cracks, threshold: Threshold | None) -> list[dict[str, object]]:
+    error = cracks.dataset.error.max("increment").values
+    dK = cracks.dK(threshold)
+    rows: list[dict[str, object]] = [
+        {"length": length, "K_max": high, "K_min": low, "error": e, "dK": d}
+        for length, high, low, e, d in zip(
+            cracks.lengths.tolist(),
+            cracks.K_max.tolist(),
+            cracks.K_min.tolist(),
+            error.tolist(),
+            dK.tolist(),
+            strict=True,
+        )
+    ]
+    if threshold is not None:
+        for row, dK_th in zip(rows, threshold.at(cracks.lengths).tolist(), strict=True):
+            row["dK_th"] = dK_th
+        found = cracks.arrest(threshold)
+        rows.append(
+            {
+                "x": cracks.dataset.attrs["x"],
+                "verdict": found.verdict,
+                "length": found.length,
+                "margin": found.margin,
+                "margin_at": found.margin_at,
+            }
+        )
+    return rows
+
+
+def _line(row: dict[str, object]) -> str:
+    """A row for people."""
+    number = {name: value for name, value in row.items() if isinstance(value, float)}
+    if "verdict" in row:
+        place = f"crack from x = {number['x']:.4e} m"
+        said = {
+            "dormant": "does not grow",
+            "stops": f"stops at {number.get('length', 0.0) * 1e6:.4g} um",
+            "grows": "grows through all lengths",
+        }[str(row["verdict"])]
+        at = number["margin_at"] * 1e6
+        return f"{place} {said}; least dK/dK_th {number['margin']:.4g} at {at:.4g} um"
+    line = f"l = {number['length'] * 1e6:.4g} um: K_I {number['K_min'] / 1e6:.4g} to "
+    line += f"{number['K_max'] / 1e6:.4g} MPa m^0.5 (+- {number['error'] / 1e6:.2g}), "
+    line += f"dK {number['dK'] / 1e6:.4g}"
+    return line + (f" of dK_th {number['dK_th'] / 1e6:.4g}" if "dK_th" in row else "")

@@ -1,0 +1,64 @@
+"""Cracks through a film: what a channel crack releases, and K of a crack that ends in the film."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret import _core
+
+if TYPE_CHECKING:
+    from pyfret._core import Coating, Elastic
+
+__all__ = ["channel_release", "film_intensity"]
+
+
+def channel_release(coating: Coating, below: Elastic, stress: float) -> float:
+    """Give what a crack releases that channels through a film under tension [J/m^2].
+
+    G = (pi/2) g stress^2 h/E', E' = E/(1 - nu^2), in the steady state, g(alpha, beta) of Dundurs'
+    parameters by dislocations along the whole thickness (1e-4 of published values). A film in
+    compression does not channel: 0.
+
+    Parameters
+    ----------
+    coating : Coating
+        The film.
+    below : Elastic
+        What it lies on, as a half-plane.
+    stress : float
+        Stress of the film, residual and of the load [Pa]; of a stress that varies through the
+        thickness its largest value is on the safe side.
+
+    References
+    ----------
+    J. L. Beuth, Int. J. Solids Struct. 29 (1992) 1657-1675; J. W. Hutchinson, Z. Suo, Adv. Appl.
+    Mech. 29 (1992) 63-191, whose Z = (pi/2) g.
+    """
+    if not np.isfinite(stress):
+        raise ValueError(f"stress = {stress}: must be finite")
+    E, nu = coating.material.E, coating.material.nu
+    Z = np.pi / 2.0 * _core.channel_crack(coating.material, below)
+    return float(Z * max(stress, 0.0) ** 2 * coating.thickness * (1.0 - nu * nu) / E)
+
+
+def film_intensity(coating: Coating, below: Elastic, depth: float, stress: float) -> float:
+    """Give K_I of a crack normal to the surface that ends in the film [Pa m^0.5].
+
+    Under a uniform stress, with the film's and the other material's constants; a film on a softer
+    material has more than the homogeneous one, 1.12 stress sqrt(pi depth), on a stiffer one less.
+
+    Parameters
+    ----------
+    coating, below
+        As in :func:`channel_release`.
+    depth : float
+        Depth of the tip [m], above 0 and below the thickness.
+    stress : float
+        Stress of the film [Pa].
+    """
+    if not 0.0 < depth < coating.thickness:
+        raise ValueError(f"depth = {depth}: must lie in the film, 0 to {coating.thickness} m")
+    F = _core.partial_crack(coating.material, below, depth / coating.thickness)
+    return float(F * stress * np.sqrt(np.pi * depth))

@@ -1,0 +1,270 @@
+"""Whether a crack stops: thresholds, arrest, cycles of growth, Kitagawa and Takahashi's diagram."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from pyfret import _core
+from pyfret._util.lazy import xr
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from pyfret._core import Material
+
+__all__ = ["Arrest", "CrackLife", "Cracks", "Paris", "Threshold"]
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """The range of K below which a crack does not grow.
+
+    Ranges are positive parts, max(K_max, 0) - max(K_min, 0): a closed crack does not count.
+
+    Parameters
+    ----------
+    dK_th : float
+        Threshold of long cracks at R <= 0, positive part of the range [Pa m^0.5].
+    dS_0 : float, optional
+        Positive part of the range of stress at the fatigue limit of a smooth body [Pa]. With it
+        short cracks have El Haddad's threshold dK_th sqrt(l/(l + a_0)), a_0 =
+        (dK_th/(Y dS_0))^2/pi; without it the constant one.
+    Y : float
+        Geometry factor in a_0.
+    walker : float, optional
+        Exponent gamma of Walker: at R > 0 the range dK acts like dK (1 - R)^(gamma - 1) at R = 0.
+    table : sequence of (float, float), optional
+        Instead of it the threshold over R relative to that at R = 0, rows of (R, ratio).
+
+    References
+    ----------
+    M. H. El Haddad, K. N. Smith, T. H. Topper, J. Eng. Mater. Technol. 101 (1979) 42-46;
+    K. Walker, ASTM STP 462 (1970) 1-14.
+    """
+
+    dK_th: float
+    dS_0: float | None = None
+    Y: float = 1.0
+    walker: float | None = None
+    table: Sequence[tuple[float, float]] | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse values that no material has."""
+        _core.threshold_at(self._numbers(), [])
+
+    @classmethod
+    def of(cls, material: Material, *, Y: float = 1.0, walker: float | None = None) -> Threshold:
+        """Take the threshold from ``dK_th`` and ``s_D`` of a material, both fully reversed.
+
+        Of the range ``dK_th`` at R = -1 half is positive, and of the range 2 ``s_D`` of stress; a
+        material without one of them is refused by its name.
+        """
+        return cls(material.number("dK_th") / 2.0, material.number("s_D"), Y, walker)
+
+    def _numbers(
+        self,
+    ) -> tuple[float, float | None, float, float | None, list[tuple[float, float]] | None]:
+        table = None if self.table is None else [(float(r), float(f)) for r, f in self.table]
+        return self.dK_th, self.dS_0, self.Y, self.walker, table
+
+    @property
+    def a_0(self) -> float:
+        """El Haddad's length [m]; 0 for the constant threshold."""
+        return _core.threshold_at(self._numbers(), [])[1]
+
+    def at(self, lengths: ArrayLike) -> NDArray[np.float64]:
+        """Threshold of cracks of the lengths [m] at R = 0 [Pa m^0.5]."""
+        lengths = np.asarray(lengths, float)
+        found, _ = _core.threshold_at(self._numbers(), lengths.ravel().tolist())
+        return np.reshape(found, lengths.shape)
+
+
+@dataclass(frozen=True)
+class Paris:
+    """Paris' law, dl/dN = C (dK/(1 MPa m^0.5))^m, dK the equivalent range at R = 0.
+
+    Parameters
+    ----------
+    C : float
+        Growth per cycle at dK = 1 MPa m^0.5 [m].
+    m : float
+        Exponent.
+    threshold_in : {"plain", "powers", "difference"}
+        Above the threshold C dK^m, C (dK^m - dK_th^m) or C (dK - dK_th)^m; below it nothing grows.
+    short : bool
+        Whether the law takes El Haddad's l + a_0 in place of the length l.
+    """
+
+    C: float
+    m: float
+    threshold_in: Literal["plain", "powers", "difference"] = "plain"
+    short: bool = False
+
+
+@dataclass(frozen=True)
+class Arrest:
+    """What becomes of a crack.
+
+    Parameters
+    ----------
+    verdict : {"dormant", "stops", "grows"}
+        It does not grow from its first length; it stops; it grows to the last length looked at.
+    length : float or None
+        Where it stops [m].
+    crossings : tuple of float
+        Lengths at which the range of K crosses its threshold [m].
+    margin, margin_at : float
+        Smallest range of K over its threshold, below 1 where the crack stops, and where [m].
+    """
+
+    verdict: Literal["dormant", "stops", "grows"]
+    length: float | None
+    crossings: tuple[float, ...]
+    margin: float
+    margin_at: float
+
+
+@dataclass(frozen=True)
+class CrackLife:
+    """Cycles of growth, infinite where the rate goes to zero at arrest.
+
+    Parameters
+    ----------
+    cycles : float
+        Number of cycles.
+    length : float
+        Where they end [m].
+    stopped : bool
+        Whether the crack stops there.
+    """
+
+    cycles: float
+    length: float
+    stopped: bool
+
+
+class Cracks:
+    """K of a cycle over the length of a crack, and what follows.
+
+    ``dataset`` has ``K_I`` and ``K_II`` over (increment, length), their ``error``, ``open``, the
+    share of the crack that is open, and ``K_I_linear``, ``K_II_linear`` with faces that may pass
+    through each other [Pa m^0.5].
+    """
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self.dataset = dataset
+
+    @classmethod
+    def from_arrays(cls, lengths: ArrayLike, K_max: ArrayLike, K_min: ArrayLike) -> Cracks:
+        """Take the largest and the smallest K_I [Pa m^0.5] at lengths [m] from elsewhere."""
+        K = np.stack([np.asarray(K_max, float), np.asarray(K_min, float)])
+        about = {"units": "m", "long_name": "crack length"}
+        length = ("length", np.asarray(lengths, float), about)
+        return cls(xr.Dataset({"K_I": (("increment", "length"), K)}, coords={"length": length}))
+
+    @property
+    def lengths(self) -> NDArray[np.float64]:
+        """Lengths [m]."""
+        return np.asarray(self.dataset.length.values, float)
+
+    @property
+    def K_max(self) -> NDArray[np.float64]:
+        """Largest K_I of the cycle at each length [Pa m^0.5]."""
+        return np.asarray(self.dataset.K_I.max("increment").values)
+
+    @property
+    def K_min(self) -> NDArray[np.float64]:
+        """Smallest K_I of the cycle at each length [Pa m^0.5]."""
+        return np.asarray(self.dataset.K_I.min("increment").values)
+
+    def scaled(self, factor: float) -> Cracks:
+        """Give the same with every K times a factor, such as that of :func:`ellipse_factor`."""
+        return Cracks(
+            xr.Dataset(
+                {
+                    name: of if name == "open" else (of * factor).assign_attrs(of.attrs)
+                    for name, of in self.dataset.data_vars.items()
+                },
+                attrs=self.dataset.attrs,
+            )
+        )
+
+    def dK(self, threshold: Threshold | None = None) -> NDArray[np.float64]:
+        """Positive part of the range of K_I at each length, at R = 0 with a threshold's R rule."""
+        if threshold is None:
+            return np.maximum(self.K_max, 0.0) - np.maximum(self.K_min, 0.0)
+        return np.asarray(
+            _core.equivalent_range(threshold._numbers(), self.K_max.tolist(), self.K_min.tolist())
+        )
+
+    def _curve(self) -> tuple[list[float], list[float], list[float]]:
+        return self.lengths.tolist(), self.K_max.tolist(), self.K_min.tolist()
+
+    def arrest(self, threshold: Threshold, *, start: float | None = None) -> Arrest:
+        """Say whether a crack of the length `start` [m] (default: the shortest) grows and stops."""
+        lengths, K_max, K_min = self._curve()
+        start = lengths[0] if start is None else start
+        verdict, length, crossings, margin, at = _core.arrest(
+            lengths, K_max, K_min, threshold._numbers(), start
+        )
+        return Arrest(verdict, length, tuple(crossings), margin, at)
+
+    def life(
+        self,
+        threshold: Threshold,
+        paris: Paris,
+        *,
+        start: float | None = None,
+        end: float | None = None,
+    ) -> CrackLife:
+        """Count the cycles from the length `start` [m] to `end` [m] or to arrest.
+
+        By default from the shortest to the longest crack.
+        """
+        lengths, K_max, K_min = self._curve()
+        found = _core.crack_life(
+            lengths,
+            K_max,
+            K_min,
+            threshold._numbers(),
+            C=paris.C * 1e-6**paris.m,
+            m=paris.m,
+            growth=paris.threshold_in,
+            short=paris.short,
+            start=lengths[0] if start is None else start,
+            end=lengths[-1] if end is None else end,
+        )
+        return CrackLife(*found)
+
+    def kitagawa(self, threshold: Threshold) -> xr.Dataset:
+        """Give Kitagawa and Takahashi's diagram: ranges of stress over the length of the crack.
+
+        ``limit`` is dK_th(l)/(Y sqrt(pi l)), ``load`` the range of K of the cycle over the same
+        Y sqrt(pi l) [Pa]: a crack grows where the load is above the limit.
+
+        References
+        ----------
+        H. Kitagawa, S. Takahashi, Proc. 2nd Int. Conf. Mechanical Behavior of Materials (1976) 627.
+        """
+        root = threshold.Y * np.sqrt(np.pi * self.lengths)
+        units = {"units": "Pa"}
+        return xr.Dataset(
+            {
+                "limit": ("length", threshold.at(self.lengths) / root, units),
+                "load": ("length", self.dK(threshold) / root, units),
+            },
+            coords={"length": self.dataset.length},
+        )
+
+    def __repr__(self) -> str:
+        """Lengths and the largest range."""
+        lengths = self.lengths
+        return (
+            f"Cracks of {lengths.size} lengths from {lengths[0] * 1e6:.4g} to "
+            f"{lengths[-1] * 1e6:.4g} um, dK up to {self.dK().max() / 1e6:.4g} MPa m^0.5"
+        )

@@ -1,0 +1,122 @@
+"""Figures of cracks below a contact."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret.plot.style import axes, styled
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from pyfret.fracture.growth import Cracks, Threshold
+
+__all__ = ["crack_arrest", "intensity_history", "kitagawa"]
+
+MICRO, MEGA = 1e6, 1e-6
+
+
+@styled
+def intensity_history(cracks: Cracks, length: float, *, ax: Axes | None = None) -> Axes:
+    """K_I and K_II over the kept increments of the cycle, with their error bars.
+
+    Thin lines are those of faces that may pass through each other.
+
+    Parameters
+    ----------
+    cracks : Cracks
+        From :meth:`Result.crack`.
+    length : float
+        Length of the crack [m]; the nearest of those computed is drawn.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    ax = axes(ax)
+    one = cracks.dataset.sel(length=length, method="nearest")
+    for name, label, colour in (
+        ("K_I", r"$K_\mathrm{I}$", "C0"),
+        ("K_II", r"$K_\mathrm{II}$", "C1"),
+    ):
+        ax.errorbar(
+            one.increment,
+            one[name] * MEGA,
+            yerr=one.error * MEGA,
+            color=colour,
+            label=label,
+            elinewidth=0.6,
+        )
+        ax.plot(one.increment, one[f"{name}_linear"] * MEGA, color=colour, linewidth=0.5)
+    ax.axhline(0.0, color="0.7", linewidth=0.5, zorder=0)
+    ax.set_title(rf"$l = {float(one.length) * MICRO:.3g}$ µm")
+    ax.set_xlabel("increment")
+    ax.set_ylabel(r"$K$ [MPa m$^{1/2}$]")
+    ax.legend()
+    return ax
+
+
+@styled
+def crack_arrest(cracks: Cracks, threshold: Threshold, *, ax: Axes | None = None) -> Axes:
+    """Range of K over the length of the crack, its threshold, and where the crack stops.
+
+    Parameters
+    ----------
+    cracks : Cracks
+        From :meth:`Result.crack`.
+    threshold : Threshold
+        Of the material.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    ax = axes(ax)
+    lengths = cracks.lengths * MICRO
+    ax.plot(lengths, cracks.dK(threshold) * MEGA, color="C0", label=r"$\Delta K$")
+    ax.plot(lengths, threshold.at(cracks.lengths) * MEGA, "k--", label=r"$\Delta K_\mathrm{th}$")
+    found = cracks.arrest(threshold)
+    if found.verdict == "stops" and found.length is not None:
+        stop = np.atleast_1d(threshold.at(found.length))[0] * MEGA
+        ax.plot(found.length * MICRO, stop, "o", color="C3", zorder=3)
+        ax.annotate(
+            f"stops at {found.length * MICRO:.3g} µm",
+            (found.length * MICRO, stop),
+            xytext=(6, -12),
+            textcoords="offset points",
+        )
+    ax.set_xscale("log")
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlabel(r"crack length $l$ [µm]")
+    ax.set_ylabel(r"range of $K_\mathrm{I}$ [MPa m$^{1/2}$]")
+    ax.legend()
+    return ax
+
+
+@styled
+def kitagawa(cracks: Cracks, threshold: Threshold, *, ax: Axes | None = None) -> Axes:
+    """Kitagawa and Takahashi's diagram with the curve of the load in it.
+
+    A crack grows where the curve is above the limit.
+
+    Parameters
+    ----------
+    cracks : Cracks
+        From :meth:`Result.crack`.
+    threshold : Threshold
+        Of the material.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    ax = axes(ax)
+    found = cracks.kitagawa(threshold)
+    lengths = found.length * MICRO
+    load = found["load"].where(found["load"] > 0.0)
+    ax.plot(lengths, load * MEGA, color="C0", label="load")
+    ax.plot(lengths, found["limit"] * MEGA, color="k", label="limit")
+    if threshold.dS_0 is not None:
+        ax.axhline(threshold.dS_0 * MEGA, color="0.6", linestyle=":", label=r"$\Delta\sigma_0$")
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlabel(r"crack length $l$ [µm]")
+    ax.set_ylabel(r"range of stress $\Delta K/(Y\sqrt{\pi l})$ [MPa]")
+    ax.legend()
+    return ax
