@@ -34,6 +34,7 @@ from pyfret import (
 from pyfret._core import (
     RIGID,
     Body,
+    Bond,
     Branch,
     Coating,
     Cylinder,
@@ -69,6 +70,7 @@ if TYPE_CHECKING:
 __all__ = [
     "RIGID",
     "Body",
+    "Bond",
     "Branch",
     "Coating",
     "Cylinder",

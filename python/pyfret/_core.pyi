@@ -15,6 +15,7 @@ __all__ = [
     "Archard",
     "Assessment",
     "Body",
+    "Bond",
     "Branch",
     "CattaneoMindlin",
     "CoatedIndentation",
@@ -153,6 +154,22 @@ class Elastic:
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
+class Bond:
+    def __new__(cls, *, normal: float = 0.0, shear: float = 0.0) -> Bond: ...
+    @staticmethod
+    def of_layer(material: Elastic, *, thickness: float) -> Bond: ...
+    @property
+    def normal(self) -> float: ...
+    @property
+    def shear(self) -> float: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __replace__(self, **changes: Any) -> Bond: ...
+    def replace(self, **changes: Any) -> Bond: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
 class Coating:
     """A layer of constant thickness, perfectly bonded to what is below it.
 
@@ -164,13 +181,18 @@ class Coating:
         Thickness [m], positive.
     """
 
-    def __new__(cls, material: Elastic, *, thickness: float) -> Coating: ...
+    def __new__(
+        cls, material: Elastic, *, thickness: float, bond: Bond = ...
+    ) -> Coating: ...
     @property
     def material(self) -> Elastic:
         """Material of the layer."""
     @property
     def thickness(self) -> float:
         """Thickness [m]."""
+    @property
+    def bond(self) -> Bond:
+        """Bond to what is below it."""
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
     def __replace__(self, **changes: Any) -> Coating: ...
     def replace(self, **changes: Any) -> Coating:

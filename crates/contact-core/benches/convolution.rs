@@ -24,6 +24,7 @@ fn coefficients(n: usize) -> InfluenceCoefficients {
     let body = Body {
         substrate: STEEL,
         coatings: vec![coating],
+        bonds: Vec::new(),
         shape: Shape::Flat,
     };
     let grid = Grid::centred(1.2e-3, n).expect("a positive extent");

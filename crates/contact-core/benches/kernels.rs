@@ -25,6 +25,7 @@ fn body(layers: usize) -> Body {
     Body {
         substrate: STEEL,
         coatings: (0..layers).map(coating).collect(),
+        bonds: Vec::new(),
         shape: Shape::Flat,
     }
 }

@@ -53,6 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             material: Elastic::new(420e9, 0.3)?,
             thickness: 5e-4,
         }],
+        bonds: Vec::new(),
         shape: Shape::Flat,
     };
     println!("cells,threads,seconds");

@@ -7,7 +7,7 @@ use crate::error::Error;
 pub struct Elastic {
     /// Young's modulus E \[Pa\], positive; infinite for a rigid material.
     pub E: f64,
-    /// Poisson's ratio nu, -1 < nu < 1/2.
+    /// Poisson's ratio nu, -1 < nu <= 1/2.
     pub nu: f64,
 }
 
@@ -18,7 +18,7 @@ impl Elastic {
         nu: 0.0,
     };
 
-    /// A material, checked: `E > 0` and `-1 < nu < 1/2`.
+    /// A material, checked: `E > 0` and `-1 < nu <= 1/2`.
     pub fn new(E: f64, nu: f64) -> Result<Self, Error> {
         let material = Self { E, nu };
         material.check("material")?;
@@ -44,18 +44,58 @@ impl Elastic {
                 "a positive modulus in Pa",
             ));
         }
-        if !(self.nu > -1.0 && self.nu < 0.5) {
+        if !(self.nu > -1.0 && self.nu <= 0.5) {
             return Err(Error::invalid(
                 format!("{key}.nu"),
                 self.nu,
-                "-1 < nu < 0.5",
+                "-1 < nu <= 0.5",
             ));
         }
         Ok(())
     }
 }
 
-/// A layer of constant thickness, perfectly bonded to what is below it.
+/// How a layer is bonded to what lies below it: springs that give way under the traction there.
+///
+/// The upper side moves against the lower one by compliance times traction; tension and pressure count
+/// alike, so that a bond that pulls apart holds until its strength is judged elsewhere.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bond {
+    /// Approach per pressure \[m/Pa\] (default 0, perfect).
+    pub normal: f64,
+    /// Slip per shear traction \[m/Pa\] (default 0, perfect); a large one is a frictionless interface.
+    pub shear: f64,
+}
+
+impl Bond {
+    /// A bond that does not give way.
+    pub const PERFECT: Self = Self {
+        normal: 0.0,
+        shear: 0.0,
+    };
+
+    /// That of a thin layer of a material of the thickness `h` \[m\].
+    pub fn of_layer(material: Elastic, h: f64) -> Self {
+        let (G, nu) = (material.G(), material.nu);
+        Self {
+            normal: h * (1.0 - 2.0 * nu) / (2.0 * G * (1.0 - nu)),
+            shear: h / G,
+        }
+    }
+
+    /// Fails if a compliance is negative or not finite; `key` says where the bond stands.
+    pub fn check(&self, key: &str) -> Result<(), Error> {
+        for (name, value) in [("normal", self.normal), ("shear", self.shear)] {
+            if !(value >= 0.0 && value.is_finite()) {
+                let allowed = "a compliance in m/Pa, 0 (perfect) or more";
+                return Err(Error::invalid(format!("{key}_{name}"), value, allowed));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A layer of constant thickness on what is below it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coating {
     /// Material of the layer.

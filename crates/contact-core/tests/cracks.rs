@@ -83,8 +83,15 @@ fn compare(share: f64, cells: usize) {
             let off = (k.K_I - truth.K_I).hypot(k.K_II - truth.K_II);
             // What both tractions cause alone is the yardstick: their parts of K_I cancel.
             let scale = line.p0 * (std::f64::consts::PI * length).sqrt() * MU;
-            assert!(off < 1e-2 * scale, "{share} {angle} {length}: {off:e} of {scale:e}");
-            assert!(off < k.error, "{share} {angle} {length}: {off:e}, told {:e}", k.error);
+            assert!(
+                off < 1e-2 * scale,
+                "{share} {angle} {length}: {off:e} of {scale:e}"
+            );
+            assert!(
+                off < k.error,
+                "{share} {angle} {length}: {off:e}, told {:e}",
+                k.error
+            );
         }
     }
 }

@@ -15,6 +15,7 @@ fn response(E: Profile, layers: usize) -> [f64; 4] {
     let body = Body {
         substrate: Elastic { E: 210e9, nu: 0.3 },
         coatings: graded.coatings().unwrap(),
+        bonds: Vec::new(),
         shape: Shape::Flat,
     };
     let r = Stack::new(&body).response(2e5);

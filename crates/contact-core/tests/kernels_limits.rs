@@ -15,6 +15,7 @@ fn body(layers: &[(f64, f64, f64)], substrate: Elastic) -> Body {
     Body {
         substrate,
         coatings: layers.iter().map(coating).collect(),
+        bonds: Vec::new(),
         shape: Shape::Flat,
     }
 }

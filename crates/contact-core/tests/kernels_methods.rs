@@ -20,6 +20,7 @@ fn coated() -> Body {
             material: Elastic { E: 840e9, nu: 0.3 },
             thickness: 8e-6,
         }],
+        bonds: Vec::new(),
         shape: Shape::Flat,
     }
 }
@@ -136,6 +137,7 @@ fn frequency_domain_is_the_convolution_with_its_own_coefficients() {
             material: Elastic { E: 20e9, nu: 0.45 },
             thickness: 2e-6,
         }],
+        bonds: Vec::new(),
         shape: Shape::Flat,
     };
     for (n, lambda) in [((16, 24), 2), ((12, 10), 3), ((9, 14), 4)] {

@@ -92,6 +92,7 @@ fn a_layer_may_be_cut_in_two() {
         let whole = Body {
             substrate: Elastic { E: 210e9, nu: 0.3 },
             coatings,
+            bonds: Vec::new(),
             shape: Shape::Flat,
         };
         let mut cut = whole.clone();

@@ -4,7 +4,7 @@ use clap::Args;
 use contact_core::Scene;
 use contact_core::memory::available_memory;
 use contact_core::plan::Plan;
-use contact_core::scene::{Body, Elastic};
+use contact_core::scene::{Body, Bond, Elastic};
 use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
@@ -118,9 +118,15 @@ fn body(body: &Body, cell: f64) -> String {
             format!("E = {} GPa, nu = {}", short(m.E / 1e9), m.nu)
         }
     };
-    let layers = body.coatings.iter().map(|c| {
+    let layers = body.coatings.iter().enumerate().map(|(n, c)| {
+        let Bond { normal, shear } = body.bond(n);
+        let bond = if (normal, shear) == (0.0, 0.0) {
+            String::new()
+        } else {
+            format!("bonded by {normal:e} and {shear:e} m/Pa (normal, shear) ")
+        };
         format!(
-            "{} ({:.3} um = {:.2} cells) on ",
+            "{} ({:.3} um = {:.2} cells) {bond}on ",
             material(&c.material),
             1e6 * c.thickness,
             c.thickness / cell

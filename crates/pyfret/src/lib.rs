@@ -67,10 +67,10 @@ mod _core {
     use crate::result::{resume, solve, verify};
     #[pymodule_export]
     use crate::scene::{
-        Body, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat, FlatPunch,
-        FrequencyDomain, Friction, Grid, Hankel, History, InverseFft, LoadPath, PerRange, Preset,
-        Profile, Rough, Scene, Settings, Skip, Spacing, Sphere, Sum, SurfaceMap, Waviness, Wedge,
-        graded,
+        Body, Bond, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat,
+        FlatPunch, FrequencyDomain, Friction, Grid, Hankel, History, InverseFft, LoadPath,
+        PerRange, Preset, Profile, Rough, Scene, Settings, Skip, Spacing, Sphere, Sum, SurfaceMap,
+        Waviness, Wedge, graded,
     };
 
     #[pymodule_export]

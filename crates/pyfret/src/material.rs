@@ -13,7 +13,7 @@ use crate::parts::parts;
 /// E : float
 ///     Young's modulus [Pa], positive; infinite, with nu = 0, for :data:`RIGID`.
 /// nu : float
-///     Poisson's ratio, -1 < nu < 0.5.
+///     Poisson's ratio, -1 < nu <= 0.5.
 ///
 /// Examples
 /// --------
@@ -91,7 +91,65 @@ impl Elastic {
     }
 }
 
-/// A layer of constant thickness, perfectly bonded to what is below it.
+/// How a layer is bonded to what lies below it: springs that give way under the traction there.
+///
+/// The upper side moves against the lower one by compliance times traction, in tension as in pressure.
+///
+/// Parameters
+/// ----------
+/// normal, shear : float
+///     Approach per pressure and slip per shear traction [m/Pa], 0 (default) or more; a large shear
+///     compliance is a frictionless interface.
+///
+/// Examples
+/// --------
+/// >>> glue = Elastic(E=3e9, nu=0.4)
+/// >>> Bond.of_layer(glue, thickness=0.0).normal
+/// 0.0
+#[pyclass(frozen, eq, module = "pyfret")]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct Bond(pub(crate) core::Bond);
+
+parts!(Bond: normal, shear);
+takes!(Bond, "a bond, such as Bond(normal=1e-17, shear=1e-16)");
+
+#[pymethods]
+impl Bond {
+    #[new]
+    #[pyo3(signature = (*, normal = 0.0, shear = 0.0))]
+    fn new(normal: f64, shear: f64) -> PyResult<Self> {
+        let bond = core::Bond { normal, shear };
+        bond.check("bond").map_err(to_python)?;
+        Ok(Self(bond))
+    }
+
+    /// The bond that a thin layer of a material makes: h (1 - 2 nu)/(2 G (1 - nu)) and h/G.
+    #[staticmethod]
+    #[pyo3(signature = (material, *, thickness))]
+    fn of_layer(material: Elastic, thickness: f64) -> PyResult<Self> {
+        let bond = core::Bond::of_layer(material.0, thickness);
+        bond.check("bond").map_err(to_python)?;
+        Ok(Self(bond))
+    }
+
+    /// Approach per pressure [m/Pa].
+    #[getter]
+    fn normal(&self) -> f64 {
+        self.0.normal
+    }
+
+    /// Slip per shear traction [m/Pa].
+    #[getter]
+    fn shear(&self) -> f64 {
+        self.0.shear
+    }
+
+    pub(crate) fn __repr__(&self) -> String {
+        format!("Bond(normal={:?}, shear={:?})", self.0.normal, self.0.shear)
+    }
+}
+
+/// A layer of constant thickness on what is below it.
 ///
 /// Parameters
 /// ----------
@@ -99,11 +157,20 @@ impl Elastic {
 ///     Material of the layer.
 /// thickness : float
 ///     Thickness [m], positive.
+/// bond : Bond
+///     Bond to what is below it (default: perfect).
 #[pyclass(frozen, eq, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) struct Coating(pub(crate) core::Coating);
+pub(crate) struct Coating(pub(crate) core::Coating, pub(crate) core::Bond);
 
-parts!(Coating: material, thickness);
+impl Coating {
+    /// A layer that is perfectly bonded.
+    pub(crate) fn perfect(coating: core::Coating) -> Self {
+        Self(coating, core::Bond::PERFECT)
+    }
+}
+
+parts!(Coating: material, thickness, bond);
 takes!(
     Coating,
     "a coating, such as Coating(Elastic(E=300e9, nu=0.25), thickness=3e-6)"
@@ -112,14 +179,14 @@ takes!(
 #[pymethods]
 impl Coating {
     #[new]
-    #[pyo3(signature = (material, *, thickness))]
-    fn new(material: Elastic, thickness: f64) -> PyResult<Self> {
+    #[pyo3(signature = (material, *, thickness, bond = Bond(core::Bond::PERFECT)))]
+    fn new(material: Elastic, thickness: f64, bond: Bond) -> PyResult<Self> {
         let coating = core::Coating {
             material: material.0,
             thickness,
         };
         coating.check("coating").map_err(to_python)?;
-        Ok(Self(coating))
+        Ok(Self(coating, bond.0))
     }
 
     /// Material of the layer.
@@ -134,9 +201,20 @@ impl Coating {
         self.0.thickness
     }
 
+    /// Bond to what is below it.
+    #[getter]
+    fn bond(&self) -> Bond {
+        Bond(self.1)
+    }
+
     pub(crate) fn __repr__(&self) -> String {
+        let bond = if self.1 == core::Bond::PERFECT {
+            String::new()
+        } else {
+            format!(", bond={}", self.bond().__repr__())
+        };
         format!(
-            "Coating({}, thickness={:?})",
+            "Coating({}, thickness={:?}{bond})",
             self.material().__repr__(),
             self.0.thickness
         )

@@ -12,7 +12,7 @@ const CAPACITY: usize = 1 << 24;
 /// All that the coefficients depend on; reals by their bits.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Key {
-    /// E and nu of the substrate, then E, nu and h of each layer.
+    /// E, nu, thickness and bond of each layer, the substrate last.
     body: Vec<u64>,
     grid: [u64; 5],
     method: KernelMethod,
@@ -28,15 +28,11 @@ impl Key {
         bare: bool,
         set: KernelSet,
     ) -> Self {
-        let coatings = if bare { &[][..] } else { &body.coatings };
-        let layers = coatings
-            .iter()
-            .flat_map(|c| [c.material.E, c.material.nu, c.thickness]);
-        let substrate = [body.substrate.E, body.substrate.nu];
         Self {
-            body: substrate
+            body: body
+                .layers(bare)
                 .into_iter()
-                .chain(layers)
+                .flatten()
                 .map(f64::to_bits)
                 .collect(),
             grid: [

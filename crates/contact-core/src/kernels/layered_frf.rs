@@ -1,4 +1,4 @@
-//! Frequency response of a stack of bonded layers on a half-space.
+//! Frequency response of a stack of layers on a half-space.
 //!
 //! Tractions exp(i k.x) split into an in-plane problem along the wave vector (r, z) and an
 //! out-of-plane problem across it (t). With u_r = i U, q_r = i Q the in-plane problem is real:
@@ -28,10 +28,14 @@
 //! material comes out with full relative accuracy. With S = 2a (2a + D)^-1 = 1 + R_0, the matrix
 //! 1 + R = (1 - P_u P_d) + P_u S P_d adds positive parts, and Y - Y_s is found without
 //! cancellation where x is small.
+//!
+//! Through a bond that gives way by (c_s, c_n) per traction, what is above it sees what is below it
+//! with Y + k diag(c_s, c_n), out of the plane with Y + k c_s; the tractions are the same on both
+//! sides.
 
 use super::matrix::Matrix2;
 use crate::error::Error;
-use crate::scene::{Body, Elastic};
+use crate::scene::{Body, Bond, Elastic};
 
 /// Phase thickness k h below which Y is built on the response of what lies below the layer, above
 /// which on that of the layer's own half-space; both hold at either side.
@@ -185,6 +189,19 @@ impl Below {
         (in_plane, out_of_plane)
     }
 
+    /// The response through a bond, at the wave number k.
+    fn through(self, bond: Bond, k: f64) -> Self {
+        let (shear, normal) = (k * bond.shear, k * bond.normal);
+        let more = Matrix2(shear, 0.0, 0.0, normal);
+        Self {
+            y: self.y + more,
+            y_rest: self.y_rest + more,
+            t: self.t + shear,
+            t_rest: self.t_rest + shear,
+            top: self.top,
+        }
+    }
+
     /// The response once `layer` of phase thickness x = k h lies on top.
     fn under(&self, layer: HalfSpace, x: f64) -> (Self, LayerWaves) {
         let (d, d_t) = self.mismatch(layer);
@@ -242,11 +259,13 @@ impl Below {
     }
 }
 
-/// A stack of bonded layers on a half-space, ready for any wave number.
+/// A stack of layers on a half-space, ready for any wave number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stack {
     /// Layers from the surface down, with their thickness \[m\].
     pub(crate) layers: Vec<(HalfSpace, f64)>,
+    /// The bond below each layer.
+    pub(crate) bonds: Vec<Bond>,
     /// The half-space below.
     pub(crate) substrate: HalfSpace,
 }
@@ -263,6 +282,7 @@ impl Stack {
         let layer = |c: &crate::scene::Coating| (HalfSpace::new(c.material), c.thickness);
         Self {
             layers: body.coatings.iter().map(layer).collect(),
+            bonds: (0..body.coatings.len()).map(|n| body.bond(n)).collect(),
             substrate: HalfSpace::new(body.substrate),
         }
     }
@@ -275,8 +295,10 @@ impl Stack {
     /// From the substrate up.
     fn surface(&self, k: f64) -> Below {
         let start = Below::half_space(self.substrate);
-        let layers = self.layers.iter().rev();
-        layers.fold(start, |below, (layer, h)| below.under(*layer, k * h).0)
+        let layers = self.layers.iter().zip(&self.bonds).rev();
+        layers.fold(start, |below, ((layer, h), bond)| {
+            below.through(*bond, k).under(*layer, k * h).0
+        })
     }
 
     /// The surface response times k, at the wave number `k` \[1/m\] >= 0.
@@ -306,8 +328,8 @@ impl Stack {
     pub(crate) fn waves(&self, k: f64) -> Vec<LayerWaves> {
         let mut below = Below::half_space(self.substrate);
         let mut waves = Vec::with_capacity(self.layers.len());
-        for (layer, h) in self.layers.iter().rev() {
-            let (next, wave) = below.under(*layer, k * h);
+        for ((layer, h), bond) in self.layers.iter().zip(&self.bonds).rev() {
+            let (next, wave) = below.through(*bond, k).under(*layer, k * h);
             waves.push(wave);
             below = next;
         }
@@ -322,13 +344,15 @@ impl Stack {
     }
 
     /// A wave number below which the response is well within its power series at k = 0: the
-    /// nearest singularity lies at 1/(H contrast) or beyond, H the height of the stack.
+    /// nearest singularity lies at 1/(H contrast) or beyond, H the height of the stack; a bond counts
+    /// as a layer of the softest material that gives way as much.
     pub(crate) fn lowest_scale(&self) -> f64 {
         let materials = || self.layers.iter().map(|l| l.0).chain([self.substrate]);
         let finite = || materials().map(|m| m.c).filter(|c| *c > 0.0);
         let stiffest = finite().fold(f64::INFINITY, f64::min);
         let softest = finite().fold(0.0, f64::max);
         let height: f64 = self.layers.iter().map(|l| l.1).sum();
-        stiffest / (softest * height)
+        let bonds: f64 = self.bonds.iter().map(|b| b.normal + b.shear).sum();
+        stiffest / (softest * height + bonds)
     }
 }

@@ -119,6 +119,7 @@ fn of_body(
     let mut stack = Stack::new(body);
     if bare {
         stack.layers.clear();
+        stack.bonds.clear();
     }
     let coefficients = match settings.method {
         _ if grid.plane_strain => line::line_coefficients(&stack, grid).only(set),

@@ -166,7 +166,7 @@ fn uncoupled(scene: &Scene) -> Result<&'static str, &'static str> {
     }
 }
 
-fn layers(body: &Body, scene: &Scene) -> Vec<(f64, f64, f64)> {
+fn layers(body: &Body, scene: &Scene) -> Vec<[f64; 5]> {
     body.layers(scene.settings.skip.equal_layers)
 }
 

@@ -2,7 +2,7 @@
 
 use super::Shape;
 use crate::error::Error;
-use crate::material::{Coating, Elastic};
+use crate::material::{Bond, Coating, Elastic};
 
 /// One of the two bodies, an elastic half-space under a gently curved surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +11,8 @@ pub struct Body {
     pub substrate: Elastic,
     /// Layers from the surface down: `coatings[0]` is the outermost.
     pub coatings: Vec<Coating>,
+    /// Bond of each layer to what is below it; those that are missing are perfect.
+    pub bonds: Vec<Bond>,
     /// Shape of the undeformed surface.
     pub shape: Shape,
 }
@@ -21,6 +23,7 @@ impl Body {
         Self {
             substrate: material,
             coatings: Vec::new(),
+            bonds: Vec::new(),
             shape,
         }
     }
@@ -30,9 +33,15 @@ impl Body {
         self.coatings.first().map_or(self.substrate, |c| c.material)
     }
 
-    /// Whether every layer has the properties of the substrate.
+    /// The bond of a layer to what is below it.
+    pub fn bond(&self, layer: usize) -> Bond {
+        self.bonds.get(layer).copied().unwrap_or_default()
+    }
+
+    /// Whether every layer has the properties of the substrate and is perfectly bonded.
     pub fn is_homogeneous(&self) -> bool {
-        self.coatings.iter().all(|c| c.material == self.substrate)
+        let same = self.coatings.iter().all(|c| c.material == self.substrate);
+        same && self.bonds.iter().all(|bond| *bond == Bond::PERFECT)
     }
 
     /// Depths of the interfaces \[m\], from the surface down.
@@ -44,19 +53,20 @@ impl Body {
         self.coatings.iter().scan(0.0, bottom).collect()
     }
 
-    /// The elastic make-up: E, nu and thickness of each layer from the surface down, 0 for the
+    /// The elastic make-up: E, nu, thickness and bond of each layer from the surface down, 0 for the
     /// substrate; with `shortcut` one of layers that all equal the substrate is the substrate alone.
-    pub(crate) fn layers(&self, shortcut: bool) -> Vec<(f64, f64, f64)> {
+    pub(crate) fn layers(&self, shortcut: bool) -> Vec<[f64; 5]> {
         let coatings = if shortcut && self.is_homogeneous() {
             &[][..]
         } else {
             &self.coatings[..]
         };
-        let coatings = coatings
-            .iter()
-            .map(|c| (c.material.E, c.material.nu, c.thickness));
+        let coatings = coatings.iter().enumerate().map(|(n, c)| {
+            let Bond { normal, shear } = self.bond(n);
+            [c.material.E, c.material.nu, c.thickness, normal, shear]
+        });
         coatings
-            .chain([(self.substrate.E, self.substrate.nu, 0.0)])
+            .chain([[self.substrate.E, self.substrate.nu, 0.0, 0.0, 0.0]])
             .collect()
     }
 
@@ -65,6 +75,17 @@ impl Body {
         self.substrate.check(key)?;
         for (i, coating) in self.coatings.iter().enumerate() {
             coating.check(&format!("{key}.coatings[{i}]"))?;
+        }
+        if self.bonds.len() > self.coatings.len() {
+            let allowed = format!("{}, one for each coating, or fewer", self.coatings.len());
+            return Err(Error::invalid(
+                format!("{key}.bonds"),
+                self.bonds.len(),
+                allowed,
+            ));
+        }
+        for (i, bond) in self.bonds.iter().enumerate() {
+            bond.check(&format!("{key}.coatings[{i}].bond"))?;
         }
         self.shape.check(&format!("{key}.shape"))
     }

@@ -20,7 +20,7 @@ mod settings;
 mod shape;
 mod surface_map;
 
-pub use crate::material::{Coating, Elastic};
+pub use crate::material::{Bond, Coating, Elastic};
 pub use body::Body;
 pub(crate) use case::{Fault, Section, read_with, text_of};
 pub use files::Reach;

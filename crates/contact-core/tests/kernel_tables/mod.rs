@@ -44,6 +44,7 @@ pub(crate) fn body(entry: &Value) -> Body {
     Body {
         substrate: elastic(&entry["substrate"]),
         coatings: layers.iter().map(coating).collect(),
+        bonds: Vec::new(),
         shape: Shape::Flat,
     }
 }

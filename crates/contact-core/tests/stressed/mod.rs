@@ -31,6 +31,7 @@ pub(crate) fn coated(n: usize) -> Contact {
             material: material(420e9),
             thickness: A_H,
         }],
+        bonds: Vec::new(),
         shape: Shape::Flat,
     };
     let grid = Grid::centred(2.4 * A_H, n).expect("a grid");

@@ -25,6 +25,7 @@ fn coated() -> Body {
     Body {
         substrate: Elastic::new(1.0, 0.3).unwrap(),
         coatings: vec![layer(3.0, 0.25, 9.5), layer(0.4, 0.4, 2.5)],
+        bonds: Vec::new(),
         shape: Shape::Flat,
     }
 }

@@ -205,7 +205,7 @@ fn bad_input_is_refused_before_anything_is_written() {
     for (setting, words) in [
         ("friction.mu=-0.3", &["friction.mu = -0.3", ">= 0"][..]),
         ("body1.E=-1.0", &["body1.E = -1", "a positive modulus"]),
-        ("body2.nu=0.5", &["body2.nu = 0.5", "-1 < nu < 0.5"]),
+        ("body2.nu=0.6", &["body2.nu = 0.6", "-1 < nu <= 0.5"]),
         ("grid.n=0", &["grid.n = 0", ">= 1"]),
         (
             "path.1.T_x.mu_W=1.5",

@@ -35,7 +35,8 @@ impl Body {
     fn new(substrate: Elastic, coatings: Coatings, shape: Shape) -> Self {
         Self(core::Body {
             substrate: substrate.0,
-            coatings: coatings.0,
+            bonds: coatings.bonds(),
+            coatings: coatings.0.into_iter().map(|c| c.0).collect(),
             shape: shape.into(),
         })
     }
@@ -49,7 +50,8 @@ impl Body {
     /// Layers from the surface down.
     #[getter]
     fn coatings(&self) -> Vec<Coating> {
-        self.0.coatings.iter().copied().map(Coating).collect()
+        let layers = self.0.coatings.iter().enumerate();
+        layers.map(|(n, c)| Coating(*c, self.0.bond(n))).collect()
     }
 
     /// Undeformed surface.
@@ -72,14 +74,25 @@ impl Body {
 }
 
 /// Layers from the surface down, or a single one.
-struct Coatings(Vec<core::Coating>);
+struct Coatings(Vec<Coating>);
+
+impl Coatings {
+    /// Their bonds; none where all are perfect.
+    fn bonds(&self) -> Vec<core::Bond> {
+        let bonds = self.0.iter().map(|c| c.1);
+        if bonds.clone().all(|bond| bond == core::Bond::PERFECT) {
+            return Vec::new();
+        }
+        bonds.collect()
+    }
+}
 
 impl<'py> FromPyObject<'_, 'py> for Coatings {
     type Error = PyErr;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(one) = value.extract::<Coating>() {
-            return Ok(Self(vec![one.0]));
+            return Ok(Self(vec![one]));
         }
         let layers = value.try_iter().map_err(|_| {
             must_be(
@@ -88,10 +101,6 @@ impl<'py> FromPyObject<'_, 'py> for Coatings {
             )
         })?;
         let layer = |layer: PyResult<Bound<'_, PyAny>>| layer?.extract::<Coating>();
-        Ok(Self(
-            layers
-                .map(|l| layer(l).map(|c| c.0))
-                .collect::<PyResult<_>>()?,
-        ))
+        Ok(Self(layers.map(layer).collect::<PyResult<_>>()?))
     }
 }

@@ -12,7 +12,7 @@ mod settings;
 mod shape;
 mod whole;
 
-pub(crate) use crate::material::{Coating, Elastic};
+pub(crate) use crate::material::{Bond, Coating, Elastic};
 pub(crate) use body::Body;
 pub(crate) use branch::{Branch, Spacing};
 pub(crate) use friction::{AnyFriction, Friction, History};

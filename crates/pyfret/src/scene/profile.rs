@@ -83,5 +83,5 @@ pub(crate) fn graded(
         layers,
     };
     let coatings = coating.coatings().map_err(to_python)?;
-    Ok(coatings.into_iter().map(Coating).collect())
+    Ok(coatings.into_iter().map(Coating::perfect).collect())
 }

@@ -11,7 +11,7 @@ use super::section::{Section, count, pair};
 use super::settings::settings;
 use super::shape::shape;
 use crate::scene::files::Files;
-use crate::scene::{Body, Coating, Elastic, Grid, Scene};
+use crate::scene::{Body, Bond, Coating, Elastic, Grid, Scene};
 
 /// The version of the scene file that is read and written.
 pub(super) const SCHEMA: i64 = 1;
@@ -66,6 +66,8 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
     let p_H = Measure::p_H(hertz.map(|h| h.p0));
     scene.body1.coatings = coatings(&bodies[0], &scene.body1, &[a_H, p_H])?;
     scene.body2.coatings = coatings(&bodies[1], &scene.body2, &[a_H, p_H])?;
+    scene.body1.bonds = bonds(&bodies[0])?;
+    scene.body2.bonds = bonds(&bodies[1])?;
     scene.grid = grid(&root, a_H)?;
     Ok(scene)
 }
@@ -86,6 +88,22 @@ fn uncoated(section: &Section<'_>, files: &Files<'_>) -> Result<Body, Fault> {
     Ok(Body::homogeneous(substrate, shape(section, files)?))
 }
 
+const COATING: [&str; 5] = ["E", "nu", "thickness", "bond_normal", "bond_shear"];
+
+/// The bonds of the coatings; none where all are perfect.
+fn bonds(section: &Section<'_>) -> Result<Vec<Bond>, Fault> {
+    let bonds = section.sections("coatings", &COATING)?;
+    let bonds = bonds.iter().map(|coating| {
+        Ok(Bond {
+            normal: coating.number_or("bond_normal", 0.0, &[])?,
+            shear: coating.number_or("bond_shear", 0.0, &[])?,
+        })
+    });
+    let bonds = bonds.collect::<Result<Vec<_>, Fault>>()?;
+    let perfect = bonds.iter().all(|bond| *bond == Bond::PERFECT);
+    Ok(if perfect { Vec::new() } else { bonds })
+}
+
 fn coatings(
     section: &Section<'_>,
     body: &Body,
@@ -94,7 +112,7 @@ fn coatings(
     let [a_H, p_H] = *hertz;
     let moduli = [Measure::E_substrate(body.substrate.E), p_H];
     section
-        .sections("coatings", &["E", "nu", "thickness"])?
+        .sections("coatings", &COATING)?
         .iter()
         .map(|coating| {
             Ok(Coating {

@@ -71,8 +71,8 @@ fn unknown_keys_name_the_nearest() {
 const WITHOUT_MEANING: &str = r#"
 E = 210e9;  E = -210e9;  6;  body1.E = -210000000000;  a positive modulus in Pa
 E = 210e9;  E = nan;  6;  body1.E = nan;  a number
-nu = 0.3;  nu = 0.5;  7;  body1.nu = 0.5;  -1 < nu < 0.5
-nu = 0.3;  nu = -1.0;  7;  body1.nu = -1;  -1 < nu < 0.5
+nu = 0.3;  nu = 0.51;  7;  body1.nu = 0.51;  -1 < nu <= 0.5
+nu = 0.3;  nu = -1.0;  7;  body1.nu = -1;  -1 < nu <= 0.5
 R = 0.018;  R = 0.0;  5;  body1.shape.sphere.R = 0;  a finite radius in m
 { E_substrate = 2.0 };  -1.0;  15;  body2.coatings[0].E = -1;  a positive modulus
 { E_substrate = 2.0 };  inf;  15;  body2.coatings[0].E = inf;  a finite modulus

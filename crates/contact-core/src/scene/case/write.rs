@@ -6,8 +6,8 @@ use toml::Value;
 
 use super::read::SCHEMA;
 use crate::scene::{
-    Body, Elastic, Friction, FrictionHistory, History, KernelMethod, Loads, Preset, RigidMotion,
-    SaveFields, Scene, Spacing,
+    Body, Bond, Elastic, Friction, FrictionHistory, History, KernelMethod, Loads, Preset,
+    RigidMotion, SaveFields, Scene, Spacing,
 };
 
 impl Scene {
@@ -20,10 +20,15 @@ impl Scene {
         };
         for (name, body) in [("body1", &self.body1), ("body2", &self.body2)] {
             line(format_args!("\n[{name}]\n{}", substrate(body)));
-            for coating in &body.coatings {
+            for (n, coating) in body.coatings.iter().enumerate() {
                 line(format_args!("\n[[{name}.coatings]]"));
                 line(format_args!("{}", material(coating.material)));
                 line(format_args!("thickness = {:?}", coating.thickness));
+                let bond = body.bond(n);
+                if bond != Bond::PERFECT {
+                    line(format_args!("bond_normal = {:?}", bond.normal));
+                    line(format_args!("bond_shear = {:?}", bond.shear));
+                }
             }
         }
         line(format_args!("\n[friction]\n{}", friction(&self.friction)));
