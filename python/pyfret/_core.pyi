@@ -181,9 +181,7 @@ class Coating:
         Thickness [m], positive.
     """
 
-    def __new__(
-        cls, material: Elastic, *, thickness: float, bond: Bond = ...
-    ) -> Coating: ...
+    def __new__(cls, material: Elastic, *, thickness: float, bond: Bond = ...) -> Coating: ...
     @property
     def material(self) -> Elastic:
         """Material of the layer."""

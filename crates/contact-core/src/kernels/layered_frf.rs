@@ -41,6 +41,10 @@ use crate::scene::{Body, Bond, Elastic};
 /// which on that of the layer's own half-space; both hold at either side.
 const THIN: f64 = 0.5;
 
+/// Response of what lies below a thin layer, over the layer's own, from which on the change that the
+/// layer makes is most of it: the response is built on the layer again.
+const SOFT: f64 = 1e4;
+
 /// The constants of a material: k times its half-space compliance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HalfSpace {
@@ -222,7 +226,7 @@ impl Below {
         let down_t = 1.0 / (closed_t + s_t * round_trip);
         let t_rest = -c2 * r_t * down_t;
 
-        let (y, t) = if x < THIN {
+        let (y, t) = if x < THIN && d.size() < SOFT * layer.a {
             let em = (-x).exp_m1();
             let xe = x * (-x).exp();
             let (ed, eu) = (
