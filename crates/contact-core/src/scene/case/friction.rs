@@ -5,9 +5,16 @@ use toml::Value;
 use super::fault::Fault;
 use super::measure;
 use super::section::Section;
-use super::shape::surface_map;
+use super::shape::{map_text, surface_map};
 use crate::scene::files::Files;
 use crate::scene::{Friction, FrictionHistory, History};
+
+/// The words of the histories.
+const HISTORIES: [(&str, History); 3] = [
+    ("slip", History::Slip),
+    ("dissipated", History::Dissipated),
+    ("increment", History::Increment),
+];
 
 /// The friction law.
 pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction, Fault> {
@@ -49,14 +56,7 @@ fn friction_history(friction: &Section<'_>) -> Result<Option<FrictionHistory>, F
     let Some(section) = friction.section("history", &["of", "table"])? else {
         return Ok(None);
     };
-    let of = section.choice(
-        "of",
-        &[
-            ("slip", History::Slip),
-            ("dissipated", History::Dissipated),
-            ("increment", History::Increment),
-        ],
-    )?;
+    let of = section.choice("of", &HISTORIES)?;
     let what = "a list of pairs [history, factor]";
     let (key, value) = (section.path("table"), section.need("table", what)?);
     let wrong = || Fault::value(&key, value, what);
@@ -71,4 +71,29 @@ fn friction_history(friction: &Section<'_>) -> Result<Option<FrictionHistory>, F
     });
     let table = pairs.collect::<Result<_, Fault>>()?;
     Ok(Some(FrictionHistory { of, table }))
+}
+
+/// The law as lines of its section.
+pub(super) fn text(friction: &Friction) -> String {
+    let mut lines = vec![if friction.mu.is_finite() {
+        format!("mu = {:?}", friction.mu)
+    } else {
+        "mu = \"stick\"".to_owned()
+    }];
+    for (key, mu) in [("mu_y", friction.mu_y), ("kinetic", friction.kinetic)] {
+        lines.extend(mu.map(|mu| format!("{key} = {mu:?}")));
+    }
+    let map = friction.map.as_ref();
+    lines.extend(map.map(|map| format!("map = {{ {} }}", map_text(map))));
+    if let Some(FrictionHistory { of, table }) = &friction.history {
+        let word = HISTORIES.iter().find(|(_, history)| history == of);
+        let of = word.map_or("", |(word, _)| word);
+        let pairs: Vec<_> = table
+            .iter()
+            .map(|(at, f)| format!("[{at:?}, {f:?}]"))
+            .collect();
+        let table = pairs.join(", ");
+        lines.push(format!("history = {{ of = \"{of}\", table = [{table}] }}"));
+    }
+    lines.join("\n")
 }

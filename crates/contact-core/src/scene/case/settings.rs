@@ -1,4 +1,6 @@
-//! The settings of a scene file.
+//! The settings of a scene file: a row for each key reads it, refuses others and writes it.
+
+use std::fmt::Write as _;
 
 use toml::Value;
 
@@ -8,62 +10,111 @@ use crate::scene::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
 };
 
+/// Where a key stands among the settings `T` of its section.
+enum Place<T> {
+    Flag(fn(&mut T) -> &mut bool),
+    /// A whole number from 1.
+    Count(fn(&mut T) -> &mut usize),
+    Number(fn(&mut T) -> &mut f64),
+    /// A number that may be left to its default.
+    Open(fn(&mut T) -> &mut Option<f64>),
+    Preset(fn(&mut T) -> &mut Preset),
+    Kernel(fn(&mut T) -> &mut KernelMethod),
+    Save(fn(&mut T) -> &mut SaveFields),
+}
+
+/// The keys of a section.
+type Keys<T> = [(&'static str, Place<T>)];
+
+const KERNEL: &Keys<KernelSettings> = &[
+    ("method", Place::Kernel(|k| &mut k.method)),
+    ("tolerance", Place::Number(|k| &mut k.tolerance)),
+];
+const SOLVER: &Keys<SolverSettings> = &[
+    ("preset", Place::Preset(|s| &mut s.preset)),
+    ("tolerance", Place::Open(|s| &mut s.tolerance)),
+    ("entering", Place::Flag(|s| &mut s.entering)),
+    ("turning", Place::Flag(|s| &mut s.turning)),
+    ("path_tolerance", Place::Number(|s| &mut s.path_tolerance)),
+    (
+        "max_alternations",
+        Place::Count(|s| &mut s.max_alternations),
+    ),
+    ("max_iterations", Place::Count(|s| &mut s.max_iterations)),
+];
+const SKIP: &Keys<SkipSettings> = &[
+    ("equal_layers", Place::Flag(|s| &mut s.equal_layers)),
+    ("coupling", Place::Flag(|s| &mut s.coupling)),
+    ("mirror", Place::Flag(|s| &mut s.mirror)),
+    ("digits", Place::Flag(|s| &mut s.digits)),
+    ("far", Place::Flag(|s| &mut s.far)),
+    ("path", Place::Flag(|s| &mut s.path)),
+];
+const OUTPUT: &Keys<SaveFields> = &[("save", Place::Save(|s| s))];
+/// The words of the presets.
+const PRESETS: [(&str, Preset); 2] = [("fast", Preset::Fast), ("spinu2020", Preset::Spinu2020)];
+
 pub(super) fn settings(root: &Section<'_>) -> Result<Settings, Fault> {
     let mut settings = Settings::default();
-    if let Some(section) = root.section("kernel", &["method", "tolerance"])? {
-        let default = settings.kernel;
-        settings.kernel = KernelSettings {
-            method: kernel_method(&section)?,
-            tolerance: section.number_or("tolerance", default.tolerance, &[])?,
-        };
-    }
-    let keys = [
-        "preset",
-        "tolerance",
-        "entering",
-        "turning",
-        "path_tolerance",
-        "max_alternations",
-        "max_iterations",
-    ];
-    if let Some(section) = root.section("solver", &keys)? {
-        let default = settings.solver;
-        settings.solver = SolverSettings {
-            preset: section.choice(
-                "preset",
-                &[("fast", Preset::Fast), ("spinu2020", Preset::Spinu2020)],
-            )?,
-            tolerance: section.number_if("tolerance", &[])?.or(default.tolerance),
-            entering: section.flag_or("entering", default.entering)?,
-            turning: section.flag_or("turning", default.turning)?,
-            path_tolerance: section.number_or("path_tolerance", default.path_tolerance, &[])?,
-            max_alternations: section.count_or("max_alternations", 1, default.max_alternations)?,
-            max_iterations: section.count_or("max_iterations", 1, default.max_iterations)?,
-        };
-    }
-    let rules = [
-        "equal_layers",
-        "coupling",
-        "mirror",
-        "digits",
-        "far",
-        "path",
-    ];
-    if let Some(section) = root.section("skip", &rules)? {
-        let default = settings.skip;
-        settings.skip = SkipSettings {
-            equal_layers: section.flag_or("equal_layers", default.equal_layers)?,
-            coupling: section.flag_or("coupling", default.coupling)?,
-            mirror: section.flag_or("mirror", default.mirror)?,
-            digits: section.flag_or("digits", default.digits)?,
-            far: section.flag_or("far", default.far)?,
-            path: section.flag_or("path", default.path)?,
-        };
-    }
-    if let Some(section) = root.section("output", &["save"])? {
-        settings.save = save(&section)?;
-    }
+    read(root, "kernel", KERNEL, &mut settings.kernel)?;
+    read(root, "solver", SOLVER, &mut settings.solver)?;
+    read(root, "skip", SKIP, &mut settings.skip)?;
+    read(root, "output", OUTPUT, &mut settings.save)?;
     Ok(settings)
+}
+
+/// The sections of the settings, every key in full.
+pub(super) fn text(settings: &Settings) -> String {
+    let mut settings = settings.clone();
+    let mut text = String::new();
+    write(&mut text, "kernel", KERNEL, &mut settings.kernel);
+    write(&mut text, "solver", SOLVER, &mut settings.solver);
+    write(&mut text, "skip", SKIP, &mut settings.skip);
+    write(&mut text, "output", OUTPUT, &mut settings.save);
+    text
+}
+
+/// Reads a section; keys that are missing stay as they are.
+fn read<T>(root: &Section<'_>, name: &str, keys: &Keys<T>, into: &mut T) -> Result<(), Fault> {
+    let names: Vec<_> = keys.iter().map(|(key, _)| *key).collect();
+    let Some(section) = root.section(name, &names)? else {
+        return Ok(());
+    };
+    for (key, place) in keys {
+        match place {
+            Place::Flag(of) => *of(into) = section.flag_or(key, *of(into))?,
+            Place::Count(of) => *of(into) = section.count_or(key, 1, *of(into))?,
+            Place::Number(of) => *of(into) = section.number_or(key, *of(into), &[])?,
+            Place::Open(of) => *of(into) = section.number_if(key, &[])?.or(*of(into)),
+            Place::Preset(of) => *of(into) = section.choice(key, &PRESETS)?,
+            Place::Kernel(of) => *of(into) = kernel_method(&section)?,
+            Place::Save(of) => *of(into) = save(&section)?,
+        }
+    }
+    Ok(())
+}
+
+fn write<T>(text: &mut String, name: &str, keys: &Keys<T>, from: &mut T) {
+    // Writing to a text cannot fail.
+    let _ = writeln!(text, "\n[{name}]");
+    for (key, place) in keys {
+        let value = match place {
+            Place::Flag(of) => Some(of(from).to_string()),
+            Place::Count(of) => Some(of(from).to_string()),
+            Place::Number(of) => Some(format!("{:?}", of(from))),
+            Place::Open(of) => of(from).map(|number| format!("{number:?}")),
+            Place::Preset(of) => {
+                let preset = *of(from);
+                let word = PRESETS.iter().find(|(_, of)| *of == preset);
+                word.map(|(word, _)| format!("\"{word}\""))
+            }
+            Place::Kernel(of) => Some(kernel_text(*of(from))),
+            Place::Save(of) => Some(save_text(of(from))),
+        };
+        if let Some(value) = value {
+            let _ = writeln!(text, "{key} = {value}");
+        }
+    }
 }
 
 fn kernel_method(kernel: &Section<'_>) -> Result<KernelMethod, Fault> {
@@ -103,5 +154,25 @@ fn save(output: &Section<'_>) -> Result<SaveFields, Fault> {
             .collect::<Result<_, _>>()
             .map(SaveFields::Indices),
         Some(other) => Err(Fault::value(&key, other, what)),
+    }
+}
+
+fn save_text(save: &SaveFields) -> String {
+    match save {
+        SaveFields::Branches => "\"branches\"".to_owned(),
+        SaveFields::All => "\"all\"".to_owned(),
+        SaveFields::Indices(indices) => format!("{indices:?}"),
+    }
+}
+
+fn kernel_text(method: KernelMethod) -> String {
+    match method {
+        KernelMethod::Hankel => "\"hankel\"".to_owned(),
+        KernelMethod::InverseFft { lambda, aliases } => {
+            format!("{{ inverse_fft = {{ lambda = {lambda}, aliases = {aliases} }} }}")
+        }
+        KernelMethod::FrequencyDomain { lambda } => {
+            format!("{{ frequency_domain = {{ lambda = {lambda} }} }}")
+        }
     }
 }

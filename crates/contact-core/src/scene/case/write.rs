@@ -5,10 +5,7 @@ use std::fmt::Write as _;
 use toml::Value;
 
 use super::read::SCHEMA;
-use crate::scene::{
-    Body, Bond, Elastic, Friction, FrictionHistory, History, KernelMethod, Loads, Preset,
-    RigidMotion, SaveFields, Scene, Spacing,
-};
+use crate::scene::{Body, Bond, Elastic, Loads, RigidMotion, Scene, Spacing};
 
 impl Scene {
     /// The scene in the format of the scene file, every number in SI, nothing left to a default.
@@ -31,7 +28,10 @@ impl Scene {
                 }
             }
         }
-        line(format_args!("\n[friction]\n{}", friction(&self.friction)));
+        line(format_args!(
+            "\n[friction]\n{}",
+            super::friction::text(&self.friction)
+        ));
         let grid = &self.grid;
         line(format_args!("\n[grid]\nn = [{}, {}]", grid.nx, grid.ny));
         line(format_args!("spacing = [{:?}, {:?}]", grid.dx, grid.dy));
@@ -68,71 +68,9 @@ impl Scene {
             };
             line(format_args!("spacing = \"{spacing}\""));
         }
-        let settings = &self.settings;
-        let method = kernel_method(settings.kernel.method);
-        line(format_args!("\n[kernel]\nmethod = {method}"));
-        line(format_args!("tolerance = {:?}", settings.kernel.tolerance));
-        let solver = &settings.solver;
-        let preset = match solver.preset {
-            Preset::Fast => "fast",
-            Preset::Spinu2020 => "spinu2020",
-        };
-        line(format_args!("\n[solver]\npreset = \"{preset}\""));
-        if let Some(tolerance) = solver.tolerance {
-            line(format_args!("tolerance = {tolerance:?}"));
-        }
-        line(format_args!("entering = {}", solver.entering));
-        line(format_args!("turning = {}", solver.turning));
-        line(format_args!("path_tolerance = {:?}", solver.path_tolerance));
-        line(format_args!(
-            "max_alternations = {}",
-            solver.max_alternations
-        ));
-        line(format_args!("max_iterations = {}", solver.max_iterations));
-        let skip = &settings.skip;
-        line(format_args!(
-            "\n[skip]\nequal_layers = {}",
-            skip.equal_layers
-        ));
-        line(format_args!(
-            "coupling = {}\nmirror = {}\ndigits = {}\nfar = {}\npath = {}",
-            skip.coupling, skip.mirror, skip.digits, skip.far, skip.path
-        ));
-        let save = match &settings.save {
-            SaveFields::Branches => "\"branches\"".to_owned(),
-            SaveFields::All => "\"all\"".to_owned(),
-            SaveFields::Indices(indices) => format!("{indices:?}"),
-        };
-        line(format_args!("\n[output]\nsave = {save}"));
+        text += &super::settings::text(&self.settings);
         text
     }
-}
-
-fn friction(friction: &Friction) -> String {
-    let mut lines = vec![if friction.mu.is_finite() {
-        format!("mu = {:?}", friction.mu)
-    } else {
-        "mu = \"stick\"".to_owned()
-    }];
-    for (key, mu) in [("mu_y", friction.mu_y), ("kinetic", friction.kinetic)] {
-        lines.extend(mu.map(|mu| format!("{key} = {mu:?}")));
-    }
-    let map = friction.map.as_ref();
-    lines.extend(map.map(|map| format!("map = {{ {} }}", super::shape::map_text(map))));
-    if let Some(FrictionHistory { of, table }) = &friction.history {
-        let of = match of {
-            History::Slip => "slip",
-            History::Dissipated => "dissipated",
-            History::Increment => "increment",
-        };
-        let pairs: Vec<_> = table
-            .iter()
-            .map(|(at, f)| format!("[{at:?}, {f:?}]"))
-            .collect();
-        let table = pairs.join(", ");
-        lines.push(format!("history = {{ of = \"{of}\", table = [{table}] }}"));
-    }
-    lines.join("\n")
 }
 
 fn quoted(text: &str) -> String {
@@ -151,16 +89,4 @@ fn material(material: Elastic) -> String {
         format!("{:?}", material.E)
     };
     format!("E = {E}\nnu = {:?}", material.nu)
-}
-
-fn kernel_method(method: KernelMethod) -> String {
-    match method {
-        KernelMethod::Hankel => "\"hankel\"".to_owned(),
-        KernelMethod::InverseFft { lambda, aliases } => {
-            format!("{{ inverse_fft = {{ lambda = {lambda}, aliases = {aliases} }} }}")
-        }
-        KernelMethod::FrequencyDomain { lambda } => {
-            format!("{{ frequency_domain = {{ lambda = {lambda} }} }}")
-        }
-    }
 }
