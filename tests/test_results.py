@@ -166,10 +166,10 @@ def test_no_file_is_unpickled() -> None:
                 names.update(name.name for name in node.names)
             elif isinstance(node, ast.ImportFrom):
                 names.add(node.module or "")
-    assert "numpy" in imported["results.py"]
+    assert "numpy" in imported["run/run.py"]
     assert not set().union(*imported.values()) & unpickles
     exchanging = {file for file, names in imported.items() if names & processes}
-    assert exchanging == {"studies/workers.py", "studies/running.py"}
+    assert exchanging == {"study/workers.py", "study/loop.py"}
 
 
 @pytest.fixture
