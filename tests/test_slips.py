@@ -146,9 +146,46 @@ def test_heights_in_another_unit_are_refused() -> None:
     ],
 )
 def test_what_is_hardly_meant_is_warned_of(scene: fret.Scene, says: str) -> None:
-    scene.check()
+    with pytest.warns(fret.errors.SceneWarning, match=says):
+        scene.check()
     with pytest.warns(fret.errors.SceneWarning, match=says):
         next(iter(fret.march(scene)))
+
+
+def test_a_scene_is_checked_along_a_path_that_comes_later() -> None:
+    scene = sphere_on_flat()
+    with pytest.raises(fret.errors.InvalidSceneError, match="path = empty"):
+        scene.check()
+    scene.check(PRESSED)
+    far = PRESSED.displace(delta_x=3.0, increments=1)
+    assert "is beyond the grid" in " ".join(scene.doubts(far))
+    with pytest.warns(fret.errors.SceneWarning, match="is beyond the grid"):
+        scene.check(path=far)
+
+
+def few_cells(cells: float) -> fret.Scene:
+    """So many cells across the Hertz radius."""
+    scene = sphere_on_flat()
+    a = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W).a
+    return scene.replace(grid=fret.Grid.centred(extent=32 * a / cells, n=32))
+
+
+def test_a_contact_of_a_cell_is_refused_with_the_cells_that_it_takes() -> None:
+    for cells, n in ((0.3, 214), (0.9, 72)):
+        says = rf"grid.n = .* must be \[{n}, {n}\] or more, .* cells across its radius"
+        with pytest.raises(fret.errors.InvalidSceneError, match=says):
+            few_cells(cells).check(PRESSED)
+        with pytest.raises(fret.errors.InvalidSceneError, match=says):
+            fret.solve(few_cells(cells), PRESSED, progress=False)
+
+
+def test_a_contact_of_few_cells_is_doubted_before_and_after() -> None:
+    with pytest.warns(fret.errors.SceneWarning, match="cells across its radius") as said:
+        result = fret.solve(few_cells(4.0), PRESSED, progress=False)
+    assert len(said) == 2
+    assert "cells across its radius" in result.doubts[0]
+    assert "doubted: the contact has" in result.summary()
+    assert 3.0 < float(result.dataset.cells_per_radius[-1]) < 5.0
 
 
 def test_a_scene_as_it_should_be_is_not_doubted() -> None:

@@ -705,7 +705,8 @@ class History:
 class Friction:
     """Coulomb's law with a coefficient that depends on direction, place and history.
 
-    The coefficient of an increment is that of the state it starts from.
+    The coefficient of an increment is that of the history at its end, extrapolated from the last
+    increment.
 
     Parameters
     ----------
@@ -1499,13 +1500,23 @@ class Scene:
         title: str | None = None,
     ) -> Scene:
         """The same scene with some of its parts exchanged."""
-    def check(self) -> None:
-        """Refuse a scene that has no meaning.
+    def check(self, path: LoadPath | None = None) -> None:
+        """Refuse a scene that has no meaning, warn of what is hardly meant.
+
+        Parameters
+        ----------
+        path : LoadPath, optional
+            Load history (default: that of the scene).
 
         Raises
         ------
         InvalidSceneError
             With the key, the value and what is allowed.
+
+        Warns
+        -----
+        SceneWarning
+            As :meth:`doubts` says.
         """
     def interfaces(self, body_number: int = 2) -> list[float]:
         """Depths of the interfaces of a body [m], from the surface down; none of a homogeneous one.
@@ -1526,10 +1537,16 @@ class Scene:
         That is a_H, or where there is no Hertz contact half the longer side of the box around the
         cells under the pressure `p` [Pa], shape (nx, ny).
         """
-    def doubts(self) -> list[str]:
-        """What is allowed but hardly meant: numbers that look like those of another unit.
+    def doubts(self, path: LoadPath | None = None) -> list[str]:
+        """What is allowed but hardly meant: numbers that look like another unit's, few cells.
 
-        One sentence for each, with what was understood; :func:`pyfret.solve` warns of them.
+        One sentence for each, with what was understood; :func:`pyfret.solve` and :meth:`check` warn
+        of them.
+
+        Parameters
+        ----------
+        path : LoadPath, optional
+            Load history (default: that of the scene).
         """
     @property
     def title(self) -> str:
@@ -1907,6 +1924,8 @@ class March:
         """The scene that is being solved."""
     def fields(self) -> dict[str, NDArray[np.float64 | np.bool_]]:
         """Fields after the last increment, shape (nx, ny)."""
+    def doubts(self) -> list[str]:
+        """What the increments so far came to that is hardly meant, one sentence each."""
     def __iter__(self) -> March: ...
     def __next__(self) -> dict[str, float]:
         """Solve the next increment and give its scalars."""

@@ -13,7 +13,7 @@ from pyfret._core import Scene
 from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
 from pyfret.result import Result, Snapshot, open
-from pyfret.scene.warnings import doubt_scene
+from pyfret.scene.warnings import doubt_run, doubt_scene
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -70,7 +70,8 @@ def solve(
     Warns
     -----
     SceneWarning
-        Something of the scene is allowed but hardly meant, such as a number in another unit.
+        Something of the scene is allowed but hardly meant, such as a number in another unit; or of
+        what the run came to, such as a contact of few cells (:attr:`Result.doubts`).
     """
     scene = read(scene).replace(path=path, save=save)
     doubt_scene(scene)
@@ -79,13 +80,19 @@ def solve(
             _core.solve(
                 scene, store=out, checkpoint=checkpoint, error=error, on_increment=bar.update
             )
-            return open(out)
+            return told(open(out))
         tidy()
         name = PASSING.format(os.getpid())
         with tempfile.TemporaryDirectory(prefix=name, dir=memory(scene)) as folder:
             store = Path(folder) / "run.zarr"
             _core.solve(scene, store=store, error=error, on_increment=bar.update)
-            return Result(open(store).dataset.load())
+            return told(Result(open(store).dataset.load()))
+
+
+def told(result: Result) -> Result:
+    """The result, whose doubts are warned of."""
+    doubt_run(result.doubts)
+    return result
 
 
 def resume(
@@ -114,7 +121,7 @@ def resume(
     """
     with Progress(title="resumed", shown=progress) as bar:
         _core.resume(store, checkpoint=checkpoint, on_increment=bar.update)
-    return open(store)
+    return told(open(store))
 
 
 #: A file system in memory, where there is one.
@@ -187,6 +194,7 @@ def march(
     running = _core.March(scene)
     for scalars in running:
         yield Increment(running, scalars)
+    doubt_run(running.doubts())
 
 
 def labelled(running: _core.March, scalars: dict[str, float]) -> xr.Dataset:

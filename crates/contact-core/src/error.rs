@@ -69,7 +69,7 @@ pub enum Error {
     /// The contact is certain to leave the grid, before anything is solved.
     #[error(
         "the contact does not fit on the grid: under W = {W} N its radius is {a:.4e} m at least; the grid \
-         is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide"
+         is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide{doubt}"
     )]
     GridTooSmall {
         /// Largest normal force \[N\].
@@ -82,6 +82,8 @@ pub enum Error {
         extent_y: f64,
         /// Recommended length \[m\].
         needed: f64,
+        /// What of the scene is hardly meant, as the end of a sentence; empty where nothing is.
+        doubt: String,
     },
     /// The tangential forces and the torsional moment are more than friction can carry.
     #[error(

@@ -1,7 +1,7 @@
 //! What the commands print, for programs: SI units, names of the store.
 
 use contact_core::fields::{Cycle, Direction, LoopPoint, loops};
-use contact_core::march::{BranchSummary, Increment, summarise};
+use contact_core::march::{BranchSummary, Increment, Reached, summarise};
 use contact_core::scene::{RigidMotion, Scene};
 use serde_json::{Map, Value, json};
 
@@ -31,6 +31,7 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment]) -> Value {
         "increments": increments.len(),
         "branches": branches,
         "cycles": cycles,
+        "doubts": Reached::of(increments).doubts(scene),
     })
 }
 

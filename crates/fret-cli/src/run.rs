@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use contact_core::estimate::{BranchEnds, choose_increments, coarsest, error_bars};
-use contact_core::march::{Increment, March, Observer, solve};
-use contact_core::output::{StoreWriter, write_error_bars};
+use contact_core::march::{Increment, March, Observer, Reached, solve};
+use contact_core::output::{StoreWriter, write_error_bars, write_no_error_bars};
 use contact_core::{Error, Scene};
 
 use crate::failure::Failure;
@@ -80,10 +80,18 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
         Ok(increments.clone())
     })?;
     if options.error {
-        let bars = error_bars(&scene, &increments, &tractions, &stop).map_err(ended)?;
-        write_error_bars(out, &bars).map_err(ended)?;
-        if !manner.quiet && !manner.json {
-            print(&summary::error_table(&scene, &increments, &bars));
+        match error_bars(&scene, &increments, &tractions, &stop) {
+            Ok(bars) => {
+                write_error_bars(out, &bars).map_err(ended)?;
+                if !manner.quiet && !manner.json {
+                    print(&summary::error_table(&scene, &increments, &bars));
+                }
+            }
+            Err(stopped @ Error::Interrupted { .. }) => return Err(ended(stopped)),
+            Err(why) => {
+                let doubt = write_no_error_bars(out, &why).map_err(ended)?;
+                say(&format!("fret: warning: {doubt}"));
+            }
         }
     }
     Ok(())
@@ -126,6 +134,11 @@ impl Manner {
             };
             print(&text);
             say(&summary::time(begun.elapsed(), writer.checkpoints()));
+        }
+        if outcome.is_ok() {
+            for doubt in Reached::of(&increments).doubts(scene) {
+                say(&format!("fret: warning: {doubt}"));
+            }
         }
         outcome.map(|_| stop).map_err(|error| {
             let kept = writer.kept();

@@ -239,25 +239,68 @@ fn with_error(value: f64, error: f64) -> String {
     format!("{value:.decimals$} +- {error:.decimals$}")
 }
 
+/// Of a branch a number, its error and the unit.
+type OfBranch = Box<dyn Fn(&BranchSummary, &ErrorBars) -> (f64, Bar, f64)>;
+
+/// What a run answers besides the headline numbers.
+struct Answer {
+    title: String,
+    of: OfBranch,
+}
+
+/// The loads of motions that the path gives, and the motions of loads that most paths leave out.
+fn answers(scene: &Scene) -> Vec<Answer> {
+    let ends = || scene.path.branches.iter().map(|branch| &branch.to);
+    let given = |of: &RigidMotion| {
+        ends().any(|to| to.given.motions()[of.index()].is_some_and(|motion| motion != 0.0))
+    };
+    let loads = RigidMotion::ALL.into_iter().filter(given).map(|of| Answer {
+        title: format!("{}\n[{}]", of.load(), units(of).0),
+        of: Box::new(move |branch, bar| {
+            (
+                branch.loads.forces()[of.index()],
+                bar.loads()[of.index()],
+                1.0,
+            )
+        }),
+    });
+    let loaded = |of: &RigidMotion| ends().any(|to| to.forces()[of.index()] != 0.0);
+    let motions = OTHERS.into_iter().filter(loaded).map(|of| Answer {
+        title: format!("{}\n[{}]", of.name(), units(of).1),
+        of: Box::new(move |branch, bar| {
+            (
+                branch.motion.motions()[of.index()],
+                bar.motions()[of.index()],
+                MICRO,
+            )
+        }),
+    });
+    loads.chain(motions).collect()
+}
+
 /// The headline numbers at the end of every branch with their errors, and what leaves them.
 pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[ErrorBars]) -> String {
     let Measures { radius, pressure } = Measures::of(scene);
+    let answers = answers(scene);
     let mut table = Table::new();
     table
         .load_style(presets::ASCII_BORDERS_ONLY_CONDENSED)
-        .set_header([
-            "branch".to_owned(),
-            format!("contact radius\n[{}]", radius.0),
-            "stick ratio".to_owned(),
-            format!("p_max\n[{}]", pressure.0),
-            "approach delta_z\n[um]".to_owned(),
-            "shift delta_x\n[um]".to_owned(),
-            "dissipated\n[uJ]".to_owned(),
-            "p, field\n[%]".to_owned(),
-            "q, field\n[%]".to_owned(),
-        ]);
+        .set_header(
+            [
+                "branch".to_owned(),
+                format!("contact radius\n[{}]", radius.0),
+                "stick ratio".to_owned(),
+                format!("p_max\n[{}]", pressure.0),
+                "approach delta_z\n[um]".to_owned(),
+                "shift delta_x\n[um]".to_owned(),
+                "dissipated\n[uJ]".to_owned(),
+            ]
+            .into_iter()
+            .chain(answers.iter().map(|answer| answer.title.clone()))
+            .chain(["p, field\n[%]".to_owned(), "q, field\n[%]".to_owned()]),
+        );
     for (of, bar) in summarise(increments).iter().zip(bars) {
-        let numbers = [
+        let mut numbers = vec![
             (of.contact_radius, bar.contact_radius, 1.0 / radius.1),
             (of.stick_ratio, bar.stick_ratio, 1.0),
             (of.p_max, bar.p_max, 1.0 / pressure.1),
@@ -265,6 +308,7 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
             (of.motion.delta_x, bar.delta_x, MICRO),
             (of.dissipated, bar.dissipated, MICRO),
         ];
+        numbers.extend(answers.iter().map(|answer| (answer.of)(of, bar)));
         let fields = [bar.p, bar.q];
         let number =
             |&(value, bar, unit): &(f64, Bar, f64)| with_error(value * unit, bar.total * unit);

@@ -23,6 +23,8 @@ use crate::scene::{Grid, Scene};
 pub(crate) struct March {
     /// Python may hand the object to another thread.
     inner: Mutex<core::March>,
+    /// The most that the increments came to.
+    reached: core::Reached,
 }
 
 impl March {
@@ -43,6 +45,7 @@ impl March {
         })?;
         Ok(Self {
             inner: Mutex::new(march.map_err(to_python)?),
+            reached: core::Reached::default(),
         })
     }
 
@@ -58,6 +61,12 @@ impl March {
         Scene(self.inner().scene().clone())
     }
 
+    /// What the increments so far came to that is hardly meant, one sentence each.
+    fn doubts(&mut self) -> Vec<String> {
+        let reached = self.reached;
+        reached.doubts(self.inner().scene())
+    }
+
     fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
         slf
     }
@@ -69,9 +78,14 @@ impl March {
         let stop = Arc::<AtomicBool>::default();
         march.stop_on(stop.clone());
         match interruptible(py, &stop, || march.advance())? {
-            None => Ok(None),
+            None => {
+                let (reached, scene) = (self.reached, self.inner().scene().clone());
+                reached.check(&scene).map_err(to_python)?;
+                Ok(None)
+            }
             Some(Err(error)) => Err(to_python(error)),
             Some(Ok(increment)) => {
+                self.reached.see(&increment);
                 let scalars = PyDict::new(py);
                 for scalar in SCALARS {
                     let value = (scalar.value)(&increment);

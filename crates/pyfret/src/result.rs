@@ -104,8 +104,11 @@ pub(crate) fn solve(
         let scene = &choose_increments(&scene.0, &stop)?;
         let increments = contact_core::march::solve(scene, &mut ends)?;
         if error {
-            let bars = error_bars(scene, &increments, &ends.tractions, &stop)?;
-            output::write_error_bars(&store, &bars)?;
+            match error_bars(scene, &increments, &ends.tractions, &stop) {
+                Ok(bars) => output::write_error_bars(&store, &bars)?,
+                Err(stopped @ Error::Interrupted { .. }) => return Err(stopped),
+                Err(why) => drop(output::write_no_error_bars(&store, &why)?),
+            }
         }
         Ok(increments)
     })

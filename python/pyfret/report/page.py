@@ -71,6 +71,7 @@ def report(
         title=escape(str(result.dataset.attrs["title"]) or "Fretting contact"),
         version=escape(str(result.dataset.attrs.get("version", __version__))),
         status=escape(result.status),
+        doubts="".join(f"<p>Doubted: {escape(doubt)}.</p>" for doubt in result.doubts),
         scene=scene_html(result.scene),
         ends=ends_table(result),
         bars=bars(result),

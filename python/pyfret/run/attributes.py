@@ -58,6 +58,15 @@ class OfRun:
         mu = self.dataset.attrs["mu"]
         return np.inf if mu is None or mu == "stick" else float(mu)
 
+    @property
+    def doubts(self) -> list[str]:
+        """What the run came to that is hardly meant or known, one sentence each.
+
+        A contact of few cells, a pressure that no metal bears, error bars that could not be told;
+        what is to be doubted of the scene itself says :meth:`Scene.doubts`.
+        """
+        return str(self.dataset.attrs.get("doubts", "")).splitlines()
+
     def _yardstick(self, name: str) -> float:
         """A number of the Hertz contact; a ValueError where there is none."""
         if name not in self.dataset.attrs:

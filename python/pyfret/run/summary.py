@@ -81,7 +81,7 @@ def drives(result: Run, name: str) -> bool:
 
 
 def summary(result: Run) -> str:
-    """Tabulate what the run ended with: a line per branch, then one per cycle.
+    """Tabulate what the run ended with: a line per branch, one per cycle, what is to be doubted.
 
     Lengths are over a_H and pressures over p_H where there is a Hertz contact, else in um and
     MPa; in plane strain a is half the width of the contact.
@@ -92,9 +92,9 @@ def summary(result: Run) -> str:
         "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))
         for row in zip(*table, strict=True)
     ]
-    return "\n".join(
-        [f"{result.dataset.attrs['title'] or 'run'}: {result.status}", *rows, *cycle_lines(result)]
-    )
+    title = f"{result.dataset.attrs['title'] or 'run'}: {result.status}"
+    doubts = [f"doubted: {doubt}" for doubt in result.doubts]
+    return "\n".join([title, *rows, *cycle_lines(result), *doubts])
 
 
 def cycle_lines(result: Run) -> list[str]:

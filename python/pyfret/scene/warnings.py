@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from pyfret._core import Grid, Scene
 
-__all__ = ["SceneWarning", "doubt_layers", "doubt_scene"]
+__all__ = ["SceneWarning", "doubt_layers", "doubt_run", "doubt_scene"]
 
 
 class SceneWarning(UserWarning):
@@ -18,6 +18,12 @@ class SceneWarning(UserWarning):
 def doubt_scene(scene: Scene) -> None:
     """Warn of every number of a scene that looks like one of another unit."""
     for doubt in scene.doubts():
+        warnings.warn(doubt, SceneWarning, stacklevel=3)
+
+
+def doubt_run(doubts: list[str]) -> None:
+    """Warn of what a run has come to."""
+    for doubt in doubts:
         warnings.warn(doubt, SceneWarning, stacklevel=3)
 
 

@@ -94,4 +94,5 @@ def solve_point(
     except Exception as error:
         return failure(error)
     seconds = time.process_time() - started
-    return Outcome(DONE, "", found, seconds, scene.grid.nx, scene.grid.ny)
+    doubts = " ".join(result.doubts)
+    return Outcome(DONE, doubts, found, seconds, scene.grid.nx, scene.grid.ny)

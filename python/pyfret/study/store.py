@@ -35,7 +35,7 @@ OWN: dict[str, tuple[str, Any, str, str]] = {
     "nx": ("int32", 0, "1", "cells along x that the point took"),
     "ny": ("int32", 0, "1", "cells along y that the point took"),
     "seconds": ("float64", np.nan, "s", "processor time of the point"),
-    "reason": (f"<U{REASON}", "", "1", "why the point failed"),
+    "reason": (f"<U{REASON}", "", "1", "why the point failed, or what is to be doubted of it"),
     "status": ("int8", OPEN, "1", "what became of the point"),
 }
 

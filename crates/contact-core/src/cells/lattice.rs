@@ -24,6 +24,16 @@ impl Lattice {
         }
     }
 
+    /// Cells of a column that are stored.
+    pub(crate) fn rows(self) -> usize {
+        self.rows as usize
+    }
+
+    /// Whether a half of the grid stands for all of it: its first row touches its mirror image.
+    pub(crate) fn is_mirrored(self) -> bool {
+        self.mirrored
+    }
+
     /// The cells that have neighbours of the other kind, in order.
     pub(crate) fn border(self, zone: &[bool]) -> Vec<usize> {
         let (columns, rows) = (self.columns as usize, self.rows as usize);

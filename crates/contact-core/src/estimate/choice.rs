@@ -40,8 +40,10 @@ const NEAR: (f64, f64) = (3.0, 2.0);
 const OWN: f64 = 2.0;
 /// Rounds of choosing.
 const ROUNDS: usize = 8;
-/// Most increments of a path that are chosen.
+/// Most increments of a path that are chosen, and of a branch: where those are not enough (friction that falls with
+/// slip is of first order) the error that they leave is told.
 const MOST: usize = 20_000;
+const MOST_OF_BRANCH: usize = 1000;
 
 /// The scene with a number of increments for each branch that has none, so many that the error of
 /// the shear stays within `solver.path_tolerance`, and with the estimated error of each branch.
@@ -132,8 +134,8 @@ impl Choice {
             let allowed = self.allowed(k, error);
             let branch = &mut self.path.branches[k];
             branch.path_error = Some(error.q);
-            if self.open[k] && error.q > allowed.max(OWN * inherited) {
-                if !refine(branch, error.q, allowed, &mut self.before[k]) {
+            if self.open[k] && error.chosen_by() > allowed.max(OWN * inherited) {
+                if !refine(branch, error.chosen_by(), allowed, &mut self.before[k]) {
                     first = first.or(Some(k));
                 }
                 if branch.spacing == Spacing::EqualRadius {
@@ -193,7 +195,9 @@ fn refine(
     *before = Some((count, error));
     let factor = excess.powf(1.0 / order).min(GROWTH);
     let more = ((count as f64 * factor).ceil() as usize).next_multiple_of(2);
+    let more = more.min(MOST_OF_BRANCH.max(count));
     branch.set_equal_increments(more);
+    let near = near || more == count;
     if near {
         branch.path_error = Some(error * (count as f64 / more as f64).powf(order));
     }

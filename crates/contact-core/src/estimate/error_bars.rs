@@ -28,7 +28,9 @@ use super::bar::Bar;
 use super::choice::choose_increments;
 use super::coarser::{ORDER, Told, coarser_grids};
 use super::finer::Finer;
-use super::numbers::{NUMBERS, numbers};
+use super::numbers::{
+    CONTACT_RADIUS, DISSIPATED, LOADS, MOTIONS, NUMBERS, P_MAX, STICK_RATIO, is_given, numbers,
+};
 use super::path_error::path_errors;
 use super::trial::PathError;
 use crate::error::Error;
@@ -57,20 +59,57 @@ pub struct ErrorBars {
     pub stick_ratio: Bar,
     /// Of the largest pressure \[Pa\].
     pub p_max: Bar,
-    /// Of the approach \[m\].
+    /// Of the approach \[m\]; this and the other motions and loads are zero where they are given.
     pub delta_z: Bar,
+    /// Of the tilt about x \[rad\].
+    pub phi_x: Bar,
+    /// Of the tilt about y \[rad\].
+    pub phi_y: Bar,
     /// Of the shift along x \[m\].
     pub delta_x: Bar,
     /// Of the shift along y \[m\].
     pub delta_y: Bar,
     /// Of the rotation \[rad\].
     pub phi_z: Bar,
+    /// Of the normal force \[N\].
+    pub W: Bar,
+    /// Of the tilting moment about x \[N m\].
+    pub M_x: Bar,
+    /// Of the tilting moment about y \[N m\].
+    pub M_y: Bar,
+    /// Of the tangential force along x \[N\].
+    pub T_x: Bar,
+    /// Of the tangential force along y \[N\].
+    pub T_y: Bar,
+    /// Of the torsional moment \[N m\].
+    pub M_z: Bar,
     /// Of the energy dissipated in the branch \[J\].
     pub dissipated: Bar,
     /// Of the pressure as a field: L2 norm, over the largest of the path.
     pub p: Bar,
     /// Of the shear as a field: L2 norm, over the largest of the path.
     pub q: Bar,
+}
+
+impl ErrorBars {
+    /// Of the motions, in the order of [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
+    pub fn motions(&self) -> [Bar; 6] {
+        let Self {
+            delta_z,
+            phi_x,
+            phi_y,
+            delta_x,
+            delta_y,
+            phi_z,
+            ..
+        } = *self;
+        [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z]
+    }
+
+    /// Of their loads.
+    pub fn loads(&self) -> [Bar; 6] {
+        [self.W, self.M_x, self.M_y, self.T_x, self.T_y, self.M_z]
+    }
 }
 
 /// Solves the scene again on two coarser grids, along the path with fewer increments, and in few
@@ -127,6 +166,9 @@ fn bars(
     );
     let ring = slip_ring(scene, fine);
     let bar = |n: usize| {
+        if is_given(fine, n) {
+            return Bar::default();
+        }
         let least = match n {
             STICK_RATIO => ring,
             DISSIPATED => energy_of_ring(scene, fine, ring),
@@ -148,25 +190,31 @@ fn bars(
             }
         }
     };
+    let [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z] =
+        [0, 1, 2, 3, 4, 5].map(|k| bar(MOTIONS + k));
+    let [W, M_x, M_y, T_x, T_y, M_z] = [0, 1, 2, 3, 4, 5].map(|k| bar(LOADS + k));
     ErrorBars {
         branch: fine.branch,
-        contact_radius: bar(0),
+        contact_radius: bar(CONTACT_RADIUS),
         stick_ratio: bar(STICK_RATIO),
-        p_max: bar(2),
-        delta_z: bar(DELTA_Z),
-        delta_x: bar(4),
-        delta_y: bar(5),
-        phi_z: bar(6),
+        p_max: bar(P_MAX),
+        delta_z,
+        phi_x,
+        phi_y,
+        delta_x,
+        delta_y,
+        phi_z,
+        W,
+        M_x,
+        M_y,
+        T_x,
+        T_y,
+        M_z,
         dissipated: bar(DISSIPATED),
         p: Bar::new(told.fields[0], path.p, tolerance),
         q: Bar::new(told.fields[1], path.q, tolerance),
     }
 }
-
-/// Places of some of the [`numbers`].
-const STICK_RATIO: usize = 1;
-const DELTA_Z: usize = 3;
-const DISSIPATED: usize = 7;
 
 /// What a tolerance leaves of each number, in its unit: of most a part of the number.
 ///
@@ -180,7 +228,7 @@ fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NU
         let mu = scene.friction.mu;
         let slip = TANGENTIAL_SHARE * tolerance * mu;
         let borne = fine.loads.W * (1.0 - value[STICK_RATIO]).max(0.0).powf(1.5);
-        let least = slip * mu * borne * value[DELTA_Z];
+        let least = slip * mu * borne * value[MOTIONS];
         parts[DISSIPATED] = parts[DISSIPATED].max(least);
     }
     parts

@@ -2,19 +2,36 @@
 
 use crate::march::BranchSummary;
 
+/// Places of the numbers of a branch that have an error bar, in the order of [`ErrorBars`](super::ErrorBars).
+pub(crate) const CONTACT_RADIUS: usize = 0;
+pub(crate) const STICK_RATIO: usize = 1;
+pub(crate) const P_MAX: usize = 2;
+pub(crate) const DISSIPATED: usize = 3;
+/// Of the first motion and of the first load; the others follow in the order of
+/// [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
+pub(crate) const MOTIONS: usize = 4;
+pub(crate) const LOADS: usize = MOTIONS + 6;
 /// How many there are.
-pub(crate) const NUMBERS: usize = 8;
+pub(crate) const NUMBERS: usize = LOADS + 6;
 
-/// The numbers of a branch that have an error bar, in the order of [`ErrorBars`](super::ErrorBars).
+/// The numbers of a branch that have an error bar.
 pub(crate) fn numbers(branch: &BranchSummary) -> [f64; NUMBERS] {
-    [
-        branch.contact_radius,
-        branch.stick_ratio,
-        branch.p_max,
-        branch.motion.delta_z,
-        branch.motion.delta_x,
-        branch.motion.delta_y,
-        branch.motion.phi_z,
-        branch.dissipated,
-    ]
+    let mut numbers = [0.0; NUMBERS];
+    numbers[CONTACT_RADIUS] = branch.contact_radius;
+    numbers[STICK_RATIO] = branch.stick_ratio;
+    numbers[P_MAX] = branch.p_max;
+    numbers[DISSIPATED] = branch.dissipated;
+    numbers[MOTIONS..LOADS].copy_from_slice(&branch.motion.motions());
+    numbers[LOADS..].copy_from_slice(&branch.loads.forces());
+    numbers
+}
+
+/// Whether the path gives a number of a branch, so that it has no error: of each motion either that or its load.
+pub(crate) fn is_given(branch: &BranchSummary, number: usize) -> bool {
+    let given = branch.loads.given.motions().map(|motion| motion.is_some());
+    match number.checked_sub(MOTIONS) {
+        Some(motion) if motion < 6 => given[motion],
+        Some(load) => !given[load - 6],
+        None => false,
+    }
 }

@@ -10,12 +10,13 @@ use ndarray::Array2;
 
 use super::numbers::{NUMBERS, numbers};
 use crate::error::Error;
-use crate::march::{BranchSummary, Increment, March, State, Tractions, summarise};
+use crate::march::{BranchSummary, Increment, March, Motion, State, Tractions, summarise};
 use crate::scene::{Branch, Grid, LoadPath, Scene};
 
 /// Order of the error in the increments: between that of cells that enter one by one and that of
-/// turning slip.
+/// turning slip; and where friction falls once a cell has slipped, an increment later.
 const ORDER: f64 = 1.5;
+const KINETIC_ORDER: f64 = 1.0;
 /// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.
 const SOLVED: f64 = 4e-3;
 /// Cells of a grid that is not made coarser.
@@ -33,18 +34,35 @@ pub(crate) struct PathError {
     /// In the numbers of the branch, each in its unit, with its sign: what they are more than with many
     /// increments.
     pub(crate) numbers: [f64; NUMBERS],
+    /// In the shift and in the energy that friction takes, the larger, over the largest of the path.
+    pub(crate) motion: f64,
     /// The shear there over the largest of the path (L2).
     pub(crate) reached: f64,
     /// The shear that friction can bear there over the largest of the path (L2).
     pub(crate) bearable: f64,
 }
 
+/// Part of the shear that friction can bear from which on shift and energy run away, while the shear hardly
+/// changes; and how much larger than that of the shear their errors may be.
+const SLIDING: f64 = 0.99;
+const RUN_AWAY: f64 = 3.0;
+
 impl PathError {
+    /// What increments are chosen by: the error of the shear, and near full sliding that of shift and energy.
+    pub(crate) fn chosen_by(&self) -> f64 {
+        if self.reached > SLIDING * self.bearable {
+            self.q.max(self.motion / RUN_AWAY)
+        } else {
+            self.q
+        }
+    }
+
     /// So many times as large.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self {
             q: factor * self.q,
             p: factor * self.p,
+            motion: factor * self.motion,
             numbers: self.numbers.map(|n| factor * n),
             ..self
         }
@@ -56,8 +74,12 @@ pub(crate) struct Trial {
     few: Run,
     many: Run,
     mu: f64,
+    /// Order of the error in the increments.
+    order: f64,
     /// The largest p and q at the end of a branch so far (L2).
     largest: (f64, f64),
+    /// The largest shift, and the largest energy that friction takes in a branch, so far \[m, J\].
+    moved: (f64, f64),
 }
 
 impl Trial {
@@ -91,7 +113,9 @@ impl Trial {
             few: Run::new(&trial, stop)?,
             many: Run::new(&trial, stop)?,
             mu: scene.friction.mu,
+            order: scene.friction.kinetic.map_or(ORDER, |_| KINETIC_ORDER),
             largest: (f64::MIN_POSITIVE, f64::MIN_POSITIVE),
+            moved: (f64::MIN_POSITIVE, f64::MIN_POSITIVE),
         })
     }
 
@@ -116,10 +140,10 @@ impl Trial {
             .map(|(_, branch)| branch.equal_increments());
         let (change, part) = if counts.all(|count| count > 1) {
             let half = with(|n| n / 2);
-            (self.change(&half, path)?, ORDER.exp2() - 1.0)
+            (self.change(&half, path)?, self.order.exp2() - 1.0)
         } else {
             let twice = with(|n| 2 * n);
-            (self.change(path, &twice)?, 1.0 - (-ORDER).exp2())
+            (self.change(path, &twice)?, 1.0 - (-self.order).exp2())
         };
         Ok(change.into_iter().map(|c| c.times(1.0 / part)).collect())
     }
@@ -131,14 +155,26 @@ impl Trial {
         for end in many {
             let (p, q) = self.largest;
             self.largest = (p.max(end.p()), q.max(end.q()));
+            let (shift, energy) = self.moved;
+            let Motion {
+                delta_x, delta_y, ..
+            } = end.summary.motion;
+            self.moved = (
+                shift.max(delta_x.hypot(delta_y)),
+                energy.max(end.summary.dissipated),
+            );
         }
-        let (p, q) = self.largest;
+        let ((p, q), (shift, energy)) = (self.largest, self.moved);
         let pairs = few.iter().zip(many);
         Ok(pairs
             .map(|(few, many)| {
                 let (f, m) = (numbers(&few.summary), numbers(&many.summary));
                 let off = |k: usize| norm(&(&few.tractions[k] - &many.tractions[k]));
+                let (one, other) = (few.summary.motion, many.summary.motion);
+                let shifts = (one.delta_x - other.delta_x).hypot(one.delta_y - other.delta_y);
+                let energies = (few.summary.dissipated - many.summary.dissipated).abs();
                 PathError {
+                    motion: (shifts / shift).max(energies / energy),
                     q: off(1).hypot(off(2)) / q,
                     p: off(0) / p,
                     numbers: std::array::from_fn(|n| f[n] - m[n]),

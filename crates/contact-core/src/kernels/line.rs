@@ -4,15 +4,15 @@
 //! by
 //!
 //! ```text
-//! u(x) = 1/pi integral of A(k)/k (cos k x - exp(-k L)) dk        u_x(q_x), u_y(q_y), u_z(p)
+//! u(x) = 1/pi integral of A(k)/k (cos k x - cos k L) dk          u_x(q_x), u_y(q_y), u_z(p)
 //! u(x) = -1/pi integral of B(k)/k sin k x dk                     u_x(p)
 //! ```
 //!
-//! over k > 0. The constant that a line load leaves open is such that under a homogeneous body's
-//! A the integral is -A/pi ln(|x|/L): displacements are relative to the points at the distance L,
-//! here the grid's length (K. L. Johnson, Contact Mechanics (1985), eq. (2.19), (2.22)). As in
-//! three dimensions A is that of the outermost material, whose integral over a strip is closed,
-//! plus a remainder that decays like exp(-2 k h), whose integral over k a Gauss rule takes.
+//! over k > 0. A line load leaves a constant open: displacements are relative to the points at the distance
+//! L, here the grid's length, of any stack of layers; of a homogeneous body the integral is -A/pi ln(|x|/L)
+//! (K. L. Johnson, Contact Mechanics (1985), eq. (2.19), (2.22)). As in three dimensions A is that of the
+//! outermost material, whose integral over a strip is closed, plus a remainder that decays like exp(-2 k h),
+//! whose integral over k a Gauss rule takes.
 
 use std::f64::consts::PI;
 
@@ -74,7 +74,7 @@ fn over_strip(material: &HalfSpace, i: usize, dx: f64, length: f64) -> [f64; 4] 
     [-a * log, -c * log, -a * log, -b * sign]
 }
 
-/// A node of the k-integral: wave number \[1/m\], exp(-k L), the remainder times weight over pi.
+/// A node of the k-integral: wave number \[1/m\], cos(k L), the remainder times weight over pi.
 struct Node {
     k: f64,
     far: f64,
@@ -99,7 +99,7 @@ fn remainder_nodes(stack: &Stack, length: f64) -> Vec<Node> {
             let part = weight * half / PI;
             nodes.push(Node {
                 k,
-                far: (-k * length).exp(),
+                far: (k * length).cos(),
                 d: RadialResponse {
                     zz: part * d.zz,
                     rr: part * d.rr,

@@ -36,6 +36,8 @@ pub struct Fields {
     pub contact: Array2<bool>,
     /// Contact cells that do not slip in this increment.
     pub stick: Array2<bool>,
+    /// Those of them that are at the limit of friction, and slip by less than an increment can tell.
+    pub at_limit: Array2<bool>,
 }
 
 impl March {
@@ -82,12 +84,16 @@ impl March {
         let [q_x, q_y] = self.shear();
         let p = unfold(&now.p, Half::Even);
         let [u_x, u_y, u_z] = self.domain.displacements(&self.problem, &self.state);
-        let slips: Vec<f64> = now.slip.iter().map(|&s| f64::from(u8::from(s))).collect();
-        let slips = unfold(&slips, Half::Even);
+        let mask = |mask: &[bool]| {
+            let field: Vec<f64> = mask.iter().map(|&yes| f64::from(u8::from(yes))).collect();
+            unfold(&field, Half::Even).mapv(|yes| yes > 0.0)
+        };
+        let (slips, at_limit) = (mask(&now.slip), mask(&s.at_limit));
         let contact = p.mapv(|p| p > 0.0);
         let stick = ndarray::Zip::from(&contact)
             .and(&slips)
-            .map_collect(|&c, &slips| c && slips == 0.0);
+            .and(&at_limit)
+            .map_collect(|&c, &slips, &at_limit| c && (!slips || at_limit));
         Fields {
             gap: u_z.clone() + self.problem.scene.h_init() - rigid,
             q_x,
@@ -101,6 +107,7 @@ impl March {
             u_z,
             contact,
             stick,
+            at_limit,
         }
     }
 }

@@ -1,41 +1,66 @@
 //! The friction coefficient of each cell, after what its material has been through.
+//!
+//! The bound of the shear at the end of an increment is that of the history by then, which the slip of the increment
+//! adds to: the increment is solved with what the last one makes expect, and again with what came out, until the
+//! coefficient settles.
 
-use super::State;
-use super::domain::Geometry;
-use super::problem::Problem;
-use super::rolled::{Roll, Rolled};
+use super::setup::Setup;
 use crate::scene::History;
 
-/// Sets `mu` for an increment, the material rolled as it is.
+/// Times that an increment is solved again at most, and the change of a coefficient, over itself, that is left.
+pub(super) const CORRECTIONS: usize = 8;
+const SETTLED: f64 = 1e-3;
+
+/// Sets `mu` at the end of an increment in which the history of cell n grows by `grows(n)`, and `before` at its start,
+/// the material rolled as it is.
 pub(super) fn update(
-    problem: &Problem,
-    geometry: &Geometry,
-    state: &State,
-    (roll, rolled): (&Roll, Option<&Rolled>),
-    mu: &mut [f64],
+    setup: &Setup<'_>,
+    grows: impl Fn(usize) -> f64,
+    [mu, before]: [&mut [f64]; 2],
 ) {
-    let friction = &problem.scene.friction;
+    let (geometry, state) = (setup.geometry, setup.state);
+    let friction = &setup.problem.scene.friction;
     let changes = friction.kinetic.is_some() || friction.history.is_some();
     if !changes && geometry.friction_map.is_empty() {
         return;
     }
-    let last = rolled.map_or(&state.interface, |rolled| &rolled.interface);
-    let origin = |n: usize| roll.origin(geometry, problem.plan.mirror, n);
-    for (n, mu) in mu.iter_mut().enumerate() {
+    let last = setup.last();
+    let origin = |n: usize| setup.roll.origin(geometry, setup.problem.plan.mirror, n);
+    for (n, (mu, before)) in mu.iter_mut().zip(before).enumerate() {
         let slipped = friction.kinetic.filter(|_| last.slip[n]);
         let map = geometry.friction_map.get(n).copied().unwrap_or(1.0);
-        let history = friction.history.as_ref().map_or(1.0, |history| {
-            history.factor(match history.of {
-                History::Increment => state.increments as f64,
-                History::Slip => origin(n).map_or(0.0, |n| state.slip_length[n]),
-                History::Dissipated => origin(n).map_or(0.0, |n| state.dissipated[n]),
-            })
+        let at = |field: &[f64]| origin(n).map_or(0.0, |n| field[n]);
+        let factors = friction.history.as_ref().map_or([1.0; 2], |history| {
+            let so_far = match history.of {
+                History::Increment => return [history.factor(state.increments as f64); 2],
+                History::Slip => at(&state.slip_length),
+                History::Dissipated => at(&state.dissipated),
+            };
+            [so_far + grows(n), so_far].map(|of| history.factor(of))
         });
-        let factor = map * history;
-        *mu = if factor > 0.0 {
-            slipped.unwrap_or(friction.mu) * factor
-        } else {
-            0.0
-        };
+        [*mu, *before] = factors.map(|history| {
+            let factor = map * history;
+            if factor > 0.0 {
+                slipped.unwrap_or(friction.mu) * factor
+            } else {
+                0.0
+            }
+        });
     }
+}
+
+/// What the history of each cell is expected to grow by: as much as in the last increment, if the path goes on.
+pub(super) fn expected(setup: &Setup<'_>) -> impl Fn(usize) -> f64 {
+    let (ratio, mirror) = (setup.goes_on.unwrap_or(0.0), setup.problem.plan.mirror);
+    move |n| {
+        let from = setup.roll.origin(setup.geometry, mirror, n);
+        from.map_or(0.0, |n| ratio * setup.state.history_step[n])
+    }
+}
+
+/// Whether the coefficient that a solution makes is the one that it was found with, up to what is left.
+pub(super) fn has_settled(mu: &[f64], next: &[f64]) -> bool {
+    mu.iter()
+        .zip(next)
+        .all(|(mu, next)| (mu - next).abs() <= SETTLED * mu)
 }

@@ -1,13 +1,13 @@
 //! One increment: drives -> no_slip -> guess -> solve -> check -> account.
 
 use super::accounts::Closing;
-use super::domain::Domain;
+use super::domain::{Domain, half_lengths};
 use super::problem::{Drives, Problem};
-use super::rolled::{Roll, Rolled};
+use super::rolled::{Roll, Rolled, RollsOff};
 use super::setup::{Failure, Setup, Solution, Solver, Workspace, count};
 use super::{Increment, State, accounts, check, entry, friction, guess};
 use crate::error::Error;
-use crate::scene::LoadPoint;
+use crate::scene::{History, LoadPoint};
 use crate::solvers::Response;
 
 /// Computes the increment to a point and makes it the present state, which after a failure is as before.
@@ -21,47 +21,60 @@ pub(super) fn increment(
 ) -> Result<Increment, Failure> {
     let geometry = &domain.window.geometry;
     let roll = Roll::new(problem, state, point);
-    let rolled = Rolled::new(&roll, geometry, problem.plan.mirror, state);
-    let rolls = (&roll, rolled.as_ref());
-    friction::update(problem, geometry, state, rolls, &mut ws.mu);
-    let setup = Setup {
+    let respond = (
+        &mut Response::plain(&mut *domain.window.op),
+        problem.plan.friction,
+    );
+    let rolled = Rolled::new(&roll, geometry, problem.plan.mirror, state, respond).map_err(
+        |RollsOff { room }| rolls_off(problem, state, domain.shape(), roll.margin(), room),
+    )?;
+    let given = Setup {
         problem,
         geometry,
         kernel: &domain.kernels.pair.zz,
         state,
         roll,
         rolled: rolled.as_ref(),
-        mu: &ws.mu,
+        mu: &[],
+        mu_before: &[],
         point,
         drives: Drives::new(problem, &geometry.arms, state, point),
         goes_on: state.going_on(point),
     };
+    let mu = [&mut ws.mu[..], &mut ws.mu_before[..]];
+    friction::update(&given, friction::expected(&given), mu);
     let last_transform = domain.last_transform();
-    ws.alternation.begin_increment();
-    let mut solver = Solver {
-        response: Response {
-            inverse: domain.window.inverse.as_deref_mut().map(|of| of as _),
-            stop: Some(&problem.stop),
-            last_transform,
-            ..Response::plain(&mut *domain.window.op)
-        },
-        no_slip: &mut ws.no_slip,
-        workspace: &mut ws.alternation,
+    let response = Response {
+        inverse: domain.window.inverse.as_deref_mut().map(|of| of as _),
+        stop: Some(&problem.stop),
+        last_transform,
+        ..Response::plain(&mut *domain.window.op)
     };
-    let (now, info) = solve(&setup, &mut solver, extrapolates)?;
+    let (now, info) = with_its_friction(&given, response, ws, extrapolates)?;
+    let setup = Setup {
+        mu: &ws.mu,
+        mu_before: &ws.mu_before,
+        ..given
+    };
     let clear = check::admissible(&setup, domain, &now, &info)?;
-    let (mut increment, without_slip) = accounts::draw_up(&setup, &ws.no_slip, &now, &info);
+    let (mut increment, stuck) = accounts::draw_up(&setup, &ws.no_slip, &now, &info);
     check::within_tolerance(&setup, &increment, count(&now))?;
     let closing = Closing {
         geometry,
         mirror: problem.plan.mirror,
         roll,
         rolled: rolled.as_ref(),
-        mu: &ws.mu,
+        mu: [&ws.mu, &ws.mu_before],
+        history: problem
+            .scene
+            .friction
+            .history
+            .as_ref()
+            .map(|history| history.of),
         no_slip: &ws.no_slip,
         keeps_residual: problem.plan.methods.residual_slip,
         shift: info.shift,
-        without_slip,
+        stuck,
         clear,
     };
     accounts::close(state, &increment, now, &closing);
@@ -69,6 +82,77 @@ pub(super) fn increment(
         increment.residuals.energy = increment.energy.imbalance() / state.work;
     }
     Ok(increment)
+}
+
+/// The solution, and in `ws` the friction coefficients that belong to it: where these follow what cells go through
+/// it is found again with what came out.
+fn with_its_friction<'a>(
+    given: &Setup<'_>,
+    response: Response<'a>,
+    ws: &'a mut Workspace,
+    extrapolates: bool,
+) -> Result<Solution, Error> {
+    let history = given
+        .problem
+        .scene
+        .friction
+        .history
+        .as_ref()
+        .map(|history| history.of);
+    let follows = history.filter(|of| *of != History::Increment);
+    let mut solver = Solver {
+        response,
+        no_slip: &mut ws.no_slip,
+        workspace: &mut ws.alternation,
+    };
+    let (mut guess, mut corrections) = (None, 0);
+    loop {
+        solver.workspace.begin_increment();
+        let setup = Setup {
+            mu: &ws.mu,
+            mu_before: &ws.mu_before,
+            ..*given
+        };
+        let (now, info) = match guess.take() {
+            None => solve(&setup, &mut solver, extrapolates)?,
+            Some(now) => entry::solve(&setup, &mut solver, now)?,
+        };
+        let Some(of) = follows.filter(|_| corrections < friction::CORRECTIONS) else {
+            return Ok((now, info));
+        };
+        let growth = accounts::growth(&setup, solver.no_slip, &now, info.shift, of);
+        let (mut next, mut before) = (ws.mu.clone(), ws.mu_before.clone());
+        friction::update(&setup, |n| growth[n], [&mut next, &mut before]);
+        if info.exceeds_friction() || friction::has_settled(&ws.mu, &next) {
+            return Ok((now, info));
+        }
+        (ws.mu, guess, corrections) = (next, Some(now), corrections + 1);
+    }
+}
+
+/// Asks for a wider window where a contact would roll off this one; refuses one that would roll off the grid.
+fn rolls_off(
+    problem: &Problem,
+    state: &State,
+    shape: (usize, usize),
+    cells: usize,
+    room: usize,
+) -> Failure {
+    let whole = &problem.scene.grid;
+    if shape.0 < whole.nx {
+        let rows = problem.plan.mirror.rows(shape.1);
+        let [x, y] = half_lengths(&state.interface.p, rows, shape);
+        return Failure::Narrow([x + cells, y]);
+    }
+    let allowed = format!(
+        "at most {room} cells, as many as lie between the contact and the border of the grid: more increments, or a longer grid"
+    );
+    Error::invalid(
+        format!("path.rolled of increment {}", state.increments + 1),
+        format!("{cells} cells in an increment"),
+        allowed,
+    )
+    .into()
 }
 
 /// The solution from a first guess; of bodies that nothing presses together, that they carry nothing.

@@ -18,6 +18,7 @@ mod increment;
 mod lifted;
 mod off_grid;
 mod problem;
+mod reached;
 mod results;
 mod retry;
 mod rolled;
@@ -32,6 +33,7 @@ mod worn;
 
 pub use fields::{Fields, Tractions};
 pub(crate) use problem::TANGENTIAL_SHARE;
+pub use reached::Reached;
 pub use results::{Energy, Increment, Motion, Residuals, Status, Work};
 pub use run::{BranchSummary, Observer, solve, summarise};
 pub use state::State;

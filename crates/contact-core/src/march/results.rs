@@ -145,6 +145,9 @@ pub struct Increment {
     pub contact_area: f64,
     /// Area of the stick zone \[m^2\], of cells at its border the part within.
     pub stick_area: f64,
+    /// Cells across the radius of the contact: the half width, the smaller semi-axis of an ellipse, of many
+    /// spots that of the one in the middle of their area; zero without a contact.
+    pub cells_per_radius: f64,
     /// Largest pressure \[Pa\].
     pub p_max: f64,
     /// Largest shear traction |q| \[Pa\].

@@ -6,6 +6,9 @@
 //! (`scene::bulk_stress`). Both enter the slip, eq. (7), through the displacement that means none:
 //! since u = u(2) - u(1), that of the material before, less d(eps_x) x and d(eps_y) y.
 //!
+//! Material that comes from beyond the cells has the displacement that the tractions gave it there, u(x + s) =
+//! C * t(. + s): the response to the tractions as they have rolled on, which must not leave the cells.
+//!
 //! A rotation d(phi_z) that is given moves the material on its way from x + s to x by d(phi_z) (x + s/2)
 //! along y, the motions of the bodies by d(phi_z) x: what they leave out is as if stretched besides. Of a
 //! rotation that follows from M_z it is left out: with the shift along y given too, an error of first order
@@ -16,7 +19,7 @@ use super::domain::Geometry;
 use super::problem::Problem;
 use crate::plan::Mirror;
 use crate::scene::{LoadPoint, Loads};
-use crate::solvers::Interface;
+use crate::solvers::{Interface, Response};
 
 /// How the material moves over the grid in an increment.
 #[derive(Clone, Copy, Debug, Default)]
@@ -70,13 +73,35 @@ impl Roll {
         source(geometry, mirror, n, self.cells)
     }
 
-    /// How much wider the undeformed gap over the material in cell n is than before \[m\].
+    /// How much wider the undeformed gap over the material in cell n is than before \[m\]; that of material from
+    /// beyond the cells is continued by the parabola through the last three.
     pub(super) fn gap_at(&self, geometry: &Geometry, mirror: Mirror, n: usize) -> f64 {
         if self.cells == 0 {
             return 0.0;
         }
-        let from = self.origin(geometry, mirror, n).unwrap_or(n);
-        geometry.h_init[n] - geometry.h_init[from]
+        let h = &geometry.h_init;
+        if let Some(from) = self.origin(geometry, mirror, n) {
+            return h[n] - h[from];
+        }
+        let rows = mirror.rows(geometry.grid.ny);
+        let (columns, column) = (geometry.grid.nx as isize, (n / rows) as isize + self.cells);
+        let (edge, inwards) = if column < 0 {
+            (0, 1)
+        } else {
+            (columns - 1, -1)
+        };
+        let beyond = (column - edge).abs() as f64;
+        let [f, g, k] = [0, 1, 2].map(|m| {
+            let column = (edge + m * inwards).clamp(0, columns - 1);
+            h[column as usize * rows + n % rows]
+        });
+        let from = f + beyond * (f - g) + 0.5 * beyond * (beyond + 1.0) * (f - 2.0 * g + k);
+        h[n] - from
+    }
+
+    /// Cells that a contact must be away from the border of the cells for the displacement of what rolls in.
+    pub(super) fn margin(&self) -> usize {
+        self.cells.unsigned_abs()
     }
 
     /// A field of the material, where that is now; material from beyond the grid has none.
@@ -98,15 +123,21 @@ pub(super) struct Rolled {
 }
 
 impl Rolled {
-    /// `None` where the material stays where it is.
+    /// `None` where the material stays where it is. Fails where the contact rolls off the cells, with the cells
+    /// between the two.
     pub(super) fn new(
         roll: &Roll,
         geometry: &Geometry,
         mirror: Mirror,
         state: &State,
-    ) -> Option<Self> {
+        (response, friction): (&mut Response<'_>, bool),
+    ) -> Result<Option<Self>, RollsOff> {
         if roll.rests() {
-            return None;
+            return Ok(None);
+        }
+        let room = room(roll, geometry, mirror, &state.interface.p);
+        if room < roll.margin() {
+            return Err(RollsOff { room });
         }
         let field = |f: &[f64]| rolled(geometry, mirror, f, roll.cells);
         let earlier = |f: &Vec<f64>| rolled(geometry, mirror, f, 2 * roll.cells);
@@ -115,17 +146,44 @@ impl Rolled {
             (0..slip.len()).map(of).collect()
         };
         let mut interface = state.interface.map(field, slips);
+        if roll.cells != 0 {
+            let mut computed = interface.clone();
+            computed.evaluate(response, friction);
+            let new = |n: &usize| roll.origin(geometry, mirror, *n).is_none();
+            for n in (0..interface.p.len()).filter(new) {
+                interface.u_z[n] = computed.u_z[n];
+                for c in 0..2 {
+                    interface.u[c][n] = computed.u[c][n];
+                }
+            }
+        }
         for n in 0..interface.p.len() {
             let stretch = roll.stretch_at(geometry, n);
             interface.u[0][n] -= stretch[0];
             interface.u[1][n] -= stretch[1];
         }
-        Some(Self {
+        Ok(Some(Self {
             interface,
             residual: state.residual.each_ref().map(|f| field(f)),
             p_before: earlier(&state.p_before),
             q_before: state.q_before.each_ref().map(earlier),
-        })
+        }))
+    }
+}
+
+/// The contact would roll off the cells: so few lie between it and their border.
+pub(super) struct RollsOff {
+    pub(super) room: usize,
+}
+
+/// Cells along x between a contact and the border of the cells that its material rolls to.
+fn room(roll: &Roll, geometry: &Geometry, mirror: Mirror, p: &[f64]) -> usize {
+    let rows = mirror.rows(geometry.grid.ny);
+    let free = |column: &&[f64]| column.iter().all(|&p| p <= 0.0);
+    if roll.cells > 0 {
+        p.chunks(rows).take_while(free).count()
+    } else {
+        p.chunks(rows).rev().take_while(free).count()
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::{Increment, March, Motion, Work};
+use super::{Increment, March, Motion, Reached, Work};
 use crate::error::Error;
 use crate::scene::{LoadPoint, Loads, RigidMotion, SaveFields, Scene};
 
@@ -36,7 +36,8 @@ pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Vec<Increment
 }
 
 impl March {
-    /// Runs through what is left of the path; returns the increments `before` and those.
+    /// Runs through what is left of the path; returns the increments `before` and those. Fails at the end if
+    /// the contact has too few cells to mean anything ([`Reached::check`]).
     pub fn run(
         mut self,
         mut before: Vec<Increment>,
@@ -46,7 +47,8 @@ impl March {
             self.stop_on(flag);
         }
         before.reserve(self.points().len().saturating_sub(before.len()));
-        let outcome = self.go_on(&mut before, observer);
+        let outcome = (self.go_on(&mut before, observer))
+            .and_then(|()| Reached::of(&before).check(self.scene()));
         let ended = observer.on_end(&self, outcome.as_ref().err());
         outcome.and(ended).map(|()| before)
     }

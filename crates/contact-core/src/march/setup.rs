@@ -30,8 +30,10 @@ impl From<Error> for Failure {
 
 /// Fields that an increment works on, kept from one to the next.
 pub(super) struct Workspace {
-    /// Friction coefficient of the kept cells.
+    /// Friction coefficient of the kept cells at the end of the increment.
     pub(super) mu: Vec<f64>,
+    /// The same at its start.
+    pub(super) mu_before: Vec<f64>,
     pub(super) no_slip: NoSlipTerms,
     pub(super) alternation: AlternationWorkspace,
 }
@@ -41,6 +43,7 @@ impl Workspace {
     pub(super) fn new(cells: usize, mu: f64) -> Self {
         Self {
             mu: vec![mu; cells],
+            mu_before: vec![mu; cells],
             no_slip: NoSlipTerms::new(cells),
             alternation: AlternationWorkspace::new(cells),
         }
@@ -55,6 +58,7 @@ impl Workspace {
 }
 
 /// What is given in an increment.
+#[derive(Clone, Copy)]
 pub(super) struct Setup<'a> {
     pub(super) problem: &'a Problem,
     pub(super) geometry: &'a Geometry,
@@ -64,8 +68,10 @@ pub(super) struct Setup<'a> {
     pub(super) state: &'a State,
     pub(super) roll: Roll,
     pub(super) rolled: Option<&'a Rolled>,
-    /// Friction coefficient of the kept cells.
+    /// Friction coefficient of the kept cells at the end of the increment.
     pub(super) mu: &'a [f64],
+    /// The same at its start.
+    pub(super) mu_before: &'a [f64],
     pub(super) point: &'a LoadPoint,
     pub(super) drives: Drives,
     /// The factor by which the change of the loads is that of the last increment, if the path goes on.

@@ -27,10 +27,15 @@ pub struct State {
     pub slip_length: Vec<f64>,
     /// Energy dissipated per area over the path \[J/m^2\].
     pub dissipated: Vec<f64>,
+    /// What the last increment added to the history that friction depends on \[m, J/m^2\]; zero where it does not.
+    pub(crate) history_step: Vec<f64>,
     /// Work of the applied forces over the path \[J\].
     pub work: f64,
     /// Area of the cells that did not slip in the last increment \[m^2\].
     pub(crate) without_slip: f64,
+    /// Cells that slip at the limit of friction in the last increment by less than it can tell: they count as
+    /// sticking.
+    pub(crate) at_limit: Vec<bool>,
     /// How far the cells beyond the window are at least from overlapping \[m\]; zero where that is not
     /// known.
     pub(crate) clear: f64,
@@ -62,8 +67,10 @@ impl State {
             slip: pair(),
             slip_length: field(),
             dissipated: field(),
+            history_step: field(),
             work: 0.0,
             without_slip: 0.0,
+            at_limit: vec![false; cells],
             clear: 0.0,
             p_before: field(),
             q_before: pair(),
@@ -81,10 +88,18 @@ impl State {
         }
         let cells = nx * mirror.rows(ny);
         let Interface { p, q, u, u_z, slip } = &self.interface;
-        let fields = [p, u_z, &self.slip_length, &self.dissipated, &self.p_before];
+        let State {
+            slip_length,
+            dissipated,
+            history_step,
+            p_before,
+            ..
+        } = self;
+        let fields = [p, u_z, slip_length, dissipated, history_step, p_before];
         let pairs = [q, u, &self.slip, &self.q_before, &self.residual];
         let fields = fields.into_iter().chain(pairs.into_iter().flatten());
-        fields.into_iter().all(|f| f.len() == cells) && slip.len() == cells
+        let masks = [slip, &self.at_limit];
+        fields.into_iter().all(|f| f.len() == cells) && masks.into_iter().all(|f| f.len() == cells)
     }
 
     /// Approach and tilts, as lengths \[m\].

@@ -172,6 +172,12 @@ pub const SCALARS: &[Scalar] = &[
         "radius of the circle of the contact area",
         Increment::contact_radius,
     ),
+    real(
+        "cells_per_radius",
+        "1",
+        "cells across the radius of the contact, its half width, or that of its spots",
+        |i| i.cells_per_radius,
+    ),
     real("p_max", "Pa", "largest pressure", |i| i.p_max),
     real("q_max", "Pa", "largest shear traction", |i| i.q_max),
     real(
@@ -344,4 +350,9 @@ pub const FIELDS: &[Field] = &[
     mask("stick", "contact cells that do not slip", |f| {
         FieldView::Mask(&f.stick)
     }),
+    mask(
+        "at_limit",
+        "cells that stick at the limit of friction",
+        |f| FieldView::Mask(&f.at_limit),
+    ),
 ];

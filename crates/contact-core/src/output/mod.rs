@@ -36,7 +36,7 @@ mod wear_store;
 mod writer;
 
 pub use catalogue::{FIELDS, Field, FieldView, Kind, SCALARS, Scalar};
-pub use error_bars::write_error_bars;
+pub use error_bars::{write_error_bars, write_no_error_bars};
 pub use image_data::ImageData;
 pub use reader::Store;
 pub use resume::{Resumed, resume};

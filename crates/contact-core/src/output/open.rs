@@ -14,7 +14,7 @@ use super::place::Unfinished;
 use super::schema::{CONVENTIONS, SCHEMA};
 use super::{column::Column, variable::Variable};
 use crate::error::Error;
-use crate::march::{Fields, Increment, State};
+use crate::march::{Fields, Increment, Reached, State};
 use crate::plan::Plan;
 use crate::scene::{LoadPoint, Scene};
 
@@ -33,6 +33,8 @@ pub(super) struct Open {
     others: Vec<Column>,
     fields: Vec<Variable>,
     last: Option<(usize, LoadPoint)>,
+    /// The most that the increments came to.
+    pub(super) reached: Reached,
     saved: usize,
     pub(super) saved_increment: usize,
     /// Metadata as they were last written.
@@ -95,6 +97,7 @@ impl Open {
             others,
             fields: fields.collect(),
             last: None,
+            reached: Reached::default(),
             saved: 0,
             saved_increment: 0,
             written: Consolidated::default(),
@@ -159,6 +162,7 @@ impl Open {
             column.push((scalar.value)(increment));
         }
         self.last = Some((increment.index, increment.point));
+        self.reached.see(increment);
     }
 
     /// Whether a checkpoint is to be written now.

@@ -10,6 +10,7 @@ use super::folder::Folder;
 use super::open::Open;
 use super::place::{has_nothing_else, mend, place};
 use super::reader::Store;
+use super::schema::DOUBTS;
 use crate::error::Error;
 use crate::march::{Increment, March, Observer};
 use crate::scene::Grid;
@@ -117,7 +118,7 @@ impl Observer for StoreWriter {
     }
 
     /// Keeps the fields of the last increment (unless the run was stopped on a grid of two million
-    /// cells or more) and says how the run ended; a run that ended early leaves a checkpoint to go on
+    /// cells or more), says how the run ended and what is to be doubted of it; a run that ended early leaves a checkpoint to go on
     /// from.
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         let Some(open) = &mut self.open else {
@@ -135,6 +136,11 @@ impl Observer for StoreWriter {
         };
         let status = failure.map_or("done".to_owned(), ToString::to_string);
         open.attributes.insert("status".into(), json!(status));
+        let doubts = open.reached.doubts(march.scene());
+        if !doubts.is_empty() {
+            open.attributes
+                .insert(DOUBTS.into(), json!(doubts.join("\n")));
+        }
         // A disk too full for the fields may hold the rest.
         if failure.is_some() {
             return open.checkpoint(march.state()).and(last_fields);

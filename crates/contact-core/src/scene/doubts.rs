@@ -4,12 +4,24 @@
 //! in units of its own is a scene like any other.
 
 use super::shape::Shape;
-use super::{Body, Coating, Elastic, Prescribed, RigidMotion, Scene, SurfaceMap};
+use super::{Body, Coating, Elastic, Grid, Prescribed, RigidMotion, Scene, SurfaceMap};
 use crate::error::Error;
 use crate::reference::Hertz;
 
-/// Peak pressure over the contact modulus, (2/pi) a/R, or bulk strain, beyond which strains are no longer small.
-const LARGE_STRAIN: f64 = 0.1;
+/// Peak pressure over the contact modulus, or bulk strain, beyond which strains are not small.
+pub(crate) const LARGE_STRAIN: f64 = 0.1;
+/// Contact radius over the radius of the bodies beyond which they are no half-spaces.
+const WIDE: f64 = 0.1;
+/// Young's modulus below that of any solid \[Pa\].
+const LIQUID: f64 = 1e3;
+/// Young's moduli below those of rubber, which in MPa are those of all solids \[Pa\]; and lengths that then are
+/// hardly in metres: of a grid, of a radius \[m\].
+const GEL: f64 = 2e6;
+const LONG: [f64; 2] = [0.05, 0.5];
+/// Radius beyond which one is hardly in metres \[m\].
+const LARGE_RADIUS: f64 = 1.0;
+/// Friction coefficient beyond which one is hardly no percentage.
+const ROUGHEST: f64 = 3.0;
 /// Thickness over the contact radius beyond which a coating is all that the contact sees.
 const THICK: f64 = 1000.0;
 /// Root-mean-square slope of a measured surface beyond which its heights are hardly in metres.
@@ -17,7 +29,8 @@ const STEEP: f64 = 0.5;
 /// Part of the Hertz radius that a contact reaches for certain.
 const CERTAIN: f64 = 0.97;
 
-const UNITS: &str = "lengths are in m, moduli in Pa, forces in N: 3 um is 3e-6, 114 GPa is 114e9";
+pub(super) const UNITS: &str =
+    "lengths are in m, moduli in Pa, forces in N: 3 um is 3e-6, 114 GPa is 114e9";
 
 impl Scene {
     /// Fails at what cannot be meant: an approach beyond the radius, heights beyond the length of
@@ -54,8 +67,9 @@ impl Scene {
         Ok(())
     }
 
-    /// Fails if the contact is certain to leave the grid: even if each body were of its stiffest
-    /// material alone. A scene that passes may still leave it when it is solved.
+    /// Fails if the contact is certain to leave the grid, even if each body were of its stiffest material
+    /// alone, or to be too small for its cells, even if it were of its softest. A scene that passes may still
+    /// turn out so when it is solved.
     pub fn check_fit(&self) -> Result<(), Error> {
         let stiff = Self {
             body1: stiffest(&self.body1),
@@ -63,7 +77,7 @@ impl Scene {
             ..self.clone()
         };
         let Some(hertz) = stiff.hertz().filter(|_| self.is_plain()) else {
-            return Ok(());
+            return self.check_resolution();
         };
         let (extent_x, extent_y) = self.grid.extent();
         let across = if self.grid.plane_strain {
@@ -79,9 +93,11 @@ impl Scene {
             std::f64::consts::PI * (CERTAIN * hertz.a).powi(2) < extent_x * extent_y
         };
         if fits {
-            return Ok(());
+            return self.check_resolution();
         }
+        let units = self.doubts_of_units().into_iter().next();
         Err(Error::GridTooSmall {
+            doubt: units.map_or_else(String::new, |doubt| format!("; {doubt}")),
             W: hertz.W,
             a: hertz.a,
             extent_x,
@@ -91,7 +107,7 @@ impl Scene {
     }
 
     /// Whether both surfaces are sums of paraboloids alone, so that nothing keeps a contact small.
-    fn is_plain(&self) -> bool {
+    pub(super) fn is_plain(&self) -> bool {
         fn plain(shape: &Shape) -> bool {
             match shape {
                 Shape::Flat | Shape::Sphere { .. } | Shape::Ellipsoid { .. } => true,
@@ -106,18 +122,9 @@ impl Scene {
     /// What is allowed but hardly meant, one sentence each with what was understood.
     pub fn doubts(&self) -> Vec<String> {
         let hertz = self.hertz();
-        let mut doubts = Vec::new();
-        if let Some(Hertz {
-            p0, E_star, W, a, ..
-        }) = hertz
-            && p0 > LARGE_STRAIN * E_star
-        {
-            doubts.push(format!(
-                "the peak pressure is {:.2} E*, strains are not small (W = {W:.3e} N, \
-                 E* = {E_star:.3e} Pa, a_H = {a:.3e} m): {UNITS}",
-                p0 / E_star
-            ));
-        }
+        let mut doubts = self.doubts_of_units();
+        doubts.extend(hertz.and_then(|hertz| self.doubt_of_half_spaces(&hertz)));
+        doubts.extend(self.doubt_of_cells());
         let (extent_x, extent_y) = self.grid.extent();
         let wide = if self.grid.plane_strain {
             extent_x
@@ -135,6 +142,7 @@ impl Scene {
                     ));
                 }
             }
+            doubts.extend(self.doubt_of_thin_layers(key, body));
             for map in maps(&body.shape) {
                 let slope = slope_of(map);
                 if slope > STEEP {
@@ -148,6 +156,83 @@ impl Scene {
         }
         doubts.extend(self.doubts_of_loads(wide));
         doubts
+    }
+
+    /// Numbers that are hardly in SI units.
+    fn doubts_of_units(&self) -> Vec<String> {
+        let mut doubts = Vec::new();
+        let mut stiffest: f64 = 0.0;
+        let mut radius: f64 = 0.0;
+        for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
+            let layers = body.coatings.iter().enumerate();
+            let layers = layers.map(|(i, c)| (format!("{key}.coatings[{i}].E"), c.material.E));
+            let all = layers.chain([(format!("{key}.E"), body.substrate.E)]);
+            for (name, E) in all.filter(|(_, E)| E.is_finite()) {
+                stiffest = stiffest.max(E);
+                if E < LIQUID {
+                    doubts.push(format!(
+                        "{name} = {E:.3e} Pa is less than that of the softest gel: {UNITS}"
+                    ));
+                }
+            }
+            for R in radii(&body.shape) {
+                radius = radius.max(R);
+                if R >= LARGE_RADIUS {
+                    doubts.push(format!("{key}.shape.R = {R} m is large: {UNITS}"));
+                }
+            }
+        }
+        let (extent, _) = self.grid.extent();
+        if (LIQUID..GEL).contains(&stiffest) && (extent > LONG[0] || radius > LONG[1]) {
+            doubts.push(format!(
+                "moduli of at most {stiffest:.3e} Pa, those of gels, on a grid {extent:.3e} m long: numbers in mm, N and MPa \
+                 are taken as m, N and Pa, and results carry these units; {UNITS}"
+            ));
+        }
+        let mu = self.friction.mu;
+        if mu.is_finite() && mu > ROUGHEST {
+            doubts.push(format!(
+                "friction.mu = {mu} is more than surfaces have: it is a number, not per cent: 30 % is 0.3"
+            ));
+        }
+        doubts
+    }
+
+    /// That a contact is too wide for bodies that are taken as half-spaces.
+    fn doubt_of_half_spaces(&self, hertz: &Hertz) -> Option<String> {
+        let Hertz {
+            p0, E_star, W, a, ..
+        } = *hertz;
+        let wide = a * self.principal_curvatures().0;
+        (wide > WIDE).then(|| {
+            format!(
+                "a_H/R = {wide:.2}, the peak pressure is {:.2} E* (W = {W:.3e} N, E* = {E_star:.3e} Pa, a_H = {a:.3e} m): \
+                 half-spaces and small strains hold up to a/R = {WIDE}; {UNITS}",
+                p0 / E_star
+            )
+        })
+    }
+
+    /// That the outermost interface lies within a cell below the surface, if what is below it differs.
+    fn doubt_of_thin_layers(&self, key: &str, body: &Body) -> Option<String> {
+        let Grid { dx, dy, .. } = self.grid;
+        let cell = if self.grid.plane_strain {
+            dx
+        } else {
+            dx.min(dy)
+        };
+        let Coating {
+            material,
+            thickness,
+        } = *body.coatings.first()?;
+        let below = body.coatings.get(1).map_or(body.substrate, |c| c.material);
+        (thickness < cell && material != below).then(|| {
+            format!(
+                "{key}.coatings[0].thickness = {thickness:.3e} m is {:.2} of a cell: contact, loads and energy hold, tractions \
+                 and stresses in the layer are means over a cell; a cell as small shows them",
+                thickness / cell
+            )
+        })
     }
 
     /// The same of the load path, on a grid of that length.
@@ -190,6 +275,28 @@ fn stiffest(body: &Body) -> Body {
         if modulus(&m) > modulus(&s) { m } else { s }
     });
     Body::homogeneous(substrate, body.shape.clone())
+}
+
+/// The body as if it were of its softest material.
+pub(super) fn softest(body: &Body) -> Body {
+    let coatings = body.coatings.iter().map(|c| c.material);
+    let modulus = |m: &Elastic| m.E / (1.0 - m.nu * m.nu);
+    let substrate = coatings.fold(body.substrate, |s, m| {
+        if modulus(&m) < modulus(&s) { m } else { s }
+    });
+    Body::homogeneous(substrate, body.shape.clone())
+}
+
+/// The sizes of the radii of curvature in a shape that is no plane \[m\].
+fn radii(shape: &Shape) -> Vec<f64> {
+    match shape {
+        Shape::Sphere { R } | Shape::Cylinder { R, .. } | Shape::CrownedRoller { R, .. } => {
+            vec![R.abs()]
+        }
+        Shape::Ellipsoid { R_x, R_y, .. } => vec![R_x.abs(), R_y.abs()],
+        Shape::Sum(parts) => parts.iter().flat_map(radii).collect(),
+        _ => Vec::new(),
+    }
 }
 
 /// The measured heights in a shape.

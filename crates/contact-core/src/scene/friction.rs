@@ -8,7 +8,8 @@ use crate::error::Error;
 /// Coulomb's law, `|q| <= mu p`, with a coefficient that may depend on the direction, the place and
 /// the history of each cell.
 ///
-/// The coefficient of an increment is that of the state it starts from.
+/// The coefficient of an increment is that of the history at its end, extrapolated from the last increment where the
+/// path goes on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
     /// Coefficient mu >= 0, where it depends on the direction that along x; 0 for a frictionless

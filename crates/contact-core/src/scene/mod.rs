@@ -16,6 +16,7 @@ mod magnitude;
 mod missing;
 mod motion;
 mod number_files;
+mod resolution;
 mod settings;
 mod shape;
 mod surface_map;
@@ -30,12 +31,14 @@ pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
 pub use loads::{Given, Loads};
 pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
+pub use resolution::{FEW_CELLS, FEWEST_CELLS};
 pub use settings::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
 };
 pub use shape::{Rough, Shape};
 pub use surface_map::SurfaceMap;
 
+pub(crate) use self::doubts::LARGE_STRAIN;
 pub(crate) use self::settings::MOST_ALIASES;
 use self::settings::{PATH_PART, TOLERANCE};
 use crate::error::Error;

@@ -28,7 +28,7 @@ use super::pressing::Pressing;
 use super::settings::{Wear, thicknesses};
 use crate::cells::Drive;
 use crate::error::Error;
-use crate::march::{Increment, March, State};
+use crate::march::{Increment, March, Reached, State};
 use crate::scene::{Branch, Friction, Scene};
 
 /// Change of the pressure between two corrections (root mean square, over the pressure) that ends them.
@@ -95,9 +95,11 @@ impl Marched {
             .take_while(|p| p.branch < wear.first_branch)
             .count();
         let plan = march.plan().clone();
+        let mut reached = Reached::default();
         for _ in 0..if state.is_none() { lead_in } else { 0 } {
-            advance(&mut march)?;
+            reached.see(&advance(&mut march)?);
         }
+        reached.check(&scene)?;
         let goes_on = state.is_some();
         let begins = || MarchedState {
             start: march.state().clone(),

@@ -74,7 +74,20 @@ impl Stencil {
     /// direction of the border.
     fn choose(self, levels: &[f64], half: usize) -> (&[f64], usize, usize) {
         let levels = &levels[..levels.len().min(self.most)];
-        if !self.before_middle || Parabola::holds(levels, self.skipped) {
+        if !self.before_middle {
+            return (levels, self.skipped, 2);
+        }
+        // Where an earlier border has left its trace next to this one, the cells before that count.
+        let rising = levels
+            .windows(2)
+            .take_while(|pair| pair[1] > pair[0])
+            .count()
+            + 1;
+        if rising < levels.len().min(self.skipped + 3).min(half) {
+            let rising = if rising < 2 { 0 } else { rising };
+            return (&levels[..rising], 0, 1);
+        }
+        if Parabola::holds(levels, self.skipped) {
             return (levels, self.skipped, 2);
         }
         let levels = &levels[..levels.len().min(half)];

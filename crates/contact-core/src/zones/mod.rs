@@ -8,6 +8,7 @@ mod neighbours;
 mod parabola;
 mod rim_pressure;
 mod sampled_border;
+mod spots;
 mod stick_zone;
 
 pub(crate) use continued::Continued;
@@ -15,3 +16,4 @@ pub(crate) use edge::Edge;
 pub(crate) use laws::{Power, SHRINKS, STICK};
 pub(crate) use level::{Level, Line, Stencil};
 pub use rim_pressure::continued_pressure;
+pub(crate) use spots::cells_per_radius;

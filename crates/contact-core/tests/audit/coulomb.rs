@@ -2,7 +2,7 @@
 
 use contact_core::march::Increment;
 
-use super::{Audit, End, Law, ROUNDING, Violations, shear, size};
+use super::{Audit, End, Law, ROUNDING, Violations, held, shear, size};
 
 impl Audit {
     /// |q| <= mu p everywhere, and equal where a cell slips. The increment has to report the same.
@@ -13,7 +13,7 @@ impl Audit {
         for (n, &p) in f.p.indexed_iter() {
             let beyond = (size(shear(f, n)) - mu * p) / scale;
             most = most.max(beyond);
-            let off = if f.stick[n] { beyond } else { beyond.abs() };
+            let off = if held(f, n) { beyond } else { beyond.abs() };
             found.raise(Law::Coulomb, off / ROUNDING);
         }
         if increment.work.parts == 1 && mu > 0.0 && increment.contact_area > 0.0 {

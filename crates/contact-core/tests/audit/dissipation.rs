@@ -2,7 +2,7 @@
 
 use contact_core::march::Increment;
 
-use super::{Audit, End, Law, ROUNDING, Violations, dot, shear, size};
+use super::{Audit, End, Law, ROUNDING, Violations, dot, held, shear, size};
 
 impl Audit {
     /// Friction takes the mean bound of the increment times the slip against the shear from a cell that
@@ -36,7 +36,7 @@ impl Audit {
             let mean = 0.5 * mu * (p + last.p[n]);
             let taken = if mu * p <= 0.0 {
                 (-0.5 * dot(slip, shear(last, n))).max(0.0)
-            } else if f.stick[n] {
+            } else if held(f, n) {
                 0.0
             } else {
                 let q = shear(f, n);

@@ -204,6 +204,11 @@ fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
+/// Whether a cell is held: at the limit of friction it may slip by less than an increment can tell.
+fn held(f: &Fields, n: (usize, usize)) -> bool {
+    f.stick[n] && !f.at_limit[n]
+}
+
 fn shear(f: &Fields, n: (usize, usize)) -> [f64; 2] {
     [f.q_x[n], f.q_y[n]]
 }
@@ -224,6 +229,7 @@ fn unloaded(scene: &Scene) -> Fields {
         slip_y: zero.clone(),
         dissipated: zero,
         contact: nowhere.clone(),
-        stick: nowhere,
+        stick: nowhere.clone(),
+        at_limit: nowhere,
     }
 }

@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use contact_core::march::Fields;
 
-use super::{dot, shear, size};
+use super::{dot, held, shear, size};
 
 /// Directions of the shear while a cell slips.
 pub(super) struct Sector {
@@ -23,9 +23,9 @@ impl Sector {
     pub(super) fn of(start: &Fields, end: &Fields, n: (usize, usize)) -> Self {
         let (from, to) = (shear(start, n), shear(end, n));
         if start.p[n] <= 0.0 {
-            let slips = if end.stick[n] { [0.0; 2] } else { to };
+            let slips = if held(end, n) { [0.0; 2] } else { to };
             Self::about(slips, 0.0)
-        } else if start.stick[n] {
+        } else if held(start, n) {
             Self::about(to, size([to[0] - from[0], to[1] - from[1]]))
         } else {
             Self::between(from, to)

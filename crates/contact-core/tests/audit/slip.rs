@@ -17,12 +17,12 @@
 //!
 //! A cell that slips moves against the shear ([`Sector`]), but for e - e_j of that one increment.
 
-use contact_core::march::{Increment, Status};
+use contact_core::march::{Fields, Increment, Status};
 use contact_core::scene::Scene;
 use ndarray::Array2;
 
 use super::sector::Sector;
-use super::{Audit, End, Law, Violations, dot};
+use super::{Audit, End, Law, Violations, dot, held};
 
 /// Where cells have come to rest.
 pub(super) struct Rest {
@@ -45,10 +45,10 @@ impl Rest {
     }
 
     /// What the cells that stick may have moved, root of the sum of squares, over the tolerance.
-    fn allowed(&self, stick: &Array2<bool>) -> f64 {
+    fn allowed(&self, f: &Fields) -> f64 {
         let mut begun = vec![false; self.cells.len()];
-        for (since, sticks) in self.since.iter().zip(stick) {
-            begun[*since] |= sticks;
+        for (n, since) in self.since.indexed_iter() {
+            begun[*since] |= held(f, n);
         }
         let of_begun = self.cells.iter().zip(&begun).filter(|(_, begun)| **begun);
         let before: f64 = of_begun.map(|(cells, _)| cells).sum();
@@ -69,7 +69,7 @@ impl Audit {
         let (mut stick, mut slip) = (0.0, 0.0);
         for (n, &p) in f.p.indexed_iter() {
             let enters = self.start.fields.p[n] <= 0.0;
-            if known && p > 0.0 && f.stick[n] && !enters {
+            if known && p > 0.0 && held(f, n) && !enters {
                 let by = self.moved(f, shift, n);
                 let moved = &mut self.rest.moved[n];
                 *moved = [moved[0] + by[0], moved[1] + by[1]];
@@ -99,7 +99,7 @@ impl Audit {
         let tolerance = self.misfit.slip;
         found.raise(
             Law::Stick,
-            stick.sqrt() / (tolerance * self.rest.allowed(&f.stick)),
+            stick.sqrt() / (tolerance * self.rest.allowed(f)),
         );
         found.raise(
             Law::Slip,

@@ -46,7 +46,8 @@ impl From<core::History> for History {
 
 /// Coulomb's law with a coefficient that depends on direction, place and history.
 ///
-/// The coefficient of an increment is that of the state it starts from.
+/// The coefficient of an increment is that of the history at its end, extrapolated from the last
+/// increment.
 ///
 /// Parameters
 /// ----------

@@ -1,5 +1,6 @@
 //! The scene as a whole.
 
+use std::ffi::CString;
 use std::path::PathBuf;
 
 use contact_core::fields::Side;
@@ -37,6 +38,17 @@ takes!(
     Scene,
     "a scene, such as Scene(body1=.., body2=.., mu=0.3, grid=..) or Scene.from_file(\"scene.toml\")"
 );
+
+impl Scene {
+    /// The scene with another load history, if one is given.
+    fn along(&self, path: Option<LoadPath>) -> core::Scene {
+        let mut scene = self.0.clone();
+        if let Some(path) = path {
+            scene.path = path.0;
+        }
+        scene
+    }
+}
 
 #[pymethods]
 impl Scene {
@@ -147,15 +159,32 @@ impl Scene {
         Ok(Self(scene))
     }
 
-    /// Refuse a scene that has no meaning.
+    /// Refuse a scene that has no meaning, warn of what is hardly meant.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : LoadPath, optional
+    ///     Load history (default: that of the scene).
     ///
     /// Raises
     /// ------
     /// InvalidSceneError
     ///     With the key, the value and what is allowed.
-    fn check(&self) -> PyResult<()> {
-        self.0.check().map_err(to_python)?;
-        self.0.check_fit().map_err(to_python)
+    ///
+    /// Warns
+    /// -----
+    /// SceneWarning
+    ///     As :meth:`doubts` says.
+    #[pyo3(signature = (path = None))]
+    fn check(&self, py: Python<'_>, path: Option<LoadPath>) -> PyResult<()> {
+        let scene = self.along(path);
+        scene.check().map_err(to_python)?;
+        scene.check_fit().map_err(to_python)?;
+        let warning = py.import("pyfret.errors")?.getattr("SceneWarning")?;
+        for doubt in scene.doubts() {
+            PyErr::warn(py, &warning, &CString::new(doubt)?, 1)?;
+        }
+        Ok(())
     }
 
     /// One line that names the scene.
@@ -233,11 +262,18 @@ impl Scene {
         self.0.length(&p.as_array().to_owned())
     }
 
-    /// What is allowed but hardly meant: numbers that look like those of another unit.
+    /// What is allowed but hardly meant: numbers that look like another unit's, few cells.
     ///
-    /// One sentence for each, with what was understood; :func:`pyfret.solve` warns of them.
-    fn doubts(&self) -> Vec<String> {
-        self.0.doubts()
+    /// One sentence for each, with what was understood; :func:`pyfret.solve` and :meth:`check` warn
+    /// of them.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : LoadPath, optional
+    ///     Load history (default: that of the scene).
+    #[pyo3(signature = (path = None))]
+    fn doubts(&self, path: Option<LoadPath>) -> Vec<String> {
+        self.along(path).doubts()
     }
 
     /// The yardstick a_H, p_H: the uncoated pair at the largest normal force of the path.

@@ -18,6 +18,12 @@
 //! it, which goes like d^(3/2) from the border outwards, f = s^(2/3): the border in the middle of the
 //! increment, to second order, since what slips in all of it are the cells outside that. By the end its
 //! radius has grown by half of what it grew from the last increment.
+//!
+//! **Cells at the limit.** Where a cycle comes back to the shear that an earlier one left, cells reach their bound
+//! and do not slip: what they move by is what the solver leaves, and whether they count among the cells that slip
+//! would be left to rounding. A cell that slips by less than that, or by less than [`TELLS`] of the most, counts as
+//! sticking where such cells are more than one abreast: a border that moves leaves fewer of them. The border
+//! beside them is where the slip of the others vanishes.
 
 use super::energy::slip_of;
 use crate::cells::{Lattice, size};
@@ -26,21 +32,32 @@ use crate::material::dundurs_beta;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::NoSlipTerms;
 use crate::solvers::{Interface, friction_bound};
-use crate::zones::{Edge, Level, Line, Power, SHRINKS, STICK, Stencil};
+use crate::zones::{Edge, Level, Line, Power, SHRINKS, STICK, Stencil, cells_per_radius};
 
 /// Cells across a slip ring on dissimilar bodies up to which its rim is continued from cells that stick
 /// as well, whose pressure follows another law: fewer cannot show it. In wider ones all count but the
 /// innermost, next to where that law begins, and no fewer than leave two after those that are skipped.
 const RING: usize = 3;
 const FEWEST: usize = 4;
+/// Part of the bound that a cell beside them lacks at most to be at the limit too.
+const REACHES: f64 = 5e-3;
+/// Largest e of the law of a rim: that of mu beta = 3.
+const STEEPEST: f64 = 0.4;
+/// Part of the largest slip of an increment below which a cell does not slip. Slip rises like d^(3/2) from the border of
+/// a zone: this leaves 1 % of the width of a ring.
+const TELLS: f64 = 1e-3;
 
 /// Areas, in kept cells.
 pub(super) struct Areas {
     pub(super) contact: f64,
+    /// Cells across the radius of the contact.
+    pub(super) cells_per_radius: f64,
     /// The stick zone at the end of the increment.
     pub(super) stick: f64,
     /// The cells that did not slip in the increment.
     pub(super) without_slip: f64,
+    /// Those of them that are at the limit of friction.
+    pub(super) at_limit: Vec<bool>,
 }
 
 /// Of a solved increment.
@@ -50,23 +67,27 @@ pub(super) fn areas(
     now: &Interface,
     info: &AlternationInfo,
 ) -> Areas {
-    let cells = Cells::new(setup, now);
+    let slip = |n: usize| {
+        let rigid = setup.geometry.arms.in_plane(info.shift, n);
+        size(slip_of(no_slip, now, setup.last(), rigid, n).0)
+    };
+    let cells = Cells::new(setup, now, slip);
     let partial = setup.problem.plan.methods.partial_cells;
     let rim = if partial { cells.rim() } else { Vec::new() };
     let contact = area(&cells.contact, &rim);
+    let cells_per_radius = cells_per_radius(cells.lattice, &cells.contact);
     if !now.slip.contains(&true) {
         return Areas {
             contact,
+            cells_per_radius,
             stick: contact,
             without_slip: contact,
+            at_limit: cells.at_limit,
         };
     }
     // Without a limit no cell is near its bound: whole cells count.
     let border = if partial && setup.problem.scene.friction.mu.is_finite() {
-        cells.stick_border(&rim, |n| {
-            let rigid = setup.geometry.arms.in_plane(info.shift, n);
-            size(slip_of(no_slip, now, setup.last(), rigid, n).0)
-        })
+        cells.stick_border(&rim, slip)
     } else {
         Vec::new()
     };
@@ -75,6 +96,7 @@ pub(super) fn areas(
     let grows = setup.goes_on.is_some() && before > 0.0 && without_slip > before;
     Areas {
         contact,
+        cells_per_radius,
         stick: if grows {
             let (radius, last) = (without_slip.sqrt(), before.sqrt());
             (radius + 0.5 * (radius - last)).powi(2)
@@ -82,6 +104,7 @@ pub(super) fn areas(
             without_slip
         },
         without_slip,
+        at_limit: cells.at_limit,
     }
 }
 
@@ -92,6 +115,36 @@ fn area(zone: &[bool], edges: &[(usize, Edge)]) -> f64 {
     whole + edges.iter().map(partial).sum::<f64>()
 }
 
+/// The cells among those `marked` as slipping that slip by less than an increment can tell, given the slip of a cell
+/// \[m\].
+fn at_limit(
+    setup: &Setup<'_>,
+    lattice: Lattice,
+    marked: &[bool],
+    slip: impl Fn(usize) -> f64,
+) -> Vec<bool> {
+    let slips: Vec<f64> = (marked.iter().enumerate())
+        .map(|(n, &marked)| if marked { slip(n) } else { 0.0 })
+        .collect();
+    let most = slips.iter().copied().fold(0.0, f64::max);
+    let told = setup
+        .problem
+        .params(1.0)
+        .tangential
+        .tolerance
+        .max(TELLS * most);
+    let tells: Vec<bool> = slips.iter().map(|&slip| slip > told).collect();
+    let hardly = |n: usize| marked[n] && !tells[n];
+    if !(0..marked.len()).any(hardly) {
+        return vec![false; marked.len()];
+    }
+    let abreast = (0..marked.len()).map(|n| hardly(n) && !lattice.is_beside(n, &tells));
+    let abreast: Vec<bool> = abreast.collect();
+    (0..marked.len())
+        .map(|n| hardly(n) && lattice.is_beside(n, &abreast))
+        .collect()
+}
+
 /// The kept cells by what they do.
 struct Cells<'a> {
     setup: &'a Setup<'a>,
@@ -100,21 +153,45 @@ struct Cells<'a> {
     contact: Vec<bool>,
     stick: Vec<bool>,
     slips: Vec<bool>,
+    /// Cells among those that stick which are at the limit of friction.
+    at_limit: Vec<bool>,
 }
 
 impl<'a> Cells<'a> {
-    fn new(setup: &'a Setup<'_>, now: &'a Interface) -> Self {
+    /// Given the slip of a cell in the increment \[m\].
+    fn new(setup: &'a Setup<'_>, now: &'a Interface, slip: impl Fn(usize) -> f64) -> Self {
         let contact: Vec<bool> = now.p.iter().map(|&p| p > 0.0).collect();
-        let of = |slips: bool| -> Vec<bool> {
-            let pairs = contact.iter().zip(&now.slip);
-            pairs.map(|(&c, &s)| c && s == slips).collect()
-        };
+        let lattice = Lattice::new(&setup.geometry.grid, setup.problem.plan.mirror);
+        let marked: Vec<bool> = (contact.iter().zip(&now.slip))
+            .map(|(&c, &s)| c && s)
+            .collect();
+        let mut at_limit = at_limit(setup, lattice, &marked, slip);
+        let slips: Vec<bool> = (marked.iter().zip(&at_limit))
+            .map(|(&s, &l)| s && !l)
+            .collect();
+        if at_limit.contains(&true) {
+            // Cells beside them that have come to the limit and stick.
+            let reaches = |n: usize| {
+                let bound = friction_bound(setup.mu[n], now.p[n]);
+                contact[n]
+                    && !marked[n]
+                    && size([now.q[0][n], now.q[1][n]]) > (1.0 - REACHES) * bound
+            };
+            let beside = |n: usize| reaches(n) && lattice.is_beside(n, &at_limit);
+            let others: Vec<usize> = (0..contact.len()).filter(|&n| beside(n)).collect();
+            for n in others {
+                at_limit[n] = true;
+            }
+        }
         Self {
             setup,
             now,
-            lattice: Lattice::new(&setup.geometry.grid, setup.problem.plan.mirror),
-            stick: of(false),
-            slips: of(true),
+            lattice,
+            stick: (contact.iter().zip(&slips))
+                .map(|(&c, &s)| c && !s)
+                .collect(),
+            slips,
+            at_limit,
             contact,
         }
     }
@@ -130,7 +207,10 @@ impl<'a> Cells<'a> {
                 line.shorten((ring - 1).max(FEWEST));
             }
             let q_n = now.q[0][at] * line.inwards[0] + now.q[1][at] * line.inwards[1];
-            let e = (beta * q_n / now.p[at]).atan() / std::f64::consts::PI;
+            // A rim that never slides has no such law.
+            let slides = scene.friction.mu.is_finite();
+            let ratio = if slides { q_n / now.p[at] } else { 0.0 };
+            let e = ((beta * ratio).atan() / std::f64::consts::PI).clamp(-STEEPEST, STEEPEST);
             let power = if e == 0.0 {
                 Power::Two
             } else {
@@ -152,18 +232,20 @@ impl<'a> Cells<'a> {
             let slipping = self.slipping_beside(line);
             (STICK, move |n| self.shortfall(now, n, slipping))
         });
+        let beside_limit = |n: usize| self.lattice.is_beside(n, &self.at_limit);
         for (n, edge) in &mut border {
             edge.level = edge.level.filter(|level| level.law == SHRINKS);
             let line = edge.level.map(|level| level.line);
             let shrinks = |line: Line| !self.grew(line.outermost(), self.slipping_beside(&line));
-            if line.is_some_and(shrinks) {
+            if line.is_some_and(shrinks) && !beside_limit(*n) {
                 continue;
             }
             edge.level = None;
             let laws = |_: &mut Line| ([Power::TwoThirds], &slip);
             let by_slip = (self.lattice).edge(*n, &self.slips, [Stencil::SLIP], &laws);
             let grown = by_slip.level.is_some_and(|Level { line, .. }| {
-                self.stick[line.outside] && self.grew(line.outside, line.outermost())
+                self.stick[line.outside]
+                    && (self.at_limit[line.outside] || self.grew(line.outside, line.outermost()))
             });
             if grown {
                 *edge = by_slip.other_side(self.stick[*n]);

@@ -45,7 +45,7 @@ pub(super) fn energies(
             trapezoidal -= q * slip[c];
             of_bulk -= q * stretch[c];
         }
-        let dissipated = dissipated(setup.mu[n], now, last, slip, n);
+        let dissipated = dissipated([setup.mu[n], setup.mu_before[n]], now, last, slip, n);
         let quadrature = dissipated - trapezoidal;
         [
             elastic,
@@ -98,14 +98,14 @@ pub(super) fn slip_of(
     ([moved[0] - entered[0], moved[1] - entered[1]], entered)
 }
 
-/// Energy per area that friction takes from a cell by its `slip` against the final shear
-/// \[J/m^2\]: a cell slips at its bound, so it is the mean bound of the increment times the slip,
+/// Energy per area that friction takes from a cell by its `slip` against the final shear, with the friction
+/// coefficients at the end and at the start \[J/m^2\]: a cell slips at its bound, so it is the mean bound of the increment times the slip,
 /// where the trapezoidal rule takes a mean of the shear before slip and in slip. A single increment
 /// is exact while the pressure stays. It is not negative because slip opposes the shear, to the
 /// tolerance. A cell that leaves the contact slips under half of the shear that it carried, if it
 /// gives way to it; how it moves once it is free is no slip.
 pub(super) fn dissipated(
-    mu: f64,
+    [mu, mu_before]: [f64; 2],
     now: &Interface,
     last: &Interface,
     slip: [f64; 2],
@@ -120,7 +120,7 @@ pub(super) fn dissipated(
         return 0.0;
     }
     let mean = if bound.is_finite() {
-        0.5 * (1.0 + friction_bound(mu, last.p[n]) / bound)
+        0.5 * (1.0 + friction_bound(mu_before, last.p[n]) / bound)
     } else {
         1.0
     };

@@ -4,10 +4,20 @@ use super::energy::{dissipated, slip_of};
 use crate::cells::{set, size};
 use crate::march::domain::Geometry;
 use crate::march::rolled::{Roll, Rolled};
+use crate::march::setup::Setup;
 use crate::march::{Increment, State, Status};
 use crate::plan::Mirror;
+use crate::scene::History;
 use crate::solvers::Interface;
 use crate::solvers::no_slip::{NoSlipTerms, not_opposite, slip};
+
+/// What did not slip in an increment.
+pub(in crate::march) struct Stuck {
+    /// Area of the cells that did not slip \[m^2\].
+    pub(in crate::march) area: f64,
+    /// Cells at the limit of friction that are among them.
+    pub(in crate::march) at_limit: Vec<bool>,
+}
 
 /// What an increment was computed with, the state apart.
 pub(in crate::march) struct Closing<'a> {
@@ -15,14 +25,16 @@ pub(in crate::march) struct Closing<'a> {
     pub(in crate::march) mirror: Mirror,
     pub(in crate::march) roll: Roll,
     pub(in crate::march) rolled: Option<&'a Rolled>,
-    pub(in crate::march) mu: &'a [f64],
+    /// Friction coefficients at the end and at the start.
+    pub(in crate::march) mu: [&'a [f64]; 2],
+    /// What friction depends on, if on the history of cells.
+    pub(in crate::march) history: Option<History>,
     pub(in crate::march) no_slip: &'a NoSlipTerms,
     /// Whether the residual slip is corrected in the next increment.
     pub(in crate::march) keeps_residual: bool,
     /// d(delta_x), d(delta_y), d(phi_z) times the length \[m\].
     pub(in crate::march) shift: [f64; 3],
-    /// Area of the cells that did not slip \[m^2\].
-    pub(in crate::march) without_slip: f64,
+    pub(in crate::march) stuck: Stuck,
     /// How far the cells beyond the window stay clear at least \[m\].
     pub(in crate::march) clear: f64,
 }
@@ -42,7 +54,12 @@ pub(in crate::march) fn close(
         state.dissipated = field(&state.dissipated);
     }
     let last = std::mem::replace(&mut state.interface, now);
+    let before = of_history(state, closing.history).map(<[f64]>::to_vec);
     add_slip(state, &last, closing);
+    if let Some(before) = before {
+        let now = of_history(state, closing.history).into_iter().flatten();
+        state.history_step = now.zip(before).map(|(now, before)| now - before).collect();
+    }
     let point = &increment.point;
     state.step = point.loads.since(&state.loads, state.motion.motions());
     state.p_before = last.p;
@@ -50,9 +67,44 @@ pub(in crate::march) fn close(
     state.loads = point.loads;
     state.motion = increment.motion;
     state.work += increment.energy.work;
-    state.without_slip = closing.without_slip;
+    state.without_slip = closing.stuck.area;
+    (state.at_limit).clone_from(&closing.stuck.at_limit);
     state.clear = closing.clear;
     state.increments += 1;
+}
+
+/// What a solution adds to the history of each cell that friction depends on \[m, J/m^2\].
+pub(in crate::march) fn growth(
+    setup: &Setup<'_>,
+    no_slip: &NoSlipTerms,
+    now: &Interface,
+    shift: [f64; 3],
+    of: History,
+) -> Vec<f64> {
+    let (last, arms) = (setup.last(), &setup.geometry.arms);
+    let grows = |n: usize| {
+        if now.p[n] <= 0.0 || !now.slip[n] {
+            return 0.0;
+        }
+        let (slip, _) = slip_of(no_slip, now, last, arms.in_plane(shift, n), n);
+        match of {
+            History::Increment => 0.0,
+            History::Slip => size([slip[0], slip[1] / arms.stretch]),
+            History::Dissipated => {
+                dissipated([setup.mu[n], setup.mu_before[n]], now, last, slip, n)
+            }
+        }
+    };
+    (0..now.p.len()).map(grows).collect()
+}
+
+/// The field of the history that friction depends on.
+fn of_history(state: &State, history: Option<History>) -> Option<&[f64]> {
+    match history? {
+        History::Increment => None,
+        History::Slip => Some(&state.slip_length),
+        History::Dissipated => Some(&state.dissipated),
+    }
 }
 
 /// Keeps the slip that should not be, for the next increment to correct; a body that slides may
@@ -83,7 +135,7 @@ fn keep_residual(state: &mut State, status: Status, now: &Interface, closing: &C
 fn add_slip(state: &mut State, last: &Interface, closing: &Closing<'_>) {
     let now = &state.interface;
     let before = closing.rolled.map_or(last, |rolled| &rolled.interface);
-    let (arms, mu) = (&closing.geometry.arms, closing.mu);
+    let (arms, [mu, mu_before]) = (&closing.geometry.arms, closing.mu);
     let [slip_x, slip_y] = &mut state.slip;
     let histories = [
         &mut slip_x[..],
@@ -99,7 +151,7 @@ fn add_slip(state: &mut State, last: &Interface, closing: &Closing<'_>) {
         }
         let rigid = arms.in_plane(closing.shift, n);
         let (slip, _) = slip_of(closing.no_slip, now, before, rigid, n);
-        let energy = energy + dissipated(mu[n], now, before, slip, n);
+        let energy = energy + dissipated([mu[n], mu_before[n]], now, before, slip, n);
         if !(p > 0.0 && now.slip[n]) {
             return [x, y, length, energy];
         }

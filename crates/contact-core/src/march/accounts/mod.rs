@@ -4,7 +4,7 @@ mod areas;
 mod energy;
 mod history;
 
-pub(super) use self::history::{Closing, close};
+pub(super) use self::history::{Closing, Stuck, close, growth};
 use super::setup::{Setup, count};
 use super::transmitted::transmitted;
 use super::{Increment, Motion, Status, Work, check};
@@ -14,13 +14,13 @@ use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::NoSlipTerms;
 
-/// What a solved increment comes to, and the area of the cells that did not slip in it \[m^2\].
+/// What a solved increment comes to, and what did not slip in it.
 pub(super) fn draw_up(
     setup: &Setup<'_>,
     no_slip: &NoSlipTerms,
     now: &Interface,
     info: &AlternationInfo,
-) -> (Increment, f64) {
+) -> (Increment, Stuck) {
     let state = setup.state;
     let cell_area = setup.problem.cell_area();
     let motion = motion(setup, info);
@@ -45,11 +45,13 @@ pub(super) fn draw_up(
         status: match (contact, slipping) {
             (0, _) => Status::NoContact,
             (_, 0) => Status::FullStick,
-            (contact, slipping) if contact == slipping => Status::GrossSlip,
+            // Below the limit of friction the bodies do not slide, though every cell may slip.
+            (contact, slipping) if contact == slipping && slides(setup, info) => Status::GrossSlip,
             _ => Status::PartialSlip,
         },
         contact_area: zones.contact * cell_area,
         stick_area,
+        cells_per_radius: zones.cells_per_radius,
         p_max,
         q_max,
         energy,
@@ -62,7 +64,18 @@ pub(super) fn draw_up(
             parts: 1,
         },
     };
-    (increment, zones.without_slip * cell_area)
+    let stuck = Stuck {
+        area: zones.without_slip * cell_area,
+        at_limit: zones.at_limit,
+    };
+    (increment, stuck)
+}
+
+/// Whether bodies whose cells all slip slide: below the limit of friction the forces hold them where they are.
+fn slides(setup: &Setup<'_>, info: &AlternationInfo) -> bool {
+    let given = setup.point.loads.given;
+    let turns = given.phi_z.is_some_and(|to| to != setup.state.motion.phi_z);
+    info.uses_all_friction() || given.delta_x.is_some() || given.delta_y.is_some() || turns
 }
 
 /// The rigid motion at the end of the increment; what is given is kept as it was said.

@@ -57,9 +57,11 @@ pub(super) fn state(
         slip: state.slip.each_ref().map(field),
         slip_length: field(&state.slip_length),
         dissipated: field(&state.dissipated),
+        history_step: field(&state.history_step),
         p_before: field(&state.p_before),
         q_before: state.q_before.each_ref().map(field),
         residual: state.residual.each_ref().map(field),
+        at_limit: embedded(&state.at_limit, from, to, mirror, false),
         ..*state
     }
 }

@@ -1,7 +1,7 @@
 //! Load paths that have no meaning, refused before anything is computed.
 
+use super::LoadPath;
 use super::build::CHORDS;
-use super::{Branch, LoadPath};
 use crate::error::Error;
 use crate::memory::fits;
 use crate::scene::{Friction, Grid, Prescribed, RigidMotion};
@@ -30,11 +30,23 @@ impl LoadPath {
         Self::start().normal(0.0, all).check_length()
     }
 
-    /// Fails at a load or motion that no scene can have: one that is not finite, or bodies pulled apart by W.
+    /// Fails at a load, motion or time that no scene can have: one that is not finite, bodies pulled apart by W, or
+    /// a time that does not grow.
     pub fn check_values(&self) -> Result<(), Error> {
-        let named =
-            |(i, b): (usize, &Branch)| b.to.check_values(&|name| format!("path[{i}].{name}"));
-        self.branches.iter().enumerate().try_for_each(named)
+        let mut t = 0.0;
+        for (i, b) in self.branches.iter().enumerate() {
+            let key = |name: &str| format!("path[{i}].{name}");
+            b.to.check_values(&key)?;
+            if !(b.t_end > t && b.t_end.is_finite()) {
+                return Err(Error::invalid(
+                    key("t"),
+                    b.t_end,
+                    format!("a time after {t}, the end of the branch before"),
+                ));
+            }
+            t = b.t_end;
+        }
+        Ok(())
     }
 
     /// Fails where the increments of a branch are yet to be chosen.
@@ -61,18 +73,9 @@ impl LoadPath {
             ));
         }
         self.check_length()?;
-        let mut t = 0.0;
+        self.check_values()?;
         for (i, b) in self.branches.iter().enumerate() {
             let key = |name: &str| format!("path[{i}].{name}");
-            b.to.check_values(&key)?;
-            if !(b.t_end > t && b.t_end.is_finite()) {
-                return Err(Error::invalid(
-                    key("t"),
-                    b.t_end,
-                    format!("a time after {t}, the end of the branch before"),
-                ));
-            }
-            t = b.t_end;
             if b.increments == Some(0) {
                 return Err(Error::invalid(
                     key("increments"),

@@ -111,8 +111,8 @@ fn drives(name: &str) -> (Option<usize>, &str) {
 
 impl LoadPath {
     /// Goes straight from waypoint to waypoint, a branch for each. `names` are those of loads and
-    /// motions, `sigma_B`, `sigma_B1`, `rolled` and the path time `t`; each row has a value for
-    /// each. What has no column stays as it is.
+    /// motions, `sigma_B`, `sigma_B1`, `rolled` and the path time `t`, which grows from row to row; each row
+    /// has a value for each. What has no column stays as it is.
     pub fn waypoints(
         mut self,
         names: &[&str],
@@ -144,11 +144,20 @@ impl LoadPath {
             ));
         }
         let mut waypoints = vec![self.last()];
-        for row in rows {
+        for (n, row) in rows.iter().enumerate() {
             let (mut to, t) = waypoints[waypoints.len() - 1];
             let mut t_end = t + 1.0;
             for (column, value) in columns.iter().zip(row) {
                 column.enter(&mut to, &mut t_end, *value);
+            }
+            if !(t_end > t && t_end.is_finite()) {
+                return Err(Error::invalid(
+                    format!("t of path row {}", n + 1),
+                    t_end,
+                    format!(
+                        "a time after {t}, that of the row before or of the start: rows in the order of time"
+                    ),
+                ));
             }
             waypoints.push((to, t_end));
         }
@@ -220,6 +229,16 @@ mod tests {
         for (names, rows, part) in [
             (["t", "w", "T_x"], &rows[..], "the nearest is W"),
             (["t", "W", "T_x"], &[vec![1.0]][..], "path row 1 = 1 values"),
+            (
+                ["t", "W", "T_x"],
+                &[vec![2.0, 1.0, 0.0], vec![1.0, 1.0, 0.0]][..],
+                "t of path row 2 = 1: must be a time after 2",
+            ),
+            (
+                ["t", "W", "T_x"],
+                &[vec![f64::NAN, 1.0, 0.0]][..],
+                "t of path row 1 = NaN",
+            ),
         ] {
             let refused = LoadPath::start().waypoints(&names, rows, Increments::Each(1));
             let text = refused.expect_err("refused").to_string();

@@ -26,8 +26,13 @@ const BEYOND: f64 = 1e-9;
 impl Sliding {
     /// Whether every cell slips.
     pub(crate) fn is_full(&self) -> bool {
-        self.used >= 1.0 - FULL
+        is_full(self.used)
     }
+}
+
+/// Whether loads that use this part of the limit slide.
+pub(crate) fn is_full(used: f64) -> bool {
+    used >= 1.0 - FULL
 }
 
 /// Whether friction cannot carry loads that use this part of its limit.

@@ -12,7 +12,7 @@ mod tangent;
 mod tangential;
 
 pub(super) use admissible::admissible;
-pub(super) use limit::{Sliding, exceeds, sliding};
+pub(super) use limit::{Sliding, exceeds, is_full, sliding};
 pub(crate) use normal::assess;
 pub use normal::{NormalInfo, NormalParams, NormalProblem, NormalWorkspace, normal};
 pub(super) use shear::first_shift;

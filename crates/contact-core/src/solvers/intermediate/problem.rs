@@ -6,7 +6,7 @@ use crate::cells::{Arms, Drive, copy, set};
 use crate::solvers::Interface;
 use crate::solvers::inner::{
     NormalParams, NormalProblem, NormalWorkspace, TangentialParams, TangentialProblem,
-    TangentialWorkspace, exceeds,
+    TangentialWorkspace, exceeds, is_full,
 };
 
 /// What is given in one increment.
@@ -109,6 +109,11 @@ impl AlternationInfo {
     /// was not solved for.
     pub fn exceeds_friction(&self) -> bool {
         exceeds(self.friction_used)
+    }
+
+    /// Whether the loads are all that friction can carry.
+    pub fn uses_all_friction(&self) -> bool {
+        is_full(self.friction_used)
     }
 
     /// Adds the work of another solution that this one took.

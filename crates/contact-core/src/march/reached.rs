@@ -1,0 +1,91 @@
+//! What a run comes to at most, and what is to be doubted of it.
+
+use super::Increment;
+use crate::error::Error;
+use crate::scene::{FEW_CELLS, FEWEST_CELLS, LARGE_STRAIN, Scene};
+
+/// Part of Young's modulus that the hardness of metals and most ceramics stays below.
+const HARD: f64 = 0.05;
+/// Times the tolerance of the path from which on the error that its increments leave is told.
+const TOLD: f64 = 2.0;
+/// Young's modulus of a solid that yields, and is not stretched many times like rubber, at least \[Pa\].
+const YIELDS: f64 = 1e9;
+
+/// The most that the increments of a run came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reached {
+    /// Cells across the radius of the contact.
+    pub cells_per_radius: f64,
+    /// Pressure \[Pa\].
+    pub p_max: f64,
+}
+
+impl Reached {
+    /// Of a run so far.
+    pub fn of(increments: &[Increment]) -> Self {
+        let mut reached = Self::default();
+        for of in increments {
+            reached.see(of);
+        }
+        reached
+    }
+
+    /// Takes another increment into account.
+    pub fn see(&mut self, increment: &Increment) {
+        self.cells_per_radius = self.cells_per_radius.max(increment.cells_per_radius);
+        self.p_max = self.p_max.max(increment.p_max);
+    }
+
+    /// Fails if the contact has fewer than [`FEWEST_CELLS`] across its radius where it is largest.
+    pub fn check(&self, scene: &Scene) -> Result<(), Error> {
+        if self.cells_per_radius > 0.0 && self.cells_per_radius < FEWEST_CELLS {
+            return Err(scene.grid.too_coarse(self.cells_per_radius));
+        }
+        Ok(())
+    }
+
+    /// What of a run is to be doubted that [`Scene::doubts`] can't know, one sentence each.
+    pub fn doubts(&self, scene: &Scene) -> Vec<String> {
+        let mut doubts = Vec::new();
+        if self.cells_per_radius > 0.0 && self.cells_per_radius < FEW_CELLS {
+            doubts.push(scene.grid.coarse(self.cells_per_radius));
+        }
+        let allowed = scene.settings.solver.path_tolerance;
+        let errors = scene
+            .path
+            .branches
+            .iter()
+            .map(|branch| branch.path_error.unwrap_or(0.0));
+        if let Some((k, error)) = errors.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
+            && error > TOLD * allowed
+        {
+            doubts.push(format!(
+                "branch {} of the path, in {} increments, leaves the shear {:.1} % off, the path tolerance is {:.1} %",
+                k + 1,
+                scene.path.branches[k].count(),
+                100.0 * error,
+                100.0 * allowed
+            ));
+        }
+        let bodies = [&scene.body1, &scene.body2];
+        let softest = bodies.map(|body| body.outermost().E);
+        let softest = softest[0].min(softest[1]);
+        let p = self.p_max;
+        if softest >= YIELDS && softest.is_finite() && p > HARD * softest {
+            doubts.push(format!(
+                "the pressure comes to {:.1} GPa, {:.2} of Young's modulus at the surface: more than metals and most ceramics \
+                 bear (hardness over E is 0.01 to 0.05); the solution is elastic",
+                1e-9 * p,
+                p / softest
+            ));
+        } else if let Some(hertz) = scene.hertz()
+            && p > LARGE_STRAIN * hertz.E_star
+        {
+            doubts.push(format!(
+                "the pressure comes to {p:.3e} Pa, {:.2} E*: strains are not small",
+                p / hertz.E_star
+            ));
+        }
+        doubts
+    }
+}

@@ -1,0 +1,115 @@
+//! Whether the cells of a grid can show the contact.
+//!
+//! With one cell across the radius of a contact pressure and energy are off by half and more, with two by some
+//! 10 %, with eight by some per cent.
+
+use super::doubts::{UNITS, softest};
+use super::{Grid, Scene};
+use crate::error::Error;
+use crate::reference::hertz_ellipse;
+
+/// Cells across the radius of a contact, its half width, below which nothing is known of it.
+pub const FEWEST_CELLS: f64 = 2.0;
+/// Cells across the radius of a contact below which its numbers are off by more than some per cent.
+pub const FEW_CELLS: f64 = 8.0;
+/// Part of the cells of a Hertz contact that may be missing where it is known before it is solved.
+const CERTAIN: f64 = 1.02;
+/// What a number of cells is rounded up beyond.
+const ROUNDING: f64 = 1e-6;
+/// Times more cells than a grid has from which on its length is hardly in metres.
+const FAR: f64 = 20.0;
+
+impl Scene {
+    /// Fails if even the contact of the softest material alone has fewer than [`FEWEST_CELLS`] across its radius.
+    pub(super) fn check_resolution(&self) -> Result<(), Error> {
+        let Some(cells) = self.most_cells() else {
+            return Ok(());
+        };
+        if CERTAIN * cells < FEWEST_CELLS {
+            return Err(self.grid.too_coarse(cells));
+        }
+        Ok(())
+    }
+
+    /// That the contact has few cells across its radius, if that is certain before it is solved.
+    pub(super) fn doubt_of_cells(&self) -> Option<String> {
+        let cells = self.most_cells()?;
+        (CERTAIN * cells < FEW_CELLS).then(|| self.grid.coarse(cells))
+    }
+
+    /// Most cells that a contact of two paraboloids can have across its radius under the largest load of the path.
+    fn most_cells(&self) -> Option<f64> {
+        let soft = Self {
+            body1: softest(&self.body1),
+            body2: softest(&self.body2),
+            ..self.clone()
+        };
+        let hertz = soft.hertz().filter(|_| self.is_plain())?;
+        let Grid { dx, dy, .. } = self.grid;
+        if self.grid.plane_strain {
+            return Some(hertz.a / dx);
+        }
+        let (steep, shallow) = self.principal_curvatures();
+        if steep - shallow <= 1e-9 * steep {
+            return Some(hertz.a / dx.max(dy));
+        }
+        // The smaller semi-axis lies where the gap is steepest, the angle of that is free of the cells' shape.
+        let ellipse = hertz_ellipse(1.0 / steep, 1.0 / shallow, hertz.E_star, hertz.W);
+        let [one, other] = self.steepest();
+        Some(ellipse.a_x * (one / dx).hypot(other / dy))
+    }
+
+    /// The direction in which the gap is steepest.
+    fn steepest(&self) -> [f64; 2] {
+        let (one, other) = (self.body1.shape.curvature(), self.body2.shape.curvature());
+        let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| one[i] + other[i]);
+        let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
+        [angle.cos(), angle.sin()]
+    }
+}
+
+impl Grid {
+    /// Refuses a contact of so many cells across its radius, with the cells that it takes.
+    pub(crate) fn too_coarse(&self, cells: f64) -> Error {
+        let units = if FAR * cells < FEWEST_CELLS {
+            format!("; {UNITS}")
+        } else {
+            String::new()
+        };
+        let (length, width) = self.extent();
+        let extent = if self.plane_strain {
+            format!("{length:.3e} m")
+        } else {
+            format!("{length:.3e} m x {width:.3e} m")
+        };
+        Error::invalid(
+            "grid.n",
+            format!("{} on {extent}", self.of_cells(1.0)),
+            format!(
+                "{} or more, or a shorter grid: the contact has {cells:.2} cells across its radius, and fewer than {FEWEST_CELLS} \
+                 show nothing of it; {} for numbers that are known within some per cent{units}",
+                self.of_cells(FEWEST_CELLS / cells),
+                self.of_cells(FEW_CELLS / cells),
+            ),
+        )
+    }
+
+    /// What is to be doubted of a contact of so few cells across its radius.
+    pub(crate) fn coarse(&self, cells: f64) -> String {
+        format!(
+            "the contact has {cells:.1} cells across its radius: with fewer than {FEW_CELLS} its numbers are off by more than \
+             some per cent; grid.n = {} has as many, or a shorter grid",
+            self.of_cells(FEW_CELLS / cells)
+        )
+    }
+
+    /// So many times the cells each way, for people.
+    fn of_cells(&self, times: f64) -> String {
+        let more = |n: usize| (times * n as f64 - ROUNDING).ceil();
+        if self.plane_strain {
+            more(self.nx).to_string()
+        } else {
+            format!("[{}, {}]", more(self.nx), more(self.ny))
+        }
+    }
+}
