@@ -41,6 +41,7 @@ PARTS: list[tuple[Any, dict[str, Any]]] = [
     (STEEL, {"nu": 0.2}),
     (fret.RIGID, {}),
     (fret.Coating(STEEL, thickness=1e-6), {"thickness": 2e-6}),
+    (fret.Bond(normal=1e-17), {"shear": 1e-16}),
     (fret.shapes.Flat(), {}),
     (fret.Sphere(0.01), {"R": 0.02}),
     (fret.Ellipsoid(R_x=0.1, R_y=0.2, angle=0.3), {"angle": 0.4}),

@@ -126,7 +126,7 @@ class Elastic:
     E : float
         Young's modulus [Pa], positive; infinite, with nu = 0, for :data:`RIGID`.
     nu : float
-        Poisson's ratio, -1 < nu < 0.5.
+        Poisson's ratio, -1 < nu <= 0.5.
 
     Examples
     --------
@@ -155,23 +155,45 @@ class Elastic:
 
 @final
 class Bond:
+    """How a layer is bonded to what lies below it: springs that give way under the traction there.
+
+    The upper side moves against the lower one by compliance times traction, in tension as in
+    pressure.
+
+    Parameters
+    ----------
+    normal, shear : float
+        Approach per pressure and slip per shear traction [m/Pa], 0 (default) or more; a large shear
+        compliance is a frictionless interface.
+
+    Examples
+    --------
+    >>> glue = Elastic(E=3e9, nu=0.4)
+    >>> Bond.of_layer(glue, thickness=0.0).normal
+    0.0
+    """
+
     def __new__(cls, *, normal: float = 0.0, shear: float = 0.0) -> Bond: ...
     @staticmethod
-    def of_layer(material: Elastic, *, thickness: float) -> Bond: ...
+    def of_layer(material: Elastic, *, thickness: float) -> Bond:
+        """The bond that a thin layer of a material makes: h (1 - 2 nu)/(2 G (1 - nu)) and h/G."""
     @property
-    def normal(self) -> float: ...
+    def normal(self) -> float:
+        """Approach per pressure [m/Pa]."""
     @property
-    def shear(self) -> float: ...
+    def shear(self) -> float:
+        """Slip per shear traction [m/Pa]."""
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
     def __replace__(self, **changes: Any) -> Bond: ...
-    def replace(self, **changes: Any) -> Bond: ...
+    def replace(self, **changes: Any) -> Bond:
+        """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Coating:
-    """A layer of constant thickness, perfectly bonded to what is below it.
+    """A layer of constant thickness on what is below it.
 
     Parameters
     ----------
@@ -179,6 +201,8 @@ class Coating:
         Material of the layer.
     thickness : float
         Thickness [m], positive.
+    bond : Bond
+        Bond to what is below it (default: perfect).
     """
 
     def __new__(cls, material: Elastic, *, thickness: float, bond: Bond = ...) -> Coating: ...
@@ -2109,21 +2133,65 @@ def rims(stress: ArrayLike, along: Sequence[float]) -> tuple[list[float], _Array
 
 @final
 class Crack:
+    """A crack from the surface of a half-plane: where stress is wanted, what it does at the tip.
+
+    Plane strain; nothing here knows of contacts. K_I + i K_II = lim sqrt(2 pi r) (s_nn + i s_tn)
+    ahead of the tip, t along the crack, n = +x for a crack along the depth.
+
+    Parameters
+    ----------
+    x : float
+        Place of the mouth [m].
+    legs : list of (float, float)
+        Length [m] and angle [rad] of each straight leg from the mouth on; angles are from the
+        inward normal, positive towards +x.
+
+    Examples
+    --------
+    >>> crack = Crack(legs=[(1e-4, 0.0)])
+    >>> tension = np.zeros((1, len(crack.points), 6))
+    >>> tension[..., 0] = 100e6
+    >>> K = crack.intensity(tension)["K_I"][0]
+    >>> round(K / (100e6 * np.sqrt(np.pi * 1e-4)), 4)
+    1.1215
+    """
+
     def __new__(cls, *, legs: Sequence[tuple[float, float]], x: float = 0.0) -> Crack: ...
     @property
-    def x(self) -> float: ...
+    def x(self) -> float:
+        """Place of the mouth [m]."""
     @property
-    def legs(self) -> list[tuple[float, float]]: ...
+    def legs(self) -> list[tuple[float, float]]:
+        """Length [m] and angle [rad] of each leg."""
     @property
-    def length(self) -> float: ...
+    def length(self) -> float:
+        """Length along the crack [m]."""
     @property
-    def points(self) -> _Array: ...
+    def points(self) -> _Array:
+        """Points at which the stress is wanted, tip to mouth: x and depth [m], (points, 2)."""
     def intensity(
         self, stress: NDArray[np.float64], *, friction: float | None = None
-    ) -> dict[str, _Array]: ...
+    ) -> dict[str, _Array]:
+        """K over the instants of a history of stress at :attr:`points`.
+
+        Parameters
+        ----------
+        stress : array of shape (time, points, 6)
+            Stress of the body without the crack [Pa]: xx, yy, zz, xy, xz, yz, z the depth.
+        friction : float, optional
+            Coefficient of friction between faces in contact; by default faces may pass through
+            each other, and K is linear in the stress.
+
+        Returns
+        -------
+        dict
+            ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5], ``open``, the share of the crack that
+            is open, each over time.
+        """
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
     def __replace__(self, **changes: Any) -> Crack: ...
-    def replace(self, **changes: Any) -> Crack: ...
+    def replace(self, **changes: Any) -> Crack:
+        """The same with some of its parts exchanged, named as in the constructor."""
 
 _Threshold: TypeAlias = tuple[
     float, float | None, float, float | None, list[tuple[float, float]] | None
@@ -2144,18 +2212,26 @@ def crack_of_states(
     friction: float = 0.0,
     residual: Sequence[float] | None = None,
     body_number: int = 2,
-) -> dict[str, _Array]: ...
-def threshold_at(threshold_: _Threshold, lengths: Sequence[float]) -> tuple[list[float], float]: ...
+) -> dict[str, _Array]:
+    """K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`."""
+
+def threshold_at(threshold_: _Threshold, lengths: Sequence[float]) -> tuple[list[float], float]:
+    """Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m]."""
+
 def equivalent_range(
     threshold_: _Threshold, K_max: Sequence[float], K_min: Sequence[float]
-) -> list[float]: ...
+) -> list[float]:
+    """Equivalent range of K at R = 0 [Pa m^0.5] of extremes of K."""
+
 def arrest(
     lengths: Sequence[float],
     K_max: Sequence[float],
     K_min: Sequence[float],
     threshold_: _Threshold,
     start: float,
-) -> tuple[Literal["dormant", "stops", "grows"], float | None, list[float], float, float]: ...
+) -> tuple[Literal["dormant", "stops", "grows"], float | None, list[float], float, float]:
+    """What becomes of a crack: verdict, length where it stops, crossings, margin and its length."""
+
 def crack_life(
     lengths: Sequence[float],
     K_max: Sequence[float],
@@ -2168,10 +2244,22 @@ def crack_life(
     short: bool,
     start: float,
     end: float,
-) -> tuple[float, float, bool]: ...
-def ellipse_factor(aspect: float) -> float: ...
-def channel_crack(film_: Elastic, below: Elastic) -> float: ...
-def partial_crack(film_: Elastic, below: Elastic, depth: float) -> float: ...
+) -> tuple[float, float, bool]:
+    """Cycles of growth by Paris' law, where it ends [m] and whether it stops there."""
+
+def ellipse_factor(aspect: float) -> float:
+    """Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c <= 1.
+
+    Newman and Raju's K under uniform tension over that of a straight front: an estimate, which
+    takes the stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
+    """
+
+def channel_crack(film_: Elastic, below: Elastic) -> float:
+    """Factor g of a channel crack in a film; use :func:`pyfret.fracture.channel_release`."""
+
+def partial_crack(film_: Elastic, below: Elastic, depth: float) -> float:
+    """Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`."""
+
 def cycle_temperature(
     conductor1: Sequence[tuple[float, float]],
     conductor2: Sequence[tuple[float, float]],

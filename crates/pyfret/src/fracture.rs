@@ -23,23 +23,24 @@ fn refused(error: of_cracks::Error) -> PyErr {
     to_python(core::refused(error))
 }
 
-/// A crack from the surface of a half-plane: where stress is wanted, and what it does at the tip.
+/// A crack from the surface of a half-plane: where stress is wanted, what it does at the tip.
 ///
-/// Plane strain; nothing here knows of contacts. K_I + i K_II = lim sqrt(2 pi r) (s_nn + i s_tn) ahead
-/// of the tip, t along the crack, n = +x for a crack along the depth.
+/// Plane strain; nothing here knows of contacts. K_I + i K_II = lim sqrt(2 pi r) (s_nn + i s_tn)
+/// ahead of the tip, t along the crack, n = +x for a crack along the depth.
 ///
 /// Parameters
 /// ----------
 /// x : float
 ///     Place of the mouth [m].
 /// legs : list of (float, float)
-///     Length [m] and angle [rad] of each straight leg from the mouth on; angles are from the inward
-///     normal, positive towards +x.
+///     Length [m] and angle [rad] of each straight leg from the mouth on; angles are from the
+///     inward normal, positive towards +x.
 ///
 /// Examples
 /// --------
 /// >>> crack = Crack(legs=[(1e-4, 0.0)])
-/// >>> tension = np.zeros((1, len(crack.points), 6)); tension[..., 0] = 100e6
+/// >>> tension = np.zeros((1, len(crack.points), 6))
+/// >>> tension[..., 0] = 100e6
 /// >>> K = crack.intensity(tension)["K_I"][0]
 /// >>> round(K / (100e6 * np.sqrt(np.pi * 1e-4)), 4)
 /// 1.1215
@@ -77,8 +78,7 @@ impl Crack {
         self.0.length()
     }
 
-    /// x and depth of the points at which the stress is wanted [m], shape (points, 2), from the tip to
-    /// the mouth.
+    /// Points at which the stress is wanted, tip to mouth: x and depth [m], (points, 2).
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> Bound<'py, numpy::PyArray2<f64>> {
         let points = self.0.points();
@@ -93,14 +93,14 @@ impl Crack {
     /// stress : array of shape (time, points, 6)
     ///     Stress of the body without the crack [Pa]: xx, yy, zz, xy, xz, yz, z the depth.
     /// friction : float, optional
-    ///     Coefficient of friction between faces in contact; by default faces may pass through each
-    ///     other, and K is linear in the stress.
+    ///     Coefficient of friction between faces in contact; by default faces may pass through
+    ///     each other, and K is linear in the stress.
     ///
     /// Returns
     /// -------
     /// dict
-    ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5], ``open``, the share of the crack that is
-    ///     open, each over time.
+    ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5], ``open``, the share of the crack that
+    ///     is open, each over time.
     #[pyo3(signature = (stress, *, friction = None))]
     fn intensity<'py>(
         &self,
@@ -338,10 +338,10 @@ pub(crate) fn crack_life(
     Ok((life.cycles, life.to, life.stopped))
 }
 
-/// Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c, in 0..1.
+/// Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c <= 1.
 ///
-/// Newman and Raju's K under uniform tension over that of a straight front: an estimate, which takes the
-/// stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
+/// Newman and Raju's K under uniform tension over that of a straight front: an estimate, which
+/// takes the stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
 #[pyfunction]
 pub(crate) fn ellipse_factor(aspect: f64) -> PyResult<f64> {
     of_cracks::ellipse_factor(aspect).map_err(refused)
@@ -353,14 +353,14 @@ fn film(film: Elastic, below: Elastic) -> PyResult<of_cracks::Film> {
     of_cracks::Film::of(pair(film), pair(below)).map_err(refused)
 }
 
-/// g of a crack that channels through a film; use :func:`pyfret.fracture.channel_release`.
+/// Factor g of a channel crack in a film; use :func:`pyfret.fracture.channel_release`.
 #[pyfunction]
 pub(crate) fn channel_crack(py: Python<'_>, film_: Elastic, below: Elastic) -> PyResult<f64> {
     let film = film(film_, below)?;
     py.detach(|| film.channel()).map_err(refused)
 }
 
-/// F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`.
+/// Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`.
 #[pyfunction]
 pub(crate) fn partial_crack(
     py: Python<'_>,

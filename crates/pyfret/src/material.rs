@@ -93,7 +93,8 @@ impl Elastic {
 
 /// How a layer is bonded to what lies below it: springs that give way under the traction there.
 ///
-/// The upper side moves against the lower one by compliance times traction, in tension as in pressure.
+/// The upper side moves against the lower one by compliance times traction, in tension as in
+/// pressure.
 ///
 /// Parameters
 /// ----------
