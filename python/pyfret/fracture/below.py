@@ -73,7 +73,7 @@ def crack(
     if x is None:
         x = _worse_rim(states, angle, friction, body_number, residual)
     if lengths is None:
-        a = max(float(now.contact_radius) for now in states)
+        a = max(_half_width(now) for now in states)
         lengths = a * np.geomspace(SHORTEST, LONGEST, LENGTHS)
     lengths = np.sort(np.atleast_1d(np.asarray(lengths, float)))
     found = _over(states, x, lengths, angle, friction, body_number, residual)
@@ -131,6 +131,14 @@ def _over(
     )
 
 
+def _half_width(now: State) -> float:
+    """Half the width of the contact [m], its radius in three dimensions."""
+    grid = now.scene.grid
+    if grid.plane_strain:
+        return 0.5 * float(now.contact_area) / grid.dy
+    return float(now.contact_radius)
+
+
 def _worse_rim(
     states: Sequence[State],
     angle: float,
@@ -139,8 +147,8 @@ def _worse_rim(
     residual: Sequence[float] | None,
 ) -> float:
     """The rim of the largest contact below which the range of K of short cracks is larger."""
-    largest = max(states, key=lambda now: float(now.contact_radius))
-    a = float(largest.contact_radius)
+    largest = max(states, key=_half_width)
+    a = _half_width(largest)
     loaded = largest.x.values[(largest.p.values > 0.0).any(axis=1)]
     if loaded.size == 0:
         raise ValueError("no increment of the cycle has contact: give the place x of the crack")
