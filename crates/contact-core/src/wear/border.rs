@@ -56,6 +56,8 @@ pub(crate) struct Signs<'a> {
     /// Way of each cell against the next \[m\].
     pub(crate) apart: &'a [f64],
     pub(crate) worn: &'a Worn,
+    /// Part of the worn depth by which the gap grows.
+    pub(crate) opens: f64,
     /// Difference of the responses of a cell and of the one beside it \[m/Pa\].
     pub(crate) response: f64,
 }
@@ -97,7 +99,7 @@ impl Cut {
         let sticks = signs.stick[cell];
         // The part of its shear that it does not take: all if it slips; if not, by how much it is worn.
         let lacks = if sticks {
-            let worn = cut.deeper(signs.worn) / (STIFFENS * signs.response);
+            let worn = cut.deeper(signs.worn, signs.opens) / (STIFFENS * signs.response);
             worn / (worn + signs.short[cell].max(0.0)).max(f64::MIN_POSITIVE)
         } else {
             1.0
@@ -120,9 +122,9 @@ impl Cut {
         self.share / (1.0 - self.share) / (STIFFENS * response)
     }
 
-    /// By how much it is worn deeper than the cell inside \[m\].
-    pub(crate) fn deeper(&self, worn: &Worn) -> f64 {
+    /// By how much the gap at it has grown more than at the cell inside \[m\], a part `opens` of what is worn.
+    pub(crate) fn deeper(&self, worn: &Worn, opens: f64) -> f64 {
         let deeper = |depth: &Vec<f64>| depth[self.cell] - depth[self.inner];
-        worn.depth.iter().map(deeper).sum::<f64>().max(0.0)
+        opens * worn.depth.iter().map(deeper).sum::<f64>().max(0.0)
     }
 }

@@ -117,7 +117,13 @@ impl Sums {
         }
     }
 
-    pub(crate) fn cycled(self, pressing: &mut Pressing, coupled: bool, worn: &Worn) -> Cycled {
+    /// What the cycle did on surfaces worn so far; the gap grows by a part `opens` of that.
+    pub(crate) fn cycled(
+        self,
+        pressing: &mut Pressing,
+        coupled: bool,
+        (worn, opens): (&Worn, f64),
+    ) -> Cycled {
         let mut cycled = self.cycled;
         cycled.dissipated.iter_mut().for_each(|d| *d = d.max(0.0));
         if let Some(mu) = self.mu {
@@ -133,6 +139,7 @@ impl Sums {
                 short: &self.short,
                 apart: &self.apart,
                 worn,
+                opens,
                 response: pressing.shortest_waves(),
             };
             cycled.cuts = Cut::cells(Lattice::new(&pressing.grid, pressing.mirror), &signs);
@@ -141,7 +148,7 @@ impl Sums {
                 let way = cut
                     .way
                     .unwrap_or(cycled.pressed_way[c] / cycled.p[c].max(f64::MIN_POSITIVE));
-                let borne = cut.stiffness(signs.response) * cut.deeper(worn);
+                let borne = cut.stiffness(signs.response) * cut.deeper(worn, opens);
                 cycled.dissipated[c] = mu * way * (cycled.p[c] - borne).max(0.0);
             }
         }

@@ -5,12 +5,13 @@
 //!
 //! ```text
 //! w = n k sigma p,   sigma = P/p_m                      of the cycle
-//! g = h + w_0 + w + C p + u_q - delta_z >= 0,  p >= 0,  p g = 0
+//! g = h + (1 - kept)(w_0 + w) + C p + u_q - delta_z >= 0,  p >= 0,  p g = 0
 //! ```
 //!
 //! p_m being the mean pressure of the cycle, weighted by what its increments dissipate, and u_q the mean of the
-//! normal displacement under the shear with the same weights; so for n = 0 p is p_m. The normal
-//! problem has the compliance n k sigma, whatever the loads do within the cycle. Sigma is that of the last
+//! normal displacement under the shear with the same weights; so for n = 0 p is p_m. `kept` is the part of what is
+//! worn that stays in the contact. The normal problem has the compliance (1 - kept) n k sigma, whatever the loads do
+//! within the cycle. Sigma is that of the last
 //! cycle at first (predictor); then a cycle is solved on the surfaces so predicted, and the jump is made
 //! again with its sigma, until the pressure stays (corrector).
 
@@ -155,12 +156,13 @@ impl Marched {
             return Ok(self.takes(n, &rates, worn, &p).from(&rates, &p, area));
         }
         self.pressing.begin();
+        let opens = self.wear.opens();
         let mut last: Option<Vec<f64>> = None;
         for correction in 0..=CORRECTIONS {
             let takes = self.takes(n, &rates, worn, &p);
             let cells = self.h.len();
             let compliance: Vec<f64> = (0..cells)
-                .map(|c| (rates.k[0][c] + rates.k[1][c]) * takes.way[c])
+                .map(|c| opens * (rates.k[0][c] + rates.k[1][c]) * takes.way[c])
                 .collect();
             let gap = self.gap(worn);
             let h: Vec<f64> = (0..cells)
@@ -192,12 +194,13 @@ impl Marched {
     fn takes(&self, n: f64, rates: &Rates, worn: &Worn, p: &[f64]) -> Takes {
         let mut way: Vec<f64> = rates.sigma.iter().map(|sigma| n * sigma).collect();
         let mut borne = vec![0.0; way.len()];
+        let opens = self.wear.opens();
         for cut in &rates.cuts {
             let c = cut.cell;
             let stiffness = cut.stiffness(self.pressing.shortest_waves());
-            borne[c] = stiffness * cut.deeper(worn);
+            borne[c] = stiffness * cut.deeper(worn, opens);
             way[c] = if p[c] > borne[c] {
-                way[c] / (1.0 + stiffness * (rates.k[0][c] + rates.k[1][c]) * way[c])
+                way[c] / (1.0 + stiffness * opens * (rates.k[0][c] + rates.k[1][c]) * way[c])
             } else {
                 0.0
             };
@@ -207,8 +210,11 @@ impl Marched {
 
     fn gap(&self, worn: &Worn) -> Vec<f64> {
         let [one, two] = &worn.depth;
+        let opens = self.wear.opens();
         let cells = self.h.iter().zip(one.iter().zip(two));
-        cells.map(|(h, (one, two))| h + one + two).collect()
+        cells
+            .map(|(h, (one, two))| h + opens * one + opens * two)
+            .collect()
     }
 
     /// One cycle on worn surfaces, and the state of the march at its end.
@@ -228,7 +234,7 @@ impl Marched {
         self.cycles_solved += 1;
         let state = self.march.state().clone();
         let coupling = self.march.plan().coupling;
-        Ok((sums.cycled(&mut self.pressing, coupling, worn), state))
+        Ok((sums.cycled(&mut self.pressing, coupling, (worn, self.wear.opens())), state))
     }
 
     /// How fast every cell wears per pressure; cells outside the contact as those beside them.

@@ -115,12 +115,13 @@ impl WearRun {
         }
     }
 
-    /// Deepest depth that one cycle takes from the present surfaces \[m\].
+    /// What one cycle adds to the gap between the present surfaces at most, of either body \[m\].
     fn rate(&mut self) -> Result<f64, Error> {
         let (worn, cycles) = (&self.state.worn, self.state.cycles);
         let one = self.model.jump(worn, cycles, 1.0, false)?;
         self.model.restore(&self.state.model);
-        Ok(one.depth.iter().flatten().fold(0.0, |m, w| m.max(*w)))
+        let deepest = one.depth.iter().flatten().fold(0.0, |m: f64, w| m.max(*w));
+        Ok(self.wear.opens() * deepest)
     }
 
     /// Does the next jump; `None` at the end. After an error the state is that of the last jump.

@@ -72,6 +72,11 @@ pub struct Wear {
     pub jumps: Jumps,
     /// What happens when a coating is worn through.
     pub worn_through: WornThrough,
+    /// Part of what both bodies lose that stays in the contact as debris, 0 to 1 (default 0): the gap
+    /// grows by the rest. Debris lies where it was made and is as stiff as the body that it was. A worn
+    /// scar that fits its counterbody is then `(1 - kept) depth = b^2/(2 R)` deep (the geometry of
+    /// P. Arnaud, S. Baydoun, S. Fouvry, Tribol. Int. 161 (2021) 107077).
+    pub debris_kept: f64,
     /// Part of a coating's thickness from which a worn depth is told (default 0.1): the response is
     /// that of a layer of constant thickness.
     pub tell_from: f64,
@@ -88,6 +93,7 @@ impl Wear {
             rig_stiffness: f64::INFINITY,
             jumps: Jumps::default(),
             worn_through: WornThrough::default(),
+            debris_kept: 0.0,
             tell_from: 0.1,
         }
     }
@@ -127,6 +133,13 @@ impl Wear {
                 "above 0 N/m",
             ));
         }
+        if !(0.0..=1.0).contains(&self.debris_kept) {
+            return Err(Error::invalid(
+                "wear.debris_kept",
+                self.debris_kept,
+                "between 0 and 1",
+            ));
+        }
         if !(self.tell_from > 0.0 && self.tell_from <= 1.0) {
             return Err(Error::invalid(
                 "wear.tell_from",
@@ -143,6 +156,11 @@ impl Wear {
             stroke(scene, self.first_branch, self.rig_stiffness)?;
         }
         self.jumps.check()
+    }
+
+    /// Part of what the bodies lose by which the gap grows.
+    pub(crate) fn opens(&self) -> f64 {
+        1.0 - self.debris_kept
     }
 
     /// Fails if the cycle does not end where it begins.

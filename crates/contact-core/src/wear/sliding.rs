@@ -6,20 +6,21 @@
 //!
 //! ```text
 //! w_b = n k_b sum_i s_i S_bi p_i                                             depth
-//! g_i = h + C p_i + sum_b S_bi^T (w_b0 + w_b) - delta_i >= 0,  p_i >= 0,  p_i g_i = 0
+//! g_i = h + C p_i + o sum_b S_bi^T (w_b0 + w_b) - delta_i >= 0,  p_i >= 0,  p_i g_i = 0
 //! ```
 //!
-//! with the pressures of the end of the jump. These are the conditions of the minimum of
+//! with the pressures of the end of the jump, o being the part of what is worn by which the gap grows, the rest debris that
+//! lies where it was made. These are the conditions of the minimum of
 //!
 //! ```text
-//! sum_i s_i [ 1/2 p_i.C p_i + p_i.(h + S_bi^T w_b0) ] + 1/2 n sum_b k_b |sum_i s_i S_bi p_i|^2
+//! sum_i s_i [ 1/2 p_i.C p_i + p_i.(h + o S_bi^T w_b0) ] + 1/2 o n sum_b k_b |sum_i s_i S_bi p_i|^2
 //! ```
 //!
 //! over p_i >= 0 of given sums: convex for any n, so that no jump is too long to be solved. The places
 //! are solved one by one, each as if the pressure changed alike at all others: by Cauchy's
 //! inequality `|sum s_i x_i|^2 <= s sum s_i x_i^2` with s the sum of the s_i, that majorises the energy,
 //! which therefore falls with every round (D. R. Hunter, K. Lange, Am. Stat. 58 (2004) 30-37). The
-//! normal problem of a place has the compliance `n s sum_b S_bi^T k_b`. One place needs one round; for
+//! normal problem of a place has the compliance `o n s sum_b S_bi^T k_b`. One place needs one round; for
 //! more the rounds are accelerated (Y. Nesterov; A. Beck, M. Teboulle, SIAM J. Imaging Sci. 2 (2009)
 //! 183-202), and begin anew where a step turns back (B. O'Donoghue, E. Candes, Found. Comput. Math. 15
 //! (2015) 715-732).
@@ -182,7 +183,7 @@ impl Sliding {
         around: &[Vec<f64>],
         room: &mut Room,
     ) -> Result<(), Error> {
-        let s = self.way();
+        let (s, opens) = (self.way(), self.wear.opens());
         let Room {
             ways,
             end,
@@ -199,7 +200,7 @@ impl Sliding {
         for i in 0..self.places.len() {
             self.read(k, i, compliance);
             for d in compliance.iter_mut() {
-                *d *= n * s;
+                *d *= opens * n * s;
             }
             self.gap(end, i, h);
             for (h, (d, p)) in h.iter_mut().zip(compliance.iter().zip(&around[i])) {
@@ -303,10 +304,13 @@ impl Sliding {
         }
     }
 
-    /// Gap between the worn surfaces at a place \[m\].
+    /// Gap between the worn surfaces at a place, less what debris fills \[m\].
     fn gap(&self, worn: &Worn, i: usize, into: &mut [f64]) {
         self.read(&worn.depth, i, into);
-        into.iter_mut().zip(&self.h).for_each(|(gap, h)| *gap += h);
+        let opens = self.wear.opens();
+        into.iter_mut()
+            .zip(&self.h)
+            .for_each(|(gap, h)| *gap = opens * *gap + h);
     }
 
     /// Solves the pressure at a place to so many times the tolerance of the scene.

@@ -9,7 +9,7 @@ use super::settings::{Cycling, Jumps, Wear, WornThrough};
 use crate::error::Error;
 use crate::scene::{Fault, Reach, Scene, Section, read_with, text_of};
 
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 12] = [
     "cycles",
     "first_branch",
     "cycling",
@@ -18,6 +18,7 @@ const KEYS: [&str; 11] = [
     "jumps",
     "explicit_jumps",
     "worn_through",
+    "debris_kept",
     "tell_from",
     "body1",
     "body2",
@@ -63,8 +64,8 @@ impl Wear {
         // Writing to a text cannot fail.
         let _ = writeln!(
             text,
-            "cycling = \"{cycling}\"\nworn_through = \"{through}\"\ntell_from = {:?}",
-            self.tell_from
+            "cycling = \"{cycling}\"\nworn_through = \"{through}\"\ndebris_kept = {:?}\ntell_from = {:?}",
+            self.debris_kept, self.tell_from
         );
         if self.rig_stiffness.is_finite() {
             let _ = writeln!(text, "rig_stiffness = {:?}", self.rig_stiffness);
@@ -126,6 +127,7 @@ fn wear(root: &Section<'_>) -> Result<Wear, Fault> {
             "worn_through",
             &[("stop", WornThrough::Stop), ("go_on", WornThrough::GoOn)],
         )?,
+        debris_kept: section.number_or("debris_kept", default.debris_kept, &[])?,
         tell_from: section.number_or("tell_from", default.tell_from, &[])?,
         ..default
     })

@@ -21,6 +21,8 @@ pub(crate) struct Audit<'a> {
     per_energy: Option<[f64; 2]>,
     /// C p, where the pressure of a block has to touch and not to overlap.
     normal: Option<DcFft>,
+    /// Part of the worn depth by which the gap grows.
+    opens: f64,
 }
 
 impl<'a> Audit<'a> {
@@ -36,6 +38,7 @@ impl<'a> Audit<'a> {
             scene,
             per_energy,
             normal: None,
+            opens: 1.0 - wear.debris_kept,
         };
         if audit.complements(wear) {
             let pair = pair_coefficients(
@@ -174,7 +177,7 @@ impl<'a> Audit<'a> {
         } else {
             (now.worn1.clone(), shifted(&now.worn2, cells))
         };
-        Some(self.scene.h_init() + one + two + u_z)
+        Some(self.scene.h_init() + (one + two) * self.opens + u_z)
     }
 }
 

@@ -38,6 +38,7 @@ fn what_has_no_meaning_is_refused_by_name() {
             "above 0",
         ),
         ("wear.rig_stiffness=1e6", "wear.cycling", "spring"),
+        ("wear.debris_kept=1.5", "wear.debris_kept = 1.5", "between 0 and 1"),
         ("wear.tell_from=0.0", "wear.tell_from = 0", "above 0"),
         ("wear.body1.k=-1.0", "wear.body1.k = -1", ">= 0"),
         (

@@ -47,6 +47,10 @@ fn worn_volume_is_alpha_times_the_energy_of_every_jump() {
     let mut marched = wear(alphas.map(energy), 2e4, Cycling::March);
     marched.jumps = Jumps::Number(4);
     audit("march", &sticks, &marched, Some(alphas));
+    // What stays in the contact changes the gap, not the balance.
+    marched.debris_kept = 0.8;
+    audit("debris", &sticks, &marched, Some(alphas));
+    marched.debris_kept = 0.0;
     // Unlike bodies, coupled.
     sticks.body1.substrate = Elastic { E: 400e9, nu: 0.2 };
     audit("coupled", &sticks, &marched, Some(alphas));

@@ -70,6 +70,9 @@ fn draw(seed: u64) -> Case {
         4 => Jumps::Explicit(4),
         _ => Jumps::Tolerance(0.1),
     };
+    if draw.next() < 0.5 {
+        wear.debris_kept = [1.0, 0.85, draw.next()][(3.0 * draw.next()) as usize];
+    }
     if draw.next() < 0.7 {
         wear.worn_through = WornThrough::GoOn;
     }
