@@ -100,3 +100,119 @@ def test_figures_are_drawn() -> None:
     assert len(axes.lines) > 2
     assert fret.plot.wear_history(result).get_xlabel() == "cycles"
     assert len(fret.plot.wear_loops(result).lines) == 2
+
+
+def test_debris_that_stays_makes_scars_narrow_and_deep() -> None:
+    law = fret.wear.Archard(2e-13)
+    free, kept = worn(law), worn(law, debris_kept=0.85)
+    assert np.isclose(free.volume2[-1], kept.volume2[-1], rtol=1e-3)
+    assert float(kept.depth2[-1]) > 1.2 * float(free.depth2[-1])
+    assert np.isclose(kept.debris[-1], 0.85 * kept.volume2[-1])
+    assert np.allclose(kept.gap, 0.15 * kept.worn)
+    assert "debris: 0.85" in kept.summary()
+
+
+def test_lives_are_told_at_their_cycle() -> None:
+    d = worn(fret.wear.Archard(2e-13), jumps=40)
+    depth, volume = 0.4 * float(d.depth2[-1]), 0.6 * float(d.volume2[-1])
+    for told, name, value in (
+        (d.cycles_to(depth=depth), "depth2", depth),
+        (d.cycles_to(volume=volume), "volume2", volume),
+    ):
+        curve = np.interp(value, np.r_[0, d.dataset[name]], np.r_[0, d.dataset.cycles])
+        assert np.isclose(told, curve, rtol=2e-3)
+    few = worn(fret.wear.Archard(2e-13), jumps=4)
+    assert np.isclose(few.cycles_to(depth=depth), d.cycles_to(depth=depth), rtol=0.02)
+    assert d.cycles_to(depth=1.0) == np.inf
+    with pytest.raises(ValueError, match="give one of them"):
+        d.cycles_to()
+    with pytest.raises(ValueError, match="has 0 coatings"):
+        d.cycles_to(part_of_coating=0.5)
+
+
+def test_a_run_goes_on_from_worn_surfaces(tmp_path: Path) -> None:
+    law = fret.wear.Archard(2e-13)
+    first = worn(law, jumps=8)
+    second = worn(law, jumps=8, start=first)
+    assert float(second.cycles[-1]) == 4000
+    assert float(second.depth2[-1]) > float(first.depth2[-1])
+    second.save(tmp_path / "saved.zarr")
+    again = fret.wear.open(tmp_path / "saved.zarr")
+    assert np.array_equal(again.worn2, second.worn2)
+    assert again.cycles_to(depth=float(second.depth2[0])) == second.cycles_to(
+        depth=float(second.depth2[0])
+    )
+
+
+def test_coefficients_change_by_a_table() -> None:
+    table = [(0.0, 1.0), (2000.0, 3.0)]
+    law = fret.wear.Archard(2e-14, factor=("cycles", table))
+    assert law.factor == ("cycles", table)
+    assert law == law.replace(k=2e-14)
+    twice = worn(law, jumps=10).volume2[-1] / worn(fret.wear.Archard(2e-14), jumps=10).volume2[-1]
+    assert np.isclose(twice, 2.0, rtol=1e-3)
+    power = fret.wear.DissipatedEnergy(2e-14, factor=("power_density", [(0.0, 0.5)]))
+    with pytest.raises(fret.errors.InvalidSceneError, match=r"wear\.frequency"):
+        worn(power)
+    half = worn(power, frequency=5.0).dataset
+    assert np.isclose(half.volume2[-1], 1e-14 * half.dissipated[-1])
+    with pytest.raises(ValueError, match="must be of"):
+        fret.wear.Archard(1e-14, factor=("weekdays", table))
+
+
+def test_what_is_left_open_is_chosen() -> None:
+    scene = line()
+    path = fret.LoadPath.start().normal(18.5e3).displace(delta_x=[20e-6, -20e-6, 20e-6])
+    law = fret.wear.Archard(2e-14)
+    result = fret.wear.solve(
+        scene, path, cycles=100, cycling="sliding", body2=[law], jumps=1, progress=False
+    )
+    assert float(result.volume2[-1]) > 0
+    with pytest.raises(fret.errors.InvalidSceneError, match="no closed cycle"):
+        fret.wear.solve(
+            scene, fret.LoadPath.start().normal(1e3), cycles=1, body2=law, progress=False
+        )
+
+
+def test_a_function_is_given_again_to_go_on(tmp_path: Path) -> None:
+    def law(pressed_way: Any, *_: Any) -> Any:
+        return 2e-14 * pressed_way
+
+    def fails(pressed_way: Any, way: Any, dissipated: Any, worn: Any, cycles: float) -> Any:
+        if cycles > 500:
+            raise RuntimeError("the laboratory is closed")
+        return law(pressed_way)
+
+    store = tmp_path / "wear.zarr"
+    with pytest.raises(fret.errors.InvalidSceneError, match="closed"):
+        worn(fails, jumps=8, out=store)
+    with pytest.raises(fret.errors.InvalidSceneError, match="given again"):
+        fret.wear.resume(store, progress=False)
+    resumed = fret.wear.resume(store, body2=law, progress=False)
+    assert np.array_equal(resumed.worn2, worn(law, jumps=8).worn2)
+
+
+def test_friction_falls_over_cycles() -> None:
+    mu = fret.Friction(0.9, history=(fret.History.CYCLES, [(0.0, 1.0), (2000.0, 0.5)]))
+    scene = line().replace(mu=mu)
+    falls = fret.wear.solve(
+        scene,
+        cycles=2000,
+        cycling="sliding",
+        body2=fret.wear.Archard(1e-16),
+        jumps=6,
+        progress=False,
+    )
+    plain = worn(fret.wear.Archard(1e-16), jumps=6)
+    assert np.isclose(falls.dissipated[-1] / plain.dissipated[-1], 0.75, rtol=1e-3)
+
+
+def test_a_rig_acts_in_every_run() -> None:
+    scene = line()
+    shifted = scene.path.branches[-1].delta_x
+    stiff = fret.solve(scene, progress=False)
+    soft = fret.solve(scene, rig_stiffness=5e9, progress=False)
+    assert float(soft.delta_x[-1]) == shifted
+    assert float(soft.dataset.dissipated.sum()) < float(stiff.dataset.dissipated.sum())
+    again = fret.Scene.from_toml(scene.replace(path=scene.path.rig(5e9)).to_toml())
+    assert again.path.rig_stiffness == 5e9

@@ -719,6 +719,8 @@ class History:
     """Length of the way that the cell has slipped [m]."""
     DISSIPATED: ClassVar[History]
     """Energy dissipated per area [J/m^2]."""
+    CYCLES: ClassVar[History]
+    """Cycles of wear done, the same for all cells."""
 
     def __int__(self) -> int: ...
     def __hash__(self) -> int: ...
@@ -1009,7 +1011,14 @@ class LoadPath:
     LoadPath(4 branches, 600 increments)
     """
 
-    def __new__(cls, branches: Sequence[Branch] = ...) -> LoadPath: ...
+    def __new__(
+        cls, branches: Sequence[Branch] = ..., *, rig_stiffness: float | None = None
+    ) -> LoadPath: ...
+    def rig(self, stiffness: float | None) -> LoadPath:
+        """The same path through a rig of a stiffness K [N/m], a spring along x in series."""
+    @property
+    def rig_stiffness(self) -> float | None:
+        """Stiffness of the rig along x [N/m]; None: the bodies themselves are moved."""
     @staticmethod
     def start() -> LoadPath:
         """The path before its first branch."""
@@ -2557,13 +2566,22 @@ _WearLaw: TypeAlias = (
 class Archard:
     """Archard's law."""
 
-    def __new__(cls, k: float, *, threshold: float = 0.0) -> Archard: ...
+    def __new__(
+        cls,
+        k: float,
+        *,
+        threshold: float = 0.0,
+        factor: tuple[str, Sequence[tuple[float, float]]] | None = None,
+    ) -> Archard: ...
     @property
     def k(self) -> float:
         """Worn depth over pressure times sliding distance [m^2/N]."""
     @property
     def threshold(self) -> float:
         """Sliding distance in a cycle below which nothing wears [m]."""
+    @property
+    def factor(self) -> tuple[str, list[tuple[float, float]]] | None:
+        """What the coefficient changes with, and pairs of that and its factor."""
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
     def __replace__(self, **changes: Any) -> Archard: ...
     def replace(self, **changes: Any) -> Archard:
@@ -2574,13 +2592,22 @@ class Archard:
 class DissipatedEnergy:
     """Wear by the energy dissipated."""
 
-    def __new__(cls, alpha: float, *, threshold: float = 0.0) -> DissipatedEnergy: ...
+    def __new__(
+        cls,
+        alpha: float,
+        *,
+        threshold: float = 0.0,
+        factor: tuple[str, Sequence[tuple[float, float]]] | None = None,
+    ) -> DissipatedEnergy: ...
     @property
     def alpha(self) -> float:
         """Worn volume over dissipated energy [m^3/J]."""
     @property
     def threshold(self) -> float:
         """Energy per area in a cycle below which nothing wears [J/m^2]."""
+    @property
+    def factor(self) -> tuple[str, list[tuple[float, float]]] | None:
+        """What the coefficient changes with, and pairs of that and its factor."""
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
     def __replace__(self, **changes: Any) -> DissipatedEnergy: ...
     def replace(self, **changes: Any) -> DissipatedEnergy:
@@ -2590,13 +2617,16 @@ class DissipatedEnergy:
 def wear(
     scene: Scene,
     *,
-    body1: _WearLaw | list[_WearLaw] | None,
-    body2: _WearLaw | list[_WearLaw] | None,
+    body1: _WearLaw | list[_WearLaw | None] | None,
+    body2: _WearLaw | list[_WearLaw | None] | None,
     cycles: float,
     store: str | PathLike[str],
     share1: float | None = None,
     share2: float | None = None,
-    first_branch: int = 1,
+    first_branch: int | None = None,
+    debris_kept: float = 0.0,
+    frequency: float | None = None,
+    start: tuple[float, float, Sequence[_Array]] | None = None,
     sliding: bool = False,
     rig_stiffness: float = ...,
     tolerance: float | None = None,
@@ -2609,6 +2639,10 @@ def wear(
     """Runs a scene over many cycles into a store."""
 
 def resume_wear(
-    store: str | PathLike[str], *, on_jump: Callable[[float], None] | None = None
+    store: str | PathLike[str],
+    *,
+    body1: _WearLaw | list[_WearLaw | None] | None = None,
+    body2: _WearLaw | list[_WearLaw | None] | None = None,
+    on_jump: Callable[[float], None] | None = None,
 ) -> None:
     """Goes on with a run of wear that ended early."""

@@ -27,6 +27,7 @@ def solve(
     scene: Scene | str | os.PathLike[str],
     path: LoadPath | None = None,
     *,
+    rig_stiffness: float | None = None,
     save: Literal["branches", "all"] | Sequence[int] | None = None,
     out: str | os.PathLike[str] | None = None,
     checkpoint: float = 5.0,
@@ -41,6 +42,9 @@ def solve(
         What is in contact, or its scene file.
     path : LoadPath, optional
         Load history (default: that of the scene).
+    rig_stiffness : float, optional
+        Stiffness of a spring along x in series with the contact, through which shifts are given
+        and read [N/m] (default: that of the path, or none).
     save : "branches", "all" or sequence of int, optional
         Increments that keep their fields, counted from 1 (default: as the scene says, which is the
         last of each branch unless it was set).
@@ -74,6 +78,8 @@ def solve(
         what the run came to, such as a contact of few cells (:attr:`Result.doubts`).
     """
     scene = read(scene).replace(path=path, save=save)
+    if rig_stiffness is not None:
+        scene = scene.replace(path=scene.path.rig(rig_stiffness))
     doubt_scene(scene)
     with Progress(title=scene.title or "fretting", shown=progress) as bar:
         if out is not None:

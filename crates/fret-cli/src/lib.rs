@@ -89,6 +89,10 @@ enum Command {
     Crack(python::Options),
     /// Write a result as one page for a browser (needs the Python package)
     Report(python::Options),
+    /// Find unknowns of a scene (mu, a rig, a coating, wear) from a measured table
+    Fit(python::Options),
+    /// Find the load at which a fatigue criterion reaches its limit
+    Threshold(python::Options),
     /// Check this installation against closed forms in minutes (needs the Python package)
     Verify(python::Options),
     /// Say what to cite for a result (needs the Python package)
@@ -125,6 +129,8 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Export(options) => return in_python("export", &options),
         Command::Crack(options) => return in_python("crack", &options),
         Command::Report(options) => return in_python("report", &options),
+        Command::Fit(options) => return in_python("fit", &options),
+        Command::Threshold(options) => return in_python("threshold", &options),
         Command::Verify(options) => return in_python("verify", &options),
         Command::Cite(options) => return in_python("cite", &options),
     };

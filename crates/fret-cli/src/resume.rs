@@ -33,7 +33,12 @@ pub(crate) fn resume(options: &Options) -> Result<(), Failure> {
                 allowed,
             )));
         }
-        return wear::resume(&options.store, None, manner.quiet);
+        let shown = if manner.quiet {
+            wear::Shown::Nothing
+        } else {
+            wear::Shown::Table
+        };
+        return wear::resume(&options.store, None, shown);
     }
     let Some(Resumed {
         march,

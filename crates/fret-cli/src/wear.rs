@@ -1,16 +1,17 @@
 //! `fret wear`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use clap::Args;
 use contact_core::Error;
-use contact_core::output::{WearStore, resume_wear};
+use contact_core::output::{WearStore, read_worn, resume_wear};
 use contact_core::scene::{Reach, Scene};
 use contact_core::wear::{Event, EventKind, Jump, Wear, WearRun};
 use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
 
 use crate::failure::Failure;
 use crate::out::Out;
@@ -36,6 +37,33 @@ pub(crate) struct Options {
     /// Show neither progress nor summary
     #[arg(short, long)]
     quiet: bool,
+    /// Write jumps and events as JSON to standard output, instead of the table
+    #[arg(long)]
+    json: bool,
+    /// Begin on the surfaces that a run of wear in this store has left
+    #[arg(long, value_name = "STORE", conflicts_with = "resume")]
+    start: Option<PathBuf>,
+}
+
+/// What a run shows.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shown {
+    /// A bar and a table.
+    Table,
+    /// A bar and JSON.
+    Json,
+    /// Nothing.
+    Nothing,
+}
+
+impl Options {
+    fn shown(&self) -> Shown {
+        match (self.json, self.quiet) {
+            (true, _) => Shown::Json,
+            (false, true) => Shown::Nothing,
+            (false, false) => Shown::Table,
+        }
+    }
 }
 
 /// Wears the surfaces of a scene.
@@ -50,22 +78,29 @@ pub(crate) fn wear(options: &Options) -> Result<(), Failure> {
     let (scene, wear) = read.map_err(Failure::BadInput)?;
     let out = &options.out.path;
     if options.resume {
-        return resume(out, Some((&scene, &wear)), options.quiet);
+        return resume(out, Some((&scene, &wear)), options.shown());
     }
     let kept = Arc::new(AtomicBool::new(false));
     let stop = stop_on_interrupt(&kept);
     let store = WearStore::create(out, options.out.overwrite).map_err(Failure::BadInput)?;
-    let run = WearRun::new(&scene, &wear, &stop).map_err(ended)?;
-    to_end(run, store, out, &kept, options.quiet)
+    let run = match &options.start {
+        Some(from) => {
+            let start = read_worn(from).map_err(Failure::BadInput)?;
+            WearRun::from_worn(&scene, &wear, &start, &stop)
+        }
+        None => WearRun::new(&scene, &wear, &stop),
+    };
+    let run = run.map_err(ended)?;
+    to_end(run, store, out, &kept, options.shown())
 }
 
 /// Goes on with the run of a store, which is that of a scene and its wear where they are given.
-pub(crate) fn resume(out: &Path, of: Option<(&Scene, &Wear)>, quiet: bool) -> Result<(), Failure> {
+pub(crate) fn resume(out: &Path, of: Option<(&Scene, &Wear)>, shown: Shown) -> Result<(), Failure> {
     let kept = Arc::new(AtomicBool::new(true));
     let stop = stop_on_interrupt(&kept);
     let found = resume_wear(out, of, &stop).map_err(Failure::BadInput)?;
     if let Some((run, store)) = found {
-        return to_end(run, store, out, &kept, quiet);
+        return to_end(run, store, out, &kept, shown);
     }
     say(&format!("fret: {} is done", out.display()));
     Ok(())
@@ -77,10 +112,10 @@ fn to_end(
     mut store: WearStore,
     out: &Path,
     kept: &AtomicBool,
-    quiet: bool,
+    shown: Shown,
 ) -> Result<(), Failure> {
     let begun = Instant::now();
-    let bar = bar(run.wear().cycles, quiet);
+    let bar = bar(run.wear().cycles, shown == Shown::Nothing);
     let mut told = run.state().events.len();
     let mut step = || -> Option<Result<(), Error>> {
         let jump = match run.advance()? {
@@ -117,7 +152,11 @@ fn to_end(
         .as_ref()
         .map_or_else(ToString::to_string, |()| "done".to_owned());
     store.finish(&run, &status).map_err(ended)?;
-    if !quiet {
+    if shown == Shown::Json {
+        let all = json!({ "jumps": jumps, "events": run.state().events, "status": status });
+        print(&format!("{all:#}"));
+    }
+    if shown == Shown::Table {
         print(&table(jumps));
         let seconds = begun.elapsed().as_secs_f64();
         say(&format!("{} jumps in {seconds:.1} s", jumps.len()));

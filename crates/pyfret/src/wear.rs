@@ -4,10 +4,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use contact_core::output::{WearStore, resume_wear as take_up};
-use contact_core::wear::{self as core, BodyWear, Cycling, Jumps, Law, WearRun, WornThrough};
-use numpy::{PyArrayLike1, ToPyArray};
-use pyo3::exceptions::PyTypeError;
+use contact_core::output::{WearStore, resume_wear_by as take_up};
+use contact_core::wear::{
+    self as core, BodyWear, Cycling, Factor, Jumps, Law, Of, Varying, WearRun, WornStart,
+    WornThrough,
+};
+use numpy::{PyArrayLike1, PyArrayLike2, ToPyArray};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::error::to_python;
@@ -15,19 +18,47 @@ use crate::interruptible::interruptible;
 use crate::parts::parts;
 use crate::scene::Scene;
 
+/// What a factor is a function of, and its pairs.
+type Table = Option<(String, Vec<(f64, f64)>)>;
+
+fn factor(given: Table) -> PyResult<Option<Factor>> {
+    let Some((of, table)) = given else {
+        return Ok(None);
+    };
+    if let Some((_, of)) = Of::ALL.iter().find(|(name, _)| *name == of) {
+        return Ok(Some(Factor { of: *of, table }));
+    }
+    let names = Of::ALL.map(|(name, _)| format!("\"{name}\"")).join(", ");
+    let message = format!("factor of \"{of}\": must be of {names}");
+    Err(PyValueError::new_err(message))
+}
+
+fn table(factor: Option<&Factor>) -> Table {
+    factor.map(|factor| (factor.of.name().to_owned(), factor.table.clone()))
+}
+
+/// A law, times a factor where it has one.
+fn varying(law: impl Law + 'static, factor: Option<&Factor>) -> Arc<dyn Law> {
+    let law: Arc<dyn Law> = Arc::new(law);
+    match factor.cloned() {
+        Some(factor) => Arc::new(Varying { law, factor }),
+        None => law,
+    }
+}
+
 /// Archard's law.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.wear")]
 #[derive(Clone, PartialEq)]
-pub(crate) struct Archard(core::Archard);
+pub(crate) struct Archard(core::Archard, Option<Factor>);
 
-parts!(Archard: k, threshold);
+parts!(Archard: k, threshold, factor);
 
 #[pymethods]
 impl Archard {
     #[new]
-    #[pyo3(signature = (k, *, threshold = 0.0))]
-    fn new(k: f64, threshold: f64) -> Self {
-        Self(core::Archard { k, threshold })
+    #[pyo3(signature = (k, *, threshold = 0.0, factor = None))]
+    fn new(k: f64, threshold: f64, factor: Table) -> PyResult<Self> {
+        Ok(Self(core::Archard { k, threshold }, self::factor(factor)?))
     }
 
     /// Worn depth over pressure times sliding distance [m^2/N].
@@ -42,24 +73,37 @@ impl Archard {
         self.0.threshold
     }
 
+    /// What the coefficient changes with, and pairs of that and its factor.
+    #[getter]
+    fn factor(&self) -> Table {
+        table(self.1.as_ref())
+    }
+
     fn __repr__(&self) -> String {
-        format!("Archard({:?}, threshold={:?})", self.0.k, self.0.threshold)
+        let varies = if self.1.is_some() { ", factor=..." } else { "" };
+        format!(
+            "Archard({:?}, threshold={:?}{varies})",
+            self.0.k, self.0.threshold
+        )
     }
 }
 
 /// Wear by the energy dissipated.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.wear")]
 #[derive(Clone, PartialEq)]
-pub(crate) struct DissipatedEnergy(core::DissipatedEnergy);
+pub(crate) struct DissipatedEnergy(core::DissipatedEnergy, Option<Factor>);
 
-parts!(DissipatedEnergy: alpha, threshold);
+parts!(DissipatedEnergy: alpha, threshold, factor);
 
 #[pymethods]
 impl DissipatedEnergy {
     #[new]
-    #[pyo3(signature = (alpha, *, threshold = 0.0))]
-    fn new(alpha: f64, threshold: f64) -> Self {
-        Self(core::DissipatedEnergy { alpha, threshold })
+    #[pyo3(signature = (alpha, *, threshold = 0.0, factor = None))]
+    fn new(alpha: f64, threshold: f64, factor: Table) -> PyResult<Self> {
+        Ok(Self(
+            core::DissipatedEnergy { alpha, threshold },
+            self::factor(factor)?,
+        ))
     }
 
     /// Worn volume over dissipated energy [m^3/J].
@@ -74,9 +118,16 @@ impl DissipatedEnergy {
         self.0.threshold
     }
 
+    /// What the coefficient changes with, and pairs of that and its factor.
+    #[getter]
+    fn factor(&self) -> Table {
+        table(self.1.as_ref())
+    }
+
     fn __repr__(&self) -> String {
         let core::DissipatedEnergy { alpha, threshold } = self.0;
-        format!("DissipatedEnergy({alpha:?}, threshold={threshold:?})")
+        let varies = if self.1.is_some() { ", factor=..." } else { "" };
+        format!("DissipatedEnergy({alpha:?}, threshold={threshold:?}{varies})")
     }
 }
 
@@ -125,16 +176,23 @@ impl Law for Own {
 
 fn law(given: &Bound<'_, PyAny>) -> PyResult<Arc<dyn Law>> {
     if let Ok(law) = given.extract::<Archard>() {
-        return Ok(Arc::new(law.0));
+        return Ok(varying(law.0, law.1.as_ref()));
     }
     if let Ok(law) = given.extract::<DissipatedEnergy>() {
-        return Ok(Arc::new(law.0));
+        return Ok(varying(law.0, law.1.as_ref()));
+    }
+    if given.is_none() {
+        // A layer that does not wear.
+        return Ok(Arc::new(core::Archard {
+            k: 0.0,
+            threshold: 0.0,
+        }));
     }
     if given.is_callable() {
         return Ok(Arc::new(Own(given.clone().unbind())));
     }
     Err(PyTypeError::new_err(format!(
-        "a wear law must be an Archard, a DissipatedEnergy or a function, not {given}"
+        "a wear law must be an Archard, a DissipatedEnergy, a function, or None for what does not wear, not {given}"
     )))
 }
 
@@ -150,9 +208,32 @@ fn body(given: Option<&Bound<'_, PyAny>>, share: Option<f64>) -> PyResult<BodyWe
     Ok(BodyWear { laws, share })
 }
 
+/// Surfaces to begin on: cycles, energy dissipated, and the fields worn1, worn2, energy1, energy2, slid.
+#[derive(FromPyObject)]
+pub(crate) struct Start<'py>(f64, f64, Vec<PyArrayLike2<'py, f64>>);
+
+impl Start<'_> {
+    fn read(&self) -> WornStart {
+        let field = |n: usize| {
+            self.2
+                .get(n)
+                .map(|f| f.as_array().to_owned())
+                .unwrap_or_default()
+        };
+        WornStart {
+            cycles: self.0,
+            dissipated: self.1,
+            worn: [field(0), field(1)],
+            energy: [field(2), field(3)],
+            slid: field(4),
+        }
+    }
+}
+
 /// Runs a scene over many cycles into a store.
 #[pyfunction]
-#[pyo3(signature = (scene, *, body1, body2, cycles, store, share1 = None, share2 = None, first_branch = 1,
+#[pyo3(signature = (scene, *, body1, body2, cycles, store, share1 = None, share2 = None, first_branch = None,
+    debris_kept = 0.0, frequency = None, start = None,
     sliding = false, rig_stiffness = f64::INFINITY, tolerance = None, jumps = None, explicit_jumps = None,
     go_on = false, tell_from = 0.1, on_jump = None))]
 pub(crate) fn wear(
@@ -164,7 +245,10 @@ pub(crate) fn wear(
     store: PathBuf,
     share1: Option<f64>,
     share2: Option<f64>,
-    first_branch: usize,
+    first_branch: Option<usize>,
+    debris_kept: f64,
+    frequency: Option<f64>,
+    start: Option<Start<'_>>,
     sliding: bool,
     rig_stiffness: f64,
     tolerance: Option<f64>,
@@ -177,6 +261,8 @@ pub(crate) fn wear(
     let bodies = [body(body1.as_ref(), share1)?, body(body2.as_ref(), share2)?];
     let wear = core::Wear {
         first_branch,
+        debris_kept,
+        frequency,
         cycling: if sliding {
             Cycling::Sliding
         } else {
@@ -198,9 +284,14 @@ pub(crate) fn wear(
         ..core::Wear::new(bodies, cycles)
     };
     let stop = Arc::<AtomicBool>::default();
+    let start = start.map(|start| start.read());
     let run = || {
         let store = WearStore::create(&store, false)?;
-        Ok((WearRun::new(&scene.0, &wear, &stop)?, store))
+        let run = match &start {
+            Some(start) => WearRun::from_worn(&scene.0, &wear, start, &stop)?,
+            None => WearRun::new(&scene.0, &wear, &stop)?,
+        };
+        Ok((run, store))
     };
     let begun: Result<_, contact_core::Error> = interruptible(py, &stop, run)?;
     let (run, store) = begun.map_err(to_python)?;
@@ -209,14 +300,18 @@ pub(crate) fn wear(
 
 /// Goes on with a run of wear that ended early.
 #[pyfunction]
-#[pyo3(signature = (store, *, on_jump = None))]
+#[pyo3(signature = (store, *, body1 = None, body2 = None, on_jump = None))]
 pub(crate) fn resume_wear(
     py: Python<'_>,
     store: PathBuf,
+    body1: Option<Bound<'_, PyAny>>,
+    body2: Option<Bound<'_, PyAny>>,
     on_jump: Option<Py<PyAny>>,
 ) -> PyResult<()> {
+    let own = |law: Option<&Bound<'_, PyAny>>| law.map(|law| body(Some(law), None)).transpose();
+    let own = [own(body1.as_ref())?, own(body2.as_ref())?];
     let stop = Arc::<AtomicBool>::default();
-    let found = interruptible(py, &stop, || take_up(&store, None, &stop))?.map_err(to_python)?;
+    let found = interruptible(py, &stop, || take_up(&store, &own, &stop))?.map_err(to_python)?;
     match found {
         None => Ok(()),
         Some((run, store)) => go(py, run, store, &stop, on_jump.as_ref()),

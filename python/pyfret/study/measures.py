@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
@@ -101,42 +101,58 @@ MEASURES: dict[str, tuple[str, str, Callable[[Result], float]]] = {
 class Wear:
     """A measure: what many cycles wear off, by :func:`pyfret.wear.solve` on the scene of the point.
 
-    Gives ``worn_volume1``, ``worn_volume2`` [m^3], ``worn_depth1``, ``worn_depth2`` [m].
+    Gives ``worn_volume1``, ``worn_volume2`` [m^3], ``worn_depth1``, ``worn_depth2`` [m], their
+    ``depth_error``, and, where a body is coated, ``coating_life1``, ``coating_life2`` [cycles], NaN
+    for one that outlives the run.
 
     Parameters
     ----------
     cycles : float
         Number of cycles.
-    body1, body2 : Archard, DissipatedEnergy, or list of these, optional
+    body1, body2 : Archard, DissipatedEnergy, or list of these and None, optional
         How a body wears; None: it does not.
-    first_branch : int
-        First branch of the path that belongs to the cycle, from 0.
+    part : float
+        Part of the outermost coating's thickness at which its life ends (default 1).
+    first_branch : int, optional
+        First branch of the path that belongs to the cycle, from 0 (default: the last closed one).
     cycling : "march" or "sliding"
-        As in :func:`pyfret.wear.solve`.
+        As in :func:`pyfret.wear.solve`, and so are all others.
     """
 
     cycles: float
-    body1: WearLaw | list[WearLaw] | None = None
-    body2: WearLaw | list[WearLaw] | None = None
-    first_branch: int = 1
+    body1: WearLaw | list[WearLaw | None] | None = None
+    body2: WearLaw | list[WearLaw | None] | None = None
+    part: float = 1.0
+    first_branch: int | None = None
     cycling: Literal["march", "sliding"] = "march"
+    share1: float | None = None
+    share2: float | None = None
+    debris_kept: float = 0.0
+    frequency: float | None = None
+    rig_stiffness: float = math.inf
+    tolerance: float | None = None
+    jumps: int | None = None
+    explicit_jumps: int | None = None
+    worn_through: Literal["stop", "go_on"] = "stop"
+    tell_from: float = 0.1
 
     def __call__(self, result: Result) -> dict[str, xr.DataArray]:
         """Wear the scene of the result."""
-        worn = solve(
-            result.scene,
-            cycles=self.cycles,
-            body1=self.body1,
-            body2=self.body2,
-            first_branch=self.first_branch,
-            cycling=self.cycling,
-            progress=False,
-        ).dataset
+        arguments = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "part"}
+        run = solve(result.scene, progress=False, **arguments)
+        worn = run.dataset
         numbers = {}
         for of, unit in (("volume", "m^3"), ("depth", "m")):
             for body in (1, 2):
                 attrs = {"units": unit, "long_name": f"worn {of} of body {body}"}
                 numbers[f"worn_{of}{body}"] = worn[f"{of}{body}"][-1].assign_attrs(attrs)
+        numbers["depth_error"] = worn["depth_error"][-1]
+        for body in (1, 2):
+            if (result.scene.body1 if body == 1 else result.scene.body2).coatings:
+                life = run.cycles_to(part_of_coating=self.part, body=body)
+                attrs = {"units": "cycles", "long_name": f"life of the coating of body {body}"}
+                found = life if math.isfinite(life) else math.nan
+                numbers[f"coating_life{body}"] = xr.DataArray(found, attrs=attrs)
         return numbers
 
 

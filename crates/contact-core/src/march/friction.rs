@@ -33,6 +33,7 @@ pub(super) fn update(
         let factors = friction.history.as_ref().map_or([1.0; 2], |history| {
             let so_far = match history.of {
                 History::Increment => return [history.factor(state.increments as f64); 2],
+                History::Cycles => return [history.factor(setup.problem.cycles); 2],
                 History::Slip => at(&state.slip_length),
                 History::Dissipated => at(&state.dissipated),
             };

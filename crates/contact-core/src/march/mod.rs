@@ -88,6 +88,7 @@ impl March {
             workspace: Workspace::new(domain.cells(), scene.friction.mu),
             problem: Problem {
                 approach: scene.approach(),
+                cycles: 0.0,
                 scene: solved,
                 plan,
                 stop: stop.clone(),

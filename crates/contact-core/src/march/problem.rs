@@ -20,6 +20,8 @@ pub(super) struct Problem {
     pub(super) plan: Plan,
     /// Approach that lengths are measured against \[m\].
     pub(super) approach: f64,
+    /// Cycles of wear done.
+    pub(super) cycles: f64,
     /// Raised from outside to end the run.
     pub(super) stop: Arc<AtomicBool>,
 }

@@ -4,6 +4,11 @@ use super::March;
 use super::State;
 
 impl March {
+    /// Says how many cycles of wear the contact has been through, of which friction may be a function.
+    pub(crate) fn after_cycles(&mut self, cycles: f64) {
+        self.problem.cycles = cycles;
+    }
+
     /// Puts the march into a state of its path, on surfaces whose gap is `h_init` on the kept cells
     /// \[m\]: what comes next begins from there. Where wear has changed the gap the first increment
     /// from there also takes the contact to the new surfaces. For scenes without a window

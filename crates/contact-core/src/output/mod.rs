@@ -33,6 +33,7 @@ mod volume;
 mod wear_catalogue;
 mod wear_checkpoint;
 mod wear_store;
+mod worn_read;
 mod writer;
 
 pub use catalogue::{FIELDS, Field, FieldView, Kind, SCALARS, Scalar};
@@ -42,5 +43,6 @@ pub use reader::Store;
 pub use resume::{Resumed, resume};
 pub use stress_store::StressStore;
 pub use volume::{VolumeSink, write_volume};
-pub use wear_store::{WearStore, resume_wear};
+pub use wear_store::{WearStore, resume_wear, resume_wear_by};
+pub use worn_read::read_worn;
 pub use writer::StoreWriter;

@@ -6,7 +6,7 @@ use crate::wear::Jump;
 pub(super) type Scalar = (&'static str, &'static str, &'static str, fn(&Jump) -> f64);
 
 /// Every scalar over `jump`.
-pub(super) const SCALARS: [Scalar; 16] = [
+pub(super) const SCALARS: [Scalar; 21] = [
     ("cycles", "1", "cycles at the end of the jump", |j| j.cycles),
     ("length", "1", "cycles that the jump is long", |j| j.length),
     ("volume1", "m^3", "volume that body 1 has lost", |j| {
@@ -21,6 +21,36 @@ pub(super) const SCALARS: [Scalar; 16] = [
     ("depth2", "m", "deepest worn depth of body 2", |j| {
         j.depth[1]
     }),
+    (
+        "volume1_halfway",
+        "m^3",
+        "volume that body 1 had lost half of the jump earlier",
+        |j| j.volume_halfway[0],
+    ),
+    (
+        "volume2_halfway",
+        "m^3",
+        "volume that body 2 had lost half of the jump earlier",
+        |j| j.volume_halfway[1],
+    ),
+    (
+        "depth1_halfway",
+        "m",
+        "deepest worn depth of body 1 half of the jump earlier",
+        |j| j.depth_halfway[0],
+    ),
+    (
+        "depth2_halfway",
+        "m",
+        "deepest worn depth of body 2 half of the jump earlier",
+        |j| j.depth_halfway[1],
+    ),
+    (
+        "debris",
+        "m^3",
+        "volume that stays in the contact as debris",
+        |j| j.debris,
+    ),
     (
         "dissipated",
         "J",
@@ -65,10 +95,13 @@ pub(super) const SCALARS: [Scalar; 16] = [
 ];
 
 /// The other arrays: cycles of the blocks, the fields and the friction loops over `block`.
-const BLOCKS: [&str; 9] = [
+const BLOCKS: [&str; 12] = [
     "block_cycles",
     "worn1",
     "worn2",
+    "energy1",
+    "energy2",
+    "slid",
     "p",
     "stick",
     "loop_delta_x",

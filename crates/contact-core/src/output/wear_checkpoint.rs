@@ -10,7 +10,7 @@ use crate::wear::WearState;
 pub(super) const FILE: &str = "wear";
 const CHECKPOINT: &str = "checkpoint/wear";
 /// The first bytes of a checkpoint; the number is that of the layout.
-const MAGIC: &[u8] = b"fret wear checkpoint 1\n";
+const MAGIC: &[u8] = b"fret wear checkpoint 2\n";
 
 /// Writes the state and the cycles of the blocks that are kept.
 pub(super) fn write_checkpoint(

@@ -20,7 +20,7 @@ use super::wear_checkpoint::{read_checkpoint, write_checkpoint};
 use super::{column::Column, variable::Variable};
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::wear::{Block, EventKind, Wear, WearRun};
+use crate::wear::{Block, BodyWear, EventKind, Wear, WearRun};
 
 /// Attributes of the store, its status among them.
 const ATTRIBUTES: &str = ".zattrs";
@@ -218,6 +218,30 @@ fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<((Variable, usize)
             block.worn2.iter().copied().collect(),
         ),
         field(
+            "energy1",
+            Kind::Real,
+            (
+                "J/m^2",
+                "energy per area dissipated at body 1 so far, in its own coordinates",
+            ),
+            block.energy1.iter().copied().collect(),
+        ),
+        field(
+            "energy2",
+            Kind::Real,
+            (
+                "J/m^2",
+                "energy per area dissipated at body 2 so far, in its own coordinates",
+            ),
+            block.energy2.iter().copied().collect(),
+        ),
+        field(
+            "slid",
+            Kind::Real,
+            ("m", "way slipped in contact so far"),
+            block.slid.iter().copied().collect(),
+        ),
+        field(
             "p",
             Kind::Real,
             (
@@ -265,6 +289,8 @@ fn attributes(run: &WearRun, status: &str) -> Value {
         "a_H": hertz.map(|h| h.a),
         "p_H": hertz.map(|h| h.p0),
         "mu": scene.friction.mu,
+        "depth_before": run.state().lost_before[0],
+        "volume_before": run.state().lost_before[1],
         "events": events.collect::<Vec<_>>(),
         "coordinates": "cycles block_cycles",
         "status": status,
@@ -279,15 +305,38 @@ pub fn resume_wear(
     of: Option<(&Scene, &Wear)>,
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<(WearRun, WearStore)>, Error> {
-    let place = path.as_ref().to_owned();
+    let own = of.map_or([None, None], |(_, wear)| {
+        wear.bodies.each_ref().map(|body| Some(body.clone()))
+    });
+    let settled = of.map(|(scene, wear)| wear.settled(scene, stop));
+    take_up(path.as_ref(), settled.transpose()?, &own, stop)
+}
+
+/// The same for a run by laws of the user's own, which no store can hold: they are given again for the bodies that have
+/// them.
+pub fn resume_wear_by(
+    path: impl AsRef<Path>,
+    own: &[Option<BodyWear>; 2],
+    stop: &Arc<AtomicBool>,
+) -> Result<Option<(WearRun, WearStore)>, Error> {
+    take_up(path.as_ref(), None, own, stop)
+}
+
+fn take_up(
+    path: &Path,
+    of: Option<(Scene, Wear)>,
+    own: &[Option<BodyWear>; 2],
+    stop: &Arc<AtomicBool>,
+) -> Result<Option<(WearRun, WearStore)>, Error> {
+    let place = path.to_owned();
     mend(&place);
     let folder = Folder::new(&place);
     let text = folder.read(ATTRIBUTES).map_err(|e| folder.error(&e))?;
     let text = text.ok_or_else(|| folder.error(&"holds no run of wear"))?;
     let attributes: Value = serde_json::from_slice(&text).map_err(|e| folder.error(&e))?;
-    let differs = |key: &str, given: Option<String>| attributes[key].as_str() != given.as_deref();
+    let differs = |key: &str, given: String| attributes[key].as_str() != Some(&given);
     if of.is_some_and(|(scene, wear)| {
-        differs("scene", Some(scene.to_toml())) || differs("wear", wear.to_toml())
+        differs("scene", scene.to_toml()) || differs("wear", wear.to_toml())
     }) {
         return Err(
             folder.error(&"belongs to another scene: go on with that one, or choose another store")
@@ -299,10 +348,10 @@ pub fn resume_wear(
     }
     let (Some(scene), Some(wear)) = (attributes["scene"].as_str(), attributes["wear"].as_str())
     else {
-        return Err(folder.error(&"holds no run of wear whose laws a file can hold"));
+        return Err(folder.error(&"holds no run of wear"));
     };
     let name = place.display().to_string();
-    let (scene, wear) = Wear::from_toml_str(&format!("{scene}{wear}"), &name, &[])?;
+    let (scene, wear) = Wear::from_store(&format!("{scene}{wear}"), &name, own)?;
     let (state, kept) = read_checkpoint(&folder)?;
     let run = WearRun::resume(&scene, &wear, state, stop)?;
     Ok(Some((

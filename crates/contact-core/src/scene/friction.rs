@@ -40,6 +40,8 @@ pub struct FrictionHistory {
 pub enum History {
     /// Increments done, the same for all cells.
     Increment,
+    /// Cycles of wear done, the same for all cells; a path that is run through once has done none.
+    Cycles,
     /// Length of the way that the cell has slipped \[m\].
     Slip,
     /// Energy dissipated per area \[J/m^2\].

@@ -3,6 +3,7 @@
 use ndarray::Array2;
 
 use super::WearRun;
+use super::worn_start::WornStart;
 use crate::plan::Half;
 
 /// Worn surfaces and the contact on them after so many cycles, each field of shape (nx, ny).
@@ -14,6 +15,12 @@ pub struct Block {
     pub worn1: Array2<f64>,
     /// Depth worn off body 2 \[m\].
     pub worn2: Array2<f64>,
+    /// Energy per area dissipated at body 1 so far, in its own coordinates \[J/m^2\].
+    pub energy1: Array2<f64>,
+    /// The same at body 2 \[J/m^2\].
+    pub energy2: Array2<f64>,
+    /// Way slipped in contact so far \[m\].
+    pub slid: Array2<f64>,
     /// Pressure \[Pa\]: of a march the mean of the cycle, each increment weighted with what it
     /// dissipates; in gross slip that in the middle of the stroke.
     pub p: Array2<f64>,
@@ -25,6 +32,19 @@ pub struct Block {
     /// Friction loop of one cycle: shift delta_x \[m\], force T_x \[N\], shift delta_y, force T_y, at the
     /// ends of its increments. The shifts are those of the rig.
     pub friction_loop: Vec<[f64; 4]>,
+}
+
+impl Block {
+    /// What another run begins on, given the energy dissipated so far \[J\].
+    pub fn start(&self, dissipated: f64) -> WornStart {
+        WornStart {
+            cycles: self.cycles,
+            dissipated,
+            worn: [self.worn1.clone(), self.worn2.clone()],
+            energy: [self.energy1.clone(), self.energy2.clone()],
+            slid: self.slid.clone(),
+        }
+    }
 }
 
 impl WearRun {
@@ -41,11 +61,15 @@ impl WearRun {
             }
             None => Array2::from_elem((grid.nx, grid.ny), false),
         };
-        let [worn1, worn2] = &self.state().worn.depth;
+        let worn = &self.state().worn;
+        let ([worn1, worn2], [energy1, energy2]) = (&worn.depth, &worn.energy);
         Block {
             cycles: self.state().cycles,
             worn1: whole(worn1),
             worn2: whole(worn2),
+            energy1: whole(energy1),
+            energy2: whole(energy2),
+            slid: whole(&worn.slid),
             p: whole(seen.p),
             shift: seen.shift,
             stick,

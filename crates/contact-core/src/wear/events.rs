@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::loss::{Loss, Worn};
+use super::loss::Worn;
+use super::passage::Passage;
 use super::settings::{Wear, thicknesses};
 use crate::plan::Plan;
 use crate::scene::Scene;
@@ -22,7 +23,7 @@ pub enum EventKind {
 pub struct Event {
     /// What.
     pub kind: EventKind,
-    /// Cycles done.
+    /// Cycles done when it happens, as close as the jumps' tolerance tells.
     pub cycles: f64,
     /// Body, 1 or 2.
     pub body: usize,
@@ -54,63 +55,79 @@ fn known(events: &[Event], kind: EventKind, b: usize, coating: usize) -> bool {
 }
 
 /// The part of a jump after which it first wears a coating through, if it does.
-pub(crate) fn crossing(scene: &Scene, past: &[Event], worn: &Worn, loss: &Loss) -> Option<f64> {
+pub(crate) fn crossing(scene: &Scene, past: &[Event], passage: &Passage<'_>) -> Option<f64> {
     let mut first: Option<f64> = None;
     for (b, bottoms) in bottoms(scene).into_iter().enumerate() {
         for (coating, bottom) in bottoms.into_iter().enumerate() {
             if known(past, EventKind::WornThrough, b, coating) {
                 continue;
             }
-            for (worn, loss) in worn.depth[b].iter().zip(&loss.depth[b]) {
-                if worn + loss >= bottom && *loss > 0.0 {
-                    let part = (bottom - worn) / loss;
-                    first = Some(first.map_or(part, |first| first.min(part)));
-                }
+            if let Some((part, _)) = passage.first(b, bottom) {
+                first = Some(first.map_or(part, |first| first.min(part)));
             }
         }
     }
     first
 }
 
-/// What has newly happened on surfaces worn so far.
+/// The depths that count as an event, of body b.
+fn told(scene: &Scene, wear: &Wear, b: usize) -> Vec<(EventKind, usize, f64)> {
+    let bottoms = &bottoms(scene)[b];
+    let thinned = bottoms
+        .last()
+        .map(|all| (EventKind::Thinned, 0, wear.tell_from * all));
+    let through = bottoms.iter().enumerate();
+    let through = through.map(|(coating, bottom)| (EventKind::WornThrough, coating, *bottom));
+    thinned.into_iter().chain(through).collect()
+}
+
+/// Where a cell lies on the grid \[m\].
+fn place(scene: &Scene, cell: usize) -> (f64, f64) {
+    let rows = Plan::new(scene).mirror.rows(scene.grid.ny);
+    let (i, j) = (cell / rows, cell % rows + scene.grid.ny - rows);
+    (scene.grid.x(i), scene.grid.y(j))
+}
+
+/// What newly happens within a jump of n cycles, and after how many.
 pub(crate) fn events(
     scene: &Scene,
     wear: &Wear,
     past: &[Event],
-    worn: &Worn,
-    cycles: f64,
+    passage: &Passage<'_>,
+    n: f64,
 ) -> Vec<Event> {
     let mut new = Vec::new();
-    let rows = Plan::new(scene).mirror.rows(scene.grid.ny);
-    for (b, bottoms) in bottoms(scene).into_iter().enumerate() {
-        let deepest = worn.depth[b]
-            .iter()
-            .enumerate()
-            .max_by(|a, b| a.1.total_cmp(b.1));
-        let Some((n, &depth)) = deepest else { continue };
-        let Some(&all) = bottoms.last() else { continue };
-        let (i, j) = (n / rows, n % rows + scene.grid.ny - rows);
-        let mut tell = |kind, coating| {
-            if !known(past, kind, b, coating) {
-                let (x, y) = (scene.grid.x(i), scene.grid.y(j));
+    for b in 0..2 {
+        for (kind, coating, depth) in told(scene, wear, b) {
+            if known(past, kind, b, coating) {
+                continue;
+            }
+            if let Some((part, cell)) = passage.first(b, depth) {
+                let cycles = passage.worn.cycles + part * n;
+                let (x, y) = place(scene, cell);
+                let body = b + 1;
                 new.push(Event {
                     kind,
                     cycles,
-                    body: b + 1,
+                    body,
                     coating,
                     x,
                     y,
                 });
             }
-        };
-        if depth >= wear.tell_from * all {
-            tell(EventKind::Thinned, 0);
-        }
-        for (coating, bottom) in bottoms.iter().enumerate() {
-            if depth >= *bottom {
-                tell(EventKind::WornThrough, coating);
-            }
         }
     }
+    new.sort_by(|a, b| a.cycles.total_cmp(&b.cycles));
     new
+}
+
+/// What has happened to surfaces that a run begins on.
+pub(crate) fn passed(scene: &Scene, wear: &Wear, worn: &Worn) -> Vec<Event> {
+    let none = worn.depth.each_ref().map(|d| vec![0.0; d.len()]);
+    let passage = Passage {
+        worn,
+        half: &none,
+        whole: &none,
+    };
+    events(scene, wear, &[], &passage, 0.0)
 }

@@ -22,6 +22,12 @@ pub struct Jump {
     pub volume: [f64; 2],
     /// Deepest worn depth of body 1 and body 2 \[m\].
     pub depth: [f64; 2],
+    /// Volume that had been lost half of the jump earlier \[m^3\].
+    pub volume_halfway: [f64; 2],
+    /// Deepest depth half of the jump earlier \[m\].
+    pub depth_halfway: [f64; 2],
+    /// Volume that stays in the contact as debris \[m^3\].
+    pub debris: f64,
     /// Energy dissipated so far \[J\].
     pub dissipated: f64,
     /// Energy dissipated in one cycle on the surfaces at the end \[J\].

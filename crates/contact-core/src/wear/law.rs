@@ -16,8 +16,12 @@ pub struct CellCycle<'a> {
     pub dissipated: &'a [f64],
     /// Depth worn so far \[m\].
     pub worn: &'a [f64],
+    /// Energy dissipated per area so far \[J/m^2\].
+    pub energy: &'a [f64],
     /// Cycles done so far.
     pub cycles: f64,
+    /// Cycles per second \[Hz\]; not a number where none is given.
+    pub frequency: f64,
 }
 
 /// A law of wear. The user's own is any type with this trait.
@@ -29,6 +33,11 @@ pub trait Law: Debug + Send + Sync {
     /// Fails with the key, the value and what is allowed if a parameter is out of its range.
     fn check(&self, _key: &str) -> Result<(), Error> {
         Ok(())
+    }
+
+    /// Whether it has no meaning without a frequency.
+    fn needs_frequency(&self) -> bool {
+        false
     }
 
     /// The law as a table of a scene file; `None` if that cannot hold it.
@@ -248,7 +257,9 @@ mod tests {
             way: &[1.0; 3],
             dissipated: &[0.2; 3],
             worn: &[0.5, 1.0, 3.0],
+            energy: &[0.0; 3],
             cycles: 0.0,
+            frequency: f64::NAN,
         };
         let mut k = [9.0; 3];
         body.coefficients(&cycle, &[1.0], &mut k).unwrap();
@@ -267,7 +278,9 @@ mod tests {
             way: &[1.0; 3],
             dissipated: &[0.5, 1.0, 3.0],
             worn: &[0.0; 3],
+            energy: &[0.0; 3],
             cycles: 0.0,
+            frequency: f64::NAN,
         };
         let mut depth = [9.0; 3];
         super::Law::depth(&law, &cycle, &mut depth).unwrap();

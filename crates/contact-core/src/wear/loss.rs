@@ -2,25 +2,37 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Depth worn off body 1 and body 2, each in its own coordinates, on the kept cells \[m\].
+/// What the surfaces have been through, on the kept cells.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Worn {
+    /// Cycles done.
+    pub(crate) cycles: f64,
+    /// Depth worn off body 1 and body 2, each in its own coordinates \[m\].
     pub(crate) depth: [Vec<f64>; 2],
+    /// Energy per area dissipated at body 1 and body 2, each in its own coordinates \[J/m^2\].
+    pub(crate) energy: [Vec<f64>; 2],
+    /// Way slipped in contact, as the cells of the grid have \[m\].
+    pub(crate) slid: Vec<f64>,
 }
 
 impl Worn {
     pub(crate) fn none(cells: usize) -> Self {
+        let field = || vec![0.0; cells];
         Self {
-            depth: [vec![0.0; cells], vec![0.0; cells]],
+            cycles: 0.0,
+            depth: [field(), field()],
+            energy: [field(), field()],
+            slid: field(),
         }
     }
 
     pub(crate) fn add(&mut self, loss: &Loss) {
-        for (worn, loss) in self.depth.iter_mut().zip(&loss.depth) {
-            worn.iter_mut()
-                .zip(loss)
-                .for_each(|(worn, loss)| *worn += loss);
+        self.cycles += loss.cycles;
+        for b in 0..2 {
+            sum(&mut self.depth[b], &loss.depth[b]);
+            sum(&mut self.energy[b], &loss.energy[b]);
         }
+        sum(&mut self.slid, &loss.slid);
     }
 
     pub(crate) fn deepest(&self) -> f64 {
@@ -31,8 +43,14 @@ impl Worn {
 /// What a jump takes from both bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct Loss {
+    /// Cycles that it is long.
+    pub(crate) cycles: f64,
     /// Depth \[m\], >= 0.
     pub(crate) depth: [Vec<f64>; 2],
+    /// Energy per area in the coordinates of each body \[J/m^2\], >= 0.
+    pub(crate) energy: [Vec<f64>; 2],
+    /// Way slipped in contact \[m\].
+    pub(crate) slid: Vec<f64>,
     /// Energy dissipated in all its cycles \[J\].
     pub(crate) dissipated: f64,
 }
@@ -40,9 +58,12 @@ pub(crate) struct Loss {
 impl Loss {
     /// Both together.
     pub(crate) fn with(mut self, other: &Self) -> Self {
-        for (a, b) in self.depth.iter_mut().zip(&other.depth) {
-            a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
+        for b in 0..2 {
+            sum(&mut self.depth[b], &other.depth[b]);
+            sum(&mut self.energy[b], &other.energy[b]);
         }
+        sum(&mut self.slid, &other.slid);
+        self.cycles += other.cycles;
         self.dissipated += other.dissipated;
         self
     }
@@ -56,25 +77,43 @@ impl Loss {
     pub(crate) fn extrapolated(mut self, whole: &Self, worn: &Worn) -> (Self, f64) {
         let (mut moved, mut size) = (0.0, 0.0);
         for b in 0..2 {
-            let (mut asked, mut taken) = (0.0, 0.0);
-            for (n, depth) in self.depth[b].iter_mut().enumerate() {
+            for (n, depth) in self.depth[b].iter().enumerate() {
                 let change = *depth - whole.depth[b][n];
                 moved += change * change;
                 size += (worn.depth[b][n] + *depth).powi(2);
-                asked += *depth + change;
-                *depth = (*depth + change).max(0.0);
-                taken += *depth;
             }
-            let part = if taken > 0.0 {
-                (asked / taken).max(0.0)
-            } else {
-                0.0
-            };
-            self.depth[b].iter_mut().for_each(|depth| *depth *= part);
+            extrapolate(&mut self.depth[b], &whole.depth[b]);
+            extrapolate(&mut self.energy[b], &whole.energy[b]);
         }
+        extrapolate(&mut self.slid, &whole.slid);
         self.dissipated = 2.0 * self.dissipated - whole.dissipated;
         (self, (moved / f64::max(size, f64::MIN_POSITIVE)).sqrt())
     }
+}
+
+/// `2 halves - whole` where that is not negative, of the same sum.
+fn extrapolate(halves: &mut [f64], whole: &[f64]) {
+    let (mut asked, mut taken) = (0.0, 0.0);
+    for (value, whole) in halves.iter_mut().zip(whole) {
+        let change = *value - whole;
+        asked += *value + change;
+        *value = (*value + change).max(0.0);
+        taken += *value;
+    }
+    let part = if taken > 0.0 {
+        (asked / taken).max(0.0)
+    } else {
+        0.0
+    };
+    for value in halves {
+        *value *= part;
+    }
+}
+
+fn sum(sum: &mut [f64], more: &[f64]) {
+    sum.iter_mut()
+        .zip(more)
+        .for_each(|(sum, more)| *sum += more);
 }
 
 #[cfg(test)]
@@ -87,14 +126,14 @@ mod tests {
         for _ in 0..200 {
             let mut field =
                 || -> Vec<f64> { (0..30).map(|_| (rng.f64() - 0.4).max(0.0)).collect() };
-            let halves = Loss {
+            let mut loss = |dissipated| Loss {
+                cycles: 1.0,
                 depth: [field(), field()],
-                dissipated: 3.0,
+                energy: [field(), field()],
+                slid: field(),
+                dissipated,
             };
-            let whole = Loss {
-                depth: [field(), field()],
-                dissipated: 2.0,
-            };
+            let (halves, whole) = (loss(3.0), loss(2.0));
             let sum = |f: &[f64]| f.iter().sum::<f64>();
             let asked = [0, 1].map(|b| 2.0 * sum(&halves.depth[b]) - sum(&whole.depth[b]));
             let (found, error) = halves.extrapolated(&whole, &Worn::none(30));

@@ -30,7 +30,7 @@ use super::settings::{Wear, thicknesses};
 use crate::cells::Drive;
 use crate::error::Error;
 use crate::march::{Increment, March, Reached, State};
-use crate::scene::{Branch, Friction, Scene};
+use crate::scene::{Branch, Friction, FrictionHistory, History, Scene};
 
 /// Change of the pressure between two corrections (root mean square, over the pressure) that ends them.
 const AGREES: f64 = 0.02;
@@ -56,8 +56,10 @@ pub(crate) struct Marched {
     /// Increments before the cycle.
     lead_in: usize,
     gives_approach: bool,
-    /// The coefficient of friction where it is one.
+    /// The coefficient of friction where it is one for all cells, before what cycles make of it.
     plain_mu: Option<f64>,
+    /// What cycles make of it.
+    history: Option<FrictionHistory>,
     pub(crate) state: MarchedState,
     /// Mean pressure at the end of the last jump \[Pa\].
     pub(crate) p: Vec<f64>,
@@ -71,16 +73,17 @@ impl Marched {
         scene: &Scene,
         wear: &Wear,
         state: Option<MarchedState>,
+        worn: &Worn,
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
-        let mut scene = scene.clone();
+        let (mut scene, first_branch) = (scene.clone(), wear.first_branch(scene)?);
         let settles = Branch {
             increments: Some(1),
             path_error: None,
-            ..scene.path.branches[wear.first_branch - 1]
+            ..scene.path.branches[first_branch - 1]
         };
         // A branch that changes no load: in it the contact goes over to surfaces that have worn.
-        scene.path.branches.insert(wear.first_branch, settles);
+        scene.path.branches.insert(first_branch, settles);
         for (i, branch) in scene.path.branches.iter_mut().enumerate() {
             branch.t_end = (i + 1) as f64;
         }
@@ -93,15 +96,22 @@ impl Marched {
         let points = march.points();
         let lead_in = points
             .iter()
-            .take_while(|p| p.branch < wear.first_branch)
+            .take_while(|p| p.branch < first_branch)
             .count();
         let plan = march.plan().clone();
+        let h = plan.mirror.fold(&scene.h_init());
         let mut reached = Reached::default();
-        for _ in 0..if state.is_none() { lead_in } else { 0 } {
-            reached.see(&advance(&mut march)?);
+        let goes_on = state.is_some();
+        if !goes_on {
+            if worn.deepest() > 0.0 {
+                let gap = gap(&h, worn, wear.opens());
+                march.go_on_from(march.state().clone(), &gap);
+            }
+            for _ in 0..lead_in {
+                reached.see(&advance(&mut march)?);
+            }
         }
         reached.check(&scene)?;
-        let goes_on = state.is_some();
         let begins = || MarchedState {
             start: march.state().clone(),
             cycled: Cycled::default(),
@@ -109,15 +119,11 @@ impl Marched {
         let state = state.unwrap_or_else(begins);
         let pressing = Pressing::new(&scene, &plan, stop)?;
         let mut marched = Self {
-            h: plan.mirror.fold(&scene.h_init()),
+            h,
             coatings: [thicknesses(&scene.body1), thicknesses(&scene.body2)],
-            gives_approach: scene.path.branches[wear.first_branch]
-                .to
-                .given
-                .delta_z
-                .is_some(),
-            plain_mu: (scene.friction == Friction::coulomb(scene.friction.mu))
-                .then_some(scene.friction.mu),
+            gives_approach: scene.path.branches[first_branch].to.given.delta_z.is_some(),
+            plain_mu: plain(&scene.friction),
+            history: scene.friction.history.clone(),
             p: Vec::new(),
             state,
             wear: wear.clone(),
@@ -127,8 +133,7 @@ impl Marched {
             cycles_solved: 0,
         };
         if !goes_on {
-            let worn = Worn::none(marched.h.len());
-            marched.settle(&worn)?;
+            marched.settle(worn)?;
         }
         Ok(marched)
     }
@@ -142,18 +147,12 @@ impl Marched {
     }
 
     /// What n cycles take from both bodies.
-    pub(crate) fn jump(
-        &mut self,
-        worn: &Worn,
-        cycles: f64,
-        n: f64,
-        implicit: bool,
-    ) -> Result<Loss, Error> {
-        let mut rates = self.rates(worn, cycles, &self.state.cycled)?;
+    pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
+        let mut rates = self.rates(worn, &self.state.cycled)?;
         let mut p = self.state.cycled.p.clone();
         let area = self.pressing.cell_area();
         if !implicit {
-            return Ok(self.takes(n, &rates, worn, &p).from(&rates, &p, area));
+            return Ok(self.takes(n, &rates, worn, &p).loss(&rates, &p, area));
         }
         self.pressing.begin();
         let opens = self.wear.opens();
@@ -164,13 +163,13 @@ impl Marched {
             let compliance: Vec<f64> = (0..cells)
                 .map(|c| opens * (rates.k[0][c] + rates.k[1][c]) * takes.way[c])
                 .collect();
-            let gap = self.gap(worn);
+            let gap = gap(&self.h, worn, opens);
             let h: Vec<f64> = (0..cells)
                 .map(|c| gap[c] + rates.u_q[c] - compliance[c] * takes.borne[c])
                 .collect();
             self.pressing
                 .solve(&h, &compliance, rates.drive, &mut p, 1.0)?;
-            let loss = takes.from(&rates, &p, area);
+            let loss = takes.loss(&rates, &p, area);
             if correction == CORRECTIONS || last.as_ref().is_some_and(|last| agree(last, &p)) {
                 self.p = p;
                 return Ok(loss);
@@ -179,7 +178,7 @@ impl Marched {
             let mut end = worn.clone();
             end.add(&loss);
             let (cycled, _) = self.cycle(&end)?;
-            rates = self.rates(worn, cycles, &cycled)?;
+            rates = self.rates(worn, &cycled)?;
             self.state.cycled = cycled;
         }
         unreachable!("the last correction returns")
@@ -205,26 +204,30 @@ impl Marched {
                 0.0
             };
         }
-        Takes { way, borne }
+        Takes { n, way, borne }
     }
 
-    fn gap(&self, worn: &Worn) -> Vec<f64> {
-        let [one, two] = &worn.depth;
-        let opens = self.wear.opens();
-        let cells = self.h.iter().zip(one.iter().zip(two));
-        cells
-            .map(|(h, (one, two))| h + opens * one + opens * two)
-            .collect()
+    /// The coefficient of friction after so many cycles, where it is one for all cells.
+    fn mu(&self, cycles: f64) -> Option<f64> {
+        let factor = self.history.as_ref().map_or(1.0, |h| h.factor(cycles));
+        self.plain_mu.map(|mu| mu * factor)
     }
 
     /// One cycle on worn surfaces, and the state of the march at its end.
     fn cycle(&mut self, worn: &Worn) -> Result<(Cycled, State), Error> {
-        let gap = self.gap(worn);
-        self.march.go_on_from(self.state.start.clone(), &gap);
+        let gap = gap(&self.h, worn, self.wear.opens());
+        let mut start = self.state.start.clone();
+        if self.history.is_some() {
+            // What friction makes of a cell's history is that of all cycles so far.
+            start.slip_length.clone_from(&worn.slid);
+            start.dissipated.clone_from(&worn.energy[0]);
+        }
+        self.march.go_on_from(start, &gap);
+        self.march.after_cycles(worn.cycles);
         // The contact goes over to the worn surfaces; what slips thereby is of no cycle.
         advance(&mut self.march)?;
         let cells = self.h.len();
-        let mut sums = Sums::new(cells, self.plain_mu);
+        let mut sums = Sums::new(cells, self.mu(worn.cycles));
         let increments = self.march.points().len() - self.lead_in - 1;
         for _ in 0..increments {
             let before = self.march.state().clone();
@@ -234,11 +237,14 @@ impl Marched {
         self.cycles_solved += 1;
         let state = self.march.state().clone();
         let coupling = self.march.plan().coupling;
-        Ok((sums.cycled(&mut self.pressing, coupling, (worn, self.wear.opens())), state))
+        Ok((
+            sums.cycled(&mut self.pressing, coupling, (worn, self.wear.opens())),
+            state,
+        ))
     }
 
     /// How fast every cell wears per pressure; cells outside the contact as those beside them.
-    fn rates(&self, worn: &Worn, cycles: f64, cycled: &Cycled) -> Result<Rates, Error> {
+    fn rates(&self, worn: &Worn, cycled: &Cycled) -> Result<Rates, Error> {
         let cells = self.h.len();
         let largest = cycled.p.iter().fold(0.0, |m: f64, p| m.max(*p));
         let pressed = |c: usize| cycled.p[c] > 1e-6 * largest && cycled.pressed_way[c] >= 0.0;
@@ -253,7 +259,7 @@ impl Marched {
         let mut way = outward(rows, cells, |c| pressed(c).then(|| cycled.way[c]));
         for cut in &cycled.cuts {
             let c = cut.cell;
-            mu[c] = self.plain_mu.unwrap_or(mu[c]);
+            mu[c] = self.mu(worn.cycles).unwrap_or(mu[c]);
             if let Some(own) = cut.way {
                 (sigma[c], way[c]) = (own, own);
             }
@@ -269,7 +275,9 @@ impl Marched {
                 way: &way,
                 dissipated: &dissipated,
                 worn: &worn.depth[b],
-                cycles,
+                energy: &worn.energy[b],
+                cycles: worn.cycles,
+                frequency: self.wear.frequency.unwrap_or(f64::NAN),
             };
             self.wear.bodies[b].coefficients(&cycle, &self.coatings[b], &mut k[b])?;
         }
@@ -286,6 +294,7 @@ impl Marched {
             k,
             sigma,
             mu,
+            slips: way,
             u_q: cycled.u_q.clone(),
             cuts: cycled.cuts.clone(),
             drive,
@@ -301,6 +310,8 @@ struct Rates {
     sigma: Vec<f64>,
     /// Energy dissipated over the pressed way.
     mu: Vec<f64>,
+    /// Way slipped in a cycle \[m\].
+    slips: Vec<f64>,
     u_q: Vec<f64>,
     cuts: Vec<Cut>,
     drive: Drive,
@@ -308,6 +319,8 @@ struct Rates {
 
 /// What a jump takes: of each body k way (p - borne).
 struct Takes {
+    /// Cycles.
+    n: f64,
     /// Way slipped in all its cycles \[m\].
     way: Vec<f64>,
     /// Pressure that wears nothing \[Pa\]: what the part of a cut cell that sticks bears.
@@ -316,15 +329,43 @@ struct Takes {
 
 impl Takes {
     /// The loss under the pressure at its end.
-    fn from(&self, rates: &Rates, p: &[f64], cell_area: f64) -> Loss {
+    fn loss(&self, rates: &Rates, p: &[f64], cell_area: f64) -> Loss {
         let way = |c: usize| self.way[c] * (p[c] - self.borne[c]).max(0.0);
         let depth = [0, 1].map(|b| (0..p.len()).map(|c| rates.k[b][c] * way(c)).collect());
-        let dissipated: f64 = (0..p.len()).map(|c| rates.mu[c] * way(c)).sum();
+        let energy: Vec<f64> = (0..p.len()).map(|c| rates.mu[c] * way(c)).collect();
+        let dissipated: f64 = energy.iter().sum();
+        let slides = |c: usize| {
+            if p[c] > 0.0 {
+                self.n * rates.slips[c]
+            } else {
+                0.0
+            }
+        };
         Loss {
+            cycles: self.n,
             depth,
+            slid: (0..p.len()).map(slides).collect(),
+            energy: [energy.clone(), energy],
             dissipated: dissipated * cell_area,
         }
     }
+}
+
+/// The coefficient of friction if it is one for all cells, whatever cycles make of it.
+fn plain(friction: &Friction) -> Option<f64> {
+    let of_cycles = |h: &FrictionHistory| h.of == History::Cycles;
+    let mut level = friction.clone();
+    level.history = level.history.filter(|h| !of_cycles(h));
+    (level == Friction::coulomb(friction.mu)).then_some(friction.mu)
+}
+
+/// Gap between surfaces worn so far, of what is worn a part `opens` \[m\].
+fn gap(h: &[f64], worn: &Worn, opens: f64) -> Vec<f64> {
+    let [one, two] = &worn.depth;
+    let cells = h.iter().zip(one.iter().zip(two));
+    cells
+        .map(|(h, (one, two))| h + opens * one + opens * two)
+        .collect()
 }
 
 /// Whether two pressures agree.

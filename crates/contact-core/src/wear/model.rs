@@ -61,22 +61,23 @@ pub(crate) struct Seen<'a> {
 }
 
 impl Model {
-    /// Solves the first cycle on unworn surfaces, or goes on from a state.
+    /// Solves the first cycle on surfaces worn so far, or goes on from a state.
     pub(crate) fn new(
         scene: &Scene,
         wear: &Wear,
         state: Option<ModelState>,
+        worn: &Worn,
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
         match wear.cycling {
             Cycling::Sliding => {
                 let p = state.map(ModelState::sliding).transpose()?;
-                let sliding = Sliding::new(scene, wear, p, stop)?;
+                let sliding = Sliding::new(scene, wear, p, worn, stop)?;
                 Ok(Self::Sliding(Box::new(sliding)))
             }
             Cycling::March => {
                 let state = state.map(ModelState::marched).transpose()?;
-                let marched = Marched::new(scene, wear, state, stop)?;
+                let marched = Marched::new(scene, wear, state, worn, stop)?;
                 Ok(Self::Marched(Box::new(marched)))
             }
         }
@@ -115,16 +116,10 @@ impl Model {
         }
     }
 
-    pub(crate) fn jump(
-        &mut self,
-        worn: &Worn,
-        cycles: f64,
-        n: f64,
-        implicit: bool,
-    ) -> Result<Loss, Error> {
+    pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
         match self {
-            Self::Sliding(s) => s.jump(worn, cycles, n, implicit),
-            Self::Marched(m) => m.jump(worn, cycles, n, implicit),
+            Self::Sliding(s) => s.jump(worn, n, implicit),
+            Self::Marched(m) => m.jump(worn, n, implicit),
         }
     }
 

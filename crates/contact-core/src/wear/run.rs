@@ -3,13 +3,17 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::events::{crossing, events};
+use super::events::EventKind;
+use super::events::{crossing, events, passed};
 use super::jump::Jump;
 use super::loss::{Loss, Worn};
 use super::model::Model;
+use super::passage::Passage;
 use super::settings::{Jumps, Wear, WornThrough};
 use super::state::WearState;
+use super::worn_start::WornStart;
 use crate::error::Error;
+use crate::plan::Plan;
 use crate::scene::Scene;
 
 /// Part of the length that the estimate of the error asks for, and most that a jump is longer or shorter
@@ -37,31 +41,64 @@ pub struct WearRun {
 }
 
 impl WearRun {
-    /// Checks, leads in and solves the first cycle; ends when `stop` is raised.
+    /// Checks, chooses what is left open ([`Wear::settled`]), leads in and solves the first cycle; ends when `stop` is
+    /// raised.
     pub fn new(scene: &Scene, wear: &Wear, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
-        scene.check()?;
-        wear.check(scene)?;
-        let model = Model::new(scene, wear, None, stop)?;
-        let worn = Worn::none(model.cells());
+        Self::begin(scene, wear, None, stop)
+    }
+
+    /// The same on surfaces that have worn: their cycles count on.
+    pub fn from_worn(
+        scene: &Scene,
+        wear: &Wear,
+        start: &WornStart,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        Self::begin(scene, wear, Some(start), stop)
+    }
+
+    fn begin(
+        scene: &Scene,
+        wear: &Wear,
+        start: Option<&WornStart>,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        let (scene, wear) = wear.settled(scene, stop)?;
+        let mirror = Plan::new(&scene).mirror;
+        let worn = match start {
+            Some(start) => start.kept(&scene.grid, mirror)?,
+            None => Worn::none(mirror.fold(&scene.h_init()).len()),
+        };
+        let events = passed(&scene, &wear, &worn);
+        let through = events.iter().any(|e| e.kind == EventKind::WornThrough);
+        if through && wear.worn_through == WornThrough::Stop {
+            let allowed = "\"go_on\" where a coating is worn through at the start";
+            return Err(Error::invalid("wear.worn_through", "stop", allowed));
+        }
+        let model = Model::new(&scene, &wear, None, &worn, stop)?;
         let mut run = Self {
             state: WearState {
                 jumps: 0,
-                cycles: 0.0,
-                dissipated: 0.0,
-                events: Vec::new(),
-                moved: worn.depth.clone(),
+                cycles: worn.cycles,
+                began: worn.cycles,
+                lost_before: [[0.0; 2]; 2],
+                dissipated: start.map_or(0.0, |start| start.dissipated),
+                events,
+                moved: worn.depth.each_ref().map(|d| vec![0.0; d.len()]),
                 model: model.state(),
+                kept_at: worn.cycles,
                 worn,
                 history: Vec::new(),
-                kept_at: 0.0,
                 next: 0.0,
                 ended: false,
             },
-            scene: scene.clone(),
-            wear: wear.clone(),
+            scene,
+            wear,
             model,
             stop: stop.clone(),
         };
+        let before = run.state.seen(&run.model, 0.0);
+        run.state.lost_before = [before.depth, before.volume];
         run.state.next = run.first_jump()?;
         Ok(run)
     }
@@ -74,9 +111,8 @@ impl WearRun {
         state: WearState,
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
-        scene.check()?;
-        wear.check(scene)?;
-        let model = Model::new(scene, wear, Some(state.model.clone()), stop)?;
+        let (scene, wear) = wear.settled(scene, stop)?;
+        let model = Model::new(&scene, &wear, Some(state.model.clone()), &state.worn, stop)?;
         if state.worn.depth.iter().any(|d| d.len() != model.cells()) {
             return Err(Error::invalid(
                 "state",
@@ -85,8 +121,8 @@ impl WearRun {
             ));
         }
         Ok(Self {
-            scene: scene.clone(),
-            wear: wear.clone(),
+            scene,
+            wear,
             model,
             state,
             stop: stop.clone(),
@@ -117,16 +153,20 @@ impl WearRun {
 
     /// What one cycle adds to the gap between the present surfaces at most, of either body \[m\].
     fn rate(&mut self) -> Result<f64, Error> {
-        let (worn, cycles) = (&self.state.worn, self.state.cycles);
-        let one = self.model.jump(worn, cycles, 1.0, false)?;
+        let one = self.model.jump(&self.state.worn, 1.0, false)?;
         self.model.restore(&self.state.model);
         let deepest = one.depth.iter().flatten().fold(0.0, |m: f64, w| m.max(*w));
         Ok(self.wear.opens() * deepest)
     }
 
+    /// Cycles that are left.
+    fn left(&self) -> f64 {
+        self.state.began + self.wear.cycles - self.state.cycles
+    }
+
     /// Does the next jump; `None` at the end. After an error the state is that of the last jump.
     pub fn advance(&mut self) -> Option<Result<Jump, Error>> {
-        let left = self.wear.cycles - self.state.cycles;
+        let left = self.left();
         if self.state.ended || left <= SHORTEST * self.wear.cycles {
             return None;
         }
@@ -215,12 +255,12 @@ impl WearRun {
                 for_error = n * factor.clamp(SHORTER, LONGER);
             }
             let stops = self.wear.worn_through == WornThrough::Stop;
-            if let Some(part) = crossing(
-                &self.scene,
-                &self.state.events,
-                &self.state.worn,
-                &tried.loss,
-            ) {
+            let passage = Passage {
+                worn: &self.state.worn,
+                half: &tried.half,
+                whole: &tried.loss.depth,
+            };
+            if let Some(part) = crossing(&self.scene, &self.state.events, &passage) {
                 // Towards the cycle in which the first cell is through, from above and from below.
                 let last = for_event.replace(n);
                 if part < 1.0 - 1e-3 && retries + 1 < TRIES && last != Some(n * part) {
@@ -248,33 +288,45 @@ impl WearRun {
 
     /// A jump of n cycles whole and in two halves.
     fn attempt(&mut self, n: f64) -> Result<Tried, Error> {
-        let (worn, cycles) = (&self.state.worn, self.state.cycles);
+        let worn = &self.state.worn;
         if matches!(self.wear.jumps, Jumps::Explicit(_)) {
-            let loss = self.model.jump(worn, cycles, n, false)?;
+            let loss = self.model.jump(worn, n, false)?;
             let none = loss.depth.each_ref().map(|d| vec![0.0; d.len()]);
+            let half = |d: &Vec<f64>| d.iter().map(|w| 0.5 * w).collect();
             return Ok(Tried {
+                half: loss.depth.each_ref().map(half),
                 loss,
                 error: 0.0,
                 pressure_error: 0.0,
                 moved: none,
             });
         }
-        let whole = self.model.jump(worn, cycles, n, true)?;
+        let whole = self.model.jump(worn, n, true)?;
         let pressure = self.model.pressures();
         self.model.restore(&self.state.model);
-        let first = self.model.jump(worn, cycles, 0.5 * n, true)?;
+        let first = self.model.jump(worn, 0.5 * n, true)?;
         let mut middle = worn.clone();
         middle.add(&first);
-        let second = self.model.jump(&middle, cycles + 0.5 * n, 0.5 * n, true)?;
+        let second = self.model.jump(&middle, 0.5 * n, true)?;
         let pressure_error = distance(&pressure, &self.model.pressures());
+        let one_half = first.depth.clone();
         let halves = first.with(&second);
-        let moved = [0, 1].map(|b| {
+        let moved: [Vec<f64>; 2] = [0, 1].map(|b| {
             let both = halves.depth[b].iter().zip(&whole.depth[b]);
             both.map(|(halves, whole)| halves - whole).collect()
         });
         let (loss, error) = halves.extrapolated(&whole, worn);
+        // What two halves miss of the second order a single one misses half of.
+        let half = [0, 1].map(|b| {
+            let cells = one_half[b].iter().zip(&moved[b]).zip(&loss.depth[b]);
+            let to = |((half, moved), whole): ((&f64, &f64), &f64)| {
+                (half + 0.5 * moved).clamp(0.25 * whole, 0.75 * whole)
+            };
+            cells.map(to).collect::<Vec<f64>>()
+        });
         Ok(Tried {
             loss,
+            half,
             error,
             pressure_error,
             moved,
@@ -293,7 +345,17 @@ impl WearRun {
         worn.add(&tried.loss);
         self.model.settle(&worn)?;
         let cycles = self.state.cycles + n;
-        let new = events(&self.scene, &self.wear, &self.state.events, &worn, cycles);
+        let passage = Passage {
+            worn: &self.state.worn,
+            half: &tried.half,
+            whole: &tried.loss.depth,
+        };
+        let new = events(&self.scene, &self.wear, &self.state.events, &passage, n);
+        let mut middle = self.state.worn.depth.clone();
+        for (middle, half) in middle.iter_mut().zip(&tried.half) {
+            middle.iter_mut().zip(half).for_each(|(w, half)| *w += half);
+        }
+        let area = self.model.pressing().cell_area();
         let state = &mut self.state;
         for (sum, moved) in state.moved.iter_mut().zip(&tried.moved) {
             sum.iter_mut()
@@ -312,7 +374,11 @@ impl WearRun {
             error: tried.error,
             pressure_error: tried.pressure_error,
             retries,
-            ..state.seen(&self.model)
+            volume_halfway: middle.each_ref().map(|w| w.iter().sum::<f64>() * area),
+            depth_halfway: middle
+                .each_ref()
+                .map(|w| w.iter().fold(0.0, |m: f64, w| m.max(*w))),
+            ..state.seen(&self.model, self.wear.debris_kept)
         };
         state.history.push(jump.clone());
         Ok(jump)
@@ -327,9 +393,12 @@ impl WearRun {
     /// by a fiftieth of all, and at the end. Notes that they are.
     pub fn keeps(&mut self) -> bool {
         let (cycles, all) = (self.state.cycles, self.wear.cycles);
-        let ends = self.state.ended || all - cycles <= SHORTEST * all;
-        let keeps =
-            ends || cycles >= 1.2 * self.state.kept_at || cycles >= self.state.kept_at + all / 50.0;
+        let (done, kept_at) = (
+            cycles - self.state.began,
+            self.state.kept_at - self.state.began,
+        );
+        let ends = self.state.ended || self.left() <= SHORTEST * all;
+        let keeps = ends || done >= 1.2 * kept_at || done >= kept_at + all / 50.0;
         if keeps {
             self.state.kept_at = cycles;
         }
@@ -350,6 +419,8 @@ impl WearRun {
 /// A jump that may be taken or not.
 struct Tried {
     loss: Loss,
+    /// Depth that its first half takes \[m\].
+    half: [Vec<f64>; 2],
     error: f64,
     pressure_error: f64,
     moved: [Vec<f64>; 2],

@@ -3,7 +3,7 @@
 use super::law::BodyWear;
 use super::stroke::stroke;
 use crate::error::Error;
-use crate::scene::{Body, Branch, Scene};
+use crate::scene::{Body, Branch, FrictionHistory, History, Scene};
 
 /// Part of its largest value by which a load may differ at the two ends of a cycle.
 const ROUNDING: f64 = 1e-12;
@@ -60,9 +60,11 @@ pub struct Wear {
     pub bodies: [BodyWear; 2],
     /// Cycles, > 0.
     pub cycles: f64,
-    /// The first branch of the load path that belongs to the cycle, from 0 (default 1): what is
-    /// before leads in and is run through once, the rest is the cycle and ends where it begins.
-    pub first_branch: usize,
+    /// The first branch of the load path that belongs to the cycle, from 0 (default `None`: that of its last closed
+    /// cycle): what is before leads in and is run through once, the rest is the cycle and ends where it begins.
+    pub first_branch: Option<usize>,
+    /// Cycles per second \[Hz\], for coefficients that are functions of a power (default none).
+    pub frequency: Option<f64>,
     /// How the contact of a cycle is solved.
     pub cycling: Cycling,
     /// Stiffness of the rig along x, a spring in series with the contact through which shifts
@@ -88,7 +90,8 @@ impl Wear {
         Self {
             bodies,
             cycles,
-            first_branch: 1,
+            first_branch: None,
+            frequency: None,
             cycling: Cycling::default(),
             rig_stiffness: f64::INFINITY,
             jumps: Jumps::default(),
@@ -115,11 +118,25 @@ impl Wear {
                 "a law for one of the bodies at least",
             ));
         }
+        let needs = |body: &BodyWear| body.laws.iter().any(|law| law.needs_frequency());
+        match self.frequency {
+            Some(f) if !(f > 0.0 && f.is_finite()) => {
+                return Err(Error::invalid("wear.frequency", f, "above 0 Hz"));
+            }
+            None if self.bodies.iter().any(needs) => {
+                let allowed = "given in Hz: a coefficient is a function of the power density";
+                return Err(Error::invalid("wear.frequency", "nothing", allowed));
+            }
+            _ => {}
+        }
         let branches = scene.path.branches.len();
-        if self.first_branch == 0 || self.first_branch >= branches {
+        if self
+            .first_branch
+            .is_some_and(|first| first == 0 || first >= branches)
+        {
             return Err(Error::invalid(
                 "wear.first_branch",
-                self.first_branch,
+                self.first_branch.unwrap_or_default(),
                 format!(
                     "1 to {}: a branch of the path after one that presses",
                     branches.max(2) - 1
@@ -151,9 +168,15 @@ impl Wear {
             let allowed = "a finite coefficient above 0 for wear";
             return Err(Error::invalid("friction.mu", scene.friction.mu, allowed));
         }
-        self.check_closed(scene)?;
+        let of_increments = |h: &FrictionHistory| h.of == History::Increment;
+        if scene.friction.history.as_ref().is_some_and(of_increments) {
+            let allowed = "\"cycles\", \"slip\" or \"dissipated\" over cycles of wear";
+            return Err(Error::invalid("friction.history.of", "increment", allowed));
+        }
+        let first_branch = self.first_branch(scene)?;
+        Self::closed(scene, first_branch)?;
         if self.cycling == Cycling::Sliding {
-            stroke(scene, self.first_branch, self.rig_stiffness)?;
+            stroke(scene, first_branch, self.rig_stiffness)?;
         }
         self.jumps.check()
     }
@@ -163,11 +186,11 @@ impl Wear {
         1.0 - self.debris_kept
     }
 
-    /// Fails if the cycle does not end where it begins.
-    fn check_closed(&self, scene: &Scene) -> Result<(), Error> {
+    /// Fails if a cycle that begins with a branch does not end where it begins.
+    pub(super) fn closed(scene: &Scene, first_branch: usize) -> Result<(), Error> {
         let branches = &scene.path.branches;
         let (before, last) = (
-            &branches[self.first_branch - 1].to,
+            &branches[first_branch - 1].to,
             &branches[branches.len() - 1].to,
         );
         if before.rolled != last.rolled {
@@ -202,7 +225,7 @@ impl Wear {
                     ends[k].unwrap_or(to[k]),
                     format!(
                         "what it is at the end of path[{}] ({}), where the cycle begins",
-                        self.first_branch - 1,
+                        first_branch - 1,
                         given[k].unwrap_or(from[k]),
                     ),
                 ));

@@ -37,7 +37,7 @@ use super::shift::Shift;
 use super::stroke::{Corner, Place, stroke};
 use crate::error::Error;
 use crate::plan::Plan;
-use crate::scene::{Scene, Shape};
+use crate::scene::{FrictionHistory, Scene, Shape};
 
 /// Change of the pressures in a round (root mean square, over that of the pressures) that ends the rounds.
 const SETTLED: f64 = 1e-3;
@@ -55,7 +55,11 @@ pub(crate) struct Sliding {
     shifts: Vec<[Shift; 2]>,
     wear: Wear,
     coatings: [Vec<f64>; 2],
+    /// Coefficient of friction, and what cycles make of it.
     mu: f64,
+    history: Option<FrictionHistory>,
+    /// Cycles done.
+    cycles: f64,
     /// Gap between the unworn surfaces \[m\].
     h: Vec<f64>,
     /// Pressures at the places \[Pa\].
@@ -68,9 +72,10 @@ impl Sliding {
         scene: &Scene,
         wear: &Wear,
         state: Option<Vec<Vec<f64>>>,
+        worn: &Worn,
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
-        let (places, corners) = stroke(scene, wear.first_branch, wear.rig_stiffness)?;
+        let (places, corners) = stroke(scene, wear.first_branch(scene)?, wear.rig_stiffness)?;
         let plan = Plan::new(scene);
         plan.check_memory(scene)?;
         let pressing = Pressing::new(scene, &plan, stop)?;
@@ -102,17 +107,19 @@ impl Sliding {
             wear: wear.clone(),
             coatings: [thicknesses(&scene.body1), thicknesses(&scene.body2)],
             mu: scene.friction.mu,
+            history: scene.friction.history.clone(),
+            cycles: worn.cycles,
             h,
         };
         if !goes_on {
-            let worn = Worn::none(sliding.h.len());
-            sliding.settle(&worn)?;
+            sliding.settle(worn)?;
         }
         Ok(sliding)
     }
 
     /// Solves the pressures at all places of surfaces worn so far.
     pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
+        self.cycles = worn.cycles;
         self.pressing.begin();
         let none = vec![0.0; self.h.len()];
         let mut h = none.clone();
@@ -126,15 +133,10 @@ impl Sliding {
     }
 
     /// What n cycles take from both bodies; the pressures become those of the end.
-    pub(crate) fn jump(
-        &mut self,
-        worn: &Worn,
-        cycles: f64,
-        n: f64,
-        implicit: bool,
-    ) -> Result<Loss, Error> {
+    pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
+        self.cycles = worn.cycles;
         let ways = self.summed(&self.p);
-        let k = self.coefficients(worn, cycles, &ways)?;
+        let k = self.coefficients(worn, &ways)?;
         if !implicit {
             return Ok(self.loss(n, &k, &ways));
         }
@@ -223,7 +225,13 @@ impl Sliding {
     pub(crate) fn dissipated_per_cycle(&self) -> f64 {
         let slid = |i: usize| self.places[i].way * self.p[i].iter().sum::<f64>();
         let slid: f64 = (0..self.places.len()).map(slid).sum();
-        self.mu * slid * self.pressing.cell_area()
+        self.mu() * slid * self.pressing.cell_area()
+    }
+
+    /// The coefficient of friction after the cycles so far.
+    fn mu(&self) -> f64 {
+        let factor = self.history.as_ref().map_or(1.0, |h| h.factor(self.cycles));
+        self.mu * factor
     }
 
     fn loss(&self, n: f64, k: &[Vec<f64>; 2], ways: &[Vec<f64>; 2]) -> Loss {
@@ -231,8 +239,14 @@ impl Sliding {
             let cells = k[b].iter().zip(&ways[b]);
             cells.map(|(k, way)| n * k * way).collect()
         });
+        let mu = self.mu();
+        let energy = [0, 1].map(|b| ways[b].iter().map(|way| n * mu * way).collect::<Vec<f64>>());
+        let slides = |p: &f64| if *p > 0.0 { n * self.way() } else { 0.0 };
         Loss {
+            cycles: n,
             depth,
+            slid: self.p[self.middle()].iter().map(slides).collect(),
+            energy,
             dissipated: n * self.dissipated_per_cycle(),
         }
     }
@@ -261,12 +275,7 @@ impl Sliding {
         }
     }
 
-    fn coefficients(
-        &self,
-        worn: &Worn,
-        cycles: f64,
-        ways: &[Vec<f64>; 2],
-    ) -> Result<[Vec<f64>; 2], Error> {
+    fn coefficients(&self, worn: &Worn, ways: &[Vec<f64>; 2]) -> Result<[Vec<f64>; 2], Error> {
         let touches = |p: &f64| f64::from(u8::from(*p > 0.0));
         let touched: Vec<Vec<f64>> = self
             .p
@@ -283,13 +292,15 @@ impl Sliding {
                 .iter()
                 .map(|w| if *w > 0.0 { *w } else { s })
                 .collect();
-            let dissipated: Vec<f64> = pressed.iter().map(|w| self.mu * w).collect();
+            let dissipated: Vec<f64> = pressed.iter().map(|w| self.mu() * w).collect();
             let cycle = CellCycle {
                 pressed_way: &pressed,
                 way: &way,
                 dissipated: &dissipated,
                 worn: &worn.depth[b],
-                cycles,
+                energy: &worn.energy[b],
+                cycles: worn.cycles,
+                frequency: self.wear.frequency.unwrap_or(f64::NAN),
             };
             self.wear.bodies[b].coefficients(&cycle, &self.coatings[b], &mut k[b])?;
         }

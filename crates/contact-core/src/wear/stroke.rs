@@ -1,7 +1,7 @@
 //! The places of a stroke: where the bodies slide past each other, and by how much.
 
 use crate::error::Error;
-use crate::scene::{Scene, Shape};
+use crate::scene::{FrictionHistory, History, Scene, Shape};
 
 /// Part of a cell within which two places are one.
 const SAME: f64 = 1e-9;
@@ -30,7 +30,7 @@ pub(crate) fn stroke(
     first_branch: usize,
     rig_stiffness: f64,
 ) -> Result<(Vec<Place>, Vec<Corner>), Error> {
-    check(scene, first_branch)?;
+    check(scene, first_branch, rig_stiffness.is_infinite())?;
     let mu = scene.friction.mu;
     let points = scene.path.points();
     let lead_in = points
@@ -101,12 +101,15 @@ pub(crate) fn stroke(
     Ok((places, corners))
 }
 
-fn check(scene: &Scene, first_branch: usize) -> Result<(), Error> {
+fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
     let refuse =
         |key: String, value: String, allowed: &str| Err(Error::invalid(key, value, allowed));
     let friction = &scene.friction;
-    if friction.map.is_some() || friction.history.is_some() || friction.kinetic.is_some() {
-        let allowed = "one coefficient mu where wear.cycling = \"sliding\"";
+    let of_cycles = |h: &FrictionHistory| h.of == History::Cycles && rigid;
+    let changes = friction.history.as_ref().is_some_and(|h| !of_cycles(h));
+    if friction.map.is_some() || changes || friction.kinetic.is_some() {
+        let allowed = "one coefficient mu where wear.cycling = \"sliding\", or, without a spring of the rig, one with a \
+                       history of cycles";
         return refuse(
             "friction".into(),
             "a law of place or history".into(),

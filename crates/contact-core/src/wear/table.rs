@@ -4,15 +4,17 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::law::{Archard, BodyWear, DissipatedEnergy, Law};
+use super::law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};
 use super::settings::{Cycling, Jumps, Wear, WornThrough};
+use super::varying::{Factor, Of, Varying};
 use crate::error::Error;
 use crate::scene::{Fault, Reach, Scene, Section, read_with, text_of};
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "cycles",
     "first_branch",
     "cycling",
+    "frequency",
     "rig_stiffness",
     "tolerance",
     "jumps",
@@ -23,8 +25,8 @@ const KEYS: [&str; 12] = [
     "body1",
     "body2",
 ];
-const BODY: [&str; 5] = ["k", "alpha", "threshold", "laws", "share"];
-const LAW: [&str; 3] = ["k", "alpha", "threshold"];
+const BODY: [&str; 6] = ["k", "alpha", "threshold", "factor", "laws", "share"];
+const LAW: [&str; 5] = ["k", "alpha", "threshold", "factor", "own"];
 
 impl Wear {
     /// Reads and checks a scene file with a table `[wear]`, as [`Scene::from_file_reaching`].
@@ -46,13 +48,32 @@ impl Wear {
         read(text, file, settings, Reach::Folder)
     }
 
-    /// The table `[wear]` in SI, every number in full; `None` with a law of the user's own, which no
-    /// file can hold.
-    pub fn to_toml(&self) -> Option<String> {
-        let mut text = format!(
-            "\n[wear]\ncycles = {:?}\nfirst_branch = {}\n",
-            self.cycles, self.first_branch
-        );
+    /// Reads a scene and its wear back from a store, with the laws of the user's own for bodies that have them.
+    pub(crate) fn from_store(
+        text: &str,
+        file: &str,
+        own: &[Option<BodyWear>; 2],
+    ) -> Result<(Scene, Self), Error> {
+        let (scene, mut wear) = read_with(text, file, &[], Reach::Folder, |root, _| wear(root))?;
+        for (body, own) in wear.bodies.iter_mut().zip(own) {
+            if let Some(own) = own {
+                body.laws.clone_from(&own.laws);
+            }
+        }
+        wear.check(&scene)?;
+        Ok((scene, wear))
+    }
+
+    /// The table `[wear]` in SI, every number in full. A law of the user's own, which no file can hold, is `{ own = true
+    /// }` in it: who reads that has to give it again.
+    pub fn to_toml(&self) -> String {
+        let mut text = format!("\n[wear]\ncycles = {:?}\n", self.cycles);
+        if let Some(first) = self.first_branch {
+            let _ = writeln!(text, "first_branch = {first}");
+        }
+        if let Some(frequency) = self.frequency {
+            let _ = writeln!(text, "frequency = {frequency:?}");
+        }
         let cycling = match self.cycling {
             Cycling::March => "march",
             Cycling::Sliding => "sliding",
@@ -79,22 +100,25 @@ impl Wear {
             if body.laws.is_empty() {
                 continue;
             }
-            let laws: Option<Vec<String>> = body.laws.iter().map(|law| law.written()).collect();
-            let _ = writeln!(text, "\n[wear.{name}]\nlaws = [{}]", laws?.join(", "));
+            let own = || "{ own = true }".to_owned();
+            let laws = body
+                .laws
+                .iter()
+                .map(|law| law.written().unwrap_or_else(own));
+            let laws: Vec<String> = laws.collect();
+            let _ = writeln!(text, "\n[wear.{name}]\nlaws = [{}]", laws.join(", "));
             if let Some(share) = body.share {
                 let _ = writeln!(text, "share = {share:?}");
             }
         }
-        Some(text)
+        text
     }
 }
 
 fn read(text: &str, file: &str, settings: &[String], reach: Reach) -> Result<(Scene, Wear), Error> {
-    read_with(text, file, settings, reach, |root, scene| {
-        let wear = wear(root)?;
-        wear.check(scene)?;
-        Ok(wear)
-    })
+    let (scene, wear) = read_with(text, file, settings, reach, |root, _| wear(root))?;
+    wear.check(&scene)?;
+    Ok((scene, wear))
 }
 
 fn wear(root: &Section<'_>) -> Result<Wear, Fault> {
@@ -116,7 +140,11 @@ fn wear(root: &Section<'_>) -> Result<Wear, Fault> {
         return Err(Fault::new(key, message));
     }
     Ok(Wear {
-        first_branch: section.count_or("first_branch", 1, default.first_branch)?,
+        first_branch: match section.get("first_branch") {
+            Some(_) => Some(section.count("first_branch", 1)?),
+            None => None,
+        },
+        frequency: section.number_if("frequency", &[])?,
         cycling: section.choice(
             "cycling",
             &[("march", Cycling::March), ("sliding", Cycling::Sliding)],
@@ -157,17 +185,48 @@ fn body(wear: &Section<'_>, name: &str) -> Result<BodyWear, Fault> {
 }
 
 fn law(section: &Section<'_>) -> Result<Arc<dyn Law>, Fault> {
+    if section.get("own").is_some() {
+        return Ok(Arc::new(Missing));
+    }
     let threshold = section.number_or("threshold", 0.0, &[])?;
-    match (
+    let law: Arc<dyn Law> = match (
         section.number_if("k", &[])?,
         section.number_if("alpha", &[])?,
     ) {
-        (Some(k), None) => Ok(Arc::new(Archard { k, threshold })),
-        (None, Some(alpha)) => Ok(Arc::new(DissipatedEnergy { alpha, threshold })),
+        (Some(k), None) => Arc::new(Archard { k, threshold }),
+        (None, Some(alpha)) => Arc::new(DissipatedEnergy { alpha, threshold }),
         _ => {
             let key = section.path("k");
             let what = "either k (Archard, m^2/N) or alpha (dissipated energy, m^3/J)";
-            Err(Fault::new(&key, format!("{key}: give {what}")))
+            return Err(Fault::new(&key, format!("{key}: give {what}")));
         }
+    };
+    Ok(match factor(section)? {
+        Some(factor) => Arc::new(Varying { law, factor }),
+        None => law,
+    })
+}
+
+fn factor(law: &Section<'_>) -> Result<Option<Factor>, Fault> {
+    let Some(section) = law.section("factor", &["of", "table"])? else {
+        return Ok(None);
+    };
+    let of = section.choice("of", &Of::ALL)?;
+    let table = section.pairs("table", "a list of pairs [value, factor]")?;
+    Ok(Some(Factor { of, table }))
+}
+
+/// A law of the user's own that a file has a place for and cannot hold.
+#[derive(Debug)]
+struct Missing;
+
+impl Law for Missing {
+    fn depth(&self, _: &CellCycle<'_>, _: &mut [f64]) -> Result<(), Error> {
+        self.check("wear")
+    }
+
+    fn check(&self, key: &str) -> Result<(), Error> {
+        let allowed = "given again with the run: a function, which no file can hold";
+        Err(Error::invalid(format!("{key}.laws"), "own", allowed))
     }
 }

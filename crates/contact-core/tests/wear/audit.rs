@@ -77,7 +77,7 @@ impl<'a> Audit<'a> {
             let to = self.scene.path.branches[b].to;
             (to.W, to.M_x, to.M_y, to.given.delta_z)
         };
-        let mut cycle = wear.first_branch..self.scene.path.branches.len();
+        let mut cycle = wear.first_branch(self.scene).unwrap()..self.scene.path.branches.len();
         let level = of(0).1 == 0.0 && of(0).2 == 0.0;
         wear.cycling == Cycling::Sliding
             || level && !Plan::new(self.scene).coupling && cycle.all(|b| of(b) == of(0))
@@ -127,7 +127,8 @@ impl<'a> Audit<'a> {
             now.p.iter().all(|p| *p >= 0.0 && p.is_finite()),
             "{name}: p"
         );
-        let cycle = &scene.path.branches[wear.first_branch - 1..];
+        let first = wear.first_branch(scene).unwrap();
+        let cycle = &scene.path.branches[first - 1..];
         if cycle.iter().all(|branch| branch.to.given.delta_z.is_none()) {
             let of = cycle.iter().map(|branch| branch.to.W);
             let (low, high) = of.fold((f64::INFINITY, 0.0), |(l, h): (f64, f64), W| {

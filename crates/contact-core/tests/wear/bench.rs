@@ -61,7 +61,7 @@ pub(crate) fn cylinder(R: f64) -> Shape {
 /// The cycle is what follows the way to its first end.
 pub(crate) fn wear(bodies: [BodyWear; 2], cycles: f64, cycling: Cycling) -> Wear {
     Wear {
-        first_branch: 2,
+        first_branch: Some(2),
         cycling,
         ..Wear::new(bodies, cycles)
     }

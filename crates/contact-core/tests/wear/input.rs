@@ -38,7 +38,11 @@ fn what_has_no_meaning_is_refused_by_name() {
             "above 0",
         ),
         ("wear.rig_stiffness=1e6", "wear.cycling", "spring"),
-        ("wear.debris_kept=1.5", "wear.debris_kept = 1.5", "between 0 and 1"),
+        (
+            "wear.debris_kept=1.5",
+            "wear.debris_kept = 1.5",
+            "between 0 and 1",
+        ),
         ("wear.tell_from=0.0", "wear.tell_from = 0", "above 0"),
         ("wear.body1.k=-1.0", "wear.body1.k = -1", ">= 0"),
         (
@@ -84,7 +88,7 @@ fn a_coefficient_in_another_unit_is_told() {
 #[test]
 fn a_table_reads_back_to_what_was_written() {
     let (scene, wear) = Wear::from_toml_str(SCENE, "scene.toml", &[]).unwrap();
-    let text = format!("{}{}", scene.to_toml(), wear.to_toml().unwrap());
+    let text = format!("{}{}", scene.to_toml(), wear.to_toml());
     let (again, worn) = Wear::from_toml_str(&text, "again.toml", &[]).unwrap();
     assert!(again == scene && format!("{worn:?}") == format!("{wear:?}"));
     // A scene with wear is a scene without it.

@@ -11,6 +11,7 @@ mod gross_slip;
 mod input;
 mod invariants;
 mod laws;
+mod over_cycles;
 mod partial_slip;
 mod random;
 mod resumed;

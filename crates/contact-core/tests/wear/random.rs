@@ -91,7 +91,7 @@ fn wear(scene: &Scene, bodies: [BodyWear; 2], cycles: f64, cycling: Cycling) -> 
         scene.path.branches.len() - 2
     };
     Wear {
-        first_branch: first,
+        first_branch: Some(first),
         cycling,
         ..Wear::new(bodies, cycles)
     }

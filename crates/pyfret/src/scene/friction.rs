@@ -10,7 +10,9 @@ use crate::parts::{members, parts};
 /// What a cell has been through.
 ///
 /// ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
-/// cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2].
+/// cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2]. ``CYCLES``: cycles of
+/// wear done; a path that is run through once has done none. Over jumps of wear each is that of
+/// all cycles so far.
 #[pyclass(frozen, eq, eq_int, hash, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum History {
@@ -20,6 +22,8 @@ pub(crate) enum History {
     Slip,
     #[pyo3(name = "DISSIPATED")]
     Dissipated,
+    #[pyo3(name = "CYCLES")]
+    Cycles,
 }
 
 members!(History);
@@ -30,6 +34,7 @@ impl From<History> for core::History {
             History::Increment => Self::Increment,
             History::Slip => Self::Slip,
             History::Dissipated => Self::Dissipated,
+            History::Cycles => Self::Cycles,
         }
     }
 }
@@ -40,6 +45,7 @@ impl From<core::History> for History {
             core::History::Increment => Self::Increment,
             core::History::Slip => Self::Slip,
             core::History::Dissipated => Self::Dissipated,
+            core::History::Cycles => Self::Cycles,
         }
     }
 }

@@ -33,7 +33,7 @@ use crate::parts::parts;
 #[derive(Clone, PartialEq)]
 pub(crate) struct LoadPath(pub(crate) core::LoadPath);
 
-parts!(LoadPath: branches);
+parts!(LoadPath: branches, rig_stiffness);
 takes!(
     LoadPath,
     "a load path, such as LoadPath.start().normal(100.0).tangential([20.0, -20.0])"
@@ -48,13 +48,30 @@ fn checked(path: core::LoadPath) -> PyResult<LoadPath> {
 #[pymethods]
 impl LoadPath {
     #[new]
-    #[pyo3(signature = (branches = Vec::new()))]
-    fn new(branches: Vec<Branch>) -> Self {
+    #[pyo3(signature = (branches = Vec::new(), *, rig_stiffness = None))]
+    fn new(branches: Vec<Branch>, rig_stiffness: Option<f64>) -> Self {
         let branches = branches.into_iter().map(|branch| branch.0).collect();
         Self(core::LoadPath {
             branches,
-            rig_stiffness: None,
+            rig_stiffness,
         })
+    }
+
+    /// The same path through a rig of a stiffness K [N/m], a spring along x in series with the
+    /// contact: ``delta_x`` is the shift of the spring's far end, given or read, and the contact's
+    /// own shift is ``delta_x - T_x/K``. None takes the spring out.
+    #[pyo3(signature = (stiffness))]
+    fn rig(&self, stiffness: Option<f64>) -> Self {
+        Self(core::LoadPath {
+            rig_stiffness: stiffness,
+            ..self.0.clone()
+        })
+    }
+
+    /// Stiffness of the rig along x [N/m]; None: the bodies themselves are moved.
+    #[getter]
+    fn rig_stiffness(&self) -> Option<f64> {
+        self.0.rig_stiffness
     }
 
     /// The path before its first branch.

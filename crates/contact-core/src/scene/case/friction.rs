@@ -3,17 +3,17 @@
 use toml::Value;
 
 use super::fault::Fault;
-use super::measure;
 use super::section::Section;
 use super::shape::{map_text, surface_map};
 use crate::scene::files::Files;
 use crate::scene::{Friction, FrictionHistory, History};
 
 /// The words of the histories.
-const HISTORIES: [(&str, History); 3] = [
+const HISTORIES: [(&str, History); 4] = [
     ("slip", History::Slip),
     ("dissipated", History::Dissipated),
     ("increment", History::Increment),
+    ("cycles", History::Cycles),
 ];
 
 /// The friction law.
@@ -57,19 +57,7 @@ fn friction_history(friction: &Section<'_>) -> Result<Option<FrictionHistory>, F
         return Ok(None);
     };
     let of = section.choice("of", &HISTORIES)?;
-    let what = "a list of pairs [history, factor]";
-    let (key, value) = (section.path("table"), section.need("table", what)?);
-    let wrong = || Fault::value(&key, value, what);
-    let table = value.as_array().ok_or_else(wrong)?;
-    let pairs = table.iter().map(|row| {
-        let row = row
-            .as_array()
-            .filter(|row| row.len() == 2)
-            .ok_or_else(wrong)?;
-        let number = |i: usize| measure::number(&key, &row[i], &[]);
-        Ok((number(0)?, number(1)?))
-    });
-    let table = pairs.collect::<Result<_, Fault>>()?;
+    let table = section.pairs("table", "a list of pairs [history, factor]")?;
     Ok(Some(FrictionHistory { of, table }))
 }
 

@@ -15,9 +15,9 @@ use crate::scene::{Body, Bond, Coating, Elastic, Grid, Scene};
 
 /// The version of the scene file that is read and written.
 pub(super) const SCHEMA: i64 = 1;
-pub(super) const ROOT: [&str; 12] = [
+pub(super) const ROOT: [&str; 13] = [
     "schema", "title", "body1", "body2", "friction", "grid", "path", "kernel", "solver", "skip",
-    "output", "wear",
+    "output", "wear", "rig",
 ];
 const BODY: [&str; 4] = ["shape", "E", "nu", "coatings"];
 
@@ -54,6 +54,10 @@ pub(super) fn scene(table: &Table, files: &Files<'_>) -> Result<Scene, Fault> {
         },
         path: path(&root, files, mu)?,
         settings: settings(&root)?,
+    };
+    scene.path.rig_stiffness = match root.section("rig", &["stiffness"])? {
+        Some(rig) => Some(rig.number("stiffness", "a stiffness in N/m", &[])?),
+        None => None,
     };
     scene.body1.check("body1")?;
     scene.body2.check("body2")?;

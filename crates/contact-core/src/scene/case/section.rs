@@ -112,6 +112,22 @@ impl<'a> Section<'a> {
             .collect()
     }
 
+    /// A list of pairs of numbers.
+    pub(crate) fn pairs(&self, name: &str, what: &str) -> Result<Vec<(f64, f64)>, Fault> {
+        let (key, value) = (self.path(name), self.need(name, what)?);
+        let wrong = || Fault::value(&key, value, what);
+        let table = value.as_array().ok_or_else(wrong)?;
+        let pairs = table.iter().map(|row| {
+            let row = row
+                .as_array()
+                .filter(|row| row.len() == 2)
+                .ok_or_else(wrong)?;
+            let number = |i: usize| measure::number(&key, &row[i], &[]);
+            Ok((number(0)?, number(1)?))
+        });
+        pairs.collect()
+    }
+
     pub(crate) fn number(
         &self,
         name: &str,

@@ -68,6 +68,9 @@ impl Scene {
             };
             line(format_args!("spacing = \"{spacing}\""));
         }
+        if let Some(K) = self.path.rig_stiffness {
+            line(format_args!("\n[rig]\nstiffness = {K:?}"));
+        }
         text += &super::settings::text(&self.settings);
         text
     }

@@ -67,7 +67,7 @@ impl LoadPath {
         }
         if let Some(K) = self.rig_stiffness.filter(|K| !(*K > 0.0 && K.is_finite())) {
             return Err(Error::invalid(
-                "path.rig_stiffness",
+                "rig.stiffness",
                 K,
                 "a positive stiffness in N/m",
             ));

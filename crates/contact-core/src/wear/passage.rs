@@ -1,0 +1,55 @@
+//! How the surfaces pass through a jump: between its ends as a parabola through its middle.
+
+use super::loss::Worn;
+
+/// The depth of every cell within a jump \[m\]: `w_0 + (4 m - e) s + (2 e - 4 m) s^2` at a part s of it, m and e being
+/// what it takes in its first half and in all. Both are of second order, and so is what lies between.
+pub(crate) struct Passage<'a> {
+    pub(crate) worn: &'a Worn,
+    /// Depth taken in the first half, and in all \[m\].
+    pub(crate) half: &'a [Vec<f64>; 2],
+    pub(crate) whole: &'a [Vec<f64>; 2],
+}
+
+impl Passage<'_> {
+    /// Where a body first reaches a depth \[m\] within the jump: the part of it that has passed, and the cell.
+    pub(crate) fn first(&self, b: usize, depth: f64) -> Option<(f64, usize)> {
+        let cells = 0..self.whole[b].len();
+        let reached = cells.filter_map(|c| {
+            let (from, half, whole) = (self.worn.depth[b][c], self.half[b][c], self.whole[b][c]);
+            (from + whole >= depth).then(|| (part(depth - from, half, whole), c))
+        });
+        reached.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+}
+
+/// The part of a jump after which it has taken `asked`, `half` in its first half and `whole` in all.
+fn part(asked: f64, half: f64, whole: f64) -> f64 {
+    if !(asked > 0.0 && whole > 0.0) {
+        return 0.0;
+    }
+    // Nothing grows: the parabola does not turn within the jump.
+    let half = half.clamp(0.25 * whole, 0.75 * whole);
+    let (slope, bend) = (4.0 * half - whole, 2.0 * whole - 4.0 * half);
+    let root = (slope * slope + 4.0 * bend * asked).max(0.0).sqrt();
+    (2.0 * asked / (slope + root)).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::part;
+
+    #[test]
+    fn a_parabola_is_met_where_it_is() {
+        for (a, b) in [(1.0, 0.0), (0.2, 0.8), (2.0, -1.0), (0.0, 1.0)] {
+            let at = |s: f64| a * s + b * s * s;
+            for s in [0.1, 0.5, 0.9, 1.0] {
+                assert!(
+                    (part(at(s), at(0.5), at(1.0)) - s).abs() < 1e-7,
+                    "{a} {b} {s}"
+                );
+            }
+        }
+        assert_eq!(part(0.0, 0.5, 1.0), 0.0);
+    }
+}
