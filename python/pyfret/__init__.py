@@ -19,8 +19,10 @@ from typing import TYPE_CHECKING, Any
 
 from pyfret import (
     errors,
+    experiments,
     export,
     fatigue,
+    fit,
     fracture,
     heat,
     kernels,
@@ -94,8 +96,10 @@ __all__ = [
     "__version__",
     "cite",
     "errors",
+    "experiments",
     "export",
     "fatigue",
+    "fit",
     "fracture",
     "graded",
     "heat",

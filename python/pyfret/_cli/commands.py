@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from pyfret import verification, wear
 from pyfret._cli import crack, export, life
+from pyfret._cli import export, fit, life, threshold
 from pyfret.citation import cite as sources
 from pyfret.result import open as open_result
 from pyfret.study.file import run_file
@@ -36,6 +37,8 @@ def parser() -> argparse.ArgumentParser:
     life.add_options(commands)
     export.add_options(commands)
     crack.add_options(commands)
+    fit.add_options(commands)
+    threshold.add_options(commands)
     report = commands.add_parser("report", help="write a result as one page for a browser")
     report.add_argument("store", help="result")
     report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
@@ -112,6 +115,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "report": report,
         "verify": verify,
         "cite": cite,
+        "report": report,
+        "verify": verify,
+        "cite": cite,
+        "fit": fit.run,
+        "threshold": threshold.run,
     }
     try:
         return commands[options.command](options)

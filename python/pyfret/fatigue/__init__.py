@@ -10,6 +10,9 @@ in Pa. No contact is needed; ``docs/fatigue.md`` has the equations and their sou
     found.safety_factor.min()
 """
 
+from importlib import import_module
+from typing import Any
+
 from pyfret._util.names import listing
 from pyfret.fatigue.averages import average, critical_distance
 from pyfret.fatigue.criteria import (
@@ -61,4 +64,13 @@ __all__ = [
     "ruiz",
     "to_pylife",
 ]
-__dir__ = listing(__all__)
+#: What solves contacts, and so stands above the criteria.
+SOLVES = ("Averaged", "Limits", "Threshold", "fit_limits", "threshold")
+__dir__ = listing((*__all__, *SOLVES))
+
+
+def __getattr__(name: str) -> Any:
+    """Give what finds thresholds, in :mod:`pyfret.study`."""
+    if name in SOLVES:
+        return getattr(import_module("pyfret.study"), name)
+    raise AttributeError(f"module 'pyfret.fatigue' has no attribute {name!r}")

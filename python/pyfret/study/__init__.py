@@ -14,15 +14,21 @@ from pyfret.study.loads import running_conditions
 from pyfret.study.loop import solve
 from pyfret.study.measures import MEASURES, Cracking, Wear
 from pyfret.study.outcome import Study, open
+from pyfret.study.thresholds import Averaged, Limits, Threshold, fit_limits, threshold
 
 __all__ = [
     "MEASURES",
+    "Averaged",
     "Cracking",
+    "Limits",
     "Study",
+    "Threshold",
     "Wear",
+    "fit_limits",
     "open",
     "running_conditions",
     "solve",
+    "threshold",
     "varied",
 ]
 __dir__ = listing(__all__)

@@ -1,0 +1,95 @@
+"""``fret fit``: unknowns of a scene from a measured table, from the command line."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+from pyfret import fit
+from pyfret.study.design import varied
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_options", "run"]
+
+
+def add_options(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command to a command line."""
+    command = commands.add_parser(
+        "fit", help="find unknowns of a scene (mu, a rig, a coating) from a measured table"
+    )
+    command.add_argument("data", help="table with units in its head, such as delta [um];T [N]")
+    command.add_argument("scene", help="scene file with all that is known")
+    command.add_argument(
+        "--unknown",
+        action="append",
+        required=True,
+        metavar="KEY=LOW:HIGH",
+        help="an unknown by its key, and its range, such as mu=0.1:1.5, rig.stiffness=1e6:1e8",
+    )
+    command.add_argument(
+        "--kind", choices=("loops", "indentation"), default="loops", help="default: loops"
+    )
+    command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
+    command.add_argument("--x", metavar="NAME", help="column of the shift or the approach")
+    command.add_argument("--force", metavar="NAME", help="column of the force")
+    command.add_argument(
+        "--unit", action="append", default=[], metavar="NAME=UNIT", help="unit of a column"
+    )
+    command.add_argument("--json", action="store_true", help="values and confidence as JSON")
+    command.add_argument("-o", "--out", help="figure (.png, .svg, .pdf)")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Fit, and say what came out."""
+    unknown = dict(range_of(text) for text in options.unknown)
+    units = dict(pair(text, "--unit") for text in options.unit)
+    settings = {key: json.loads(value) for key, value in (pair(t, "--set") for t in options.set)}
+    scene = varied(options.scene, settings)
+    data: fit.Loops | fit.Indentation
+    if options.kind == "loops":
+        data = fit.loops(options.data, delta=options.x, T=options.force, units=units)
+    else:
+        data = fit.indentation(options.data, delta_z=options.x, W=options.force, units=units)
+    found = fit.fit(scene, data, unknown=unknown)
+    if options.json:
+        said = {
+            "unknown": {
+                key: {"value": k.value, "low": k.low, "high": k.high, "solver": k.solver}
+                for key, k in found.known.items()
+            },
+            "offsets": found.offsets,
+            "correlation": found.correlation.tolist(),
+            "noise": found.noise,
+            "solves": found.solves,
+            "doubts": found.doubts,
+        }
+        print(json.dumps(said))
+    else:
+        print(found.summary())
+    if options.out:
+        import matplotlib.pyplot as plt
+
+        figure, (above, below) = plt.subplots(2, 1, layout="constrained", figsize=(6.4, 7.2))
+        found.plot(ax=above)
+        found.plot_residuals(ax=below)
+        figure.savefig(options.out)
+    return 0
+
+
+def pair(text: str, option: str) -> tuple[str, str]:
+    """Key and value of ``KEY=VALUE``."""
+    key, equals, value = text.partition("=")
+    if not (key and equals and value):
+        raise ValueError(f"{option} {text}: must be KEY=VALUE")
+    return key, value
+
+
+def range_of(text: str) -> tuple[str, tuple[float, ...]]:
+    """Key and range of ``KEY=LOW:HIGH`` or ``KEY=LOW:START:HIGH``."""
+    key, value = pair(text, "--unknown")
+    try:
+        return key, tuple(float(part) for part in value.split(":"))
+    except ValueError:
+        raise ValueError(f"--unknown {text}: must be KEY=LOW:HIGH") from None

@@ -1,0 +1,85 @@
+"""``fret threshold``: the load at which a fatigue criterion reaches its limit."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from pyfret import fatigue
+from pyfret.study.design import varied
+from pyfret.study.thresholds import Averaged, Threshold, threshold
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_options", "run"]
+
+
+def add_options(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command to a command line."""
+    command = commands.add_parser(
+        "threshold", help="find the load at which a fatigue criterion reaches its limit"
+    )
+    command.add_argument("scene", help="scene file with a closed cycle")
+    command.add_argument(
+        "--parameter",
+        required=True,
+        metavar="KEY[,KEY...]",
+        help="what is searched: a key of the scene file; a key with - before it gets the value "
+        "with the "
+        "other sign, as in path.1.T_x,-path.2.T_x,path.3.T_x",
+    )
+    command.add_argument("--between", required=True, metavar="LOW:HIGH", help="range of the load")
+    command.add_argument("--material", required=True, help="name of the material")
+    command.add_argument("--materials", metavar="FILE", help="table of materials (TOML)")
+    command.add_argument("--criterion", choices=fatigue.CRITERIA, default="crossland")
+    command.add_argument("--value", type=float, default=1.0, help="safety factor or cycles")
+    command.add_argument("--distance", type=float, metavar="L", help="critical distance [m]")
+    command.add_argument(
+        "--method", choices=("point", "line", "area"), default="line", help="default: line"
+    )
+    command.add_argument("--over", metavar="KEY=V,V,...", help="a curve over a second parameter")
+    command.add_argument("--json", action="store_true")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Find the threshold, or the curve, and say it."""
+    material = fatigue.Materials(options.materials)[options.material]
+    measure = Averaged(material, options.criterion, options.distance, options.method)
+    keys = options.parameter.split(",")
+
+    def scene(values: dict[str, Any]) -> Any:
+        load = values.pop(options.parameter)
+        signed = {key.removeprefix("-"): -load if key.startswith("-") else load for key in keys}
+        return varied(options.scene, {**values, **signed, "output.save": "all"})
+
+    low, _, high = options.between.partition(":")
+    over = None
+    if options.over:
+        key, _, values = options.over.partition("=")
+        over = {key: [float(v) for v in values.split(",")]}
+    found = threshold(
+        scene,
+        options.parameter,
+        measure=measure,
+        between=(float(low), float(high)),
+        value=options.value,
+        over=over,
+    )
+    if isinstance(found, Threshold):
+        rows = [{"threshold": found.value, "error": found.error, "solves": found.solves}]
+    else:
+        name = next(iter(over or {}))
+        rows = [
+            {
+                name: float(found[name][n]),
+                "threshold": float(found.threshold[n]),
+                "error": float(found.error[n]),
+                "solves": int(found.solves[n]),
+            }
+            for n in range(found.sizes[name])
+        ]
+    for row in rows:
+        text = ", ".join(f"{k} = {v:.6g}" for k, v in row.items())
+        print(json.dumps(row) if options.json else text)
+    return 0

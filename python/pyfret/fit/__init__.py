@@ -1,0 +1,45 @@
+"""Identification: what a measurement says of mu, a rig, a coating, wear.
+
+``data`` holds measured loops, indentation curves, scars and lives, ``models`` solves what they
+should have been, ``search`` finds the unknowns, ``outcome`` says how well they are known. ::
+
+    loops = fret.fit.loops("loop.csv")
+    found = fret.fit(scene, loops, unknown={"mu": (0.1, 1.5), "rig.stiffness": (1e6, 1e8)})
+    print(found.summary())
+"""
+
+from __future__ import annotations
+
+import sys
+from types import ModuleType
+from typing import Any
+
+from pyfret._util.names import listing
+from pyfret.fit.data import Indentation, Lives, Loops, Scar, indentation, lives, loops, scar
+from pyfret.fit.outcome import Found
+from pyfret.fit.search import fit
+
+__all__ = [
+    "Found",
+    "Indentation",
+    "Lives",
+    "Loops",
+    "Scar",
+    "fit",
+    "indentation",
+    "lives",
+    "loops",
+    "scar",
+]
+__dir__ = listing(__all__)
+
+
+class _Fit(ModuleType):
+    """The module, which is called by what it does: ``fret.fit(...)`` is ``fret.fit.fit(...)``."""
+
+    def __call__(self, *arguments: Any, **keywords: Any) -> Found:
+        """Fit unknowns of a scene to data; see :func:`pyfret.fit.fit`."""
+        return fit(*arguments, **keywords)
+
+
+sys.modules[__name__].__class__ = _Fit

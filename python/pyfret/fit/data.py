@@ -1,0 +1,281 @@
+"""What is measured: friction loops, indentation curves, scars, lives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pyfret.fit import tables
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["Indentation", "Lives", "Loops", "Scar", "indentation", "lives", "loops", "scar"]
+
+#: Part of the range of the shift that a turn has to go back to count as one.
+TURN = 0.3
+
+
+@dataclass(frozen=True)
+class Loops:
+    """Friction loops: force over shift, branch by branch.
+
+    Attributes
+    ----------
+    delta, T : array
+        Shift [m] and force [N] (in a line contact N/m) of all points, in the order of time.
+    down : array of bool
+        Whether the shift falls there.
+    cycle : array of int
+        Number of the cycle of a point, from 0.
+    W : float, optional
+        Normal force [N]; None: that of the scene.
+    noise : float, optional
+        Standard deviation of the force [N]; None: what the fit leaves.
+    drift : (float, float)
+        How much shift [m] and force [N] of the middle of a cycle move from the first to the last.
+    """
+
+    delta: NDArray[np.float64]
+    T: NDArray[np.float64]
+    down: NDArray[np.bool_]
+    cycle: NDArray[np.int64]
+    W: float | None = None
+    noise: float | None = None
+    drift: tuple[float, float] = (0.0, 0.0)
+
+    @staticmethod
+    def of(
+        delta: ArrayLike, T: ArrayLike, *, W: float | None = None, noise: float | None = None
+    ) -> Loops:
+        """Loops of points in the order of time; what is before the first turn is left out.
+
+        Raises
+        ------
+        ValueError
+            There is no closed loop.
+        """
+        shift, force = (np.asarray(v, dtype=float).ravel() for v in (delta, T))
+        if shift.shape != force.shape:
+            raise ValueError(f"{shift.size} shifts and {force.size} forces: must be as many")
+        turns = turning(shift)
+        if len(turns) < 2:
+            raise ValueError(
+                "the shift must turn twice at least: a loop is a way there and a way back"
+            )
+        # One cycle may end where it began without a turn of its own.
+        closed = len(turns) == 2
+        order = np.arange(shift.size) if closed else np.arange(turns[0], turns[-1] + 1)
+        down, cycle = np.zeros(shift.size, bool), np.zeros(shift.size, np.int64)
+        for n, (first, last) in enumerate(pairwise(turns)):
+            down[first : last + 1] = shift[last] < shift[first]
+            cycle[first : last + 1] = n // 2
+        if closed:
+            rest = np.r_[0 : turns[0], turns[1] + 1 : shift.size]
+            down[rest] = shift[turns[1]] > shift[turns[0]]
+        middles = [
+            [
+                0.5 * (v[order][cycle[order] == n].max() + v[order][cycle[order] == n].min())
+                for n in (0, cycle[order].max())
+            ]
+            for v in (shift, force)
+        ]
+        drift = (middles[0][1] - middles[0][0], middles[1][1] - middles[1][0])
+        return Loops(shift[order], force[order], down[order], cycle[order], W, noise, drift)
+
+
+@dataclass(frozen=True)
+class Indentation:
+    """An indentation curve: approach [m] over normal force [N]."""
+
+    W: NDArray[np.float64]
+    delta_z: NDArray[np.float64]
+    noise: float | None = None
+
+    @staticmethod
+    def of(W: ArrayLike, delta_z: ArrayLike, *, noise: float | None = None) -> Indentation:
+        """A curve of points in any order; those without load are left out."""
+        force, approach = (np.asarray(v, dtype=float).ravel() for v in (W, delta_z))
+        loaded = force > 0
+        return Indentation(force[loaded], approach[loaded], noise)
+
+
+@dataclass(frozen=True)
+class Scar:
+    """A worn profile along x: depth [m] of a body, or of both together (``body=0``).
+
+    ``wear`` holds the arguments of the run that made it, such as ``cycles`` and ``body2``.
+    """
+
+    x: NDArray[np.float64]
+    depth: NDArray[np.float64]
+    wear: Mapping[str, Any]
+    body: int = 2
+    noise: float | None = None
+
+    @staticmethod
+    def of(
+        x: ArrayLike,
+        depth: ArrayLike,
+        *,
+        wear: Mapping[str, Any],
+        body: int = 2,
+        noise: float | None = None,
+    ) -> Scar:
+        """A profile of points."""
+        place, worn = (np.asarray(v, dtype=float).ravel() for v in (x, depth))
+        return Scar(place, worn, wear, body, noise)
+
+
+@dataclass(frozen=True)
+class Lives:
+    """Cycles to the end of a coating in several tests.
+
+    Attributes
+    ----------
+    cycles : array
+        Cycles of each test.
+    settings : list of dict
+        What was set in each, by the keys of a scene file.
+    wear : mapping
+        The arguments of the runs.
+    part : float
+        Part of the outermost coating's thickness at which a test has ended.
+    noise : float, optional
+        Standard deviation of ln(cycles).
+    """
+
+    cycles: NDArray[np.float64]
+    settings: Sequence[Mapping[str, Any]]
+    wear: Mapping[str, Any]
+    part: float = 1.0
+    body: int = 2
+    noise: float | None = field(default=None)
+
+
+def loops(
+    path: str | os.PathLike[str],
+    *,
+    delta: str | None = None,
+    T: str | None = None,
+    units: dict[str, str] | None = None,
+    W: float | None = None,
+    noise: float | None = None,
+) -> Loops:
+    """Read friction loops of a file, one after the other, also parted by empty lines.
+
+    Parameters
+    ----------
+    path : path
+        A table with a head, such as ``Weg [µm];Kraft [N]``: any separator, decimal comma or point.
+    delta, T : str, optional
+        Names of the columns of shift and force (default: by their units).
+    units : dict of str to str, optional
+        Units of columns whose head has none.
+    W : float, optional
+        Normal force [N] (default: that of the scene).
+    noise : float, optional
+        Standard deviation of the force [N] (default: what the fit leaves).
+
+    Raises
+    ------
+    ValueError
+        The file is no such table; the message has the line and what is allowed.
+    """
+    table = tables.read(path, units)
+    shift = table.column("length", ("delta", "d_", "weg", "x", "shift", "disp"), delta)
+    force = table.column("force", ("t", "q", "kraft", "f", "force"), T)
+    rows = np.concatenate(table.blocks)
+    return Loops.of(rows[:, shift], rows[:, force], W=W, noise=noise)
+
+
+def indentation(
+    path: str | os.PathLike[str],
+    *,
+    W: str | None = None,
+    delta_z: str | None = None,
+    units: dict[str, str] | None = None,
+    noise: float | None = None,
+) -> Indentation:
+    """Read an indentation curve of a file, as :func:`loops`."""
+    table = tables.read(path, units)
+    force = table.column("force", ("w", "f", "p", "load"), W)
+    approach = table.column("length", ("delta", "h", "z", "depth", "weg"), delta_z)
+    rows = np.concatenate(table.blocks)
+    return Indentation.of(rows[:, force], rows[:, approach], noise=noise)
+
+
+def scar(
+    path: str | os.PathLike[str],
+    *,
+    wear: Mapping[str, Any],
+    body: int = 2,
+    x: str | None = None,
+    depth: str | None = None,
+    units: dict[str, str] | None = None,
+    noise: float | None = None,
+) -> Scar:
+    """Read the profile of a scar of a file, depth downwards positive, as :func:`loops`."""
+    table = tables.read(path, units)
+    place = table.column("length", ("x", "pos"), x)
+    worn = table.column("length", ("depth", "z", "h", "worn", "tiefe"), depth)
+    rows = np.concatenate(table.blocks)
+    return Scar.of(rows[:, place], rows[:, worn], wear=wear, body=body, noise=noise)
+
+
+def lives(
+    path: str | os.PathLike[str],
+    *,
+    wear: Mapping[str, Any],
+    cycles: str = "cycles",
+    part: float = 1.0,
+    body: int = 2,
+    units: dict[str, str] | None = None,
+    noise: float | None = None,
+) -> Lives:
+    """Read lives of a file: a column of cycles, the others named by the keys of a scene file."""
+    table = tables.read(path, units)
+    if cycles not in table.names:
+        raise ValueError(f"{table.place}: has no column {cycles!r}, but {', '.join(table.names)}")
+    rows = np.concatenate(table.blocks)
+    of = table.names.index(cycles)
+    settings = [
+        {
+            name: float(v)
+            for n, (name, v) in enumerate(zip(table.names, row, strict=True))
+            if n != of
+        }
+        for row in rows
+    ]
+    return Lives(rows[:, of], settings, wear, part, body, noise)
+
+
+def turning(delta: NDArray[np.float64]) -> list[int]:
+    """Where a shift turns, by more than a part of its range."""
+    least = TURN * float(np.ptp(delta))
+    turns: list[int] = []
+    if least == 0.0:
+        return turns
+    extreme, way = 0, 0
+    for n, value in enumerate(delta):
+        ahead = value - delta[extreme]
+        if way == 0:
+            if abs(ahead) > least:
+                # The first point is no turn, unless the shift began at one of its ends.
+                if abs(delta[extreme] - 0.5 * (delta.max() + delta.min())) > 0.4 * np.ptp(delta):
+                    turns.append(extreme)
+                way, extreme = int(np.sign(ahead)), n
+        elif way * ahead >= 0:
+            extreme = n
+        elif -way * ahead > least:
+            turns.append(extreme)
+            way, extreme = -way, n
+    if abs(delta[extreme] - 0.5 * (delta.max() + delta.min())) > 0.4 * np.ptp(delta):
+        turns.append(extreme)
+    return turns

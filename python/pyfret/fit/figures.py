@@ -1,0 +1,74 @@
+"""Figures of a fit: measured over computed, and what is left."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret.plot.style import STICK, axes, styled
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from pyfret.fit.models import Model
+
+__all__ = ["curves", "residuals"]
+
+#: Factors and names of the units that the figures show.
+SHOWN = {"[m]": (1e6, "[um]"), "[N]": (1.0, "[N]")}
+
+
+def shown(label: str, values: NDArray[np.float64]) -> tuple[NDArray[np.float64], str]:
+    """Values in the unit of a figure, and its label."""
+    for unit, (factor, name) in SHOWN.items():
+        if label.endswith(unit):
+            return factor * values, label.replace(unit, name)
+    return values, label
+
+
+@styled
+def curves(
+    model: Model,
+    computed: NDArray[np.float64],
+    values: Mapping[str, float],
+    ax: Axes | None = None,
+) -> Axes:
+    """What was measured, as points, and what the values found make of it, as a line."""
+    ax = axes(ax)
+    along, label = shown(model.labels[0], model.along)
+    ax.set_xlabel(label)
+    measured, label = shown(model.labels[1], model.measured)
+    line, _ = shown(model.labels[1], computed)
+    ax.plot(along, measured, ".", color="0.55", markersize=3, label="measured")
+    down = getattr(model.data, "down", None)
+    parts = [np.ones(along.size, bool)] if down is None else [down, ~down]
+    for n, part in enumerate(parts):
+        order = np.argsort(along[part], kind="stable")
+        name = "computed" if n == 0 else None
+        ax.plot(along[part][order], line[part][order], color=STICK, label=name)
+    ax.set_ylabel(label)
+    said = "\n".join(f"{key} = {value:.4g}" for key, value in values.items())
+    ax.legend(title=said, title_fontsize="small", fontsize="small")
+    return ax
+
+
+@styled
+def residuals(model: Model, residual: NDArray[np.float64], ax: Axes | None = None) -> Axes:
+    """Measured less computed; what is left should scatter about zero without a pattern."""
+    ax = axes(ax)
+    along, label = shown(model.labels[0], model.along)
+    ax.set_xlabel(label)
+    left, label = shown(model.labels[1], residual)
+    down = getattr(model.data, "down", None)
+    parts = {"": np.ones(along.size, bool)} if down is None else {"back": down, "forth": ~down}
+    for name, part in parts.items():
+        ax.plot(along[part], left[part], ".", markersize=3, label=name or None)
+    ax.axhline(0.0, color="0.5", linewidth=0.8)
+    ax.set_ylabel(f"measured less computed: {label}")
+    if down is not None:
+        ax.legend(fontsize="small")
+    return ax

@@ -1,0 +1,255 @@
+"""What a measurement should have been: the scene with given unknowns, solved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+
+import numpy as np
+
+from pyfret import wear
+from pyfret._core import LoadPath, OffGridError, Scene
+from pyfret._util.extras import needed
+from pyfret.fit.data import Indentation, Lives, Loops, Scar
+from pyfret.solution import solve
+from pyfret.study.design import varied
+from pyfret.study.point import GROWTHS, grown
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["Data", "Model", "model_of", "wear_arguments"]
+
+Data: TypeAlias = "Loops | Indentation | Scar | Lives"
+T = TypeVar("T")
+Curve: TypeAlias = "Callable[[NDArray[np.float64]], NDArray[np.float64]]"
+
+#: Increments of a way of the loop and of an indentation, where the scene's path says nothing else.
+WAY, INDENTATION = 24, 16
+
+
+@dataclass(frozen=True)
+class Model:
+    """How a kind of data is computed.
+
+    Attributes
+    ----------
+    offsets : tuple of str
+        What of the measurement itself is unknown besides: zeros of its gauges, free of solves.
+    scales : array
+        About the size of each offset.
+    solves : int
+        Solves that one prediction takes.
+    predict : callable
+        What the numbers measured should have been under a scene, given offsets afterwards.
+    measured : array
+        The numbers measured.
+    """
+
+    offsets: tuple[str, ...]
+    scales: NDArray[np.float64]
+    solves: int
+    predict: Callable[
+        [Scene, Mapping[str, float]], Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    ]
+    measured: NDArray[np.float64]
+    noise: float | None
+    data: Data
+    #: Coordinate that the numbers are drawn over, what it is, and what they are.
+    along: NDArray[np.float64]
+    labels: tuple[str, str]
+
+
+def model_of(data: Data) -> Model:
+    """The model of a kind of data."""
+    for kind, make in ((Loops, of_loops), (Indentation, of_indentation), (Scar, of_scar)):
+        if isinstance(data, kind):
+            return make(data)  # type: ignore[arg-type]
+    if isinstance(data, Lives):
+        return of_lives(data)
+    raise TypeError(
+        f"data: must be loops, an indentation, a scar or lives (fret.fit.loops(...)), not {data!r}"
+    )
+
+
+def through(x: NDArray[np.float64], y: NDArray[np.float64]) -> Curve:
+    """A smooth curve through points that does not swing between them, straight beyond its ends."""
+    interpolate = needed("scipy.interpolate", "fit")
+    order = np.argsort(x, kind="stable")
+    x, y = x[order], y[order]
+    fresh = np.r_[True, np.diff(x) > 1e-12 * max(np.ptp(x), 1e-300)]
+    x, y = x[fresh], y[fresh]
+    curve = interpolate.PchipInterpolator(x, y, extrapolate=True)
+    ends = [(x[k], y[k], float(curve(x[k], 1))) for k in (0, -1)]
+
+    def at(where: NDArray[np.float64]) -> NDArray[np.float64]:
+        found = np.asarray(curve(where))
+        (low, y_low, s_low), (high, y_high, s_high) = ends
+        found = np.where(where < low, y_low + s_low * (where - low), found)
+        return np.where(where > high, y_high + s_high * (where - high), found)
+
+    return at
+
+
+def of_loops(data: Loops) -> Model:
+    """Loops: the closed cycle between the ends of the measured shift, under the scene's W."""
+    cycles = range(int(data.cycle.max()) + 1)
+    of_cycle = [data.delta[data.cycle == n] for n in cycles]
+    reach = 0.5 * float(np.median([np.ptp(shift) for shift in of_cycle]))
+    middle = float(np.median([0.5 * (s.max() + s.min()) for s in of_cycle]))
+    force = 0.5 * float(np.median([np.ptp(data.T[data.cycle == n]) for n in cycles]))
+
+    def predict(
+        scene: Scene, _: Mapping[str, float]
+    ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+        W = data.W if data.W is not None else normal_force(scene)
+        path = LoadPath.start().normal(W, increments=1).rig(scene.path.rig_stiffness)
+        for to, ways in ((reach, 0.5), (-reach, 1.0), (reach, 1.0)):
+            path = path.displace(delta_x=to, increments=round(WAY * ways))
+        d = growing(scene, lambda s: solve(s, path, save=[len(path)], progress=False)).dataset
+        branch = d.branch_of_increment.values
+        shift, T = d.delta_x.values, d.T_x.values
+        curves = []
+        for n in (2, 3):
+            first = int(np.flatnonzero(branch == n)[0])
+            ways = np.r_[first - 1, np.flatnonzero(branch == n)]
+            curves.append(through(shift[ways], T[ways]))
+
+        def at(offsets: NDArray[np.float64]) -> NDArray[np.float64]:
+            where = data.delta - middle - offsets[0]
+            down, up = (curve(where) for curve in curves)
+            return np.asarray(np.where(data.down, down, up) + offsets[1])
+
+        return at
+
+    scales = np.array([reach, force])
+    offsets = ("offset of the shift [m]", "offset of the force [N]")
+    labels = ("shift [m]", "force [N]")
+    return Model(offsets, scales, 1, predict, data.T, data.noise, data, data.delta, labels)
+
+
+def of_indentation(data: Indentation) -> Model:
+    """An indentation curve: the approach at the measured forces."""
+    most = float(data.W.max())
+
+    def predict(
+        scene: Scene, _: Mapping[str, float]
+    ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+        path = LoadPath.start()
+        steps = np.linspace(0, 1, INDENTATION + 1)[1:] ** 1.5
+        for part in steps:
+            path = path.normal(most * float(part), increments=1)
+        d = growing(scene, lambda s: solve(s, path, save=[len(path)], progress=False)).dataset
+        # Over W^(2/3) the curve of a homogeneous sphere is straight.
+        curve = through(np.r_[0.0, d.W.values] ** (2 / 3), np.r_[0.0, d.delta_z.values])
+        found = curve(data.W ** (2 / 3))
+        return lambda offsets: found + offsets[0]
+
+    scales = np.array([float(np.ptp(data.delta_z))])
+    labels = ("normal force [N]", "approach [m]")
+    offsets = ("offset of the approach [m]",)
+    return Model(offsets, scales, 1, predict, data.delta_z, data.noise, data, data.W, labels)
+
+
+def of_scar(data: Scar) -> Model:
+    """A scar: the worn depth along x at the end of a run of wear."""
+    half = float(np.ptp(data.x[data.depth > 0.1 * data.depth.max()])) / 2
+
+    def predict(
+        scene: Scene, values: Mapping[str, float]
+    ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+        arguments = wear_arguments(data.wear, values)
+        d = growing(scene, lambda s: wear.solve(s, progress=False, **arguments)).dataset
+        fields = {1: d.worn1, 2: d.worn2, 0: d.worn1 + d.worn2}
+        profile = fields[data.body][-1].sel(y=0.0, method="nearest")
+        x, depth = d.x.values, profile.values
+
+        def at(offsets: NDArray[np.float64]) -> NDArray[np.float64]:
+            return np.asarray(np.interp(data.x - offsets[0], x, depth, left=0.0, right=0.0))
+
+        return at
+
+    labels = ("x [m]", "worn depth [m]")
+    offsets = ("offset of x [m]",)
+    return Model(
+        offsets, np.array([half]), 1, predict, data.depth, data.noise, data, data.x, labels
+    )
+
+
+def of_lives(data: Lives) -> Model:
+    """Lives: ln of the cycles to a part of the thickness in each test."""
+
+    def predict(
+        scene: Scene, values: Mapping[str, float]
+    ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+        found = []
+        for n, settings in enumerate(data.settings):
+            arguments = wear_arguments(data.wear, {**values, **split(settings)[1]})
+            arguments.setdefault("cycles", 4 * float(data.cycles[n]))
+            worn = wear.solve(varied(scene, split(settings)[0]), progress=False, **arguments)
+            cycles = worn.cycles_to(part_of_coating=data.part, body=data.body)
+            # A coating that outlives the run by far counts as one that lives four times as long.
+            found.append(min(cycles, 4 * float(data.cycles[n])))
+        logs = np.log(found)
+        return lambda offsets: logs
+
+    labels = ("test", "ln of the cycles")
+    count = len(data.cycles)
+    return Model(
+        (),
+        np.zeros(0),
+        count,
+        predict,
+        np.log(data.cycles),
+        data.noise,
+        data,
+        np.arange(count, dtype=float),
+        labels,
+    )
+
+
+def growing(scene: Scene, run: Callable[[Scene], T]) -> T:
+    """Run a scene on a grid that grows where the contact leaves it."""
+    for _ in range(GROWTHS):
+        try:
+            return run(scene)
+        except OffGridError:
+            scene = scene.replace(grid=grown(scene.grid))
+    return run(scene)
+
+
+def normal_force(scene: Scene) -> float:
+    """The largest normal force of the scene's path [N]."""
+    W = max((float(branch.W or 0.0) for branch in scene.path.branches), default=0.0)
+    if not W > 0:
+        raise ValueError("W: no normal force in the path of the scene: give that of the loops, W=")
+    return W
+
+
+def split(settings: Mapping[str, float]) -> tuple[dict[str, float], dict[str, float]]:
+    """Values by the keys of a scene, and those of its wear."""
+    of_wear = {key: v for key, v in settings.items() if key.startswith("wear.")}
+    return {key: v for key, v in settings.items() if key not in of_wear}, of_wear
+
+
+def wear_arguments(given: Mapping[str, Any], values: Mapping[str, float]) -> dict[str, Any]:
+    """The arguments of a run of wear with values such as ``wear.body2.alpha`` put in."""
+    arguments = dict(given)
+    for key, value in split(values)[1].items():
+        name, _, rest = key.removeprefix("wear.").partition(".")
+        if name in ("body1", "body2") and rest in ("k", "alpha", "threshold"):
+            law = arguments.get(name)
+            if isinstance(law, wear.Archard | wear.DissipatedEnergy) and hasattr(law, rest):
+                arguments[name] = law.replace(**{rest: value})
+            else:
+                arguments[name] = {"k": wear.Archard, "alpha": wear.DissipatedEnergy}[rest](value)
+        elif name in ("body1", "body2") and rest == "share":
+            arguments[f"share{name[-1]}"] = value
+        elif not rest:
+            arguments[name] = value
+        else:
+            raise ValueError(
+                f"{key}: must be wear.body1.k, wear.body2.alpha, wear.debris_kept, ..."
+            )
+    return arguments

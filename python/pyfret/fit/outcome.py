@@ -1,0 +1,160 @@
+"""What a fit has found, how well it knows it, and what it cannot tell."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from pyfret._core import Scene
+    from pyfret.fit.models import Model
+
+__all__ = ["Found", "Known"]
+
+#: Correlation from which two unknowns count as not told apart.
+ALIKE = 0.97
+#: Factor between the ends of an interval from which an unknown counts as not resolved.
+UNRESOLVED = 4.0
+
+
+@dataclass(frozen=True)
+class Known:
+    """An unknown that is known now.
+
+    Attributes
+    ----------
+    value, low, high : float
+        Best value, and the ends of its 95 % confidence interval.
+    noise, solver : float
+        Parts of the half-width: scatter of the data, and what the grid leaves.
+    at_bound : bool
+        Whether the best value lies at the end of what was allowed.
+    """
+
+    value: float
+    low: float
+    high: float
+    noise: float
+    solver: float
+    at_bound: bool
+
+
+@dataclass(frozen=True)
+class Found:
+    """The unknowns of a scene as data tell them.
+
+    Attributes
+    ----------
+    known : dict of str to Known
+        Values with 95 % confidence by the keys of the unknowns.
+    offsets : dict of str to float
+        Zeros of the gauges.
+    correlation : array
+        Correlation of the unknowns, in their order.
+    residual : list of array
+        Measured less computed, of each set of data.
+    noise : list of float
+        Root mean square of the residuals.
+    solves : int
+        Contacts solved.
+    converged : bool
+        Whether the search ended by itself.
+    scene : Scene
+        The scene with the values found.
+    """
+
+    known: dict[str, Known]
+    offsets: dict[str, float]
+    correlation: NDArray[np.float64]
+    residual: list[NDArray[np.float64]]
+    computed: list[NDArray[np.float64]]
+    models: list[Model]
+    noise: list[float]
+    solves: int
+    converged: bool
+    scene: Scene
+
+    def __getitem__(self, key: str) -> float:
+        """The value of an unknown."""
+        return self.known[key].value
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Values of the unknowns."""
+        return {key: known.value for key, known in self.known.items()}
+
+    def plot(self, *, data: int = 0, ax: Axes | None = None) -> Axes:
+        """Draw what was measured, and what the values found make of it."""
+        from pyfret.fit.figures import curves
+
+        return curves(self.models[data], self.computed[data], self.values, ax)
+
+    def plot_residuals(self, *, data: int = 0, ax: Axes | None = None) -> Axes:
+        """Draw measured less computed; it should scatter about zero without a pattern."""
+        from pyfret.fit.figures import residuals
+
+        return residuals(self.models[data], self.residual[data], ax)
+
+    @property
+    def doubts(self) -> list[str]:
+        """What these data cannot tell, in words."""
+        said = []
+        keys = list(self.known)
+        for (i, one), (j, two) in combinations(enumerate(keys), 2):
+            r = float(self.correlation[i, j])
+            if abs(r) > ALIKE:
+                said.append(
+                    f"{one} and {two} cannot be told apart from these data (correlation {r:+.3f}): "
+                    "fix one of them, or measure what changes only one"
+                )
+        for key, known in self.known.items():
+            if known.at_bound:
+                said.append(f"{key} ended at a bound of its range: widen it, or fix {key}")
+            elif (
+                known.low <= 0 < known.value or known.high > UNRESOLVED * max(known.low, 1e-300) > 0
+            ):
+                said.append(
+                    f"{key} is not resolved by these data: {known.low:.3g} to {known.high:.3g}"
+                )
+        if not self.converged:
+            said.append(f"the search did not settle in {self.solves} solves")
+        for n, model in enumerate(self.models):
+            drift = getattr(model.data, "drift", None)
+            if drift is not None and abs(drift[1]) > 2 * self.noise[n]:
+                said.append(
+                    f"the middle of the loops drifts by {drift[0]:.2g} m and {drift[1]:.2g} N "
+                    "from the "
+                    "first to the last"
+                )
+        return said
+
+    def summary(self) -> str:
+        """Values, confidence, offsets, and what cannot be told, as text."""
+        width = max(map(len, self.known))
+        lines = [
+            f"{'unknown':{width}}  {'value':>11}  95 % confidence          of noise, of solver"
+        ]
+        for key, k in self.known.items():
+            lines.append(
+                f"{key:{width}}  {k.value:11.5g}  {k.low:10.4g} to {k.high:10.4g}  "
+                f"{k.noise:9.2g}, {k.solver:9.2g}"
+            )
+        lines += [f"{name}: {value:.3g}" for name, value in self.offsets.items()]
+        for model, noise in zip(self.models, self.noise, strict=True):
+            part = noise / float(np.ptp(model.measured)) if np.ptp(model.measured) else 0.0
+            lines.append(f"residual of {model.labels[1]}: {noise:.3g}, {part:.1%} of its range")
+        lines.append(f"{self.solves} solves")
+        return "\n".join(lines + self.doubts)
+
+    def __repr__(self) -> str:
+        """Tell the values."""
+        values = ", ".join(
+            f"{key} = {k.value:.4g} [{k.low:.4g}, {k.high:.4g}]" for key, k in self.known.items()
+        )
+        return f"Found({values}; {self.solves} solves)"

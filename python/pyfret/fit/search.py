@@ -1,0 +1,330 @@
+"""The search for the unknowns: least squares over solved contacts.
+
+Every evaluation is a solve, so the Jacobian takes one for each unknown, solved side by side. The
+offsets of gauges are unknowns as well, but cost none. The step of the differences is far above
+what the solver's tolerance leaves of a prediction. At the end the scene is solved once more on
+cells twice as wide; what that moves the unknowns, to first order, is the solver's part of the
+confidence.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pyfret._core import Grid, Scene
+from pyfret._util.extras import needed
+from pyfret.fit.models import Data, Model, model_of, split
+from pyfret.fit.outcome import Found, Known
+from pyfret.study.design import varied
+
+if TYPE_CHECKING:
+    import os
+
+    from numpy.typing import NDArray
+
+__all__ = ["fit"]
+
+#: Step of the differences, of ln of an unknown or of its range.
+STEP = 0.02
+#: Steps of the search, each a solve and one more for each unknown.
+MOST = 14
+#: Noise of data that tell none, over their range, to weigh sets of data against one another.
+NOISE = 0.02
+
+
+def fit(
+    scene: Scene | str | os.PathLike[str],
+    data: Data | Sequence[Data],
+    *,
+    unknown: Mapping[str, tuple[float, ...]],
+    workers: int = 2,
+) -> Found:
+    """Find unknowns of a scene from what was measured.
+
+    Parameters
+    ----------
+    scene : Scene or path
+        The contact with all that is known; its path says the normal force of loops.
+    data : Loops, Indentation, Scar, Lives, or list of these
+        What was measured.
+    unknown : mapping of str to (low, high) or (low, start, high)
+        Ranges by the keys of a scene file, such as ``"mu"``, ``"rig.stiffness"``,
+        ``"body2.coatings.0.E"``, ``"body2.coatings.0.thickness"``, ``"body1.shape.sphere.R"``, and
+        of its wear, ``"wear.body2.alpha"``, ``"wear.debris_kept"``. Positive ranges are searched
+        by their logarithm.
+    workers : int
+        Contacts solved side by side.
+
+    Returns
+    -------
+    Found
+        Values, their 95 % confidence, what cannot be told apart; :meth:`Found.summary`.
+
+    Raises
+    ------
+    ValueError
+        There is no unknown, or a range has no meaning.
+    ModuleNotFoundError
+        ``scipy`` is not installed: ``pip install "fretting[fit]"``.
+
+    Examples
+    --------
+    >>> loops = pyfret.fit.loops("loop.csv")  # doctest: +SKIP
+    >>> fit("scene.toml", loops, unknown={"mu": (0.1, 1.5)})  # doctest: +SKIP
+    """
+    optimize = needed("scipy.optimize", "fit")
+    if not isinstance(scene, Scene):
+        scene = Scene.from_file(scene)
+    sets: list[Data] = list(data) if isinstance(data, Sequence) else [data]
+    search = Search(scene, [model_of(one) for one in sets], ranges(unknown), workers)
+    with warnings.catch_warnings():
+        # Scenes on the way may be odd; that of the end is told of by who solves it.
+        warnings.simplefilter("ignore")
+        found = optimize.least_squares(
+            search.residual,
+            search.start(),
+            jac=search.jacobian,
+            bounds=search.bounds(),
+            x_scale=1.0,
+            xtol=1e-4,
+            ftol=1e-7,
+            gtol=1e-9,
+            max_nfev=MOST,
+        )
+        return search.outcome(np.asarray(found.x), converged=bool(found.status > 0))
+
+
+@dataclass(frozen=True)
+class Range:
+    """Where an unknown is searched: u from 0 to 1 between its ends, by the logarithm if so."""
+
+    key: str
+    low: float
+    start: float
+    high: float
+
+    @property
+    def by_log(self) -> bool:
+        """Whether the logarithm is searched."""
+        return self.low > 0 and self.high / self.low > 1.5
+
+    @property
+    def width(self) -> float:
+        """Length of the range, in what is searched."""
+        return float(np.log(self.high / self.low)) if self.by_log else self.high - self.low
+
+    @property
+    def step(self) -> float:
+        """Step of a difference, in u."""
+        return STEP / self.width if self.by_log else STEP
+
+    def value(self, u: float) -> float:
+        """The unknown at u."""
+        if self.by_log:
+            return float(self.low * np.exp(u * self.width))
+        return float(self.low + u * self.width)
+
+    def at(self, value: float) -> float:
+        """Where a value lies."""
+        way = np.log(value / self.low) if self.by_log else value - self.low
+        return float(way / self.width)
+
+
+def ranges(unknown: Mapping[str, tuple[float, ...]]) -> list[Range]:
+    """The ranges of the unknowns, checked."""
+    if not unknown:
+        raise ValueError('unknown: none, give some, such as {"mu": (0.1, 1.5)}')
+    found = []
+    for key, given in unknown.items():
+        ends = tuple(float(v) for v in given)
+        if len(ends) == 2:
+            low, high = ends
+            middle = np.sqrt(low * high) if low > 0 else 0.5 * (low + high)
+            ends = (low, float(middle), high)
+        if len(ends) != 3 or not ends[0] <= ends[1] <= ends[2] or not ends[0] < ends[2]:
+            raise ValueError(f"unknown: {key} = {given}: must be (low, high) or (low, start, high)")
+        found.append(Range(key, *ends))
+    return found
+
+
+@dataclass
+class Search:
+    """Residuals and their derivatives, each contact solved once."""
+
+    scene: Scene
+    models: list[Model]
+    ranges: list[Range]
+    workers: int
+    solves: int = 0
+    known: dict[tuple[float, ...], list[Any]] = field(default_factory=dict)
+
+    def start(self) -> NDArray[np.float64]:
+        """The first guess: unknowns, then offsets over their scales."""
+        first = [min(max(r.at(r.start), 1e-3), 1 - 1e-3) for r in self.ranges]
+        return np.concatenate([first, np.zeros(self.gauges)])
+
+    @property
+    def gauges(self) -> int:
+        """Number of offsets."""
+        return sum(len(model.offsets) for model in self.models)
+
+    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Ends of what is searched."""
+        n = len(self.ranges)
+        low = np.r_[np.zeros(n), np.full(self.gauges, -1.0)]
+        return low, np.r_[np.ones(n), np.full(self.gauges, 1.0)]
+
+    def values(self, u: Sequence[float] | NDArray[np.float64]) -> dict[str, float]:
+        """Values of the unknowns."""
+        return {r.key: r.value(float(x)) for r, x in zip(self.ranges, u, strict=False)}
+
+    def predictions(self, scene: Scene, u: tuple[float, ...]) -> list[Any]:
+        """Solve all models."""
+        values = self.values(u)
+        of_scene, _ = split(values)
+        changed = varied(scene, of_scene) if of_scene else scene
+        return [model.predict(changed, values) for model in self.models]
+
+    def solved(self, points: list[tuple[float, ...]]) -> None:
+        """Solve at points that are not known yet, side by side."""
+        fresh = [u for u in dict.fromkeys(points) if u not in self.known]
+        if not fresh:
+            return
+        with ThreadPoolExecutor(max(self.workers, 1)) as pool:
+            done = list(pool.map(lambda u: self.predictions(self.scene, u), fresh))
+        self.solves += len(fresh) * sum(model.solves for model in self.models)
+        self.known |= dict(zip(fresh, done, strict=True))
+
+    def weights(self) -> list[float]:
+        """Noise that each set of data is divided by."""
+        return [
+            model.noise
+            if model.noise is not None
+            else NOISE * max(float(np.ptp(model.measured)), 1e-300)
+            for model in self.models
+        ]
+
+    def computed(
+        self, predictions: list[Any], gauges: NDArray[np.float64]
+    ) -> list[NDArray[np.float64]]:
+        """What should have been measured."""
+        found, first = [], 0
+        for model, predict in zip(self.models, predictions, strict=True):
+            offsets = gauges[first : first + len(model.offsets)] * model.scales
+            first += len(model.offsets)
+            found.append(predict(offsets))
+        return found
+
+    def weighted(self, predictions: list[Any], gauges: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Computed over noise, all data in a row."""
+        parts = zip(self.computed(predictions, gauges), self.weights(), strict=True)
+        return np.concatenate([part / noise for part, noise in parts])
+
+    def parted(self, x: NDArray[np.float64]) -> tuple[tuple[float, ...], NDArray[np.float64]]:
+        """Unknowns and offsets."""
+        n = len(self.ranges)
+        return tuple(float(u) for u in x[:n]), x[n:]
+
+    def residual(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Computed less measured, over noise."""
+        u, gauges = self.parted(x)
+        self.solved([u])
+        measured = [m.measured / w for m, w in zip(self.models, self.weights(), strict=True)]
+        return self.weighted(self.known[u], gauges) - np.concatenate(measured)
+
+    def jacobian(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Derivatives of the residual, by differences."""
+        u, gauges = self.parted(x)
+        stepped = []
+        for k, r in enumerate(self.ranges):
+            step = r.step if u[k] + r.step <= 1 else -r.step
+            stepped.append((*u[:k], u[k] + step, *u[k + 1 :]))
+        self.solved([u, *stepped])
+        here = self.weighted(self.known[u], gauges)
+        columns = [
+            (self.weighted(self.known[to], gauges) - here) / (to[k] - u[k])
+            for k, to in enumerate(stepped)
+        ]
+        for g in range(self.gauges):
+            aside = np.zeros(self.gauges)
+            aside[g] = 1e-4
+            ahead = self.weighted(self.known[u], gauges + aside)
+            behind = self.weighted(self.known[u], gauges - aside)
+            columns.append((ahead - behind) / 2e-4)
+        return np.stack(columns, axis=1)
+
+    def outcome(self, x: NDArray[np.float64], *, converged: bool) -> Found:
+        """Values, confidence and correlation at the end."""
+        stats = needed("scipy.stats", "fit")
+        u, gauges = self.parted(x)
+        n = len(self.ranges)
+        residual, jacobian = self.residual(x), self.jacobian(x)
+        degrees = max(residual.size - x.size, 1)
+        left = float(residual @ residual) / degrees
+        if all(model.noise is not None for model in self.models):
+            left = max(left, 1.0)
+        scale = np.linalg.norm(jacobian, axis=0)
+        scale[scale == 0] = 1.0
+        inverse = np.linalg.pinv(jacobian / scale, rcond=1e-9)
+        covariance = left * (inverse @ inverse.T) / np.outer(scale, scale)
+        spread = np.sqrt(np.diag(covariance))
+        safe = np.where(spread > 0, spread, 1.0)
+        correlation = covariance[:n, :n] / np.outer(safe[:n], safe[:n])
+        half = float(stats.t.ppf(0.975, degrees)) * spread[:n]
+        moved = np.abs((inverse.T / scale).T[:n] @ self.grid_error(u, gauges))
+        known = {}
+        for k, r in enumerate(self.ranges):
+            value = r.value(u[k])
+            low, high = (r.value(u[k] + sign * (half[k] + moved[k])) for sign in (-1, 1))
+            slope = value * r.width if r.by_log else r.width
+            known[r.key] = Known(
+                value,
+                low,
+                high,
+                slope * half[k],
+                slope * moved[k],
+                bool(min(u[k], 1 - u[k]) < 2e-3),
+            )
+        names = [name for model in self.models for name in model.offsets]
+        scales = [float(s) for model in self.models for s in model.scales]
+        offsets = [float(g) * s for g, s in zip(gauges, scales, strict=True)]
+        computed = self.computed(self.known[u], gauges)
+        rest = [m.measured - c for m, c in zip(self.models, computed, strict=True)]
+        values = split(self.values(u))[0]
+        return Found(
+            known=known,
+            offsets=dict(zip(names, offsets, strict=True)),
+            correlation=correlation,
+            residual=rest,
+            computed=computed,
+            models=self.models,
+            noise=[float(np.sqrt(np.mean(r**2))) for r in rest],
+            solves=self.solves,
+            converged=converged,
+            scene=varied(self.scene, values) if values else self.scene,
+        )
+
+    def grid_error(self, u: tuple[float, ...], gauges: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Change of what is computed on cells twice as wide: more than the grid itself leaves."""
+        coarse = self.scene.replace(grid=coarser(self.scene.grid))
+        try:
+            predictions = self.predictions(coarse, u)
+        except Exception:
+            # On cells that are too wide for the contact there is no telling.
+            return np.zeros_like(self.weighted(self.known[u], gauges))
+        self.solves += sum(model.solves for model in self.models)
+        return self.weighted(predictions, gauges) - self.weighted(self.known[u], gauges)
+
+
+def coarser(grid: Grid) -> Grid:
+    """The same place in cells twice as wide."""
+    nx = max(grid.nx // 2, 1)
+    ny = grid.ny if grid.plane_strain else max(grid.ny // 2, 1)
+    dx, dy = grid.dx * grid.nx / nx, grid.dy * grid.ny / ny
+    return grid.replace(nx=nx, ny=ny, dx=dx, dy=dy)

@@ -1,0 +1,167 @@
+"""Tables as rigs and profilers write them: any separator, decimal comma, units in the head."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import os
+
+    from numpy.typing import NDArray
+
+__all__ = ["UNITS", "Table", "read"]
+
+#: Units of the columns of a table: what they measure, and how much of SI.
+UNITS: dict[str, tuple[str, float]] = {
+    "m": ("length", 1.0),
+    "mm": ("length", 1e-3),
+    "um": ("length", 1e-6),
+    "µm": ("length", 1e-6),
+    "μm": ("length", 1e-6),
+    "micron": ("length", 1e-6),
+    "nm": ("length", 1e-9),
+    "N": ("force", 1.0),
+    "mN": ("force", 1e-3),
+    "kN": ("force", 1e3),
+    "N/m": ("force", 1.0),
+    "N/mm": ("force", 1e3),
+    "s": ("time", 1.0),
+    "ms": ("time", 1e-3),
+    "1": ("number", 1.0),
+    "-": ("number", 1.0),
+    "cycles": ("number", 1.0),
+    "Pa": ("pressure", 1.0),
+    "MPa": ("pressure", 1e6),
+    "GPa": ("pressure", 1e9),
+}
+#: A unit at the end of a head: ``[um]``, ``(um)``, ``/ um`` or ``_um``.
+UNIT = re.compile(r"^(.*?)\s*(?:\[([^\]]*)\]|\(([^)]*)\)|/\s*(\S+)|_([^_\s]+))\s*$")
+NUMBER = re.compile(r"^[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$")
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns in SI units, in blocks that empty lines part."""
+
+    place: str
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    blocks: tuple[NDArray[np.float64], ...]
+
+    def column(self, kind: str, names: tuple[str, ...], given: str | None) -> int:
+        """Which column measures that: the one of a name that is given, or the only one so named."""
+        if given is not None:
+            if given not in self.names:
+                raise ValueError(
+                    f"{self.place}: has no column {given!r}, but {', '.join(self.names)}"
+                )
+            return self.names.index(given)
+        of_kind = [n for n, unit in enumerate(self.units) if UNITS.get(unit, ("", 0))[0] == kind]
+        if len(of_kind) > 1:
+            named = [n for n in of_kind if self.names[n].lower().startswith(names)]
+            of_kind = named or of_kind
+        if len(of_kind) == 1:
+            return of_kind[0]
+        heads = ", ".join(f"{n} [{u}]" for n, u in zip(self.names, self.units, strict=True))
+        what = "no column" if not of_kind else "more than one column"
+        raise ValueError(
+            f"{self.place}: {what} with a unit of {kind} ({heads}): name the column, or write its "
+            "unit into the head, as in delta [um];T [N]"
+        )
+
+
+def read(path: str | os.PathLike[str], units: dict[str, str] | None = None) -> Table:
+    """Read a table.
+
+    Parameters
+    ----------
+    path : path
+        Text with a head of names; lines that begin with ``#`` or ``%`` are left out.
+    units : dict of str to str, optional
+        Units of columns whose head names none.
+
+    Raises
+    ------
+    ValueError
+        There is no head, a number cannot be read, or a unit is unknown; the message has the line.
+    """
+    place = Path(path)
+    lines = place.read_text(encoding="utf-8-sig", errors="replace").splitlines()
+    kept = [(n, line.strip()) for n, line in enumerate(lines, 1) if not line.startswith(("#", "%"))]
+    filled = [line for _, line in kept if line]
+    if len(filled) < 2:
+        raise ValueError(f"{place}: must be a head and rows of numbers")
+    separator = parting(filled)
+    heads = cells(filled[0], separator)
+    if all(NUMBER.match(head) for head in heads):
+        raise ValueError(
+            f"{place}:1: the first line must name the columns and their units, as in "
+            "delta [um];T [N]"
+        )
+    parted = [named(head, units or {}) for head in heads]
+    for name, unit in parted:
+        if unit and unit not in UNITS:
+            raise ValueError(f"{place}:1: {name}: unit {unit!r}: must be one of {', '.join(UNITS)}")
+    factors = np.array([UNITS[unit][1] if unit else 1.0 for _, unit in parted])
+    blocks: list[list[list[float]]] = [[]]
+    begun = False
+    for n, line in kept:
+        if not line:
+            if blocks[-1]:
+                blocks.append([])
+            continue
+        if not begun:
+            begun = True
+            continue
+        row = cells(line, separator)
+        if row == heads:
+            continue
+        if len(row) != len(heads):
+            raise ValueError(f"{place}:{n}: {len(row)} numbers, where the head has {len(heads)}")
+        try:
+            blocks[-1].append([float(cell.replace(",", ".")) for cell in row])
+        except ValueError:
+            raise ValueError(f"{place}:{n}: must be numbers: {line}") from None
+    arrays = tuple(np.array(block) * factors for block in blocks if block)
+    if not arrays:
+        raise ValueError(f"{place}: has no rows")
+    if not all(np.isfinite(block).all() for block in arrays):
+        raise ValueError(f"{place}: has numbers that are not finite")
+    names = tuple(name for name, _ in parted)
+    return Table(str(place), names, tuple(unit for _, unit in parted), arrays)
+
+
+def parting(lines: list[str]) -> str | None:
+    """What parts the columns; None for blanks. A comma parts only where nothing else does."""
+    for separator in (";", "\t"):
+        if all(separator in line for line in lines[:20]):
+            return separator
+    rows = [line.split() for line in lines[1:20]]
+    if all(len(row) > 1 and all(NUMBER.match(cell) for cell in row) for row in rows):
+        return None
+    return ","
+
+
+def cells(line: str, separator: str | None) -> list[str]:
+    """The cells of a line, without quotes."""
+    parts = re.split(r"\s+(?![\[(/])", line) if separator is None else line.split(separator)
+    return [cell.strip().strip('"') for cell in parts]
+
+
+def named(head: str, units: dict[str, str]) -> tuple[str, str]:
+    """The name and the unit of a column."""
+    if head in units:
+        return head, units[head]
+    found = UNIT.match(head)
+    if not found:
+        return head, ""
+    unit = next((u for u in found.groups()[1:] if u is not None), "").strip()
+    if found.group(5) is not None and unit not in UNITS:
+        return head, ""
+    name = found.group(1).strip()
+    return name, units.get(name, unit)

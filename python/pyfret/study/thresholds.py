@@ -1,0 +1,388 @@
+"""Thresholds: the load at which a criterion, a life or a yield factor reaches a value.
+
+A margin goes about as a power of the load, so its logarithm over that of the load is nearly
+straight, and few solves bracket the threshold.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from pyfret._core import Grid, Scene
+from pyfret._util.extras import needed
+from pyfret._util.lazy import xr
+from pyfret.fatigue.averages import average
+from pyfret.fatigue.criteria import Material
+from pyfret.solution import solve
+from pyfret.study.design import varied
+
+if TYPE_CHECKING:
+    import os
+
+    from numpy.typing import NDArray
+
+    from pyfret.fatigue.averages import Averaging
+    from pyfret.fatigue.criteria import CriterionName
+
+__all__ = ["Averaged", "Limits", "Threshold", "fit_limits", "threshold"]
+
+#: A scene, its file, or a function that makes one of the value of the parameters.
+Source: TypeAlias = "Scene | str | os.PathLike[str] | Callable[[dict[str, Any]], Scene]"
+#: Most solves of a threshold.
+MOST = 24
+
+
+@dataclass(frozen=True)
+class Averaged:
+    """A measure: the smallest margin of a criterion on the stress averaged over a distance.
+
+    Parameters
+    ----------
+    material : Material
+        What is judged, with its limits.
+    criterion : str
+        One of :data:`pyfret.fatigue.CRITERIA`.
+    L : float, optional
+        Critical distance [m] (default: that of the material).
+    method : "point", "line", "area" or "volume"
+        As in :func:`pyfret.fatigue.average`.
+    body_number : 1 or 2
+        The body.
+    """
+
+    material: Material
+    criterion: CriterionName = "crossland"
+    L: float | None = None
+    method: Averaging = "line"
+    body_number: int = 2
+
+    def __call__(self, result: Any) -> float:
+        """The margin of a result: safety factor or life, the smallest along the surface."""
+        y = 0.0 if result.dataset.y.size > 1 else float(result.dataset.y[0])
+        found = average(
+            result,
+            self.material,
+            self.criterion,
+            L=self.L,
+            method=self.method,
+            y=y,
+            body_number=self.body_number,
+        )
+        margin = found.life if "life" in found else found.safety_factor
+        return float(margin.min())
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """A load at which a measure reaches its value.
+
+    Attributes
+    ----------
+    value : float
+        The threshold; infinite or zero where the measure does not get there within the range.
+    error : float
+        Half of the bracket, and what cells twice as wide move it by.
+    solves : int
+        Contacts solved.
+    path : list of (float, float)
+        Loads tried and what was measured.
+    """
+
+    value: float
+    error: float
+    solves: int
+    path: list[tuple[float, float]] = field(repr=False)
+
+    def __float__(self) -> float:
+        """The threshold."""
+        return self.value
+
+
+def threshold(
+    scene: Source,
+    parameter: str,
+    *,
+    measure: Callable[[Any], float],
+    between: tuple[float, float],
+    value: float = 1.0,
+    over: Mapping[str, Sequence[float]] | None = None,
+    tolerance: float = 5e-3,
+    error: bool = True,
+) -> Threshold | xr.Dataset:
+    """Find the load at which a measure reaches a value.
+
+    Parameters
+    ----------
+    scene : Scene, path or callable
+        The contact with its path, its file, or a function that makes the scene of a ``dict`` of
+        values, as in :func:`pyfret.study.solve`.
+    parameter : str
+        What is searched: a key of the scene file such as ``"path.1.T_x"``, or a name of your own
+        where `scene` is a function.
+    measure : callable
+        A function of the :class:`pyfret.Result` that grows or falls with the parameter, such as
+        :class:`Averaged` (a safety factor or a life).
+    between : (float, float)
+        Range that is searched, above 0.
+    value : float
+        What the measure is to be (default 1).
+    over : mapping of str to list, optional
+        A curve over other parameters: every combination of their values.
+    tolerance : float
+        Width of the bracket at the end, over the threshold.
+    error : bool
+        Whether to solve once more on cells twice as wide, for the error.
+
+    Returns
+    -------
+    Threshold, or Dataset over the other parameters
+        ``threshold``, its ``error`` and the number of ``solves``.
+
+    Raises
+    ------
+    ValueError
+        The measure is on one side of its value within the whole range; the message says on which.
+    """
+    if over is None:
+        return one(scene, parameter, measure, between, value, {}, tolerance, error=error)
+    names = list(over)
+    shape = [len(over[name]) for name in names]
+    found = [
+        one(
+            scene,
+            parameter,
+            measure,
+            between,
+            value,
+            dict(zip(names, point, strict=True)),
+            tolerance,
+            error=error,
+        )
+        for point in product(*over.values())
+    ]
+    fields = {
+        "threshold": np.reshape([f.value for f in found], shape),
+        "error": np.reshape([f.error for f in found], shape),
+        "solves": np.reshape([f.solves for f in found], shape),
+    }
+    return xr.Dataset(
+        {name: (names, values) for name, values in fields.items()},
+        coords={name: np.asarray(over[name], dtype=float) for name in names},
+        attrs={"parameter": parameter, "value": value},
+    )
+
+
+def one(
+    source: Source,
+    parameter: str,
+    measure: Callable[[Any], float],
+    between: tuple[float, float],
+    value: float,
+    others: Mapping[str, float],
+    tolerance: float,
+    *,
+    error: bool,
+) -> Threshold:
+    """One threshold."""
+    low, high = (float(v) for v in between)
+    if not 0 < low < high:
+        raise ValueError(f"between = {between}: must be two loads above 0, the smaller one first")
+    optimize = needed("scipy.optimize", "fit")
+    tried: dict[float, float] = {}
+
+    def margin(load: float, coarser: int = 1) -> float:
+        scene = scene_of(source, {**others, parameter: load})
+        if coarser > 1:
+            scene = scene.replace(grid=wider(scene.grid, coarser))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            found = float(measure(solve(scene, progress=False)))
+        if not found > 0:
+            raise ValueError(f"{parameter} = {load:g}: the measure is {found}: must be above 0")
+        # A life without end counts as long.
+        return min(math.log(found / value), 700.0)
+
+    def at(log_load: float) -> float:
+        load = math.exp(log_load)
+        if load not in tried:
+            tried[load] = margin(load)
+        return tried[load]
+
+    ends = math.log(low), math.log(high)
+    sides = at(ends[0]), at(ends[1])
+    if sides[0] * sides[1] > 0:
+        where = "above" if sides[0] > 0 else "below"
+        raise ValueError(
+            f"{parameter}: the measure is {where} {value:g} from {low:g} "
+            f"({value * math.exp(sides[0]):.4g}) "
+            f"to {high:g} ({value * math.exp(sides[1]):.4g}): widen `between`"
+        )
+    root = float(optimize.toms748(at, *ends, xtol=0.5 * tolerance, rtol=1e-6, maxiter=MOST, k=1))
+    at(root)
+    points = sorted((math.log(load), m) for load, m in tried.items())
+    near = min(points, key=lambda p: abs(p[1]))
+    root = near[0] if abs(near[1]) < abs(tried[math.exp(root)]) else root
+    bracket = 0.5 * tolerance * math.exp(root)
+    solves, of_grid = len(tried), 0.0
+    if error:
+        slope = steepness(points, root)
+        of_grid = abs(margin(math.exp(root), 2) - at(root)) / max(abs(slope), 1e-3) * math.exp(root)
+        solves += 1
+    path = [(load, value * math.exp(m)) for load, m in tried.items()]
+    return Threshold(math.exp(root), bracket + of_grid, solves, path)
+
+
+def steepness(points: list[tuple[float, float]], root: float) -> float:
+    """Slope of the logarithms about the root, between the nearest loads that are well apart."""
+    near = sorted(points, key=lambda p: abs(p[0] - root))
+    here = near[0]
+    for other in near[1:]:
+        if abs(other[0] - here[0]) > 1e-3:
+            return (other[1] - here[1]) / (other[0] - here[0])
+    return 1.0
+
+
+def scene_of(source: Source, values: dict[str, Any]) -> Scene:
+    """The scene of some values."""
+    if callable(source) and not isinstance(source, Scene):
+        return source(values)
+    return varied(source, values)
+
+
+def wider(grid: Grid, times: int) -> Grid:
+    """The same place in wider cells."""
+    nx = max(grid.nx // times, 1)
+    ny = grid.ny if grid.plane_strain else max(grid.ny // times, 1)
+    return grid.replace(nx=nx, ny=ny, dx=grid.dx * grid.nx / nx, dy=grid.dy * grid.ny / ny)
+
+
+@dataclass(frozen=True)
+class Limits:
+    """A critical distance and a limit fitted to tests at their thresholds.
+
+    Attributes
+    ----------
+    material : Material
+        The material with its limits scaled to the tests.
+    L : float
+        Critical distance [m].
+    limit : float
+        Factor on the limits of the material that was given.
+    scatter : float
+        Standard deviation of ln of the thresholds computed over those measured.
+    ratios : array
+        Threshold computed over measured of each test, to first order.
+    L_range : (float, float)
+        Distances whose scatter is not significantly larger [m].
+    """
+
+    material: Material
+    L: float
+    limit: float
+    scatter: float
+    ratios: NDArray[np.float64]
+    L_range: tuple[float, float]
+
+    def measure(
+        self, criterion: CriterionName = "crossland", method: Averaging = "line"
+    ) -> Averaged:
+        """The measure of :func:`threshold` with these numbers."""
+        return Averaged(self.material, criterion, self.L, method)
+
+
+#: Part of the load by which the sensitivity of the margin is told.
+LESS = 0.9
+
+
+def fit_limits(
+    tests: Sequence[tuple[Callable[[float], Scene], float]],
+    material: Material,
+    criterion: CriterionName = "crossland",
+    *,
+    L: tuple[float, float] = (5e-6, 2e-4),
+    known: float = math.inf,
+    method: Averaging = "line",
+    n: int = 9,
+) -> Limits:
+    """Fit a critical distance and the limit of a criterion to tests at their thresholds.
+
+    Both limits of the material, ``s_D`` and ``t_D``, are scaled alike. A margin m that falls with
+    the load as its power -s puts the threshold at m^(1/s) of the load: the distance is the one at
+    which these thresholds scatter least, the limit that which makes the mean of their logarithms 0.
+    A scatter of margins alone would favour distances at which no load matters. Few tests tell the
+    distance badly; how well the limits are `known` beforehand then counts beside them.
+
+    Parameters
+    ----------
+    tests : sequence of (callable, float)
+        The scene of a test as a function of its load, its increments kept over a closed cycle, and
+        the load at which a crack began.
+    material : Material
+        Limits to begin with.
+    criterion : str
+        A criterion with a safety factor that goes as 1 over the limits, such as ``"crossland"``.
+    L : (float, float)
+        Range of the distance [m].
+    known : float
+        Standard deviation of ln of the material's limits before the tests, 0.1 for limits that are
+        known to 10 % (default: not at all).
+    method : "point", "line", "area" or "volume"
+        How the stress is averaged.
+    n : int
+        Distances that are tried before the best is refined.
+    """
+    if len(tests) < 3:
+        raise ValueError(f"{len(tests)} tests: two numbers need 3 at least")
+    pairs = [
+        [solve(scene(part * load), save="all", progress=False) for part in (1.0, LESS)]
+        for scene, load in tests
+    ]
+    solved: dict[float, tuple[float, NDArray[np.float64]]] = {}
+
+    def thresholds(log_L: float) -> tuple[float, NDArray[np.float64]]:
+        """Factor of the limits, and ln of the thresholds over those measured."""
+        if log_L not in solved:
+            judge = Averaged(material, criterion, math.exp(log_L), method)
+            logs = np.log([[judge(result) for result in pair] for pair in pairs])
+            slopes = np.maximum((logs[:, 1] - logs[:, 0]) / -math.log(LESS), 0.05)
+            factor = -float(np.sum(logs[:, 0] / slopes) / np.sum(1 / slopes))
+            solved[log_L] = math.exp(factor), (logs[:, 0] + factor) / slopes
+        return solved[log_L]
+
+    def scatter(log_L: float) -> float:
+        return float(np.sqrt(np.sum(thresholds(log_L)[1] ** 2) / (len(tests) - 2)))
+
+    def misfit(log_L: float) -> float:
+        """Minus the logarithm of the likelihood, the scatter unknown, with what is known before."""
+        before = 0.5 * (math.log(thresholds(log_L)[0]) / known) ** 2
+        return len(tests) * math.log(scatter(log_L)) + before
+
+    tried = np.linspace(math.log(L[0]), math.log(L[1]), n)
+    best = int(np.argmin([misfit(float(t)) for t in tried]))
+    optimize = needed("scipy.optimize", "fit")
+    ends = float(tried[max(best - 1, 0)]), float(tried[min(best + 1, n - 1)])
+    optimize.minimize_scalar(misfit, bounds=ends, method="bounded", options={"maxiter": 5})
+    at = min(solved, key=misfit)
+    factor, logs = thresholds(at)
+    # Variances of ratio 1 + 4/(tests - 2) are not told apart by so many tests.
+    alike = scatter(at) * math.sqrt(1 + 4 / (len(tests) - 2))
+    good = [log_L for log_L in solved if scatter(log_L) <= alike]
+    numbers = [
+        (name, factor * number if name in ("s_D", "t_D") else number, source)
+        for name, number, source in material.numbers()
+    ]
+    return Limits(
+        material=Material(material.name, numbers, material.title),
+        L=math.exp(at),
+        limit=factor,
+        scatter=scatter(at),
+        ratios=np.exp(logs),
+        L_range=(math.exp(min(good)), math.exp(max(good))),
+    )

@@ -1,0 +1,68 @@
+"""Published tests: that they can be repeated, and what is predicted of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from pyfret import experiments
+
+
+def test_every_table_is_there() -> None:
+    for name in experiments.NAMES:
+        rows = experiments.table(name)
+        assert len(rows) > 3
+        assert all(row["set"] == "dev" for row in rows)
+    with pytest.raises(ValueError, match="must be one of"):
+        experiments.table("fouvry")
+
+
+def test_the_scar_of_ti64_has_its_width_with_the_debris_that_stays() -> None:
+    test = experiments.fouvry2017("RP_f_20")
+    worn = test.wear(tolerance=0.05).dataset
+    volume = float(worn.volume1[-1] + worn.volume2[-1]) * test.row["L_m"]
+    assert volume == pytest.approx(test.row["worn_volume_m3"], rel=0.02)
+    half = float(worn.contact_area[-1]) / 2
+    assert half == pytest.approx(test.row["derived_scar_half_width_m"], rel=0.15)
+
+
+def test_the_depth_of_tic_follows_its_energy() -> None:
+    worn = experiments.fouvry2007("TiC").wear(jumps=3)
+    d = worn.dataset
+    rows = [r for r in experiments.table("fouvry2007_tic_depth") if r["phase"] == "I wear"]
+    energies = [r["derived_accumulated_energy_J"] for r in rows]
+    ours = np.interp(energies, np.r_[0, d.dissipated], np.r_[0, d.depth2])
+    ratios = ours / np.array([r["worn_depth_m"] for r in rows])
+    assert 0.9 < ratios.mean() < 1.1
+    assert np.abs(ratios - 1).max() < 0.35
+
+
+def test_energies_of_a_flat_on_a_flat() -> None:
+    rows = experiments.table("baydoun2019")
+    for n, row in enumerate(rows[:2]):
+        worn = experiments.baydoun2019(n).wear(jumps=1).dataset
+        assert float(worn.dissipated[-1]) == pytest.approx(row["accumulated_energy_J"], rel=0.05)
+
+
+def test_a_threshold_is_bracketed_in_few_solves() -> None:
+    limits = [("s_D", 311e6, "fitted"), ("t_D", 209e6, "fitted")]
+    steel = fret.fatigue.Material("steel", limits)
+    measure = fret.fatigue.Averaged(steel, "crossland", 85e-6)
+    found = fret.fatigue.threshold(
+        lambda values: experiments.icf13("FF_1", Q=values["Q"], n=64).scene,
+        "Q",
+        measure=measure,
+        between=(5e4, 6e5),
+        tolerance=0.02,
+        error=False,
+    )
+    assert found.solves <= 9
+    assert found.value == pytest.approx(2.73e5, rel=0.2)
+    with pytest.raises(ValueError, match="widen"):
+        fret.fatigue.threshold(
+            lambda values: experiments.icf13("FF_1", Q=values["Q"], n=64).scene,
+            "Q",
+            measure=measure,
+            between=(5e4, 6e4),
+        )

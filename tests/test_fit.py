@@ -1,0 +1,165 @@
+"""Unknowns found from measurements made with known values."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+STEEL = fret.Elastic(E=210e9, nu=0.3)
+W = 20.0
+
+
+def ball(n: int = 24, **coating: float) -> fret.Scene:
+    """Give a ball on a flat, bare or coated."""
+    layers = []
+    if coating:
+        material = fret.Elastic(E=coating["E"], nu=0.25)
+        layers = [fret.Coating(material, thickness=coating["h"])]
+    return fret.Scene(
+        body1=fret.Body(STEEL, shape=fret.Sphere(R=5e-3)),
+        body2=fret.Body(STEEL, coatings=layers),
+        mu=0.5,
+        grid=fret.Grid.centred(extent=0.3e-3, n=n),
+        path=fret.LoadPath.start().normal(W),
+    )
+
+
+def loop(scene: fret.Scene, reach: float, noise: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Measure a loop."""
+    path = scene.path.displace(delta_x=[reach, -reach, reach], increments=80)
+    d = fret.solve(scene, path, progress=False).dataset
+    rng = np.random.default_rng(seed)
+    shift, T = d.delta_x.values[-64:], d.T_x.values[-64:]
+    return shift, T + rng.normal(0, noise * np.ptp(T), T.size)
+
+
+def test_mu_and_the_rig_are_found_from_a_german_file(tmp_path: Path) -> None:
+    true = fret.study.varied(ball(), {"mu": 0.62, "rig.stiffness": 8e6})
+    shift, T = loop(true, 6e-6, 0.02, 1)
+    rows = [
+        f"{1e6 * x + 0.4:.4f};{f - 0.3:.3f}".replace(".", ",")
+        for x, f in zip(shift, T, strict=True)
+    ]
+    file = tmp_path / "loop.csv"
+    file.write_text("# Prüfstand 3\nWeg [µm];Kraft [N]\n" + "\n".join(rows), encoding="utf-8")
+    loops = fret.fit.loops(file)
+    found = fret.fit(ball(), loops, unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)})
+    for key, value in {"mu": 0.62, "rig.stiffness": 8e6}.items():
+        known = found.known[key]
+        assert known.low < value < known.high, f"{key}: {known}"
+        assert known.high - known.low < 0.4 * value
+    assert found.solves <= 40
+    assert found.converged
+    assert "95 %" in found.summary()
+    assert found.plot().get_ylabel() == "force [N]"
+    assert found.plot_residuals().get_xlabel() == "shift [um]"
+
+
+def test_what_cannot_be_told_apart_is_said() -> None:
+    # A loop that never slides knows the stiffness of rig and bodies together.
+    true = fret.study.varied(ball(), {"mu": 5.0, "rig.stiffness": 2e7})
+    shift, T = loop(true, 1e-6, 0.01, 2)
+    found = fret.fit(
+        fret.study.varied(ball(), {"mu": 5.0}),
+        fret.fit.Loops.of(shift, T),
+        unknown={"rig.stiffness": (2e6, 2e8), "body2.E": (5e10, 1e12)},
+    )
+    assert any("cannot be told apart" in said for said in found.doubts)
+    assert "rig.stiffness" in found.summary()
+
+
+def test_a_coating_is_found_from_an_indentation_curve() -> None:
+    true = ball(E=420e9, h=40e-6)
+    path = fret.LoadPath.start()
+    for force in np.linspace(0, W, 21)[1:]:
+        path = path.normal(float(force), increments=1)
+    d = fret.solve(true, path, progress=False).dataset
+    noise = np.random.default_rng(3).normal(0, 2e-3 * float(d.delta_z[-1]), 20)
+    curve = fret.fit.Indentation.of(d.W.values, d.delta_z.values + noise)
+    found = fret.fit(ball(E=300e9, h=40e-6), curve, unknown={"body2.coatings.0.E": (1e11, 1e12)})
+    known = found.known["body2.coatings.0.E"]
+    assert known.low < 420e9 < known.high
+    assert found.solves <= 30
+
+
+def test_wear_and_debris_are_found_from_a_scar() -> None:
+    path = fret.LoadPath.start().normal(18.5e3, increments=1)
+    path = path.displace(delta_x=[5e-6, -5e-6, 5e-6], increments=3)
+    line = fret.Scene(
+        body1=fret.Body(STEEL, shape=fret.Cylinder(R=6e-3)),
+        body2=fret.Body(STEEL),
+        mu=0.9,
+        grid=fret.Grid.strip(extent=0.5e-3, n=64),
+        path=path,
+    )
+    run = {
+        "cycles": 2e4,
+        "cycling": "sliding",
+        "body2": fret.wear.Archard(1e-14),
+        "tolerance": 0.05,
+    }
+    worn = fret.wear.solve(
+        line,
+        **{**run, "body2": fret.wear.Archard(4e-14)},
+        debris_kept=0.7,
+        progress=False,
+    ).dataset
+    depth = worn.worn2[-1].values[:, 0]
+    noise = np.random.default_rng(4).normal(0, 0.02 * depth.max(), depth.size)
+    scar = fret.fit.Scar.of(worn.x.values, depth + noise, wear=run)
+    unknown = {"wear.body2.k": (1e-15, 1e-12), "wear.debris_kept": (0.0, 0.5, 0.95)}
+    found = fret.fit(line, scar, unknown=unknown)
+    for key, value in {"wear.body2.k": 4e-14, "wear.debris_kept": 0.7}.items():
+        assert found.known[key].low < value < found.known[key].high, found.summary()
+    assert found.solves <= 40
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("1;2\n3;4\n", "must name the columns"),
+        ("a [um];b [N]\n1;2;3\n", ":2: 3 numbers"),
+        ("a [um];b [N]\n1;x\n", ":2: must be numbers"),
+        ("a [furlong];b [N]\n1;2\n", "furlong"),
+        ("a;b\n1;2\n", "unit of length"),
+        ("a [um];b [N]\n1;2\n1;3\n", "turn twice"),
+    ],
+)
+def test_files_that_are_no_loops_are_refused(tmp_path: Path, text: str, told: str) -> None:
+    file = tmp_path / "loop.csv"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=told):
+        fret.fit.loops(file)
+
+
+@pytest.mark.parametrize(
+    "head", ["d [mm]\tT [kN]\n-1\t-2\n", "d_mm T_kN\n-1 -2\n", "d (mm),T (kN)\n-1,-2\n"]
+)
+def test_separators_and_units_are_seen(tmp_path: Path, head: str) -> None:
+    file = tmp_path / "table.txt"
+    file.write_text(head, encoding="utf-8")
+    table = fret.fit.tables.read(file)
+    assert np.allclose(table.blocks[0], [[-1e-3, -2e3]])
+    assert table.names == ("d", "T")
+
+
+def test_several_loops_tell_their_drift() -> None:
+    turn = np.linspace(0, 6 * np.pi, 300)
+    loops = fret.fit.Loops.of(1e-6 * np.cos(turn), 5 * np.sin(turn) + 0.1 * turn)
+    assert loops.cycle.max() == 2
+    assert loops.drift[1] == pytest.approx(0.1 * 4 * np.pi, rel=0.1)
+
+
+def test_ranges_are_refused_by_name() -> None:
+    data = fret.fit.Indentation.of([1.0, 2.0], [1e-7, 2e-7])
+    with pytest.raises(ValueError, match="unknown: none"):
+        fret.fit(ball(), data, unknown={})
+    with pytest.raises(ValueError, match=r"mu = \(1, 0\.5\)"):
+        fret.fit(ball(), data, unknown={"mu": (1, 0.5)})
