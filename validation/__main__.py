@@ -11,6 +11,7 @@ import numpy as np
 import pyfret as fret
 from validation import (
     elements,
+    experiments,
     finite_elements,
     kernels,
     pages,
@@ -31,6 +32,7 @@ OTHERS = (
     "kernels",
     "elements",
     "finite_elements",
+    "experiments",
     "paper",
     "work_precision",
 )
@@ -76,6 +78,8 @@ def main() -> None:
     if options.only is None or "finite_elements" in options.only:
         others.append(finite_elements.write(out, quick=options.quick))
         print(others[-1], flush=True)
+    if options.only is None or "experiments" in options.only:
+        others.append(experiments.write(out))
     if options.only is None or "paper" in options.only:
         figures = paper.write(out, n=QUICK_CELLS if options.quick else CELLS)
         print(*figures, sep="\n", flush=True)

@@ -115,9 +115,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "report": report,
         "verify": verify,
         "cite": cite,
-        "report": report,
-        "verify": verify,
-        "cite": cite,
         "fit": fit.run,
         "threshold": threshold.run,
     }
