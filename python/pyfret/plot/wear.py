@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import matplotlib.pyplot as plt
 import numpy as np
 
+from pyfret._core import Scene
 from pyfret.plot.style import axes, styled
 
 if TYPE_CHECKING:
@@ -72,25 +73,32 @@ def depth_map(
 
 @styled
 def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
-    """Worn volume (left) and dissipated energy (right) over cycles.
+    """Deepest worn depth of each body that wears over cycles, with the coatings' thickness, um.
 
-    A line contact has both per width of the grid.
+    Coatings that are worn through, or told to be thin, are marked at their cycle.
     """
     ax = axes(ax)
     d = result.dataset
-    volume = d.volume1 + d.volume2
-    unit, factor = ("mm$^3$", 1e9) if float(volume[-1]) > 1e-11 else ("um$^3$", 1e18)
-    volume = factor * volume
-    (line,) = ax.plot(np.r_[0, d.cycles], np.r_[0, volume])
+    scene = Scene.from_toml(d.attrs["scene"])
+    first = float(d.cycles[0] - d.length[0])
+    for body, coated in ((1, scene.body1), (2, scene.body2)):
+        depth = 1e6 * np.r_[d.attrs["depth_before"][body - 1], d[f"depth{body}"]]
+        if depth[-1] == 0:
+            continue
+        (line,) = ax.plot(np.r_[first, d.cycles], depth, label=f"body {body}")
+        bottom = 0.0
+        for layer in coated.coatings:
+            bottom += 1e6 * layer.thickness
+            if bottom < 3 * depth[-1]:
+                ax.axhline(bottom, color=line.get_color(), linestyle=":", linewidth=1)
+    for event in result.events:
+        if event["kind"] == "worn through":
+            label = f"coating {event['coating']} of body {event['body']} is worn through"
+            ax.axvline(event["cycles"], color="0.5", linestyle="--", linewidth=1, label=label)
     ax.set_xlabel("cycles")
-    ax.set_ylabel(f"worn volume [{unit}]")
-    other = ax.twinx()
-    other.grid(visible=False)
-    (energy,) = other.plot(np.r_[0, d.cycles], np.r_[0, d.dissipated], "--", color="C1")
-    other.set_ylabel("dissipated energy [J]")
+    ax.set_ylabel("deepest worn depth [um]")
     ax.set_ylim(bottom=0)
-    other.set_ylim(bottom=0)
-    ax.legend([line, energy], ["volume", "energy"], loc="upper left")
+    ax.legend(loc="upper left", fontsize="small")
     return ax
 
 

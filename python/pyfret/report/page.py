@@ -78,6 +78,7 @@ def report(
         cycles="".join(cycles_table(result, of) for of in directions(result)),
         plan=plan(result),
         sources=cited(result),
+        worn="" if wear is None else f"<pre>{escape(wear.summary())}</pre>",
         more="".join(picture(caption, of) for caption, of in (figures or {}).items()),
         toml=escape(result.scene.to_toml()),
         css=(HERE / "page.css").read_text(encoding="utf-8"),
