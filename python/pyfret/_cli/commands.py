@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pyfret import verification, wear
-from pyfret._cli import crack, export, life
-from pyfret._cli import export, fit, life, threshold
+from pyfret._cli import crack, export, fit, life, threshold
 from pyfret.citation import cite as sources
 from pyfret.result import open as open_result
 from pyfret.study.file import run_file
