@@ -88,7 +88,7 @@ pub(in crate::march) fn growth(
         }
         let (slip, _) = slip_of(no_slip, now, last, arms.in_plane(shift, n), n);
         match of {
-            History::Increment => 0.0,
+            History::Increment | History::Cycles => 0.0,
             History::Slip => size([slip[0], slip[1] / arms.stretch]),
             History::Dissipated => {
                 dissipated([setup.mu[n], setup.mu_before[n]], now, last, slip, n)
@@ -101,7 +101,7 @@ pub(in crate::march) fn growth(
 /// The field of the history that friction depends on.
 fn of_history(state: &State, history: Option<History>) -> Option<&[f64]> {
     match history? {
-        History::Increment => None,
+        History::Increment | History::Cycles => None,
         History::Slip => Some(&state.slip_length),
         History::Dissipated => Some(&state.dissipated),
     }
