@@ -99,7 +99,8 @@ fn with_its_friction<'a>(
         .history
         .as_ref()
         .map(|history| history.of);
-    let follows = history.filter(|of| *of != History::Increment);
+    let of_cells = |of: &History| matches!(of, History::Slip | History::Dissipated);
+    let follows = history.filter(of_cells);
     let mut solver = Solver {
         response,
         no_slip: &mut ws.no_slip,
