@@ -710,7 +710,9 @@ class History:
     """What a cell has been through.
 
     ``INCREMENT``: increments done, the same for all cells. ``SLIP``: length of the way that the
-    cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2].
+    cell has slipped [m]. ``DISSIPATED``: energy dissipated per area [J/m^2]. ``CYCLES``: cycles of
+    wear done; a path that is run through once has done none. Over jumps of wear each is that of
+    all cycles so far.
     """
 
     INCREMENT: ClassVar[History]
@@ -1015,7 +1017,11 @@ class LoadPath:
         cls, branches: Sequence[Branch] = ..., *, rig_stiffness: float | None = None
     ) -> LoadPath: ...
     def rig(self, stiffness: float | None) -> LoadPath:
-        """The same path through a rig of a stiffness K [N/m], a spring along x in series."""
+        """The same path through a rig of a stiffness K [N/m], a spring along x.
+
+        It is in series with the contact: ``delta_x`` is the shift of the spring's far end, given or
+        read, and the contact's own shift is ``delta_x - T_x/K``. None takes the spring out.
+        """
     @property
     def rig_stiffness(self) -> float | None:
         """Stiffness of the rig along x [N/m]; None: the bodies themselves are moved."""

@@ -57,9 +57,10 @@ impl LoadPath {
         })
     }
 
-    /// The same path through a rig of a stiffness K [N/m], a spring along x in series with the
-    /// contact: ``delta_x`` is the shift of the spring's far end, given or read, and the contact's
-    /// own shift is ``delta_x - T_x/K``. None takes the spring out.
+    /// The same path through a rig of a stiffness K [N/m], a spring along x.
+    ///
+    /// It is in series with the contact: ``delta_x`` is the shift of the spring's far end, given or
+    /// read, and the contact's own shift is ``delta_x - T_x/K``. None takes the spring out.
     #[pyo3(signature = (stiffness))]
     fn rig(&self, stiffness: Option<f64>) -> Self {
         Self(core::LoadPath {
