@@ -157,6 +157,7 @@ impl Solver<'_> {
             friction: setup.problem.plan.friction,
             mu: setup.mu,
             arms: &setup.geometry.arms,
+            enters: asked.entry.is_some() || !asked.turns,
             normal: setup.drives.normal,
             tangential: setup.drives.tangential,
         };

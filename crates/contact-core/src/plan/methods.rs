@@ -35,7 +35,8 @@ pub struct Methods {
     pub first_contact: bool,
     /// End the inner loops early in a pass that others follow (default true).
     pub inexact: bool,
-    /// Let cells slip that come into contact after the first pass, where friction does not hold them (default true).
+    /// Let cells slip at once that the normal solver brings into contact, where friction does not hold them (default
+    /// true).
     pub new_cells_slip: bool,
     /// Accelerate an alternation that is slow (default true).
     pub anderson: bool,

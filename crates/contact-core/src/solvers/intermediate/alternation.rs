@@ -94,9 +94,9 @@ fn take_pressure(
 ) -> Sliding {
     let coupled = response.op.is_coupled();
     (ws.lifted).find(info.alternations, problem.mu, &ws.p_before, now);
-    if params.new_cells_slip && info.alternations > 1 {
+    if params.new_cells_slip && (info.alternations > 1 || !problem.enters) {
         let (c_xx, _) = response.op.self_coefficients();
-        let_new_cells_slip(problem, no_slip, now, &ws.p_before, info.shift, c_xx);
+        let_new_cells_slip(problem, no_slip, now, ws, (info, c_xx));
     }
     let sliding = bring_within_bound(problem, no_slip, now, ws, info.shift);
     follow_pressure(response, now, ws, coupled);

@@ -55,19 +55,28 @@ pub(super) fn bring_within_bound(
     slides
 }
 
-/// Lets cells slip that the normal solver has brought into contact after the first pass, where friction does not hold
-/// what they have moved: taken to stick they would be the largest misfit of all. One that is held alone moves by
-/// about 2 C_xx(0,0) times its shear.
+/// Lets cells slip that the normal solver has brought into contact, where friction does not hold what they have moved:
+/// taken to stick they would be the largest misfit of all. One that is held alone moves by about 2 C_xx(0,0) times its
+/// shear. In the first pass the shift is that of the cells that have stuck so far.
 pub(super) fn let_new_cells_slip(
     problem: &IncrementProblem<'_>,
     no_slip: &NoSlip<'_>,
     now: &mut Interface,
-    p_before: &[f64],
-    shift: [f64; 3],
-    c_xx: f64,
+    ws: &mut AlternationWorkspace,
+    (info, c_xx): (&AlternationInfo, f64),
 ) {
+    let mut shift = info.shift;
+    if info.alternations == 1 {
+        set(
+            [problem.mu, &ws.p_before],
+            [&mut ws.bound],
+            |_, [mu, p], _| [friction_bound(mu, p)],
+        );
+        let shear = problem.tangential_problem(&ws.bound, no_slip.displacement());
+        shift = first_shift(&shear, &now.shear());
+    }
     let [x_0, y_0] = no_slip.displacement();
-    for n in (0..now.p.len()).filter(|&n| p_before[n] <= 0.0 && now.p[n] > 0.0) {
+    for n in (0..now.p.len()).filter(|&n| ws.p_before[n] <= 0.0 && now.p[n] > 0.0) {
         let u = [now.u[0][n], now.u[1][n]];
         let slip = slip(u, [x_0[n], y_0[n]], problem.arms.in_plane(shift, n));
         let (moved, bound) = (size(slip), friction_bound(problem.mu[n], now.p[n]));

@@ -20,6 +20,8 @@ pub struct IncrementProblem<'a> {
     pub mu: &'a [f64],
     /// Where the cells are.
     pub arms: &'a Arms,
+    /// Whether cells come into contact because it grows or rolls on, or are kept from that.
+    pub enters: bool,
     /// What drives approach and tilts, from the unloaded state.
     pub normal: Drive,
     /// What drives shifts and torsion in this increment.
@@ -64,8 +66,8 @@ pub struct AlternationParams {
     /// Part of the gap that the pass before left down to which the inner loops solve; 0 solves to their tolerance in
     /// each pass \[1\].
     pub forcing: f64,
-    /// Whether cells slip that come into contact after the first pass, where friction does not hold them (default
-    /// true).
+    /// Whether cells slip at once that the normal solver brings into contact, where friction does not hold them; in the
+    /// first pass where no cell enters (default true).
     pub new_cells_slip: bool,
     /// Whether slow alternation is accelerated (default true).
     pub anderson: bool,
