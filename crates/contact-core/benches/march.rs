@@ -3,8 +3,11 @@
 
 mod rig;
 
+use std::sync::Arc;
+
+use contact_core::estimate::choose_increments;
 use contact_core::march::solve;
-use criterion::{Criterion, SamplingMode, criterion_group, criterion_main};
+use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use rig::{increments, paper_scene, stage};
 
 fn march(c: &mut Criterion) {
@@ -27,5 +30,23 @@ fn march(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, march);
+/// Scenes per second of a study: increments chosen, the path run.
+fn scenes(c: &mut Criterion) {
+    let mut group = stage(c, "scenes");
+    group.sampling_mode(SamplingMode::Flat);
+    group.throughput(Throughput::Elements(1));
+    for n in [32, 64] {
+        let mut settings = vec![format!("grid.n={n}")];
+        settings.extend((0..6).map(|branch| format!("path.{branch}.increments=\"auto\"")));
+        let scene = paper_scene(&settings);
+        group.bench_function(format!("coated/chosen/{n}"), |b| {
+            b.iter(|| {
+                let chosen = choose_increments(&scene, &Arc::default()).expect("a path");
+                solve(&chosen, &mut ()).expect("a solution")
+            });
+        });
+    }
+}
+
+criterion_group!(benches, march, scenes);
 criterion_main!(benches);
