@@ -2,8 +2,8 @@
 //!
 //! A guess that goes too far may lead astray: where it is left out the answer is the same. Half of the
 //! way is an easier problem: the last state is nearer to the solution. It is also a finer path, so that
-//! the answer differs from that of one piece as that of twice the increments would. A contact that grows from nothing
-//! is solved in steps to begin with ([`first_growth`](super::first_growth)).
+//! the answer differs from that of one piece as that of twice the increments would. A contact that grows by much
+//! is solved in steps to begin with ([`growing`](super::growing)).
 //! [`Work::parts`](super::Work::parts) says in how many pieces an increment was solved. All tries together
 //! have a bound on their work; then the increment is given up, and [`why`] says what in the physics makes it
 //! hard.
@@ -11,7 +11,7 @@
 use std::f64::consts::TAU;
 
 use super::domain::{AROUND, Domain};
-use super::first_growth::steps;
+use super::growing::steps;
 use super::increment::increment;
 use super::problem::Problem;
 use super::setup::{Failure, Workspace};

@@ -10,7 +10,9 @@
 use contact_core::scene::{Branch, Elastic, LoadPath, Loads, Scene, Spacing};
 use ndarray::Array2;
 
-use crate::bench::{CORK, FIELD, STEEL, W, cell, coated, hertz_of, norm, run, sphere_on_flat};
+use crate::bench::{
+    CORK, FIELD, STEEL, W, cell, coated, hertz_of, indentation, norm, run, sphere_on_flat,
+};
 
 /// The grid: 29 cells in a radius.
 const GRID: (f64, usize) = (2.2, 64);
@@ -97,5 +99,38 @@ fn forces_that_grow_in_proportion_lead_to_the_limit_of_short_increments() {
             let path = proportional(0.2 * W, increments);
             sphere_on_flat(STEEL, lower, 0.5, GRID, path)
         });
+    }
+}
+
+/// Cells that enter last in an increment of a small contact would keep a ring of wrong shear, which sticks to the end.
+#[test]
+fn no_ring_of_cells_keeps_what_an_increment_has_missed() {
+    for part in [0.5, 2.0] {
+        let of = |path: LoadPath| {
+            let scene = sphere_on_flat(STEEL, STEEL, 0.3, (2.4, 96), path);
+            let material = Elastic {
+                E: part * STEEL.E,
+                nu: 0.3,
+            };
+            let a_H = hertz_of(&scene).a;
+            shear(&coated(scene, material, a_H))
+        };
+        let limit = of(indentation(240));
+        let size = |q: &[Array2<f64>; 2]| {
+            let squares = &q[0] * &q[0] + &q[1] * &q[1];
+            squares.iter().copied().fold(0.0, f64::max).sqrt()
+        };
+        // Of 12 increments of equal radius the last step is off by about 1.2/12^2 of the shear, before cells.
+        for (path, allowed) in [
+            (indentation(12), 0.03),
+            (LoadPath::start().normal(W, 100), 0.05),
+        ] {
+            let q = of(path);
+            let off = size(&[0, 1].map(|c| &q[c] - &limit[c])) / size(&limit);
+            assert!(
+                off < allowed,
+                "E1/E2 = {part}: a cell is off by {off:.3}, allowed {allowed}"
+            );
+        }
     }
 }

@@ -6,8 +6,8 @@ use super::shape::{shape_for, shape_of};
 use super::{AROUND, Domain, embed};
 use crate::error::Error;
 use crate::march::State;
-use crate::march::first_growth;
 use crate::march::first_pressure::first_pressure;
+use crate::march::growing;
 use crate::march::problem::Problem;
 use crate::scene::LoadPoint;
 use crate::solvers::Response;
@@ -45,7 +45,7 @@ impl Domain {
             let (nx, ny) = shape_of(&problem.scene.grid);
             let p = first_pressure(problem, point);
             let half = half_lengths(&mirror.fold(&p), mirror.rows(ny), (nx, ny));
-            let enters = !first_growth::steps(problem, state, point).is_empty();
+            let enters = !growing::steps(problem, state, point).is_empty();
             half.map(|half| half + if enters { AROUND } else { 0 })
         } else {
             return Ok(None);
