@@ -126,7 +126,8 @@ pub struct Work {
     pub normal_iterations: usize,
     /// Conjugate-gradient iterations of the tangential solver.
     pub tangential_iterations: usize,
-    /// Pieces that the increment was solved in: more than one if it did not converge whole.
+    /// Pieces that the increment was solved in: more than one where a contact grows by much, and if it did not converge
+    /// whole.
     pub parts: usize,
 }
 
