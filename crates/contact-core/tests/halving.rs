@@ -14,6 +14,8 @@ body1 = { shape.sphere.R = 0.018, E = 210e9, nu = 0.3 }
 body2 = { shape = "flat", E = 70e9, nu = 0.2 }
 friction.mu = 0.4
 grid = { n = 20, extent = { a_H = 2.6 } }
+# Else the contact grows in steps.
+solver.entering = false
 path = [
     { W = 1000.0, increments = 1 },
     { T_x = { mu_W = 0.95 }, increments = 1 },

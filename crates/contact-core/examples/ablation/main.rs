@@ -26,7 +26,7 @@ struct Method {
     files: &'static [&'static str],
 }
 
-const METHODS: [Method; 14] = [
+const METHODS: [Method; 15] = [
     Method {
         name: "preconditioner",
         off: |m| m.preconditioner = false,
@@ -64,6 +64,11 @@ const METHODS: [Method; 14] = [
         name: "first contact of a paraboloid",
         off: |m| m.first_contact = false,
         files: &["march/first_pressure.rs"],
+    },
+    Method {
+        name: "growth in steps",
+        off: |m| m.growth_steps = 1,
+        files: &["march/growing.rs"],
     },
     Method {
         name: "entry of cells",

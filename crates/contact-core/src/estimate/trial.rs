@@ -79,6 +79,8 @@ pub(crate) struct Trial {
     many: Run,
     /// The error on the grid of the scene over that on the grid of the trial.
     missed: f64,
+    /// Steps in which a contact grows in the run itself.
+    growth_steps: usize,
     mu: f64,
     /// Order of the error in the increments.
     order: f64,
@@ -115,10 +117,12 @@ impl Trial {
                 break;
             }
         }
+        let many = Run::new(&trial, stop)?;
         let coarse = trial.grid != scene.grid && trial.grid.nx * trial.grid.ny < ENOUGH;
         Ok(Self {
             few: Run::new(&trial, stop)?,
-            many: Run::new(&trial, stop)?,
+            growth_steps: many.growth_steps,
+            many,
             missed: if coarse && !scene.grid.plane_strain {
                 MISSED
             } else {
@@ -152,13 +156,21 @@ impl Trial {
             .map(|(_, branch)| branch.equal_increments());
         let (change, part) = if counts.all(|count| count > 1) {
             let half = with(|n| n / 2);
+            self.grow_in([self.growth_steps / 2, self.growth_steps]);
             (self.change(&half, path)?, self.order.exp2() - 1.0)
         } else {
             let twice = with(|n| 2 * n);
+            self.grow_in([self.growth_steps, 2 * self.growth_steps]);
             (self.change(path, &twice)?, 1.0 - (-self.order).exp2())
         };
         let factor = self.missed / part;
         Ok(change.into_iter().map(|c| c.times(factor)).collect())
+    }
+
+    /// Lets the steps in which contacts grow within increments be few and many as these are.
+    fn grow_in(&mut self, [few, many]: [usize; 2]) {
+        self.few.grow_in(few);
+        self.many.grow_in(many);
     }
 
     /// The change at the end of each branch from few increments to many, side by side.
@@ -202,6 +214,7 @@ impl Trial {
 /// A run, and the ends of the branches that it has been through.
 struct Run {
     march: March,
+    growth_steps: usize,
     ends: Vec<End>,
 }
 
@@ -215,10 +228,21 @@ struct End {
 
 impl Run {
     fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
+        let march = March::until(scene, stop)?;
         Ok(Self {
-            march: March::until(scene, stop)?,
+            growth_steps: march.plan().methods.growth_steps,
+            march,
             ends: Vec::new(),
         })
+    }
+
+    /// Grows contacts in so many steps; what was known with another number is forgotten.
+    fn grow_in(&mut self, steps: usize) {
+        if self.growth_steps != steps {
+            self.growth_steps = steps;
+            self.march.grow_in(steps);
+            self.ends.clear();
+        }
     }
 
     /// The path run through, and how each of its branches ends.

@@ -137,6 +137,11 @@ impl March {
         self.state = state.unwrap_or_else(unloaded);
     }
 
+    /// Grows contacts in so many steps to the largest of the path ([`Methods`](crate::plan::Methods)).
+    pub(crate) fn grow_in(&mut self, steps: usize) {
+        self.problem.plan.methods.growth_steps = steps;
+    }
+
     /// The scene, with the tolerance that it is solved with.
     pub fn scene(&self) -> &Scene {
         &self.problem.scene

@@ -25,6 +25,9 @@ pub struct Methods {
     /// Order the entry of the cells next to the contact one by one; without it their motion is summed from
     /// cell to cell like that of cells farther off (default true).
     pub order_of_entry: bool,
+    /// Steps of equal root of the radius in which a contact of dissimilar bodies grows to the largest of the path, and
+    /// twice the steps of equal radius of similar ones that are sheared meanwhile (default 20; 1 for whole increments).
+    pub growth_steps: usize,
     /// Let slip follow the turn of the shear within an increment (default: the setting).
     pub turning: bool,
     /// Correct the next increment by the residual slip that the last one left (default true).
@@ -53,6 +56,9 @@ pub struct Methods {
     pub single_precision: bool,
 }
 
+/// The largest error of a cell that an indentation of the paper's scene leaves is 1.8 to 2.5 % with them, 1.4 to 1.7 % with 24.
+const GROWTH_STEPS: usize = 20;
+
 impl Methods {
     /// Those of a scene's preset and settings.
     pub(super) fn new(scene: &Scene, window: bool, single_precision: bool) -> Self {
@@ -66,6 +72,7 @@ impl Methods {
             preconditioner: fast,
             entry: fast && solver.entering,
             order_of_entry: fast,
+            growth_steps: GROWTH_STEPS,
             turning: fast && solver.turning,
             residual_slip: fast,
             extrapolation: fast,
