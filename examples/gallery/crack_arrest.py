@@ -12,7 +12,7 @@ import pyfret as fret
 from pyfret import fracture
 
 titanium = fret.Elastic(E=117e9, nu=0.31)
-threshold = fracture.Threshold(dK_th=4e6, dS_0=500e6)
+threshold = fracture.Threshold(dK_th=2.5e6, dS_0=300e6)
 scene = fret.Scene(
     body1=fret.Body(titanium, shape=fret.Cylinder(R=0.05)),
     body2=fret.Body(titanium),
