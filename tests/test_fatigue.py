@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 import pyfret as fret
-from conftest import sphere_on_flat
-from pyfret import fatigue
+from conftest import ROOT, sphere_on_flat
+from pyfret import _core, fatigue
 from pyfret.fatigue import Criterion
 
 if TYPE_CHECKING:
@@ -71,6 +73,37 @@ def test_materials_and_lives(tmp_path: Path) -> None:
     mine.write_text("schema = 1\n[materials.mine]\ns_D = 4e8\n", encoding="utf-8")
     with pytest.raises(ValueError, match=r"mine\.toml:3: .*source"):
         fatigue.Materials(mine)
+
+
+def test_the_criteria_are_those_of_the_core() -> None:
+    assert list(fatigue.CRITERIA) == [name for name, _ in _core.criteria()]
+    documented = (ROOT / "docs" / "fatigue.md").read_text(encoding="utf-8")
+    steel = {"alpha": 0.3, "k": 0.5, "E": 2e11, "nu": 0.3, "s_y": 5e8, "S": 0.85}
+    for name in fatigue.CRITERIA:
+        assert f"`{name}`" in documented
+        make = getattr(Criterion, name)
+        with pytest.raises(ValueError, match=f"{name}.*nothing"):
+            make()
+        for keys in (("alpha",), ("k",), ("E", "nu"), ("E", "nu", "k", "s_y"), ("E", "nu", "S")):
+            try:
+                made = make(**{key: steel[key] for key in keys})
+            except ValueError:
+                continue
+            assert pickle.loads(pickle.dumps(made)) == made == copy.deepcopy(made)
+            assert repr(made).startswith(f"Criterion.{name}(")
+            break
+        else:
+            raise AssertionError(name)
+
+
+def test_pulsating_compression_ends_at_once() -> None:
+    stress = np.zeros((2, 1, 6))
+    stress[1, 0, 0] = -400 * MPA
+    swt = Criterion.smith_watson_topper(E=162e9, nu=0.3)
+    assert float(fatigue.evaluate(stress, swt).value[0]) == 0.0
+    stress[1, 0, :3] = -400 * MPA
+    for criterion in (Criterion.findley(k=0.3), Criterion.matake(k=0.3), swt):
+        assert float(fatigue.evaluate(stress, criterion).value[0]) == 0.0
 
 
 def test_bad_input() -> None:

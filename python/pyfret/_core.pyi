@@ -25,7 +25,9 @@ __all__ = [
     "CoupledIndentation",
     "Crack",
     "Criterion",
+    "CriterionBelow",
     "CrownedRoller",
+    "CycleSection",
     "Cylinder",
     "DissipatedEnergy",
     "Elastic",
@@ -69,11 +71,13 @@ __all__ = [
     "SurfaceOperator",
     "Waviness",
     "Wedge",
+    "YieldBelow",
     "__version__",
     "chosen_depths",
     "coated_indentation",
     "continued_pressure",
     "coupled_indentation",
+    "criteria",
     "criterion_on",
     "cycle_temperature",
     "dang_van_path",
@@ -2461,6 +2465,85 @@ class Criterion:
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
+class CycleSection:
+    """A section of a body below a contact over a cycle.
+
+    `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
+    before the cycle: lists of q_x, q_y, p [Pa] and stick, of shape (nx, ny) each, and of the bulk
+    stress [Pa]; or None.
+    """
+
+    def __new__(
+        cls,
+        body: Body,
+        grid: Grid,
+        moments: Callable[[list[int] | None], tuple[list[Any], ...] | None],
+        count: int,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        body_number: int = 2,
+        residual: Sequence[float] | None = None,
+    ) -> CycleSection: ...
+    def unsettled(self) -> float | None:
+        """Part of the largest traction by which the cycle ends off its start, if that was kept."""
+    def by_criterion(
+        self,
+        z: Sequence[float],
+        layer: Sequence[int],
+        materials: Sequence[Material | None],
+        criterion: str,
+        *,
+        tolerance: float,
+    ) -> CriterionBelow:
+        """Judge the section by a criterion for the materials of the layers."""
+    def by_yield(
+        self, z: Sequence[float], layer: Sequence[int], s_y: Sequence[float | None]
+    ) -> YieldBelow:
+        """Judge the section by yield stresses of the layers from the surface down [Pa]."""
+    def mean(
+        self,
+        L: float,
+        method: str,
+        layer: int,
+        materials: Sequence[Material | None],
+        criterion: str,
+        *,
+        tolerance: float,
+    ) -> dict[str, NDArray[np.float64]]:
+        """Judge the mean over a critical distance L [m] in a layer: arrays over the places."""
+
+@final
+class CriterionBelow:
+    """What a criterion found on a section."""
+
+    @property
+    def depths(self) -> tuple[list[float], list[int]]:
+        """Depths [m] and their layers."""
+    @property
+    def assessments(self) -> list[Assessment | None]:
+        """The assessment of every layer, None where it is not judged."""
+    @property
+    def notes(self) -> list[str]:
+        """What a reader should know of the materials."""
+    def fields(self) -> dict[str, NDArray[np.float64]]:
+        """Arrays over (depth, place), NaN where not judged."""
+    def worst(self, layer: int) -> dict[str, Any] | None:
+        """The worst point of a layer, None where it is not judged."""
+
+@final
+class YieldBelow:
+    """Load factors on a section."""
+
+    @property
+    def depths(self) -> tuple[list[float], list[int]]:
+        """Depths [m] and their layers."""
+    def fields(self) -> dict[str, NDArray[np.float64]]:
+        """Load factors over (depth, place), NaN where not judged."""
+    def least(self, layer: int, factor: str) -> dict[str, Any] | None:
+        """Where a load factor of a layer is least; `score` is its inverse."""
+
+@final
 class Assessment:
     """A criterion with its limit or its curve of lives."""
 
@@ -2518,6 +2601,9 @@ class Material:
 
 def materials(file: str | PathLike[str] | None = None) -> list[Material]:
     """The materials that come with the package, or those of a file."""
+
+def criteria() -> list[tuple[str, str]]:
+    """Names of the criteria, and how they are written in figures."""
 
 def material_quantities() -> list[tuple[str, str, str]]:
     """Names, units and meanings of the numbers of materials."""

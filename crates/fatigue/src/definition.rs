@@ -38,6 +38,8 @@ pub(crate) type Numbers = [f64; 4];
 pub struct Definition {
     /// Name, as in Python and on the command line.
     pub name: &'static str,
+    /// How it is written in figures.
+    pub title: &'static str,
     /// The equation, with the unit of its value.
     pub equation: &'static str,
     /// Publication.
@@ -103,6 +105,7 @@ const NU: Parameter = parameter("nu", Allowed::Poisson);
 pub const CRITERIA: &[Definition] = &[
     Definition {
         name: "crossland",
+        title: "Crossland",
         equation: "sqrt(J2,a) + alpha p_h,max [Pa]",
         source: "B. Crossland, Proc. Int. Conf. on Fatigue of Metals, IMechE, London (1956) 138-149",
         unit: "Pa",
@@ -117,6 +120,7 @@ pub const CRITERIA: &[Definition] = &[
     },
     Definition {
         name: "dang_van",
+        title: "Dang Van",
         equation: "the largest tau(t) + alpha p_h(t) of the mesoscopic shear [Pa]",
         source: "K. Dang Van, ASTM STP 1191 (1993) 120-130",
         unit: "Pa",
@@ -131,6 +135,7 @@ pub const CRITERIA: &[Definition] = &[
     },
     Definition {
         name: "findley",
+        title: "Findley",
         equation: "the largest tau_a + k s_n,max of all planes [Pa]",
         source: "W. N. Findley, J. Eng. Ind. 81 (1959) 301-305",
         unit: "Pa",
@@ -151,6 +156,7 @@ pub const CRITERIA: &[Definition] = &[
     },
     Definition {
         name: "matake",
+        title: "Matake",
         equation: "tau_a + k s_n,max on the plane of the largest tau_a [Pa]",
         source: "T. Matake, Bull. JSME 20 (1977) 257-263",
         unit: "Pa",
@@ -165,6 +171,7 @@ pub const CRITERIA: &[Definition] = &[
     },
     Definition {
         name: "mcdiarmid",
+        title: "McDiarmid",
         equation: "tau_a + k s_n,max on the plane of the largest tau_a, k = t_D/(2 s_u) [Pa]",
         source: "D. L. McDiarmid, Fatigue Fract. Eng. Mater. Struct. 14 (1991) 429-453",
         unit: "Pa",
@@ -179,6 +186,7 @@ pub const CRITERIA: &[Definition] = &[
     },
     Definition {
         name: "smith_watson_topper",
+        title: "Smith-Watson-Topper",
         equation: "the largest s_n,max times half the range of the normal strain [Pa]",
         source: "K. N. Smith, P. Watson, T. H. Topper, J. Mater. 5 (1970) 767-778;\n\
                  D. F. Socie, J. Eng. Mater. Technol. 109 (1987) 293-298",
@@ -200,6 +208,7 @@ pub const CRITERIA: &[Definition] = &[
     },
     Definition {
         name: "fatemi_socie",
+        title: "Fatemi-Socie",
         equation: "the largest gamma_a (1 + k s_n,max/s_y) of all planes",
         source: "A. Fatemi, D. F. Socie, Fatigue Fract. Eng. Mater. Struct. 11 (1988) 149-165",
         unit: "1",
@@ -225,6 +234,7 @@ pub const CRITERIA: &[Definition] = &[
     },
     Definition {
         name: "brown_miller",
+        title: "Brown-Miller",
         equation: "gamma_a + S times the range of the normal strain, where gamma_a is largest",
         source: "F. A. Kandil, M. W. Brown, K. J. Miller, The Metals Society Book 280 (1982) 203-210",
         unit: "1",

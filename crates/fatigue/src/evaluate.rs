@@ -137,7 +137,7 @@ fn at_point(criterion: &Criterion, path: &Path, search: &Search, worker: &mut Wo
         };
     }
     let n = upward(peak.n);
-    let value = of.factor * of.law.there(planes.parts(n));
+    let value = of.factor * of.law.there(planes.parts(peak.n));
     let acting = Acting::on(path, n, &mut worker.shear);
     AtPoint {
         value,
@@ -151,11 +151,16 @@ fn at_point(criterion: &Criterion, path: &Path, search: &Search, worker: &mut Wo
     }
 }
 
-/// Of a normal and its opposite, the one that points along z, y or x.
+/// Components of a normal below this are what its search leaves.
+const NOISE: f64 = 1e-9;
+
+/// Of a normal and its opposite, the one that points along z, y or x, without noise.
 fn upward(n: [f64; 3]) -> [f64; 3] {
-    let first = [2, 1, 0].into_iter().find(|d| n[*d].abs() > 1e-12);
+    let n = n.map(|v| if v.abs() < NOISE { 0.0 } else { v });
+    let first = [2, 1, 0].into_iter().find(|d| n[*d] != 0.0);
     if first.is_some_and(|d| n[d] < 0.0) {
-        n.map(|v| -v)
+        // Without a negative zero.
+        n.map(|v| 0.0 - v)
     } else {
         n
     }

@@ -10,6 +10,7 @@ mod check;
 mod failure;
 mod json;
 mod largest;
+mod life;
 mod loads;
 mod new;
 mod out;
@@ -79,9 +80,8 @@ enum Command {
     Wear(wear::Options),
     /// Solve a scene for many values of its parameters (needs the Python package)
     Study(python::Options),
-    /// Judge the stress below the contact of a result over a cycle by a fatigue criterion (needs the
-    /// Python package)
-    Life(python::Options),
+    /// Judge the stress below the contact of a result over a cycle by a fatigue criterion
+    Life(life::Options),
     /// Write tractions, forces on a mesh or stress at points for another program (needs the Python
     /// package)
     Export(python::Options),
@@ -125,7 +125,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Man { folder } => manual(&folder),
         Command::Wear(options) => wear::wear(&options),
         Command::Study(options) => return in_python("study", &options),
-        Command::Life(options) => return in_python("life", &options),
+        Command::Life(options) => life::life(&options),
         Command::Export(options) => return in_python("export", &options),
         Command::Crack(options) => return in_python("crack", &options),
         Command::Report(options) => return in_python("report", &options),

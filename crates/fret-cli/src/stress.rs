@@ -144,7 +144,7 @@ fn check_ending(options: &Options) -> Result<(), Error> {
 
 /// A flag that the first Ctrl-C raises; the second ends the process at once, and may leave what is
 /// unfinished behind.
-fn stop_on_interrupt() -> Arc<AtomicBool> {
+pub(crate) fn stop_on_interrupt() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let flag = stop.clone();
     let handler = move || {

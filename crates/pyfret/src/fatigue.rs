@@ -102,7 +102,7 @@ impl Criterion {
 /// A criterion with its limit or its curve of lives.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.fatigue")]
 #[derive(Clone, PartialEq)]
-pub(crate) struct Assessment(core::Assessment);
+pub(crate) struct Assessment(pub(crate) core::Assessment);
 
 #[pymethods]
 impl Assessment {
@@ -157,7 +157,7 @@ impl Assessment {
 /// >>> steel = Material("our_steel", [("s_D", 412e6, tests), ("t_D", 268e6, tests)])
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.fatigue")]
 #[derive(Clone, PartialEq)]
-pub(crate) struct Material(core::Material);
+pub(crate) struct Material(pub(crate) core::Material);
 
 #[pymethods]
 impl Material {
@@ -217,6 +217,12 @@ pub(crate) fn materials(file: Option<PathBuf>) -> PyResult<Vec<Material>> {
         Some(file) => core::materials_from(&file).map_err(refused)?,
     };
     Ok(found.into_values().map(Material).collect())
+}
+
+/// Names of the criteria, and how they are written in figures.
+#[pyfunction]
+pub(crate) fn criteria() -> Vec<(&'static str, &'static str)> {
+    core::CRITERIA.iter().map(|d| (d.name, d.title)).collect()
 }
 
 /// Names, units and meanings of the numbers of materials.

@@ -15,6 +15,7 @@
 )]
 
 mod arguments;
+mod assess;
 mod command_line;
 mod error;
 mod fatigue;
@@ -42,6 +43,8 @@ mod _core {
     use super::Bound;
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use crate::assess::{CriterionBelow, CycleSection, YieldBelow};
     #[pymodule_export]
     use crate::command_line::run_command;
     #[pymodule_export]
@@ -75,8 +78,8 @@ mod _core {
 
     #[pymodule_export]
     use crate::fatigue::{
-        Assessment, Criterion, Material, criterion_on, dang_van_path, material_quantities,
-        materials, yielding_on,
+        Assessment, Criterion, Material, criteria, criterion_on, dang_van_path,
+        material_quantities, materials, yielding_on,
     };
     #[pymodule_export]
     use crate::fracture::{

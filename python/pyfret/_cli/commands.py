@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pyfret import verification, wear
-from pyfret._cli import crack, export, fit, life, threshold
+from pyfret._cli import crack, export, fit, threshold
 from pyfret.citation import cite as sources
 from pyfret.result import open as open_result
 from pyfret.study.file import run_file
@@ -33,7 +33,6 @@ def parser() -> argparse.ArgumentParser:
     study.add_argument("--scheduler", help="address of a Dask cluster, such as tcp://host:8786")
     study.add_argument("--again", action="store_true", help="also points that failed before")
     study.add_argument("--map", metavar="FILE", help="figure of the first measure (.png, .svg)")
-    life.add_options(commands)
     export.add_options(commands)
     crack.add_options(commands)
     fit.add_options(commands)
@@ -108,7 +107,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser().parse_args(arguments)
     commands = {
         "study": study,
-        "life": life.run,
         "export": export.run,
         "crack": crack.run,
         "report": report,

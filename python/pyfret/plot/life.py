@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from pyfret import fatigue
+from pyfret import _core, fatigue
 from pyfret.plot.depth_axis import interfaces, thin
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import scales
@@ -27,16 +27,7 @@ if TYPE_CHECKING:
     from pyfret.plot.scales import Units
 
 #: How criteria are written in figures.
-NAMES = {
-    "crossland": "Crossland",
-    "dang_van": "Dang Van",
-    "findley": "Findley",
-    "matake": "Matake",
-    "mcdiarmid": "McDiarmid",
-    "smith_watson_topper": "Smith-Watson-Topper",
-    "fatemi_socie": "Fatemi-Socie",
-    "brown_miller": "Brown-Miller",
-}
+NAMES = dict(_core.criteria())
 #: Lives beyond this are drawn as endless [cycles].
 ENDLESS = 1e9
 

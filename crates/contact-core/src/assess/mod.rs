@@ -1,5 +1,31 @@
-//! Stage 7: FROM STRESS TO DECISION.
+//! Stage 7: FROM STRESS TO DECISION: does it crack, yield or shake down, over a closed cycle of a contact.
 //!
+//! A [`Judge`] gives what it finds in the stress history of a point: [`ByCriterion`] a fatigue criterion, [`ByYield`]
+//! load factors of first yield and shakedown. [`judge`] takes it to a section, a few depths at a time, so that memory
+//! is bounded whatever the number of increments ([`OverCycle`] gives them, from a store or from arrays);
+//! [`worst`] looks for the worst point of a layer, between the samples and on the rim of the contact, by judging the
+//! stress there; [`average`] judges means over a critical distance of the material.
 //! [`crack`] takes the stress below a contact to the tip of a crack.
 
+mod average;
+mod border;
+mod by_criterion;
+mod by_yield;
 pub mod crack;
+mod cycle;
+mod judged;
+mod moments;
+mod recorded;
+mod site;
+mod worst;
+
+pub use average::{Averaging, Distance, average};
+pub use border::{Errors, Zone};
+pub use by_criterion::{ByCriterion, inclination, materials_of_layers};
+pub use by_yield::ByYield;
+pub use cycle::StoredCycle;
+pub use judged::{Judge, Judged, judge};
+pub use moments::{Moments, OverCycle, unsettled};
+pub use recorded::Recorded;
+pub use site::Site;
+pub use worst::{Worst, worst};

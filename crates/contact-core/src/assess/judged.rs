@@ -1,0 +1,88 @@
+//! A judge taken to a section.
+
+use std::sync::atomic::AtomicBool;
+
+use ndarray::ArrayView3;
+use rayon::prelude::*;
+
+use super::site::Site;
+use crate::error::Error;
+use crate::fields::{Depth, Line};
+
+/// What gives a judgement of the stress history of points.
+pub trait Judge: Sync {
+    /// What it finds at a point.
+    type Found: Copy + Send + Sync;
+    /// Whether it judges a layer, from the surface down.
+    fn judges(&self, layer: usize) -> bool;
+    /// What it finds in stresses of shape (moments, points, 6) of a layer that it judges \[Pa\].
+    fn judge(
+        &self,
+        layer: usize,
+        stress: &ArrayView3<'_, f64>,
+        stop: &AtomicBool,
+    ) -> Result<Vec<Self::Found>, Error>;
+    /// How bad that is: the larger the worse.
+    fn score(&self, found: &Self::Found) -> f64;
+}
+
+/// What a judge found on a section.
+#[derive(Clone, Debug)]
+pub struct Judged<F> {
+    /// The line that the section is below.
+    pub line: Line,
+    /// Places on it \[m\].
+    pub along: Vec<f64>,
+    /// Depths.
+    pub depths: Vec<Depth>,
+    /// What was found at each depth along the line; nothing in layers that are not judged.
+    pub found: Vec<Option<Vec<F>>>,
+}
+
+/// Takes judges to the section below a line, all to the same stress.
+pub fn judge<J: Judge>(
+    site: &Site<'_>,
+    line: Line,
+    depths: &[Depth],
+    judges: &[J],
+) -> Result<Vec<Judged<J::Found>>, Error> {
+    let along = site.along(line);
+    let wanted: Vec<usize> = (0..depths.len())
+        .filter(|n| judges.iter().any(|judge| judge.judges(depths[*n].layer)))
+        .collect();
+    let some: Vec<Depth> = wanted.iter().map(|n| depths[*n]).collect();
+    let mut found: Vec<Vec<Option<Vec<J::Found>>>> = vec![vec![None; depths.len()]; judges.len()];
+    site.on_line(line, &some, |first, histories| {
+        let of_depth = |(k, history): (usize, &super::site::History)| {
+            let layer = some[first + k].layer;
+            let of_judge = |judge: &J| {
+                judge
+                    .judges(layer)
+                    .then(|| judge.judge(layer, &history.view(), &site.stop))
+                    .transpose()
+            };
+            judges
+                .iter()
+                .map(of_judge)
+                .collect::<Result<Vec<_>, Error>>()
+        };
+        let here: Vec<_> = histories
+            .par_iter()
+            .enumerate()
+            .map(of_depth)
+            .collect::<Result<_, Error>>()?;
+        for (k, of_judges) in here.into_iter().enumerate() {
+            for (found, of_judge) in found.iter_mut().zip(of_judges) {
+                found[wanted[first + k]] = of_judge;
+            }
+        }
+        Ok(())
+    })?;
+    let judged = |found| Judged {
+        line,
+        along: along.clone(),
+        depths: depths.to_vec(),
+        found,
+    };
+    Ok(found.into_iter().map(judged).collect())
+}

@@ -1,0 +1,137 @@
+//! What acts on a contact at moments of a cycle.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use ndarray::Array2;
+
+use crate::convolution::Tractions;
+use crate::error::Error;
+use crate::fields::States;
+use crate::scene::Grid;
+
+/// Tractions and bulk stress at several moments.
+#[derive(Clone, Debug, Default)]
+pub struct Moments {
+    /// Tractions q_x, q_y, p \[Pa\] of each moment, of shape (nx, ny).
+    pub tractions: Vec<[Array2<f64>; 3]>,
+    /// The cells that stick.
+    pub stick: Vec<Array2<bool>>,
+    /// Bulk stress of the body \[Pa\].
+    pub sigma_B: Vec<f64>,
+}
+
+/// The moments of a cycle, which are asked for a few at a time.
+pub trait OverCycle: Sync {
+    /// How many there are.
+    fn count(&self) -> usize;
+    /// The moments of these numbers, from 0.
+    fn moments(&self, which: &[usize]) -> Result<Moments, Error>;
+    /// Where the cycle begins: the moment before its first, if it was kept.
+    fn start(&self) -> Result<Option<Moments>, Error>;
+}
+
+impl Moments {
+    /// The states of the body that they are, with the residual stress of its layers \[Pa\].
+    pub(super) fn with_states<T>(
+        &self,
+        residual: &[f64],
+        stop: &Arc<AtomicBool>,
+        f: impl FnOnce(States<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let tractions: Vec<_> = self
+            .tractions
+            .iter()
+            .map(|[q_x, q_y, p]| Tractions {
+                q_x: q_x.as_slice(),
+                q_y: q_y.as_slice(),
+                p: p.as_slice(),
+            })
+            .collect();
+        let stick: Vec<&[bool]> = self
+            .stick
+            .iter()
+            .map(|stick| stick.as_slice().unwrap_or_default())
+            .collect();
+        f(States {
+            tractions: &tractions,
+            sigma_B: &self.sigma_B,
+            residual,
+            stick: Some(&stick),
+            stop: stop.clone(),
+        })
+    }
+
+    /// On cells twice as large, those of [`coarser`].
+    pub(super) fn on_coarser(&self, grid: &Grid) -> Self {
+        let across = if grid.ny == 1 { 1 } else { 2 };
+        let shape = (grid.nx.div_ceil(2), grid.ny.div_ceil(across));
+        let part = 1.0 / (2 * across) as f64;
+        let cells = |(i, j): (usize, usize)| {
+            let columns = 2 * i..(2 * i + 2).min(grid.nx);
+            let rows = across * j..(across * j + across).min(grid.ny);
+            columns.flat_map(move |i| rows.clone().map(move |j| (i, j)))
+        };
+        let mean = |field: &Array2<f64>| {
+            Array2::from_shape_fn(shape, |at| part * cells(at).map(|c| field[c]).sum::<f64>())
+        };
+        let any =
+            |field: &Array2<bool>| Array2::from_shape_fn(shape, |at| cells(at).any(|c| field[c]));
+        Self {
+            tractions: self
+                .tractions
+                .iter()
+                .map(|t| t.each_ref().map(mean))
+                .collect(),
+            stick: self.stick.iter().map(any).collect(),
+            sigma_B: self.sigma_B.clone(),
+        }
+    }
+}
+
+/// By how much the tractions at the end of a cycle differ from those where it begins, over the largest of the cycle's
+/// end: 0 for a settled one. Where that is large the cycle is not the one that goes on. None where the increment before
+/// the cycle was not kept.
+pub fn unsettled(cycle: &dyn OverCycle) -> Result<Option<f64>, Error> {
+    let Some(start) = cycle.start()? else {
+        return Ok(None);
+    };
+    let end = cycle.moments(&[cycle.count() - 1])?;
+    let (Some(before), Some(after)) = (start.tractions.first(), end.tractions.first()) else {
+        return Ok(None);
+    };
+    let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+    // Pressure and shear have sizes of their own.
+    let mut worst = 0.0_f64;
+    for (n, (before, after)) in before.iter().zip(after).enumerate() {
+        for (a, b) in before.iter().zip(after) {
+            change = change.max((a - b).abs());
+            largest = largest.max(a.abs()).max(b.abs());
+        }
+        // q_x and q_y together.
+        if n != 0 {
+            worst = worst.max(if largest > 0.0 { change / largest } else { 0.0 });
+            (change, largest) = (0.0, 0.0);
+        }
+    }
+    Ok(Some(worst))
+}
+
+/// A grid of cells twice as large, and where its middle is \[m\].
+pub(super) fn coarser(grid: &Grid) -> (Grid, (f64, f64)) {
+    let across = if grid.ny == 1 { 1 } else { 2 };
+    let (nx, ny) = (grid.nx.div_ceil(2), grid.ny.div_ceil(across));
+    let coarse = Grid {
+        nx,
+        ny,
+        dx: 2.0 * grid.dx,
+        dy: across as f64 * grid.dy,
+        ..*grid
+    };
+    // Cells beyond a grid of an odd number carry nothing.
+    let middle = (
+        (2 * nx - grid.nx) as f64 * 0.5 * grid.dx,
+        (across * ny - grid.ny) as f64 * 0.5 * grid.dy,
+    );
+    (coarse, middle)
+}
