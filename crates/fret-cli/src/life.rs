@@ -195,10 +195,8 @@ fn points(
         }
     }
     let margin = |(w, a): &(Worst<AtPoint>, &Assessment)| a.margin(w.score);
-    let least = all
-        .iter()
-        .map(margin)
-        .fold(
+    let least =
+        all.iter().map(margin).fold(
             f64::INFINITY,
             |least, margin| if margin < least { margin } else { least },
         );

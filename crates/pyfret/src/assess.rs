@@ -22,6 +22,12 @@ use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 use crate::subsurface::{Subsurface, line};
 
+/// Fields of several moments.
+type Fields<'py> = Vec<PyReadonlyArray2<'py, f64>>;
+type Sticking<'py> = Vec<PyReadonlyArray2<'py, bool>>;
+/// A load factor of several.
+type Factor = fn(&Yield) -> f64;
+
 /// The moments of a cycle that an object of Python gives: fields of shape (nx, ny) of each and bulk stresses.
 struct Given {
     /// Called with the numbers of moments, or with none for the start of the cycle.
@@ -47,8 +53,6 @@ impl Given {
         if given.is_none(py) {
             return Ok(None);
         }
-        type Fields<'py> = Vec<PyReadonlyArray2<'py, f64>>;
-        type Sticking<'py> = Vec<PyReadonlyArray2<'py, bool>>;
         let (q_x, q_y, p, stick, sigma_B): (
             Fields<'_>,
             Fields<'_>,
@@ -419,7 +423,7 @@ pub(crate) struct YieldBelow {
 }
 
 /// The factors by their names.
-const FACTORS: [(&str, fn(&Yield) -> f64); 3] = [
+const FACTORS: [(&str, Factor); 3] = [
     ("von_mises", |f| f.von_mises),
     ("tresca", |f| f.tresca),
     ("shakedown", |f| f.shakedown),
