@@ -13,6 +13,17 @@
 //! with a curved front.
 //!
 //! The crack changes neither the loads nor where they act: K is linear in the stress.
+//!
+//! ```
+//! use fracture::{Crack, Path};
+//!
+//! let crack = Crack::new(Path::straight(0.0, 1e-4, 0.0))?;
+//! let tension = vec![[100e6, 0.0, 0.0]; crack.points().len()];
+//! let k = crack.intensity(&tension)?;
+//! let F = k.K_I / (100e6 * (std::f64::consts::PI * 1e-4).sqrt());
+//! assert!((F - 1.1215).abs() < 1e-4 && k.K_II.abs() < 1e-3 * k.K_I);
+//! # Ok::<(), fracture::Error>(())
+//! ```
 
 mod arrest;
 mod closure;
