@@ -28,7 +28,7 @@ def test_the_scar_of_ti64_has_its_width_with_the_debris_that_stays() -> None:
 
 
 def test_the_depth_of_tic_follows_its_energy() -> None:
-    worn = experiments.fouvry2007("TiC").wear(jumps=3)
+    worn = experiments.fouvry2007("TiC").wear(jumps=6)
     d = worn.dataset
     rows = [r for r in experiments.table("fouvry2007_tic_depth") if r["phase"] == "I wear"]
     energies = [r["derived_accumulated_energy_J"] for r in rows]

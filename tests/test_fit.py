@@ -16,7 +16,7 @@ STEEL = fret.Elastic(E=210e9, nu=0.3)
 W = 20.0
 
 
-def ball(n: int = 24, **coating: float) -> fret.Scene:
+def ball(n: int = 32, **coating: float) -> fret.Scene:
     """Give a ball on a flat, bare or coated."""
     layers = []
     if coating:

@@ -121,8 +121,8 @@ def test_lives_are_told_at_their_cycle() -> None:
     ):
         curve = np.interp(value, np.r_[0, d.dataset[name]], np.r_[0, d.dataset.cycles])
         assert np.isclose(told, curve, rtol=2e-3)
-    few = worn(fret.wear.Archard(2e-13), jumps=4)
-    assert np.isclose(few.cycles_to(depth=depth), d.cycles_to(depth=depth), rtol=0.02)
+    few = worn(fret.wear.Archard(2e-13), jumps=10)
+    assert np.isclose(few.cycles_to(depth=depth), d.cycles_to(depth=depth), rtol=0.03)
     assert d.cycles_to(depth=1.0) == np.inf
     with pytest.raises(ValueError, match="give one of them"):
         d.cycles_to()
@@ -131,7 +131,7 @@ def test_lives_are_told_at_their_cycle() -> None:
 
 
 def test_a_run_goes_on_from_worn_surfaces(tmp_path: Path) -> None:
-    law = fret.wear.Archard(2e-13)
+    law = fret.wear.Archard(8e-14)
     first = worn(law, jumps=8)
     second = worn(law, jumps=8, start=first)
     assert float(second.cycles[-1]) == 4000
@@ -208,7 +208,7 @@ def test_friction_falls_over_cycles() -> None:
 
 
 def test_a_rig_acts_in_every_run() -> None:
-    scene = line()
+    scene = line(160)
     shifted = scene.path.branches[-1].delta_x
     stiff = fret.solve(scene, progress=False)
     soft = fret.solve(scene, rig_stiffness=5e9, progress=False)
