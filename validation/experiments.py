@@ -57,8 +57,10 @@ def spread(ratios: list[float], within: float) -> str:
     """Mean, scatter and count of ratios."""
     r = np.array(ratios)
     inside = int(np.sum(np.abs(r - 1) <= within))
-    return f"mean {r.mean():.2f}, sd {r.std(ddof=1):.2f}, {inside} of {r.size} within "
-    f"{100 * within:.0f} %"
+    return (
+        f"mean {r.mean():.2f}, sd {r.std(ddof=1):.2f}, {inside} of {r.size} within "
+        f"{100 * within:.0f} %"
+    )
 
 
 def factor(ratios: list[float], by: float) -> str:
