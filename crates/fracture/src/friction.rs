@@ -228,7 +228,7 @@ impl Faces {
     pub fn open_share(&self) -> Result<f64, Error> {
         let parts = self.parts()?;
         let open = parts.iter().filter(|part| part.0 == State::Open);
-        Ok(open.map(|(_, begin, end)| end - begin).sum())
+        Ok(open.fold(0.0, |sum, (_, begin, end)| sum + end - begin))
     }
 
     fn state(&self, k: usize) -> State {
