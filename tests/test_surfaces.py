@@ -56,8 +56,8 @@ def test_holes_are_named_cut_off_or_filled(tmp_path: Path) -> None:
         fret.SurfaceMap(holed, spacing=1e-6)
     cut = fret.SurfaceMap.from_file(file, spacing=1e-6, missing="crop")
     np.testing.assert_array_equal(cut.values, HEIGHTS[1:])
-    filled = fret.SurfaceMap(holed, spacing=1e-6, missing="fill").values
-    np.testing.assert_allclose(filled[0], [-1.5, -1.0, -0.5])
+    with pytest.raises(fret.errors.InvalidSceneError, match=r"3 of 12 points \(25.0 %\)"):
+        fret.SurfaceMap(holed, spacing=1e-6, missing="fill")
     with pytest.raises(
         fret.errors.InvalidSceneError, match=r'missing = leave: must be "refuse", "crop"'
     ):
@@ -75,7 +75,7 @@ def test_an_empty_table_holds_no_number(tmp_path: Path) -> None:
 
 def test_plain_numbers_need_a_spacing(tmp_path: Path) -> None:
     np.save(tmp_path / "z.npy", HEIGHTS)
-    with pytest.raises(ValueError, match="need the distance of the points"):
+    with pytest.raises(fret.errors.StoreError, match="need the distance of the points"):
         fret.read_surface(tmp_path / "z.npy")
 
 

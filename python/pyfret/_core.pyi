@@ -611,7 +611,12 @@ class SurfaceMap:
     ) -> SurfaceMap: ...
     @staticmethod
     def from_file(
-        path: str | PathLike[str], *, spacing: _Pitch, missing: _Missing = "refuse"
+        path: str | PathLike[str],
+        *,
+        spacing: _Pitch | None = None,
+        unit: str | None = None,
+        channel: str | None = None,
+        missing: _Missing = "refuse",
     ) -> SurfaceMap:
         """Read numbers from a ``.npy`` array or from a table of text, one line per x.
 
@@ -626,6 +631,9 @@ class SurfaceMap:
             What becomes of points without a number (blank or NaN): an error that says where they
             are; lines taken off the edges; the mean of the neighbours.
         """
+    @property
+    def filled(self) -> int:
+        """How many of the numbers were not measured: each is the mean of its neighbours."""
     @property
     def values(self) -> _Array:
         """The numbers."""
@@ -807,7 +815,7 @@ class Grid:
         cls, *, nx: int, ny: int, dx: float, dy: float, plane_strain: bool = ...
     ) -> Grid: ...
     @staticmethod
-    def centred(*, extent: float, n: int) -> Grid:
+    def centred(*, extent: _Pitch, n: int | tuple[int, int]) -> Grid:
         """`n` by `n` cells on a square of side `extent` [m]."""
     @staticmethod
     def from_spacing(n: int | tuple[int, int], spacing: _Pitch) -> Grid:
@@ -1072,7 +1080,10 @@ class LoadPath:
         """
     @staticmethod
     def from_csv(
-        path: str | PathLike[str], *, increments: int | PerRange | Literal["auto"] = ...
+        path: str | PathLike[str],
+        *,
+        increments: int | PerRange | Literal["auto"] = ...,
+        drive: str | Sequence[str] = ...,
     ) -> LoadPath:
         """Read a measured history; the first line names the columns of `waypoints`."""
     def force(
@@ -2729,6 +2740,9 @@ def wear(
     on_jump: Callable[[float], None] | None = None,
 ) -> None:
     """Runs a scene over many cycles into a store."""
+
+def verify_wear(store: str | PathLike[str]) -> None:
+    """Fails if a file of the store of a run of wear is missing, or is not as it was written."""
 
 def resume_wear(
     store: str | PathLike[str],

@@ -12,6 +12,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import influence_coefficients, stress_at, stress_coefficients
+from pyfret._util.arrays import plain
 from pyfret._util.names import listing
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ def surface_frf(body: Body, k_x: ArrayLike, k_y: ArrayLike) -> NDArray[np.comple
     array of shape (..., 3, 3)
         Rows u_x, u_y, u_z, columns q_x, q_y, p [m/Pa].
     """
-    waves = np.broadcast_arrays(np.asarray(k_x, dtype=float), np.asarray(k_y, dtype=float))
+    waves = np.broadcast_arrays(plain(k_x, "k_x"), plain(k_y, "k_y"))
     frf = _core.surface_frf(body, *(np.ravel(k) for k in waves))
     return frf.reshape(*waves[0].shape, 3, 3)
 

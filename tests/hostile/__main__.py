@@ -14,13 +14,14 @@ from typing import Any
 
 import closed_forms
 import fields
+import follows
 import numpy as np
 import scenes
 from values import ALLOWED, OWN, hostile
 
 #: Address space beyond what is taken after the imports [bytes].
 MEMORY = 3 << 30
-CALLS = [*scenes.CALLS, *closed_forms.CALLS, *fields.CALLS]
+CALLS = [*scenes.CALLS, *closed_forms.CALLS, *fields.CALLS, *follows.CALLS]
 
 
 def cases() -> Iterator[tuple[str, Callable[..., Any], dict[str, Any]]]:

@@ -17,7 +17,7 @@ ALLOWED = (ValueError, TypeError, OverflowError, KeyError, MemoryError, OSError)
 OWN = (fret.errors.NoConvergenceError, fret.errors.SlidingError, fret.errors.KernelInaccurateError)
 
 NAN, INF = float("nan"), float("inf")
-FLOATS = [NAN, INF, -INF, 0.0, -1.0, 1e300, -1e300, 1e-300, 1e9, 1e30]
+FLOATS = [NAN, INF, -INF, 0.0, -1.0, 1e300, -1e300, 1e-300, 5e-324, 1e9, 1e30]
 INTS = [0, -1, 1, 10**9, 2**31, 2**62, 2**63, 2**64]
 
 STEEL = fret.Elastic(E=210e9, nu=0.3)
@@ -40,6 +40,20 @@ SCENE = {
 }
 TOML = fret.Scene(**SCENE).to_toml()
 ARRAY = np.linspace(0, 2e-4, 5)
+
+
+class Liar(list[Any]):
+    """A list that says that it is very long."""
+
+    def __len__(self) -> int:
+        """Give far more than there is."""
+        return 1 << 60
+
+
+def repeated(value: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """An array of a million million numbers that takes no memory."""
+    one = np.zeros((), value.dtype)
+    return np.broadcast_to(one, (1 << (40 // max(value.ndim, 1)),) * max(value.ndim, 1))
 
 
 def scene(**changed: Any) -> fret.Scene:
@@ -101,6 +115,7 @@ def hostile(value: Any) -> list[Any]:
         others = [np.full(value.shape, v) for v in FLOATS] if value.dtype.kind == "f" else []
         shapes = [(0,), (), (1,), (0, 5), (6, 0), (5, 6), (6, 5, 1)]
         others += [np.zeros(shape, value.dtype) for shape in shapes]
+        others += [repeated(value), np.ma.array(value, mask=True)]
         torn = np.zeros((2 * value.shape[0], *value.shape[1:]), value.dtype)[::2]
         return [*others, torn, np.asfortranarray(value), value.astype(object), value.astype("i4")]
     if isinstance(value, tuple):
@@ -112,7 +127,7 @@ def hostile(value: Any) -> list[Any]:
         return [*parts, (), value * 2]
     if isinstance(value, list):
         parts = [[other] for part in value[:1] for other in hostile(part)]
-        return [*parts, [], value * 300]
+        return [*parts, [], value * 300, Liar(value)]
     if isinstance(value, str):
         return ["", "x", "\0", "é" * 5000]
     return objects_like(value)

@@ -8,9 +8,9 @@ use contact_core::scene::{Body, Bond, Elastic};
 use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
+use crate::printed::print;
 use crate::scene_options::{SceneOptions, say_doubts};
 use crate::summary::short;
-use crate::terminal::print;
 
 /// Options of `fret check`.
 #[derive(Args)]
@@ -40,13 +40,13 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
             }
         }
         object.insert("doubts".into(), json!(scene.doubts()));
-        print(&format!("{:#}", Value::Object(object)));
+        print(&format!("{:#}", Value::Object(object)))?;
     } else {
         let lines = lines
             .iter()
             .map(|(subject, text)| format!("{subject:<14}{text}"));
         let all: Vec<String> = std::iter::once(scene.title.clone()).chain(lines).collect();
-        print(&all.join("\n"));
+        print(&all.join("\n"))?;
     }
     say_doubts(&scene);
     plan.check_memory(&scene).map_err(Failure::BadInput)

@@ -2,10 +2,11 @@
 
 use std::io::IsTerminal;
 
+use clap::ColorChoice;
 use clap::builder::styling::AnsiColor;
 use contact_core::Error;
 
-use crate::terminal::say;
+use crate::terminal::{colours, say};
 
 /// How a command that failed ends.
 pub(crate) enum Failure {
@@ -15,6 +16,8 @@ pub(crate) enum Failure {
     BadInput(Error),
     /// Ctrl-C, and nothing is kept.
     Stopped,
+    /// What was to be printed could not be written.
+    Unwritten(Error),
 }
 
 impl Failure {
@@ -22,11 +25,11 @@ impl Failure {
         let (error, code) = match self {
             Self::EndedEarly(error) => (error.to_string(), 1),
             Self::BadInput(error) => (error.to_string(), 2),
+            Self::Unwritten(error) => (error.to_string(), 3),
             Self::Stopped => ("stopped, nothing was written".to_owned(), 1),
         };
         let stderr = std::io::stderr();
-        // Colours for people, plain text for files and pipes (https://no-color.org).
-        let coloured = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none();
+        let coloured = stderr.is_terminal() && colours() != ColorChoice::Never;
         let red = AnsiColor::Red.on_default().bold();
         if coloured {
             say(&format!("{red}fret:{red:#} {error}"));

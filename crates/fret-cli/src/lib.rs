@@ -14,6 +14,7 @@ mod life;
 mod loads;
 mod new;
 mod out;
+mod printed;
 mod progress;
 mod python;
 mod resume;
@@ -27,14 +28,16 @@ mod wear;
 mod words;
 
 use std::ffi::OsString;
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::builder::styling::{AnsiColor, Styles};
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use contact_core::Error;
 
 use crate::failure::Failure;
-use crate::terminal::print;
+use crate::printed::{print, written};
+use crate::terminal::colours;
 
 /// Fretting contact of elastic bodies, homogeneous or coated.
 #[derive(Parser)]
@@ -45,7 +48,8 @@ struct Cli {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done; 1 the run ended early, everything so far is kept; \
-                          2 bad scene or bad command line, nothing was written";
+                          2 bad scene or bad command line, nothing was written; 3 what was to be printed \
+                          could not be written, such as to a full disk";
 
 const STYLES: Styles = Styles::styled()
     .header(AnsiColor::Green.on_default().bold())
@@ -79,7 +83,7 @@ enum Command {
     /// Wear the surfaces of a scene with a table [wear] over many cycles
     Wear(wear::Options),
     /// Solve a scene for many values of its parameters (needs the Python package)
-    Study(python::Options),
+    Study(python::Study),
     /// Judge the stress below the contact of a result over a cycle by a fatigue criterion
     Life(life::Options),
     /// Write tractions, forces on a mesh or stress at points for another program (needs the Python
@@ -88,26 +92,31 @@ enum Command {
     /// Say whether a crack below the contact of a result grows or stops (needs the Python package)
     Crack(python::Options),
     /// Write a result as one page for a browser (needs the Python package)
-    Report(python::Options),
+    Report(python::Report),
     /// Find unknowns of a scene (mu, a rig, a coating, wear) from a measured table
     Fit(python::Options),
     /// Find the load at which a fatigue criterion reaches its limit
     Threshold(python::Options),
     /// Check this installation against closed forms in minutes (needs the Python package)
-    Verify(python::Options),
+    Verify,
     /// Say what to cite for a result (needs the Python package)
-    Cite(python::Options),
+    Cite(python::Cite),
 }
 
 /// Runs the command that the arguments name, the first of them the program's name, and gives the exit
-/// code: 0 done, 1 the run ended early, 2 bad scene or bad command line.
+/// code: 0 done, 1 the run ended early, 2 bad scene or bad command line, 3 the output could not be
+/// written.
 pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let cli = match Cli::try_parse_from(arguments) {
+    let parsed = Cli::command()
+        .color(colours())
+        .try_get_matches_from(arguments);
+    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
-            // Help and version come this way as well; if nobody listens, nobody is told.
-            let _ = error.print();
-            return u8::try_from(error.exit_code()).unwrap_or(2);
+            // Help and version come this way as well.
+            let printed = written(error.print().and_then(|()| std::io::stdout().flush()));
+            let code = u8::try_from(error.exit_code()).unwrap_or(2);
+            return printed.map_or_else(|failure| failure.report(), |()| code);
         }
     };
     let outcome = match cli.command {
@@ -119,20 +128,19 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "fret", &mut script);
-            print(String::from_utf8_lossy(&script).trim_end());
-            Ok(())
+            print(String::from_utf8_lossy(&script).trim_end())
         }
         Command::Man { folder } => manual(&folder),
         Command::Wear(options) => wear::wear(&options),
-        Command::Study(options) => return in_python("study", &options),
+        Command::Study(options) => return in_python("study", &options.arguments()),
         Command::Life(options) => life::life(&options),
-        Command::Export(options) => return in_python("export", &options),
-        Command::Crack(options) => return in_python("crack", &options),
-        Command::Report(options) => return in_python("report", &options),
-        Command::Fit(options) => return in_python("fit", &options),
-        Command::Threshold(options) => return in_python("threshold", &options),
-        Command::Verify(options) => return in_python("verify", &options),
-        Command::Cite(options) => return in_python("cite", &options),
+        Command::Export(options) => return in_python("export", &options.arguments),
+        Command::Crack(options) => return in_python("crack", &options.arguments),
+        Command::Report(options) => return in_python("report", &options.arguments()),
+        Command::Fit(options) => return in_python("fit", &options.arguments),
+        Command::Threshold(options) => return in_python("threshold", &options.arguments),
+        Command::Verify => return in_python("verify", &[]),
+        Command::Cite(options) => return in_python("cite", &options.arguments()),
     };
     match outcome {
         Ok(()) => 0,
@@ -141,8 +149,8 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 /// Ends as the command of the Python package does.
-fn in_python(command: &str, options: &python::Options) -> u8 {
-    python::run(command, options).unwrap_or_else(|failure| failure.report())
+fn in_python(command: &str, arguments: &[OsString]) -> u8 {
+    python::run(command, arguments).unwrap_or_else(|failure| failure.report())
 }
 
 /// Writes the manual pages.

@@ -18,8 +18,9 @@ use contact_core::scene::Body;
 use serde_json::json;
 
 use crate::failure::Failure;
+use crate::printed::print;
 use crate::stress::stop_on_interrupt;
-use crate::terminal::{print, say};
+use crate::terminal::say;
 
 /// Share of the largest traction by which the ends of a cycle may differ before that is told.
 const UNSETTLED: f64 = 0.02;
@@ -89,13 +90,15 @@ pub(crate) struct Options {
 
 /// Judges a result and says what came out.
 pub(crate) fn life(options: &Options) -> Result<(), Failure> {
-    judged(options).map_err(|error| match error {
+    let lines = judged(options).map_err(|error| match error {
         Error::Interrupted { .. } => Failure::Stopped,
         error => Failure::BadInput(error),
-    })
+    })?;
+    lines.iter().try_for_each(|line| print(line))
 }
 
-fn judged(options: &Options) -> Result<(), Error> {
+/// What is to be printed; notes are said.
+fn judged(options: &Options) -> Result<Vec<String>, Error> {
     check_ending(options)?;
     let store = Store::open(&options.store)?;
     let scene = store.scene();
@@ -157,21 +160,21 @@ fn judged(options: &Options) -> Result<(), Error> {
                 .into(),
         );
     }
-    for row in &found {
+    let line = |row: &Row| {
         let mut json = row.json.clone();
         json["notes"] = json!(notes);
-        print(&if options.json {
+        if options.json {
             json.to_string()
         } else {
             row.line.clone()
-        });
-    }
+        }
+    };
     if !options.json {
         for note in &notes {
             say(&format!("fret: {note}"));
         }
     }
-    Ok(())
+    Ok(found.iter().map(line).collect())
 }
 
 /// What is said of a layer.

@@ -8,7 +8,8 @@ use clap::{Args, ValueEnum};
 use contact_core::Error;
 
 use crate::failure::Failure;
-use crate::terminal::{print, say};
+use crate::printed::print;
+use crate::terminal::say;
 
 /// Options of `fret new`.
 #[derive(Args)]
@@ -55,8 +56,7 @@ impl Template {
 pub(crate) fn new(options: &Options) -> Result<(), Failure> {
     let text = options.template.text();
     let Some(out) = &options.out else {
-        print(text.trim_end());
-        return Ok(());
+        return print(text.trim_end());
     };
     let written = File::create_new(out).and_then(|mut file| file.write_all(text.as_bytes()));
     written.map_err(|e| {

@@ -7,7 +7,7 @@ use contact_core::march::{Increment, summarise};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::summary;
-use crate::terminal::say;
+use crate::terminal::{draws, say};
 
 const TEMPLATE: &str = "{bar:20} {pos}/{len} increments, {elapsed} elapsed, {eta} left  {msg}";
 const TICK: Duration = Duration::from_millis(200);
@@ -29,7 +29,11 @@ impl Progress {
         if quiet {
             return Self { shown: None };
         }
-        let bar = ProgressBar::new(scene.path.increments() as u64);
+        let bar = if draws() {
+            ProgressBar::new(scene.path.increments() as u64)
+        } else {
+            ProgressBar::hidden()
+        };
         if let Ok(style) = ProgressStyle::with_template(TEMPLATE) {
             bar.set_style(style);
         }

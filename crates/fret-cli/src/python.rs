@@ -1,10 +1,13 @@
 //! Commands that the Python package does: `fret study` is `python -m pyfret study`, and so on.
 //!
 //! Studies take functions of the user and clusters of Dask, reports and figures libraries of Python:
-//! there is one implementation, and this hands the command line over to it.
+//! there is one implementation, and this hands the command line over to it. The interpreter looks for
+//! modules where it is installed, never in the folder in which the command is given: a `numpy.py` that
+//! lies there is not run.
 
-use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::ffi::{OsStr, OsString};
+use std::io;
+use std::path::PathBuf;
 use std::process::Command;
 
 use clap::Args;
@@ -14,6 +17,18 @@ use crate::Failure;
 
 /// Names the interpreter that has pyfret, if neither that beside `fret` nor the first one on PATH is it.
 const INTERPRETER: &str = "FRET_PYTHON";
+/// Runs the package, without the current folder among those in which modules are looked for.
+const PROGRAM: &str = "import sys
+sys.path[:] = [place for place in sys.path if place not in ('', '.')]
+try:
+    import pyfret
+except ModuleNotFoundError as absent:
+    if absent.name != 'pyfret': raise
+    print(f'fret: {sys.executable}: has no package pyfret; `fret {sys.argv[1]}` needs Python with the package pyfret: \
+install it, or name the interpreter in FRET_PYTHON', file=sys.stderr)
+    sys.exit(2)
+import runpy
+runpy.run_module('pyfret', run_name='__main__', alter_sys=True)";
 
 /// All that follows the name of the command.
 #[derive(Args)]
@@ -21,40 +36,131 @@ const INTERPRETER: &str = "FRET_PYTHON";
 pub(crate) struct Options {
     /// Arguments; --help lists them
     #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
-    arguments: Vec<OsString>,
+    pub(crate) arguments: Vec<OsString>,
 }
 
-/// Hands a command over to Python and ends as it ends.
-pub(crate) fn run(command: &str, options: &Options) -> Result<u8, Failure> {
+/// Options of `fret study`.
+#[derive(Args)]
+pub(crate) struct Study {
+    /// Study file (TOML)
+    file: PathBuf,
+    /// Store (default: that of the file, or NAME.zarr)
+    #[arg(short, long, value_name = "STORE")]
+    out: Option<PathBuf>,
+    /// Processes (default: one for each processor)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    workers: Option<u16>,
+    /// Address of a Dask cluster, such as tcp://host:8786
+    #[arg(long, value_name = "ADDRESS", conflicts_with = "workers")]
+    scheduler: Option<String>,
+    /// Solve points that failed before as well
+    #[arg(long)]
+    again: bool,
+    /// Figure of the first measure (.png, .svg)
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+}
+
+/// Options of `fret report`.
+#[derive(Args)]
+pub(crate) struct Report {
+    /// Result store
+    store: PathBuf,
+    /// Page to write (default: NAME.html)
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Result of fret wear, shown as well
+    #[arg(long, value_name = "STORE")]
+    wear: Option<PathBuf>,
+}
+
+/// Options of `fret cite`.
+#[derive(Args)]
+pub(crate) struct Cite {
+    /// Result store (default: all methods)
+    store: Option<PathBuf>,
+}
+
+/// Arguments in the form of Python's part: options with their values in one, what stands alone last.
+#[derive(Default)]
+struct Words(Vec<OsString>);
+
+impl Words {
+    fn option(mut self, name: &str, value: Option<impl AsRef<OsStr>>) -> Self {
+        if let Some(value) = value {
+            let mut word = OsString::from(format!("{name}="));
+            word.push(value.as_ref());
+            self.0.push(word);
+        }
+        self
+    }
+
+    fn ending_in(mut self, alone: Option<&PathBuf>) -> Vec<OsString> {
+        if let Some(alone) = alone {
+            self.0.extend(["--".into(), alone.into()]);
+        }
+        self.0
+    }
+}
+
+impl Study {
+    pub(crate) fn arguments(&self) -> Vec<OsString> {
+        let mut words = Words::default()
+            .option("--out", self.out.as_ref())
+            .option("--workers", self.workers.map(|n| n.to_string()))
+            .option("--scheduler", self.scheduler.as_ref())
+            .option("--map", self.map.as_ref());
+        words.0.extend(self.again.then(|| "--again".into()));
+        words.ending_in(Some(&self.file))
+    }
+}
+
+impl Report {
+    pub(crate) fn arguments(&self) -> Vec<OsString> {
+        let words = Words::default().option("--out", self.out.as_ref());
+        words
+            .option("--wear", self.wear.as_ref())
+            .ending_in(Some(&self.store))
+    }
+}
+
+impl Cite {
+    pub(crate) fn arguments(&self) -> Vec<OsString> {
+        Words::default().ending_in(self.store.as_ref())
+    }
+}
+
+/// Hands a command over to Python and ends as it ends. On Unix the interpreter takes the place of this
+/// process, so that signals reach it.
+pub(crate) fn run(command: &str, arguments: &[OsString]) -> Result<u8, Failure> {
     let interpreter = interpreter();
     let mut python = Command::new(&interpreter);
     python
-        .args(["-m", "pyfret", command])
-        .args(&options.arguments);
-    let without_package = |why: &str| {
+        // Processes that it starts leave the current folder out as well.
+        .env("PYTHONSAFEPATH", "1")
+        .args(["-c", PROGRAM, command])
+        .args(arguments);
+    ended_as(&mut python).map_err(|e| {
         Failure::BadInput(Error::File {
             path: interpreter.display().to_string(),
             message: format!(
-                "{why}; `fret {command}` needs Python with the package pyfret: install it, or name the \
-                 interpreter in {INTERPRETER}"
+                "{e}; `fret {command}` needs Python with the package pyfret: install it, or name the interpreter \
+                 in {INTERPRETER}"
             ),
         })
-    };
-    let ended = python
-        .status()
-        .map_err(|e| without_package(&e.to_string()))?;
-    if !ended.success() && !has_package(&interpreter) {
-        return Err(without_package("has no package pyfret"));
-    }
-    let code = ended.code().and_then(|code| u8::try_from(code).ok());
-    Ok(code.unwrap_or(1))
+    })
 }
 
-/// Whether the package is installed for the interpreter.
-fn has_package(interpreter: &Path) -> bool {
-    let look = "import importlib.util, sys; sys.exit(importlib.util.find_spec('pyfret') is None)";
-    let looked = Command::new(interpreter).args(["-c", look]).status();
-    looked.is_ok_and(|status| status.success())
+#[cfg(unix)]
+fn ended_as(python: &mut Command) -> io::Result<u8> {
+    use std::os::unix::process::CommandExt;
+    Err(python.exec())
+}
+
+#[cfg(not(unix))]
+fn ended_as(python: &mut Command) -> io::Result<u8> {
+    let code = python.status()?.code();
+    Ok(code.and_then(|code| u8::try_from(code).ok()).unwrap_or(1))
 }
 
 /// The interpreter named by the user, that in the folder of `fret`, or the first one on PATH.

@@ -13,9 +13,10 @@ use contact_core::{Error, Scene};
 
 use crate::failure::Failure;
 use crate::out::Out;
+use crate::printed::print;
 use crate::progress::Progress;
 use crate::scene_options::{SceneOptions, say_doubts};
-use crate::terminal::{print, say};
+use crate::terminal::say;
 use crate::threads::Threads;
 use crate::{json, summary};
 
@@ -44,12 +45,12 @@ pub(crate) struct Manner {
     #[command(flatten)]
     pub(crate) threads: Threads,
     /// Print the summary as one JSON object, for programs
-    #[arg(long, conflicts_with = "quiet")]
+    #[arg(long)]
     pub(crate) json: bool,
     /// A summary with the work of the solvers, wider than 100 columns
     #[arg(long, conflicts_with_all = ["quiet", "json"])]
     pub(crate) wide: bool,
-    /// Show neither progress nor summary
+    /// Show neither progress nor summary; with --json the summary alone
     #[arg(short, long)]
     pub(crate) quiet: bool,
 }
@@ -84,7 +85,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failure> {
             Ok(bars) => {
                 write_error_bars(out, &bars).map_err(ended)?;
                 if !manner.quiet && !manner.json {
-                    print(&summary::error_table(&scene, &increments, &bars));
+                    print(&summary::error_table(&scene, &increments, &bars))?;
                 }
             }
             Err(stopped @ Error::Interrupted { .. }) => return Err(ended(stopped)),
@@ -126,21 +127,24 @@ impl Manner {
             ..
         } = watcher;
         progress.end();
-        if !self.quiet && !increments.is_empty() {
+        let mut printed = Ok(());
+        if (!self.quiet || self.json) && !increments.is_empty() {
             let text = if self.json {
                 format!("{:#}", json::run(scene, &increments))
             } else {
                 summary::table(scene, &increments, self.wide)
             };
-            print(&text);
-            say(&summary::time(begun.elapsed(), writer.checkpoints()));
+            printed = print(&text);
+            if !self.quiet {
+                say(&summary::time(begun.elapsed(), writer.checkpoints()));
+            }
         }
         if outcome.is_ok() {
             for doubt in Reached::of(&increments).doubts(scene) {
                 say(&format!("fret: warning: {doubt}"));
             }
         }
-        outcome.map(|_| stop).map_err(|error| {
+        let stop = outcome.map(|_| stop).map_err(|error| {
             let kept = writer.kept();
             if kept > 0 {
                 say(&format!(
@@ -150,7 +154,8 @@ impl Manner {
                 ));
             }
             ended(error)
-        })
+        })?;
+        printed.map(|()| stop)
     }
 }
 

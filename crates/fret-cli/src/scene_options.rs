@@ -9,6 +9,9 @@ use contact_core::{Error, Scene};
 
 use crate::terminal::say;
 
+/// Bytes of a scene that is read from the standard input, fewer than: heights may stand in it.
+const LONGEST: u64 = 1 << 30;
+
 /// A scene file and what is changed in it.
 #[derive(Args)]
 pub(crate) struct SceneOptions {
@@ -31,13 +34,20 @@ impl SceneOptions {
             Reach::Folder
         };
         if self.scene.as_os_str() == "-" {
+            let failed = |message: String| Error::File {
+                path: "standard input".into(),
+                message,
+            };
             let mut text = String::new();
             std::io::stdin()
+                .take(LONGEST)
                 .read_to_string(&mut text)
-                .map_err(|e| Error::File {
-                    path: "standard input".into(),
-                    message: e.to_string(),
-                })?;
+                .map_err(|e| failed(e.to_string()))?;
+            if text.len() as u64 == LONGEST {
+                return Err(failed(format!(
+                    "is no scene: it has {LONGEST} bytes or more"
+                )));
+            }
             return Scene::from_toml_str_reaching(&text, "standard input", &self.settings, reach);
         }
         Scene::from_file_reaching(&self.scene, &self.settings, reach)

@@ -18,7 +18,8 @@ use ndarray::Axis;
 use crate::failure::Failure;
 use crate::largest::Largest;
 use crate::loads::Loads;
-use crate::terminal::{print, say};
+use crate::printed::print;
+use crate::terminal::say;
 
 /// Options of `fret stress`.
 #[derive(Args)]
@@ -121,8 +122,7 @@ pub(crate) fn stress(options: &Options) -> Result<(), Failure> {
         Error::Interrupted { .. } => Failure::Stopped,
         error => Failure::BadInput(error),
     })?;
-    print(&lines.join("\n"));
-    Ok(())
+    print(&lines.join("\n"))
 }
 
 /// Refuses a file that is neither image data nor a Zarr folder, such as a figure.

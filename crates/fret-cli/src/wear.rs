@@ -15,9 +15,10 @@ use serde_json::json;
 
 use crate::failure::Failure;
 use crate::out::Out;
+use crate::printed::print;
 use crate::run::stop_on_interrupt;
 use crate::scene_options::SceneOptions;
-use crate::terminal::{print, say};
+use crate::terminal::{draws, say};
 use crate::threads::Threads;
 
 const TEMPLATE: &str = "{bar:20} {pos}/{len} cycles, {elapsed} elapsed, {eta} left  {msg}";
@@ -152,12 +153,13 @@ fn to_end(
         .as_ref()
         .map_or_else(ToString::to_string, |()| "done".to_owned());
     store.finish(&run, &status).map_err(ended)?;
+    let mut printed = Ok(());
     if shown == Shown::Json {
         let all = json!({ "jumps": jumps, "events": run.state().events, "status": status });
-        print(&format!("{all:#}"));
+        printed = print(&format!("{all:#}"));
     }
     if shown == Shown::Table {
-        print(&table(jumps));
+        printed = print(&table(jumps));
         let seconds = begun.elapsed().as_secs_f64();
         say(&format!("{} jumps in {seconds:.1} s", jumps.len()));
     }
@@ -167,11 +169,12 @@ fn to_end(
             out.display()
         ));
         Failure::EndedEarly(error)
-    })
+    })?;
+    printed
 }
 
 fn bar(cycles: f64, quiet: bool) -> ProgressBar {
-    let bar = if quiet {
+    let bar = if quiet || !draws() {
         ProgressBar::hidden()
     } else {
         ProgressBar::new(cycles as u64)

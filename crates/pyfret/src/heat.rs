@@ -9,12 +9,13 @@ use numpy::{IntoPyArray, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::arguments::List;
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 
 /// Conductivity and heat capacity of each layer.
-type Conductors = Vec<(f64, f64)>;
+type Conductors = List<(f64, f64)>;
 
 fn layers(conductors: &Conductors, body: &Body, key: &str) -> PyResult<core::Layers> {
     let conductors: Vec<_> = conductors
@@ -40,7 +41,7 @@ pub(crate) fn cycle_temperature<'py>(
     grid: Grid,
     bulk: (f64, f64),
     frequency: f64,
-    ends: Vec<f64>,
+    ends: List<f64>,
     heat: PyReadonlyArray3<'py, f64>,
     contact: PyReadonlyArray2<'py, bool>,
     harmonics: usize,

@@ -12,7 +12,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arguments::{Field, side};
+use crate::arguments::{Field, List, side};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, LoadPath};
@@ -38,13 +38,13 @@ impl Envelope {
         body: Body,
         grid: Grid,
         path: LoadPath,
-        z: Vec<f64>,
-        layer: Vec<usize>,
-        of: Vec<String>,
+        z: List<f64>,
+        layer: List<usize>,
+        of: List<String>,
         x: Option<f64>,
         y: Option<f64>,
         body_number: u8,
-        residual: Option<Vec<f64>>,
+        residual: Option<List<f64>>,
         rim: bool,
     ) -> PyResult<Self> {
         let cycles = core::cycles(&path.0);
@@ -82,7 +82,7 @@ impl Envelope {
         let stream = stream.map_err(to_python)?;
         Ok(Self {
             stream: Some(stream.rim(rim)),
-            names: of,
+            names: of.0,
             cycles,
             of_line: line.is_some(),
         })
@@ -182,18 +182,18 @@ fn finished() -> PyErr {
 pub(crate) fn loops(
     py: Python<'_>,
     path: LoadPath,
-    branch: Vec<usize>,
-    T: Vec<f64>,
-    delta: Vec<f64>,
-    dissipated: Vec<f64>,
-    status: Vec<u8>,
+    branch: List<usize>,
+    T: List<f64>,
+    delta: List<f64>,
+    dissipated: List<f64>,
+    status: List<u8>,
 ) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let history: Vec<core::LoopPoint> = branch
         .iter()
-        .zip(&T)
-        .zip(&delta)
-        .zip(&dissipated)
-        .zip(&status)
+        .zip(T.iter())
+        .zip(delta.iter())
+        .zip(dissipated.iter())
+        .zip(status.iter())
         .map(
             |((((&branch, &T), &delta), &dissipated), &status)| core::LoopPoint {
                 branch,

@@ -97,7 +97,7 @@ mod _core {
         Subsurface, chosen_depths, depths, residual_of_layers, section_of_states,
     };
     #[pymodule_export]
-    use crate::wear::{Archard, DissipatedEnergy, resume_wear, wear};
+    use crate::wear::{Archard, DissipatedEnergy, resume_wear, verify_wear, wear};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

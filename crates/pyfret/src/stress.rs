@@ -4,12 +4,12 @@ use std::collections::HashMap;
 
 use contact_core::fields as core;
 use contact_core::fields::Measure;
-use ndarray::{Array2, Array3};
-use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayLike3};
+use ndarray::{Array2, Array3, Ix3};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arguments::Field;
+use crate::arguments::{Array, Field, List};
 use crate::subsurface::Subsurface;
 
 /// Numbers for Python, one row per point.
@@ -88,10 +88,10 @@ const LARGEST: f64 = 1e150;
 #[expect(clippy::type_complexity, reason = "a tuple of Python")]
 pub(crate) fn maximum(
     name: String,
-    stress: PyArrayLike3<'_, f64, AllowTypeChange>,
-    z: Vec<f64>,
-    layer: Vec<usize>,
-    along: Vec<f64>,
+    stress: Array<'_, Ix3>,
+    z: List<f64>,
+    layer: List<usize>,
+    along: List<f64>,
 ) -> PyResult<Option<(f64, f64, f64, usize, f64)>> {
     let stress = stress.as_array().to_owned();
     let depths = Subsurface::depths(&z, &layer)?;
@@ -116,7 +116,7 @@ pub(crate) fn maximum(
 pub(crate) fn rims<'py>(
     py: Python<'py>,
     stress: Field<'py>,
-    along: Vec<f64>,
+    along: List<f64>,
 ) -> PyResult<(Vec<f64>, Matrix<'py>)> {
     if stress.as_array().dim() != (6, along.len()) {
         return Err(PyValueError::new_err(

@@ -16,7 +16,7 @@ use numpy::{
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arguments::{Field, side};
+use crate::arguments::{Field, List, side};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
@@ -38,7 +38,7 @@ pub(crate) fn line(x: Option<f64>, y: Option<f64>) -> PyResult<Line> {
 
 /// Depths [m] with their layers; on an interface both, the upper one first.
 #[pyfunction]
-pub(crate) fn depths(body: Body, z: Vec<f64>) -> PyResult<(Vec<f64>, Vec<usize>)> {
+pub(crate) fn depths(body: Body, z: List<f64>) -> PyResult<(Vec<f64>, Vec<usize>)> {
     let depths = core::depths(&body.0, &z).map_err(to_python)?;
     Ok(depths.iter().map(|d| (d.z, d.layer)).unzip())
 }
@@ -70,14 +70,14 @@ pub(crate) fn section_of_states<'py>(
     py: Python<'py>,
     body: Body,
     grid: Grid,
-    z: Vec<f64>,
-    layer: Vec<usize>,
+    z: List<f64>,
+    layer: List<usize>,
     p: PyReadonlyArray3<'_, f64>,
     q_x: PyReadonlyArray3<'_, f64>,
     q_y: PyReadonlyArray3<'_, f64>,
     stick: PyReadonlyArray3<'_, bool>,
-    sigma_B: Vec<f64>,
-    residual: Option<Vec<f64>>,
+    sigma_B: List<f64>,
+    residual: Option<List<f64>>,
     x: Option<f64>,
     y: Option<f64>,
     body_number: u8,
@@ -136,7 +136,7 @@ pub(crate) fn section_of_states<'py>(
 pub(crate) fn residual_of_layers(
     py: Python<'_>,
     body: Body,
-    residual: Option<Vec<f64>>,
+    residual: Option<List<f64>>,
 ) -> PyResult<Bound<'_, PyArray1<f64>>> {
     let given = residual.unwrap_or_default();
     let of_layers = core::residual_of_layers(&body.0, &given).map_err(to_python)?;
@@ -217,7 +217,7 @@ impl Subsurface {
         q_y: Option<Field<'_>>,
         body_number: u8,
         sigma_B: f64,
-        residual: Option<Vec<f64>>,
+        residual: Option<List<f64>>,
         rim: bool,
         stick: Option<PyReadonlyArray2<'_, bool>>,
     ) -> PyResult<Self> {
@@ -243,7 +243,7 @@ impl Subsurface {
             fields: [cells("q_x", q_x)?, cells("q_y", q_y)?, cells("p", p)?],
             side: side(body_number)?,
             sigma_B,
-            residual: residual.unwrap_or_default(),
+            residual: residual.unwrap_or_default().0,
             body,
             grid,
         })
@@ -254,8 +254,8 @@ impl Subsurface {
     fn section<'py>(
         &self,
         py: Python<'py>,
-        z: Vec<f64>,
-        layer: Vec<usize>,
+        z: List<f64>,
+        layer: List<usize>,
         x: Option<f64>,
         y: Option<f64>,
         displacement: bool,
@@ -302,9 +302,10 @@ impl Subsurface {
     fn points<'py>(
         &self,
         py: Python<'py>,
-        places: Vec<Place>,
+        places: List<Place>,
     ) -> PyResult<(Matrix<'py>, Matrix<'py>)> {
         let places: Vec<_> = places
+            .0
             .into_iter()
             .map(|(x, y, z, layer)| (x, y, Depth { z, layer }))
             .collect();
@@ -327,9 +328,9 @@ impl Subsurface {
         &self,
         py: Python<'_>,
         out: PathBuf,
-        z: Vec<f64>,
-        layer: Vec<usize>,
-        of: Vec<String>,
+        z: List<f64>,
+        layer: List<usize>,
+        of: List<String>,
         title: &str,
     ) -> PyResult<()> {
         let depths = Self::depths(&z, &layer)?;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use contact_core::output::{WearStore, resume_wear_by as take_up};
+use contact_core::output::{WearStore, resume_wear_by as take_up, verify_wear as verify};
 use contact_core::wear::{
     self as core, BodyWear, Cycling, Factor, Jumps, Law, Of, Varying, WearRun, WornStart,
     WornThrough,
@@ -296,6 +296,12 @@ pub(crate) fn wear(
     let begun: Result<_, contact_core::Error> = interruptible(py, &stop, run)?;
     let (run, store) = begun.map_err(to_python)?;
     go(py, run, store, &stop, on_jump.as_ref())
+}
+
+/// Fails if a file of the store of a run of wear is missing, or is not as it was written.
+#[pyfunction]
+pub(crate) fn verify_wear(py: Python<'_>, store: PathBuf) -> PyResult<()> {
+    py.detach(|| verify(&store)).map_err(to_python)
 }
 
 /// Goes on with a run of wear that ended early.

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import os
+import signal
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,8 +18,9 @@ from pyfret.study.file import run_file
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-#: Exit codes, those of ``fret``: done; ended early or with failures; bad input.
-DONE, ENDED_EARLY, BAD_INPUT = 0, 1, 2
+#: Exit codes, those of ``fret``: done; ended early or with failures; bad input; output that
+#: could not be written.
+DONE, ENDED_EARLY, BAD_INPUT, UNWRITTEN = 0, 1, 2, 3
 
 
 def parser() -> argparse.ArgumentParser:
@@ -103,8 +106,40 @@ def cite(options: argparse.Namespace) -> int:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; its exit code.
+
+    That nobody reads on is no failure; what cannot be written is one.
+    """
+    signal.signal(signal.SIGTERM, stop)
+    try:
+        code = run(arguments)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        leave_output()
+        return DONE
+    except OSError as error:
+        leave_output()
+        print(f"fret: standard output: {error.strerror}", file=sys.stderr)
+        return UNWRITTEN
+    return code
+
+
+def stop(*_: object) -> None:
+    """End as Ctrl-C does: what is done is kept, processes of the study end."""
+    raise KeyboardInterrupt
+
+
+def leave_output() -> None:
+    """Keep the interpreter from writing to the standard output once more at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def run(arguments: Sequence[str] | None) -> int:
     """Run a command; its exit code."""
-    options = parser().parse_args(arguments)
+    try:
+        options = parser().parse_args(arguments)
+    except SystemExit as ended:
+        return int(ended.code or 0)
     commands = {
         "study": study,
         "export": export.run,
@@ -117,6 +152,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     }
     try:
         return commands[options.command](options)
+    except BrokenPipeError:
+        raise
     except (ValueError, KeyError, OSError, ImportError) as error:
         print(f"fret: {' '.join(str(error).split())}", file=sys.stderr)
         return BAD_INPUT
+    except (RuntimeError, MemoryError) as error:
+        print(f"fret: {' '.join(str(error).split()) or 'no memory'}", file=sys.stderr)
+        return ENDED_EARLY
+    except KeyboardInterrupt:
+        print("fret: stopped", file=sys.stderr)
+        return ENDED_EARLY

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
+import shutil
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
-    import os
+    from collections.abc import Iterator
 
-__all__ = ["read", "write"]
+__all__ = ["beside", "is_copy", "read", "write"]
+
+#: Bytes of a NetCDF file beside its numbers, more than.
+MARGIN = 1 << 20
 
 #: What marks an attribute as JSON, where a file has no room for what it is.
 JSON = "json:"
@@ -29,17 +36,49 @@ def unfolded(value: Any) -> Any:
 
 
 def write(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:
-    """Write a dataset to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``)."""
+    """Write a dataset to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
+
+    It is written beside its place and put there at once.
+    """
     place = Path(path)
     if place.exists():
         raise FileExistsError(f"{place}: is there already")
-    if place.suffix == ".zarr":
-        dataset.to_zarr(place, zarr_format=2, consolidated=True)
-    elif place.suffix == ".nc":
-        attrs = {k: flat(v) for k, v in dataset.attrs.items()}
-        dataset.assign_attrs(attrs).to_netcdf(place)
-    else:
+    if place.suffix not in (".zarr", ".nc"):
         raise ValueError(f"{place}: must end in .zarr or .nc")
+    with beside(place) as unfinished:
+        if place.suffix == ".zarr":
+            dataset.to_zarr(unfinished, zarr_format=2, consolidated=True)
+        else:
+            attrs = {k: flat(v) for k, v in dataset.attrs.items()}
+            reserve(unfinished, dataset.nbytes)
+            dataset.assign_attrs(attrs).to_netcdf(unfinished)
+
+
+@contextmanager
+def beside(place: Path) -> Iterator[Path]:
+    """Give a name beside `place`; what is there at the end takes its place, or goes on failure."""
+    unfinished = place.with_name(f".{place.name}.{os.getpid()}.unfinished{place.suffix}")
+    try:
+        yield unfinished
+        unfinished.replace(place)
+    finally:
+        if unfinished.is_dir():
+            shutil.rmtree(unfinished, ignore_errors=True)
+        else:
+            unfinished.unlink(missing_ok=True)
+
+
+def reserve(path: Path, size: int) -> None:
+    """Fail if the disk has no room: the library of NetCDF ends the process where it is full."""
+    if not hasattr(os, "posix_fallocate"):
+        return
+    with path.open("wb") as file:
+        try:
+            os.posix_fallocate(file.fileno(), 0, max(size, 1) + MARGIN)
+        except OSError as error:
+            if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
+                raise OSError(error.errno, os.strerror(error.errno), str(path)) from error
+    path.unlink()
 
 
 def read(path: str | os.PathLike[str]) -> xr.Dataset:
@@ -56,11 +95,15 @@ def read(path: str | os.PathLike[str]) -> xr.Dataset:
 
 
 def is_copy(path: str | os.PathLike[str]) -> bool:
-    """Whether a Zarr folder is one that :meth:`pyfret.Result.save` wrote, which has no checksums.
+    """Whether a Zarr folder is one without checksums, by :meth:`pyfret.Result.save` or xarray.
 
     Those of schema 1 are stores: they had none either, and are refused as such.
     """
     try:
+        if (Path(path) / "zarr.json").is_file():
+            # Format 3, which xarray writes unless it is told otherwise.
+            group = json.loads((Path(path) / "zarr.json").read_bytes())
+            return isinstance(group["attributes"]["schema"], int)
         consolidated = json.loads((Path(path) / ".zmetadata").read_bytes())
         schema = consolidated["metadata"][".zattrs"]["schema"]
     except (OSError, ValueError, LookupError, TypeError):

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -13,6 +14,16 @@ if TYPE_CHECKING:
 WIDTH = 28
 #: Seconds between two drawings, so that drawing never costs.
 INTERVAL = 0.1
+
+
+def watched(stream: Any) -> bool:
+    """Whether people see a bar on a stream: a terminal that moves its cursor, a notebook."""
+    try:
+        terminal = bool(stream.isatty()) and os.environ.get("TERM") != "dumb"
+    except (AttributeError, OSError, ValueError):
+        # There is none, as under pythonw, or it is closed, or no file.
+        return False
+    return terminal or "ipykernel" in sys.modules
 
 
 class Progress:
@@ -28,7 +39,7 @@ class Progress:
 
     def __init__(self, *, title: str, shown: bool) -> None:
         self.title = title
-        self.shown = shown and (sys.stderr.isatty() or "ipykernel" in sys.modules)
+        self.shown = shown and watched(sys.stderr)
         self.started = self.drawn = time.monotonic()
         self.done = self.total = 0
 
@@ -42,8 +53,17 @@ class Progress:
         now = time.monotonic()
         if self.shown and (now - self.drawn > INTERVAL or done == total):
             self.drawn = now
-            sys.stderr.write("\r" + self.line(now - self.started))
-            sys.stderr.flush()
+            self.draw("\r" + self.line(now - self.started))
+
+    def draw(self, text: str) -> None:
+        """Write to standard error, what it cannot show replaced; a bar that fails ends there."""
+        stream = sys.stderr
+        try:
+            letters = getattr(stream, "encoding", None) or "ascii"
+            stream.write(text.encode(letters, "replace").decode(letters))
+            stream.flush()
+        except (AttributeError, LookupError, OSError, ValueError):
+            self.shown = False
 
     def line(self, elapsed: float) -> str:
         """The bar, counts and times after `elapsed` seconds."""
@@ -61,4 +81,4 @@ class Progress:
     ) -> None:
         """Leave the last state of the bar on the screen."""
         if self.shown and self.done:
-            sys.stderr.write("\r" + self.line(time.monotonic() - self.started) + "\n")
+            self.draw("\r" + self.line(time.monotonic() - self.started) + "\n")

@@ -9,6 +9,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import Assessment, Criterion, Material
+from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ class Materials(Mapping[str, Material]):
 
 def _points(stress: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
     """A history as an array of shape (time, points, 6), and the shape of the points."""
-    stress = np.asarray(stress, dtype=float)
+    stress = plain(stress, "stress")
     if stress.ndim < 2:
         raise ValueError(
             f"stress has the shape {stress.shape}: must be (time, ..., 6), "
@@ -245,7 +246,7 @@ def moving_load(stress: ArrayLike, *, s_y: float) -> NDArray[np.float64]:
     array of shape (...)
         Load factor of every place.
     """
-    stress = np.asarray(stress, dtype=float)
+    stress = plain(stress, "stress")
     mirrored = stress * np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
     both = np.concatenate([stress, mirrored])
     return np.asarray(first_yield(both, s_y=s_y).shakedown)
@@ -264,7 +265,7 @@ def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.fl
     tau, p_h : arrays of shape (time,)
         Mesoscopic shear and hydrostatic stress, tension positive [Pa].
     """
-    path = _core.dang_van_path(np.ascontiguousarray(stress, dtype=float))
+    path = _core.dang_van_path(np.ascontiguousarray(plain(stress, "stress")))
     return path[:, 0], path[:, 1]
 
 
@@ -301,12 +302,28 @@ def to_pylife(stress: ArrayLike) -> pd.DataFrame:
 def rainflow(signal: ArrayLike) -> NDArray[np.float64]:
     """Count the cycles of a signal: rows of range, mean, count (1 or 1/2).
 
+    Masked values of a signal are left out; a constant one has no cycle.
+
     Needs the package ``rainflow`` (``pip install fretting[fatigue]``), which follows ASTM E1049-85.
     """
     try:
         import rainflow as counter
     except ImportError as error:
         raise ImportError("rainflow is missing: pip install fretting[fatigue]") from error
-    cycles = counter.extract_cycles(np.asarray(signal, dtype=float))
+    if np.ma.isMaskedArray(signal):
+        signal = np.ma.asarray(signal).compressed() if np.ndim(signal) == 1 else signal
+    values = plain(signal, "signal")
+    if values.ndim != 1:
+        raise ValueError(f"signal has the shape {values.shape}: must have one dimension, time")
+    if not np.all(np.isfinite(values)):
+        n = int(np.flatnonzero(~np.isfinite(values))[0])
+        raise ValueError(f"signal[{n}] = {values[n]}: must be a finite number")
+    changing = values[np.concatenate([[True], np.diff(values) != 0.0])] if values.size else values
+    if changing.size < 2:
+        return np.empty((0, 3))
+    if changing.size == 2:
+        # ASTM E1049-85, 5.4.4: what is left is half a cycle.
+        return np.array([[np.ptp(changing), changing.mean(), 0.5]])
+    cycles = counter.extract_cycles(changing)
     rows = [(size, mean, count) for size, mean, count, _, _ in cycles]
     return np.array(rows, dtype=float).reshape(-1, 3)

@@ -12,6 +12,7 @@ from string import Template
 from typing import TYPE_CHECKING
 
 from pyfret._core import __version__
+from pyfret._util.files import beside
 from pyfret.citation import sources
 from pyfret.report.content import figures as numbers
 from pyfret.run.summary import directions
@@ -86,7 +87,8 @@ def report(
         numbers=packed(json.dumps(numbers(result, wear), allow_nan=False)),
         plotly=packed(drawing()),
     )
-    place.write_text(page, encoding="utf-8")
+    with beside(place) as unfinished:
+        unfinished.write_text(page, encoding="utf-8")
 
 
 def drawing() -> str:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import math
-from collections.abc import Callable, Mapping, Sequence
+import sys
+import zlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -12,8 +15,14 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from pyfret._core import Scene
+from pyfret._core import InvalidSceneError, Scene
 from pyfret._util.lazy import xr
+from pyfret._util.text import read_text
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 __all__ = ["Combine", "Design", "Source", "varied"]
 
@@ -143,11 +152,69 @@ class Design:
 
     def describe(self, source: Source) -> str:
         """Tell this study from others: what makes its points, as JSON."""
+        files: dict[str, int] = {}
         if isinstance(source, Scene):
             what = source.to_toml()
         elif isinstance(source, str | PathLike):
-            what = Path(source).read_text(encoding="utf-8")
+            what = read_text(Path(source))
+            files = self.files(Path(source), what)
         else:
             what = f"function {getattr(source, '__qualname__', type(source).__qualname__)}"
-        design = {"parameters": dict(self.parameters), "combine": self.combine, "scene": what}
+        design = {
+            "parameters": dict(self.parameters),
+            "combine": self.combine,
+            "scene": what,
+            "files": files,
+        }
         return json.dumps(design)
+
+    def files(self, scene: Path, text: str) -> dict[str, int]:
+        """Checksums of the files that a scene file and the values of the parameters name."""
+        named = {v for of in self.parameters.values() for v in of if isinstance(v, str)}
+        named |= set(texts(tomllib.loads(text)))
+        found = {}
+        for name in sorted(named):
+            path = scene.parent / name
+            if name and path.is_file():
+                found[name] = zlib.crc32(path.read_bytes())
+        return found
+
+    def check(self, source: Source) -> None:
+        """Refuse parameters of which no value makes a scene, such as a key that is misspelt."""
+        if not isinstance(source, Scene | str | PathLike):
+            return
+        first: InvalidSceneError | None = None
+        for n in range(len(self)):
+            try:
+                self.scene(source, n)
+            except InvalidSceneError as error:
+                first = first or error
+                if "unknown key" in str(error):
+                    break
+            except Exception:
+                return
+            else:
+                return
+        if first is not None:
+            raise ValueError(f"no point of the study has a scene: {first}{self.meant()}")
+
+    def meant(self) -> str:
+        """What short names of parameters may have been meant."""
+        known = [*SHORT, "friction", "grid", "body1", "body2", "path", "solver", "kernel"]
+        for key in self.parameters:
+            if key.split(".")[0] not in known:
+                near = difflib.get_close_matches(key, SHORT, n=1)
+                return f"; {key}: the nearest is {near[0]}" if near else ""
+        return ""
+
+
+def texts(value: Any) -> Iterator[str]:
+    """The texts in the values of a scene file."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict):
+        for one in value.values():
+            yield from texts(one)
+    elif isinstance(value, list):
+        for one in value:
+            yield from texts(one)

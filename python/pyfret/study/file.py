@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._util.text import read_text
 from pyfret.study.loop import DEFAULT, solve
 
 if sys.version_info >= (3, 11):
@@ -24,6 +25,8 @@ __all__ = ["run_file"]
 
 #: Keys of a study file.
 KEYS = ("scene", "parameters", "combine", "measure", "out", "grow")
+#: Values of a range, at most.
+MOST = 1_000_000
 #: Keys of a range of values.
 RANGE = ("from", "to", "n", "scale")
 
@@ -53,7 +56,7 @@ def run_file(
     """
     file = Path(path)
     try:
-        says = tomllib.loads(file.read_text(encoding="utf-8"))
+        says = tomllib.loads(read_text(file))
     except tomllib.TOMLDecodeError as error:
         raise ValueError(f"{file}: {error}") from error
     for key in says:
@@ -61,6 +64,11 @@ def run_file(
     for key in ("scene", "parameters"):
         if key not in says:
             raise ValueError(f"{file}: the key `{key}` is missing")
+    for key in ("scene", "out"):
+        if not isinstance(says.get(key, ""), str):
+            raise ValueError(
+                f"{file}: `{key}` = {says[key]!r}: must be the name of a file in quotes"
+            )
     if not isinstance(says["parameters"], dict):
         raise ValueError(f"{file}: `parameters`: must be a table of keys and values")
     place = Path(out) if out is not None else file.parent / says.get("out", f"{file.stem}.zarr")
@@ -96,6 +104,14 @@ def values(given: Any, where: str) -> list[Any]:
     scale = given.get("scale", "linear")
     if scale not in ("linear", "log"):
         raise ValueError(f'{where}.scale = {scale!r}: must be "linear" or "log"')
+    for key in ("from", "to"):
+        if not isinstance(given.get(key, 0), int | float):
+            raise ValueError(f"{where}.{key} = {given[key]!r}: must be a number")
+    n = given.get("n", 1)
+    if not isinstance(n, int) or not 1 <= n <= MOST:
+        raise ValueError(f"{where}.n = {n!r}: must be a whole number from 1 to {MOST}")
+    if scale == "log" and not given.get("from", 1) * given.get("to", 1) > 0:
+        raise ValueError(f"{where}: a logarithmic scale begins and ends above zero")
     try:
         space = np.linspace if scale == "linear" else np.geomspace
         spaced: list[Any] = space(given["from"], given["to"], int(given["n"])).tolist()

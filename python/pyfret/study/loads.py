@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import LoadPath, Scene
+from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.study.loop import solve
 
@@ -91,11 +92,11 @@ def running_conditions(
     RuntimeError
         A point could not be solved; the message says which and why.
     """
-    if (T is None) == (delta is None):
-        raise ValueError("give the amplitudes T or delta, one of them")
     driven = "T" if delta is None else "delta"
     given = T if delta is None else delta
-    normal, tangential = (np.atleast_1d(np.asarray(v, dtype=float)) for v in (W, given))
+    if given is None or (T is None) == (delta is None):
+        raise ValueError("give the amplitudes T or delta, one of them")
+    normal, tangential = np.atleast_1d(plain(W, "W")), np.atleast_1d(plain(given, driven))
     measures: list[Measure] = [name for shown, name in SHOWN.items() if shown != driven]
     found = solve(
         Cycles(scene, driven, cycles, increments, fields=cracking is not None),

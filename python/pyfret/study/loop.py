@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pyfret._core import OffGridError, Scene
 from pyfret._util.progress import Progress
 from pyfret.study.design import Combine, Design, Source
+from pyfret.study.lock import writing
 from pyfret.study.measures import Measure, checked, names_of
 from pyfret.study.outcome import Study, open
 from pyfret.study.point import Outcome, failure, solve_point
@@ -104,8 +105,15 @@ def solve(
         "title": scene.title if isinstance(scene, Scene) else "",
     }
 
+    design.check(scene)
+
     def run(place: str | os.PathLike[str]) -> Study:
-        store = Store(place, design, said)
+        Store.prepare(place, design, said)
+        with writing(Path(place)):
+            go_through(Store(place, design, said))
+        return open(place)
+
+    def go_through(store: Store) -> None:
         points = store.open_points(again=again)
         done, total = len(design) - len(points), len(design)
         with Progress(title=said["title"] or "study", shown=progress) as bar:
@@ -115,7 +123,6 @@ def solve(
                 bar.update(done - total + len(points), len(points))
                 if on_point is not None:
                     on_point(done, total)
-        return open(place)
 
     if out is not None:
         return run(out)

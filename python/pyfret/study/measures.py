@@ -205,6 +205,15 @@ def checked(measure: Measure | Sequence[Measure]) -> list[Measure]:
     for one in measures:
         if isinstance(one, str) and one not in MEASURES:
             raise ValueError(f"measure {one!r}: must be a function or one of {', '.join(MEASURES)}")
+    names = names_of(measures)
+    for n, name in enumerate(names):
+        # Measures of this package name what they give themselves.
+        own = isinstance(measures[n], (Wear, Cracking))
+        if name in names[:n] and not own:
+            raise ValueError(
+                f"two measures have the name {name}: give each a name of its own, "
+                "def of_stress(result): ..."
+            )
     return measures
 
 

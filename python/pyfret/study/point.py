@@ -91,7 +91,7 @@ def solve_point(
                         raise
                     scene = scene.replace(grid=grown(scene.grid))
             found = measured(result, measures)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         return failure(error)
     seconds = time.process_time() - started
     doubts = " ".join(result.doubts)

@@ -1,12 +1,15 @@
 """The store of a study: a Zarr group that is laid out first and filled point by point.
 
-Only the process that runs the study writes. A point counts once its status is written, which is
-last, and every file is replaced as a whole: whoever is killed leaves points that are done or open.
+It is laid out beside its place and put there at once, and has one writer. A point counts once its
+line stands in the ledger, after its values: whoever is killed leaves points that are done or open.
 """
 
 from __future__ import annotations
 
 import json
+import os
+import shutil
+import zlib
 from dataclasses import replace
 from os import fspath
 from pathlib import Path
@@ -16,18 +19,18 @@ import numpy as np
 
 from pyfret._core import StoreError, __version__
 from pyfret._util.lazy import xr
+from pyfret.study.ledger import FILE, Ledger, attributes, checksum
 from pyfret.study.point import FAILED, MEANINGS, OPEN, Outcome
 
 if TYPE_CHECKING:
-    import os
-    from collections.abc import Iterable
-
     from pyfret.study.design import Design
 
 __all__ = ["Store", "read"]
 
 #: Version of the layout.
-SCHEMA = 1
+SCHEMA = 2
+#: How often a store that is being written is looked at again.
+ATTEMPTS = 20
 #: Characters of a reason that are kept.
 REASON = 240
 #: Variables of every study beside its measures: type, value of an open point, unit, meaning.
@@ -41,12 +44,12 @@ OWN: dict[str, tuple[str, Any, str, str]] = {
 
 
 class Store:
-    """A study on its way.
+    """A study on its way, in a folder that :meth:`prepare` has made.
 
     Parameters
     ----------
     place : path
-        Folder; laid out if it does not exist.
+        Folder.
     design : Design
         The points.
     said : dict of str to str
@@ -55,16 +58,40 @@ class Store:
 
     def __init__(self, place: str | os.PathLike[str], design: Design, said: dict[str, str]) -> None:
         self.place, self.design = Path(place), design
-        if self.place.exists():
-            self.check(said)
-        else:
-            template = xr.Dataset(coords=design.coords(), attrs={**said, **self.marks()})
-            self.lay_out(template, OWN)
+        self.check(said)
         own = set(design.sizes)
+        self.ledger = Ledger(self.place)
+        there = read(self.place)
         self.shapes: dict[str, dict[str, int]] = {
             str(name): {str(k): n for k, n in of.sizes.items() if k not in own}
-            for name, of in read(self.place).data_vars.items()
+            for name, of in there.data_vars.items()
         }
+        self.attrs = attributes(there)
+        last = self.ledger.last
+        if last is not None and there["status"].values.ravel()[last] != self.ledger.points[last][0]:
+            # A killed process has written the line and not the status.
+            self.write_status(last, self.ledger.points[last][0])
+
+    @staticmethod
+    def prepare(place: str | os.PathLike[str], design: Design, said: dict[str, str]) -> None:
+        """Lay out the store of a study where there is nothing."""
+        target = Path(place)
+        if target.exists():
+            return
+        beside = target.with_name(f".{target.name}.{os.getpid()}.unfinished")
+        shutil.rmtree(beside, ignore_errors=True)
+        try:
+            template = xr.Dataset(coords=design.coords(), attrs={**said, **Store.marks()})
+            lay_out(beside, template, design, OWN)
+            Ledger.begin(beside, layout_of(opened(beside)))
+            try:
+                beside.rename(target)
+            except OSError:
+                # Another process may have been faster.
+                if not target.exists():
+                    raise
+        finally:
+            shutil.rmtree(beside, ignore_errors=True)
 
     @staticmethod
     def marks() -> dict[str, Any]:
@@ -81,23 +108,14 @@ class Store:
                     "Give another place, or the same study to go on with it"
                 )
 
-    def lay_out(self, dataset: xr.Dataset, own: dict[str, tuple[str, Any, str, str]]) -> None:
-        """Write the template: coordinates, and variables without values."""
-        shape = tuple(self.design.sizes.values())
-        for name, (kind, empty, unit, meaning) in own.items():
-            attrs: dict[str, Any] = {"units": unit, "long_name": meaning}
-            if name == "status":
-                attrs |= {"flag_values": [0, 1, 2], "flag_meanings": MEANINGS}
-            values = np.full(shape, empty, dtype=kind)
-            dataset[name] = (tuple(self.design.sizes), values, attrs)
-        encoding = {name: {"chunks": shape, "_FillValue": None} for name in own}
-        dataset.to_zarr(self.place, mode="w-", zarr_format=2, consolidated=True, encoding=encoding)
-
     def make_room(self, measures: dict[str, xr.Variable]) -> None:
         """Lay out what the first point that is done has measured."""
         new = {name: of for name, of in measures.items() if name not in self.shapes}
         if not new:
             return
+        for name in new:
+            # What a killed process has left of it.
+            shutil.rmtree(self.place / name, ignore_errors=True)
         sizes = self.design.sizes
         template, encoding = xr.Dataset(attrs=read(self.place).attrs), {}
         for name, of in new.items():
@@ -108,9 +126,13 @@ class Store:
             encoding[name] = {"chunks": (*alone, *of.shape), "_FillValue": np.nan}
         template.to_zarr(self.place, mode="a", zarr_format=2, consolidated=True, encoding=encoding)
         self.shapes |= {name: {str(k): n for k, n in of.sizes.items()} for name, of in new.items()}
+        self.attrs = attributes(opened(self.place))
 
     def write(self, n: int, outcome: Outcome) -> None:
         """Write what became of the n-th point, its status last."""
+        if n in self.ledger.points:
+            self.ledger.add(n, OPEN, {}, {})
+            self.write_status(n, OPEN)
         self.make_room(outcome.measures)
         outcome = self.fitting(outcome)
         numbers = {
@@ -121,8 +143,22 @@ class Store:
         values = {name: xr.Variable((), value) for name, value in numbers.items()}
         if outcome.status == FAILED:
             values["reason"] = xr.Variable((), np.array(outcome.reason, f"<U{REASON}"))
-        self.region(n, {**values, **outcome.measures})
-        self.region(n, {"status": xr.Variable((), np.int8(outcome.status))})
+        written = {**values, **outcome.measures}
+        self.region(n, written)
+        self.ledger.add(n, outcome.status, self.kept(written), self.attrs)
+        self.write_status(n, outcome.status)
+
+    def write_status(self, n: int, status: int) -> None:
+        """Write the status of the n-th point."""
+        self.region(n, {"status": xr.Variable((), np.int8(status))})
+
+    def kept(self, written: dict[str, xr.Variable]) -> dict[str, xr.Variable]:
+        """What the arrays, whose types may be others, hold of what was written."""
+        kinds = {name: of[0] for name, of in OWN.items()}
+        return {
+            name: xr.Variable(of.dims, np.asarray(of.values).astype(kinds.get(name, "float64")))
+            for name, of in written.items()
+        }
 
     def fitting(self, outcome: Outcome) -> Outcome:
         """The outcome, failed if a field has another shape than those of the other points."""
@@ -156,9 +192,9 @@ class Store:
 
     def open_points(self, *, again: bool) -> list[int]:
         """Points that are to be solved: open ones, and `again` those that failed."""
-        status = read(self.place)["status"].values.ravel()
-        wanted: Iterable[int] = (OPEN, FAILED) if again else (OPEN,)
-        return [int(n) for n in np.flatnonzero(np.isin(status, list(wanted)))]
+        wanted = (OPEN, FAILED) if again else (OPEN,)
+        of = {n: status for n, (status, _) in self.ledger.points.items()}
+        return [n for n in range(len(self.design)) if of.get(n, OPEN) in wanted]
 
 
 def difference(there: dict[Any, Any], said: dict[str, str]) -> str:
@@ -167,23 +203,78 @@ def difference(there: dict[Any, Any], said: dict[str, str]) -> str:
         return f"it measures {there.get('measures')}, not {said['measures']}"
     theirs, ours = json.loads(there.get("study", "{}")), json.loads(said["study"])
     parts = [name for name in ours if ours[name] != theirs.get(name)]
+    if parts == ["files"]:
+        before = theirs.get("files") or {}
+        changed = [name for name, crc in ours["files"].items() if before.get(name) != crc]
+        return f"{', '.join(changed or before)} has changed since"
     return f"they differ in {' and '.join(parts)}"
 
 
+def lay_out(
+    place: Path, dataset: xr.Dataset, design: Design, own: dict[str, tuple[str, Any, str, str]]
+) -> None:
+    """Write the template: coordinates, and variables without values."""
+    shape = tuple(design.sizes.values())
+    for name, (kind, empty, unit, meaning) in own.items():
+        attrs: dict[str, Any] = {"units": unit, "long_name": meaning}
+        if name == "status":
+            attrs |= {"flag_values": [0, 1, 2], "flag_meanings": MEANINGS}
+        values = np.full(shape, empty, dtype=kind)
+        dataset[name] = (tuple(design.sizes), values, attrs)
+    encoding = {name: {"chunks": shape, "_FillValue": None} for name in own}
+    dataset.to_zarr(place, mode="w-", zarr_format=2, consolidated=True, encoding=encoding)
+
+
+def layout_of(dataset: xr.Dataset) -> int:
+    """Checksum of the attributes and coordinates of a study."""
+    attrs = json.dumps(dict(sorted(dataset.attrs.items())), default=str)
+    attrs_of = attributes(dataset)
+    sums = {
+        str(name): checksum(of.variable, attrs_of[str(name)])
+        for name, of in sorted(dataset.coords.items())
+    }
+    return zlib.crc32(json.dumps([attrs, sums]).encode())
+
+
+def opened(place: str | os.PathLike[str]) -> xr.Dataset:
+    """The dataset of a folder, read into memory."""
+    with xr.open_zarr(place, chunks=None) as lazy:
+        dataset: xr.Dataset = lazy.load()
+    return dataset
+
+
 def read(place: str | os.PathLike[str]) -> xr.Dataset:
-    """The dataset of a study, read into memory.
+    """The dataset of a study, read into memory and checked.
 
     Raises
     ------
     StoreError
-        There is no study there.
+        There is no study there, or a part of it is missing or damaged; the message names it.
     """
-    try:
-        with xr.open_zarr(place, chunks=None) as lazy:
-            dataset: xr.Dataset = lazy.load()
-    except Exception as error:
-        message = " ".join(str(error).split())
-        raise StoreError(f"{fspath(place)}: {type(error).__name__}: {message}") from error
-    if dataset.attrs.get("kind") != "study":
-        raise StoreError(f"{fspath(place)}: is not the store of a study")
-    return dataset
+    folder = Path(place)
+    if not (folder / FILE).exists():
+        raise StoreError(f"{fspath(place)}: is not the store of a study: it has no file {FILE}")
+    for _ in range(ATTEMPTS):
+        ledger = Ledger(folder)
+        try:
+            dataset = opened(place)
+        except Exception as error:
+            message = " ".join(str(error).split())
+            raise StoreError(f"{fspath(place)}: {type(error).__name__}: {message}") from error
+        if dataset.attrs.get("kind") != "study":
+            raise StoreError(f"{fspath(place)}: is not the store of a study")
+        try:
+            ledger.check(layout_of(dataset), dataset, dims_of(dataset))
+            return dataset
+        except StoreError:
+            # Another process may have written meanwhile.
+            if Ledger(folder).length == ledger.length:
+                raise
+    raise StoreError(f"{fspath(place)}: is being written too fast to be read")
+
+
+def dims_of(dataset: xr.Dataset) -> list[str]:
+    """Dimensions of the points."""
+    if "status" not in dataset:
+        raise StoreError("status: is missing")
+    return [str(dim) for dim in dataset["status"].dims]

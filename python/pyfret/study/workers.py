@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import threading
+import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import (
     FIRST_COMPLETED,
@@ -22,6 +24,9 @@ __all__ = ["Workers"]
 AHEAD = 2
 #: How often a point may be at work when a worker dies before it is taken for the cause.
 DEATHS = 3
+
+#: Seconds between two looks of a worker whether the process that it works for is still there.
+WATCH = 0.5
 
 #: Hands the n-th point to an executor.
 Submit = Callable[[Executor, int], "Future[Outcome]"]
@@ -148,8 +153,24 @@ def local(count: int, threads: int) -> Executor:
     """Processes of this machine that share its processors out."""
     from loky import ProcessPoolExecutor
 
-    pool: Executor = ProcessPoolExecutor(count, env={"RAYON_NUM_THREADS": str(threads)})
+    # What lies in the current folder is no part of Python.
+    env = {"RAYON_NUM_THREADS": str(threads), "PYTHONSAFEPATH": "1"}
+    pool: Executor = ProcessPoolExecutor(
+        count, env=env, initializer=end_with, initargs=(os.getpid(),)
+    )
     return pool
+
+
+def end_with(parent: int) -> None:
+    """End this process once its parent is gone, whatever it is at."""
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(WATCH)
+        os._exit(1)
+
+    if os.name == "posix":
+        threading.Thread(target=watch, daemon=True, name="watch the parent").start()
 
 
 def shut(executor: Executor) -> None:

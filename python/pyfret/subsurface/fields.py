@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.subsurface.tensor import COMPONENTS, DISPLACEMENTS, LABELS, Maximum, Stress
 
@@ -26,7 +27,7 @@ def _depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float]
     """Depths with their layers: those given, or those that the layers ask for."""
     if z is None:
         return _core.chosen_depths(body, a=length, deepest=2.0 * length)
-    depths = np.atleast_1d(np.asarray(z, dtype=float)).tolist()
+    depths = np.atleast_1d(plain(z, "z")).tolist()
     if not depths:
         raise ValueError("z is empty: give depths in m, or leave it out for those of the layers")
     return _core.depths(body, depths)
@@ -34,7 +35,7 @@ def _depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float]
 
 def loaded_length(grid: Grid, *loads: ArrayLike | None) -> float:
     """Half the longer side of the box around the cells that are loaded [m], or of the grid."""
-    given = [np.asarray(load, dtype=float) != 0.0 for load in loads if load is not None]
+    given = [plain(load, "a traction") != 0.0 for load in loads if load is not None]
     if not any(load.any() for load in given):
         return grid.nx * grid.dx / 2
     loaded = np.logical_or.reduce(given)

@@ -407,6 +407,15 @@ def resume(
 
 
 def open(store: str | os.PathLike[str]) -> WearResult:
-    """Open the store of a run of :func:`solve` or ``fret wear``."""
+    """Open the store of a run of :func:`solve` or ``fret wear``.
+
+    Every file of it is checked before: what is read is what was written.
+
+    Raises
+    ------
+    StoreError
+        There is no run of wear, or a file of it is missing or damaged; the message names both.
+    """
+    _core.verify_wear(store)
     data = xr.open_zarr(Path(store))
     return WearResult(data.set_coords(["cycles", "block_cycles"]))

@@ -55,17 +55,17 @@ pub(super) fn steps(problem: &Problem, state: &State, point: &LoadPoint) -> Vec<
 /// The radius of the contact before and after an increment over the largest of the path: of a paraboloid it goes with
 /// the root of the approach, the cube root of the load.
 fn radii(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
-    let path = &problem.scene.path;
+    let largest = problem.largest;
     let touches = state.interface.p.iter().any(|&p| p > 0.0);
     let part = |to: f64, of: f64, power: i32| (to / of).min(1.0).powf(1.0 / f64::from(power));
     if let Some(delta_z) = point.loads.given.delta_z {
         let now = state.motion.delta_z;
         // Bodies that have touched did so about where their middles met.
         let touching = if touches { 0.0 } else { now };
-        let at = |approach: f64| part(approach - touching, path.delta_z_max() - touching, APPROACH);
+        let at = |approach: f64| part(approach - touching, largest.delta_z - touching, APPROACH);
         [if touches { at(now) } else { 0.0 }, at(delta_z)]
     } else {
-        let at = |W: f64| part(W, path.W_max(), FORCE);
+        let at = |W: f64| part(W, largest.W, FORCE);
         [
             if touches { at(state.loads.W) } else { 0.0 },
             at(point.loads.W),

@@ -42,7 +42,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use self::domain::Domain;
-use self::problem::Problem;
+use self::problem::{Largest, Problem};
 use self::retry::{CONVOLUTIONS, reach};
 use self::setup::{Failure, Workspace};
 use self::threads::with_busy_threads;
@@ -87,6 +87,7 @@ impl March {
             state: unloaded(scene, &domain),
             workspace: Workspace::new(domain.cells(), scene.friction.mu),
             problem: Problem {
+                largest: Largest::of(&scene.path),
                 approach: scene.approach(),
                 cycles: 0.0,
                 scene: solved,
@@ -132,6 +133,7 @@ impl March {
     /// Takes another path of the same loads, and a state on it; without one it begins anew.
     pub(crate) fn go_along(&mut self, path: &LoadPath, state: Option<State>) {
         self.problem.scene.path = path.clone();
+        self.problem.largest = Largest::of(path);
         self.points = self.problem.plan.points(&self.problem.scene);
         let unloaded = || unloaded(&self.problem.scene, &self.domain);
         self.state = state.unwrap_or_else(unloaded);

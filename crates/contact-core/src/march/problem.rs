@@ -8,7 +8,7 @@ use super::expected_radius::expected_radius;
 use crate::cells::{Arms, Drive};
 use crate::error::Error;
 use crate::plan::{Mirror, Plan};
-use crate::scene::{LoadPoint, RigidMotion, Scene};
+use crate::scene::{LoadPath, LoadPoint, RigidMotion, Scene};
 use crate::solvers::inner::{NormalParams, TangentialParams};
 use crate::solvers::intermediate::AlternationParams;
 
@@ -18,12 +18,30 @@ pub(super) struct Problem {
     pub(super) scene: Scene,
     /// What is skipped, and the numerical methods.
     pub(super) plan: Plan,
+    /// Largest normal force \[N\] and largest approach \[m\] that the path gives.
+    pub(super) largest: Largest,
     /// Approach that lengths are measured against \[m\].
     pub(super) approach: f64,
     /// Cycles of wear done.
     pub(super) cycles: f64,
     /// Raised from outside to end the run.
     pub(super) stop: Arc<AtomicBool>,
+}
+
+/// What a load path gives at most; it takes a look at every branch.
+#[derive(Clone, Copy)]
+pub(super) struct Largest {
+    pub(super) W: f64,
+    pub(super) delta_z: f64,
+}
+
+impl Largest {
+    pub(super) fn of(path: &LoadPath) -> Self {
+        Self {
+            W: path.W_max(),
+            delta_z: path.delta_z_max(),
+        }
+    }
 }
 
 /// What drives the motions of an increment: across the plane from the unloaded state, in it from the last
@@ -97,7 +115,7 @@ impl Problem {
                 .scene
                 .hertz()
                 .map_or(1.0, |hertz| (radius / hertz.a).powi(2));
-            let part = point.loads.W / self.scene.path.W_max();
+            let part = point.loads.W / self.largest.W;
             coated * self.approach * part.powf(2.0 / 3.0)
         };
         let given = point.loads.given.delta_z;

@@ -33,6 +33,7 @@ mod volume;
 mod wear_catalogue;
 mod wear_checkpoint;
 mod wear_store;
+mod whole;
 mod worn_read;
 mod writer;
 
@@ -43,6 +44,6 @@ pub use reader::Store;
 pub use resume::{Resumed, resume};
 pub use stress_store::StressStore;
 pub use volume::{VolumeSink, write_volume};
-pub use wear_store::{WearStore, resume_wear, resume_wear_by};
+pub use wear_store::{WearStore, resume_wear, resume_wear_by, verify_wear};
 pub use worn_read::read_worn;
 pub use writer::StoreWriter;

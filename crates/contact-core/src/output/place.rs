@@ -210,7 +210,7 @@ fn clear(folder: &Folder, path: &Path) -> Result<(), Error> {
 }
 
 /// Locks a folder; fails if another process has.
-fn is_free(lock: &File, folder: &Folder) -> Result<(), Error> {
+pub(super) fn is_free(lock: &File, folder: &Folder) -> Result<(), Error> {
     match lock.try_lock() {
         Err(TryLockError::WouldBlock) => Err(folder.error(&"is being written by another process")),
         _ => Ok(()),

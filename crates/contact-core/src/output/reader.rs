@@ -4,14 +4,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ndarray::Array2;
-use rayon::prelude::*;
 use serde_json::Value;
 use zarrs::array::ArraySubset;
 
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
-use super::schema::SCHEMA;
 use super::stored::Stored;
+use super::whole;
 use crate::error::Error;
 use crate::scene::Scene;
 
@@ -29,24 +28,9 @@ impl Store {
     /// What is read of it later is checked then; [`Self::verify`] checks all of it.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let folder = Folder::new(path.as_ref());
-        let text = folder
-            .read(FILE)
-            .map_err(|e| folder.error(&format!("{FILE}: {e}")))?
-            .ok_or_else(|| folder.error(&"is not a result store (it has no .zmetadata)"))?;
+        let consolidated = whole::consolidated(&folder)?;
         let damaged = |e: &dyn std::fmt::Display| folder.error(&format!("{FILE} is damaged: {e}"));
-        let (consolidated, whole) = Consolidated::decode(&text).map_err(|e| damaged(&e))?;
         let attributes = consolidated.document(".zattrs");
-        if attributes["schema"] != SCHEMA {
-            return Err(match attributes["schema"] {
-                Value::Null => folder.error(&"is not a result store (it has no schema)"),
-                ref schema => folder.error(&format!(
-                    "is a store of schema {schema}: this version reads schema {SCHEMA}"
-                )),
-            });
-        }
-        if !whole {
-            return Err(damaged(&"it is not what was written"));
-        }
         let scene = attributes["scene"]
             .as_str()
             .ok_or_else(|| folder.error(&"holds no scene"))?;
@@ -72,19 +56,7 @@ impl Store {
 
     /// Fails if a file of the store is missing, or is not as it was written; the error names it.
     pub fn verify(&self) -> Result<(), Error> {
-        for key in [".zgroup", ".zattrs"] {
-            self.verify_document(key)
-                .map_err(|e| self.folder.error(&format!("the file {key} {e}")))?;
-        }
-        let arrays = self.consolidated.documents.keys();
-        let arrays: Vec<_> = arrays
-            .filter_map(|key| key.strip_suffix("/.zarray"))
-            .collect();
-        arrays.par_iter().try_for_each(|name| {
-            let stored = self.array(name)?;
-            let verified = stored.verify(&stored.all());
-            verified.map_err(|e| self.folder.error(&format!("{name}: {e}")))
-        })
+        whole::verify(&self.folder, &self.consolidated)
     }
 
     /// Opens a store and checks all of it; a store that is being written meanwhile is looked at again.
@@ -106,25 +78,6 @@ impl Store {
     /// The attributes of the group: the scene, the version, how the run ended.
     pub fn attributes(&self) -> &Value {
         self.consolidated.document(".zattrs")
-    }
-
-    /// Fails if a document of the group is not the one that the consolidated metadata have, but for
-    /// how the run ended: a process may have died between the two.
-    fn verify_document(&self, key: &str) -> Result<(), String> {
-        let bytes = self.folder.read(key).map_err(|e| e.to_string())?;
-        let bytes = bytes.ok_or("is missing")?;
-        let read: Value = serde_json::from_slice(&bytes).map_err(|e| format!("is damaged: {e}"))?;
-        let what_stays = |document: &Value| {
-            let mut document = document.clone();
-            if let Value::Object(entries) = &mut document {
-                entries.retain(|key, _| key != "status" && key != "error_bars");
-            }
-            document
-        };
-        if what_stays(&read) != what_stays(self.consolidated.document(key)) {
-            return Err(format!("is damaged: it is not that of {FILE}"));
-        }
-        Ok(())
     }
 
     pub(super) fn folder(&self) -> &Arc<Folder> {
@@ -183,16 +136,6 @@ impl Store {
     }
 
     fn array(&self, name: &str) -> Result<Stored<'_>, Error> {
-        let zarray = self.consolidated.document(&format!("{name}/.zarray"));
-        if zarray.is_null() {
-            return Err(self.folder.error(&format!("holds no {name}")));
-        }
-        let checksums = self.consolidated.checksums.get(name);
-        Stored::new(
-            &self.folder,
-            name,
-            zarray,
-            checksums.map_or(&[], Vec::as_slice),
-        )
+        whole::array(&self.folder, &self.consolidated, name)
     }
 }

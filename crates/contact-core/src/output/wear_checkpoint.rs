@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
+use super::consolidated::Checksums;
 use super::folder::Folder;
 use crate::error::Error;
 use crate::wear::WearState;
@@ -12,11 +15,20 @@ const CHECKPOINT: &str = "checkpoint/wear";
 /// The first bytes of a checkpoint; the number is that of the layout.
 const MAGIC: &[u8] = b"fret wear checkpoint 2\n";
 
-/// Writes the state and the cycles of the blocks that are kept.
+/// The blocks that are kept.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Kept {
+    /// Cycles at each.
+    pub(super) cycles: Vec<f64>,
+    /// Checksums of their fields, block by block.
+    pub(super) checksums: Checksums,
+}
+
+/// Writes the state and what is known of the blocks that are kept.
 pub(super) fn write_checkpoint(
     folder: &Arc<Folder>,
     state: &WearState,
-    kept: &[f64],
+    kept: &Kept,
 ) -> Result<(), Error> {
     let failed = |e: &dyn std::fmt::Display| folder.error(&format!("{CHECKPOINT}: {e}"));
     let mut bytes = MAGIC.to_vec();
@@ -32,7 +44,7 @@ pub(super) fn write_checkpoint(
 }
 
 /// Reads them, or says why it can't.
-pub(super) fn read_checkpoint(folder: &Arc<Folder>) -> Result<(WearState, Vec<f64>), Error> {
+pub(super) fn read_checkpoint(folder: &Arc<Folder>) -> Result<(WearState, Kept), Error> {
     let damaged = |why: &str| folder.error(&format!("{CHECKPOINT} {why}"));
     let bytes = folder
         .read(CHECKPOINT)
@@ -47,7 +59,7 @@ pub(super) fn read_checkpoint(folder: &Arc<Folder>) -> Result<(WearState, Vec<f6
     if crc != crc32fast::hash(content).to_le_bytes() {
         return Err(damaged("is damaged: its checksum differs"));
     }
-    let decoded: Result<(String, WearState, Vec<f64>), _> = postcard::from_bytes(content);
+    let decoded: Result<(String, WearState, Kept), _> = postcard::from_bytes(content);
     let (version, state, kept) = decoded.map_err(|e| damaged(&e.to_string()))?;
     if version != env!("CARGO_PKG_VERSION") {
         return Err(damaged(&format!("is of version {version}")));

@@ -5,6 +5,7 @@
 //! which [`resume_wear`] goes on. Fields of later blocks that a killed process has left are written again
 //! with the same bytes.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -12,12 +13,14 @@ use std::sync::atomic::AtomicBool;
 use serde_json::{Map, Value, json};
 
 use super::catalogue::Kind;
+use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
-use super::place::{Unfinished, is_store, mend};
+use super::place::{Unfinished, is_free, is_store, mend};
 use super::schema::SCHEMA;
+use super::stored::Stored;
 use super::wear_catalogue::{SCALARS, Scalar};
-use super::wear_checkpoint::{read_checkpoint, write_checkpoint};
-use super::{column::Column, variable::Variable};
+use super::wear_checkpoint::{Kept, read_checkpoint, write_checkpoint};
+use super::{column::Column, variable::Variable, whole};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::wear::{Block, BodyWear, EventKind, Wear, WearRun};
@@ -29,9 +32,9 @@ const ATTRIBUTES: &str = ".zattrs";
 pub struct WearStore {
     place: PathBuf,
     overwrite: bool,
-    folder: Option<Arc<Folder>>,
-    /// Cycles of the blocks that are kept.
-    kept: Vec<f64>,
+    /// The folder, and its lock: a store has one writer.
+    folder: Option<(Arc<Folder>, File)>,
+    kept: Kept,
 }
 
 impl WearStore {
@@ -49,7 +52,7 @@ impl WearStore {
             place,
             overwrite,
             folder: None,
-            kept: Vec::new(),
+            kept: Kept::default(),
         })
     }
 
@@ -69,29 +72,37 @@ impl WearStore {
             None => Some(Unfinished::begin(&self.place)?),
         };
         let folder = match (&self.folder, &begins) {
-            (Some(folder), _) => folder.clone(),
+            (Some((folder, _)), _) => folder.clone(),
             (None, Some(begins)) => begins.folder().clone(),
             (None, None) => return Ok(()),
         };
         if kept {
-            for (variable, values) in fields(run, &block, self.kept.len() + 1) {
-                let mut chunk = vec![0; variable.1];
-                chunk[0] = self.kept.len() as u64;
-                variable.0.store(&folder, &chunk, values.into_iter())?;
+            let n = self.kept.cycles.len();
+            for (mut variable, values) in fields(run, &block, n + 1) {
+                let sums = self
+                    .kept
+                    .checksums
+                    .entry(variable.name().into())
+                    .or_default();
+                variable.set_checksums(sums);
+                variable.store_last(&folder, n, values.into_iter())?;
+                *sums = variable.checksums().to_vec();
             }
-            self.kept.push(block.cycles);
+            self.kept.cycles.push(block.cycles);
         }
         write_checkpoint(&folder, run.state(), &self.kept)?;
         self.write_documents(&folder, run, &block, "running")?;
         if let Some(begins) = begins {
-            self.folder = Some(begins.finish(self.overwrite)?);
+            let folder = begins.finish(self.overwrite)?;
+            let lock = locked(&folder)?;
+            self.folder = Some((folder, lock));
         }
         Ok(())
     }
 
     /// Says how the run ended; the checkpoint of one that is done goes.
     pub fn finish(&self, run: &WearRun, status: &str) -> Result<(), Error> {
-        let Some(folder) = &self.folder else {
+        let Some((folder, _)) = &self.folder else {
             return Ok(());
         };
         self.write_documents(folder, run, &run.block(), status)?;
@@ -134,33 +145,40 @@ impl WearStore {
             "block",
             &[],
         );
-        columns.push(blocks.extend(self.kept.iter().copied()));
+        columns.push(blocks.extend(self.kept.cycles.iter().copied()));
         for column in &mut columns {
             column.flush(folder)?;
         }
-        let arrays = fields(run, block, self.kept.len());
-        let variables = arrays.iter().map(|((variable, _), _)| variable);
+        let arrays = fields(run, block, self.kept.cycles.len());
+        let variables = arrays.iter().map(|(variable, _)| variable);
+        let mut checksums = self.kept.checksums.clone();
+        for variable in columns.iter().map(Column::variable) {
+            checksums.insert(variable.name().into(), variable.checksums().to_vec());
+        }
         for variable in columns.iter().map(Column::variable).chain(variables) {
             let name = variable.name();
             documents.insert(format!("{name}/.zarray"), variable.zarray());
             documents.insert(format!("{name}/.zattrs"), variable.attributes());
         }
-        let write = |key: &str, document: &Value| {
-            let bytes = format!("{document:#}");
-            folder
-                .write(key, bytes.as_bytes())
-                .map_err(|e| folder.error(&format!("{key}: {e}")))
-        };
+        let write = |key: &str, document: &Value| folder.put(key, &format!("{document:#}"));
         for (key, document) in documents.iter().filter(|(key, _)| *key != ATTRIBUTES) {
             write(key, document)?;
         }
-        write(
-            ".zmetadata",
-            &json!({ "zarr_consolidated_format": 1, "metadata": documents }),
-        )?;
+        let consolidated = Consolidated {
+            documents,
+            checksums,
+        };
+        folder.put(FILE, &consolidated.encode())?;
         // The status comes last: a store that says "done" is whole.
-        write(ATTRIBUTES, &documents[ATTRIBUTES])
+        write(ATTRIBUTES, consolidated.document(ATTRIBUTES))
     }
+}
+
+/// The folder, locked; fails if another process writes it.
+fn locked(folder: &Arc<Folder>) -> Result<File, Error> {
+    let lock = File::open(folder.root()).map_err(|e| folder.error(&e))?;
+    is_free(&lock, folder)?;
+    Ok(lock)
 }
 
 /// Removes the checkpoint of a run that is done, which a process that died at its very end has left. What cannot be
@@ -169,17 +187,14 @@ fn clear_checkpoint(folder: &Folder) {
     let _ = std::fs::remove_dir_all(folder.root().join("checkpoint"));
 }
 
-/// The variables over `block`, each with its number of dimensions, and the values of a block.
-fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<((Variable, usize), Vec<f64>)> {
+/// The variables over `block`, and the values of a block.
+fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<(Variable, Vec<f64>)> {
     let (nx, ny) = (run.scene().grid.nx as u64, run.scene().grid.ny as u64);
     let field = |name, kind, words, values: Vec<f64>| {
         let shape = vec![blocks as u64, nx, ny];
         let dims = ["block", "x", "y"];
         (
-            (
-                Variable::new(name, kind, words, &dims, shape, vec![1, nx, ny]),
-                3,
-            ),
+            Variable::new(name, kind, words, &dims, shape, vec![1, nx, ny]),
             values,
         )
     };
@@ -195,7 +210,7 @@ fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<((Variable, usize)
             vec![1, corners],
         );
         (
-            (variable, 2),
+            variable,
             block.friction_loop.iter().map(|at| at[c]).collect(),
         )
     };
@@ -297,9 +312,29 @@ fn attributes(run: &WearRun, status: &str) -> Value {
     })
 }
 
+/// Fails if there is no store of a run of wear at `path`, or if a file of it is missing or not as it was
+/// written; a store that is being written meanwhile is looked at again.
+pub fn verify_wear(path: impl AsRef<Path>) -> Result<(), Error> {
+    let folder = Folder::new(path.as_ref());
+    let mut consolidated = whole::consolidated(&folder)?;
+    if consolidated.document(ATTRIBUTES).get("wear").is_none() {
+        return Err(folder.error(&"holds no run of wear"));
+    }
+    loop {
+        let Err(error) = whole::verify(&folder, &consolidated) else {
+            return Ok(());
+        };
+        let again = whole::consolidated(&folder)?;
+        if again == consolidated {
+            return Err(error);
+        }
+        consolidated = again;
+    }
+}
+
 /// Takes up a run of wear where its store left it, to the same bytes; `None` if it is done. Fails
 /// if `path` holds no run of wear, one by a law of the user's own, or another one than that of a scene
-/// and its wear, where they are given.
+/// and its wear, where they are given, and if a file of it is missing or not as it was written.
 pub fn resume_wear(
     path: impl AsRef<Path>,
     of: Option<(&Scene, &Wear)>,
@@ -343,6 +378,7 @@ fn take_up(
         );
     }
     if attributes["status"] == "done" {
+        verify_wear(&place)?;
         clear_checkpoint(&folder);
         return Ok(None);
     }
@@ -352,14 +388,22 @@ fn take_up(
     };
     let name = place.display().to_string();
     let (scene, wear) = Wear::from_store(&format!("{scene}{wear}"), &name, own)?;
+    let lock = locked(&folder)?;
     let (state, kept) = read_checkpoint(&folder)?;
     let run = WearRun::resume(&scene, &wear, state, stop)?;
+    for (variable, _) in fields(&run, &run.block(), kept.cycles.len()) {
+        let name = variable.name();
+        let sums = kept.checksums.get(name).map_or(&[][..], Vec::as_slice);
+        let stored = Stored::new(&folder, name, &variable.zarray(), sums)?;
+        let verified = stored.verify(&stored.all());
+        verified.map_err(|e| folder.error(&format!("{name}: {e}")))?;
+    }
     Ok(Some((
         run,
         WearStore {
             place,
             overwrite: false,
-            folder: Some(folder),
+            folder: Some((folder, lock)),
             kept,
         },
     )))

@@ -9,14 +9,17 @@ use zarrs::array::ArraySubset;
 
 use super::folder::Folder;
 use super::variable::open_array;
+use super::wear_store::verify_wear;
 use crate::error::Error;
 use crate::wear::WornStart;
 
 /// Largest number of values that a field may have.
 const MOST_VALUES: u64 = 1 << 28;
 
-/// Reads the last block of a run of wear: what another run may begin on.
+/// Reads the last block of a run of wear: what another run may begin on. Fails if a file of the store is missing or
+/// not as it was written.
 pub fn read_worn(path: impl AsRef<Path>) -> Result<WornStart, Error> {
+    verify_wear(path.as_ref())?;
     let folder = Folder::new(path.as_ref());
     let last = |name: &str| last(&folder, name);
     let field = |name: &str| -> Result<Array2<f64>, Error> {

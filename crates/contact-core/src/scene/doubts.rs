@@ -26,6 +26,8 @@ const ROUGHEST: f64 = 3.0;
 const THICK: f64 = 1000.0;
 /// Root-mean-square slope of a measured surface beyond which its heights are hardly in metres.
 const STEEP: f64 = 0.5;
+/// Cells between two points of a map from which on it is coarser than the grid.
+const COARSE_MAP: f64 = 2.0;
 /// Part of the Hertz radius that a contact reaches for certain.
 const CERTAIN: f64 = 0.97;
 
@@ -144,6 +146,7 @@ impl Scene {
             }
             doubts.extend(self.doubt_of_thin_layers(key, body));
             for map in maps(&body.shape) {
+                doubts.extend(self.doubts_of_map(map, &format!("{key}.shape.height_map")));
                 let slope = slope_of(map);
                 if slope > STEEP {
                     doubts.push(format!(
@@ -153,6 +156,9 @@ impl Scene {
                     ));
                 }
             }
+        }
+        if let Some(map) = &self.friction.map {
+            doubts.extend(doubt_of_filled(map, "friction.map"));
         }
         doubts.extend(self.doubts_of_loads(wide));
         doubts
@@ -235,6 +241,28 @@ impl Scene {
         })
     }
 
+    /// The same of measured heights: points farther apart than cells, points that were not measured.
+    fn doubts_of_map(&self, map: &SurfaceMap, key: &str) -> Vec<String> {
+        let mut doubts = Vec::new();
+        let (nx, ny) = map.values.dim();
+        let along = |points: usize, spacing: f64, cell: f64| (points > 1).then_some(spacing / cell);
+        let (x, y) = (
+            along(nx, map.spacing.0, self.grid.dx),
+            along(ny, map.spacing.1, self.grid.dy),
+        );
+        let coarser = x.into_iter().chain(y).fold(0.0, f64::max);
+        if coarser > COARSE_MAP {
+            let (extent, _) = self.grid.extent();
+            doubts.push(format!(
+                "the points of the map {key} lie {:.3e} m by {:.3e} m apart, {coarser:.1} cells of the grid of \
+                 {extent:.3e} m: what is in between is straight lines, not measured; {UNITS}",
+                map.spacing.0, map.spacing.1
+            ));
+        }
+        doubts.extend(doubt_of_filled(map, key));
+        doubts
+    }
+
     /// The same of the load path, on a grid of that length.
     fn doubts_of_loads(&self, wide: f64) -> Vec<String> {
         let mut doubts = Vec::new();
@@ -297,6 +325,17 @@ fn radii(shape: &Shape) -> Vec<f64> {
         Shape::Sum(parts) => parts.iter().flat_map(radii).collect(),
         _ => Vec::new(),
     }
+}
+
+/// What stands for points of a map that were not measured.
+fn doubt_of_filled(map: &SurfaceMap, key: &str) -> Option<String> {
+    (map.filled > 0).then(|| {
+        format!(
+            "{} of {} points of the map {key} were not measured: each has the mean of its neighbours",
+            map.filled,
+            map.values.len()
+        )
+    })
 }
 
 /// The measured heights in a shape.

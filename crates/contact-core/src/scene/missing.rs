@@ -10,7 +10,8 @@ pub enum Missing {
     Refuse,
     /// Lines at the edges are left out until every point has a number; the middle moves with them.
     Crop,
-    /// Each has the mean of its neighbours, those next to numbers first.
+    /// Each has the mean of its neighbours, those next to numbers first; refused where the holes are
+    /// many or large, since nothing is known of what lies in them.
     Fill,
 }
 
@@ -26,19 +27,36 @@ impl Missing {
     }
 }
 
-/// The numbers without holes; the error says where the holes are.
-pub(super) fn completed(values: Array2<f64>, missing: Missing) -> Result<Array2<f64>, String> {
-    let holes = values.iter().filter(|v| v.is_nan()).count();
-    if holes == values.len() {
+/// Part of the points that is filled at most.
+const MOST_FILLED: f64 = 0.1;
+/// Points by which a filled one lies within its hole at most.
+const DEEPEST: usize = 5;
+
+/// The numbers without holes, and how many of them are filled; the error says where the holes are.
+pub(super) fn completed(
+    values: Array2<f64>,
+    missing: Missing,
+) -> Result<(Array2<f64>, usize), String> {
+    let (holes, all) = (values.iter().filter(|v| v.is_nan()).count(), values.len());
+    if holes == all {
         return Err("holds no number".into());
     }
     if holes == 0 {
-        return Ok(values);
+        return Ok((values, 0));
     }
+    let share = 100.0 * holes as f64 / all as f64;
     match missing {
         Missing::Refuse => Err(where_they_are(&values, holes)),
-        Missing::Crop => Ok(cropped(&values)),
-        Missing::Fill => Ok(filled(values)),
+        Missing::Crop => Ok((cropped(&values), 0)),
+        Missing::Fill if holes as f64 > MOST_FILLED * all as f64 => Err(format!(
+            "{holes} of {all} points ({share:.1} %) have no number, too many to fill: a tenth of them at most"
+        )),
+        Missing::Fill => filled(values).map(|values| (values, holes)).ok_or_else(|| {
+            format!(
+                "{holes} of {all} points ({share:.1} %) have no number, and a hole among them is too large to fill: \
+                 every point of it must lie within {DEEPEST} points of measured ones"
+            )
+        }),
     }
 }
 
@@ -103,15 +121,15 @@ fn nearest_edge(values: &ndarray::ArrayView2<'_, f64>) -> usize {
     (0..4).min_by_key(|&edge| distances[edge]).unwrap_or(0)
 }
 
-/// Fills from the borders of the holes inwards.
-fn filled(mut values: Array2<f64>) -> Array2<f64> {
+/// Fills from the borders of the holes inwards; `None` where they are too large.
+fn filled(mut values: Array2<f64>) -> Option<Array2<f64>> {
     let (nx, ny) = values.dim();
     let mut holes: Vec<(usize, usize)> = values
         .indexed_iter()
         .filter(|(_, v)| v.is_nan())
         .map(|(at, _)| at)
         .collect();
-    while !holes.is_empty() {
+    for _ in 0..DEEPEST {
         let mean = |&(i, j): &(usize, usize)| {
             let rows = i.saturating_sub(1)..(i + 2).min(nx);
             let around = |row: usize| {
@@ -132,7 +150,7 @@ fn filled(mut values: Array2<f64>) -> Array2<f64> {
             }
         }
     }
-    values
+    holes.is_empty().then_some(values)
 }
 
 #[cfg(test)]
@@ -161,18 +179,36 @@ mod tests {
 
     #[test]
     fn edges_with_holes_are_cut_off() {
-        let z = completed(with_holes(), Missing::Crop).expect("numbers");
+        let (z, filled) = completed(with_holes(), Missing::Crop).expect("numbers");
         assert!(
-            z.dim() == (5, 4) && z[(0, 0)] == 1.0 && z[(4, 3)] == 11.0,
+            z.dim() == (5, 4) && z[(0, 0)] == 1.0 && z[(4, 3)] == 11.0 && filled == 0,
             "{z}"
         );
     }
 
     #[test]
-    fn holes_are_filled_from_their_neighbours() {
-        let z = completed(with_holes(), Missing::Fill).expect("numbers");
-        assert!(z.iter().all(|v| v.is_finite()));
+    fn few_small_holes_are_filled_from_their_neighbours() {
+        let mut plane = Array2::from_shape_fn((30, 20), |(i, j)| i as f64 + 2.0 * j as f64);
+        for at in [(0, 3), (4, 4), (4, 5), (29, 19)] {
+            plane[at] = f64::NAN;
+        }
+        let (z, filled) = completed(plane.clone(), Missing::Fill).expect("numbers");
+        assert!(filled == 4 && z.iter().all(|v| v.is_finite()));
         // The mean of the neighbours of a plane that lie on one side is off by a point at most.
         assert!((z[(0, 3)] - 6.0).abs() <= 2.0 && (z[(4, 4)] - 12.0).abs() <= 2.0);
+        for at in (10..21).flat_map(|i| (0..20).map(move |j| (i, j))) {
+            plane[at] = f64::NAN;
+        }
+        let many = completed(plane.clone(), Missing::Fill).expect_err("many");
+        assert!(many.contains("too many to fill"), "{many}");
+        let mut large = Array2::ones((60, 60));
+        for at in (20..31).flat_map(|i| (20..31).map(move |j| (i, j))) {
+            large[at] = f64::NAN;
+        }
+        let large = completed(large, Missing::Fill).expect_err("a large hole");
+        assert!(
+            large.contains("121 of 3600 points (3.4 %)") && large.contains("too large"),
+            "{large}"
+        );
     }
 }

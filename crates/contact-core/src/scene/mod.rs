@@ -31,6 +31,7 @@ pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
 pub use loads::{Given, Loads};
 pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
+pub use number_files::FileOfNumbers;
 pub use resolution::{FEW_CELLS, FEWEST_CELLS};
 pub use settings::{
     KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
@@ -270,13 +271,15 @@ impl Scene {
     /// 1/125 of the tolerance on the path (1/2500 of a path that only presses) if that is more.
     pub fn tolerance(&self) -> f64 {
         let solver = &self.settings.solver;
-        let default = if self.path.is_open() && self.friction.mu > 0.0 {
+        if let Some(tolerance) = solver.tolerance {
+            return tolerance;
+        }
+        if self.path.is_open() && self.friction.mu > 0.0 {
             let part = PATH_PART[usize::from(!self.path.only_presses())];
             (part * solver.path_tolerance).max(TOLERANCE)
         } else {
             TOLERANCE
-        };
-        solver.tolerance.unwrap_or(default)
+        }
     }
 
     /// Gap between the undeformed surfaces, h_init \[m\], shape (nx, ny).

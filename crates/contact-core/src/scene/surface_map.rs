@@ -8,49 +8,55 @@ use ndarray::Array2;
 use super::Grid;
 use super::files;
 use super::missing::{Missing, completed};
-use super::number_files::{read_npy, read_table};
+use super::number_files::{FileOfNumbers, Heights, heights};
 use crate::error::Error;
 
 /// Numbers over the contact plane on points of their own, the middle of the map over the origin.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct SurfaceMap {
     /// Numbers, shape (points along x, along y).
     pub values: Arc<Array2<f64>>,
     /// Distance of the points along x and y \[m\].
     pub spacing: (f64, f64),
+    /// How many of the numbers are the mean of their neighbours, since those points were not measured.
+    pub filled: usize,
+}
+
+/// Maps of the same numbers on the same points are equal.
+impl PartialEq for SurfaceMap {
+    fn eq(&self, other: &Self) -> bool {
+        self.spacing == other.spacing && self.values == other.values
+    }
 }
 
 impl SurfaceMap {
-    /// Reads numbers from a `.npy` array of real or whole numbers of any size and byte order, or from a
-    /// table of numbers, one line per x, parted by commas, semicolons, tabs or blanks, with or without
-    /// a line of titles. What becomes of points without a number, `missing` says.
-    pub fn from_file(path: &Path, spacing: (f64, f64), missing: Missing) -> Result<Self, Error> {
+    /// Reads numbers from a `.npy` array, or from text: a table, one line per x, points x, y and height in any
+    /// order, Gwyddion's export, an ESRI grid. What the file does not say of them, `told` says.
+    pub fn from_file(path: &Path, told: &FileOfNumbers) -> Result<Self, Error> {
         // Readers may say it in several lines; an error is one sentence.
         let failed = |message: String| Error::File {
             path: path.display().to_string(),
             message: message.split_whitespace().collect::<Vec<_>>().join(" "),
         };
-        files::check(path)?;
-        let is_npy = path
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("npy"));
-        let read = if is_npy { read_npy } else { read_table };
-        let values = read(path)
-            .and_then(|values| completed(values, missing))
-            .map_err(failed)?;
-        Ok(Self {
+        let Heights { values, spacing } = heights(files::read(path)?, told).map_err(failed)?;
+        let (values, filled) = completed(values, told.missing).map_err(failed)?;
+        let map = Self {
             values: Arc::new(values),
             spacing,
-        })
+            filled,
+        };
+        map.check("map").map_err(|e| failed(e.to_string()))?;
+        Ok(map)
     }
 
     /// Numbers on points with a `spacing` \[m\]; what becomes of those that are NaN, `missing` says.
     pub fn new(values: Array2<f64>, spacing: (f64, f64), missing: Missing) -> Result<Self, Error> {
-        let values = completed(values, missing)
+        let (values, filled) = completed(values, missing)
             .map_err(|holes| Error::invalid("map", holes, "a number at every point"))?;
         let map = Self {
             values: Arc::new(values),
             spacing,
+            filled,
         };
         map.check("map")?;
         Ok(map)
@@ -128,6 +134,7 @@ mod tests {
         let map = SurfaceMap {
             values: Arc::new(values),
             spacing: (0.5, 0.25),
+            filled: 0,
         };
         let (middle_i, middle_j) = (2.0, 1.5);
         for (x, y) in [(0.0, 0.0), (0.3, -0.1), (-0.99, 0.37)] {

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use contact_core::scene::{Missing, Scene, SurfaceMap};
+use contact_core::scene::{FileOfNumbers, Scene, SurfaceMap};
 use ndarray::Array2;
 use ndarray_npy::WriteNpyExt;
 use proptest::prelude::*;
@@ -17,6 +17,13 @@ friction.mu = 0.1
 grid = { n = 8, extent = 5e-4 }
 path = [{ W = 10.0, increments = 1 }]
 "#;
+
+fn told() -> FileOfNumbers {
+    FileOfNumbers {
+        spacing: Some((1e-4, 1e-4)),
+        ..FileOfNumbers::default()
+    }
+}
 
 /// A header that says what it likes.
 fn lie() -> impl Strategy<Value = Vec<u8>> {
@@ -60,7 +67,7 @@ fn heights_that_are_pickled_are_refused() {
     let mut bytes = npy("|O", false, "(2, 2)", 1);
     bytes.extend(b"\x80\x02cposix\nsystem\nU\x04true\x85R.");
     fs::write(&file, bytes).unwrap();
-    let error = SurfaceMap::from_file(&file, (1e-4, 1e-4), Missing::Refuse).map(|_| ());
+    let error = SurfaceMap::from_file(&file, &told()).map(|_| ());
     let error = error.unwrap_err();
     crate::one_sentence(&error);
     assert!(error.to_string().contains("z.npy"), "{error}");
@@ -101,7 +108,7 @@ fn height_maps() {
     crate::fuzz("height maps", files, |(name, bytes)| {
         let file = folder.path().join(name);
         fs::write(&file, bytes).unwrap();
-        match SurfaceMap::from_file(&file, (1e-4, 1e-4), Missing::Refuse) {
+        match SurfaceMap::from_file(&file, &told()) {
             Ok(map) => assert!(map.values.len() <= bytes.len(), "more heights than bytes"),
             Err(error) => crate::one_sentence(&error),
         }

@@ -1,9 +1,9 @@
 //! Friction laws: what a sliding contact must carry.
 
-use std::sync::Arc;
-
 use contact_core::march::{Fields, Increment, Status};
-use contact_core::scene::{Friction, FrictionHistory, History, LoadPath, Loads, Scene, SurfaceMap};
+use contact_core::scene::{
+    Friction, FrictionHistory, History, LoadPath, Loads, Missing, Scene, SurfaceMap,
+};
 use ndarray::{Array2, Zip};
 
 use crate::bench::{
@@ -51,10 +51,7 @@ fn a_map_is_weighed_with_the_pressure() {
         let [x, y] = [i, j].map(|k| (k as f64 - 150.0) * spacing / a);
         1.0 + b * (x * x + y * y)
     });
-    let map = SurfaceMap {
-        values: Arc::new(values),
-        spacing: (spacing, spacing),
-    };
+    let map = SurfaceMap::new(values, (spacing, spacing), Missing::Refuse).unwrap();
     let friction = Friction {
         map: Some(map),
         ..Friction::coulomb(MU)

@@ -1,9 +1,7 @@
 //! All loads, laws of friction and layers at once: what holds for each must hold for all.
 
-use std::sync::Arc;
-
 use contact_core::scene::{
-    Coating, Elastic, Friction, FrictionHistory, History, LoadPath, Shape, SurfaceMap,
+    Coating, Elastic, Friction, FrictionHistory, History, LoadPath, Missing, Shape, SurfaceMap,
 };
 use ndarray::Array2;
 
@@ -43,10 +41,7 @@ fn whatever_is_combined_balances() {
     scene.friction = Friction {
         mu_y: Some(0.35),
         kinetic: Some(0.25),
-        map: Some(SurfaceMap {
-            values: Arc::new(values),
-            spacing: (spacing, spacing),
-        }),
+        map: Some(SurfaceMap::new(values, (spacing, spacing), Missing::Refuse).unwrap()),
         history: Some(FrictionHistory {
             of: History::Dissipated,
             table: vec![(0.0, 1.0), (100.0, 1.2)],

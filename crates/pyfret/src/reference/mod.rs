@@ -11,9 +11,11 @@ mod springs;
 use contact_core::Error;
 use contact_core::reference::domain;
 use contact_core::scene as core;
-use numpy::{AllowTypeChange, PyArrayDyn, PyArrayLikeDyn, ToPyArray};
+use ndarray::IxDyn;
+use numpy::{PyArrayDyn, ToPyArray};
 use pyo3::prelude::*;
 
+use crate::arguments::Array;
 use crate::error::to_python;
 use crate::material::Material;
 
@@ -29,7 +31,7 @@ pub(crate) use plane_strain::{LineContact, line_contact};
 pub(crate) use springs::Springs;
 
 /// A number, a sequence or an array of any shape.
-type Numbers<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
+type Numbers<'py> = Array<'py, IxDyn>;
 
 /// `f` of every number, in the shape that they came in.
 fn map<'py>(

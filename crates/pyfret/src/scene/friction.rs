@@ -4,6 +4,7 @@ use contact_core::scene as core;
 use pyo3::prelude::*;
 
 use super::SurfaceMap;
+use crate::arguments::List;
 use crate::error::{must_be, to_python};
 use crate::parts::{members, parts};
 
@@ -82,7 +83,7 @@ impl Friction {
         mu_y: Option<f64>,
         kinetic: Option<f64>,
         map: Option<SurfaceMap>,
-        history: Option<(History, Vec<(f64, f64)>)>,
+        history: Option<(History, List<(f64, f64)>)>,
     ) -> PyResult<Self> {
         let law = core::Friction {
             mu,
@@ -91,7 +92,7 @@ impl Friction {
             map: map.map(|map| map.0),
             history: history.map(|(of, table)| core::FrictionHistory {
                 of: of.into(),
-                table,
+                table: table.0,
             }),
         };
         law.check(None).map_err(to_python)?;

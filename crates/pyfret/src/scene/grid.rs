@@ -90,11 +90,12 @@ impl Grid {
         grid.check().map(|()| Self(grid)).map_err(to_python)
     }
 
-    /// `n` by `n` cells on a square of side `extent` [m].
+    /// `n` by `n` cells on a square of side `extent` [m], or a rectangle of pairs along x and y.
     #[staticmethod]
     #[pyo3(signature = (*, extent, n))]
-    fn centred(extent: f64, n: Count) -> PyResult<Self> {
-        core::Grid::centred(extent, n.0)
+    fn centred(extent: Pitch, n: Cells) -> PyResult<Self> {
+        let ((x, y), (nx, ny)) = (extent.0, n.0);
+        core::Grid::from_spacing((nx, ny), (x / nx as f64, y / ny as f64))
             .map(Self)
             .map_err(to_python)
     }

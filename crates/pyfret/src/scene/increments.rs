@@ -3,6 +3,7 @@
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
+use crate::arguments::List;
 use crate::error::must_be;
 use crate::parts::parts;
 
@@ -20,9 +21,9 @@ impl<'py> FromPyObject<'_, 'py> for Values {
             return Ok(Self::One(one));
         }
         let wanted = "a number, or several to visit in turn, such as [100.0, -100.0, 100.0]";
-        let several = value.extract::<Vec<f64>>().ok().filter(|v| !v.is_empty());
+        let several = value.extract::<List<f64>>().ok().filter(|v| !v.is_empty());
         several
-            .map(Self::Several)
+            .map(|values| Self::Several(values.0))
             .ok_or_else(|| must_be(&value, wanted))
     }
 }
@@ -33,6 +34,24 @@ impl Values {
             Self::One(value) => std::slice::from_ref(value),
             Self::Several(values) => values,
         }
+    }
+}
+
+/// One name or several.
+pub(super) struct Names(pub(super) Vec<String>);
+
+impl<'py> FromPyObject<'_, 'py> for Names {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(one) = value.extract::<String>() {
+            return Ok(Self(vec![one]));
+        }
+        let wanted = "a name, or a list of names, such as \"delta_x\"";
+        let names = value.extract::<List<String>>();
+        names
+            .map(|names| Self(names.0))
+            .map_err(|_| must_be(&value, wanted))
     }
 }
 

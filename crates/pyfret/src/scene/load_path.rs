@@ -11,7 +11,8 @@ use pyo3::prelude::*;
 
 use super::branch::{Branch, Spacing};
 use super::branches::{branch, column, cycled, moved, prescribe};
-use super::increments::{AnyIncrements, Count, Values};
+use super::increments::{AnyIncrements, Count, Names, Values};
+use crate::arguments::List;
 use crate::error::{takes, to_python};
 use crate::parts::parts;
 
@@ -48,9 +49,9 @@ fn checked(path: core::LoadPath) -> PyResult<LoadPath> {
 #[pymethods]
 impl LoadPath {
     #[new]
-    #[pyo3(signature = (branches = Vec::new(), *, rig_stiffness = None))]
-    fn new(branches: Vec<Branch>, rig_stiffness: Option<f64>) -> Self {
-        let branches = branches.into_iter().map(|branch| branch.0).collect();
+    #[pyo3(signature = (branches = List(Vec::new()), *, rig_stiffness = None))]
+    fn new(branches: List<Branch>, rig_stiffness: Option<f64>) -> Self {
+        let branches = branches.0.into_iter().map(|branch| branch.0).collect();
         Self(core::LoadPath {
             branches,
             rig_stiffness,
@@ -137,10 +138,14 @@ impl LoadPath {
     fn waypoints(
         &self,
         increments: AnyIncrements,
-        columns: Option<BTreeMap<String, Vec<f64>>>,
+        columns: Option<BTreeMap<String, List<f64>>>,
     ) -> PyResult<Self> {
         let columns = columns.unwrap_or_default();
-        let rows = columns.values().map(Vec::len).max().unwrap_or(0);
+        let rows = columns
+            .values()
+            .map(|column| column.len())
+            .max()
+            .unwrap_or(0);
         if let Some((name, column)) = columns.iter().find(|(_, c)| c.len() != rows) {
             let allowed = format!("{rows} values, as the longest column");
             let error = Error::invalid(name, format!("{} values", column.len()), allowed);
@@ -153,11 +158,36 @@ impl LoadPath {
         path.map_err(to_python).and_then(checked)
     }
 
-    /// Read a measured history; the first line names the columns of `waypoints`.
+    /// Read a measured history: a table of text whose titles name the columns of `waypoints`.
+    ///
+    /// Semicolons, tabs, commas or blanks part its numbers, with decimal points or commas; units stand
+    /// in the titles, ``T_x [kN]``, or in a row of their own.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : path
+    ///     The file.
+    /// increments : int, PerRange or "auto"
+    ///     Increments per branch, as in `waypoints`.
+    /// drive : str or list of str, optional
+    ///     Of a load and its motion that both stand in the file, as in every measured loop, the one
+    ///     that drives; the other is left out.
+    ///
+    /// Raises
+    /// ------
+    /// StoreError
+    ///     If the file cannot be read; the message says which line and column, and what to give.
     #[staticmethod]
-    #[pyo3(signature = (path, *, increments = AnyIncrements::Each(1)))]
-    fn from_csv(path: PathBuf, increments: AnyIncrements) -> PyResult<Self> {
-        core::LoadPath::from_csv(&path, increments.into())
+    #[pyo3(signature = (path, *, increments = AnyIncrements::Each(1), drive = Names(Vec::new())))]
+    fn from_csv(
+        py: Python<'_>,
+        path: PathBuf,
+        increments: AnyIncrements,
+        drive: Names,
+    ) -> PyResult<Self> {
+        let drive: Vec<&str> = drive.0.iter().map(String::as_str).collect();
+        let increments = increments.into();
+        py.detach(|| core::LoadPath::from_csv(&path, increments, &drive))
             .map_err(to_python)
             .and_then(checked)
     }

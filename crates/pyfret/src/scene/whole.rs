@@ -8,7 +8,7 @@ use contact_core::scene as core;
 use pyo3::prelude::*;
 
 use super::{AnyFriction, Body, Friction, Grid, LoadPath, Save, Settings};
-use crate::arguments::{Field, side};
+use crate::arguments::{Field, List, side};
 use crate::error::{takes, to_python};
 use crate::parts::parts;
 use crate::reference::Hertz;
@@ -91,8 +91,8 @@ impl Scene {
     /// InvalidSceneError
     ///     With the line, the key and what is allowed; an unknown key names the nearest valid one.
     #[staticmethod]
-    #[pyo3(signature = (path, *, set = Vec::new(), allow_outside = false))]
-    fn from_file(path: PathBuf, set: Vec<String>, allow_outside: bool) -> PyResult<Self> {
+    #[pyo3(signature = (path, *, set = List(Vec::new()), allow_outside = false))]
+    fn from_file(path: PathBuf, set: List<String>, allow_outside: bool) -> PyResult<Self> {
         let reach = if allow_outside {
             core::Reach::Anywhere
         } else {
@@ -105,8 +105,8 @@ impl Scene {
 
     /// Read a scene from the text of a scene file; see :meth:`from_file`.
     #[staticmethod]
-    #[pyo3(signature = (text, *, set = Vec::new()))]
-    fn from_toml(text: &str, set: Vec<String>) -> PyResult<Self> {
+    #[pyo3(signature = (text, *, set = List(Vec::new())))]
+    fn from_toml(text: &str, set: List<String>) -> PyResult<Self> {
         core::Scene::from_toml_str(text, "scene", &set)
             .map(Self)
             .map_err(to_python)

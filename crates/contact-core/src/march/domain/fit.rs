@@ -188,12 +188,12 @@ fn margin(problem: &Problem, state: &State, point: &LoadPoint) -> usize {
 /// What the contact is expected to grow by in an increment to `point`, and on the rest of the path:
 /// that of a sphere grows like the cube root of the force and like the root of the approach.
 fn growth(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
-    let path = &problem.scene.path;
+    let largest = problem.largest;
     let touches = state.loads.W > 0.0;
     let (steps, power) = match point.loads.given.delta_z {
-        Some(now) if touches => ([state.motion.delta_z, now, path.delta_z_max()], 1.0 / 2.0),
-        Some(now) => ([0.0, now, path.delta_z_max()], 1.0 / 2.0),
-        None => ([state.loads.W, point.loads.W, path.W_max()], 1.0 / 3.0),
+        Some(now) if touches => ([state.motion.delta_z, now, largest.delta_z], 1.0 / 2.0),
+        Some(now) => ([0.0, now, largest.delta_z], 1.0 / 2.0),
+        None => ([state.loads.W, point.loads.W, largest.W], 1.0 / 3.0),
     };
     let grows = |from: f64, to: f64| {
         if from > 0.0 && to > from {

@@ -4,7 +4,7 @@ use toml::Value;
 
 use super::fault::Fault;
 use super::section::Section;
-use super::shape::{map_text, surface_map};
+use super::shape::{MAP, map_text, surface_map};
 use crate::scene::files::Files;
 use crate::scene::{Friction, FrictionHistory, History};
 
@@ -42,7 +42,8 @@ pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction
             .map(|_| section.number(key, "a positive number", &[]));
         given.transpose()
     };
-    let map = section.section("map", &["file", "z", "spacing", "missing"])?;
+    // Its numbers have no unit.
+    let map = section.section("map", &MAP[..MAP.len() - 1])?;
     Ok(Friction {
         mu,
         mu_y: number("mu_y")?,

@@ -28,6 +28,7 @@ use document::Document;
 
 use super::Scene;
 use super::files::{self, Files, Reach};
+use super::number_files::strict;
 use crate::error::Error;
 
 impl Scene {
@@ -67,11 +68,11 @@ impl Scene {
 /// The text of a scene file, and its name in errors.
 pub(crate) fn text_of(path: &Path) -> Result<(String, String), Error> {
     let file = path.display().to_string();
-    match String::from_utf8(files::read(path)?) {
+    match strict(files::read(path)?) {
         Ok(text) => Ok((text, file)),
-        Err(e) => Err(Error::File {
+        Err(message) => Err(Error::File {
             path: file,
-            message: format!("is not UTF-8 text: {e}"),
+            message,
         }),
     }
 }

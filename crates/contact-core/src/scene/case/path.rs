@@ -100,8 +100,8 @@ fn loads(section: &Section<'_>, at: Loads, mu: f64) -> Result<Loads, Fault> {
 
 /// A measured history: a table of waypoints in a file.
 fn measured(root: &Section<'_>, files: &Files<'_>) -> Result<LoadPath, Fault> {
-    let section = root.need_section("path", &["file", "increments"])?;
-    let what = "the name of a .csv file";
+    let section = root.need_section("path", &["file", "increments", "drive"])?;
+    let what = "the name of a file of text";
     let (key, value) = (section.path("file"), section.need("file", what)?);
     let name = value
         .as_str()
@@ -119,5 +119,19 @@ fn measured(root: &Section<'_>, files: &Files<'_>) -> Result<LoadPath, Fault> {
     };
     let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
     let path = files.find(name).map_err(|e| wrong(&e))?;
-    LoadPath::from_csv(&path, increments).map_err(|e| wrong(&e))
+    let drive = drive(&section)?;
+    LoadPath::from_csv(&path, increments, &drive).map_err(|e| wrong(&e))
+}
+
+/// The columns that drive, where a motion and its load both stand in a file.
+fn drive<'a>(section: &Section<'a>) -> Result<Vec<&'a str>, Fault> {
+    let what = "the name of a column in quotes, or a list of names";
+    let Some(value) = section.get("drive") else {
+        return Ok(Vec::new());
+    };
+    let names = match value {
+        Value::Array(names) => names.iter().map(Value::as_str).collect(),
+        name => name.as_str().map(|name| vec![name]),
+    };
+    names.ok_or_else(|| Fault::value(&section.path("drive"), value, what))
 }

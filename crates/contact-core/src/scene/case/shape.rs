@@ -1,14 +1,12 @@
 //! Shapes in a scene file: a table of one key, or of several that are added.
 
-use std::sync::Arc;
-
 use ndarray::Array2;
 use toml::Value;
 
 use super::fault::Fault;
 use super::section::{Section, pair};
 use crate::scene::files::Files;
-use crate::scene::{Missing, Rough, Shape, SurfaceMap};
+use crate::scene::{FileOfNumbers, Missing, Rough, Shape, SurfaceMap};
 
 const SHAPES: [&str; 11] = [
     "sphere",
@@ -125,10 +123,7 @@ fn one(shapes: &Section<'_>, name: &str, files: &Files<'_>) -> Result<Shape, Fau
                 })?,
             })
         }
-        "height_map" => Shape::HeightMap(surface_map(
-            &numbers(&["file", "z", "spacing", "missing"])?,
-            files,
-        )?),
+        "height_map" => Shape::HeightMap(surface_map(&numbers(&MAP)?, files)?),
         _ => sum(shapes, files)?,
     })
 }
@@ -156,22 +151,53 @@ fn missing(section: &Section<'_>) -> Result<Missing, Fault> {
     word.ok_or_else(|| Fault::value(&section.path("missing"), value, what))
 }
 
+/// The keys of numbers over the plane.
+pub(super) const MAP: [&str; 7] = [
+    "file", "z", "spacing", "missing", "channel", "filled", "unit",
+];
+
 /// Numbers from a file, or in the scene itself: a list along x of lists along y.
 pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<SurfaceMap, Fault> {
-    let spacing = section.need("spacing", "the distance of the points in m, or two")?;
-    let spacing = pair(&section.path("spacing"), spacing, |key, value| {
-        super::measure::number(key, value, &[])
-    })?;
-    if section.get("z").is_none() {
-        let what = "the name of a .npy or .csv file";
-        let file = section.need("file", what)?;
-        let key = section.path("file");
-        let name = file
-            .as_str()
-            .ok_or_else(|| Fault::value(&key, file, what))?;
-        let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
-        let path = files.find(name).map_err(|e| wrong(&e))?;
-        return SurfaceMap::from_file(&path, spacing, missing(section)?).map_err(|e| wrong(&e));
+    let what = "the distance of the points in m, or two";
+    let spacing = |value| {
+        pair(&section.path("spacing"), value, |key, value| {
+            super::measure::number(key, value, &[])
+        })
+    };
+    if section.get("z").is_some() {
+        return inline(section, spacing(section.need("spacing", what)?)?);
+    }
+    let what = "the name of a .npy file or a text of numbers";
+    let file = section.need("file", what)?;
+    let key = section.path("file");
+    let name = file
+        .as_str()
+        .ok_or_else(|| Fault::value(&key, file, what))?;
+    let word = |key: &str, what: &str| match section.get(key) {
+        None => Ok(None),
+        Some(Value::String(word)) => Ok(Some(word.clone())),
+        Some(other) => Err(Fault::value(&section.path(key), other, what)),
+    };
+    let told = FileOfNumbers {
+        spacing: section.get("spacing").map(spacing).transpose()?,
+        unit: word("unit", "a unit of length in quotes, such as \"um\"")?,
+        channel: word("channel", "the name of a column or channel in quotes")?,
+        missing: missing(section)?,
+    };
+    let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
+    let path = files.find(name).map_err(|e| wrong(&e))?;
+    SurfaceMap::from_file(&path, &told).map_err(|e| wrong(&e))
+}
+
+/// Numbers in the scene itself.
+fn inline(section: &Section<'_>, spacing: (f64, f64)) -> Result<SurfaceMap, Fault> {
+    let of_files = ["file", "unit", "channel"];
+    if let Some(key) = of_files.into_iter().find(|key| section.get(key).is_some()) {
+        let key = section.path(key);
+        return Err(Fault::new(
+            &key,
+            format!("{key}: must be left out where z has the numbers, in SI units"),
+        ));
     }
     let what = "a list along x of lists along y of numbers, all of one length";
     let (key, value) = (section.path("z"), section.need("z", what)?);
@@ -185,10 +211,11 @@ pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<Su
     }
     let shape = (rows.len(), heights.len() / rows.len().max(1));
     let values = Array2::from_shape_vec(shape, heights).map_err(|_| wrong())?;
-    Ok(SurfaceMap {
-        values: Arc::new(values),
-        spacing,
-    })
+    let missing = missing(section)?;
+    let mut map = SurfaceMap::new(values, spacing, missing)
+        .map_err(|e| Fault::new(&key, format!("{key}: {e}")))?;
+    map.filled += section.count_or("filled", 0, 0)?;
+    Ok(map)
 }
 
 /// The shape as a value of a scene file, every number in full.
@@ -221,5 +248,12 @@ pub(super) fn map_text(map: &SurfaceMap) -> String {
     let rows = map.values.rows().into_iter();
     let rows: Vec<_> = rows.map(|row| format!("{:?}", row.to_vec())).collect();
     let (x, y) = map.spacing;
-    format!("spacing = [{x:?}, {y:?}], z = [{}]", rows.join(", "))
+    let filled = match map.filled {
+        0 => String::new(),
+        n => format!("filled = {n}, "),
+    };
+    format!(
+        "spacing = [{x:?}, {y:?}], {filled}z = [{}]",
+        rows.join(", ")
+    )
 }

@@ -2,6 +2,7 @@
 
 mod build;
 mod check;
+mod history;
 mod point;
 mod waypoints;
 

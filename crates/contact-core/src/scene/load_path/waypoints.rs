@@ -1,10 +1,7 @@
 //! Load paths from waypoints: measured histories, tables.
 
-use std::path::Path;
-
 use super::{Branch, LoadPath};
 use crate::error::Error;
-use crate::scene::files;
 use crate::scene::{Loads, Prescribed, RigidMotion};
 
 /// How many increments lie between two waypoints.
@@ -47,7 +44,7 @@ impl Increments {
 
 /// A column of a table of waypoints.
 #[derive(Clone, Copy)]
-enum Column {
+pub(super) enum Column {
     /// Path time.
     Time,
     /// A load, or the motion in its place.
@@ -65,7 +62,7 @@ const OTHERS: [(&str, Column); 4] = [
 ];
 
 impl Column {
-    fn named(name: &str) -> Result<Self, Error> {
+    pub(super) fn named(name: &str) -> Result<Self, Error> {
         let other = OTHERS.iter().find(|(other, _)| *other == name);
         let known = RigidMotion::of(name, 0.0).map(|(of, kind)| Self::Prescribed(of, kind));
         known.or(other.map(|(_, column)| *column)).ok_or_else(|| {
@@ -102,7 +99,7 @@ impl Column {
 }
 
 /// What a column drives: a motion and its load are one thing.
-fn drives(name: &str) -> (Option<usize>, &str) {
+pub(super) fn drives(name: &str) -> (Option<usize>, &str) {
     match RigidMotion::of(name, 0.0) {
         Some((of, _)) => (Some(of.index()), ""),
         None => (None, name),
@@ -179,31 +176,6 @@ impl LoadPath {
             self.branches.push(Branch::new(to, increments, t_end));
         }
         Ok(self)
-    }
-
-    /// A measured history: a table of numbers parted by commas, its first line the names of
-    /// [`Self::waypoints`].
-    pub fn from_csv(path: &Path, increments: Increments) -> Result<Self, Error> {
-        let failed = |message: String| Error::File {
-            path: path.display().to_string(),
-            message,
-        };
-        let text = files::read(path)?;
-        let mut reader = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .from_reader(text.as_slice());
-        let names = reader.headers().map_err(|e| failed(e.to_string()))?.clone();
-        let rows = reader.deserialize::<Vec<f64>>();
-        let rows: Vec<Vec<f64>> = rows
-            .collect::<Result<_, _>>()
-            .map_err(|e| failed(e.to_string()))?;
-        if rows.is_empty() {
-            return Err(failed("has no row of numbers".into()));
-        }
-        let names: Vec<&str> = names.iter().collect();
-        Self::start()
-            .waypoints(&names, &rows, increments)
-            .map_err(|e| failed(e.to_string()))
     }
 }
 

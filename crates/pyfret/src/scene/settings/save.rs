@@ -4,13 +4,29 @@ use contact_core::Error;
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
-use crate::error::to_python;
+use crate::arguments::List;
+use crate::error::{must_be, to_python};
 
 /// Which increments keep their fields, on its way in or out.
-#[derive(FromPyObject, IntoPyObject)]
+#[derive(IntoPyObject)]
 pub(crate) enum Save {
     Indices(Vec<usize>),
     Named(String),
+}
+
+impl<'py> FromPyObject<'_, 'py> for Save {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(name) = value.extract::<String>() {
+            return Ok(Self::Named(name));
+        }
+        let indices = value.extract::<List<usize>>();
+        let wanted = "\"branches\", \"all\" or a list of increments, from 1";
+        indices
+            .map(|indices| Self::Indices(indices.0))
+            .map_err(|_| must_be(&value, wanted))
+    }
 }
 
 impl Save {

@@ -1,14 +1,16 @@
 //! A measured surface.
 
+use std::ffi::CString;
 use std::path::PathBuf;
 
 use contact_core::Error;
 use contact_core::scene as core;
 use numpy::{PyArray2, ToPyArray};
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 
 use super::super::Pitch;
-use crate::arguments::Field;
+use crate::arguments::{Field, with_holes};
 use crate::error::{must_be, to_python};
 use crate::parts::parts;
 
@@ -24,8 +26,9 @@ use crate::parts::parts;
 /// spacing : float or (float, float)
 ///     Distance of the points along x and y [m]. In between they are interpolated linearly.
 /// missing : "refuse", "crop" or "fill"
-///     What becomes of points that are NaN: an error that says where they are; lines taken off the
-///     edges; the mean of the neighbours.
+///     What becomes of points that are NaN or masked: an error that says where they are; lines taken
+///     off the edges; the mean of the neighbours, where at most a tenth of the points is missing and
+///     no hole is wider than ten.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.shapes")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct SurfaceMap(pub(crate) core::SurfaceMap);
@@ -38,31 +41,65 @@ impl SurfaceMap {
     #[pyo3(signature = (values, *, spacing, missing = "refuse"))]
     fn new(values: &Bound<'_, PyAny>, spacing: Pitch, missing: &str) -> PyResult<Self> {
         let wanted = "an array of numbers of shape (points along x, points along y)";
-        let values: Field<'_> = values.extract().map_err(|_| must_be(values, wanted))?;
-        let values = values.as_array().to_owned();
-        core::SurfaceMap::new(values, spacing.0, word(missing)?)
-            .map(Self)
-            .map_err(to_python)
+        let numbers = with_holes(values)?;
+        let numbers: Field<'_> = numbers.extract().map_err(|_| must_be(values, wanted))?;
+        let numbers = numbers.as_array().to_owned();
+        let map = core::SurfaceMap::new(numbers, spacing.0, word(missing)?);
+        said(values.py(), map.map_err(to_python)?)
     }
 
-    /// Read numbers from a ``.npy`` array or from a table of text, one line per x.
+    /// Read numbers from a file: a ``.npy`` array, or text as instruments and spreadsheets write it.
+    ///
+    /// Text is UTF-8, UTF-16 or Latin-1; its numbers are parted by semicolons, tabs, commas or
+    /// blanks, with decimal points or commas. It is a table, one line per x, with or without titles;
+    /// points x, y and height in any order; Gwyddion's export; or an ESRI grid. A profile is refused.
     ///
     /// Parameters
     /// ----------
     /// path : path
-    ///     An array of real or whole numbers of any size and byte order, or a table parted by
-    ///     commas, semicolons, tabs or blanks, with or without a line of titles.
-    /// spacing : float or (float, float)
-    ///     Distance of the points, along x and y [m].
+    ///     The file.
+    /// spacing : float or (float, float), optional
+    ///     Distance of the points along x and y [m], where the file does not say it.
+    /// unit : str, optional
+    ///     Unit of the numbers, in a list of points of x and y too, such as "um"; by default what
+    ///     the file says, metres if it says nothing.
+    /// channel : str, optional
+    ///     Of a list of points with several columns beside x and y, the title or the number (from 1)
+    ///     of the one that is meant.
     /// missing : "refuse", "crop" or "fill"
-    ///     What becomes of points without a number (blank or NaN): an error that says where they
-    ///     are; lines taken off the edges; the mean of the neighbours.
+    ///     What becomes of points without a number (blank, NaN or what the header says): an error
+    ///     that says where they are; lines taken off the edges; the mean of the neighbours, where at
+    ///     most a tenth of the points is missing and no hole is wider than ten.
+    ///
+    /// Raises
+    /// ------
+    /// StoreError
+    ///     If the file cannot be read, says something else than the arguments, or leaves something
+    ///     open; the message says which line and column, and what to give.
     #[staticmethod]
-    #[pyo3(signature = (path, *, spacing, missing = "refuse"))]
-    fn from_file(path: PathBuf, spacing: Pitch, missing: &str) -> PyResult<Self> {
-        core::SurfaceMap::from_file(&path, spacing.0, word(missing)?)
-            .map(Self)
-            .map_err(to_python)
+    #[pyo3(signature = (path, *, spacing = None, unit = None, channel = None, missing = "refuse"))]
+    fn from_file(
+        py: Python<'_>,
+        path: PathBuf,
+        spacing: Option<Pitch>,
+        unit: Option<String>,
+        channel: Option<String>,
+        missing: &str,
+    ) -> PyResult<Self> {
+        let told = core::FileOfNumbers {
+            spacing: spacing.map(|spacing| spacing.0),
+            unit,
+            channel,
+            missing: word(missing)?,
+        };
+        let map = py.detach(|| core::SurfaceMap::from_file(&path, &told));
+        said(py, map.map_err(to_python)?)
+    }
+
+    /// How many of the numbers were not measured: each is the mean of its neighbours.
+    #[getter]
+    fn filled(&self) -> usize {
+        self.0.filled
     }
 
     /// The numbers.
@@ -79,11 +116,29 @@ impl SurfaceMap {
 
     pub(super) fn __repr__(&self) -> String {
         let (nx, ny) = self.0.values.dim();
+        let filled = match self.0.filled {
+            0 => String::new(),
+            n => format!(" ({n} of them filled)"),
+        };
         format!(
-            "SurfaceMap({nx} x {ny} numbers, spacing={:?})",
+            "SurfaceMap({nx} x {ny} numbers{filled}, spacing={:?})",
             self.0.spacing
         )
     }
+}
+
+/// The map, with a warning that says how many of its numbers are filled.
+fn said(py: Python<'_>, map: core::SurfaceMap) -> PyResult<SurfaceMap> {
+    if map.filled > 0 {
+        let (filled, all) = (map.filled, map.values.len());
+        let share = 100.0 * filled as f64 / all as f64;
+        let text = format!(
+            "{filled} of {all} points ({share:.1} %) were not measured: each has the mean of its neighbours"
+        );
+        let kind = py.get_type::<PyUserWarning>();
+        PyErr::warn(py, &kind, &CString::new(text)?, 1)?;
+    }
+    Ok(SurfaceMap(map))
 }
 
 /// What becomes of points without a number.

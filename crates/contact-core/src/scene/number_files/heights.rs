@@ -1,0 +1,360 @@
+//! What the numbers of a file are: a map, points on a lattice, a profile.
+
+use ndarray::Array2;
+
+use super::npy;
+use super::points::Lattice;
+use super::profile::profile;
+use super::raster::{EsriGrid, Header};
+use super::table::Table;
+use super::text::tolerant;
+use super::unit::{self, Kind};
+use crate::scene::Missing;
+
+/// What a file of numbers leaves open.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FileOfNumbers {
+    /// Distance of the points along x and y \[m\]; `None` where the file says it.
+    pub spacing: Option<(f64, f64)>,
+    /// Unit of the numbers, in a list of points of x and y too, such as "um"; `None`: that of the
+    /// file, SI where it says none.
+    pub unit: Option<String>,
+    /// The column of a list of points that holds the numbers, by its title or its number from 1, or
+    /// the name of the channel in Gwyddion's text; `None` where there is one.
+    pub channel: Option<String>,
+    /// What becomes of points without a number.
+    pub missing: Missing,
+}
+
+/// Numbers of a file with the distance of their points \[m\].
+#[derive(Debug)]
+pub(in crate::scene) struct Heights {
+    /// Shape (points along x, along y), in SI units; NaN where there is no number.
+    pub(in crate::scene) values: Array2<f64>,
+    pub(in crate::scene) spacing: (f64, f64),
+}
+
+/// Lines from which on two columns are no map.
+const PROFILE: usize = 8;
+/// Lines from which on three columns are no map.
+const POINTS: usize = 16;
+/// Relative difference of two lengths that are the same: headers have few digits.
+const SAME: f64 = 1e-3;
+
+/// The numbers of a file; the error says what is wrong and what to give.
+pub(in crate::scene) fn heights(bytes: Vec<u8>, told: &FileOfNumbers) -> Result<Heights, String> {
+    let reader = Reader {
+        told,
+        unit: told.unit.as_deref().map(length).transpose()?,
+    };
+    if npy::is_npy(&bytes) {
+        let values = npy::read(bytes)?;
+        return reader.plain(values, None);
+    }
+    let text = tolerant(bytes)?;
+    if let Some(grid) = EsriGrid::of(&text) {
+        let EsriGrid {
+            values,
+            pitch: (x, y),
+        } = grid?;
+        let scale = reader.unit.unwrap_or(1.0);
+        return reader.with_pitch(values * scale, (x * scale, y * scale));
+    }
+    let table = Table::of(&text)?;
+    if table.rows() == 0 {
+        return Err("holds no number".into());
+    }
+    if let Some(header) = Header::of(&table.comments)? {
+        return reader.picture(&table, &header);
+    }
+    let (names, units) = unit::of_titles(&table.titles(), table.columns);
+    if let Some(columns) = Columns::of(&table, &names, told)? {
+        return reader.points(&table, &columns, &units);
+    }
+    check_map(&table, &names)?;
+    let unit = units.iter().flatten().next();
+    if let Some(other) = units.iter().flatten().find(|other| Some(*other) != unit) {
+        let first = unit.map_or("", String::as_str);
+        return Err(format!(
+            "columns in `{first}` and in `{other}` are no map of one quantity"
+        ));
+    }
+    let shape = (table.rows(), table.columns);
+    let unit = unit.cloned();
+    let values = Array2::from_shape_vec(shape, table.numbers).map_err(|e| e.to_string())?;
+    reader.plain(values, unit.as_deref())
+}
+
+/// The size of a unit of length.
+fn length(word: &str) -> Result<f64, String> {
+    let known = unit::named(word).filter(|(kind, _)| *kind == Kind::Length);
+    let allowed = || {
+        format!(
+            "unit = `{word}`: must be one of {}",
+            unit::names(Kind::Length)
+        )
+    };
+    known.map(|(_, size)| size).ok_or_else(allowed)
+}
+
+/// Fails if rows and columns are those of a profile.
+fn check_map(table: &Table, names: &[String]) -> Result<(), String> {
+    let (rows, columns) = (table.rows(), table.columns);
+    let even = |n: usize| {
+        let x: Vec<f64> = table.column(n).collect();
+        let mean = (x[rows - 1] - x[0]) / (rows - 1).max(1) as f64;
+        mean > 0.0
+            && x.windows(2)
+                .all(|pair| (pair[1] - pair[0] - mean).abs() < 0.1 * mean)
+    };
+    let narrow = rows.min(columns);
+    let is_profile = narrow == 1
+        || narrow == 2 && rows.max(columns) >= PROFILE
+        || columns == 2
+            && (names.iter().any(|name| is_axis(name, 'x')) || rows > 2 && (even(0) || even(1)));
+    if is_profile {
+        return Err(profile(rows.max(columns)));
+    }
+    let constant = |n: usize| {
+        let mut all = table.column(n);
+        let first = all.next();
+        all.all(|x| Some(x) == first)
+    };
+    if columns == 3 && rows >= PROFILE && (constant(0) || constant(1)) {
+        return Err(profile(rows));
+    }
+    if columns == 3 && rows >= POINTS {
+        return Err(format!(
+            "{rows} lines of three numbers are points x, y and height on no even grid: must be one point for each \
+             place of an even grid, each along x and y; interpolate them to one"
+        ));
+    }
+    Ok(())
+}
+
+/// Whether a title names an axis: `x`, `X_pos`, `x-position`.
+fn is_axis(name: &str, axis: char) -> bool {
+    let mut letters = name.trim().chars();
+    letters
+        .next()
+        .is_some_and(|c| c.eq_ignore_ascii_case(&axis))
+        && letters.next().is_none_or(|c| !c.is_alphanumeric())
+}
+
+/// The columns of a list of points, and the lattice they lie on.
+struct Columns {
+    x: usize,
+    y: usize,
+    value: usize,
+    lattice: Lattice,
+}
+
+impl Columns {
+    /// The columns, if the table is a list of points.
+    fn of(table: &Table, names: &[String], told: &FileOfNumbers) -> Result<Option<Self>, String> {
+        let (rows, columns) = (table.rows(), table.columns);
+        let named = |axis| names.iter().position(|name| is_axis(name, axis));
+        let lattice = |x, y| Lattice::of(table.column(x), table.column(y), rows);
+        let of = |x, y, lattice| {
+            let value = value_column(columns, (x, y), names, told)?;
+            Ok(Some(Self {
+                x,
+                y,
+                value,
+                lattice,
+            }))
+        };
+        if let (Some(x), Some(y), true) = (named('x'), named('y'), columns > 2) {
+            let lattice = lattice(x, y).ok_or_else(|| {
+                format!(
+                    "columns {} and {}: {rows} points x and y on no even grid: must be one point for each place of an \
+                     even grid; interpolate them to one",
+                    x + 1,
+                    y + 1
+                )
+            })?;
+            return of(x, y, lattice);
+        }
+        let pairs: &[(usize, usize)] = match columns {
+            3 if rows >= 4 => &[(0, 1), (0, 2), (1, 2)],
+            4..10 if rows >= 9 => &[(0, 1)],
+            _ => &[],
+        };
+        let found = pairs
+            .iter()
+            .find_map(|&(x, y)| Some((x, y, lattice(x, y)?)));
+        found.map_or(Ok(None), |(x, y, lattice)| of(x, y, lattice))
+    }
+}
+
+/// The column of the values of points whose x and y have theirs.
+fn value_column(
+    columns: usize,
+    (x, y): (usize, usize),
+    names: &[String],
+    told: &FileOfNumbers,
+) -> Result<usize, String> {
+    let others: Vec<usize> = (0..columns).filter(|n| *n != x && *n != y).collect();
+    let name = |n: usize| {
+        names
+            .get(n)
+            .map_or_else(|| (n + 1).to_string(), Clone::clone)
+    };
+    if let Some(channel) = &told.channel {
+        let by_name = others.iter().find(|n| name(**n) == *channel);
+        let by_number = channel.parse::<usize>().ok().map(|n| n.wrapping_sub(1));
+        let by_number = by_number.filter(|n| others.contains(n));
+        if let Some(n) = by_name.copied().or(by_number) {
+            return Ok(n);
+        }
+    } else if let [only] = others[..] {
+        return Ok(only);
+    } else {
+        let heights = |n: &&usize| {
+            matches!(
+                name(**n).to_lowercase().as_str(),
+                "z" | "height" | "heights" | "h"
+            )
+        };
+        let mut heights = others.iter().filter(heights);
+        if let (Some(only), None) = (heights.next(), heights.next()) {
+            return Ok(*only);
+        }
+    }
+    let all: Vec<String> = others.iter().map(|n| format!("`{}`", name(*n))).collect();
+    let asked = told
+        .channel
+        .as_ref()
+        .map_or_else(String::new, |channel| format!("none is `{channel}`; "));
+    Err(format!(
+        "points with {} columns beside x and y: {}: {asked}say which with channel",
+        others.len(),
+        all.join(", ")
+    ))
+}
+
+/// Numbers of one kind or another, with what the caller says of them.
+struct Reader<'a> {
+    told: &'a FileOfNumbers,
+    /// Size of the unit that the caller gives.
+    unit: Option<f64>,
+}
+
+impl Reader<'_> {
+    /// The size of the unit, of which a file says the word.
+    fn scale(&self, word: Option<&str>) -> Result<f64, String> {
+        let Some(word) = word else {
+            return Ok(self.unit.unwrap_or(1.0));
+        };
+        let given = self.told.unit.as_deref().unwrap_or_default();
+        match (unit::named(word), self.unit) {
+            (Some((Kind::Length, size)), None) => Ok(size),
+            (Some((Kind::Length, size)), Some(unit)) if close(size, unit) => Ok(size),
+            (Some((Kind::Length, _)), Some(_)) => Err(format!(
+                "says that its numbers are in {word}, unit = `{given}` that they are not: leave unit out, or mend \
+                 the file"
+            )),
+            (None, Some(unit)) => Ok(unit),
+            _ => Err(format!(
+                "says that its numbers are in `{word}`, which is no unit of length: must be one of {}; where they \
+                 are lengths all the same, say their unit with unit",
+                unit::names(Kind::Length)
+            )),
+        }
+    }
+
+    /// Only a list of points, or a text of Gwyddion, has channels.
+    fn check_channel(&self, has: Option<&str>) -> Result<(), String> {
+        match (&self.told.channel, has) {
+            (Some(asked), Some(has)) if asked != has => {
+                Err(format!("has the channel `{has}`, none `{asked}`"))
+            }
+            (Some(asked), None) => Err(format!("has one channel without a name, none `{asked}`")),
+            _ => Ok(()),
+        }
+    }
+
+    /// Numbers that stand in the order of their points.
+    fn plain(&self, values: Array2<f64>, unit: Option<&str>) -> Result<Heights, String> {
+        self.check_channel(None)?;
+        let spacing = self.told.spacing.ok_or_else(|| {
+            let (nx, ny) = values.dim();
+            format!("{nx} by {ny} plain numbers need the distance of the points in m, such as spacing = 2e-6")
+        })?;
+        let scale = self.scale(unit)?;
+        Ok(Heights {
+            values: values * scale,
+            spacing,
+        })
+    }
+
+    /// Numbers of a file that says the distance of their points \[m\].
+    fn with_pitch(&self, values: Array2<f64>, said: (f64, f64)) -> Result<Heights, String> {
+        let spacing = match self.told.spacing {
+            None => said,
+            Some(given) if close(given.0, said.0) && close(given.1, said.1) => given,
+            Some((x, y)) => {
+                return Err(format!(
+                    "says that its points lie {:.6e} m by {:.6e} m apart, spacing that they lie {x:e} m by {y:e} m: \
+                     leave spacing out, or say the unit of the file with unit",
+                    said.0, said.1
+                ));
+            }
+        };
+        Ok(Heights { values, spacing })
+    }
+
+    /// The rows below a header of Gwyddion.
+    fn picture(&self, table: &Table, header: &Header) -> Result<Heights, String> {
+        if let Some(channel) = &header.channel {
+            self.check_channel(Some(channel))?;
+        }
+        let values = Header::values(table)?;
+        let (nx, ny) = values.dim();
+        let scale = self.scale(header.unit.as_deref().filter(|unit| !unit.is_empty()))?;
+        let pitch = (header.size.0 / nx as f64, header.size.1 / ny as f64);
+        self.with_pitch(values * scale, pitch)
+    }
+
+    fn points(
+        &self,
+        table: &Table,
+        columns: &Columns,
+        units: &[Option<String>],
+    ) -> Result<Heights, String> {
+        let Columns {
+            x,
+            y,
+            value,
+            lattice,
+        } = columns;
+        let unit = |n: usize| units[n].as_deref();
+        let rows = table.numbers.chunks_exact(table.columns);
+        let points = rows.map(|row| [row[*x], row[*y], row[*value]]);
+        let values = lattice.lay_out(points).map_err(|(first, second)| {
+            format!(
+                "lines {} and {} are points at one place: must be one height for each",
+                table.lines[first], table.lines[second]
+            )
+        })?;
+        let values = values * self.scale(unit(*value))?;
+        let pitch = lattice.pitch();
+        let counts = close(pitch.0, 1.0) && close(pitch.1, 1.0) && unit(*x).or(unit(*y)).is_none();
+        match self.told.spacing {
+            Some(spacing) if counts => Ok(Heights { values, spacing }),
+            None if counts && self.unit.is_none() => Err(
+                "x and y of its points count them: say their distance in m, such as spacing = 2e-6, or their unit, \
+                 such as unit = um"
+                    .into(),
+            ),
+            _ => {
+                let pitch = (pitch.0 * self.scale(unit(*x))?, pitch.1 * self.scale(unit(*y))?);
+                self.with_pitch(values, pitch)
+            }
+        }
+    }
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME * b.abs()
+}

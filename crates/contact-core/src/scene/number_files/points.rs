@@ -1,0 +1,120 @@
+//! Points x, y and a value on an even lattice, in any order.
+
+use ndarray::Array2;
+
+/// Coordinates on an even line: the first, the distance, how many there are.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    first: f64,
+    pitch: f64,
+    n: usize,
+}
+
+/// Part of the distance of two points by which a coordinate may be off the lattice: what rounding leaves
+/// of few digits.
+const OFF: f64 = 0.1;
+/// Part of the range below which two coordinates are one.
+const SAME: f64 = 1e-6;
+/// Part of a lattice that has points at least.
+const FILLED: f64 = 0.5;
+
+impl Line {
+    /// The line through some coordinates, or `None` if they lie on no even one.
+    fn through(coordinates: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut sorted: Vec<f64> = coordinates.collect();
+        if sorted.iter().any(|x| x.is_nan()) {
+            return None;
+        }
+        sorted.sort_unstable_by(f64::total_cmp);
+        let range = sorted.last()? - sorted.first()?;
+        sorted.dedup_by(|later, kept| *later - *kept <= SAME * range);
+        let mut gaps: Vec<f64> = sorted.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let middle = gaps.len() / 2;
+        if gaps.is_empty() {
+            return None;
+        }
+        let (_, median, _) = gaps.select_nth_unstable_by(middle, f64::total_cmp);
+        let median = *median;
+        // Lines without a point leave gaps of several pitches.
+        let single = gaps.iter().filter(|gap| **gap < 1.5 * median);
+        let (sum, n) = single.fold((0.0, 0_usize), |(sum, n), gap| (sum + gap, n + 1));
+        let steps = (range * n as f64 / sum).round();
+        let line = Self {
+            first: sorted[0],
+            pitch: range / steps,
+            n: steps as usize + 1,
+        };
+        let off = |x: &f64| ((x - line.first) / line.pitch - line.place(*x) as f64).abs();
+        sorted.iter().all(|x| off(x) < OFF).then_some(line)
+    }
+
+    fn place(&self, x: f64) -> usize {
+        ((x - self.first) / self.pitch).round() as usize
+    }
+}
+
+/// An even lattice in two columns of a table.
+#[derive(Debug)]
+pub(super) struct Lattice {
+    x: Line,
+    y: Line,
+}
+
+impl Lattice {
+    /// The lattice that points lie on, if at least half of it has points and it is no line.
+    pub(super) fn of<I: Iterator<Item = f64>>(x: I, y: I, points: usize) -> Option<Self> {
+        let (x, y) = (Line::through(x)?, Line::through(y)?);
+        let filled = points as f64 / (x.n as f64 * y.n as f64);
+        (x.n > 1 && y.n > 1 && filled >= FILLED).then_some(Self { x, y })
+    }
+
+    /// Distance of the points along x and y, in their unit.
+    pub(super) fn pitch(&self) -> (f64, f64) {
+        (self.x.pitch, self.y.pitch)
+    }
+
+    /// The values on the lattice, NaN where there is no point; a place that two points share fails with
+    /// their numbers.
+    pub(super) fn lay_out(
+        &self,
+        points: impl Iterator<Item = [f64; 3]>,
+    ) -> Result<Array2<f64>, (usize, usize)> {
+        const NONE: u32 = u32::MAX;
+        let shape = (self.x.n, self.y.n);
+        let mut values = Array2::from_elem(shape, f64::NAN);
+        let mut taken = Array2::from_elem(shape, NONE);
+        for (n, [x, y, value]) in points.enumerate() {
+            let at = (self.x.place(x), self.y.place(y));
+            if taken[at] != NONE {
+                return Err((taken[at] as usize, n));
+            }
+            taken[at] = n as u32;
+            values[at] = value;
+        }
+        Ok(values)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Lattice;
+
+    #[test]
+    fn a_lattice_is_found_whatever_the_rounding() {
+        // A third of a micrometre, written with three digits.
+        let at = |n: usize| (n as f64 / 3.0 * 1e3).round() / 1e3;
+        let points: Vec<[f64; 3]> = (0..1000 * 3)
+            .map(|n| [at(n % 1000), at(n / 1000), n as f64])
+            .filter(|[x, ..]| !(x - 2.0).abs().lt(&0.01))
+            .collect();
+        let of = |n: usize| points.iter().map(move |point| point[n]);
+        let lattice = Lattice::of(of(0), of(1), points.len()).expect("a lattice");
+        assert!((lattice.pitch().0 - 1.0 / 3.0).abs() < 1e-5, "{lattice:?}");
+        let values = lattice.lay_out(points.iter().copied()).expect("places");
+        assert_eq!(values.dim(), (1000, 3));
+        assert!(values[(999, 2)] == 2999.0 && values[(6, 1)].is_nan() && values[(7, 1)] == 1007.0);
+        assert!(Lattice::of(of(0), of(2), points.len()).is_none());
+        let twice = [[0.0, 0.0, 1.0], [0.0, 0.0, 2.0]];
+        assert_eq!(lattice.lay_out(twice.into_iter()), Err((0, 1)));
+    }
+}

@@ -1,0 +1,140 @@
+//! Text with a header of its own: Gwyddion's export and ESRI's ASCII grid. Their lines run along x, from
+//! the top of the picture, where y is smallest: z points into the picture.
+
+use ndarray::Array2;
+
+use super::field::{Parting, number};
+use super::table::{Lines, Signs, Table, no_number};
+use super::unit::{self, Kind};
+
+/// What the header of Gwyddion's text says of the rows below it.
+#[derive(Debug, PartialEq)]
+pub(super) struct Header {
+    /// Name of the channel.
+    pub(super) channel: Option<String>,
+    /// Width and height of the picture \[m\].
+    pub(super) size: (f64, f64),
+    /// Word for the unit of the values.
+    pub(super) unit: Option<String>,
+}
+
+impl Header {
+    /// The header in the comments of a table, if it is one.
+    pub(super) fn of(comments: &[String]) -> Result<Option<Self>, String> {
+        let entry = |key: &str| {
+            let of_key = comments.iter().filter_map(|line| line.split_once(':'));
+            let mut values = of_key.filter(|(name, _)| name.trim().eq_ignore_ascii_case(key));
+            values.next().map(|(_, value)| value.trim())
+        };
+        let (Some(width), Some(height)) = (entry("Width"), entry("Height")) else {
+            return Ok(None);
+        };
+        let length = |text: &str| {
+            let (value, word) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+            let known = unit::named(word).filter(|(kind, _)| *kind == Kind::Length);
+            let length = number(value)
+                .zip(known)
+                .map(|(value, (_, size))| value * size);
+            length.ok_or_else(|| {
+                format!(
+                    "header: `{text}` is no length: must be a number and one of {}",
+                    unit::names(Kind::Length)
+                )
+            })
+        };
+        Ok(Some(Self {
+            channel: entry("Channel").map(ToOwned::to_owned),
+            size: (length(width)?, length(height)?),
+            unit: entry("Value units").map(ToOwned::to_owned),
+        }))
+    }
+
+    /// The numbers of the table with x first.
+    pub(super) fn values(table: &Table) -> Result<Array2<f64>, String> {
+        let shape = (table.rows(), table.columns);
+        let rows = Array2::from_shape_vec(shape, table.numbers.clone());
+        rows.map(Array2::reversed_axes).map_err(|e| e.to_string())
+    }
+}
+
+/// An ESRI ASCII grid: numbers and their distance along x and y, in the unit of the file.
+pub(super) struct EsriGrid {
+    pub(super) values: Array2<f64>,
+    pub(super) pitch: (f64, f64),
+}
+
+const KEYS: [&str; 11] = [
+    "ncols",
+    "nrows",
+    "xllcorner",
+    "yllcorner",
+    "xllcenter",
+    "yllcenter",
+    "cellsize",
+    "dx",
+    "dy",
+    "nodata_value",
+    "byteorder",
+];
+/// What stands for no number where the header does not say it.
+const NODATA: f64 = -9999.0;
+
+impl EsriGrid {
+    /// The grid of a text, if it begins as one.
+    pub(super) fn of(text: &str) -> Option<Result<Self, String>> {
+        let Lines { lines, .. } = Lines::of(text);
+        let first = lines.first()?.1.split_whitespace().next()?;
+        first
+            .eq_ignore_ascii_case("ncols")
+            .then(|| Self::read(&lines))
+    }
+
+    fn read(lines: &[(usize, &str)]) -> Result<Self, String> {
+        let mut entries = [None; KEYS.len()];
+        let mut rest = lines;
+        while let Some((&(n, line), after)) = rest.split_first() {
+            let mut words = line.split_whitespace();
+            let key = words.next().unwrap_or_default().to_lowercase();
+            let Some(place) = KEYS.iter().position(|known| **known == key) else {
+                break;
+            };
+            let word = words.next().unwrap_or_default();
+            entries[place] = Some(number(word).ok_or_else(|| no_number(n, 1, word))?);
+            rest = after;
+        }
+        let entry = |key: &str| {
+            KEYS.iter()
+                .position(|known| *known == key)
+                .and_then(|n| entries[n])
+        };
+        let count = |key: &str| {
+            let whole = entry(key).filter(|n| *n >= 1.0 && n.fract() == 0.0 && *n < 1e9);
+            whole
+                .map(|n| n as usize)
+                .ok_or_else(|| format!("header: {key} must be a whole number >= 1"))
+        };
+        let (nx, ny) = (count("ncols")?, count("nrows")?);
+        let length = |key: &str| {
+            let length = entry(key).or(entry("cellsize")).filter(|d| *d > 0.0);
+            length.ok_or_else(|| "header: cellsize must be a positive length".to_owned())
+        };
+        let pitch = (length("dx")?, length("dy")?);
+        let nodata = entry("nodata_value").unwrap_or(NODATA);
+        let parting = Parting::of(rest);
+        let (mut numbers, mut signs) = (Vec::new(), Signs::default());
+        for &(n, line) in rest {
+            for (column, field) in parting.fields(line).iter().enumerate() {
+                signs.see(n, field)?;
+                let value = number(field).ok_or_else(|| no_number(n, column, field))?;
+                numbers.push(if value == nodata { f64::NAN } else { value });
+            }
+        }
+        let found = numbers.len();
+        let rows = Array2::from_shape_vec((ny, nx), numbers)
+            .map_err(|_| format!("has {found} numbers: must have ncols x nrows = {nx} x {ny}"))?;
+        Ok(Self {
+            values: rows.reversed_axes(),
+            pitch,
+        })
+    }
+}

@@ -1,0 +1,26 @@
+//! Results on the standard output.
+
+use std::io::{self, ErrorKind, Write};
+
+use contact_core::Error;
+
+use crate::failure::Failure;
+
+/// Writes to the standard output. That nobody reads on is no failure, a full disk is one.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    written(writeln!(out, "{text}").and_then(|()| out.flush()))
+}
+
+/// What became of something written to the standard output.
+pub(crate) fn written(result: io::Result<()>) -> Result<(), Failure> {
+    match result {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::Unwritten(Error::File {
+                path: "standard output".into(),
+                message: error.to_string(),
+            }))
+        }
+        _ => Ok(()),
+    }
+}

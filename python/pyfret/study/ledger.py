@@ -1,0 +1,154 @@
+"""The ledger of a study: a line for every point that has been written, with checksums.
+
+The file ``status/.points`` lies in the store, where no Zarr library looks for arrays. Its first
+line speaks of the layout, each other one of a point: its status and what stands in the arrays for
+it, as checksums of the values, not of files, which points share. A line ends in its own checksum. A
+point counts once its line is whole; the last line may be one that a killed process has not
+finished, and is left out then.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import zlib
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pyfret._core import StoreError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    import xarray as xr
+
+__all__ = ["FILE", "Ledger", "attributes", "checksum"]
+
+#: Name of the file in the store.
+FILE = "status/.points"
+
+
+def checksum(of: xr.Variable, attrs: str = "") -> int:
+    """The CRC-32 of the values of a variable, with their type, their shape and its attributes."""
+    values = np.ascontiguousarray(of.values)
+    text = values.dtype.kind in "OTSU"
+    if text:
+        content = json.dumps(values.tolist()).encode()
+    else:
+        content = values.astype(values.dtype.newbyteorder("<")).tobytes()
+    kind = "text" if text else values.dtype.kind
+    return zlib.crc32(content, zlib.crc32(f"{kind} {values.shape} {attrs}".encode()))
+
+
+def attributes(dataset: xr.Dataset) -> dict[str, str]:
+    """The attributes of every variable, as text."""
+    return {
+        str(name): json.dumps(dict(of.attrs), sort_keys=True, default=str)
+        for name, of in dataset.variables.items()
+    }
+
+
+def line_of(entry: Any) -> bytes:
+    """An entry as a line."""
+    text = json.dumps(entry, separators=(",", ":"))
+    return f"{text}\t{zlib.crc32(text.encode()):08x}\n".encode()
+
+
+def entry_of(line: bytes) -> Any:
+    """The entry of a line; a ValueError if the line is damaged."""
+    text, _, crc = line.rstrip(b"\n").partition(b"\t")
+    if not line.endswith(b"\n") or f"{zlib.crc32(text):08x}".encode() != crc:
+        raise ValueError("is damaged")
+    return json.loads(text)
+
+
+class Ledger:
+    """What has been written of the points of a study.
+
+    Attributes
+    ----------
+    layout : int
+        Checksum of the coordinates and attributes.
+    points : dict of int to (int, dict of str to int)
+        Status of each point, and checksums of what the arrays hold for it.
+    """
+
+    def __init__(self, place: Path) -> None:
+        self.place = place
+        try:
+            lines = (place / FILE).read_bytes().splitlines(keepends=True)
+        except OSError as error:
+            raise StoreError(f"{place}: the file {FILE}: {error.strerror}") from error
+        #: Bytes of the lines that are whole.
+        self.length = 0
+        entries: list[Any] = []
+        for n, line in enumerate(lines):
+            try:
+                entries.append(entry_of(line))
+            except ValueError as error:
+                if n + 1 == len(lines) and not line.endswith(b"\n") and entries:
+                    break
+                raise StoreError(f"{place}: the file {FILE}, line {n + 1}: {error}") from error
+            self.length += len(line)
+        if not entries:
+            raise StoreError(f"{place}: the file {FILE} is empty")
+        self.layout = int(entries[0])
+        self.points: dict[int, tuple[int, dict[str, int]]] = {
+            int(n): (int(status), sums) for n, status, sums in entries[1:]
+        }
+        #: The point of the last line, whose status may not have been written yet.
+        self.last = int(entries[-1][0]) if len(entries) > 1 else None
+
+    @staticmethod
+    def begin(place: Path, layout: int) -> None:
+        """Write the ledger of a study without points."""
+        (place / FILE).write_bytes(line_of(layout))
+
+    def add(
+        self, n: int, status: int, values: dict[str, xr.Variable], attrs: dict[str, str]
+    ) -> None:
+        """Say that the n-th point has been written, to variables of these attributes."""
+        sums = {name: checksum(of, attrs.get(name, "")) for name, of in values.items()}
+        with (self.place / FILE).open("r+b") as file:
+            file.truncate(self.length)
+            file.seek(self.length)
+            line = line_of([n, status, sums])
+            file.write(line)
+            file.flush()
+            os.fsync(file.fileno())
+        self.length += len(line)
+        self.points[n] = status, sums
+        self.last = n
+
+    def check(self, layout: int, dataset: xr.Dataset, own: Iterable[str]) -> None:
+        """Refuse arrays that do not hold what the ledger says; the message names array and point.
+
+        `own` are the dimensions of the points.
+        """
+        if layout != self.layout:
+            raise StoreError(
+                f"{self.place}: its coordinates or attributes are not those that were written"
+            )
+        sizes = {dim: dataset.sizes[dim] for dim in own}
+        status, attrs = dataset["status"].values.ravel(), attributes(dataset)
+        for n, (code, sums) in self.points.items():
+            at = dict(zip(sizes, np.unravel_index(n, tuple(sizes.values())), strict=True))
+            where = ", ".join(f"{dim} {int(i)}" for dim, i in at.items())
+            if int(status[n]) != code and n != self.last:
+                raise StoreError(f"{self.place}: status of point {where}: is not what was written")
+            for name, crc in sums.items():
+                if name not in dataset:
+                    raise StoreError(f"{self.place}: {name}: is missing")
+                one = dataset[name].variable.isel({dim: int(i) for dim, i in at.items()})
+                if checksum(one, attrs[name]) != crc:
+                    raise StoreError(
+                        f"{self.place}: {name} of point {where}: is not what was written; a file "
+                        f"of {name} is missing or damaged"
+                    )
+        beyond = [n for n in np.flatnonzero(status) if int(n) not in self.points]
+        if beyond:
+            raise StoreError(
+                f"{self.place}: point {beyond[0]} has a status and no line in the file {FILE}"
+            )
