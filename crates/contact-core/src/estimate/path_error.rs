@@ -7,7 +7,8 @@
 //! error(n) = |q_n - q_(n/2)|/(2^order - 1) = error(n/2)/2^order
 //! ```
 //!
-//! Where a branch has one increment only, the path is run through with n and with 2 n.
+//! Where a branch has one increment only, the path is run through with n and with 2 n. The steps in which a contact grows
+//! within an increment are halved and doubled with them.
 //!
 //! The error along the path hardly depends on the grid, so that a coarse one does, which takes a small
 //! part of the time; the contact must span it well.
