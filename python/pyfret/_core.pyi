@@ -602,8 +602,9 @@ class SurfaceMap:
     spacing : float or (float, float)
         Distance of the points along x and y [m]. In between they are interpolated linearly.
     missing : "refuse", "crop" or "fill"
-        What becomes of points that are NaN: an error that says where they are; lines taken off the
-        edges; the mean of the neighbours.
+        What becomes of points that are NaN or masked: an error that says where they are; lines
+        taken off the edges; the mean of the neighbours, where at most a tenth of the points is
+        missing and no hole is wider than ten.
     """
 
     def __new__(
@@ -618,18 +619,35 @@ class SurfaceMap:
         channel: str | None = None,
         missing: _Missing = "refuse",
     ) -> SurfaceMap:
-        """Read numbers from a ``.npy`` array or from a table of text, one line per x.
+        """Read numbers from a file: a ``.npy`` array, or text of instruments and spreadsheets.
+
+        Text is UTF-8, UTF-16 or Latin-1; its numbers are parted by semicolons, tabs, commas or
+        blanks, with decimal points or commas. It is a table, one line per x, with or without
+        titles; points x, y and height in any order; Gwyddion's export; or an ESRI grid. A profile
+        is refused.
 
         Parameters
         ----------
         path : path
-            An array of real or whole numbers of any size and byte order, or a table parted by
-            commas, semicolons, tabs or blanks, with or without a line of titles.
-        spacing : float or (float, float)
-            Distance of the points, along x and y [m].
+            The file.
+        spacing : float or (float, float), optional
+            Distance of the points along x and y [m], where the file does not say it.
+        unit : str, optional
+            Unit of the numbers, in a list of points of x and y too, such as "um"; by default what
+            the file says, metres if it says nothing.
+        channel : str, optional
+            Of a list of points with several columns beside x and y, the title or the number
+            (from 1) of the one that is meant.
         missing : "refuse", "crop" or "fill"
-            What becomes of points without a number (blank or NaN): an error that says where they
-            are; lines taken off the edges; the mean of the neighbours.
+            What becomes of points without a number (blank, NaN or what the header says): an error
+            that says where they are; lines taken off the edges; the mean of the neighbours, where
+            at most a tenth of the points is missing and no hole is wider than ten.
+
+        Raises
+        ------
+        StoreError
+            If the file cannot be read, says something else than the arguments, or leaves something
+            open; the message says which line and column, and what to give.
         """
     @property
     def filled(self) -> int:
@@ -816,7 +834,7 @@ class Grid:
     ) -> Grid: ...
     @staticmethod
     def centred(*, extent: _Pitch, n: int | tuple[int, int]) -> Grid:
-        """`n` by `n` cells on a square of side `extent` [m]."""
+        """`n` by `n` cells on a square of side `extent` [m]; pairs along x and y for a rectangle."""
     @staticmethod
     def from_spacing(n: int | tuple[int, int], spacing: _Pitch) -> Grid:
         """`n` = (nx, ny) cells of size `spacing` = (dx, dy) [m]."""
@@ -1085,7 +1103,26 @@ class LoadPath:
         increments: int | PerRange | Literal["auto"] = ...,
         drive: str | Sequence[str] = ...,
     ) -> LoadPath:
-        """Read a measured history; the first line names the columns of `waypoints`."""
+        """Read a measured history: a table of text whose titles name the columns of `waypoints`.
+
+        Semicolons, tabs, commas or blanks part its numbers, with decimal points or commas; units
+        stand in the titles, ``T_x [kN]``, or in a row of their own.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+        increments : int, PerRange or "auto"
+            Increments per branch, as in `waypoints`.
+        drive : str or list of str, optional
+            Of a load and its motion that both stand in the file, as in every measured loop, the
+            one that drives; the other is left out.
+
+        Raises
+        ------
+        StoreError
+            If the file cannot be read; the message says which line and column, and what to give.
+        """
     def force(
         self,
         *,

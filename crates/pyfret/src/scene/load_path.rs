@@ -160,8 +160,8 @@ impl LoadPath {
 
     /// Read a measured history: a table of text whose titles name the columns of `waypoints`.
     ///
-    /// Semicolons, tabs, commas or blanks part its numbers, with decimal points or commas; units stand
-    /// in the titles, ``T_x [kN]``, or in a row of their own.
+    /// Semicolons, tabs, commas or blanks part its numbers, with decimal points or commas; units
+    /// stand in the titles, ``T_x [kN]``, or in a row of their own.
     ///
     /// Parameters
     /// ----------
@@ -170,8 +170,8 @@ impl LoadPath {
     /// increments : int, PerRange or "auto"
     ///     Increments per branch, as in `waypoints`.
     /// drive : str or list of str, optional
-    ///     Of a load and its motion that both stand in the file, as in every measured loop, the one
-    ///     that drives; the other is left out.
+    ///     Of a load and its motion that both stand in the file, as in every measured loop, the
+    ///     one that drives; the other is left out.
     ///
     /// Raises
     /// ------

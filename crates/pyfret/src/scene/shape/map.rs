@@ -26,9 +26,9 @@ use crate::parts::parts;
 /// spacing : float or (float, float)
 ///     Distance of the points along x and y [m]. In between they are interpolated linearly.
 /// missing : "refuse", "crop" or "fill"
-///     What becomes of points that are NaN or masked: an error that says where they are; lines taken
-///     off the edges; the mean of the neighbours, where at most a tenth of the points is missing and
-///     no hole is wider than ten.
+///     What becomes of points that are NaN or masked: an error that says where they are; lines
+///     taken off the edges; the mean of the neighbours, where at most a tenth of the points is
+///     missing and no hole is wider than ten.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.shapes")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct SurfaceMap(pub(crate) core::SurfaceMap);
@@ -48,11 +48,12 @@ impl SurfaceMap {
         said(values.py(), map.map_err(to_python)?)
     }
 
-    /// Read numbers from a file: a ``.npy`` array, or text as instruments and spreadsheets write it.
+    /// Read numbers from a file: a ``.npy`` array, or text of instruments and spreadsheets.
     ///
     /// Text is UTF-8, UTF-16 or Latin-1; its numbers are parted by semicolons, tabs, commas or
-    /// blanks, with decimal points or commas. It is a table, one line per x, with or without titles;
-    /// points x, y and height in any order; Gwyddion's export; or an ESRI grid. A profile is refused.
+    /// blanks, with decimal points or commas. It is a table, one line per x, with or without
+    /// titles; points x, y and height in any order; Gwyddion's export; or an ESRI grid. A profile
+    /// is refused.
     ///
     /// Parameters
     /// ----------
@@ -64,12 +65,12 @@ impl SurfaceMap {
     ///     Unit of the numbers, in a list of points of x and y too, such as "um"; by default what
     ///     the file says, metres if it says nothing.
     /// channel : str, optional
-    ///     Of a list of points with several columns beside x and y, the title or the number (from 1)
-    ///     of the one that is meant.
+    ///     Of a list of points with several columns beside x and y, the title or the number
+    ///     (from 1) of the one that is meant.
     /// missing : "refuse", "crop" or "fill"
     ///     What becomes of points without a number (blank, NaN or what the header says): an error
-    ///     that says where they are; lines taken off the edges; the mean of the neighbours, where at
-    ///     most a tenth of the points is missing and no hole is wider than ten.
+    ///     that says where they are; lines taken off the edges; the mean of the neighbours, where
+    ///     at most a tenth of the points is missing and no hole is wider than ten.
     ///
     /// Raises
     /// ------
