@@ -834,7 +834,7 @@ class Grid:
     ) -> Grid: ...
     @staticmethod
     def centred(*, extent: _Pitch, n: int | tuple[int, int]) -> Grid:
-        """`n` by `n` cells on a square of side `extent` [m]; pairs along x and y for a rectangle."""
+        """`n` by `n` cells on a square of side `extent` [m]; a rectangle by pairs (x, y)."""
     @staticmethod
     def from_spacing(n: int | tuple[int, int], spacing: _Pitch) -> Grid:
         """`n` = (nx, ny) cells of size `spacing` = (dx, dy) [m]."""

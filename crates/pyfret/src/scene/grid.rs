@@ -90,7 +90,7 @@ impl Grid {
         grid.check().map(|()| Self(grid)).map_err(to_python)
     }
 
-    /// `n` by `n` cells on a square of side `extent` [m]; pairs along x and y for a rectangle.
+    /// `n` by `n` cells on a square of side `extent` [m]; a rectangle by pairs (x, y).
     #[staticmethod]
     #[pyo3(signature = (*, extent, n))]
     fn centred(extent: Pitch, n: Cells) -> PyResult<Self> {
