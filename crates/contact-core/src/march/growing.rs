@@ -15,6 +15,8 @@ use super::State;
 use super::problem::Problem;
 use crate::scene::{LoadPoint, RigidMotion, Scene, Shape};
 
+/// What rounding makes of a whole number of steps: the same scene in other units is solved in as many.
+const ROUNDING: f64 = 1e-9;
 /// Powers of the radius that load and approach of a paraboloid go with.
 const FORCE: i32 = 3;
 const APPROACH: i32 = 2;
@@ -38,7 +40,7 @@ pub(super) fn steps(problem: &Problem, state: &State, point: &LoadPoint) -> Vec<
     };
     let given = point.loads.given.delta_z.is_some();
     let of_load = if given { APPROACH } else { FORCE };
-    let steps = steps.ceil() as usize;
+    let steps = (steps - ROUNDING).ceil() as usize;
     let part = |k: usize| {
         let even = k as f64 / steps as f64;
         let [from_evenly, to_evenly] = [from, to].map(|a| a.powf(power));
