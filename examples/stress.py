@@ -77,7 +77,7 @@ def main() -> None:
 
     for ratio, result in results.items():
         below = result.at(-1).stress(z, y=0.0)
-        value, x, depth, layer, _ = below.maximum()
+        value, x, _, depth, layer, *_ = below.maximum()
         print(
             f"E1/E2 = {ratio:g}: largest von Mises stress {value / p_H:.4f} p_H at "
             f"x = {x / a_H:.3f}, z = {depth / a_H:.3f} a_H, layer {layer}; on the surface "

@@ -89,18 +89,17 @@ __all__ = [
     "hertz_ellipse",
     "influence_coefficients",
     "labels",
+    "largest_of_samples",
     "line_contact",
     "loops",
     "material_quantities",
     "materials",
-    "maximum",
     "measure",
     "principal",
     "probe_labels",
     "residual_of_layers",
     "resume",
     "resume_wear",
-    "rims",
     "run_command",
     "section_of_states",
     "solve",
@@ -2183,20 +2182,13 @@ def measure(name: str, stress: ArrayLike) -> _Array:
 def principal(stress: ArrayLike) -> tuple[_Array, _Array]:
     """Principal values (n, 3), the largest first, and directions (n, 3, 3) of stresses (6, n)."""
 
-def maximum(
-    name: str,
-    stress: ArrayLike,
-    z: Sequence[float],
-    layer: Sequence[int],
-    along: Sequence[float],
+def largest_of_samples(
+    samples: ArrayLike, z: Sequence[float], layer: Sequence[int], along: Sequence[float]
 ) -> tuple[float, float, float, int, float] | None:
-    """Largest value on a section of stresses (6, depths, places).
+    """Largest value of a field known at samples alone, shape (depths, places) along x or y.
 
-    The value, its place, depth and layer, and the error that the distances of the depths leave.
+    The value, its place along the line, depth, layer and error.
     """
-
-def rims(stress: ArrayLike, along: Sequence[float]) -> tuple[list[float], _Array]:
-    """Places of the rims on a line on the surface, and stresses (6, rims), from stresses (6, n)."""
 
 @final
 class Crack:
@@ -2389,6 +2381,27 @@ class Subsurface:
         """Stress [Pa] or displacement [m] on a plane, six or three arrays of shape (nx, ny)."""
     def points(self, places: Sequence[tuple[float, float, float, int]]) -> tuple[_Array, _Array]:
         """Stress (n, 6) [Pa] and displacement (n, 3) [m] at points x, y, z, layer."""
+    def maximum(
+        self,
+        of: str,
+        samples: ArrayLike,
+        z: Sequence[float],
+        layer: Sequence[int],
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        only: int | None = None,
+    ) -> (
+        tuple[float, float, float, float, int, str | None, tuple[float, float, float, float]] | None
+    ):
+        """Largest value of a measure on a section, between its samples."""
+    @property
+    def rim(self) -> bool:
+        """Whether the tractions are those of a contact."""
+    def borders(
+        self, *, x: float | None = None, y: float | None = None
+    ) -> list[tuple[float, float, str, bool]]:
+        """Where a line crosses the rim of the contact and the border of the stick zone."""
     def volume(
         self,
         out: str | PathLike[str],
@@ -2417,7 +2430,6 @@ class Envelope:
         y: float | None = None,
         body_number: int = 2,
         residual: Sequence[float] | None = None,
-        rim: bool = True,
     ) -> Envelope: ...
     @property
     def cycles(self) -> list[tuple[int, int]]:

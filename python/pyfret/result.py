@@ -57,7 +57,6 @@ class Snapshot(State):
         y: float | None = None,
         body_number: int = 2,
         bulk: bool = True,
-        rim: bool = True,
         residual: Sequence[float] | None = None,
     ) -> Stress:
         """Stress below the contact, in the lower body unless `body_number` is 1.
@@ -75,9 +74,6 @@ class Snapshot(State):
             The body.
         bulk : bool
             Whether its bulk stress is part of the stress.
-        rim : bool
-            Whether tractions vary within the cells beside the rim and the stick zone, as in
-            :func:`pyfret.subsurface.stress`.
         residual : sequence of float, optional
             Residual stress of every layer from the surface down, the substrate's last [Pa], tension
             positive: biaxial and uniform, added to s_xx and s_yy. It has no effect on the contact.
@@ -99,7 +95,6 @@ class Snapshot(State):
             y=y,
             body_number=body_number,
             bulk=bulk,
-            rim=rim,
             residual=residual,
         )
 
@@ -123,11 +118,10 @@ class Snapshot(State):
         body_number: int = 2,
         bulk: bool = True,
         residual: Sequence[float] | None = None,
-        rim: bool = True,
     ) -> None:
         """Write stress, displacement in the volume: :func:`pyfret.subsurface.write_volume`."""
         contact.write_below(
-            self, out, z, of=of, body_number=body_number, bulk=bulk, residual=residual, rim=rim
+            self, out, z, of=of, body_number=body_number, bulk=bulk, residual=residual
         )
 
     def export(

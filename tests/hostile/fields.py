@@ -68,11 +68,10 @@ CALLS: list[Call] = [
     ("depths", lambda b, z: _core.depths(b, z), {"0": COATED, "1": [1e-5]}),
     ("measure", _core.measure, {"0": "von_mises", "1": TENSORS}),
     ("principal", _core.principal, {"0": TENSORS}),
-    ("rims", _core.rims, {"0": TENSORS, "1": ARRAY.tolist()}),
     (
-        "maximum",
-        _core.maximum,
-        {"0": "von_mises", "1": TENSORS[:, None], "2": [1e-5], "3": [0], "4": ARRAY.tolist()},
+        "largest_of_samples",
+        _core.largest_of_samples,
+        {"0": ARRAY[None], "1": [1e-5], "2": [0], "3": ARRAY.tolist()},
     ),
     (
         "Subsurface",

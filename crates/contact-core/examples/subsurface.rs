@@ -46,7 +46,7 @@ fn main() {
                 .collect();
             let slices = Slices::new(body, Side::Body2, grid, states).unwrap();
             let image = ImageData::create(file, grid, Side::Body2, &depths, &of).unwrap();
-            write_volume(&slices, &depths, &[], &of, &[&image]).unwrap();
+            write_volume(&slices, &depths, &[], &of, &[&image], None).unwrap();
             image.finish().unwrap();
         }
         _ => panic!("arguments: plane, or volume FILE.vti NAMES"),

@@ -5,11 +5,11 @@
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::fields::{
-    Direction, Envelope, Largest, Line, LoopPoint, Probe, Section, Side, Slices, Stream, cycles,
-    depths, loops, measure_named,
+    Direction, Envelope, Largest, Line, LoopPoint, Probe, Search, Section, Side, Slices, States,
+    Stream, cycles, depths, largest_of_samples, loops, measure_named,
 };
 use contact_core::march::{Increment, March, Observer, Status, solve};
-use contact_core::output::{ImageData, StressStore, write_volume};
+use contact_core::output::{ImageData, StressStore, VolumeSink, write_volume};
 use contact_core::reference::{CattaneoMindlin, hertz};
 use contact_core::scene::{Body, Elastic, Friction, Grid, LoadPath, Scene, Settings, Shape};
 use ndarray::Array2;
@@ -187,9 +187,10 @@ fn planes_stream_as_lines_do_and_the_largest_values_are_known() {
     };
     let largest = Largest {
         measures: measures.clone(),
+        line,
         along: along.clone(),
     };
-    let both = (envelope(), largest);
+    let both = (envelope(), largest.clone());
     let (body, grid) = (&scene.body2, &scene.grid);
     let mut on_line =
         Stream::new(body, Side::Body2, grid, Some(line), depths.clone(), both).unwrap();
@@ -210,12 +211,13 @@ fn planes_stream_as_lines_do_and_the_largest_values_are_known() {
         };
         let section = Section::new(body, Side::Body2, grid, line, &[state]).unwrap();
         let stress = section.stress(&depths).unwrap().remove(0);
-        expected.push(measures[0].maximum(&stress, &depths, &along).unwrap());
+        let values = measures[0].on_lines(&stress);
+        expected.push(largest_of_samples(&values.view(), &depths, line, &along).unwrap());
     }
     let (_, kept) = on_line.finish().unwrap();
     let (lines, tops): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
     let scale = 1e-9 * scene.hertz().unwrap().p0;
-    let found = Largest::over_depths(&measures, &tops);
+    let found = largest.over_depths(&tops);
     assert_eq!(found.len(), expected.len());
     for ((moment, of), expected) in found.iter().zip(&expected) {
         let found = of[0].unwrap();
@@ -262,6 +264,7 @@ fn volumes_are_stored_and_drawn() {
     std::fs::create_dir_all(&folder).unwrap();
     for side in [Side::Body1, Side::Body2] {
         let slices = Slices::new(&body, side, &grid, &states).unwrap();
+        let search = Search::new(&body, side, &grid, None, &States::from(&states)).unwrap();
         let (file, store) = (
             folder.join(format!("{side:?}.vti")),
             folder.join(format!("{side:?}.zarr")),
@@ -269,7 +272,8 @@ fn volumes_are_stored_and_drawn() {
         let image = ImageData::create(&file, &grid, side, &depths, &probes).unwrap();
         let group =
             StressStore::create(&store, "test", &grid, side, &depths, None, &probes).unwrap();
-        let largest = write_volume(&slices, &depths, &[], &probes, &[&image, &group]).unwrap();
+        let sinks: [&dyn VolumeSink; 2] = [&image, &group];
+        let largest = write_volume(&slices, &depths, &[], &probes, &sinks, Some(&search)).unwrap();
         image.finish().unwrap();
         group.finish().unwrap();
         assert!(ImageData::create(&file, &grid, side, &depths, &probes).is_err());

@@ -1,6 +1,6 @@
 //! The largest stress of a measure, as a line.
 
-use contact_core::fields::{Maximum, Probe};
+use contact_core::fields::{Errors, Extreme, Probe, Zone};
 use contact_core::scene::Scene;
 
 use crate::summary::short;
@@ -16,47 +16,42 @@ pub(crate) struct Largest<'a> {
 }
 
 impl Largest<'_> {
-    /// The largest value of a probe with what the depths leave of an error, and where it is.
-    pub(crate) fn line<const D: usize>(
-        &self,
-        probe: &Probe,
-        m: &Maximum<D>,
-        places: &[(&str, f64)],
-    ) -> String {
-        let Maximum {
+    /// The largest value of a probe with its error, and where it is; `axes` are those that were looked along.
+    pub(crate) fn line(&self, probe: &Probe, m: &Extreme, axes: &[&str]) -> String {
+        let Extreme {
             value,
             depth,
             error,
             ..
         } = *m;
+        let along = |axis: &str| if axis == "x" { m.x } else { m.y };
+        let on = m.at.map(|zone| match zone {
+            Zone::Contact => "rim",
+            Zone::Stick => "stick border",
+        });
         if self.json {
-            let mut of = serde_json::json!({
+            let Errors { x, y, z, tractions } = error;
+            return serde_json::json!({
                 "increment": self.increment, "name": probe.name(), "unit": probe.unit(),
-                "value": value, "error": error, "z": depth.z, "layer": depth.layer,
-            });
-            for (axis, place) in places {
-                of[*axis] = (*place).into();
-            }
-            return of.to_string();
+                "value": value, "error": error.sum(),
+                "errors": {"x": x, "y": y, "z": z, "tractions": tractions},
+                "x": m.x, "y": m.y, "z": depth.z, "layer": depth.layer, "at": on,
+            })
+            .to_string();
         }
-        let places: Vec<_> = places
+        let places: Vec<_> = axes
             .iter()
-            .map(|(axis, place)| format!("{axis} = {}", self.length(*place)))
+            .map(|axis| format!("{axis} = {}", self.length(along(axis))))
             .collect();
         let place = places.join(", ");
         let hertz = self
             .scene
             .hertz()
             .filter(|_| matches!(probe, Probe::Stress(_)));
+        let left = error.sum();
         let value = hertz.map_or_else(
-            || format!("{value:.5e} {} (depths +- {})", probe.unit(), short(error)),
-            |h| {
-                format!(
-                    "{:.5} p_H (depths +- {})",
-                    value / h.p0,
-                    short(error / h.p0)
-                )
-            },
+            || format!("{value:.5e} {} +- {}", probe.unit(), short(left)),
+            |h| format!("{:.5} p_H +- {}", value / h.p0, short(left / h.p0)),
         );
         let z = self.length(depth.z);
         let layer = match (self.layers, depth.layer) {
@@ -64,9 +59,10 @@ impl Largest<'_> {
             (layers, n) if n == layers => ", in the substrate".into(),
             (_, n) => format!(", in coating {n}"),
         };
+        let on = on.map_or_else(String::new, |on| format!(", at the {on}"));
         let name = probe.name();
         let increment = self.increment;
-        format!("increment {increment}: largest {name} {value} at {place}, z = {z}{layer}")
+        format!("increment {increment}: largest {name} {value} at {place}, z = {z}{layer}{on}")
     }
 
     fn length(&self, v: f64) -> String {

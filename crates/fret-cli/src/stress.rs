@@ -8,7 +8,7 @@ use clap::Args;
 use contact_core::Error;
 use contact_core::convolution::Tractions;
 use contact_core::fields::{
-    Depth, Line, Maximum, Probe, Section, Side, Slices, States, chosen_depths, depths,
+    Depth, Line, Probe, Search, Section, Side, Slices, States, chosen_depths, depths,
     residual_of_layers,
 };
 use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volume};
@@ -23,7 +23,6 @@ use crate::terminal::say;
 
 /// Options of `fret stress`.
 #[derive(Args)]
-#[expect(clippy::struct_excessive_bools, reason = "switches of the command")]
 pub(crate) struct Options {
     /// Result store of `fret run`
     store: PathBuf,
@@ -65,9 +64,6 @@ pub(crate) struct Options {
     /// Leave out the bulk stress of the body
     #[arg(long)]
     no_bulk: bool,
-    /// Tractions constant on each cell up to the rim of the contact and the stick zone
-    #[arg(long)]
-    no_rim: bool,
     /// Largest depth in metres; by default 2 a_H, or where there is no Hertz contact the width of the
     /// contact
     #[arg(long, value_name = "Z")]
@@ -240,18 +236,13 @@ impl Task {
         .map(Some)
     }
 
-    /// The increment's loads as the options have them taken.
-    fn states<'a>(
-        &'a self,
-        options: &Options,
-        tractions: &'a [Tractions<'a>],
-        stick: &'a [&'a [bool]],
-    ) -> States<'a> {
+    /// The increment's loads as those of a contact.
+    fn states<'a>(&'a self, tractions: &'a [Tractions<'a>], stick: &'a [&'a [bool]]) -> States<'a> {
         States {
             tractions,
             sigma_B: std::slice::from_ref(&self.loads.sigma_B),
             residual: &self.residual,
-            stick: (!options.no_rim).then_some(stick),
+            stick: Some(stick),
             stop: self.stop.clone(),
         }
     }
@@ -264,7 +255,8 @@ impl Task {
         }
         let store = self.store(options, Some(line))?;
         let (tractions, stick) = ([self.loads.tractions()], self.loads.stick());
-        let states = self.states(options, &tractions, &stick);
+        let states = self.states(&tractions, &stick);
+        let search = Search::new(self.body(), self.side, grid, Some(line), &states)?;
         let section = Section::new(self.body(), self.side, grid, line, states)?;
         let (axis, along): (_, Vec<f64>) = match line {
             Line::AlongX(_) => ("x", (0..grid.nx).map(|i| grid.x(i)).collect()),
@@ -276,7 +268,7 @@ impl Task {
         let rows: Vec<usize> = (0..all.len())
             .filter(|n| self.depths.contains(&all[*n]))
             .collect();
-        let found = section.probe(&all, &along, &self.probes)?;
+        let found = section.probe(&all, &along, &self.probes, &search)?;
         let largest_of = self.largest();
         let mut lines = Vec::new();
         for (n, (probe, (values, largest))) in self.probes.iter().zip(&found).enumerate() {
@@ -284,7 +276,7 @@ impl Task {
                 store.put_section(n, &values.select(Axis(0), &rows))?;
             }
             if let Some(m) = largest {
-                lines.push(largest_of.line(probe, m, &[(axis, m.place[0])]));
+                lines.push(largest_of.line(probe, m, &[axis]));
             }
         }
         store.map_or(Ok(()), StressStore::finish)?;
@@ -305,18 +297,20 @@ impl Task {
         sinks.extend(image.as_ref().map(|i| i as &dyn VolumeSink));
         sinks.extend(store.as_ref().map(|s| s as &dyn VolumeSink));
         let (tractions, stick) = ([self.loads.tractions()], self.loads.stick());
-        let states = self.states(options, &tractions, &stick);
+        let states = self.states(&tractions, &stick);
+        let search = Search::new(self.body(), self.side, grid, None, &states)?;
         let slices = Slices::new(self.body(), self.side, grid, states)?;
-        let largest = write_volume(&slices, &self.depths, &self.chosen, &self.probes, &sinks)?;
+        let (depths, chosen) = (&self.depths, &self.chosen);
+        let largest = write_volume(&slices, depths, chosen, &self.probes, &sinks, Some(&search))?;
         image.map_or(Ok(()), ImageData::finish)?;
         store.map_or(Ok(()), StressStore::finish)?;
         let largest_of = self.largest();
-        let line = |(probe, m): (&Probe, Option<Maximum<2>>)| {
-            let m = m?;
-            let [x, y] = m.place;
-            Some(largest_of.line(probe, &m, &[("x", x), ("y", y)]))
+        let found = self.probes.iter().zip(&largest);
+        let line = |(probe, m): (&Probe, &Option<_>)| {
+            let m = m.as_ref()?;
+            Some(largest_of.line(probe, m, &["x", "y"]))
         };
-        Ok(self.probes.iter().zip(largest).filter_map(line).collect())
+        Ok(found.filter_map(line).collect())
     }
 }
 

@@ -23,6 +23,7 @@ use crate::subsurface::{Subsurface, line};
 #[pyclass(module = "pyfret")]
 pub(crate) struct Envelope {
     stream: Option<Stream<(core::Envelope, core::Largest)>>,
+    largest: core::Largest,
     names: Vec<String>,
     cycles: Vec<(usize, usize)>,
     /// Whether it is that below a line.
@@ -32,7 +33,7 @@ pub(crate) struct Envelope {
 #[pymethods]
 impl Envelope {
     #[new]
-    #[pyo3(signature = (body, grid, path, z, layer, *, of, x = None, y = None, body_number = 2, residual = None, rim = true))]
+    #[pyo3(signature = (body, grid, path, z, layer, *, of, x = None, y = None, body_number = 2, residual = None))]
     fn new(
         py: Python<'_>,
         body: Body,
@@ -45,7 +46,6 @@ impl Envelope {
         y: Option<f64>,
         body_number: u8,
         residual: Option<List<f64>>,
-        rim: bool,
     ) -> PyResult<Self> {
         let cycles = core::cycles(&path.0);
         let line = match (x, y) {
@@ -57,6 +57,7 @@ impl Envelope {
             Some(Line::AlongY(_)) => (0..grid.0.ny).map(|j| grid.0.y(j)).collect(),
             None => Vec::new(),
         };
+        let of_largest = line.unwrap_or(Line::AlongX(0.0));
         let accumulate = (
             core::Envelope {
                 measures: measures(&of)?,
@@ -69,11 +70,13 @@ impl Envelope {
                 } else {
                     Vec::new()
                 },
+                line: of_largest,
                 along,
             },
         );
         let depths = Subsurface::depths(&z, &layer)?;
         let side = side(body_number)?;
+        let largest = accumulate.1.clone();
         let new = || {
             let stream = Stream::new(&body.0, side, &grid.0, line, depths, accumulate)?;
             stream.residual(&residual.unwrap_or_default())
@@ -81,7 +84,8 @@ impl Envelope {
         let stream = interruptible(py, &Arc::default(), new)?;
         let stream = stream.map_err(to_python)?;
         Ok(Self {
-            stream: Some(stream.rim(rim)),
+            stream: Some(stream.rim(true)),
+            largest,
             names: of.0,
             cycles,
             of_line: line.is_some(),
@@ -130,7 +134,7 @@ impl Envelope {
         stream.stop_on(stop.clone());
         let (_, kept) = interruptible(py, &stop, || stream.finish())?.map_err(to_python)?;
         let (kept, tops): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
-        let largest = core::Largest::over_depths(&measures(&self.names)?, &tops);
+        let largest = self.largest.over_depths(&tops);
         let result = PyDict::new(py);
         for (m, name) in self.names.iter().enumerate() {
             let rows = |of: &dyn Fn(&core::DepthEnvelope) -> Array1<f64>| {
@@ -158,9 +162,14 @@ impl Envelope {
                     Some([
                         moment.increment as f64,
                         m.value,
-                        m.place[0],
+                        if matches!(self.largest.line, Line::AlongX(_)) {
+                            m.x
+                        } else {
+                            m.y
+                        },
                         m.depth.z,
                         layer,
+                        m.error.sum(),
                     ])
                 });
                 let rows = Array2::from(rows.collect::<Vec<_>>());

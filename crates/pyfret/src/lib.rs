@@ -91,7 +91,7 @@ mod _core {
     #[pymodule_export]
     use crate::history::{Envelope, loops};
     #[pymodule_export]
-    use crate::stress::{maximum, measure, principal, probe_labels, rims};
+    use crate::stress::{largest_of_samples, measure, principal, probe_labels};
     #[pymodule_export]
     use crate::subsurface::{
         Subsurface, chosen_depths, depths, residual_of_layers, section_of_states,

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 
 use contact_core::fields as core;
 use contact_core::fields::Measure;
-use ndarray::{Array2, Array3, Ix3};
+use ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arguments::{Array, Field, List};
+use crate::arguments::{Field, List};
 use crate::subsurface::Subsurface;
 
 /// Numbers for Python, one row per point.
@@ -78,53 +78,24 @@ pub(crate) fn principal<'py>(
     Ok((values.into_pyarray(py), directions.into_pyarray(py)))
 }
 
-/// Largest stress whose square is a number \[Pa\].
-const LARGEST: f64 = 1e150;
-
-/// Largest value on a section of stresses (6, depths, places).
+/// Largest value of a field known at samples alone, shape (depths, places) along x or y.
 ///
-/// The value, its place, depth and layer, and the error that the distances of the depths leave.
+/// The value, its place along the line, depth, layer and error.
 #[pyfunction]
-#[expect(clippy::type_complexity, reason = "a tuple of Python")]
-pub(crate) fn maximum(
-    name: String,
-    stress: Array<'_, Ix3>,
+pub(crate) fn largest_of_samples(
+    samples: Field<'_>,
     z: List<f64>,
     layer: List<usize>,
     along: List<f64>,
 ) -> PyResult<Option<(f64, f64, f64, usize, f64)>> {
-    let stress = stress.as_array().to_owned();
-    let depths = Subsurface::depths(&z, &layer)?;
-    if stress.dim() != (6, depths.len(), along.len()) {
+    let (samples, depths) = (samples.as_array(), Subsurface::depths(&z, &layer)?);
+    if samples.dim() != (depths.len(), along.len()) {
         return Err(PyValueError::new_err(format!(
-            "the stress has the shape {:?}: must be {:?}",
-            stress.dim(),
-            (6, depths.len(), along.len())
+            "the samples have the shape {:?}: must be {:?}",
+            samples.dim(),
+            (depths.len(), along.len())
         )));
     }
-    if stress.iter().any(|s| s.abs() > LARGEST) {
-        return Err(PyValueError::new_err(format!(
-            "the stress is beyond {LARGEST:e} Pa: its measures have squares"
-        )));
-    }
-    let found = measures(&[name])?[0].maximum(&stress, &depths, &along);
-    Ok(found.map(|m| (m.value, m.place[0], m.depth.z, m.depth.layer, m.error)))
-}
-
-/// Places of the rims on a line on the surface, and stresses (6, rims), from stresses (6, n).
-#[pyfunction]
-pub(crate) fn rims<'py>(
-    py: Python<'py>,
-    stress: Field<'py>,
-    along: List<f64>,
-) -> PyResult<(Vec<f64>, Matrix<'py>)> {
-    if stress.as_array().dim() != (6, along.len()) {
-        return Err(PyValueError::new_err(
-            "stress: must be of the shape (6, places)",
-        ));
-    }
-    let found = core::rims(&stress.as_array(), &along);
-    let tensors = Array2::from_shape_fn((6, found.len()), |(c, n)| found[n].stress[c]);
-    let places = found.iter().map(|rim| rim.place).collect();
-    Ok((places, tensors.into_pyarray(py)))
+    let found = core::largest_of_samples(&samples, &depths, core::Line::AlongX(0.0), &along);
+    Ok(found.map(|m| (m.value, m.x, m.depth.z, m.depth.layer, m.error.sum())))
 }

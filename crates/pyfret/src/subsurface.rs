@@ -159,6 +159,24 @@ pub(crate) struct Subsurface {
     stick: Option<Vec<bool>>,
 }
 
+/// A largest value: itself, x, y, z, layer, the border that it lies on, its errors.
+type Found = (
+    f64,
+    f64,
+    f64,
+    f64,
+    usize,
+    Option<&'static str>,
+    (f64, f64, f64, f64),
+);
+
+fn zone_name(zone: core::Zone) -> &'static str {
+    match zone {
+        core::Zone::Contact => "rim",
+        core::Zone::Stick => "stick border",
+    }
+}
+
 impl Subsurface {
     fn tractions(&self) -> Tractions<'_> {
         let [q_x, q_y, p] = &self.fields;
@@ -322,6 +340,78 @@ impl Subsurface {
         Ok((stress.into_pyarray(py), u.into_pyarray(py)))
     }
 
+    /// Largest value of a measure on a section, between its samples of shape (depths, places) \[Pa\], in one layer
+    /// alone if `only` names it.
+    ///
+    /// Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y and z and of the
+    /// tractions.
+    #[pyo3(signature = (of, samples, z, layer, *, x = None, y = None, only = None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn maximum(
+        &self,
+        py: Python<'_>,
+        of: &str,
+        samples: Field<'_>,
+        z: List<f64>,
+        layer: List<usize>,
+        x: Option<f64>,
+        y: Option<f64>,
+        only: Option<usize>,
+    ) -> PyResult<Option<Found>> {
+        let (depths, line) = (Self::depths(&z, &layer)?, line(x, y)?);
+        let grid = &self.grid.0;
+        let along: Vec<f64> = match line {
+            Line::AlongX(_) => (0..grid.nx).map(|i| grid.x(i)).collect(),
+            Line::AlongY(_) => (0..grid.ny).map(|j| grid.y(j)).collect(),
+        };
+        let samples = samples.as_array().to_owned();
+        if samples.dim() != (depths.len(), along.len()) {
+            return Err(PyValueError::new_err(format!(
+                "the samples have the shape {:?}: must be {:?}",
+                samples.dim(),
+                (depths.len(), along.len())
+            )));
+        }
+        let probe = core::Probe::named(of, "of").map_err(to_python)?;
+        let stop = Arc::default();
+        let found = interruptible(py, &stop, || {
+            self.under(&stop, |body, grid, states| {
+                let search = core::Search::new(body, self.side, grid, Some(line), &states)?;
+                search.on_section(&probe, &samples.view(), (&depths, &along), only)
+            })
+        })?;
+        Ok(found.map_err(to_python)?.map(|m| {
+            let core::Errors { x, y, z, tractions } = m.error;
+            let error = (x, y, z, tractions.unwrap_or(f64::NAN));
+            let at = m.at.map(zone_name);
+            (m.value, m.x, m.y, m.depth.z, m.depth.layer, at, error)
+        }))
+    }
+
+    /// Whether the tractions are those of a contact.
+    #[getter]
+    fn rim(&self) -> bool {
+        self.rim
+    }
+
+    /// Where a line at x or y \[m\], or the lines of all cells, cross the rim of the contact and the border of the
+    /// stick zone: x, y, which, and whether it is known within a cell.
+    #[pyo3(signature = (*, x = None, y = None))]
+    fn borders(
+        &self,
+        x: Option<f64>,
+        y: Option<f64>,
+    ) -> PyResult<Vec<(f64, f64, &'static str, bool)>> {
+        let along = match (x, y) {
+            (None, None) => None,
+            _ => Some(line(x, y)?),
+        };
+        let stick = self.stick.as_deref();
+        let found = core::borders(&self.grid.0, &self.tractions(), stick, along);
+        let row = |b: core::Border| (b.x, b.y, zone_name(b.zone), b.within_cell);
+        Ok(found.map_err(to_python)?.into_iter().map(row).collect())
+    }
+
     /// Write measures of stress, and displacements, to a .vti file or a Zarr folder.
     #[pyo3(signature = (out, z, layer, *, of, title = ""))]
     fn volume(
@@ -340,7 +430,7 @@ impl Subsurface {
         let write = || {
             let slices = self.slices(&stop)?;
             let write = |sink: &dyn VolumeSink| {
-                write_volume(&slices, &depths, &[], &probes, &[sink]).map(drop)
+                write_volume(&slices, &depths, &[], &probes, &[sink], None).map(drop)
             };
             if out
                 .extension()

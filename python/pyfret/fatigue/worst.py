@@ -26,7 +26,7 @@ class Peak(NamedTuple):
     z: float
     #: Layer from the surface down; their number for the substrate.
     layer: int
-    #: What the distances of the depths leave of an error of the value, estimated.
+    #: What the samples leave of an error of the value, estimated.
     error: float
 
 
@@ -47,12 +47,9 @@ def largest(field: xr.DataArray, layer: int) -> Peak:
 
 def _on_section(field: xr.DataArray, layer: int) -> Peak:
     along = str(field.dims[1])
-    # The core looks for the largest value of a component of a stress.
-    stress = np.zeros((6, *field.shape))
-    stress[0] = field.values
     depths = field.z.values.tolist()
-    found = _core.maximum(
-        "s_xx", stress, depths, [layer] * len(depths), field[along].values.tolist()
+    found = _core.largest_of_samples(
+        field.values, depths, [layer] * len(depths), field[along].values.tolist()
     )
     if found is None:
         raise ValueError("the section holds no number")

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from pyfret.run import Run
-    from pyfret.subsurface.tensor import Maximum
+    from pyfret.subsurface.tensor import Extreme
 
 #: Names of measures in figures.
 SYMBOLS = {
@@ -52,9 +52,9 @@ def _scales(attrs: Mapping[Any, Any], units: Units, a_H: float | None, p_H: floa
     return scales({**attrs, **given}, units)
 
 
-def _mark(ax: Axes, largest: Maximum, by: Scales, *, marker: str = "x") -> None:
+def _mark(ax: Axes, largest: Extreme, along: str, by: Scales, *, marker: str = "x") -> None:
     """Mark a value at its place along the section and its depth; one on the surface from above."""
-    at = (largest.along / by.length.value, largest.z / by.length.value)
+    at = ((largest.x if along == "x" else largest.y) / by.length.value, largest.z / by.length.value)
     ax.plot(*at, marker, color=MARK, mfc="none", ms=7, mew=1.6, clip_on=False, zorder=4)
     # Away from the border of the section, so that the number stays on it.
     left, right = ax.get_xlim()
@@ -89,7 +89,7 @@ def section_map(
     units: Units = "auto",
     symbol: str | None = None,
     levels: int = 12,
-    maximum: Maximum | None = None,
+    maximum: Extreme | None = None,
     aspect: Literal["equal", "auto"] | None = None,
     stretch: bool | None = None,
     colorbar: bool = True,
@@ -109,7 +109,7 @@ def section_map(
         What the field is called (default: by its name).
     levels : int
         Number of contours, about.
-    maximum : Maximum, optional
+    maximum : Extreme, optional
         A largest value to mark by a cross with its value beside it.
     aspect : "equal" or "auto", optional
         Whether lengths are the same in both directions (default: unless the depth is stretched or
@@ -146,7 +146,7 @@ def section_map(
         ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
     ax.set_xlim(x[0], x[-1])
     if maximum is not None:
-        _mark(ax, maximum, by)
+        _mark(ax, maximum, along, by)
     name = symbol if symbol is not None else SYMBOLS.get(str(values.name), str(values.name))
     if colorbar and image is not None:
         # Within the axes, so that it is as high as the section.
@@ -203,9 +203,8 @@ def stress_map(
         ax=ax,
     )
     if float(values.z[0]) == 0.0 < largest.z and not of.startswith("interface"):
-        top = stress.dataset.isel(depth=slice(1)).assign_attrs(interfaces=[])
         by = _scales(stress.dataset.attrs, units, a_H, p_H)
-        _mark(ax, type(stress)(top).maximum(of), by, marker="o")
+        _mark(ax, stress.on_surface().maximum(of), str(values.dims[1]), by, marker="o")
     return ax
 
 

@@ -135,7 +135,7 @@ def stress(result: Run) -> dict[str, Any] | None:
         "z": short(1e6 * z[depths]),
         "values": short(values[np.ix_(depths, along)], 3),
         "interfaces": short(1e6 * np.asarray(result.scene.interfaces())),
-        "largest": [1e6 * largest.along, 1e6 * largest.z, 1e-6 * largest.value],
+        "largest": [1e6 * largest.x, 1e6 * largest.z, 1e-6 * largest.value],
         "error": 1e-6 * largest.error,
     }
 

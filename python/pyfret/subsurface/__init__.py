@@ -8,10 +8,11 @@ Most people start from :meth:`pyfret.Snapshot.stress`; the functions here take a
 from pyfret._util.names import listing
 from pyfret.subsurface.fields import displacement, envelope, stress, write_volume
 from pyfret.subsurface.residual import thermal_stress
-from pyfret.subsurface.tensor import Maximum, Stress
+from pyfret.subsurface.tensor import Errors, Extreme, Stress
 
 __all__ = [
-    "Maximum",
+    "Errors",
+    "Extreme",
     "Stress",
     "displacement",
     "envelope",

@@ -28,7 +28,6 @@ def stress_below(
     y: float | None = None,
     body_number: int = 2,
     bulk: bool = True,
-    rim: bool = True,
     residual: Sequence[float] | None = None,
 ) -> Stress:
     """Stress below the contact of an increment: :meth:`pyfret.Snapshot.stress`."""
@@ -42,14 +41,14 @@ def stress_below(
         y=y,
         body_number=body_number,
         sigma_B=state.bulk_stress(body_number) if bulk else 0.0,
-        rim=rim,
+        rim=True,
         stick=state.dataset["stick"].values,
         length=state.length,
         residual=residual,
         **state.tractions(),
     )
     yardsticks = {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
-    return Stress(below.dataset.assign_attrs(yardsticks))
+    return below.assign_attrs(yardsticks)
 
 
 def displacement_below(
@@ -82,7 +81,6 @@ def write_below(
     body_number: int = 2,
     bulk: bool = True,
     residual: Sequence[float] | None = None,
-    rim: bool = True,
 ) -> None:
     """Write the volume below the contact of an increment: :meth:`pyfret.Snapshot.write_volume`."""
     fields.write_volume(
@@ -94,7 +92,7 @@ def write_below(
         body_number=body_number,
         sigma_B=state.bulk_stress(body_number) if bulk else 0.0,
         residual=residual,
-        rim=rim,
+        rim=True,
         stick=state.dataset["stick"].values,
         title=repr(state),
         **state.tractions(),

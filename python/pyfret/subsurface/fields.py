@@ -9,7 +9,7 @@ import numpy as np
 from pyfret import _core
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
-from pyfret.subsurface.tensor import COMPONENTS, DISPLACEMENTS, LABELS, Maximum, Stress
+from pyfret.subsurface.tensor import COMPONENTS, DISPLACEMENTS, LABELS, Stress
 
 if TYPE_CHECKING:
     import os
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from pyfret._core import Body, Grid, Scene
     from pyfret.run import State
 
-__all__ = ["Maximum", "Stress", "displacement", "envelope", "stress", "write_volume"]
+__all__ = ["Stress", "displacement", "envelope", "stress", "write_volume"]
 
 
 def _depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float], list[int]]:
@@ -150,7 +150,7 @@ def stress(
     at = _line(z, x, y)
     length = loaded_length(grid, *loads) if length is None else length
     sampled = _sampled(below, body, grid, _depths(body, z, length), at, displacement=False)
-    return Stress(sampled.assign_attrs(interfaces=interfaces(body), length=length))
+    return Stress(sampled.assign_attrs(interfaces=interfaces(body), length=length), below)
 
 
 def _line(
@@ -263,7 +263,6 @@ def envelope(
     body_number: int = 2,
     bulk: bool = True,
     residual: Sequence[float] | None = None,
-    rim: bool = True,
 ) -> xr.Dataset:
     """Extremes of stress over a load path, none of whose increments is kept.
 
@@ -281,8 +280,6 @@ def envelope(
         Whether the body's bulk stress is part of the stress.
     residual : sequence of float, optional
         Residual stress of the layers [Pa], as in :func:`stress`.
-    rim : bool
-        Whether tractions vary within the cells, as in :func:`stress`.
 
     Returns
     -------
@@ -292,7 +289,9 @@ def envelope(
         and x or y; a cycle is the closed piece of the path between ``first_branch`` and
         ``last_branch``. On a section also over ``increment``: the largest value on it,
         ``<name>_largest``, and where it is between the samples, ``<name>_largest_x`` (or ``_y``),
-        ``<name>_largest_z`` and ``<name>_largest_layer``.
+        ``<name>_largest_z`` and ``<name>_largest_layer``. At the rims of the contact and the
+        borders of the stick zone it is evaluated, elsewhere it is that of a parabola between the
+        samples, of which ``<name>_largest_error`` tells.
     """
     if x is not None and y is not None:
         raise ValueError("give x or y for a section, or neither for whole planes")
@@ -316,7 +315,6 @@ def envelope(
         y=y,
         body_number=body_number,
         residual=residual,
-        rim=rim,
     )
     for snapshot in increments:
         fields = {k: snapshot.dataset[k].values for k in ("p", "q_x", "q_y")}
@@ -354,13 +352,14 @@ def envelope(
 
 def _largest(name: str, rows: NDArray[np.float64], along: str) -> xr.Dataset:
     """Give the largest value of a measure on a section at every increment, and its place."""
-    increment, value, place, z, layer = rows.T
+    increment, value, place, z, layer, error = rows.T
     meaning = f"largest {name} on the section"
     columns = {
         name + "_largest": (value, "Pa", meaning),
         f"{name}_largest_{along}": (place, "m", f"{along} of the {meaning}"),
         name + "_largest_z": (z, "m", f"depth of the {meaning}"),
         name + "_largest_layer": (layer.astype(int), "1", f"layer of the {meaning}"),
+        name + "_largest_error": (error, "Pa", f"what the samples leave of the {meaning}"),
     }
     return xr.Dataset(
         {

@@ -15,25 +15,45 @@ from pyfret.scene.warnings import SceneWarning
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["COMPONENTS", "DISPLACEMENTS", "LABELS", "Maximum", "Stress"]
+__all__ = ["COMPONENTS", "DISPLACEMENTS", "LABELS", "Errors", "Extreme", "Stress"]
 
 #: The six components, in their order.
 COMPONENTS = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
 
 
-class Maximum(NamedTuple):
-    """The largest value of a measure on a section, between the samples."""
+class Errors(NamedTuple):
+    """What may be wrong with a largest value, by its sources, in the unit of the value."""
+
+    #: What the search along x leaves.
+    x: float
+    #: What the search along y leaves.
+    y: float
+    #: What the search over the depths leaves.
+    z: float
+    #: By how much the value differs under the tractions of cells twice as large; NaN where that was
+    #: not looked at.
+    tractions: float
+
+
+class Extreme(NamedTuple):
+    """The largest value of a measure and where it is: its value at a point."""
 
     #: Value [Pa].
     value: float
-    #: Place along the section [m].
-    along: float
+    #: Place [m].
+    x: float
+    y: float
     #: Depth [m].
     z: float
     #: Layer from the surface down; their number for the substrate.
     layer: int
-    #: What the distances of the depths leave of an error, estimated [Pa].
+    #: The border that it lies on, "rim" or "stick border", or none. At the rim a value depends on how
+    #: well the tractions are known there: fatigue wants a mean over a critical distance.
+    at: str | None
+    #: What may be wrong with the value, all together [Pa].
     error: float
+    #: The same by its sources [Pa].
+    errors: Errors
 
 
 class Stress:
@@ -44,8 +64,13 @@ class Stress:
     ``stress.interface_peel`` are DataArrays; :attr:`dataset` holds the six components.
     """
 
-    def __init__(self, dataset: xr.Dataset) -> None:
+    def __init__(self, dataset: xr.Dataset, below: _core.Subsurface | None = None) -> None:
         self.dataset = dataset
+        self._below = below
+
+    def assign_attrs(self, attrs: dict[str, object]) -> Stress:
+        """Give the same stress with more attributes of its dataset."""
+        return Stress(self.dataset.assign_attrs(attrs), self._below)
 
     def _tensor(self) -> NDArray[np.float64]:
         """The components as an array of shape (6, number of points)."""
@@ -91,13 +116,20 @@ class Stress:
             coords={**pattern.coords, "axis": ["x", "y", "z"]},
         )
 
-    def maximum(self, of: str = "von_mises") -> Maximum:
-        """Give the largest value on a section and its place, refined below the cell.
+    def maximum(self, of: str = "von_mises", *, layer: int | None = None) -> Extreme:
+        """Give the largest value on a section and its place: a value at a point.
 
-        A maximum at the surface or at an interface stays there. On the surface the rims of the
-        contact take part, as :meth:`rims` gives them. ``interface_shear`` and ``interface_peel``
-        are those of the interfaces. The error is what the distances of the depths leave, estimated
-        by leaving out every other one.
+        The samples, the rims of the contact and the borders of its stick zone tell where to look;
+        from the highest of them the stress is evaluated between the samples. A maximum at the
+        surface or at an interface stays there. ``interface_shear`` and ``interface_peel`` are those
+        of the interfaces.
+
+        Parameters
+        ----------
+        of : str
+            The measure.
+        layer : int, optional
+            The layer to look in, from the surface down (default: all).
 
         Warns
         -----
@@ -109,34 +141,67 @@ class Stress:
             raise ValueError(f"{of!r}: must be one of {', '.join(sorted(LABELS))}")
         self._doubt_depths()
         along = self._along()
+        across = "y" if along == "x" else "x"
         depths = self.dataset.z.values.tolist()
         layers = self.dataset.layer.values.tolist()
-        stress = np.stack([self.dataset[c].values for c in COMPONENTS])
-        found = _core.maximum(of, stress, depths, layers, self.dataset[along].values.tolist())
+        if layer is not None and layer not in layers:
+            raise ValueError(f"layer = {layer}: must be one of {sorted(set(layers))}")
+        if self._below is None:
+            raise ValueError("the largest value is that of a section as stress(...) gives it")
+        found = self._below.maximum(
+            of,
+            self.measure(of).values,
+            depths,
+            layers,
+            only=layer,
+            **{across: float(self.dataset[across])},
+        )
         if found is None and of.startswith("interface"):
             raise ValueError(f"{of}: no interface lies among the depths of the section")
         if found is None:
             raise ValueError("the section holds no number")
-        return Maximum(*found)
+        value, x, y, z, in_layer, at, errors = found
+        error = float(np.nansum(errors))
+        return Extreme(value, x, y, z, in_layer, at, error, Errors(*errors))
+
+    def on_surface(self) -> Stress:
+        """Give the stress at the first depth alone."""
+        top = self.dataset.isel(depth=slice(1)).assign_attrs(interfaces=[])
+        return Stress(top, self._below)
 
     def rims(self) -> Stress:
-        """Give the surface stress at the rims of the contact, from a section that has z = 0.
+        """Give the surface stress where the section crosses the rim of the contact.
 
-        It has a cusp there, such as the tension at the trailing edge, whose top no sample reaches:
-        samples near by are extrapolated. Rims that they do not show well enough are left out.
+        It has a cusp there, such as the tension at the trailing edge. The stress is that of
+        tractions which vary within the cells and vanish at the rim.
         """
+        return self._on_borders("rim")
+
+    def stick_borders(self) -> Stress:
+        """Give the surface stress where the section crosses the border of the stick zone."""
+        return self._on_borders("stick border")
+
+    def _on_borders(self, zone: str) -> Stress:
         along = self._along()
+        across = "y" if along == "x" else "x"
         surface = self.dataset.isel(depth=0)
         if float(surface.z) != 0.0:
             raise ValueError("the section has no surface: give stress(z=[0, ...], ...)")
-        stress = np.stack([surface[c].values for c in COMPONENTS])
-        places, tensors = _core.rims(stress, surface[along].values.tolist())
+        if self._below is None or not self._below.rim:
+            raise ValueError(
+                "tractions constant in each cell end nowhere within a cell: give rim=True"
+            )
+        borders = self._below.borders(**{across: float(self.dataset[across])})
+        places = [(x, y) for x, y, of, _ in borders if of == zone]
+        tensors = self._below.points([(x, y, 0.0, 0) for x, y in places])[0]
         variables = {
-            name: ("rim", values, surface[name].attrs)
-            for name, values in zip(COMPONENTS, tensors, strict=True)
+            name: (zone.split()[0], values, surface[name].attrs)
+            for name, values in zip(COMPONENTS, tensors.T, strict=True)
         }
         coords = {k: v for k, v in surface.coords.items() if k != along}
-        return Stress(xr.Dataset(variables, {**coords, along: ("rim", places, {"units": "m"})}))
+        at = [place["xy".index(along)] for place in places]
+        coords[along] = (zone.split()[0], at, {"units": "m"})
+        return Stress(xr.Dataset(variables, coords))
 
     def _doubt_depths(self) -> None:
         """Warn of interfaces that the depths leave out."""

@@ -87,6 +87,13 @@ pub fn chosen_depths(body: &Body, a: f64, deepest: f64, finer: f64) -> Result<Ve
     depths(body, &z)
 }
 
+/// Which depths stay if every other one of each layer is left out, its first and last kept.
+pub(super) fn every_other(depths: &[Depth]) -> Vec<bool> {
+    let layers = depths.chunk_by(|a, b| a.layer == b.layer);
+    let kept = layers.flat_map(|of| (0..of.len()).map(|n| n % 2 == 0 || n + 1 == of.len()));
+    kept.collect()
+}
+
 /// The places in `depths` that lie on an interface: the same depth in two layers, one after the other.
 pub(super) fn on_interfaces(depths: &[Depth]) -> Vec<bool> {
     let same = |a: usize, b: usize| {

@@ -1,6 +1,9 @@
 //! Stage 6: WHAT FOLLOWS from the tractions below the surface: stress and displacement; energy of
 //! the loops.
 //!
+//! The largest value of a number, an [`Extreme`], is its value at a point, which [`Search`] looks for; [`borders`] says
+//! where the rim of the contact and the border of the stick zone are.
+//!
 //! Three ways to ask, each computing that and nothing else: [`Section`], lines along x or y at any
 //! depths, by one-dimensional transforms; [`Slices`], whole planes parallel to the surface, by
 //! two-dimensional ones; [`Points`], single points anywhere, by summation. One transform of each
@@ -15,9 +18,12 @@
 //! on it and its neighbours that act alike to 1e-9 of the traction there; nearer to the surface it
 //! is integrated over the cell.
 
+mod borders;
+mod coarser;
 mod depth;
 mod energy;
 mod envelope;
+mod extreme;
 mod largest;
 mod line_transform;
 mod loads;
@@ -28,7 +34,7 @@ mod parity;
 mod plane_transform;
 mod points;
 mod probe;
-mod rim;
+mod search;
 mod section;
 mod slices;
 mod states;
@@ -38,17 +44,17 @@ mod uniform;
 pub use ::fatigue::{
     Principal, StressTensor, hydrostatic, principal, principal_values, tresca, von_mises,
 };
+pub use borders::{Border, Zone, borders};
 pub use depth::{Depth, Side, chosen_depths, depths};
 pub use energy::{Cycle, Direction, LoopPoint, cycles, loops};
 pub use envelope::{DepthEnvelope, Envelope, Extremes};
-pub use largest::{DepthTops, Largest};
-pub use maximum::{
-    Maximum, Top, maximum, maximum_of_tops, maximum_on_interfaces, top_of_line, top_of_plane,
-};
+pub use extreme::{Errors, Extreme};
+pub use largest::{DepthTops, Largest, MomentTops, largest_of_samples};
+pub use maximum::{Top, top_of_line, top_of_plane};
 pub use measure::{MEASURES, Measure, measure_named};
 pub use points::{Point, Points};
 pub use probe::{Component, DISPLACEMENTS, Probe, Probed};
-pub use rim::{Rim, rims};
+pub use search::Search;
 pub use section::{Line, Section};
 pub use slices::Slices;
 pub use states::States;

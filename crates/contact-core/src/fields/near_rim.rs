@@ -5,7 +5,6 @@
 //! sample the smaller, and what the continued tractions are more than constant on each is added. The
 //! parts' responses depend on offsets and depth alone: all samples of a depth share them.
 
-use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::loads::{Plane, snapped};
@@ -13,28 +12,42 @@ use super::{Depth, Side};
 use crate::convolution::Tractions;
 use crate::kernels::{Cell, DepthKernel, Quantity, Stress};
 use crate::scene::Grid;
-use crate::zones::Continued;
+use crate::zones::{Continued, Within};
 
 /// Deepest samples, in cells.
 const DEEPEST: f64 = 6.0;
-/// Farthest cells from the border that count in full for samples below the surface, in cells along or across: farther in
-/// constant tractions are right to second order there, and those interpolated between the middles of the cells, with
-/// a kink in each, are not (4e-4 of p_H on the axis of a contact of 28 cells across).
-const FARTHEST_CUT: u8 = 3;
-/// Farthest samples from the border, near the surface, where constant tractions are off by their slope as well, and
-/// below, where no cell farther away counts.
+/// Farthest samples from a border in cells along or across: below the surface, where no cell farther away than the
+/// border's own counts, and near the surface, where constant tractions are off by their slope as well.
+const FARTHEST: u8 = 3 + REACH as u8;
 const FARTHEST_AT_SURFACE: u8 = 24;
-const FARTHEST: u8 = FARTHEST_CUT + REACH as u8;
 /// Depth in cells down to which the slope counts: what varies from cell to cell falls like exp(-2 pi z).
 const AT_SURFACE: f64 = 1.0;
 /// Cells on each side of a sample that are cut.
 const REACH: usize = 3;
-/// A part is smaller than its distance from the sample over this, or of the smallest size, a cell
-/// cut by three so many times.
-const GRADING: f64 = 2.0;
-const CUTS: u32 = 4;
-/// Row of s_zz.
-const S_ZZ: usize = 2;
+/// Rows of s_zz, s_xz, s_yz: on the surface they are minus the traction named beside.
+const OF_TRACTIONS: [(usize, usize); 3] = [(2, 2), (4, 0), (5, 1)];
+
+/// How finely cells are cut: a part is smaller than its distance from the sample over `grading`, or of the smallest
+/// size, a cell cut by three so many times.
+#[derive(Clone, Copy)]
+struct Fineness {
+    grading: f64,
+    cuts: u32,
+}
+
+impl Fineness {
+    /// For samples that share their parts; none of them is meant to lie on a border.
+    fn shared(flat: bool) -> Self {
+        let (grading, cuts) = if flat { (8.0, 5) } else { (2.0, 4) };
+        Self { grading, cuts }
+    }
+
+    /// For a point, which may lie on a border: the root of the smallest part is left out there.
+    fn of_a_point(flat: bool) -> Self {
+        let (grading, cuts) = if flat { (8.0, 12) } else { (3.0, 7) };
+        Self { grading, cuts }
+    }
+}
 
 /// The tractions of the states around some cells.
 pub(super) struct NearRim {
@@ -47,15 +60,20 @@ pub(super) struct NearRim {
 pub(super) struct Parts {
     /// By cell: columns and rows from the sample's, and its parts.
     cells: Vec<((isize, isize), Vec<Part>)>,
+    /// From the middle of the sample's cell, in cells.
+    offset: (f64, f64),
     /// Whether the sample is on the surface, where s_zz, s_xz, s_yz are the tractions themselves.
     on_surface: bool,
-    /// How much those count that are farther from the border than [`FARTHEST_CUT`].
-    far: f64,
 }
 
-/// The middle of a part from that of its cell, in cells, and the stress at the sample under unit
-/// q_x, q_y, p on it.
-type Part = ((f64, f64), [[f64; 3]; 6]);
+/// A part of a cell.
+struct Part {
+    /// Where its tractions are taken, from the middle of the cell, in cells: in its middle, or at a sample that it holds,
+    /// so that the traction has no step there.
+    at: (f64, f64),
+    /// The stress at the sample under unit q_x, q_y, p on it.
+    response: [[f64; 3]; 6],
+}
 
 impl NearRim {
     /// For samples in the cells of these columns and rows.
@@ -101,8 +119,31 @@ impl NearRim {
         depth: Depth,
         offset: (f64, f64),
     ) -> Option<Parts> {
+        self.cut(kernel, depth, offset, Fineness::shared(self.is_flat()))
+    }
+
+    /// The same for one point, which may lie on a border.
+    pub(super) fn parts_of_a_point(
+        &self,
+        kernel: &DepthKernel<Stress, 10, 6>,
+        depth: Depth,
+        offset: (f64, f64),
+    ) -> Option<Parts> {
+        self.cut(kernel, depth, offset, Fineness::of_a_point(self.is_flat()))
+    }
+
+    fn is_flat(&self) -> bool {
+        self.plane.n.1 == 1
+    }
+
+    fn cut(
+        &self,
+        kernel: &DepthKernel<Stress, 10, 6>,
+        depth: Depth,
+        offset: (f64, f64),
+        fineness: Fineness,
+    ) -> Option<Parts> {
         let Plane { n, d, .. } = self.plane;
-        let flat = n.1 == 1;
         let z = self.depth_in_cells(depth);
         if z >= DEEPEST {
             return None;
@@ -114,28 +155,23 @@ impl NearRim {
         };
         let cells = within(offset.0, n.0).flat_map(|k| within(offset.1, n.1).map(move |l| (k, l)));
         let cut = |(k, l): (isize, isize)| {
-            let sample = (offset.0 - k as f64, offset.1 - l as f64);
             let cut = Cut {
                 kernel,
                 side: self.side,
                 d,
-                flat,
-                sample,
+                flat: self.is_flat(),
+                sample: (offset.0 - k as f64, offset.1 - l as f64),
                 z,
+                fineness,
             };
             let mut parts = Vec::new();
             cut.thirds(&mut parts, (0.0, 0.0), 1.0, 1);
             ((k, l), parts)
         };
-        let cells = cells.map(cut).collect();
         Some(Parts {
-            cells,
+            cells: cells.map(cut).collect(),
+            offset,
             on_surface: depth.z <= 0.0,
-            far: if z < AT_SURFACE {
-                (-TAU * z).exp()
-            } else {
-                0.0
-            },
         })
     }
 
@@ -151,41 +187,57 @@ impl NearRim {
     }
 
     fn depth_in_cells(&self, depth: Depth) -> f64 {
-        let Plane { n, d, .. } = self.plane;
-        depth.z / if n.1 == 1 { d.0 } else { d.0.max(d.1) }
+        let d = self.plane.d;
+        depth.z / if self.is_flat() { d.0 } else { d.0.max(d.1) }
     }
 
-    /// What is added to the stress of a state at a sample in a cell \[Pa\].
-    pub(super) fn stress(&self, parts: &Parts, state: usize, (i, j): (usize, usize)) -> [f64; 6] {
+    /// The tractions of a state.
+    pub(super) fn continued(&self, state: usize) -> Option<&Continued> {
+        self.states.get(state)
+    }
+
+    /// Adds to the stress of a state at a sample in a cell what the tractions are more than constant \[Pa\].
+    pub(super) fn add(
+        &self,
+        parts: &Parts,
+        state: usize,
+        (i, j): (usize, usize),
+        stress: &mut [f64; 6],
+    ) {
         let state = &self.states[state];
-        let mut stress = [0.0; 6];
+        let mut more = [0.0; 6];
         for ((columns, rows), cut) in &parts.cells {
             let cell = i
                 .checked_add_signed(*columns)
                 .zip(j.checked_add_signed(*rows));
-            let Some(cell) = cell else { continue };
-            let counts = if state.distance(cell) > FARTHEST_CUT {
-                parts.far
-            } else {
-                1.0
-            };
-            if counts == 0.0 {
+            let Some(within) = cell.and_then(|cell| state.within(cell)) else {
                 continue;
-            }
-            state.each_excess(cell, cut, |q, response| {
-                for (stress, row) in stress.iter_mut().zip(response) {
-                    *stress += counts * (row[0] * q[0] + row[1] * q[1] + row[2] * q[2]);
+            };
+            for Part { at, response } in cut {
+                let q = excess(&within, *at);
+                for (stress, row) in more.iter_mut().zip(response) {
+                    *stress += row[0] * q[0] + row[1] * q[1] + row[2] * q[2];
                 }
-            });
-        }
-        if parts.on_surface {
-            let of_tractions = |row: usize| row == S_ZZ || Stress::has_one_z(row);
-            for row in (0..6).filter(|&row| of_tractions(row)) {
-                stress[row] = 0.0;
             }
         }
-        stress
+        let own = state.within((i, j)).filter(|_| parts.on_surface);
+        for (row, (stress, more)) in stress.iter_mut().zip(more).enumerate() {
+            let traction = OF_TRACTIONS.iter().find(|(of, _)| *of == row);
+            match (traction.filter(|_| parts.on_surface), &own) {
+                (None, _) => *stress += more,
+                (Some((_, c)), Some(own)) if *c == 2 || own.shear_varies() => {
+                    *stress = -own.at(parts.offset)[*c];
+                }
+                (Some(_), _) => (),
+            }
+        }
     }
+}
+
+/// What the tractions at an offset in a cell are more than constant \[Pa\].
+fn excess(within: &Within, offset: (f64, f64)) -> [f64; 3] {
+    let q = within.at(offset);
+    std::array::from_fn(|c| q[c] - within.constant[c])
 }
 
 /// How a cell is cut for a sample.
@@ -198,6 +250,7 @@ struct Cut<'a> {
     sample: (f64, f64),
     /// Depth in cells.
     z: f64,
+    fineness: Fineness,
 }
 
 impl Cut<'_> {
@@ -216,12 +269,17 @@ impl Cut<'_> {
                 } else {
                     from(self.sample.1, middle.1)
                 };
-                let distance = x.abs().max(y.abs()).max(self.z / size);
-                if times < CUTS && distance < GRADING {
+                let distance = x.abs().max(y.abs());
+                let Fineness { grading, cuts } = self.fineness;
+                if times < cuts && distance.max(self.z / size) < grading {
                     self.thirds(parts, middle, size, times + 1);
-                } else {
-                    parts.push((middle, self.response(x, y, size)));
+                    continue;
                 }
+                let holds = distance <= 0.5 && self.z < size;
+                parts.push(Part {
+                    at: if holds { self.sample } else { middle },
+                    response: self.response(x, y, size),
+                });
             }
         }
     }

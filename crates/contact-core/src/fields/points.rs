@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use super::loads::{Loads, Plane, Source, snapped};
 use super::near_rim::NearRim;
 use super::states::Loaded;
-use super::{Depth, Side, States};
+use super::{Border, Depth, Line, Side, States};
 use crate::error::Error;
-use crate::kernels::{Cell, DepthKernel, Displacement, Quantity};
+use crate::kernels::{DepthKernel, Displacement, Quantity};
 use crate::scene::{Body, Grid};
 use crate::stop::unless;
 
@@ -51,21 +51,21 @@ impl Points {
 
     /// Stress of each state at each point \[Pa\]: xx, yy, zz, xy, xz, yz.
     ///
-    /// On the surface the stress jumps at the border of a cell; there it is the mean of both sides,
-    /// as far as these are finite.
+    /// Under the tractions of contacts ([`States::stick`]) it is continuous, but for s_xx, s_yy, s_xy of layers. Under
+    /// those constant in each cell it jumps on the surface at the border of a cell; there it is the mean of both
+    /// sides, and what would be infinite is taken a 2 pi-th of a cell beside the border.
     pub fn stress(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 6]>>, Error> {
         let mut all = self.gather(points, |kernel, depth, n, values: &mut [[f64; 6]]| {
             let Some(rim) = &self.loaded.rim else { return };
             let (cell, offset) = NearRim::locate(&self.loaded.grid, points[n].0, points[n].1);
             let near = |(state, _): &(usize, _)| rim.is_near(*state, depth, cell);
             let mut near = values.iter_mut().enumerate().filter(near).peekable();
-            let Some(parts) = near.peek().and_then(|_| rim.parts(kernel, depth, offset)) else {
-                return;
-            };
+            let parts = near
+                .peek()
+                .and_then(|_| rim.parts_of_a_point(kernel, depth, offset));
+            let Some(parts) = parts else { return };
             for (state, stress) in near {
-                for (stress, more) in stress.iter_mut().zip(rim.stress(&parts, state, cell)) {
-                    *stress += more;
-                }
+                rim.add(&parts, state, cell, stress);
             }
         })?;
         for (state, stresses) in all.iter_mut().enumerate() {
@@ -82,6 +82,16 @@ impl Points {
     /// Displacement of each state at each point relative to infinity \[m\].
     pub fn displacement(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 3]>>, Error> {
         self.gather(points, |_: &DepthKernel<Displacement, 5, 3>, _, _, _| {})
+    }
+
+    /// Where `line`, or without one the lines through the middles of all rows and columns of cells, crosses the rim of the
+    /// contact and the border of the stick zone in a state; nowhere under tractions constant in each cell.
+    pub fn borders(&self, state: usize, line: Option<Line>) -> Vec<Border> {
+        let rim = self.loaded.rim.as_ref();
+        let continued = rim.and_then(|rim| rim.continued(state));
+        continued.map_or_else(Vec::new, |continued| {
+            super::borders::of(continued, &self.loaded.grid, line)
+        })
     }
 
     fn gather<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
@@ -159,35 +169,31 @@ impl Points {
     ) -> Result<[f64; R], Error> {
         let Plane { n, d, .. } = self.plane;
         let patch = loads.patch;
+        // From the middle of a cell, in cells.
         let from = |v: f64, i: usize, start: isize, n: usize, d: f64| {
             let middle = (i as isize + start) as f64 - (n - 1) as f64 / 2.0;
-            snapped(v / d - middle) * d
+            snapped(v / d - middle)
         };
+        let from_x = from(x, 0, patch.start.0, n.0, d.0);
         let mut sum = [0.0; R];
         for j in 0..patch.rows {
             unless(&self.loaded.stop)?;
             let rows = [0, 1, 2].map(|component| loads.row(component, j));
-            let from_y = from(y, j, patch.start.1, n.1, d.1);
-            for i in 0..patch.columns {
-                let q = rows.map(|row| row[i]);
-                if q.iter().all(|q| *q == 0.0) {
-                    continue;
-                }
-                let from_x = from(x, i, patch.start.0, n.0, d.0);
-                let (response, area) = match source {
-                    Source::Cells => {
-                        let cell = Cell {
-                            x: from_x,
-                            y: from_y,
-                            half_x: d.0 / 2.0,
-                            half_y: d.1 / 2.0,
-                        };
-                        (kernel.under(&cell), 1.0)
-                    }
-                    Source::Points => (kernel.at_point(from_x, from_y), d.0 * d.1),
-                };
+            let from_y = from(y, j, patch.start.1, n.1, d.1) * d.1;
+            let loaded = (0..patch.columns).filter(|i| rows.iter().any(|row| row[*i] != 0.0));
+            let offsets = loaded.map(|i| (i, from_x - i as f64));
+            let mut add = |i: usize, response: [[f64; 3]; R]| {
                 for (sum, row) in sum.iter_mut().zip(&response) {
-                    *sum += area * (row[0] * q[0] + row[1] * q[1] + row[2] * q[2]);
+                    *sum += row[0] * rows[0][i] + row[1] * rows[1][i] + row[2] * rows[2][i];
+                }
+            };
+            match source {
+                Source::Cells => kernel.under_cells(offsets, from_y, d, add),
+                Source::Points => {
+                    for (i, from_x) in offsets {
+                        let response = kernel.at_point(from_x * d.0, from_y);
+                        add(i, response.map(|row| row.map(|v| d.0 * d.1 * v)));
+                    }
                 }
             }
         }

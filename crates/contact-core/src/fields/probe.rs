@@ -1,9 +1,9 @@
 //! What can be asked of a place below the surface by its name: what follows from the stress, and
 //! the displacements.
 
-use ndarray::{Array2, ArrayView1, Axis};
+use ndarray::{Array2, Array3, ArrayView1, Axis};
 
-use super::{Depth, MEASURES, Maximum, Measure, Section, Slices, maximum};
+use super::{Depth, Extreme, MEASURES, Measure, Search, Section, Slices};
 use crate::error::Error;
 
 /// A number at a place below the surface.
@@ -37,6 +37,13 @@ const fn displacement(name: &'static str, long_name: &'static str, axis: usize) 
         name,
         long_name,
         axis,
+    }
+}
+
+impl Component {
+    /// Its axis: 0 for x.
+    pub(super) fn axis(&self) -> usize {
+        self.axis
     }
 }
 
@@ -81,17 +88,18 @@ impl Probe {
 }
 
 /// A probe on a section, shape (depths, places), and its largest value.
-pub type Probed = (Array2<f64>, Option<Maximum<1>>);
+pub type Probed = (Array2<f64>, Option<Extreme>);
 
 impl Section {
-    /// The probes under the first state, with the largest value of each between the samples, whose
-    /// places are `along` the line \[m\]. Stress and displacement are computed only where they are
-    /// asked for.
+    /// The probes under the first state, with the largest value of each, which `search` looks for below the same
+    /// line between the samples, whose places are `along` it \[m\]. Stress and displacement are computed only where
+    /// they are asked for.
     pub fn probe(
         &self,
         depths: &[Depth],
         along: &[f64],
         probes: &[Probe],
+        search: &Search,
     ) -> Result<Vec<Probed>, Error> {
         let (mut stress, mut u) = (None, None);
         if probes.iter().any(|p| matches!(p, Probe::Stress(_))) {
@@ -100,19 +108,27 @@ impl Section {
         if probes.iter().any(|p| matches!(p, Probe::Displacement(_))) {
             u = self.displacement(depths)?.into_iter().next();
         }
-        let one = |probe: &Probe| match probe {
-            Probe::Stress(m) => stress.as_ref().map(|stress| {
-                let value = |s: ArrayView1<'_, f64>| (m.value)(&std::array::from_fn(|c| s[c]));
-                let values = stress.map_axis(Axis(0), value);
-                (values, m.maximum(stress, depths, along))
-            }),
-            Probe::Displacement(c) => u.as_ref().map(|u| {
-                let values = u.index_axis(Axis(0), c.axis).to_owned();
-                let largest = maximum(&values, depths, along);
-                (values, largest)
-            }),
+        let one = |probe: &Probe| {
+            let values = match probe {
+                Probe::Stress(m) => stress.as_ref().map(|stress| m.on_lines(stress)),
+                Probe::Displacement(c) => {
+                    u.as_ref().map(|u| u.index_axis(Axis(0), c.axis).to_owned())
+                }
+            };
+            values.map(|values| {
+                let largest = search.on_section(probe, &values.view(), (depths, along), None)?;
+                Ok((values, largest))
+            })
         };
-        Ok(probes.iter().filter_map(one).collect())
+        probes.iter().filter_map(one).collect()
+    }
+}
+
+impl Measure {
+    /// Its values from stresses of shape (6, depths, places) \[Pa\].
+    pub fn on_lines(&self, stress: &Array3<f64>) -> Array2<f64> {
+        let value = |s: ArrayView1<'_, f64>| (self.value)(&std::array::from_fn(|c| s[c]));
+        stress.map_axis(Axis(0), value)
     }
 }
 

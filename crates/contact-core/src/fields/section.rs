@@ -114,10 +114,10 @@ impl Section {
         &self,
         depths: &[Depth],
         kept: &mut [T],
-        f: impl Fn(&mut T, &[Array2<f64>]) + Sync,
+        f: impl Fn(&mut T, Depth, &[Array2<f64>]) + Sync,
     ) -> Result<(), Error> {
         depths.par_iter().zip(kept).try_for_each(|(depth, kept)| {
-            f(kept, &self.stress_at(*depth)?);
+            f(kept, *depth, &self.stress_at(*depth)?);
             Ok(())
         })
     }
@@ -178,8 +178,9 @@ impl Section {
                     Line::AlongY(_) => (first.0, n),
                 };
                 if rim.is_near(state, depth, cell) {
-                    let more = rim.stress(&parts, state, cell);
-                    stress += &ArrayView1::from(&more);
+                    let mut with_rim = std::array::from_fn(|c| stress[c]);
+                    rim.add(&parts, state, cell, &mut with_rim);
+                    stress.assign(&ArrayView1::from(&with_rim));
                 }
             }
         }

@@ -72,7 +72,7 @@ impl Slices {
         &self,
         depths: &[Depth],
         kept: &mut [T],
-        f: impl Fn(&mut T, &[Array2<f64>]) + Sync,
+        f: impl Fn(&mut T, Depth, &[Array2<f64>]) + Sync,
     ) -> Result<(), Error> {
         depths.par_iter().zip(kept).try_for_each(|(depth, kept)| {
             let flat = |planes: [Array2<f64>; 6]| {
@@ -81,7 +81,7 @@ impl Slices {
                 Array2::from_shape_vec((6, cells), all).expect("six planes of equal size")
             };
             let stresses: Vec<_> = self.stress(*depth)?.into_iter().map(flat).collect();
-            f(kept, &stresses);
+            f(kept, *depth, &stresses);
             Ok(())
         })
     }
@@ -108,17 +108,19 @@ impl Slices {
             return;
         };
         for (state, planes) in states.iter_mut().enumerate() {
-            let more: Vec<_> = (0..self.loaded.grid.cells())
-                .into_par_iter()
-                .filter_map(|n| {
-                    let cell = (n / self.loaded.grid.ny, n % self.loaded.grid.ny);
-                    rim.is_near(state, depth, cell)
-                        .then(|| (cell, rim.stress(&parts, state, cell)))
+            let with_rim = |n: usize| {
+                let cell = (n / self.loaded.grid.ny, n % self.loaded.grid.ny);
+                rim.is_near(state, depth, cell).then(|| {
+                    let mut stress = planes.each_ref().map(|plane| plane[cell]);
+                    rim.add(&parts, state, cell, &mut stress);
+                    (cell, stress)
                 })
-                .collect();
-            for (cell, stress) in more {
-                for (plane, more) in planes.iter_mut().zip(stress) {
-                    plane[cell] += more;
+            };
+            let cells = (0..self.loaded.grid.cells()).into_par_iter();
+            let changed: Vec<_> = cells.filter_map(with_rim).collect();
+            for (cell, stress) in changed {
+                for (plane, stress) in planes.iter_mut().zip(stress) {
+                    plane[cell] = stress;
                 }
             }
         }

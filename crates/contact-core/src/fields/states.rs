@@ -103,7 +103,8 @@ impl Loaded {
         refuse_rigid(&self.body, depth.layer)?;
         unless(&self.stop)?;
         let place = self.stack.place(depth.z, Some(depth.layer))?;
-        DepthKernel::new(&self.stack, place, reach)
+        let (dx, dy) = (self.grid.dx, self.grid.dy);
+        DepthKernel::new(&self.stack, place, reach, (dx, dy))
     }
 
     /// s_xx and s_yy of a state at a depth that are the same all over the layer \[Pa\].

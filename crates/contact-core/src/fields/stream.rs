@@ -10,7 +10,9 @@ use std::sync::atomic::AtomicBool;
 
 use ndarray::Array2;
 
-use super::{Depth, Line, Section, Side, Slices, States, residual_of_layers};
+use super::{
+    Border, Depth, Line, Points, Section, Side, Slices, States, StressTensor, residual_of_layers,
+};
 use crate::convolution::Tractions;
 use crate::error::Error;
 use crate::march::{Increment, March, Observer};
@@ -60,6 +62,10 @@ pub trait Accumulate: Sync {
     /// or the cells of the plane in row-major order. Depths are worked on in parallel, the moments
     /// of each in order.
     fn add(&self, kept: &mut Self::Kept, moment: Moment, stress: &Array2<f64>);
+
+    /// Takes the stress on the surface where the line of the moment last added crosses the rim of the contact and the
+    /// border of the stick zone (default: leaves it).
+    fn add_borders(&self, _kept: &mut Self::Kept, _borders: &[(Border, StressTensor)]) {}
 }
 
 impl<A: Accumulate, B: Accumulate> Accumulate for (A, B) {
@@ -72,6 +78,11 @@ impl<A: Accumulate, B: Accumulate> Accumulate for (A, B) {
     fn add(&self, kept: &mut Self::Kept, moment: Moment, stress: &Array2<f64>) {
         self.0.add(&mut kept.0, moment, stress);
         self.1.add(&mut kept.1, moment, stress);
+    }
+
+    fn add_borders(&self, kept: &mut Self::Kept, borders: &[(Border, StressTensor)]) {
+        self.0.add_borders(&mut kept.0, borders);
+        self.1.add_borders(&mut kept.1, borders);
     }
 }
 
@@ -205,11 +216,6 @@ impl<A: Accumulate> Stream<A> {
                 p: p.as_slice(),
             })
             .collect();
-        let add = |kept: &mut A::Kept, stresses: &[Array2<f64>]| {
-            for ((moment, ..), stress) in self.waiting.iter().zip(stresses) {
-                self.accumulate.add(kept, *moment, stress);
-            }
-        };
         let sigma_B: Vec<f64> = self.waiting.iter().map(|(m, ..)| m.sigma_B).collect();
         let stick = self.waiting.iter().map(|(.., stick)| stick.as_slice());
         let stick: Vec<&[bool]> = stick.map(Option::unwrap_or_default).collect();
@@ -222,6 +228,20 @@ impl<A: Accumulate> Stream<A> {
         };
         let (body, side, grid) = (&self.body, self.side, &self.grid);
         let (depths, kept) = (&self.depths, &mut self.kept);
+        let borders = match (self.line, depths.first()) {
+            (Some(line), Some(first)) if self.rim && first.z <= 0.0 => {
+                on_borders(body, side, grid, line, &states)?
+            }
+            _ => Vec::new(),
+        };
+        let add = |kept: &mut A::Kept, depth: Depth, stresses: &[Array2<f64>]| {
+            for (n, ((moment, ..), stress)) in self.waiting.iter().zip(stresses).enumerate() {
+                self.accumulate.add(kept, *moment, stress);
+                if let Some(borders) = borders.get(n).filter(|_| depth.z <= 0.0) {
+                    self.accumulate.add_borders(kept, borders);
+                }
+            }
+        };
         if let Some(line) = self.line {
             Section::new(body, side, grid, line, states)?.pass_stress(depths, kept, add)?;
         } else {
@@ -230,6 +250,33 @@ impl<A: Accumulate> Stream<A> {
         self.waiting.clear();
         Ok(())
     }
+}
+
+/// The stress of every state on the surface where the line crosses the rim of the contact and the border of its stick
+/// zone.
+fn on_borders(
+    body: &Body,
+    side: Side,
+    grid: &Grid,
+    line: Line,
+    states: &States<'_>,
+) -> Result<Vec<Vec<(Border, StressTensor)>>, Error> {
+    let of_state = |(n, tractions): (usize, &Tractions<'_>)| {
+        let stick = states.stick.and_then(|stick| stick.get(n));
+        let own = States {
+            tractions: std::slice::from_ref(tractions),
+            sigma_B: states.sigma_B.get(n..=n).unwrap_or_default(),
+            stick: Some(stick.map_or(&[], std::slice::from_ref)),
+            ..states.clone()
+        };
+        let points = Points::new(body, side, grid, own)?;
+        let borders = points.borders(0, Some(line));
+        let top = Depth { z: 0.0, layer: 0 };
+        let places: Vec<_> = borders.iter().map(|b| (b.x, b.y, top)).collect();
+        let stress = points.stress(&places)?.swap_remove(0);
+        Ok(borders.into_iter().zip(stress).collect())
+    };
+    states.tractions.iter().enumerate().map(of_state).collect()
 }
 
 impl<A: Accumulate> Observer for Stream<A> {

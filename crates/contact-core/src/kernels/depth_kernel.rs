@@ -4,6 +4,7 @@
 //! remainder that decays like exp(-k (2h - z)); further down all of it decays like exp(-k z). What
 //! decays is tabulated over the radius and integrated over the cell.
 
+use std::f64::consts::TAU;
 use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
@@ -38,8 +39,9 @@ pub(crate) trait Quantity<const N: usize, const R: usize> {
     /// The radial functions over r^m of a half-space at the depth z > 0, s = r^2.
     fn radial(material: &HalfSpace, s: f64, z: f64) -> [f64; N];
 
-    /// The response of a half-space to one corner of a uniformly loaded rectangle.
-    fn corner(material: &HalfSpace, x: f64, y: f64, z: f64) -> [[f64; 3]; R];
+    /// The response of a half-space at (x, y, z) from one corner of a uniformly loaded rectangle; on the line of an
+    /// edge as if it were `edge` away along x and along y.
+    fn corner(material: &HalfSpace, at: (f64, f64, f64), edge: (f64, f64)) -> [[f64; 3]; R];
 
     /// Whether an entry changes its sign with x and with y.
     fn is_odd(row: usize, column: usize) -> (bool, bool);
@@ -61,17 +63,31 @@ pub(crate) struct DepthKernel<Q, const N: usize, const R: usize> {
     closed: Option<HalfSpace>,
     /// The tabulated part and its smallest scale \[m\].
     smooth: Option<(RadialTable<N>, f64)>,
+    /// Distance along x and along y that a point on the edge of a cell is taken to have from it \[m\].
+    edge: (f64, f64),
     quantity: PhantomData<Q>,
 }
 
 impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
-    /// For offsets up to `r_max` \[m\].
-    pub(crate) fn new(stack: &Stack, place: Place, r_max: f64) -> Result<Self, Error> {
+    /// For offsets up to `r_max` \[m\] from loads on cells of the sides `d` \[m\].
+    ///
+    /// A step of the traction at an edge between cells has infinite stress on the edge. Of a traction that changes
+    /// evenly from cell to cell the stress there is finite, and a 2 pi-th of a cell beside the edge that of the
+    /// steps is the same: with the distance e from it, steps g d at k d from the point make 1/s into
+    /// g d [ln(d/e) + 2 sum (k + 1/2) ln((k + 1)/k)] and the traction g s into g d [2 + 2 sum 1], equal for
+    /// ln(d/e) = 2 - 2 (1 - ln(2 pi)/2) = ln(2 pi) by Stirling's formula.
+    pub(crate) fn new(
+        stack: &Stack,
+        place: Place,
+        r_max: f64,
+        d: (f64, f64),
+    ) -> Result<Self, Error> {
         let outermost = place.layer == 0;
         let mut kernel = Self {
             place,
             closed: outermost.then(|| stack.outermost()),
             smooth: None,
+            edge: (d.0 / TAU, d.1 / TAU),
             quantity: PhantomData,
         };
         let zeta = match stack.layers.first() {
@@ -114,7 +130,7 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
         if let Some(material) = &self.closed {
             let (x0, x1) = (cell.x - cell.half_x, cell.x + cell.half_x);
             let (y0, y1) = (cell.y - cell.half_y, cell.y + cell.half_y);
-            let at = |x, y| Q::corner(material, x, y, self.place.z);
+            let at = |x, y| Q::corner(material, (x, y, self.place.z), self.edge);
             sum = difference(&at(x1, y1), &at(x0, y1), &at(x1, y0), &at(x0, y0));
         }
         self.add_smooth(&mut sum, cell);
@@ -127,31 +143,53 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
         range: Range<usize>,
         y: f64,
         d: (f64, f64),
+        put: impl FnMut(usize, [[f64; 3]; R]),
+    ) {
+        self.under_cells(range.map(|i| (i, i as f64)), y, d, put);
+    }
+
+    /// The responses to unit traction on cells of the sides `d` at an offset y and at offsets along x, in cells and a cell apart,
+    /// each with its index.
+    pub(crate) fn under_cells(
+        &self,
+        cells: impl Iterator<Item = (usize, f64)>,
+        y: f64,
+        d: (f64, f64),
         mut put: impl FnMut(usize, [[f64; 3]; R]),
     ) {
-        let column = |i: usize| {
+        let side = |x: f64| {
             self.closed.map(|material| {
-                let x = (i as f64 - 0.5) * d.0;
-                let at = |y| Q::corner(&material, x, y, self.place.z);
+                let at = |y| Q::corner(&material, (x * d.0, y, self.place.z), self.edge);
                 (at(y - d.1 / 2.0), at(y + d.1 / 2.0))
             })
         };
-        let mut left = column(range.start);
-        for i in range {
-            let right = column(i + 1);
+        // The side that neighbours share.
+        let mut shared: Option<(f64, _)> = None;
+        for (i, x) in cells {
+            let known = |at: f64| {
+                shared
+                    .as_ref()
+                    .filter(|(x, _)| (x - at).abs() < 0.25)
+                    .map(|(_, s)| *s)
+            };
+            let [left, right] = [x - 0.5, x + 0.5].map(|at| known(at).unwrap_or_else(|| side(at)));
             let mut sum = match (&left, &right) {
                 (Some(l), Some(r)) => difference(&r.1, &l.1, &r.0, &l.0),
                 _ => [[0.0; 3]; R],
             };
+            let next = match shared {
+                Some((before, _)) if before > x => (x - 0.5, left),
+                _ => (x + 0.5, right),
+            };
+            shared = Some(next);
             let cell = Cell {
-                x: i as f64 * d.0,
+                x: x * d.0,
                 y,
                 half_x: d.0 / 2.0,
                 half_y: d.1 / 2.0,
             };
             self.add_smooth(&mut sum, &cell);
             put(i, sum);
-            left = right;
         }
     }
 

@@ -50,7 +50,11 @@ impl Quantity<5, 3> for Displacement {
         half_space_displacement::radial(s, z, material)
     }
 
-    fn corner(material: &HalfSpace, x: f64, y: f64, z: f64) -> DisplacementResponse {
+    fn corner(
+        material: &HalfSpace,
+        (x, y, z): (f64, f64, f64),
+        _: (f64, f64),
+    ) -> DisplacementResponse {
         half_space_displacement::corner(x, y, z, material)
     }
 

@@ -30,8 +30,8 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, material: &HalfSpace) -> Displaceme
     let l_zz = -angle(x * y, z * rho);
     let (l_xy, l_xz, l_yz) = (
         log(rho + z),
-        log_sum(y, x * x + z * z),
-        log_sum(x, y * y + z * z),
+        log_sum(y, x * x + z * z, 1.0),
+        log_sum(x, y * y + z * z, 1.0),
     );
     // At x = 0 or y = 0 the logarithms may have no limit, but their products with it do.
     let times = |f: f64, v: f64| if f == 0.0 { 0.0 } else { f * v };

@@ -23,8 +23,11 @@ use std::f64::consts::PI;
 /// Stress per unit traction: rows xx, yy, zz, xy, xz, yz, columns q_x, q_y, p.
 pub type StressResponse = [[f64; 3]; 6];
 
-/// The stress of one corner at (x, y, z) from it; z >= 0.
-pub(crate) fn corner(x: f64, y: f64, z: f64, nu: f64) -> StressResponse {
+/// The stress of one corner at (x, y, z) from it, all three in any one unit of length; z >= 0.
+///
+/// On the line of an edge the stress that a step of the traction causes is infinite like the logarithm of the
+/// distance. There the distance is taken for `edge`, along x and along y in the same unit.
+pub(crate) fn corner(x: f64, y: f64, z: f64, edge: (f64, f64), nu: f64) -> StressResponse {
     let rho = x.hypot(y).hypot(z);
     let (xz2, yz2) = (x * x + z * z, y * y + z * z);
     let along = rho + z;
@@ -33,7 +36,12 @@ pub(crate) fn corner(x: f64, y: f64, z: f64, nu: f64) -> StressResponse {
     let l_xx = polar(y, x) - polar(y * z, x * rho);
     let l_yy = polar(x, y) - polar(x * z, y * rho);
     let l_zz = -depth_angle;
-    let (l_xy, l_xz, l_yz) = (log(along), log_sum(y, xz2), log_sum(x, yz2));
+    let vertex = edge.0.hypot(edge.1);
+    let (l_xy, l_xz, l_yz) = (
+        log(along / vertex),
+        log_sum(y, xz2, edge.0),
+        log_sum(x, yz2, edge.1),
+    );
     // z times the third derivatives.
     let over = |numerator: f64, denominator: f64| {
         if numerator == 0.0 {
@@ -129,13 +137,13 @@ pub(super) fn polar(n: f64, d: f64) -> f64 {
 }
 
 /// ln(rho + y) up to a function of `rest` = rho^2 - y^2; where that vanishes, only differences
-/// between y of one sign are finite.
-pub(super) fn log_sum(y: f64, rest: f64) -> f64 {
+/// between y of one sign are finite, others as if it were `edge`^2, small against y^2.
+pub(super) fn log_sum(y: f64, rest: f64, edge: f64) -> f64 {
     if rest > 0.0 {
         (y / rest.sqrt()).asinh()
     } else if y == 0.0 {
         0.0
     } else {
-        y.signum() * y.abs().ln()
+        y.signum() * (2.0 * y.abs() / edge).ln()
     }
 }

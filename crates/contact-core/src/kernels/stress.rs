@@ -92,8 +92,12 @@ impl Quantity<10, 6> for Stress {
         half_space_stress::radial(s, z, material.nu)
     }
 
-    fn corner(material: &HalfSpace, x: f64, y: f64, z: f64) -> StressResponse {
-        half_space_stress::corner(x, y, z, material.nu)
+    fn corner(
+        material: &HalfSpace,
+        (x, y, z): (f64, f64, f64),
+        edge: (f64, f64),
+    ) -> StressResponse {
+        half_space_stress::corner(x, y, z, edge, material.nu)
     }
 
     fn is_odd(row: usize, column: usize) -> (bool, bool) {
@@ -177,7 +181,7 @@ pub fn stress_at(
     };
     refuse_rigid(body, place.layer)?;
     let reach = (point.0.abs() + cell.0).hypot(point.1.abs() + cell.1);
-    Ok(StressKernel::new(&stack, place, reach)?.under(&rectangle))
+    Ok(StressKernel::new(&stack, place, reach, cell)?.under(&rectangle))
 }
 
 /// The stress coefficients of a body on a grid at the depth `z` \[m\]; `layer` decides at an
@@ -198,7 +202,7 @@ pub fn stress_coefficients(
     let place = stack.place(z, layer)?;
     refuse_rigid(body, place.layer)?;
     let r_max = (grid.nx as f64 * grid.dx).hypot(grid.ny as f64 * grid.dy);
-    let kernel = StressKernel::new(&stack, place, r_max)?;
+    let kernel = StressKernel::new(&stack, place, r_max, (grid.dx, grid.dy))?;
     let never = AtomicBool::new(false);
     let stop = stop.unwrap_or(&never);
     Ok(StressCoefficients {

@@ -1,10 +1,12 @@
 //! Stress and displacement in a volume, written plane by plane while they are computed.
 
+use std::sync::{Mutex, PoisonError};
+
 use ndarray::Array2;
 use rayon::prelude::*;
 
 use crate::error::Error;
-use crate::fields::{Depth, Maximum, Probe, Slices, maximum_of_tops, top_of_plane};
+use crate::fields::{Depth, Extreme, Probe, Search, Slices, top_of_plane};
 
 /// Takes the planes of a volume, in any order and from any thread.
 pub trait VolumeSink: Sync {
@@ -13,8 +15,8 @@ pub trait VolumeSink: Sync {
 }
 
 /// Computes the probes under the first state of `slices` at every depth of `written`, hands them to
-/// the sinks and gives the largest value of each, refined between the cells; for that alone the
-/// planes at the depths `between` are looked at too. Only as many planes are in memory as there are
+/// the sinks and gives the largest value of each, if a `search` is there to look between the samples; for that alone
+/// the planes at the depths `between` are looked at too. Only as many planes are in memory as there are
 /// threads.
 pub fn write_volume(
     slices: &Slices,
@@ -22,11 +24,13 @@ pub fn write_volume(
     between: &[Depth],
     probes: &[Probe],
     sinks: &[&dyn VolumeSink],
-) -> Result<Vec<Option<Maximum<2>>>, Error> {
+    search: Option<&Search>,
+) -> Result<Vec<Option<Extreme>>, Error> {
     let (depths, place) = merged(written, between);
     let grid = slices.grid();
     let x: Vec<f64> = (0..grid.nx).map(|i| grid.x(i)).collect();
     let y: Vec<f64> = (0..grid.ny).map(|j| grid.y(j)).collect();
+    let first: Mutex<Vec<Array2<f64>>> = Mutex::new(vec![Array2::zeros((0, 0)); probes.len()]);
     let tops: Vec<_> = depths
         .par_iter()
         .enumerate()
@@ -37,19 +41,23 @@ pub fn write_volume(
                     sink.put(n, place[at].unwrap_or_default(), &values)?;
                 }
                 tops[n] = top_of_plane(&values, &x, &y);
+                if at == 0 {
+                    first.lock().unwrap_or_else(PoisonError::into_inner)[n] = values;
+                }
                 Ok(())
             })?;
             Ok(tops)
         })
         .collect::<Result<_, Error>>()?;
+    let first = first.into_inner().unwrap_or_else(PoisonError::into_inner);
     let over_depths = |n: usize| {
         let tops: Vec<_> = tops.iter().map(|of: &Vec<_>| of[n]).collect();
-        match &probes[n] {
-            Probe::Stress(measure) => measure.largest(&tops, &depths),
-            Probe::Displacement(_) => maximum_of_tops(&tops, &depths),
-        }
+        let Some(search) = search else {
+            return Ok(None);
+        };
+        search.in_volume(&probes[n], &tops, &first[n], &depths, None)
     };
-    Ok((0..probes.len()).map(over_depths).collect())
+    (0..probes.len()).map(over_depths).collect()
 }
 
 /// The depths of both lists in their order, each once, with the place in the first.

@@ -16,6 +16,9 @@ use super::stick_zone::StickZone;
 use crate::convolution::Tractions;
 use crate::scene::Grid;
 
+/// Farthest cells from a border, in cells along or across, whose load is that of the continued tractions.
+const BESIDE: u8 = 3;
+
 /// The tractions of a contact as fields over a window of its cells.
 #[derive(Clone, Debug)]
 pub(crate) struct Continued {
@@ -33,6 +36,17 @@ pub(crate) struct Continued {
     /// Distance of the cells from those beside a border that the tractions are continued to, in
     /// cells along or across, up to 255.
     distance: Array2<u8>,
+}
+
+/// Where a line of cells crosses the border of a zone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Crossing {
+    /// Column and row of the grid, in cells from the middle of the first.
+    pub(crate) place: [f64; 2],
+    /// Whether the zone is that of stick, not the contact.
+    pub(crate) stick: bool,
+    /// Whether the border is known within the cell; else it is taken between two cells.
+    pub(crate) within_cell: bool,
 }
 
 /// What of the tractions varies in a cell.
@@ -84,7 +98,7 @@ impl Continued {
         }
         let zone_known = zone.iter().flat_map(|zone| &zone.border.known);
         let distance = distances(shape, rim.known.iter().chain(zone_known));
-        Self {
+        let mut continued = Self {
             start: (window.0.start, window.1.start),
             ratios: [0, 1].map(|c| cut(&ratio(&q[c], &p), window)),
             constant: [&q[0], &q[1], &p].map(|field| cut(field, window)),
@@ -92,7 +106,56 @@ impl Continued {
             bound: zone.map(|zone| [&zone.m, &zone.border.level].map(|field| cut(field, window))),
             varying: cut(&varying, window),
             distance: cut(&distance, window),
+        };
+        continued.keep_loads();
+        continued
+    }
+
+    /// Where the line `at` so many rows (`axis` 0: a line along x) or columns (1) of the grid crosses the rim of the
+    /// contact and the border of the stick zone.
+    pub(crate) fn crossings(&self, axis: usize, at: f64) -> Vec<Crossing> {
+        let across = 1 - axis;
+        let start = [self.start.0, self.start.1];
+        let shape = [self.level.nrows(), self.level.ncols()];
+        let within = (at - start[across] as f64).clamp(0.0, (shape[across] - 1) as f64);
+        let (lower, part) = (within.floor() as usize, within.fract());
+        let upper = (lower + 1).min(shape[across] - 1);
+        let cell = |n: usize, row: usize| if axis == 0 { (n, row) } else { (row, n) };
+        let on_line = |field: &Array2<f64>, n: usize| {
+            let [low, high] = [lower, upper].map(|row| field[cell(n, row)]);
+            if part == 0.0 {
+                low
+            } else {
+                low + part * (high - low)
+            }
+        };
+        let presses = |n: usize| on_line(&self.constant[2], n) > 0.0;
+        let zones = [
+            Some(&self.level),
+            self.bound.as_ref().map(|[_, level]| level),
+        ];
+        let mut all = Vec::new();
+        for (zone, level) in zones.into_iter().enumerate() {
+            let Some(level) = level else { continue };
+            for n in 1..shape[axis] {
+                let (a, b) = (on_line(level, n - 1), on_line(level, n));
+                // A stick zone that ends where the contact does has no border of its own.
+                let outside = if a > 0.0 { n } else { n - 1 };
+                if (a > 0.0) == (b > 0.0) || (zone == 1 && !presses(outside)) {
+                    continue;
+                }
+                let within_cell = a.min(b) < 0.0;
+                let step = if within_cell { a / (a - b) } else { 0.5 };
+                let along = (start[axis] + n - 1) as f64 + step;
+                let place = if axis == 0 { [along, at] } else { [at, along] };
+                all.push(Crossing {
+                    place,
+                    stick: zone == 1,
+                    within_cell,
+                });
+            }
         }
+        all
     }
 
     /// A cell of the grid in the window.
@@ -110,50 +173,82 @@ impl Continued {
         self.place(cell).map_or(u8::MAX, |at| self.distance[at])
     }
 
-    /// Calls `f` with what the tractions q_x, q_y, p exceed the constant ones by at places in a cell \[Pa\]:
-    /// each place by its offset from the middle in cells, with the datum that goes with it.
-    pub(crate) fn each_excess<T>(
-        &self,
-        cell: (usize, usize),
-        places: &[((f64, f64), T)],
-        mut f: impl FnMut([f64; 3], &T),
-    ) {
-        let Some(cell) = self.place(cell) else { return };
-        let varying = self.varying[cell];
+    /// The tractions within a cell; none where they are constant.
+    pub(crate) fn within(&self, cell: (usize, usize)) -> Option<Within> {
+        let at = self.place(cell)?;
+        let varying = self.varying[at];
         if varying == Varying::Nothing {
-            return;
+            return None;
         }
-        let constant = [0, 1, 2].map(|c| self.constant[c][cell]);
-        let level = Around::new(&self.level, cell);
-        let ratios = [0, 1].map(|c| Around::new(&self.ratios[c], cell));
-        let bound = self
-            .bound
-            .as_ref()
-            .filter(|_| varying == Varying::Shortfall);
-        let bound = bound.map(|fields| [0, 1].map(|c| Around::new(&fields[c], cell)));
-        for (offset, of) in places {
-            let p = level.at(*offset).max(0.0).sqrt();
-            if varying == Varying::Pressure {
-                f([0.0, 0.0, p - constant[2]], of);
-                continue;
-            }
-            let [x, y] = [0, 1].map(|c| ratios[c].at(*offset));
-            let size = match &bound {
-                Some([m, shortfall]) => {
-                    let q = m.at(*offset) * p - shortfall.at(*offset).max(0.0).sqrt();
-                    q.max(0.0) / x.hypot(y).max(f64::MIN_POSITIVE)
+        let around = |field: &Array2<f64>| Around::new(field, at);
+        let bound = self.bound.as_ref();
+        let bound = bound.filter(|_| varying == Varying::Shortfall);
+        Some(Within {
+            varying,
+            constant: [0, 1, 2].map(|c| self.constant[c][at]),
+            level: around(&self.level),
+            ratios: self.ratios.each_ref().map(around),
+            bound: bound.map(|fields| fields.each_ref().map(around)),
+        })
+    }
+
+    /// Far from the borders what varies within a cell is counted from its mean, so that the cell's load stays as it is:
+    /// constant tractions are right to second order there.
+    fn keep_loads(&mut self) {
+        let (columns, rows) = self.level.dim();
+        let cells = (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j)));
+        let far = |cell: &(usize, usize)| self.distance[*cell] > BESIDE;
+        let mean = |cell: (usize, usize)| {
+            let within = self.within((cell.0 + self.start.0, cell.1 + self.start.1))?;
+            let quarters = [(-0.25, -0.25), (-0.25, 0.25), (0.25, -0.25), (0.25, 0.25)];
+            let mut mean = [0.0; 3];
+            for offset in quarters {
+                for (mean, q) in mean.iter_mut().zip(within.at(offset)) {
+                    *mean += q / quarters.len() as f64;
                 }
-                None => p,
-            };
-            f(
-                [
-                    size * x - constant[0],
-                    size * y - constant[1],
-                    p - constant[2],
-                ],
-                of,
-            );
+            }
+            Some((cell, mean))
+        };
+        let means: Vec<_> = cells.filter(far).filter_map(mean).collect();
+        for (cell, mean) in means {
+            for (constant, mean) in self.constant.iter_mut().zip(mean) {
+                constant[cell] = mean;
+            }
         }
+    }
+}
+
+/// The tractions within a cell.
+pub(crate) struct Within {
+    varying: Varying,
+    /// What the tractions are counted from: those of the whole cell \[Pa\].
+    pub(crate) constant: [f64; 3],
+    level: Around,
+    ratios: [Around; 2],
+    bound: Option<[Around; 2]>,
+}
+
+impl Within {
+    /// Whether the shear varies, too.
+    pub(crate) fn shear_varies(&self) -> bool {
+        self.varying != Varying::Pressure
+    }
+
+    /// q_x, q_y, p at an offset from the middle in cells \[Pa\].
+    pub(crate) fn at(&self, offset: (f64, f64)) -> [f64; 3] {
+        let p = self.level.at(offset).max(0.0).sqrt();
+        if self.varying == Varying::Pressure {
+            return [self.constant[0], self.constant[1], p];
+        }
+        let [x, y] = self.ratios.each_ref().map(|ratio| ratio.at(offset));
+        let size = match &self.bound {
+            Some([m, shortfall]) => {
+                let q = m.at(offset) * p - shortfall.at(offset).max(0.0).sqrt();
+                q.max(0.0) / x.hypot(y).max(f64::MIN_POSITIVE)
+            }
+            None => p,
+        };
+        [size * x, size * y, p]
     }
 }
 

@@ -11,7 +11,7 @@ mod sampled_border;
 mod spots;
 mod stick_zone;
 
-pub(crate) use continued::Continued;
+pub(crate) use continued::{Continued, Crossing, Within};
 pub(crate) use edge::Edge;
 pub(crate) use laws::{Power, SHRINKS, STICK};
 pub(crate) use level::{Level, Line, Stencil};

@@ -7,6 +7,7 @@ mod closed_forms;
 mod elasticity;
 #[path = "../kernel_tables/mod.rs"]
 mod kernel_tables;
+mod rims;
 mod sliding_sphere;
 mod solved;
 mod surface;

@@ -1,0 +1,447 @@
+//! The largest value of a number below a contact: a value at a point.
+//!
+//! Samples tell the hills, the tractions where rims and stick borders are; the highest of these, evaluated there, is
+//! climbed from: the number is evaluated beside it along every free direction and at the top of the parabolas, closer
+//! and closer. Nothing is extrapolated.
+
+use ndarray::{Array2, ArrayView2};
+
+use super::coarser::Coarser;
+use super::depth::on_interfaces;
+use super::maximum::{Hill, hills, top_of_line};
+use super::{Border, Depth, Errors, Extreme, Line, Point, Points, Probe, Side, States, Top};
+use crate::error::Error;
+use crate::scene::{Body, Grid};
+
+/// Most hills and most places on borders that are evaluated.
+const HILLS: usize = 3;
+const BORDERS: usize = 6;
+/// Lowest hill that is evaluated, over the highest: what lies between samples is not much more than they.
+const LOWEST: f64 = 0.8;
+/// Most times that the steps of the climb are taken, and what each takes of the last.
+const ROUNDS: usize = 5;
+const CLOSER: f64 = 1.0 / 3.0;
+/// Gain of a round over the value that ends the climb.
+const ENOUGH: f64 = 1e-4;
+/// First steps along x and y in cells, from a hill and from a border.
+const STEP: f64 = 0.5;
+const STEP_AT_BORDER: f64 = 0.25;
+/// Farthest that a point on a border lies from it, in cells.
+const ON_BORDER: f64 = 0.1;
+
+/// Looks for the largest values below a contact.
+pub struct Search {
+    points: Points,
+    coarser: Coarser,
+    borders: Vec<Border>,
+    line: Option<Line>,
+    d: (f64, f64),
+    /// Whether there is one row of cells.
+    flat: bool,
+}
+
+/// Where a climb starts.
+struct Start {
+    place: [f64; 3],
+    layer: usize,
+    /// First steps along x, y, z; 0 where there is nothing to look for.
+    steps: [f64; 3],
+    /// The value there, where it is a sample.
+    known: Option<f64>,
+}
+
+/// Values at points.
+type Values<'a> = dyn Fn(&[Point]) -> Result<Vec<f64>, Error> + 'a;
+
+impl Search {
+    /// In the body `side` under the first of the states, below `line` or anywhere.
+    pub fn new(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        line: Option<Line>,
+        states: &States<'_>,
+    ) -> Result<Self, Error> {
+        let first = [states.tractions.first().copied().unwrap_or_default()];
+        let states = States {
+            tractions: &first,
+            ..states.clone()
+        };
+        let coarser = Coarser::new(body, side, grid, line, &states)?;
+        let points = Points::new(body, side, grid, states)?;
+        Ok(Self {
+            borders: points.borders(0, line),
+            coarser,
+            points,
+            line,
+            d: (grid.dx, grid.dy),
+            flat: grid.ny == 1,
+        })
+    }
+
+    /// The largest value on a section, from its samples of shape (depths, places) at the places `along` the line
+    /// \[m\]; in one layer alone if it is named. None without a number.
+    pub fn on_section(
+        &self,
+        probe: &Probe,
+        samples: &ArrayView2<'_, f64>,
+        (depths, along): (&[Depth], &[f64]),
+        layer: Option<usize>,
+    ) -> Result<Option<Extreme>, Error> {
+        let Some(line) = self.line else {
+            return Ok(None);
+        };
+        let lines = samples.rows().into_iter();
+        let tops: Vec<_> = lines.map(|line| top_of_line(&line, along)).collect();
+        let hills = hills_of(probe, &tops, depths, layer);
+        let axis = usize::from(matches!(line, Line::AlongY(_)));
+        let step = STEP * [self.d.0, self.d.1][axis];
+        let start = |hill: &Hill<1>, s: f64, z: f64, known: Option<f64>| {
+            let (place, steps) = match line {
+                Line::AlongX(y) => ([s, y, z], [step, 0.0, 0.5 * hill.step]),
+                Line::AlongY(x) => ([x, s, z], [0.0, step, 0.5 * hill.step]),
+            };
+            Start {
+                place,
+                layer: hill.depth.layer,
+                steps,
+                known,
+            }
+        };
+        let both = |hill: &Hill<1>| {
+            let Top {
+                place,
+                sample,
+                sampled,
+                ..
+            } = hill.top;
+            [
+                start(hill, place[0], hill.depth.z, None),
+                start(hill, along[sample[0]], hill.sampled_z, Some(sampled)),
+            ]
+        };
+        let starts = hills.iter().flat_map(both).collect();
+        let surface = samples.rows().into_iter().next();
+        let near = |border: &Border| {
+            let s = [border.x, border.y][axis];
+            let nearest = (0..along.len())
+                .min_by(|&a, &b| (along[a] - s).abs().total_cmp(&(along[b] - s).abs()));
+            nearest
+                .zip(surface.as_ref())
+                .map_or(f64::NAN, |(n, row)| row[n])
+        };
+        self.climbed(probe, starts, depths, layer, &near)
+    }
+
+    /// The largest value in a volume, from the tops of the planes at its depths and the samples on the first of them,
+    /// shape (nx, ny); in one layer alone if it is named. None without a number.
+    pub fn in_volume(
+        &self,
+        probe: &Probe,
+        tops: &[Option<Top<2>>],
+        surface: &Array2<f64>,
+        depths: &[Depth],
+        layer: Option<usize>,
+    ) -> Result<Option<Extreme>, Error> {
+        let (nx, ny) = surface.dim();
+        let across = if self.flat { 0.0 } else { STEP * self.d.1 };
+        let both = |hill: &Hill<2>| {
+            let Top {
+                place: [x, y],
+                sample: [i, j],
+                sampled,
+                ..
+            } = hill.top;
+            let middle = |i: usize, n: usize, d: f64| (i as f64 - (n - 1) as f64 / 2.0) * d;
+            let sample = [
+                middle(i, nx, self.d.0),
+                middle(j, ny, self.d.1),
+                hill.sampled_z,
+            ];
+            [([x, y, hill.depth.z], None), (sample, Some(sampled))].map(|(place, known)| Start {
+                place,
+                layer: hill.depth.layer,
+                steps: [STEP * self.d.0, across, 0.5 * hill.step],
+                known,
+            })
+        };
+        let hills = hills_of(probe, tops, depths, layer);
+        let starts = hills.iter().flat_map(both).collect();
+        let cell = |v: f64, n: usize, d: f64| {
+            (v / d + (n - 1) as f64 / 2.0)
+                .round()
+                .clamp(0.0, (n - 1) as f64) as usize
+        };
+        let near =
+            |border: &Border| surface[(cell(border.x, nx, self.d.0), cell(border.y, ny, self.d.1))];
+        self.climbed(probe, starts, depths, layer, &near)
+    }
+
+    /// The top reached from the highest of the starts and of the borders, where they are on the surface; `near` gives the
+    /// sample next to a border.
+    fn climbed(
+        &self,
+        probe: &Probe,
+        mut starts: Vec<Start>,
+        depths: &[Depth],
+        layer: Option<usize>,
+        near: &dyn Fn(&Border) -> f64,
+    ) -> Result<Option<Extreme>, Error> {
+        let at_surface = depths.first().is_some_and(|d| d.z <= 0.0 && d.layer == 0);
+        if at_surface && layer.is_none_or(|layer| layer == 0) && !lives_on_interfaces(probe) {
+            starts.extend(self.border_starts(depths, near));
+        }
+        let values = |points: &[Point]| -> Result<Vec<f64>, Error> {
+            match probe {
+                Probe::Stress(m) => {
+                    let stress = self.points.stress(points)?.swap_remove(0);
+                    Ok(stress.iter().map(m.value).collect())
+                }
+                Probe::Displacement(c) => {
+                    let u = self.points.displacement(points)?.swap_remove(0);
+                    Ok(u.iter().map(|u| u[c.axis()]).collect())
+                }
+            }
+        };
+        let unknown = starts.iter().filter(|s| s.known.is_none());
+        let points: Vec<Point> = unknown.map(|s| point(s.place, s.layer)).collect();
+        let mut found = values(&points)?.into_iter();
+        let Some((start, value)) = starts
+            .iter()
+            .map(|start| {
+                (
+                    start,
+                    start.known.or_else(|| found.next()).unwrap_or(f64::NAN),
+                )
+            })
+            .filter(|(_, value)| !value.is_nan())
+            .max_by(|(_, a), (_, b)| a.total_cmp(b))
+        else {
+            return Ok(None);
+        };
+        let of_layer = || {
+            depths
+                .iter()
+                .filter(|d| d.layer == start.layer)
+                .map(|d| d.z)
+        };
+        let bounds = (
+            of_layer().fold(f64::INFINITY, f64::min),
+            of_layer().fold(0.0, f64::max),
+        );
+        let (place, value, left) = climb(&values, start, value, bounds)?;
+        let at = point(place, start.layer);
+        let border = self.border_at(at);
+        let coarse = match probe {
+            Probe::Stress(m) => (m.value)(&self.coarser.stress(at, border)?),
+            Probe::Displacement(c) => self.coarser.displacement(at.0, at.1, at.2)?[c.axis()],
+        };
+        Ok(Some(Extreme {
+            value,
+            x: at.0,
+            y: at.1,
+            depth: at.2,
+            at: border.map(|b| b.zone),
+            error: Errors {
+                x: left[0],
+                y: left[1],
+                z: left[2],
+                tractions: Some((value - coarse).abs()),
+            },
+        }))
+    }
+
+    /// The borders beside which the samples are largest.
+    fn border_starts(&self, depths: &[Depth], near: &dyn Fn(&Border) -> f64) -> Vec<Start> {
+        let mut by_sample: Vec<(f64, &Border)> = self
+            .borders
+            .iter()
+            .map(|border| (near(border), border))
+            .filter(|(sample, _)| !sample.is_nan())
+            .collect();
+        by_sample.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let below = depths.get(1).filter(|d| d.layer == 0).map_or(0.0, |d| d.z);
+        let free = |free: bool, d: f64| if free { STEP_AT_BORDER * d } else { 0.0 };
+        let along_x = !matches!(self.line, Some(Line::AlongY(_)));
+        let along_y = !matches!(self.line, Some(Line::AlongX(_)));
+        let start = |(_, border): &(f64, &Border)| Start {
+            place: [border.x, border.y, 0.0],
+            layer: 0,
+            steps: [
+                free(along_x, self.d.0),
+                free(along_y && !self.flat, self.d.1),
+                0.5 * below,
+            ],
+            known: None,
+        };
+        by_sample.iter().take(BORDERS).map(start).collect()
+    }
+
+    /// The border that a point lies on.
+    fn border_at(&self, (x, y, depth): Point) -> Option<&Border> {
+        let cell = if self.flat {
+            self.d.0
+        } else {
+            self.d.0.min(self.d.1)
+        };
+        let across = |v: f64| if self.flat { 0.0 } else { v / self.d.1 };
+        let away = |b: &Border| ((b.x - x) / self.d.0).hypot(across(b.y - y));
+        let nearest = self
+            .borders
+            .iter()
+            .min_by(|a, b| away(a).total_cmp(&away(b)))?;
+        (away(nearest) < ON_BORDER && depth.z < ON_BORDER * cell).then_some(nearest)
+    }
+}
+
+fn point([x, y, z]: [f64; 3], layer: usize) -> Point {
+    (x, y, Depth { z, layer })
+}
+
+fn lives_on_interfaces(probe: &Probe) -> bool {
+    matches!(probe, Probe::Stress(m) if m.of_interfaces)
+}
+
+/// The hills of the layer, or of all, that are worth a climb.
+fn hills_of<const D: usize>(
+    probe: &Probe,
+    tops: &[Option<Top<D>>],
+    depths: &[Depth],
+    layer: Option<usize>,
+) -> Vec<Hill<D>> {
+    let of_interfaces = lives_on_interfaces(probe);
+    let on_one = on_interfaces(depths);
+    let asked = |k: usize| {
+        layer.is_none_or(|layer| depths[k].layer == layer) && (!of_interfaces || on_one[k])
+    };
+    let asked_for = |(k, top): (usize, &Option<Top<D>>)| top.filter(|_| asked(k));
+    let tops: Vec<_> = tops.iter().enumerate().map(asked_for).collect();
+    // An interface is no sample of anything: there is nothing between two of them.
+    let mut hills = hills(&tops, depths, !of_interfaces);
+    let highest = hills.first().map_or(0.0, |hill| hill.top.value);
+    let spread = highest.abs() * (1.0 - LOWEST);
+    hills.retain(|hill| hill.top.value >= highest - spread);
+    hills.truncate(HILLS);
+    hills
+}
+
+/// Climbs from a start of a value, between two depths of its layer: place, value and what is left to gain along each
+/// direction.
+fn climb(
+    values: &Values<'_>,
+    start: &Start,
+    value: f64,
+    (highest, deepest): (f64, f64),
+) -> Result<([f64; 3], f64, [f64; 3]), Error> {
+    let (mut place, mut best, mut steps) = (start.place, value, start.steps);
+    let mut left = [0.0; 3];
+    for _ in 0..ROUNDS {
+        let beside = |axis: usize, sign: f64| {
+            let mut at = place;
+            at[axis] += sign * steps[axis];
+            at[2] = at[2].clamp(highest, deepest);
+            at
+        };
+        let sides = (0..3).flat_map(|axis| [-1.0, 1.0].map(|sign| (axis, beside(axis, sign))));
+        let sides: Vec<_> = sides
+            .filter(|(axis, at)| at[*axis] != place[*axis])
+            .collect();
+        let points: Vec<Point> = sides
+            .iter()
+            .map(|(_, at)| point(*at, start.layer))
+            .collect();
+        let found = values(&points)?;
+        let mut top = place;
+        for axis in 0..3 {
+            let of_axis = sides.iter().zip(&found).filter(|((a, _), _)| *a == axis);
+            let of_axis: Vec<_> = of_axis
+                .map(|((_, at), v)| (at[axis] - place[axis], *v))
+                .collect();
+            let (step, gain) = vertex(best, &of_axis);
+            top[axis] += step;
+            left[axis] = gain;
+        }
+        let mut tried: Vec<_> = sides.iter().map(|(_, at)| *at).zip(found).collect();
+        if top != place {
+            let found = values(&[point(top, start.layer)])?;
+            tried.push((top, found[0]));
+        }
+        let before = best;
+        let mut outwards = false;
+        for (n, (at, value)) in tried.into_iter().enumerate() {
+            if value > best {
+                (place, best) = (at, value);
+                outwards = n < sides.len();
+            }
+        }
+        if !outwards {
+            if best - before <= ENOUGH * best.abs() {
+                break;
+            }
+            steps = steps.map(|s| CLOSER * s);
+        }
+    }
+    Ok((place, best, left))
+}
+
+/// The top of the parabola through a value and those at one or two distances from it, no farther away than they: its distance, and
+/// what a third of the distances away from it misses.
+fn vertex(value: f64, sides: &[(f64, f64)]) -> (f64, f64) {
+    let &[(low, v_low), (high, v_high)] = sides else {
+        // At the border of a layer: the top, unless the value rises from there.
+        let rises = sides.iter().filter(|(_, v)| *v > value);
+        return rises
+            .map(|(s, v)| (*s, v - value))
+            .next()
+            .unwrap_or((0.0, 0.0));
+    };
+    let (left, right) = ((v_low - value) / low, (v_high - value) / high);
+    let half = (right - left) / (high - low);
+    let slope = left - half * low;
+    if half >= 0.0 || half.is_nan() {
+        return (0.0, (v_low.max(v_high) - value).max(0.0));
+    }
+    let third = CLOSER * high.max(-low);
+    (
+        (-slope / (2.0 * half)).clamp(low, high),
+        -half * third * third,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn climbed(f: impl Fn(f64, f64) -> f64, x: f64, z: f64) -> ([f64; 3], f64, [f64; 3]) {
+        let values = |points: &[Point]| Ok(points.iter().map(|p| f(p.0, p.2.z)).collect());
+        let start = Start {
+            place: [x, 0.0, z],
+            layer: 0,
+            steps: [0.5, 0.0, 0.3],
+            known: None,
+        };
+        climb(&values, &start, f(x, z), (0.0, 3.0)).expect("a value")
+    }
+
+    #[test]
+    fn climbs_to_the_top_of_a_smooth_hill() {
+        let f = |x: f64, z: f64| (x - 0.13).cos() * (2.0 * (z - 1.1)).cos();
+        let (place, value, left) = climbed(f, 0.5, 1.3);
+        assert!(
+            (value - 1.0).abs() < 1e-4 && (place[0] - 0.13).abs() < 0.02,
+            "{place:?} {value}"
+        );
+        assert!(left[0] > 0.0 && left[1] == 0.0 && left[2] > 0.0, "{left:?}");
+        assert!(1.0 - value <= left.iter().sum::<f64>(), "{left:?} {value}");
+    }
+
+    #[test]
+    fn climbs_to_a_cusp_at_the_surface() {
+        let f = |x: f64, z: f64| 2.0 - (x - 0.2_f64).abs().sqrt() - z;
+        let (place, value, left) = climbed(f, 0.2, 0.0);
+        assert!(
+            place == [0.2, 0.0, 0.0] && value == 2.0 && left[2] == 0.0,
+            "{place:?}"
+        );
+    }
+}
