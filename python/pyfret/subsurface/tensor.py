@@ -47,8 +47,8 @@ class Extreme(NamedTuple):
     z: float
     #: Layer from the surface down; their number for the substrate.
     layer: int
-    #: The border that it lies on, "rim" or "stick border", or none. At the rim a value depends on how
-    #: well the tractions are known there: fatigue wants a mean over a critical distance.
+    #: The border that it lies on, "rim" or "stick border", or none. At the rim a value depends on
+    #: how well the tractions are known there: fatigue wants a mean over a critical distance.
     at: str | None
     #: What may be wrong with the value, all together [Pa].
     error: float
