@@ -42,12 +42,11 @@ impl StickZone {
         }
         let m = extended(&slipping);
         let short = |cell: (usize, usize)| (m[cell] * p[cell] - q[cell]).max(0.0);
-        let level = Array2::from_shape_fn(shape, |cell| {
-            if sticks(cell) {
-                short(cell).powi(2)
-            } else {
-                0.0
-            }
+        let level = Array2::from_shape_fn(shape, |cell| match m[cell] {
+            _ if !sticks(cell) => 0.0,
+            // Far inside nothing but its sign matters.
+            m if m.is_nan() => p[cell].powi(2),
+            _ => short(cell).powi(2),
         });
         // Where the zone grows the shortfall vanishes with the power 3/2: constant tractions follow that.
         let mut edges =
