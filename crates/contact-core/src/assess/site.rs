@@ -69,7 +69,7 @@ impl Site<'_> {
                 let now = self.cycle.moments(which)?;
                 now.with_states(self.residual, &self.stop, |states| {
                     let section = Section::new(self.body, self.side, self.grid, line, states)?;
-                    section.pass_stress(some, &mut histories, |history, stresses| {
+                    section.pass_stress(some, &mut histories, |history, _, stresses| {
                         for (k, stress) in which.iter().zip(stresses) {
                             history.index_axis_mut(Axis(0), *k).assign(&stress.t());
                         }
