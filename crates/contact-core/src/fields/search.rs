@@ -4,7 +4,7 @@
 //! climbed from: the number is evaluated beside it along every free direction and at the top of the parabolas, closer
 //! and closer. Nothing is extrapolated.
 
-use ndarray::{Array2, ArrayView2};
+use ndarray::{Array2, ArrayView2, Axis};
 
 use super::coarser::Coarser;
 use super::depth::on_interfaces;
@@ -406,6 +406,43 @@ fn vertex(value: f64, sides: &[(f64, f64)]) -> (f64, f64) {
         (-slope / (2.0 * half)).clamp(low, high),
         -half * third * third,
     )
+}
+
+/// A probe on a section, shape (depths, places), and its largest value.
+pub type Probed = (Array2<f64>, Option<Extreme>);
+
+impl Section {
+    /// The probes under the first state, with the largest value of each, which `search` looks for below the same
+    /// line between the samples, whose places are `along` it \[m\]. Stress and displacement are computed only where
+    /// they are asked for.
+    pub fn probe(
+        &self,
+        depths: &[Depth],
+        along: &[f64],
+        probes: &[Probe],
+        search: &Search,
+    ) -> Result<Vec<Probed>, Error> {
+        let (mut stress, mut u) = (None, None);
+        if probes.iter().any(|p| matches!(p, Probe::Stress(_))) {
+            stress = self.stress(depths)?.into_iter().next();
+        }
+        if probes.iter().any(|p| matches!(p, Probe::Displacement(_))) {
+            u = self.displacement(depths)?.into_iter().next();
+        }
+        let one = |probe: &Probe| {
+            let values = match probe {
+                Probe::Stress(m) => stress.as_ref().map(|stress| m.on_lines(stress)),
+                Probe::Displacement(c) => u
+                    .as_ref()
+                    .map(|u| u.index_axis(Axis(0), c.axis()).to_owned()),
+            };
+            values.map(|values| {
+                let largest = search.on_section(probe, &values.view(), (depths, along), None)?;
+                Ok((values, largest))
+            })
+        };
+        probes.iter().filter_map(one).collect()
+    }
 }
 
 #[cfg(test)]
