@@ -9,7 +9,9 @@ use ndarray::{Array2, ArrayView2, Axis};
 use super::coarser::Coarser;
 use super::depth::on_interfaces;
 use super::maximum::{Hill, hills, top_of_line};
-use super::{Border, Depth, Errors, Extreme, Line, Point, Points, Probe, Side, States, Top};
+use super::{
+    Border, Depth, Errors, Extreme, Line, Point, Points, Probe, Section, Side, States, Top,
+};
 use crate::error::Error;
 use crate::scene::{Body, Grid};
 
