@@ -1,11 +1,11 @@
-//! Error bars of what is answered.
+//! Error bars of what is answered, and of friction that changes with what cells go through.
 
 use std::sync::Arc;
 
 use contact_core::Scene;
 use contact_core::estimate::{BranchEnds, ErrorBars, choose_increments, error_bars};
 use contact_core::march::{BranchSummary, solve, summarise};
-use contact_core::scene::LoadPath;
+use contact_core::scene::{Elastic, Friction, FrictionHistory, History, LoadPath};
 
 use crate::{ALUMINIUM, STEEL, W, sphere};
 
@@ -58,4 +58,66 @@ fn forces_and_moments_that_are_answered_have_bars() {
     }
     // The tilts are given as zero.
     assert_eq!(bars[1].motions()[1].total, 0.0);
+}
+
+/// Energy and force of a reversal against many increments.
+#[test]
+fn friction_with_a_history_has_bars_that_cover() {
+    let slip = FrictionHistory {
+        of: History::Slip,
+        table: vec![(0.0, 1.0), (1e-7, 1.3)],
+    };
+    let spent = FrictionHistory {
+        of: History::Dissipated,
+        table: vec![(0.0, 1.0), (20.0, 0.7)],
+    };
+    let mu = 0.4;
+    let laws = [
+        (
+            "slip",
+            Friction {
+                history: Some(slip),
+                ..Friction::coulomb(mu)
+            },
+        ),
+        (
+            "energy",
+            Friction {
+                history: Some(spent),
+                ..Friction::coulomb(mu)
+            },
+        ),
+        (
+            "kinetic",
+            Friction {
+                kinetic: Some(0.3),
+                ..Friction::coulomb(mu)
+            },
+        ),
+    ];
+    let mut worst: f64 = 0.0;
+    let soft = Elastic { E: 200e9, nu: 0.3 };
+    for (name, law) in laws {
+        let of = |k: usize| {
+            let path = LoadPath::start()
+                .normal(W, 4)
+                .tangential(&[0.5 * mu * W, -0.5 * mu * W], k);
+            let (mut scene, _) = sphere((soft, soft), (2.6, 48), path);
+            scene.friction = law.clone();
+            scene
+        };
+        let right = summarise(&solve(&of(192), &mut ()).expect("a solution"));
+        for k in [6, 12, 24] {
+            let (ours, bars) = with_bars(&of(k));
+            for b in [1, 2] {
+                let (value, right) = (ours[b].dissipated, right[b].dissipated);
+                let bar = bars[b].dissipated;
+                println!(
+                    "{name}, {k} increments, branch {b}: {value:.4e} +- {bar:?} J, right {right:.4e}"
+                );
+                worst = worst.max((value - right).abs() / bar.total);
+            }
+        }
+    }
+    assert!(worst <= COVERS, "{worst}");
 }

@@ -1,12 +1,15 @@
-//! Answers that are right, or that say they are not: contacts of few cells, material that rolls in, rims that stick, coated lines, numbers that doubt themselves.
+//! Answers that are right, or that say they are not: contacts of few cells, cells at the limit of friction,
+//! the onset of sliding, material that rolls in, rims that stick, coated lines, numbers that doubt themselves.
 
 #![allow(clippy::print_stdout, reason = "numbers for people")]
 
+mod at_limit;
 mod bars;
 mod coarse;
 mod doubts;
 mod lines;
 mod rolling;
+mod sliding;
 mod stuck;
 
 use contact_core::Scene;
