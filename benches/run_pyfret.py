@@ -41,7 +41,7 @@ def solve(march: fret._core.March) -> Work:
 
 def pressure(march: fret._core.March) -> hertz.Field:
     """Of the fields of the increment this one."""
-    p: hertz.Field = march.fields()["p"].astype(float, copy=False)
+    p: hertz.Field = march.variables()["p"][1].astype(float, copy=False)
     return p
 
 

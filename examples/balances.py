@@ -41,7 +41,7 @@ def coated_ellipsoid(
     return fret.Scene(
         body1=fret.Body(
             material(SOFT),
-            shape=fret.Ellipsoid(R_x=R * length, R_y=1.7 * R * length, angle=angle),
+            shape=fret.shapes.Ellipsoid(R_x=R * length, R_y=1.7 * R * length, angle=angle),
         ),
         body2=fret.Body(
             material(STEEL), coatings=[fret.Coating(material(HARD), thickness=2e-4 * length)]
@@ -75,7 +75,9 @@ def twins(file: Path, n: int) -> str:
     twin_of: dict[str, tuple[fret.Scene, fret.LoadPath, Back]] = {
         "turned by 90°": (
             with_bodies(
-                fret.Body(SOFT, shape=fret.Ellipsoid(R_x=R, R_y=1.7 * R, angle=0.3 + np.pi / 2)),
+                fret.Body(
+                    SOFT, shape=fret.shapes.Ellipsoid(R_x=R, R_y=1.7 * R, angle=0.3 + np.pi / 2)
+                ),
                 scene.body2,
                 fret.Grid.from_spacing(across, d),
             ),

@@ -133,7 +133,7 @@ def ellipse(file: Path, n: int) -> str:
             hertz = fret.reference.hertz_ellipse(R_x=ratio * R, R_y=R, E_star=CORK.E / 2, W=W)
             d = (2.3 * hertz.a_x / n, 2.3 * hertz.a_y / n)
             scene = fret.Scene(
-                body1=fret.Body(CORK, shape=fret.Ellipsoid(R_x=ratio * R, R_y=R)),
+                body1=fret.Body(CORK, shape=fret.shapes.Ellipsoid(R_x=ratio * R, R_y=R)),
                 body2=fret.Body(CORK),
                 mu=MU,
                 grid=fret.Grid.from_spacing((n, n), d),

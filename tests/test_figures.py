@@ -39,7 +39,7 @@ def thin_layers() -> fret.Scene:
     return fret.Scene(body1=ball, body2=flat, mu=MU, grid=GRID, path=SHEARED)
 
 
-ROUGH = fret.Rough(rms=1e-7, hurst=0.8, longest=A, shortest=0.4 * A, seed=2)
+ROUGH = fret.shapes.Rough(rms=1e-7, hurst=0.8, longest=A, shortest=0.4 * A, seed=2)
 PUNCH = fret.shapes.FlatPunch(radius=0.6 * A, edge=R)
 STRIP = fret.Grid.strip(extent=2.6 * A, n=32)
 LINE_LOAD = 1e5
@@ -49,7 +49,7 @@ SCENES = {
     "shift": scene(fret.Sphere(R), PRESSED.cycles(1, delta_x=4e-6, increments=6)),
     "along y": scene(fret.Sphere(R), PRESSED.cycles(1, T_y=0.5 * MU * W, increments=4)),
     "torsion": scene(fret.Sphere(R), PRESSED.cycles(1, phi_z=2e-3, increments=6)),
-    "ellipsoid": scene(fret.Ellipsoid(R_x=0.8 * R, R_y=1.1 * R)),
+    "ellipsoid": scene(fret.shapes.Ellipsoid(R_x=0.8 * R, R_y=1.1 * R)),
     "rough flat under a punch": scene(PUNCH + ROUGH, GENTLE),
     "line": scene(
         fret.Cylinder(R=R),

@@ -25,7 +25,7 @@ def test_a_material_of_ones_own_needs_its_sources() -> None:
         ([("s_D", -1.0, SOURCE)], r"`mine`\.s_D: -1: must be positive"),
         ([("sD", 1.0, SOURCE)], r"`mine`\.sD: unknown; nearest is s_"),
     ):
-        with pytest.raises(fret.errors.InvalidSceneError, match=says):
+        with pytest.raises(fret.errors.ArgumentError, match=says):
             fatigue.Material("mine", numbers)
 
 

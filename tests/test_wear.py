@@ -64,15 +64,15 @@ def test_a_store_is_the_result(tmp_path: Path) -> None:
 
 
 def test_bad_input_is_refused_by_name() -> None:
-    with pytest.raises(fret.errors.InvalidSceneError, match=r"wear\.body2\.k = -1"):
+    with pytest.raises(fret.errors.ArgumentError, match=r"wear\.body2\.k = -1"):
         worn(fret.wear.Archard(-1.0))
     with pytest.raises(TypeError, match="wear law"):
         worn("archard")
-    with pytest.raises(fret.errors.InvalidSceneError, match=r"wear\.law"):
+    with pytest.raises(fret.errors.ArgumentError, match=r"wear\.law"):
         worn(lambda *_: np.zeros(3))
-    with pytest.raises(fret.errors.InvalidSceneError, match="nothing grows"):
+    with pytest.raises(fret.errors.ArgumentError, match="nothing grows"):
         worn(lambda pressed_way, *_: -pressed_way)
-    with pytest.raises(fret.errors.InvalidSceneError, match=r"wear\.tolerance = 3"):
+    with pytest.raises(fret.errors.ArgumentError, match=r"wear\.tolerance = 3"):
         worn(fret.wear.Archard(1e-14), tolerance=3.0)
 
 

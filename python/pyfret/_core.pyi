@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "RIGID",
     "Archard",
+    "ArgumentError",
     "Assessment",
     "Body",
     "Bond",
@@ -61,6 +62,7 @@ __all__ = [
     "Settings",
     "Skip",
     "SlidingError",
+    "SolveError",
     "Spacing",
     "Sphere",
     "Springs",
@@ -103,6 +105,7 @@ __all__ = [
     "run_command",
     "section_of_states",
     "solve",
+    "solve_in_memory",
     "stress_at",
     "stress_coefficients",
     "surface_frf",
@@ -112,6 +115,7 @@ __all__ = [
 ]
 
 _Array: TypeAlias = NDArray[np.float64]
+_Variable: TypeAlias = tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]
 _Pitch: TypeAlias = float | tuple[float, float]
 _Missing: TypeAlias = Literal["refuse", "crop", "fill"]
 
@@ -154,7 +158,6 @@ class Elastic:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Bond:
@@ -192,7 +195,6 @@ class Bond:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Coating:
@@ -224,7 +226,6 @@ class Coating:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Profile:
@@ -247,7 +248,6 @@ class Profile:
         """Interpolate linearly between the points (s, value), s rising from 0 to 1."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 def graded(*, E: Profile, nu: Profile, thickness: float, layers: int) -> list[Coating]:
     """Stack of equally thick layers that stands for a graded coating, outermost first.
@@ -282,7 +282,6 @@ class Flat:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Sphere:
@@ -306,7 +305,6 @@ class Sphere:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Ellipsoid:
@@ -340,7 +338,6 @@ class Ellipsoid:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Cylinder:
@@ -374,7 +371,6 @@ class Cylinder:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class CrownedRoller:
@@ -415,7 +411,6 @@ class CrownedRoller:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Cone:
@@ -439,7 +434,6 @@ class Cone:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Wedge:
@@ -468,7 +462,6 @@ class Wedge:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class FlatPunch:
@@ -497,7 +490,6 @@ class FlatPunch:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Waviness:
@@ -538,7 +530,6 @@ class Waviness:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Rough:
@@ -585,7 +576,6 @@ class Rough:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class SurfaceMap:
@@ -665,7 +655,6 @@ class SurfaceMap:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Sum:
@@ -683,7 +672,6 @@ class Sum:
     def __radd__(self, value: _Shape, /) -> Sum: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 _Shape: TypeAlias = (
     Flat
@@ -732,7 +720,6 @@ class Body:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class History:
@@ -809,7 +796,6 @@ class Friction:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Grid:
@@ -874,7 +860,6 @@ class Grid:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Spacing:
@@ -1006,7 +991,6 @@ class Branch:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class PerRange:
@@ -1278,7 +1262,6 @@ class LoadPath:
     def __bool__(self) -> bool: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Preset:
@@ -1309,7 +1292,6 @@ class Hankel:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class InverseFft:
@@ -1336,7 +1318,6 @@ class InverseFft:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class FrequencyDomain:
@@ -1358,7 +1339,6 @@ class FrequencyDomain:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 _Save: TypeAlias = Literal["branches", "all"] | Sequence[int]
 
@@ -1423,7 +1403,6 @@ class Skip:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Settings:
@@ -1516,7 +1495,6 @@ class Settings:
         """The same with some of its parts exchanged, named as in the constructor."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Scene:
@@ -1667,7 +1645,6 @@ class Scene:
         """The yardstick a_H, p_H: the uncoated pair at the largest normal force of the path."""
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    __hash__: ClassVar[None]  # type: ignore[assignment]
 
 _Material: TypeAlias = Elastic | Body
 
@@ -1675,9 +1652,25 @@ _Material: TypeAlias = Elastic | Body
 class Hertz:
     """Frictionless contact of two paraboloids of revolution.
 
-    K. L. Johnson, Contact Mechanics (1985), eq. (4.22)-(4.24).
+    K. L. Johnson, Contact Mechanics (1985), eq. (4.22)-(4.24). :func:`hertz` makes it.
+
+    Parameters
+    ----------
+    W : float
+        Normal force [N].
+    E_star : float
+        Contact modulus [Pa].
+    a : float
+        Contact radius [m].
+    p0 : float
+        Peak pressure [Pa].
+    delta_z : float
+        Approach [m].
     """
 
+    def __new__(cls, *, W: float, E_star: float, a: float, p0: float, delta_z: float) -> Hertz: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
     @property
     def W(self) -> float:
         """Normal force [N]."""
@@ -1703,6 +1696,14 @@ def hertz(*, R: float, bodies: tuple[_Material, _Material], W: float) -> Hertz:
 class HertzEllipse:
     """Elliptical Hertz contact, K. L. Johnson, Contact Mechanics (1985), sec. 4.2."""
 
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    @property
+    def R_x(self) -> float:
+        """Relative principal radius along x [m]."""
+    @property
+    def R_y(self) -> float:
+        """Relative principal radius along y [m]."""
     @property
     def W(self) -> float:
         """Normal force [N]."""
@@ -1750,6 +1751,11 @@ class CattaneoMindlin:
     def __new__(
         cls, hertz: Hertz, *, bodies: tuple[_Material, _Material], mu: float
     ) -> CattaneoMindlin: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    @property
+    def bodies(self) -> tuple[Elastic, Elastic]:
+        """Materials of body 1 and body 2."""
     @property
     def hertz(self) -> Hertz:
         """The normal contact."""
@@ -1806,6 +1812,17 @@ class Lubkin:
     """
 
     def __new__(cls, hertz: Hertz, *, bodies: tuple[_Material, _Material], mu: float) -> Lubkin: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    @property
+    def hertz(self) -> Hertz:
+        """The normal contact."""
+    @property
+    def bodies(self) -> tuple[Elastic, Elastic]:
+        """Materials of body 1 and body 2."""
+    @property
+    def mu(self) -> float:
+        """Friction coefficient."""
     @property
     def M_limit(self) -> float:
         """Moment of full slip [N m], (3 pi/16) mu W a."""
@@ -1834,6 +1851,14 @@ class HertzStress:
     """
 
     def __new__(cls, *, a: float, nu: float) -> HertzStress: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    @property
+    def a(self) -> float:
+        """Radius of the loaded circle [m]."""
+    @property
+    def nu(self) -> float:
+        """Poisson's ratio."""
     def pressure(self, x: ArrayLike, y: float, z: float) -> list[_Array]:
         """Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure."""
     def shear(self, x: ArrayLike, y: float, z: float) -> list[_Array]:
@@ -1843,6 +1868,14 @@ class HertzStress:
 class LineContact:
     """Cylinders in plane strain: Hertz, Cattaneo, Carter, McEwen; from `line_contact`."""
 
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    @property
+    def R(self) -> float:
+        """Relative radius [m]."""
+    @property
+    def bodies(self) -> tuple[Elastic, Elastic]:
+        """Materials of body 1 and body 2."""
     @property
     def W(self) -> float:
         """Normal force per length [N/m]."""
@@ -1893,6 +1926,8 @@ class Springs:
         Friction coefficient.
     n : int
         Springs on either side.
+    loads : list of (float, float, int)
+        Loads to go through at once: W and T [N], and the steps of :meth:`load`.
     """
 
     def __new__(
@@ -1903,7 +1938,28 @@ class Springs:
         bodies: tuple[_Material, _Material],
         mu: float,
         n: int = 1500,
+        loads: Sequence[tuple[float, float, int]] = ...,
     ) -> Springs: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    @property
+    def largest(self) -> Hertz:
+        """The contact under the largest force that there are springs for."""
+    @property
+    def R(self) -> float:
+        """Radius [m]."""
+    @property
+    def bodies(self) -> tuple[Elastic, Elastic]:
+        """Materials of body 1 and body 2."""
+    @property
+    def mu(self) -> float:
+        """Friction coefficient."""
+    @property
+    def n(self) -> int:
+        """Springs on either side."""
+    @property
+    def loads(self) -> list[tuple[float, float, int]]:
+        """The loads gone through: W and T [N] at the end of each, and its steps."""
     def load(self, *, W: float, T: float, steps: int = 10) -> float:
         """Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m]."""
 
@@ -1924,6 +1980,14 @@ def goodman_stick_ratio(*, beta: float, mu: float) -> float:
 class CoupledIndentation:
     """Indentation with friction of dissimilar bodies, fully coupled, in numbers without load."""
 
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    @property
+    def beta(self) -> float:
+        """Dundurs' parameter."""
+    @property
+    def mu(self) -> float:
+        """Friction coefficient."""
     @property
     def stick_ratio(self) -> float:
         """Stick radius over contact radius."""
@@ -1948,6 +2012,20 @@ def coupled_indentation(*, beta: float, mu: float) -> CoupledIndentation:
 class CoatedIndentation:
     """Frictionless contact of a sphere with a body that has one coating."""
 
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    @property
+    def R(self) -> float:
+        """Radius of the sphere [m]."""
+    @property
+    def indenter(self) -> Elastic:
+        """Material of the sphere."""
+    @property
+    def coating(self) -> Coating:
+        """The coating."""
+    @property
+    def substrate(self) -> Elastic:
+        """Material below the coating."""
     @property
     def a(self) -> float:
         """Contact radius [m]."""
@@ -1982,6 +2060,20 @@ class SurfaceOperator:
     def __new__(
         cls, body1: Body, body2: Body, grid: Grid, *, settings: Settings | None = None
     ) -> SurfaceOperator: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    @property
+    def body1(self) -> Body:
+        """The upper body."""
+    @property
+    def body2(self) -> Body:
+        """The lower body."""
+    @property
+    def grid(self) -> Grid:
+        """Cells on which tractions are constant."""
+    @property
+    def settings(self) -> Settings:
+        """Those of the kernels are used."""
     def displacement(
         self,
         p: ArrayLike | None = None,
@@ -2012,10 +2104,13 @@ class March:
     @property
     def scene(self) -> Scene:
         """The scene that is being solved."""
-    def fields(self) -> dict[str, NDArray[np.float64 | np.bool_]]:
-        """Fields after the last increment, shape (nx, ny)."""
     def doubts(self) -> list[str]:
         """What the increments so far came to that is hardly meant, one sentence each."""
+    @property
+    def attributes(self) -> str:
+        """What a result says of the run, as JSON."""
+    def variables(self) -> dict[str, _Variable]:
+        """The last increment as variables: dimensions, values, attributes as xarray takes them."""
     def __iter__(self) -> March: ...
     def __next__(self) -> dict[str, float]:
         """Solve the next increment and give its scalars."""
@@ -2107,6 +2202,18 @@ def solve(
 
     `on_increment` is called with the number of each increment solved and their number in all,
     which is known once they are chosen.
+    """
+
+def solve_in_memory(
+    scene: Scene,
+    *,
+    error: bool = False,
+    on_increment: Callable[[int, int], object] | None = None,
+) -> tuple[dict[str, _Variable], str]:
+    """Run a scene in memory; use :func:`pyfret.solve`, which labels what this one gives.
+
+    These are the variables, each with dimensions, values and attributes as xarray takes them, and
+    what a store says of the run, as JSON.
     """
 
 def resume(
@@ -2605,11 +2712,32 @@ class YieldBelow:
 
 @final
 class Assessment:
-    """A criterion with its limit or its curve of lives."""
+    """A criterion with its limit or its curve of lives.
 
+    Parameters
+    ----------
+    criterion : Criterion
+        Whose value is judged.
+    limit : float, optional
+        Limit for endless life, in the unit of the criterion.
+    curve : five floats, optional
+        Instead of it E [Pa], s_f' [Pa], b, e_f' and c of a strain-life curve.
+    """
+
+    def __new__(
+        cls,
+        criterion: Criterion,
+        *,
+        limit: float | None = None,
+        curve: Sequence[float] | None = None,
+    ) -> Assessment: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[Criterion], dict[str, Any]]: ...
     @property
     def criterion(self) -> Criterion:
         """The criterion whose value is judged."""
+    @property
+    def curve(self) -> list[float] | None:
+        """E [Pa], s_f' [Pa], b, e_f' and c of the strain-life curve, or nothing with a limit."""
     @property
     def limit(self) -> float | None:
         """The limit, or nothing where the criterion gives lives."""
@@ -2693,13 +2821,19 @@ class InvalidSceneError(ValueError):
 class OffGridError(InvalidSceneError):
     """The contact reaches the border of the grid; the message says how wide the grid should be."""
 
-class NoConvergenceError(RuntimeError):
+class SolveError(RuntimeError):
+    """A scene that has a meaning could not be solved; the classes below it say why."""
+
+class ArgumentError(ValueError):
+    """An argument of a function has no meaning; the message says which and what is allowed."""
+
+class NoConvergenceError(SolveError):
     """A solver stopped before its tolerance; the message gives the residual reached."""
 
-class SlidingError(RuntimeError):
+class SlidingError(SolveError):
     """Loads that friction cannot carry, that nothing carries, or that lift a stuck contact."""
 
-class KernelInaccurateError(RuntimeError):
+class KernelInaccurateError(SolveError):
     """Influence or stress coefficients missed the tolerance asked for."""
 
 class StoreError(OSError):

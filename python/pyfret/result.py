@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from os import fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from pyfret import _core, fatigue, fracture
 from pyfret import heat as heating
@@ -15,13 +16,13 @@ from pyfret.export.write import write as export
 from pyfret.report.page import report
 from pyfret.run import Run, State
 from pyfret.run.summary import summary
-from pyfret.run.tables import run_html
+from pyfret.run.tables import run_html, state_html
 from pyfret.subsurface import contact, fields
 from pyfret.subsurface.tensor import LABELS
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     import xarray as xr
     from matplotlib.figure import Figure
@@ -39,11 +40,52 @@ if TYPE_CHECKING:
 __all__ = ["Result", "Snapshot", "open"]
 
 
+class Figures:
+    """The figures of :mod:`pyfret.plot` of one thing, such as ``result.plot.fretting_loop()``."""
+
+    def __init__(self, shown: Run | State) -> None:
+        self._shown = shown
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        """Give the figure of that name, drawn of the thing."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        from pyfret import plot
+
+        return partial(getattr(plot, name), self._shown)
+
+    def __dir__(self) -> list[str]:
+        """The figures of such a thing."""
+        from pyfret import plot
+
+        kind = "Run" if isinstance(self._shown, Run) else "State"
+        return [name for name in plot.__all__ if kind in first_annotation(getattr(plot, name))]
+
+    def __repr__(self) -> str:
+        """Give the names of the figures."""
+        return f"figures of {self._shown!r}: {', '.join(dir(self))}"
+
+
+def first_annotation(function: Callable[..., Any]) -> str:
+    """The type of the first argument of a function, as it is written."""
+    return str(next(iter(getattr(function, "__annotations__", {}).values()), ""))
+
+
 class Snapshot(State):
     """The contact at the end of one increment: its scalars and its fields.
 
-    Every variable of :attr:`dataset` is an attribute as well, e.g. ``snapshot.p``.
+    Every variable of :attr:`dataset` is an attribute as well, e.g. ``snapshot.p``; :attr:`plot` has
+    the figures that show it.
     """
+
+    @property
+    def plot(self) -> Figures:
+        """The figures that show an increment: ``snapshot.plot.stick_slip()``."""
+        return Figures(self)
+
+    def _repr_html_(self) -> str:
+        """Tables for notebooks."""
+        return state_html(self)
 
     def _elsewhere(self, name: str) -> dict[str, str]:
         stresses = {of: f"it is a stress, snapshot.stress().{of}" for of in LABELS}
@@ -156,6 +198,11 @@ class Result(Run):
     ``mu``. Every variable carries ``units`` and ``long_name``. Its scalars are attributes as well,
     e.g. ``result.T_x``; fields are those of an increment, e.g. ``result.at(-1).p``.
     """
+
+    @property
+    def plot(self) -> Figures:
+        """The figures that show a run: ``result.plot.fretting_loop()``."""
+        return Figures(self)
 
     def at(self, which: float) -> Snapshot:
         """Give the contact at the end of one increment whose fields were kept.

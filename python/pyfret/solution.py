@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
-import tempfile
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from pyfret import _core
@@ -13,6 +10,7 @@ from pyfret._core import Scene
 from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
 from pyfret.result import Result, Snapshot, open
+from pyfret.run.dataset import dataset
 from pyfret.scene.warnings import doubt_run, doubt_scene
 
 if TYPE_CHECKING:
@@ -87,12 +85,8 @@ def solve(
                 scene, store=out, checkpoint=checkpoint, error=error, on_increment=bar.update
             )
             return told(open(out))
-        tidy()
-        name = PASSING.format(os.getpid())
-        with tempfile.TemporaryDirectory(prefix=name, dir=memory(scene)) as folder:
-            store = Path(folder) / "run.zarr"
-            _core.solve(scene, store=store, error=error, on_increment=bar.update)
-            return told(Result(open(store).dataset.load()))
+        run = _core.solve_in_memory(scene, error=error, on_increment=bar.update)
+    return told(Result(dataset(*run)))
 
 
 def told(result: Result) -> Result:
@@ -130,26 +124,6 @@ def resume(
     return told(open(store))
 
 
-#: A file system in memory, where there is one.
-SHARED_MEMORY = Path("/dev/shm")
-#: The largest store that is written there [bytes]; larger ones would double the memory of a result.
-SMALL = 64 << 20
-#: What the folders of passing stores are called, with the number of their process.
-PASSING = "pyfret-{}-"
-
-
-def tidy() -> None:
-    """Remove the passing stores in shared memory whose processes were killed."""
-    for folder in SHARED_MEMORY.glob(PASSING.format("*") + "*"):
-        process = folder.name.split("-")[1]
-        if process.isdigit() and not Path("/proc", process).exists():
-            shutil.rmtree(folder, ignore_errors=True)
-
-
-#: Increments of a branch that are chosen, with room to spare.
-CHOSEN = 200
-
-
 def read(scene: Scene | str | os.PathLike[str]) -> Scene:
     """The scene, read from its file if it is the name of one."""
     if isinstance(scene, Scene):
@@ -160,21 +134,6 @@ def read(scene: Scene | str | os.PathLike[str]) -> Scene:
             "solve(scene, path)"
         )
     return Scene.from_file(scene)
-
-
-def memory(scene: Scene) -> Path | None:
-    """Where a passing store is written: in memory if it is small, else the usual folder."""
-    branches = scene.path.branches
-    increments = sum(CHOSEN if b.increments is None else b.increments for b in branches)
-    kept = increments if scene.settings.save == "all" else len(branches)
-    if isinstance(scene.settings.save, list):
-        kept = len(scene.settings.save)
-    size = 8 * (len(_core.labels()) * (increments + kept * scene.grid.nx * scene.grid.ny))
-    try:
-        free = shutil.disk_usage(SHARED_MEMORY).free
-        return SHARED_MEMORY if size < min(SMALL, free / 2) else None
-    except OSError:
-        return None
 
 
 def march(
@@ -203,27 +162,6 @@ def march(
     doubt_run(running.doubts())
 
 
-def labelled(running: _core.March, scalars: dict[str, float]) -> xr.Dataset:
-    """The last increment of a march as a dataset, labelled as in a result store."""
-    labels = {
-        name: {"units": units, "long_name": meaning}
-        for name, (units, meaning) in _core.labels().items()
-    }
-    scene = running.scene
-    hertz = scene.hertz
-    attrs = {"title": scene.title, "mu": scene.mu, "scene": scene.to_toml()}
-    if hertz is not None:
-        attrs |= {"a_H": hertz.a, "p_H": hertz.p0, "R": hertz.a**2 / hertz.delta_z}
-    coordinates = ("increment", "t", "branch_of_increment")
-    return xr.Dataset(
-        {k: ((), v, labels[k]) for k, v in scalars.items() if k not in coordinates}
-        | {k: (("x", "y"), v, labels[k]) for k, v in running.fields().items()},
-        coords={k: ((), scalars[k], labels[k]) for k in coordinates}
-        | {"x": scene.grid.x, "y": scene.grid.y},
-        attrs=attrs,
-    )
-
-
 class Increment(Snapshot):
     """One increment of a running march: a snapshot whose fields are computed when asked for."""
 
@@ -243,8 +181,12 @@ class Increment(Snapshot):
                     f"the march has gone on to increment {reached}; "
                     f"ask for the fields of increment {mine} before that"
                 )
-            self._labelled = labelled(self._running, self._scalars)
+            self._labelled = dataset(self._running.variables(), self._running.attributes)
         return self._labelled
+
+    def __reduce__(self) -> tuple[type[Snapshot], tuple[xr.Dataset]]:
+        """Pickle the snapshot, without the march."""
+        return Snapshot, (self.dataset,)
 
     def __getattr__(self, name: str) -> xr.DataArray:
         """Give a scalar at once, a field by way of the dataset."""

@@ -94,7 +94,7 @@ CALLS: list[Call] = [
     ("Sphere", lambda **k: shaped(fret.Sphere(**k)), {"R": 0.01}),
     (
         "Ellipsoid",
-        lambda **k: shaped(fret.Ellipsoid(**k)),
+        lambda **k: shaped(fret.shapes.Ellipsoid(**k)),
         {"R_x": 0.01, "R_y": 0.02, "angle": 0.1},
     ),
     ("Cylinder", lambda **k: shaped(fret.Cylinder(**k)), {"R": 0.01, "length": 1e-4, "angle": 0.1}),
@@ -115,7 +115,7 @@ CALLS: list[Call] = [
         lambda **k: shaped(fret.shapes.Waviness(**k) + fret.Sphere(R=0.01)),
         {"amplitude": 1e-8, "wavelength": 1e-4, "angle": 0.1, "phase": 0.1},
     ),
-    ("Rough", lambda **k: shaped(fret.Rough(**k) + fret.Sphere(R=0.01)), ROUGH),
+    ("Rough", lambda **k: shaped(fret.shapes.Rough(**k) + fret.Sphere(R=0.01)), ROUGH),
     (
         "SurfaceMap",
         lambda v, spacing: shaped(fret.SurfaceMap(v, spacing=spacing) + fret.Sphere(R=0.01)),

@@ -76,7 +76,7 @@ def oval(n: int) -> fret.Scene:
     """An ellipsoid on a flat, as many cells along either axis."""
     path = fret.LoadPath.start().normal(W, increments=1)
     return fret.Scene(
-        body1=fret.Body(CORK, shape=fret.Ellipsoid(R_x=SHALLOW, R_y=STEEP)),
+        body1=fret.Body(CORK, shape=fret.shapes.Ellipsoid(R_x=SHALLOW, R_y=STEEP)),
         body2=fret.Body(CORK),
         mu=MU,
         grid=fret.Grid.from_spacing((n, n), (2.4 * OVAL.a_x / n, 2.4 * OVAL.a_y / n)),

@@ -15,8 +15,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::argument::to_python;
 use crate::arguments::side;
-use crate::error::to_python;
 use crate::fatigue::{Assessment, Material};
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};

@@ -21,20 +21,32 @@ create_exception!(
 );
 create_exception!(
     pyfret.errors,
-    NoConvergenceError,
+    ArgumentError,
+    PyValueError,
+    "An argument of a function has no meaning; the message says which and what is allowed."
+);
+create_exception!(
+    pyfret.errors,
+    SolveError,
     PyRuntimeError,
+    "A scene that has a meaning could not be solved; the classes below it say why."
+);
+create_exception!(
+    pyfret.errors,
+    NoConvergenceError,
+    SolveError,
     "A solver stopped before its tolerance; the message gives the residual reached."
 );
 create_exception!(
     pyfret.errors,
     SlidingError,
-    PyRuntimeError,
+    SolveError,
     "Loads that friction cannot carry, that nothing carries, or that lift a stuck contact."
 );
 create_exception!(
     pyfret.errors,
     KernelInaccurateError,
-    PyRuntimeError,
+    SolveError,
     "Influence or stress coefficients missed the tolerance asked for."
 );
 create_exception!(
@@ -77,7 +89,7 @@ pub(crate) fn of_criterion(error: fatigue::Error) -> PyErr {
     match error {
         fatigue::Error::File { .. } => StoreError::new_err(text),
         fatigue::Error::Stopped => PyKeyboardInterrupt::new_err(text),
-        _ => PyValueError::new_err(text),
+        _ => ArgumentError::new_err(text),
     }
 }
 

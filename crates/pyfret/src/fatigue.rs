@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ffi::{CStr, CString};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -94,22 +95,84 @@ impl Criterion {
         self.0.has_plane()
     }
 
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.name().hash(&mut hasher);
+        for (_, value) in self.0.numbers() {
+            // -0 equals 0.
+            (value + 0.0).to_bits().hash(&mut hasher);
+        }
+        hasher.finish()
+    }
+
     fn __repr__(&self) -> String {
         format!("Criterion.{:?}", self.0)
     }
 }
 
 /// A criterion with its limit or its curve of lives.
+///
+/// Parameters
+/// ----------
+/// criterion : Criterion
+///     Whose value is judged.
+/// limit : float, optional
+///     Limit for endless life, in the unit of the criterion.
+/// curve : five floats, optional
+///     Instead of it E [Pa], s_f' [Pa], b, e_f' and c of a strain-life curve.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.fatigue")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Assessment(pub(crate) core::Assessment);
 
 #[pymethods]
 impl Assessment {
+    #[new]
+    #[pyo3(signature = (criterion, *, limit = None, curve = None))]
+    fn new(criterion: Criterion, limit: Option<f64>, curve: Option<[f64; 5]>) -> PyResult<Self> {
+        let judge = match (limit, curve) {
+            (Some(limit), None) if limit > 0.0 && limit.is_finite() => core::Judge::Limit(limit),
+            (None, Some([E, coefficient, exponent, ductility, of_ductility])) => {
+                let curve = core::CoffinManson {
+                    E,
+                    elastic: core::Basquin {
+                        coefficient,
+                        exponent,
+                    },
+                    ductility,
+                    exponent: of_ductility,
+                };
+                curve.check().map_err(refused)?;
+                core::Judge::Life(curve)
+            }
+            _ => {
+                let message =
+                    "give a limit, a positive number in the unit of the criterion, or a curve";
+                return Err(PyValueError::new_err(message));
+            }
+        };
+        Ok(Self(core::Assessment {
+            criterion: criterion.0,
+            judge,
+        }))
+    }
+
     /// The criterion whose value is judged.
     #[getter]
     fn criterion(&self) -> Criterion {
         Criterion(self.0.criterion)
+    }
+
+    /// E [Pa], s_f' [Pa], b, e_f' and c of the strain-life curve, or nothing with a limit.
+    #[getter]
+    fn curve(&self) -> Option<[f64; 5]> {
+        let core::Judge::Life(of) = self.0.judge else {
+            return None;
+        };
+        let core::Basquin {
+            coefficient,
+            exponent,
+        } = of.elastic;
+        Some([of.E, coefficient, exponent, of.ductility, of.exponent])
     }
 
     /// The limit, or nothing where the criterion gives lives.
@@ -129,6 +192,16 @@ impl Assessment {
     /// Cycles to failure for values of the criterion.
     fn life(&self, value: f64) -> f64 {
         self.0.life(value)
+    }
+
+    fn __getnewargs_ex__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<((Criterion,), Bound<'py, PyDict>)> {
+        let judge = PyDict::new(py);
+        judge.set_item("limit", self.limit())?;
+        judge.set_item("curve", self.curve())?;
+        Ok(((self.criterion(),), judge))
     }
 
     fn __repr__(&self) -> String {

@@ -52,6 +52,10 @@ parts!(Crack: legs, x);
 
 #[pymethods]
 impl Crack {
+    fn __eq__(slf: &Bound<'_, Self>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+        crate::parts::equal(slf.as_any(), other, Self::PARTS)
+    }
+
     #[new]
     #[pyo3(signature = (*, legs, x = 0.0))]
     fn new(legs: Vec<(f64, f64)>, x: f64) -> PyResult<Self> {

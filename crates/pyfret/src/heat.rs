@@ -9,8 +9,8 @@ use numpy::{IntoPyArray, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::argument::to_python;
 use crate::arguments::List;
-use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 

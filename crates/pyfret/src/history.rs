@@ -12,8 +12,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::argument::to_python;
 use crate::arguments::{Field, List, side};
-use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, LoadPath};
 use crate::stress::measures;

@@ -11,7 +11,7 @@ use numpy::{
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::error::to_python;
+use crate::argument::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, Settings};
 

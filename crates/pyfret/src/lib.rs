@@ -14,6 +14,7 @@
     reason = "PyO3 hands keyword arguments over one by one and by value"
 )]
 
+mod argument;
 mod arguments;
 mod assess;
 mod command_line;
@@ -34,6 +35,7 @@ mod result;
 mod scene;
 mod stress;
 mod subsurface;
+mod variables;
 mod wear;
 
 use pyo3::prelude::*;
@@ -49,8 +51,8 @@ mod _core {
     use crate::command_line::run_command;
     #[pymodule_export]
     use crate::error::{
-        InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError, SlidingError,
-        StoreError,
+        ArgumentError, InvalidSceneError, KernelInaccurateError, NoConvergenceError, OffGridError,
+        SlidingError, SolveError, StoreError,
     };
     #[pymodule_export]
     use crate::kernels::{
@@ -67,7 +69,7 @@ mod _core {
         goodman_stick_ratio, hertz, hertz_ellipse, line_contact,
     };
     #[pymodule_export]
-    use crate::result::{resume, solve, verify};
+    use crate::result::{resume, solve, solve_in_memory, verify};
     #[pymodule_export]
     use crate::scene::{
         Body, Bond, Branch, Coating, Cone, CrownedRoller, Cylinder, Elastic, Ellipsoid, Flat,

@@ -6,15 +6,17 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use contact_core::estimate::choose_increments;
 use contact_core::march as core;
-use contact_core::output::{FIELDS, FieldView, Kind, SCALARS};
-use numpy::{AllowTypeChange, IntoPyArray, PyArray2, PyArrayLike2, ToPyArray};
+use contact_core::output::{FIELDS, Kind, SCALARS, group_attributes};
+use numpy::{AllowTypeChange, IntoPyArray, PyArray2, PyArrayLike2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use serde_json::Value;
 
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Grid, Scene};
+use crate::variables::Variables;
 
 /// A load path being run through; iterating solves one increment after the other.
 ///
@@ -25,6 +27,7 @@ pub(crate) struct March {
     inner: Mutex<core::March>,
     /// The most that the increments came to.
     reached: core::Reached,
+    last: Option<core::Increment>,
 }
 
 impl March {
@@ -46,6 +49,7 @@ impl March {
         Ok(Self {
             inner: Mutex::new(march.map_err(to_python)?),
             reached: core::Reached::default(),
+            last: None,
         })
     }
 
@@ -94,22 +98,29 @@ impl March {
                         _ => scalars.set_item(scalar.name, value as i64)?,
                     }
                 }
+                self.last = Some(increment);
                 Ok(Some(scalars))
             }
         }
     }
 
-    /// Fields after the last increment, shape (nx, ny).
-    fn fields<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let all = self.inner().fields();
-        let fields = PyDict::new(py);
-        for field in FIELDS {
-            match (field.values)(&all) {
-                FieldView::Real(values) => fields.set_item(field.name, values.to_pyarray(py))?,
-                FieldView::Mask(values) => fields.set_item(field.name, values.to_pyarray(py))?,
-            }
+    /// The last increment as variables: dimensions, values, attributes as xarray takes them.
+    fn variables<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let variables = Variables::new(py);
+        if let Some(increment) = &self.last {
+            variables.increment(increment)?;
         }
-        Ok(fields)
+        let march = self.inner();
+        variables.cells(&march.scene().grid)?;
+        variables.fields(&march.fields())?;
+        Ok(variables.finish())
+    }
+
+    /// What a result says of the run, as JSON.
+    #[getter]
+    fn attributes(&mut self) -> String {
+        let march = self.inner();
+        Value::Object(group_attributes(march.scene(), march.plan())).to_string()
     }
 }
 

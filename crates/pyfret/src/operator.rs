@@ -12,6 +12,7 @@ use pyo3::prelude::*;
 
 use crate::error::to_python;
 use crate::interruptible::interruptible;
+use crate::parts::made;
 use crate::scene::{Body, Grid, Settings};
 
 /// The displacements that tractions cause on a pair of bodies, u = C * q.
@@ -27,8 +28,22 @@ use crate::scene::{Body, Grid, Settings};
 #[pyclass(frozen, module = "pyfret")]
 pub(crate) struct SurfaceOperator {
     shape: (usize, usize),
+    /// The upper body.
+    #[pyo3(get)]
+    body1: Body,
+    /// The lower body.
+    #[pyo3(get)]
+    body2: Body,
+    /// Cells on which tractions are constant.
+    #[pyo3(get)]
+    grid: Grid,
+    /// Those of the kernels are used.
+    #[pyo3(get)]
+    settings: Settings,
     inner: Mutex<DcFft>,
 }
+
+made!(SurfaceOperator by "SurfaceOperator": body1, body2, grid, settings);
 
 /// A field on the grid.
 type Field<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
@@ -44,7 +59,8 @@ impl SurfaceOperator {
         grid: Grid,
         settings: Option<Settings>,
     ) -> PyResult<Self> {
-        let settings = settings.unwrap_or_default().0;
+        let given = settings.unwrap_or_default();
+        let settings = &given.0;
         let (shortcut, stop) = (settings.skip.equal_layers, Arc::default());
         let of = |body: &Body| {
             influence_coefficients(&body.0, &grid.0, &settings.kernel, shortcut, Some(&stop))
@@ -56,6 +72,10 @@ impl SurfaceOperator {
         Ok(Self {
             shape: (grid.0.nx, grid.0.ny),
             inner: Mutex::new(operator.map_err(to_python)?),
+            body1,
+            body2,
+            grid,
+            settings: given,
         })
     }
 

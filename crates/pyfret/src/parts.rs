@@ -1,8 +1,10 @@
 //! What the parts of a scene can do as values: be pickled and copied, and be given with something
 //! exchanged. All follows from the arguments of the constructor and the attributes that hold them.
 
+use numpy::PyUntypedArray;
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyType};
+use pyo3::types::{PyDict, PyList, PyTuple, PyType};
 
 /// The arguments of the constructor that make `value` again: (argument, attribute) each.
 pub(crate) fn arguments<'py>(
@@ -15,6 +17,139 @@ pub(crate) fn arguments<'py>(
     }
     Ok(arguments)
 }
+
+/// A hash of the parts: equal values have the same.
+pub(crate) fn hash(value: &Bound<'_, PyAny>, parts: &[(&str, &str)]) -> PyResult<isize> {
+    let mut all = vec![value.get_type().into_any()];
+    for (_, attribute) in parts {
+        all.push(hashable(value.getattr(*attribute)?)?);
+    }
+    PyTuple::new(value.py(), all)?.hash()
+}
+
+/// Lists as tuples, arrays as their bytes.
+fn hashable(value: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
+    if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
+        let items: Vec<_> = value
+            .try_iter()?
+            .map(|item| hashable(item?))
+            .collect::<PyResult<_>>()?;
+        return Ok(PyTuple::new(value.py(), items)?.into_any());
+    }
+    if value.is_instance_of::<PyUntypedArray>() {
+        // -0 equals 0.
+        return value.add(0.0)?.call_method0("tobytes");
+    }
+    Ok(value)
+}
+
+/// What `pickle` calls, and with what.
+pub(crate) type Remade<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
+
+/// A function or a class of the module and the arguments that make `value` again.
+pub(crate) fn remade<'py>(
+    value: &Bound<'py, PyAny>,
+    by: &str,
+    parts: &[(&str, &str)],
+) -> PyResult<Remade<'py>> {
+    let py = value.py();
+    let maker = py.import("pyfret._core")?.getattr(by)?;
+    let partial = py.import("functools")?.getattr("partial")?;
+    let call = partial.call((maker,), Some(&arguments(value, parts)?))?;
+    Ok((call, PyTuple::empty(py)))
+}
+
+/// A method of a class, its arguments and the class, which make a value again.
+pub(crate) fn remade_by_method<'py, T: IntoPyObject<'py>>(
+    owner: T,
+    method: &str,
+    arguments: &Bound<'py, PyDict>,
+    py: Python<'py>,
+) -> PyResult<Remade<'py>> {
+    let caller = py.import("operator")?.getattr("methodcaller")?;
+    let call = caller.call((method,), Some(arguments))?;
+    let owner = owner.into_bound_py_any(py)?;
+    Ok((call, PyTuple::new(py, [owner])?))
+}
+
+/// Whether another value is of the same class with equal parts.
+pub(crate) fn equal(
+    value: &Bound<'_, PyAny>,
+    other: &Bound<'_, PyAny>,
+    parts: &[(&str, &str)],
+) -> PyResult<bool> {
+    if !other.get_type().is(&value.get_type()) {
+        return Ok(false);
+    }
+    arguments(value, parts)?.eq(arguments(other, parts)?)
+}
+
+/// The class with its parts, as they are given to make it.
+pub(crate) fn shown(value: &Bound<'_, PyAny>, parts: &[(&str, &str)]) -> PyResult<String> {
+    let each = parts.iter().map(|(argument, attribute)| {
+        let of = value.getattr(*attribute)?.repr()?;
+        Ok(format!("{argument}={of}"))
+    });
+    let all: Vec<_> = each.collect::<PyResult<_>>()?;
+    Ok(format!("{}({})", value.get_type().name()?, all.join(", ")))
+}
+
+/// Pickling, copying, comparing and showing of a class whose values a function of the module makes,
+/// or the class itself, by the arguments that were given, each an attribute of its name. It is
+/// a key of a dict unless it is `changing`.
+macro_rules! made {
+    ($class:ident by $maker:literal: $($argument:ident),*) => {
+        $crate::parts::made!(changing $class by $maker: $($argument),*);
+
+        #[pyo3::pymethods]
+        impl $class {
+            fn __hash__(slf: &pyo3::Bound<'_, Self>) -> pyo3::PyResult<isize> {
+                $crate::parts::hash(slf.as_any(), Self::PARTS)
+            }
+        }
+    };
+    (changing $class:ident by $maker:literal: $($argument:ident),*) => {
+        impl $class {
+            /// Arguments, and the attributes that hold them.
+            const PARTS: &'static [(&'static str, &'static str)] =
+                &[$((stringify!($argument), stringify!($argument))),*];
+        }
+
+        #[pyo3::pymethods]
+        impl $class {
+            fn __reduce__<'py>(
+                slf: &pyo3::Bound<'py, Self>,
+            ) -> pyo3::PyResult<$crate::parts::Remade<'py>> {
+                $crate::parts::remade(slf.as_any(), $maker, Self::PARTS)
+            }
+
+            fn __eq__(
+                slf: &pyo3::Bound<'_, Self>,
+                other: &pyo3::Bound<'_, pyo3::PyAny>,
+            ) -> pyo3::PyResult<bool> {
+                $crate::parts::equal(slf.as_any(), other, Self::PARTS)
+            }
+
+            fn __repr__(slf: &pyo3::Bound<'_, Self>) -> pyo3::PyResult<String> {
+                $crate::parts::shown(slf.as_any(), Self::PARTS)
+            }
+        }
+    };
+}
+pub(crate) use made;
+
+/// The `__repr__` of a class with parts: all of them, as they are given to the constructor.
+macro_rules! shown {
+    ($class:ident) => {
+        #[pyo3::pymethods]
+        impl $class {
+            fn __repr__(slf: &pyo3::Bound<'_, Self>) -> pyo3::PyResult<String> {
+                $crate::parts::shown(slf.as_any(), Self::PARTS)
+            }
+        }
+    };
+}
+pub(crate) use shown as shown_by_parts;
 
 /// A value of the class of `value` with some of its parts exchanged.
 pub(crate) fn replaced<'py>(
@@ -47,6 +182,10 @@ macro_rules! parts {
                 changes: Option<&pyo3::Bound<'py, pyo3::types::PyDict>>,
             ) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
                 $crate::parts::replaced(slf.as_any(), Self::PARTS, changes)
+            }
+
+            fn __hash__(slf: &pyo3::Bound<'_, Self>) -> pyo3::PyResult<isize> {
+                $crate::parts::hash(slf.as_any(), Self::PARTS)
             }
         }
 

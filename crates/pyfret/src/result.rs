@@ -1,4 +1,4 @@
-//! A run from its scene, or from what an earlier one left, to its store, watched from Python.
+//! A run from its scene, or from what an earlier one left, to memory or its store, watched from Python.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -6,27 +6,30 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use contact_core::Error;
-use contact_core::estimate::{BranchEnds, choose_increments, coarsest, error_bars};
+use contact_core::estimate::{BranchEnds, ErrorBars, choose_increments, coarsest, error_bars};
 use contact_core::march::{Increment, March, Observer};
-use contact_core::output::{self, Resumed, StoreWriter};
+use contact_core::output::{self, Columns, Resumed, StoreWriter};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde_json::Value;
 
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::Scene;
+use crate::variables::Variables;
 
-/// Writes the store, tells Python how far the run is, and lets it stop the run.
-struct Watch {
-    writer: StoreWriter,
+/// Keeps the run, tells Python how far it is, and lets it stop the run.
+struct Watch<K> {
+    keeper: K,
     on_increment: Option<Py<PyAny>>,
     stop: Arc<AtomicBool>,
     /// What `on_increment` raised.
     raised: Option<PyErr>,
 }
 
-impl Observer for Watch {
+impl<K: Observer> Observer for Watch<K> {
     fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
-        self.writer.on_increment(march, increment)?;
+        self.keeper.on_increment(march, increment)?;
         let Some(call) = &self.on_increment else {
             return Ok(());
         };
@@ -41,7 +44,7 @@ impl Observer for Watch {
     }
 
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
-        self.writer.on_end(march, failure)
+        self.keeper.on_end(march, failure)
     }
 
     fn stop(&self) -> Option<Arc<AtomicBool>> {
@@ -57,15 +60,16 @@ fn interval(checkpoint: f64) -> PyResult<Duration> {
     })
 }
 
-fn watched(
+/// Does `run` with a keeper that is watched; gives both.
+fn watched<K: Observer + Send, T: Send>(
     py: Python<'_>,
-    writer: StoreWriter,
+    keeper: K,
     on_increment: Option<Py<PyAny>>,
-    run: impl FnOnce(&mut dyn Observer) -> Result<Vec<Increment>, Error> + Send,
-) -> PyResult<()> {
+    run: impl FnOnce(&mut dyn Observer) -> Result<T, Error> + Send,
+) -> PyResult<(K, T)> {
     let stop = Arc::<AtomicBool>::default();
     let mut watch = Watch {
-        writer,
+        keeper,
         on_increment,
         stop: stop.clone(),
         raised: None,
@@ -73,7 +77,34 @@ fn watched(
     let outcome = interruptible(py, &stop, || run(&mut watch))?;
     match watch.raised {
         Some(raised) => Err(raised),
-        None => outcome.map(drop).map_err(to_python),
+        None => Ok((watch.keeper, outcome.map_err(to_python)?)),
+    }
+}
+
+/// Refuses scenes that no run comes to.
+fn check(scene: &Scene, error: bool) -> PyResult<()> {
+    scene.0.check_fit().map_err(to_python)?;
+    if error {
+        coarsest(&scene.0).map_err(to_python)?;
+    }
+    Ok(())
+}
+
+/// The error bars of a run, or why there are none.
+type Bars = Result<Vec<ErrorBars>, Error>;
+
+/// Goes through the whole path; gives the error bars if `error`.
+fn whole(scene: &Scene, error: bool, watch: &mut dyn Observer) -> Result<Option<Bars>, Error> {
+    let stop = watch.stop().unwrap_or_default();
+    let mut ends = BranchEnds::beside(watch);
+    let scene = &choose_increments(&scene.0, &stop)?;
+    let increments = contact_core::march::solve(scene, &mut ends)?;
+    if !error {
+        return Ok(None);
+    }
+    match error_bars(scene, &increments, &ends.tractions, &stop) {
+        Err(stopped @ Error::Interrupted { .. }) => Err(stopped),
+        bars => Ok(Some(bars)),
     }
 }
 
@@ -91,27 +122,45 @@ pub(crate) fn solve(
     error: bool,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {
-    scene.0.check_fit().map_err(to_python)?;
-    if error {
-        coarsest(&scene.0).map_err(to_python)?;
-    }
+    check(&scene, error)?;
     let writer = StoreWriter::create(&store, false)
         .map_err(to_python)?
         .with_interval(interval(checkpoint)?);
-    watched(py, writer, on_increment, |watch| {
-        let stop = watch.stop().unwrap_or_default();
-        let mut ends = BranchEnds::beside(watch);
-        let scene = &choose_increments(&scene.0, &stop)?;
-        let increments = contact_core::march::solve(scene, &mut ends)?;
-        if error {
-            match error_bars(scene, &increments, &ends.tractions, &stop) {
-                Ok(bars) => output::write_error_bars(&store, &bars)?,
-                Err(stopped @ Error::Interrupted { .. }) => return Err(stopped),
-                Err(why) => drop(output::write_no_error_bars(&store, &why)?),
-            }
+    let run = |watch: &mut dyn Observer| {
+        match whole(&scene, error, watch)? {
+            Some(Ok(bars)) => output::write_error_bars(&store, &bars)?,
+            Some(Err(why)) => drop(output::write_no_error_bars(&store, &why)?),
+            None => {}
         }
-        Ok(increments)
-    })
+        Ok(())
+    };
+    watched(py, writer, on_increment, run).map(drop)
+}
+
+/// Run a scene in memory; use :func:`pyfret.solve`, which labels what this one gives.
+///
+/// These are the variables, each with dimensions, values and attributes as xarray takes them, and
+/// what a store says of the run, as JSON.
+#[pyfunction]
+#[pyo3(signature = (scene, *, error = false, on_increment = None))]
+pub(crate) fn solve_in_memory<'py>(
+    py: Python<'py>,
+    scene: Scene,
+    error: bool,
+    on_increment: Option<Py<PyAny>>,
+) -> PyResult<(Bound<'py, PyDict>, String)> {
+    check(&scene, error)?;
+    let run = |watch: &mut dyn Observer| whole(&scene, error, watch);
+    let (mut columns, bars) = watched(py, Columns::default(), on_increment, run)?;
+    if let Some(bars) = bars {
+        columns.set_error_bars(&bars);
+    }
+    let attributes = Value::Object(std::mem::take(&mut columns.attributes)).to_string();
+    let grid = &scene.0.grid;
+    let variables = Variables::new(py);
+    variables.cells(grid)?;
+    variables.columns(columns, (grid.nx, grid.ny))?;
+    Ok((variables.finish(), attributes))
 }
 
 /// Checks a store and gives the attributes of its group as JSON.
@@ -140,7 +189,6 @@ pub(crate) fn resume(
         return Ok(());
     };
     let writer = writer.with_interval(interval);
-    watched(py, writer, on_increment, |watch| {
-        march.run(increments, watch)
-    })
+    let run = |watch: &mut dyn Observer| march.run(increments, watch).map(drop);
+    watched(py, writer, on_increment, run).map(drop)
 }

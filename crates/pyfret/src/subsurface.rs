@@ -16,8 +16,8 @@ use numpy::{
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::argument::to_python;
 use crate::arguments::{Field, List, side};
-use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 

@@ -13,7 +13,8 @@ use numpy::{PyArrayLike1, PyArrayLike2, ToPyArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::error::to_python;
+use crate::argument::to_python;
+use crate::error::to_python as scene_to_python;
 use crate::interruptible::interruptible;
 use crate::parts::parts;
 use crate::scene::Scene;
@@ -258,6 +259,7 @@ pub(crate) fn wear(
     tell_from: f64,
     on_jump: Option<Py<PyAny>>,
 ) -> PyResult<()> {
+    scene.0.check().map_err(scene_to_python)?;
     let bodies = [body(body1.as_ref(), share1)?, body(body2.as_ref(), share2)?];
     let wear = core::Wear {
         first_branch,

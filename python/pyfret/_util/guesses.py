@@ -32,8 +32,6 @@ def no_attribute(
     message = f"a {owner} has no {name!r}"
     if name in elsewhere:
         return AttributeError(f"{message}: {elsewhere[name]}")
-    if name == "plot":
-        return AttributeError(f"{message}: figures are functions, such as pyfret.plot.stick_slip")
     if hasattr(xr.Dataset, name):
         return AttributeError(f"{message}: the xarray.Dataset has, {owner}.dataset.{name}")
     names = sorted(known)

@@ -19,7 +19,7 @@ OTHER_NAMES = {
     "Material": "Elastic",
     "Layer": "Coating",
     "Surface": "SurfaceMap",
-    "Roughness": "Rough",
+    "Roughness": "shapes.Rough",
 }
 #: Deprecated names of ``pyfret``, and where they are.
 MOVED = {
@@ -36,7 +36,18 @@ MOVED = {
         "errors",
     ),
     **dict.fromkeys(
-        ("Cone", "CrownedRoller", "Flat", "FlatPunch", "Sum", "Waviness", "Wedge"), "shapes"
+        (
+            "Cone",
+            "CrownedRoller",
+            "Ellipsoid",
+            "Flat",
+            "FlatPunch",
+            "Rough",
+            "Sum",
+            "Waviness",
+            "Wedge",
+        ),
+        "shapes",
     ),
     **dict.fromkeys(("FrequencyDomain", "Hankel", "InverseFft", "Preset", "Skip"), "settings"),
     **dict.fromkeys(("Archard", "DissipatedEnergy", "WearResult"), "wear"),

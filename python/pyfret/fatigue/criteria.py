@@ -83,6 +83,10 @@ class Materials(Mapping[str, Material]):
         """Count the materials."""
         return len(self._materials)
 
+    def __repr__(self) -> str:
+        """Give the names."""
+        return f"Materials({', '.join(self._materials)})"
+
 
 def _points(stress: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
     """A history as an array of shape (time, points, 6), and the shape of the points."""

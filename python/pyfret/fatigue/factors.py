@@ -18,6 +18,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import Material
+from pyfret._util.labelled import Labelled
 from pyfret.fatigue.criteria import first_yield
 from pyfret.fatigue.cycle_stress import judge
 from pyfret.fatigue.section import Section, for_each_layer
@@ -57,7 +58,7 @@ class Least(NamedTuple):
     error: float
 
 
-class LoadFactors:
+class LoadFactors(Labelled):
     """Load factors of first yield and shakedown on a section below the contact, or on several.
 
     :attr:`dataset` has ``von_mises``, ``tresca`` and ``shakedown`` over (depth, x) or (depth, y),
@@ -66,7 +67,7 @@ class LoadFactors:
     """
 
     def __init__(self, dataset: xr.Dataset, layers: Sequence[int]) -> None:
-        self.dataset = dataset
+        super().__init__(dataset)
         #: The layers that are judged, from the surface down.
         self.layers = list(layers)
 
@@ -87,6 +88,12 @@ class LoadFactors:
         """Give the least factor of all layers."""
         return min(
             (self.least_of(layer, of) for layer in self.layers), key=lambda least: least.factor
+        )
+
+    def __eq__(self, other: object) -> bool:
+        """Whether dataset and layers are the same."""
+        return (
+            super().__eq__(other) and isinstance(other, LoadFactors) and other.layers == self.layers
         )
 
     def __repr__(self) -> str:

@@ -11,16 +11,19 @@ The stress is computed a few depths at a time, judged and let go: memory is boun
 from __future__ import annotations
 
 from collections.abc import Sequence
+from html import escape
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from pyfret._core import Material
+from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret.fatigue.criteria import evaluate
 from pyfret.fatigue.cycle_stress import CycleStress, judge
 from pyfret.fatigue.section import Section, for_each_layer
 from pyfret.fatigue.worst import largest
+from pyfret.scene.tables import table
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -59,7 +62,7 @@ class Worst(NamedTuple):
     normal: tuple[float, float, float] | None
 
 
-class Life:
+class Life(Labelled):
     """A criterion on a section below the contact, or on several.
 
     :attr:`dataset` has ``value``, ``missed`` (no plane has more than value + missed), the shear and
@@ -69,7 +72,7 @@ class Life:
     """
 
     def __init__(self, dataset: xr.Dataset, assessments: Sequence[Assessment | None]) -> None:
-        self.dataset = dataset
+        super().__init__(dataset)
         self._assessments = assessments
 
     @property
@@ -108,6 +111,24 @@ class Life:
         """The point of the smallest margin; of equal ones, that of the larger value."""
         judged = [self.worst_of(layer) for layer in self.layers]
         return min(judged, key=lambda w: (np.nan_to_num(w.margin, nan=-np.inf), -w.value))
+
+    def __eq__(self, other: object) -> bool:
+        """Whether dataset and assessments are the same."""
+        same = super().__eq__(other)
+        return same and isinstance(other, Life) and other._assessments == self._assessments
+
+    def _repr_html_(self) -> str:
+        """The worst point of every layer, for notebooks."""
+        name, _ = margin_name(self._assessments)
+        unit = str(self.dataset.value.attrs.get("units", ""))
+        rows = []
+        for layer in self.layers:
+            w = self.worst_of(layer)
+            place = (f"{1e6 * at:.4g}" for at in (w.x, w.y, w.z))
+            rows.append([str(layer), f"{w.margin:.4g}", f"{w.value:.5g} {unit}", *place])
+        heading = ["layer", name.replace("_", " "), "value", "x [µm]", "y [µm]", "z [µm]"]
+        criterion = escape(str(self.dataset.attrs["criterion"]))
+        return f"<p><b>{criterion}</b></p>{table(heading, rows)}"
 
     def __repr__(self) -> str:
         """Say what was judged and how it ends."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
@@ -148,16 +149,13 @@ class CrackLife:
     stopped: bool
 
 
-class Cracks:
+class Cracks(Labelled):
     """K of a cycle over the length of a crack, and what follows.
 
     ``dataset`` has ``K_I`` and ``K_II`` over (increment, length), their ``error``, ``open``, the
     share of the crack that is open, and ``K_I_linear``, ``K_II_linear`` with faces that may pass
     through each other [Pa m^0.5].
     """
-
-    def __init__(self, dataset: xr.Dataset) -> None:
-        self.dataset = dataset
 
     @classmethod
     def from_arrays(cls, lengths: ArrayLike, K_max: ArrayLike, K_min: ArrayLike) -> Cracks:

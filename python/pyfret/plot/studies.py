@@ -24,7 +24,9 @@ COLOURS = "YlGnBu"
 class Tabulated(Protocol):
     """Measures over parameters, as a :class:`pyfret.study.Study` has them."""
 
-    dataset: xr.Dataset
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Measures over the parameters."""
 
     @property
     def parameters(self) -> list[str]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret._core import Scene
+from pyfret._util.labelled import Labelled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -14,17 +15,17 @@ if TYPE_CHECKING:
 __all__ = ["OfRun"]
 
 
-class OfRun:
+class OfRun(Labelled):
     """A dataset whose attributes say which run it belongs to."""
 
     def __init__(self, dataset: xr.Dataset, scene: Scene | None = None) -> None:
-        self._dataset = dataset
+        super().__init__(dataset)
         self._scene = scene
 
     @property
     def dataset(self) -> xr.Dataset:
         """Variables with units and meaning, and the attributes of the run."""
-        return self._dataset
+        return super().dataset
 
     def __getitem__(self, name: str) -> xr.DataArray:
         """Give a variable of the dataset by its name."""

@@ -12,8 +12,9 @@ from pyfret.scene.tables import number, table
 
 if TYPE_CHECKING:
     from pyfret.run.run import Run
+    from pyfret.run.state import State
 
-__all__ = ["cycles_table", "ends_table", "run_html"]
+__all__ = ["cycles_table", "ends_table", "run_html", "state_html"]
 
 #: Scalars at the ends of the branches: heading, name, factor of the unit.
 ENDS = (
@@ -74,3 +75,17 @@ def run_html(result: Run) -> str:
     """A result as tables: what was solved, and the ends of the branches."""
     title = escape(str(result.dataset.attrs["title"]))
     return f"<p><b>{title}</b>: {escape(result.status)}</p>{ends_table(result)}"
+
+
+def state_html(state: State) -> str:
+    """An increment as a table: its loads and what they do."""
+    d = state.dataset
+    numbers = [
+        (heading, factor * float(d[name]))
+        for heading, name, factor in ENDS
+        if name in d and (name == "W" or float(d[name]))
+    ]
+    rows = [[heading, number(value)] for heading, value in numbers]
+    rows.append(["state", STATUS[int(d.status)]])
+    title = f"<p><b>increment {int(d.increment)}</b>, t = {number(float(d.t))}</p>"
+    return title + table(["", ""], rows)

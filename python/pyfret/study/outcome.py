@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyfret._util.lazy import xr
+from pyfret._util.labelled import Labelled
 from pyfret.scene.tables import number, table
 from pyfret.study.point import DONE, FAILED, OPEN
 from pyfret.study.store import read
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["Study", "open"]
 
 
-class Study:
+class Study(Labelled):
     """The measures of all points of a study.
 
     Attributes
@@ -30,9 +30,6 @@ class Study:
         a point has none; ``status`` (0 open, 1 done, 2 failed), ``reason``, ``nx`` and ``ny``,
         the cells that the point took, and ``seconds``, its processor time.
     """
-
-    def __init__(self, dataset: xr.Dataset) -> None:
-        self.dataset = dataset
 
     @property
     def parameters(self) -> list[str]:

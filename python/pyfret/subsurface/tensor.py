@@ -9,7 +9,9 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.guesses import no_attribute
+from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
+from pyfret.scene.tables import table
 from pyfret.scene.warnings import SceneWarning
 
 if TYPE_CHECKING:
@@ -56,7 +58,7 @@ class Extreme(NamedTuple):
     errors: Errors
 
 
-class Stress:
+class Stress(Labelled):
     """The six stresses somewhere below the surface, and what follows from them.
 
     ``stress.s_xx``, ``stress.von_mises``, ``stress.tresca``, ``stress.s_1`` (principal values, the
@@ -65,8 +67,12 @@ class Stress:
     """
 
     def __init__(self, dataset: xr.Dataset, below: _core.Subsurface | None = None) -> None:
-        self.dataset = dataset
+        super().__init__(dataset)
         self._below = below
+
+    def __reduce__(self) -> tuple[type[Stress], tuple[xr.Dataset]]:
+        """Pickle the samples, without the tractions above them."""
+        return Stress, (self.dataset,)
 
     def assign_attrs(self, attrs: dict[str, object]) -> Stress:
         """Give the same stress with more attributes of its dataset."""
@@ -228,9 +234,25 @@ class Stress:
             )
         return str(dims[1])
 
+    def _repr_html_(self) -> str:
+        """The largest samples in every layer, for notebooks."""
+        layers = self.dataset.layer.values
+        rows = []
+        for name in ("von_mises", "tresca", "s_1", "hydrostatic"):
+            field = self.measure(name)
+            for layer in np.unique(layers).tolist():
+                here = field.isel(depth=layers == layer) if "depth" in field.dims else field
+                top = float(here.max())
+                z = float(here.where(here == top, drop=True).z.min())
+                depth = f"{1e6 * z:.4g}"
+                rows.append([LABELS[name][1], str(layer), f"{1e-6 * top:.4g}", depth])
+        return table(["largest sample", "layer", "MPa", "z [µm]"], rows, words=True)
+
     def __repr__(self) -> str:
-        """Show the dataset."""
-        return f"Stress({self.dataset!r})"
+        """Give the places and the largest sample of von Mises' stress."""
+        sizes = ", ".join(f"{n} {name}" for name, n in self.dataset[COMPONENTS[0]].sizes.items())
+        largest = float(self.measure("von_mises").max())
+        return f"Stress({sizes or 'one place'}; largest von Mises {largest:.4g} Pa)"
 
 
 _PROBES = _core.probe_labels()

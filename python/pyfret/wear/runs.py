@@ -13,8 +13,10 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import Scene
+from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
+from pyfret.scene.tables import table
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -36,7 +38,7 @@ Cycling = Literal["march", "sliding"]
 WornThrough = Literal["stop", "go_on"]
 
 
-class WearResult:
+class WearResult(Labelled):
     """Worn surfaces over blocks of cycles, and the numbers of every jump.
 
     ``dataset`` has the scalars over ``jump`` (coordinate ``cycles``): ``volume1``, ``volume2``,
@@ -45,9 +47,6 @@ class WearResult:
     ``p``, ``stick`` over ``block``, ``x``, ``y`` (coordinate ``block_cycles``), and the friction
     loops ``loop_delta_x``, ``loop_T_x``, ... over ``block``, ``corner``.
     """
-
-    def __init__(self, dataset: xr.Dataset) -> None:
-        self.dataset = dataset
 
     def __getattr__(self, name: str) -> Any:
         """Give a variable or an attribute of the dataset."""
@@ -188,6 +187,19 @@ class WearResult:
     def events(self) -> list[dict[str, Any]]:
         """What happened to the coatings: kind, cycles, body, coating, x, y."""
         return list(self.dataset.attrs["events"])
+
+    def _repr_html_(self) -> str:
+        """Cycles and depths of the blocks, for notebooks."""
+        d = self.dataset
+        at = [int(abs(d.cycles.values - of).argmin()) for of in d.block_cycles.values]
+        rows = [
+            [f"{float(d.cycles[n]):.4g}"]
+            + [f"{1e6 * float(d[name][n]):.4g}" for name in ("depth1", "depth2")]
+            + [f"{1e-6 * float(d.p_max[n]):.4g}"]
+            for n in at
+        ]
+        heading = ["cycles", "depth, body 1 [µm]", "depth, body 2 [µm]", "p_max [MPa]"]
+        return table(heading, rows)
 
     def __repr__(self) -> str:
         """Tell the cycles and the depths."""

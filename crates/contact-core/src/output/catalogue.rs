@@ -56,8 +56,55 @@ pub enum FieldView<'a> {
     Mask(&'a Array2<bool>),
 }
 
+/// A coordinate that no increment gives.
+#[derive(Clone, Copy, Debug)]
+pub struct Axis {
+    /// Name.
+    pub name: &'static str,
+    /// Its dimension.
+    pub dim: &'static str,
+    /// Unit; `1` for a number without.
+    pub units: &'static str,
+    /// What it is.
+    pub long_name: &'static str,
+    /// How it is stored.
+    pub kind: Kind,
+}
+
+/// The coordinates of the cells, and of the increments whose fields are kept.
+pub const AXES: [Axis; 4] = [
+    Axis {
+        name: "x",
+        dim: "x",
+        units: "m",
+        long_name: "position along x",
+        kind: Kind::Real,
+    },
+    Axis {
+        name: "y",
+        dim: "y",
+        units: "m",
+        long_name: "position along y",
+        kind: Kind::Real,
+    },
+    Axis {
+        name: "saved_increment",
+        dim: "saved",
+        units: "1",
+        long_name: "increment whose fields are kept",
+        kind: Kind::Count,
+    },
+    Axis {
+        name: "saved_t",
+        dim: "saved",
+        units: "1",
+        long_name: "path time at which fields are kept",
+        kind: Kind::Real,
+    },
+];
+
 /// Words for the codes of `status`, in their order.
-pub(super) const STATUS_MEANINGS: &str = "no_contact full_stick partial_slip gross_slip";
+pub const STATUS_MEANINGS: &str = "no_contact full_stick partial_slip gross_slip";
 
 const fn real(
     name: &'static str,

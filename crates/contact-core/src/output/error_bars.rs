@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::consolidated::FILE;
 use super::folder::Folder;
@@ -20,14 +20,22 @@ pub fn write_error_bars(path: impl AsRef<Path>, bars: &[ErrorBars]) -> Result<()
 
 /// Says in a store whose run is done why it has no error bars, and returns that.
 pub fn write_no_error_bars(path: impl AsRef<Path>, why: &Error) -> Result<String, Error> {
-    let doubt = format!("no error bars: another grid or path that tells the errors failed: {why}");
+    let mut doubt = String::new();
     change(path.as_ref(), |attributes| {
-        let others = attributes[DOUBTS]
-            .as_str()
-            .map(|others| format!("{others}\n"));
-        attributes[DOUBTS] = json!(others.unwrap_or_default() + &doubt);
+        if let Some(attributes) = attributes.as_object_mut() {
+            doubt = doubt_bars(attributes, why);
+        }
     })?;
     Ok(doubt)
+}
+
+/// Puts among the doubts why there are no error bars, and returns that.
+pub(super) fn doubt_bars(attributes: &mut Map<String, Value>, why: &Error) -> String {
+    let doubt = format!("no error bars: another grid or path that tells the errors failed: {why}");
+    let others = attributes.get(DOUBTS).and_then(Value::as_str);
+    let all = others.map_or(doubt.clone(), |others| format!("{others}\n{doubt}"));
+    attributes.insert(DOUBTS.into(), json!(all));
+    doubt
 }
 
 /// Changes the attributes of a store whose run is done.

@@ -11,9 +11,12 @@
 //! [`resume`] continues to the same result, bit by bit. Groups are laid out beside their place and take
 //! it at once: a path holds nothing, or a store.
 //!
+//! [`Columns`] keeps the same in memory, for whoever wants no store.
+//!
 //! Stress below the surface goes to a group of its own ([`StressStore`]) or to VTK image data
 //! ([`ImageData`]), volumes plane by plane while they are computed ([`write_volume`]).
 
+mod attributes;
 mod catalogue;
 mod checkpoint;
 mod column;
@@ -21,6 +24,7 @@ mod consolidated;
 mod error_bars;
 mod folder;
 mod image_data;
+mod memory;
 mod open;
 mod place;
 mod reader;
@@ -37,9 +41,11 @@ mod whole;
 mod worn_read;
 mod writer;
 
-pub use catalogue::{FIELDS, Field, FieldView, Kind, SCALARS, Scalar};
+pub use attributes::group_attributes;
+pub use catalogue::{AXES, Axis, FIELDS, Field, FieldView, Kind, SCALARS, STATUS_MEANINGS, Scalar};
 pub use error_bars::{write_error_bars, write_no_error_bars};
 pub use image_data::ImageData;
+pub use memory::{Columns, KeptField};
 pub use reader::Store;
 pub use resume::{Resumed, resume};
 pub use stress_store::StressStore;

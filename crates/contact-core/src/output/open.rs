@@ -6,12 +6,12 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
-use super::catalogue::{FIELDS, FieldView, Kind, SCALARS, STATUS_MEANINGS};
+use super::attributes::group_attributes;
+use super::catalogue::{AXES, FIELDS, FieldView, Kind, SCALARS, STATUS_MEANINGS};
 use super::checkpoint::Checkpoints;
 use super::consolidated::{Checksums, Consolidated, FILE};
 use super::folder::Folder;
 use super::place::Unfinished;
-use super::schema::{CONVENTIONS, SCHEMA};
 use super::{column::Column, variable::Variable};
 use crate::error::Error;
 use crate::march::{Fields, Increment, Reached, State};
@@ -22,6 +22,9 @@ use crate::scene::{LoadPoint, Scene};
 const SHARE: f64 = 0.03;
 /// What a checkpoint is taken to cost before one has been timed.
 const FIRST_COST: Duration = Duration::from_millis(30);
+
+/// Variables that readers take for coordinates.
+const COORDINATES: &str = "t branch_of_increment saved_increment saved_t";
 
 /// A store that has been begun.
 pub(super) struct Open {
@@ -71,30 +74,24 @@ impl Open {
                 attributes,
             )
         });
-        let position = |name, words| Column::new(name, Kind::Real, words, name, &[]);
-        let saved = |name, kind, words| Column::new(name, kind, words, "saved", &[]);
-        let others = vec![
-            position("x", ("m", "position along x")).extend((0..grid.nx).map(|i| grid.x(i))),
-            position("y", ("m", "position along y")).extend((0..grid.ny).map(|j| grid.y(j))),
-            saved(
-                "saved_increment",
-                Kind::Count,
-                ("1", "increment whose fields are kept"),
-            ),
-            saved(
-                "saved_t",
-                Kind::Real,
-                ("1", "path time at which fields are kept"),
-            ),
-        ];
+        let others = AXES.iter().map(|of| {
+            let column = Column::new(of.name, of.kind, (of.units, of.long_name), of.dim, &[]);
+            match of.name {
+                "x" => column.extend((0..grid.nx).map(|i| grid.x(i))),
+                "y" => column.extend((0..grid.ny).map(|j| grid.y(j))),
+                _ => column,
+            }
+        });
         let fields = FIELDS
             .iter()
             .map(|f| Variable::field(f.name, f.kind, (f.units, f.long_name), (grid.nx, grid.ny)));
+        let mut attributes = group_attributes(scene, plan);
+        attributes.insert("coordinates".into(), json!(COORDINATES));
         Self {
             folder,
-            attributes: group_attributes(scene, plan),
+            attributes,
             scalars: scalars.collect(),
-            others,
+            others: others.collect(),
             fields: fields.collect(),
             last: None,
             reached: Reached::default(),
@@ -271,27 +268,4 @@ impl Open {
         self.written = metadata;
         Ok(())
     }
-}
-
-/// What the group says about the run.
-fn group_attributes(scene: &Scene, plan: &Plan) -> Map<String, Value> {
-    let plan: Vec<_> = plan.lines.iter().map(ToString::to_string).collect();
-    let mut attributes = Map::new();
-    let mut set = |key: &str, value: Value| attributes.insert(key.to_owned(), value);
-    set("Conventions", json!(CONVENTIONS));
-    set("title", json!(scene.title));
-    set("schema", json!(SCHEMA));
-    set("version", json!(env!("CARGO_PKG_VERSION")));
-    set("scene", json!(scene.to_toml()));
-    set("plan", json!(plan));
-    set("mu", json!(scene.friction.mu));
-    if let Some(hertz) = scene.hertz() {
-        set("a_H", json!(hertz.a));
-        set("p_H", json!(hertz.p0));
-        set("R", json!(hertz.a * hertz.a / hertz.delta_z));
-    }
-    set("status", json!("running"));
-    let coordinates = "t branch_of_increment saved_increment saved_t";
-    set("coordinates", json!(coordinates));
-    attributes
 }

@@ -7,8 +7,9 @@ use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
 use super::{Hertz, Numbers, map, map_checked, pair};
-use crate::error::to_python;
-use crate::material::Material;
+use crate::argument::to_python;
+use crate::material::{Elastic, Material};
+use crate::parts::made;
 
 /// Partial slip of a sphere under constant normal force and a force T along x.
 ///
@@ -26,7 +27,14 @@ use crate::material::Material;
 /// mu : float
 ///     Friction coefficient.
 #[pyclass(frozen, module = "pyfret.reference")]
-pub(crate) struct CattaneoMindlin(core::CattaneoMindlin);
+pub(crate) struct CattaneoMindlin {
+    slip: core::CattaneoMindlin,
+    /// Materials of body 1 and body 2.
+    #[pyo3(get)]
+    bodies: (Elastic, Elastic),
+}
+
+made!(CattaneoMindlin by "CattaneoMindlin": hertz, bodies, mu);
 
 #[pymethods]
 impl CattaneoMindlin {
@@ -35,44 +43,47 @@ impl CattaneoMindlin {
     fn new(hertz: Hertz, bodies: (Material, Material), mu: f64) -> PyResult<Self> {
         let (body1, body2) = pair(bodies)?;
         positive("mu", mu).map_err(to_python)?;
-        Ok(Self(core::CattaneoMindlin::new(hertz.0, body1, body2, mu)))
+        Ok(Self {
+            slip: core::CattaneoMindlin::new(hertz.0, body1, body2, mu),
+            bodies: (Elastic(body1), Elastic(body2)),
+        })
     }
 
     /// The normal contact.
     #[getter]
     fn hertz(&self) -> Hertz {
-        Hertz(self.0.hertz)
+        Hertz(self.slip.hertz)
     }
 
     /// Friction coefficient.
     #[getter]
     fn mu(&self) -> f64 {
-        self.0.mu
+        self.slip.mu
     }
 
     /// Tangential modulus [Pa], 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2.
     #[getter]
     fn G_star(&self) -> f64 {
-        self.0.G_star
+        self.slip.G_star
     }
 
     /// Largest tangential force [N], mu W.
     #[getter]
     fn T_limit(&self) -> f64 {
-        self.0.T_limit()
+        self.slip.T_limit()
     }
 
     /// Shift at which gross sliding starts [m], 3 mu W / (16 a G*).
     #[getter]
     fn shift_limit(&self) -> f64 {
-        self.0.shift_limit()
+        self.slip.shift_limit()
     }
 
     /// Stick radius of the first loading to `T` [N], a (1 - T/(mu W))^(1/3) [m].
     #[pyo3(signature = (T))]
     fn stick_radius(&self, T: f64) -> PyResult<f64> {
         self.check(&[("T", T)])?;
-        Ok(self.0.stick_radius(T))
+        Ok(self.slip.stick_radius(T))
     }
 
     /// Stick radius after the force changed from the reversal at `T_m` to `T` [N] [m].
@@ -81,7 +92,7 @@ impl CattaneoMindlin {
     #[pyo3(signature = (T, *, T_m))]
     fn stick_radius_reversed(&self, T: f64, T_m: f64) -> PyResult<f64> {
         self.check(&[("T", T), ("T_m", T_m)])?;
-        Ok(self.0.stick_radius_reversed(T, T_m))
+        Ok(self.slip.stick_radius_reversed(T, T_m))
     }
 
     /// Shear traction at distance `r` [m] in the first loading to `T` [N] [Pa].
@@ -93,7 +104,7 @@ impl CattaneoMindlin {
         T: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.check(&[("T", T)])?;
-        Ok(map(py, &r, |r| self.0.q_loading(r, T)))
+        Ok(map(py, &r, |r| self.slip.q_loading(r, T)))
     }
 
     /// Shear traction at `T` on the way back from the first loading to `T_m` [N] [Pa].
@@ -106,7 +117,7 @@ impl CattaneoMindlin {
         T_m: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.check(&[("T", T), ("T_m", T_m)])?;
-        Ok(map(py, &r, |r| self.0.q_unloading(r, T, T_m)))
+        Ok(map(py, &r, |r| self.slip.q_unloading(r, T, T_m)))
     }
 
     /// Shear traction at `T` on the way from -`T_m` back to `T_m` [N] [Pa].
@@ -119,7 +130,7 @@ impl CattaneoMindlin {
         T_m: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.check(&[("T", T), ("T_m", T_m)])?;
-        Ok(map(py, &r, |r| self.0.q_reloading(r, T, T_m)))
+        Ok(map(py, &r, |r| self.slip.q_reloading(r, T, T_m)))
     }
 
     /// Shift delta_x of the first loading to `T` [N] [m].
@@ -128,7 +139,12 @@ impl CattaneoMindlin {
         py: Python<'py>,
         T: Numbers<'py>,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        map_checked(py, &T, |T| self.force("T", T), |T| self.0.shift_loading(T))
+        map_checked(
+            py,
+            &T,
+            |T| self.force("T", T),
+            |T| self.slip.shift_loading(T),
+        )
     }
 
     /// Shift delta_x at `T` on the way back from `T_m` [N] [m].
@@ -140,7 +156,7 @@ impl CattaneoMindlin {
         T_m: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.check(&[("T_m", T_m)])?;
-        let shift = |T| self.0.shift_unloading(T, T_m);
+        let shift = |T| self.slip.shift_unloading(T, T_m);
         map_checked(py, &T, |T| self.force("T", T), shift)
     }
 
@@ -153,20 +169,20 @@ impl CattaneoMindlin {
         T_m: f64,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         self.check(&[("T_m", T_m)])?;
-        let shift = |T| self.0.shift_reloading(T, T_m);
+        let shift = |T| self.slip.shift_reloading(T, T_m);
         map_checked(py, &T, |T| self.force("T", T), shift)
     }
 
     /// Energy dissipated in one closed loop between -`T_m` and `T_m` [J].
     fn loop_energy(&self, T_m: f64) -> PyResult<f64> {
         self.check(&[("T_m", T_m)])?;
-        Ok(self.0.loop_energy(T_m))
+        Ok(self.slip.loop_energy(T_m))
     }
 
     /// Loop energy over 4 T_m delta_x(T_m); 0.2 where partial slip ends.
     fn energy_ratio(&self, T_m: f64) -> PyResult<f64> {
         self.check(&[("T_m", T_m)])?;
-        Ok(self.0.energy_ratio(T_m))
+        Ok(self.slip.energy_ratio(T_m))
     }
 }
 
@@ -174,7 +190,7 @@ impl CattaneoMindlin {
     /// A tangential force that friction carries.
     fn force(&self, key: &str, T: f64) -> Result<f64, Error> {
         // Rounding of mu W is no reason to refuse the force at which sliding begins.
-        let limit = self.0.T_limit() * (1.0 + 1e-9);
+        let limit = self.slip.T_limit() * (1.0 + 1e-9);
         between(key, T, (-limit, limit))
     }
 

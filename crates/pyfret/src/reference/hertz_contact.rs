@@ -6,18 +6,56 @@ use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
 use super::{Numbers, map, pair};
-use crate::error::to_python;
+use crate::argument::to_python;
 use crate::material::Material;
+use crate::parts::made;
 
 /// Frictionless contact of two paraboloids of revolution.
 ///
-/// K. L. Johnson, Contact Mechanics (1985), eq. (4.22)-(4.24).
+/// K. L. Johnson, Contact Mechanics (1985), eq. (4.22)-(4.24). :func:`hertz` makes it.
+///
+/// Parameters
+/// ----------
+/// W : float
+///     Normal force [N].
+/// E_star : float
+///     Contact modulus [Pa].
+/// a : float
+///     Contact radius [m].
+/// p0 : float
+///     Peak pressure [Pa].
+/// delta_z : float
+///     Approach [m].
 #[pyclass(frozen, from_py_object, module = "pyfret.reference")]
 #[derive(Clone, Copy)]
 pub(crate) struct Hertz(pub(crate) core::Hertz);
 
+made!(Hertz by "Hertz": W, E_star, a, p0, delta_z);
+
 #[pymethods]
 impl Hertz {
+    #[new]
+    #[pyo3(signature = (*, W, E_star, a, p0, delta_z))]
+    fn new(W: f64, E_star: f64, a: f64, p0: f64, delta_z: f64) -> PyResult<Self> {
+        let all = [
+            ("W", W),
+            ("E_star", E_star),
+            ("a", a),
+            ("p0", p0),
+            ("delta_z", delta_z),
+        ];
+        for (key, value) in all {
+            positive(key, value).map_err(to_python)?;
+        }
+        Ok(Self(core::Hertz {
+            W,
+            E_star,
+            a,
+            p0,
+            delta_z,
+        }))
+    }
+
     /// Normal force [N].
     #[getter]
     fn W(&self) -> f64 {
@@ -52,17 +90,6 @@ impl Hertz {
     fn p<'py>(&self, py: Python<'py>, r: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
         map(py, &r, |r| self.0.p(r))
     }
-
-    fn __repr__(&self) -> String {
-        let core::Hertz {
-            W,
-            E_star,
-            a,
-            p0,
-            delta_z,
-        } = self.0;
-        format!("Hertz(W={W:?}, E_star={E_star:?}, a={a:?}, p0={p0:?}, delta_z={delta_z:?})")
-    }
 }
 
 /// Hertz contact of a sphere of relative radius `R` [m] under the force `W` [N].
@@ -76,44 +103,54 @@ pub(crate) fn hertz(R: f64, bodies: (Material, Material), W: f64) -> PyResult<He
 
 /// Elliptical Hertz contact, K. L. Johnson, Contact Mechanics (1985), sec. 4.2.
 #[pyclass(frozen, module = "pyfret.reference")]
-pub(crate) struct HertzEllipse(core::HertzEllipse);
+pub(crate) struct HertzEllipse {
+    ellipse: core::HertzEllipse,
+    /// Relative principal radius along x [m].
+    #[pyo3(get)]
+    R_x: f64,
+    /// Relative principal radius along y [m].
+    #[pyo3(get)]
+    R_y: f64,
+}
+
+made!(HertzEllipse by "hertz_ellipse": R_x, R_y, E_star, W);
 
 #[pymethods]
 impl HertzEllipse {
     /// Normal force [N].
     #[getter]
     fn W(&self) -> f64 {
-        self.0.W
+        self.ellipse.W
     }
 
     /// Contact modulus [Pa].
     #[getter]
     fn E_star(&self) -> f64 {
-        self.0.E_star
+        self.ellipse.E_star
     }
 
     /// Semi-axis of the contact along x [m].
     #[getter]
     fn a_x(&self) -> f64 {
-        self.0.a_x
+        self.ellipse.a_x
     }
 
     /// Semi-axis of the contact along y [m].
     #[getter]
     fn a_y(&self) -> f64 {
-        self.0.a_y
+        self.ellipse.a_y
     }
 
     /// Peak pressure [Pa], 3 W / (2 pi a_x a_y).
     #[getter]
     fn p0(&self) -> f64 {
-        self.0.p0
+        self.ellipse.p0
     }
 
     /// Approach [m].
     #[getter]
     fn delta_z(&self) -> f64 {
-        self.0.delta_z
+        self.ellipse.delta_z
     }
 }
 
@@ -128,5 +165,9 @@ pub(crate) fn hertz_ellipse(R_x: f64, R_y: f64, E_star: f64, W: f64) -> PyResult
     }
     let ratio = R_x.max(R_y) / R_x.min(R_y);
     between("R_x/R_y or R_y/R_x", ratio, (1.0, 1e12)).map_err(to_python)?;
-    Ok(HertzEllipse(core::hertz_ellipse(R_x, R_y, E_star, W)))
+    Ok(HertzEllipse {
+        ellipse: core::hertz_ellipse(R_x, R_y, E_star, W),
+        R_x,
+        R_y,
+    })
 }

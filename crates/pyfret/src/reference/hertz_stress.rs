@@ -6,7 +6,8 @@ use numpy::{PyArrayDyn, ToPyArray};
 use pyo3::prelude::*;
 
 use super::{Numbers, checked};
-use crate::error::to_python;
+use crate::argument::to_python;
+use crate::parts::made;
 
 /// Farthest place over the radius of the loaded circle.
 const FAR: f64 = 1e30;
@@ -22,6 +23,8 @@ const FAR: f64 = 1e30;
 #[pyclass(frozen, module = "pyfret.reference")]
 pub(crate) struct HertzStress(core::HertzStress);
 
+made!(HertzStress by "HertzStress": a, nu);
+
 #[pymethods]
 impl HertzStress {
     #[new]
@@ -31,6 +34,18 @@ impl HertzStress {
             .and(between("nu", nu, (-1.0, 0.5)))
             .map_err(to_python)?;
         Ok(Self(core::HertzStress { a, nu }))
+    }
+
+    /// Radius of the loaded circle [m].
+    #[getter]
+    fn a(&self) -> f64 {
+        self.0.a
+    }
+
+    /// Poisson's ratio.
+    #[getter]
+    fn nu(&self) -> f64 {
+        self.0.nu
     }
 
     /// Stress s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at (`x`, `y`, `z`) [m] under a pressure.

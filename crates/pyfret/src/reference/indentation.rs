@@ -6,8 +6,9 @@ use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
 use super::{Numbers, map, pair};
-use crate::error::to_python;
-use crate::material::{Coating, Material};
+use crate::argument::to_python;
+use crate::material::{Coating, Elastic, Material};
+use crate::parts::made;
 
 /// Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
 ///
@@ -37,32 +38,42 @@ fn check(beta: f64, mu: f64) -> PyResult<()> {
 
 /// Indentation with friction of dissimilar bodies, fully coupled, in numbers without load.
 #[pyclass(frozen, module = "pyfret.reference")]
-pub(crate) struct CoupledIndentation(core::CoupledIndentation);
+pub(crate) struct CoupledIndentation {
+    found: core::CoupledIndentation,
+    /// Dundurs' parameter.
+    #[pyo3(get)]
+    beta: f64,
+    /// Friction coefficient.
+    #[pyo3(get)]
+    mu: f64,
+}
+
+made!(CoupledIndentation by "coupled_indentation": beta, mu);
 
 #[pymethods]
 impl CoupledIndentation {
     /// Stick radius over contact radius.
     #[getter]
     fn stick_ratio(&self) -> f64 {
-        self.0.stick_ratio
+        self.found.stick_ratio
     }
 
     /// Central pressure over 3 W / (2 pi a^2).
     #[getter]
     fn p0(&self) -> f64 {
-        self.0.p0
+        self.found.p0
     }
 
     /// Approach over a^2/R.
     #[getter]
     fn delta_z(&self) -> f64 {
-        self.0.delta_z
+        self.found.delta_z
     }
 
     /// Normal force over 4 E* a^3 / (3 R).
     #[getter]
     fn W(&self) -> f64 {
-        self.0.W
+        self.found.W
     }
 }
 
@@ -74,36 +85,50 @@ impl CoupledIndentation {
 #[pyo3(signature = (*, beta, mu))]
 pub(crate) fn coupled_indentation(beta: f64, mu: f64) -> PyResult<CoupledIndentation> {
     check(beta, mu)?;
-    Ok(CoupledIndentation(core::coupled_indentation(beta, mu)))
+    let found = core::coupled_indentation(beta, mu);
+    Ok(CoupledIndentation { found, beta, mu })
 }
 
 /// Frictionless contact of a sphere with a body that has one coating.
 #[pyclass(frozen, module = "pyfret.reference")]
-pub(crate) struct CoatedIndentation(core::CoatedIndentation);
+pub(crate) struct CoatedIndentation {
+    found: core::CoatedIndentation,
+    /// Radius of the sphere [m].
+    #[pyo3(get)]
+    R: f64,
+    /// Material of the sphere.
+    #[pyo3(get)]
+    indenter: Elastic,
+    /// The coating.
+    #[pyo3(get)]
+    coating: Coating,
+    /// Material below the coating.
+    #[pyo3(get)]
+    substrate: Elastic,
+    /// Normal force [N].
+    #[pyo3(get)]
+    W: f64,
+}
+
+made!(CoatedIndentation by "coated_indentation": R, indenter, coating, substrate, W);
 
 #[pymethods]
 impl CoatedIndentation {
     /// Contact radius [m].
     #[getter]
     fn a(&self) -> f64 {
-        self.0.a
-    }
-
-    /// Normal force [N].
-    #[getter]
-    fn W(&self) -> f64 {
-        self.0.W
+        self.found.a
     }
 
     /// Approach [m].
     #[getter]
     fn delta_z(&self) -> f64 {
-        self.0.delta_z
+        self.found.delta_z
     }
 
     /// Pressure at distance `r` [m] from the middle [Pa].
     fn p<'py>(&self, py: Python<'py>, r: Numbers<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        map(py, &r, |r| self.0.p(r))
+        map(py, &r, |r| self.found.p(r))
     }
 }
 
@@ -120,9 +145,16 @@ pub(crate) fn coated_indentation(
     positive("R", R).and(positive("W", W)).map_err(to_python)?;
     pair((indenter, Material(coating.0.material)))?;
     pair((Material(coating.0.material), substrate))?;
+    let given = coating.clone();
     let (indenter, coating, substrate) = (indenter.0, coating.0, substrate.0);
     positive("coating.thickness", coating.thickness).map_err(to_python)?;
-    core::coated_indentation(R, indenter, coating, substrate, W)
-        .map(CoatedIndentation)
-        .map_err(to_python)
+    let found = core::coated_indentation(R, indenter, coating, substrate, W);
+    Ok(CoatedIndentation {
+        found: found.map_err(to_python)?,
+        R,
+        indenter: Elastic(indenter),
+        coating: given,
+        substrate: Elastic(substrate),
+        W,
+    })
 }

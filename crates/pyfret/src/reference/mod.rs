@@ -15,8 +15,8 @@ use ndarray::IxDyn;
 use numpy::{PyArrayDyn, ToPyArray};
 use pyo3::prelude::*;
 
+use crate::argument::to_python;
 use crate::arguments::Array;
-use crate::error::to_python;
 use crate::material::Material;
 
 pub(crate) use cattaneo_mindlin::CattaneoMindlin;

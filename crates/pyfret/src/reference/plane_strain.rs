@@ -6,8 +6,9 @@ use numpy::{PyArrayDyn, ToPyArray};
 use pyo3::prelude::*;
 
 use super::{Numbers, checked, map, pair};
-use crate::error::to_python;
-use crate::material::Material;
+use crate::argument::to_python;
+use crate::material::{Elastic, Material};
+use crate::parts::made;
 
 /// Farthest place over the half-width.
 const FAR: f64 = 1e30;
@@ -19,7 +20,15 @@ pub(crate) struct LineContact {
     /// Contact modulus [Pa].
     #[pyo3(get)]
     E_star: f64,
+    /// Relative radius [m].
+    #[pyo3(get)]
+    R: f64,
+    /// Materials of body 1 and body 2.
+    #[pyo3(get)]
+    bodies: (Elastic, Elastic),
 }
+
+made!(LineContact by "line_contact": R, bodies, W);
 
 /// Line contact of cylinders of relative radius `R` [m] under `W` [N/m].
 #[pyfunction]
@@ -31,6 +40,8 @@ pub(crate) fn line_contact(R: f64, bodies: (Material, Material), W: f64) -> PyRe
     Ok(LineContact {
         line: core::line_contact(R, E_star, W),
         E_star,
+        R,
+        bodies: (Elastic(body1), Elastic(body2)),
     })
 }
 

@@ -5,8 +5,9 @@ use contact_core::reference::domain::{between, count, positive};
 use pyo3::prelude::*;
 
 use super::{Hertz, pair};
-use crate::error::to_python;
-use crate::material::Material;
+use crate::argument::to_python;
+use crate::material::{Elastic, Material};
+use crate::parts::made;
 
 /// Most springs, and most steps of a load.
 const MOST: usize = 10_000;
@@ -27,37 +28,63 @@ const MOST: usize = 10_000;
 ///     Friction coefficient.
 /// n : int
 ///     Springs on either side.
+/// loads : list of (float, float, int)
+///     Loads to go through at once: W and T [N], and the steps of :meth:`load`.
 #[pyclass(module = "pyfret.reference")]
 pub(crate) struct Springs {
     springs: core::Springs,
-    at: (f64, f64),
-    /// Largest normal force that there are springs for.
-    largest: f64,
+    /// The contact under the largest force that there are springs for.
+    #[pyo3(get)]
+    largest: Hertz,
+    /// Radius [m].
+    #[pyo3(get)]
+    R: f64,
+    /// Materials of body 1 and body 2.
+    #[pyo3(get)]
+    bodies: (Elastic, Elastic),
+    /// Friction coefficient.
+    #[pyo3(get)]
     mu: f64,
+    /// Springs on either side.
+    #[pyo3(get)]
+    n: usize,
+    /// The loads gone through: W and T [N] at the end of each, and its steps.
+    #[pyo3(get)]
+    loads: Vec<(f64, f64, usize)>,
 }
+
+made!(changing Springs by "Springs": largest, R, bodies, mu, n, loads);
 
 #[pymethods]
 impl Springs {
     #[new]
-    #[pyo3(signature = (largest, *, R, bodies, mu, n = 1500))]
+    #[pyo3(signature = (largest, *, R, bodies, mu, n = 1500, loads = Vec::new()))]
     fn new(
         largest: Hertz,
         R: f64,
         bodies: (Material, Material),
         mu: f64,
         n: usize,
+        loads: Vec<(f64, f64, usize)>,
     ) -> PyResult<Self> {
         let (body1, body2) = pair(bodies)?;
         positive("R", R)
             .and(positive("mu", mu))
             .map_err(to_python)?;
         count("n", n, MOST).map_err(to_python)?;
-        Ok(Self {
+        let mut springs = Self {
             springs: core::Springs::new(largest.0, R, body1, body2, mu, n),
-            at: (0.0, 0.0),
-            largest: largest.0.W,
+            largest,
+            R,
+            bodies: (Elastic(body1), Elastic(body2)),
             mu,
-        })
+            n,
+            loads: Vec::new(),
+        };
+        for (W, T, steps) in loads {
+            springs.load(W, T, steps)?;
+        }
+        Ok(springs)
     }
 
     /// Go straight to the forces `W`, `T` [N] in `steps` steps; the shift delta_x [m].
@@ -65,11 +92,12 @@ impl Springs {
     fn load(&mut self, W: f64, T: f64, steps: usize) -> PyResult<f64> {
         // Rounding is no reason to refuse the largest forces.
         let most = |limit: f64| limit * (1.0 + 1e-9);
-        between("W", W, (0.0, most(self.largest))).map_err(to_python)?;
+        between("W", W, (0.0, most(self.largest.0.W))).map_err(to_python)?;
         let limit = most(self.mu * W);
         between("T", T, (-limit, limit)).map_err(to_python)?;
         count("steps", steps, MOST).map_err(to_python)?;
-        let from = std::mem::replace(&mut self.at, (W, T));
-        Ok(self.springs.load(from, self.at, steps))
+        let from = self.loads.last().map_or((0.0, 0.0), |(W, T, _)| (*W, *T));
+        self.loads.push((W, T, steps));
+        Ok(self.springs.load(from, (W, T), steps))
     }
 }

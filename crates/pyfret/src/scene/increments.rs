@@ -56,7 +56,7 @@ impl<'py> FromPyObject<'_, 'py> for Names {
 }
 
 /// As many increments as a change needs if the whole range takes this many.
-#[pyclass(frozen, eq, hash, from_py_object, module = "pyfret")]
+#[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct PerRange(pub(super) usize);
 

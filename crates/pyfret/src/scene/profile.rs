@@ -2,9 +2,11 @@
 
 use contact_core::kernels as core;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::error::to_python;
 use crate::material::Coating;
+use crate::parts::{Remade, remade_by_method};
 
 /// How a property changes from the surface of a graded coating to its bottom, s = z/h.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
@@ -48,6 +50,64 @@ impl Profile {
     #[staticmethod]
     fn table(points: Vec<(f64, f64)>) -> Self {
         Self(core::Profile::Table(points))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Remade<'py>> {
+        let py = slf.py();
+        let (method, given) = slf.get().made_by(py)?;
+        remade_by_method(slf.get_type(), method, &given, py)
+    }
+
+    fn __hash__(slf: &Bound<'_, Self>) -> PyResult<isize> {
+        Self::__repr__(slf)?.into_pyobject(slf.py())?.hash()
+    }
+
+    fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
+        let (method, given) = slf.get().made_by(slf.py())?;
+        let each = given
+            .iter()
+            .map(|(name, of)| Ok(format!("{name}={}", of.repr()?)));
+        let all: Vec<_> = each.collect::<PyResult<_>>()?;
+        Ok(format!("Profile.{method}({})", all.join(", ")))
+    }
+}
+
+impl Profile {
+    /// The method that makes it, and what that is given.
+    fn made_by<'py>(&self, py: Python<'py>) -> PyResult<(&'static str, Bound<'py, PyDict>)> {
+        let given = PyDict::new(py);
+        let ends = |top: f64, bottom: f64| {
+            given.set_item("top", top)?;
+            given.set_item("bottom", bottom)
+        };
+        let method = match &self.0 {
+            core::Profile::Constant(value) => {
+                given.set_item("value", value)?;
+                "constant"
+            }
+            core::Profile::Linear { top, bottom } => {
+                ends(*top, *bottom)?;
+                "linear"
+            }
+            core::Profile::Power {
+                top,
+                bottom,
+                exponent,
+            } => {
+                ends(*top, *bottom)?;
+                given.set_item("exponent", exponent)?;
+                "power"
+            }
+            core::Profile::Exponential { top, bottom } => {
+                ends(*top, *bottom)?;
+                "exponential"
+            }
+            core::Profile::Table(points) => {
+                given.set_item("points", points.clone())?;
+                "table"
+            }
+        };
+        Ok((method, given))
     }
 }
 

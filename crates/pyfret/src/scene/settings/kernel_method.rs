@@ -3,7 +3,7 @@
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
-use crate::parts::parts;
+use crate::parts::{parts, shown_by_parts};
 
 /// Influence coefficients by Hankel integrals: exact to round-off.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret.settings")]
@@ -11,6 +11,7 @@ use crate::parts::parts;
 pub(crate) struct Hankel;
 
 parts!(Hankel:);
+shown_by_parts!(Hankel);
 
 #[pymethods]
 impl Hankel {
@@ -38,6 +39,7 @@ pub(crate) struct InverseFft {
 }
 
 parts!(InverseFft: enlargement, aliases);
+shown_by_parts!(InverseFft);
 
 #[pymethods]
 impl InverseFft {
@@ -65,6 +67,7 @@ pub(crate) struct FrequencyDomain {
 }
 
 parts!(FrequencyDomain: enlargement);
+shown_by_parts!(FrequencyDomain);
 
 #[pymethods]
 impl FrequencyDomain {

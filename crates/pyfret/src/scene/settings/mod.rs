@@ -9,7 +9,7 @@ use contact_core::scene as core;
 use pyo3::prelude::*;
 
 use crate::error::to_python;
-use crate::parts::parts;
+use crate::parts::{parts, shown_by_parts};
 use kernel_method::Method;
 pub(crate) use kernel_method::{FrequencyDomain, Hankel, InverseFft};
 pub(crate) use preset::Preset;
@@ -57,6 +57,8 @@ parts!(
     Settings: preset, tolerance, entering, turning, path_tolerance, max_alternations,
     max_iterations, kernel, kernel_tolerance, skip, save
 );
+
+shown_by_parts!(Settings);
 
 #[pymethods]
 impl Settings {

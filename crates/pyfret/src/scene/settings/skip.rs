@@ -3,7 +3,7 @@
 use contact_core::scene as core;
 use pyo3::prelude::*;
 
-use crate::parts::parts;
+use crate::parts::{parts, shown_by_parts};
 
 /// What may be left out when the scene does not need it; the answer stays as it is.
 ///
@@ -29,6 +29,7 @@ use crate::parts::parts;
 pub(crate) struct Skip(pub(super) core::SkipSettings);
 
 parts!(Skip: equal_layers, coupling, mirror, digits, far, path);
+shown_by_parts!(Skip);
 
 #[pymethods]
 impl Skip {

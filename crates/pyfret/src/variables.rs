@@ -1,0 +1,146 @@
+//! Variables of a run as xarray takes them: dimensions, values, attributes.
+
+use contact_core::march::{Fields, Increment};
+use contact_core::output::{
+    AXES, Columns, FIELDS, FieldView, KeptField, Kind, SCALARS, STATUS_MEANINGS,
+};
+use contact_core::scene::Grid;
+use ndarray::{Array1, Array2, Array3, ArrayD, Axis, IxDyn};
+use numpy::{Element, IntoPyArray, PyArray1, ToPyArray};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+/// Collects the variables by their names.
+pub(crate) struct Variables<'py>(Bound<'py, PyDict>);
+
+impl<'py> Variables<'py> {
+    pub(crate) fn new(py: Python<'py>) -> Self {
+        Self(PyDict::new(py))
+    }
+
+    pub(crate) fn finish(self) -> Bound<'py, PyDict> {
+        self.0
+    }
+
+    /// One variable with its unit and meaning.
+    fn put(
+        &self,
+        name: &str,
+        dims: &[&str],
+        values: Bound<'py, PyAny>,
+        (units, long_name): (&str, &str),
+    ) -> PyResult<()> {
+        let py = self.0.py();
+        let attributes = PyDict::new(py);
+        attributes.set_item("units", units)?;
+        attributes.set_item("long_name", long_name)?;
+        if name == "status" {
+            attributes.set_item("flag_values", [0, 1, 2, 3])?;
+            attributes.set_item("flag_meanings", STATUS_MEANINGS)?;
+        }
+        let dims = PyTuple::new(py, dims)?;
+        self.0.set_item(name, (dims, values, attributes))
+    }
+
+    /// Where the cells are.
+    pub(crate) fn cells(&self, grid: &Grid) -> PyResult<()> {
+        for axis in AXES.iter().filter(|axis| axis.dim != "saved") {
+            let places: Vec<f64> = if axis.name == "x" {
+                (0..grid.nx).map(|i| grid.x(i)).collect()
+            } else {
+                (0..grid.ny).map(|j| grid.y(j)).collect()
+            };
+            let values = PyArray1::from_vec(self.0.py(), places).into_any();
+            self.put(axis.name, &[axis.dim], values, (axis.units, axis.long_name))?;
+        }
+        Ok(())
+    }
+
+    /// The numbers of one increment, without a dimension.
+    pub(crate) fn increment(&self, increment: &Increment) -> PyResult<()> {
+        for scalar in SCALARS {
+            let value = ArrayD::from_elem(IxDyn(&[]), (scalar.value)(increment));
+            let values = self.typed(scalar.kind, value);
+            self.put(scalar.name, &[], values, (scalar.units, scalar.long_name))?;
+        }
+        Ok(())
+    }
+
+    /// The fields of one increment over (x, y).
+    pub(crate) fn fields(&self, fields: &Fields) -> PyResult<()> {
+        let py = self.0.py();
+        for field in FIELDS {
+            let values = match (field.values)(fields) {
+                FieldView::Real(values) => values.to_pyarray(py).into_any(),
+                FieldView::Mask(values) => values.to_pyarray(py).into_any(),
+            };
+            self.put(
+                field.name,
+                &["x", "y"],
+                values,
+                (field.units, field.long_name),
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The numbers of all increments, and the fields of those that are kept.
+    pub(crate) fn columns(&self, columns: Columns, (nx, ny): (usize, usize)) -> PyResult<()> {
+        let py = self.0.py();
+        for (scalar, values) in SCALARS.iter().zip(columns.scalars) {
+            let values = self.typed(scalar.kind, Array1::from_vec(values).into_dyn());
+            self.put(
+                scalar.name,
+                &["increment"],
+                values,
+                (scalar.units, scalar.long_name),
+            )?;
+        }
+        for axis in AXES.iter().filter(|axis| axis.dim == "saved") {
+            let of = |(index, t): &(usize, f64)| match axis.kind {
+                Kind::Count => *index as f64,
+                _ => *t,
+            };
+            let values: Vec<f64> = columns.saved.iter().map(of).collect();
+            let values = self.typed(axis.kind, Array1::from_vec(values).into_dyn());
+            self.put(axis.name, &[axis.dim], values, (axis.units, axis.long_name))?;
+        }
+        for (field, kept) in FIELDS.iter().zip(columns.fields) {
+            let values = match kept {
+                KeptField::Real(kept) => stacked(py, kept, (nx, ny)),
+                KeptField::Mask(kept) => stacked(py, kept, (nx, ny)),
+            };
+            self.put(
+                field.name,
+                &["saved", "x", "y"],
+                values,
+                (field.units, field.long_name),
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Numbers in the type of their kind, the one that a store has.
+    fn typed(&self, kind: Kind, values: ArrayD<f64>) -> Bound<'py, PyAny> {
+        let py = self.0.py();
+        match kind {
+            Kind::Real => values.into_pyarray(py).into_any(),
+            Kind::Count => values.mapv(|v| v as i32).into_pyarray(py).into_any(),
+            Kind::Code => values.mapv(|v| v as i8).into_pyarray(py).into_any(),
+            Kind::Flag => values.mapv(|v| v != 0.0).into_pyarray(py).into_any(),
+        }
+    }
+}
+
+/// Fields over (saved, x, y); each is let go as soon as it is copied.
+fn stacked<T: Element + Copy + Default>(
+    py: Python<'_>,
+    kept: Vec<Array2<T>>,
+    (nx, ny): (usize, usize),
+) -> Bound<'_, PyAny> {
+    let mut all = Array3::from_elem((kept.len(), nx, ny), T::default());
+    for (mut here, values) in all.axis_iter_mut(Axis(0)).zip(kept) {
+        here.assign(&values);
+    }
+    all.into_pyarray(py).into_any()
+}

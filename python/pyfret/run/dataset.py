@@ -1,0 +1,29 @@
+"""The dataset of a run in memory."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+from pyfret._util.lazy import xr
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from pyfret._core import _Variable as Variable
+
+__all__ = ["dataset"]
+
+#: Variables that are coordinates, as in a store.
+COORDINATES = frozenset(
+    ("x", "y", "increment", "t", "branch_of_increment", "saved_increment", "saved_t")
+)
+
+
+def dataset(variables: Mapping[str, Variable], attributes: str) -> xr.Dataset:
+    """Make a dataset of variables (dimensions, values, attributes) and of attributes as JSON."""
+    return xr.Dataset(
+        {k: of for k, of in variables.items() if k not in COORDINATES},
+        coords={k: of for k, of in variables.items() if k in COORDINATES},
+        attrs=json.loads(attributes),
+    )
