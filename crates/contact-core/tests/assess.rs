@@ -116,15 +116,15 @@ fn worst_point_of_the_titanium_rig() {
         let worst = worst(&site, &judged, &of, 0).unwrap().unwrap();
         println!("{n}: samples {most:.4e}, {worst:?}");
         assert!(
-            (worst.score / 3.348e6 - 1.0).abs() < 0.015,
+            (worst.extreme.value / 3.348e6 - 1.0).abs() < 0.015,
             "{n}: {worst:?}"
         );
         assert!(
-            (worst.score - 3.348e6).abs() < worst.error.sum().max(0.01 * 3.348e6),
+            (worst.extreme.value - 3.348e6).abs() < worst.extreme.error.sum().max(0.01 * 3.348e6),
             "{worst:?}"
         );
         assert!(
-            (worst.x.abs() / A - 1.0).abs() < 0.01 && worst.depth.z < 0.01 * A,
+            (worst.extreme.x.abs() / A - 1.0).abs() < 0.01 && worst.extreme.depth.z < 0.01 * A,
             "{worst:?}"
         );
         let angle = inclination(worst.found.normal, BELOW).to_degrees();
@@ -136,7 +136,10 @@ fn worst_point_of_the_titanium_rig() {
         };
         let means = average(&site, BELOW, &mean, &of).unwrap();
         let most = means.iter().flatten().map(|f| f.value).fold(0.0, f64::max);
-        assert!(most < worst.score && most > 0.2 * worst.score, "{most}");
+        assert!(
+            most < worst.extreme.value && most > 0.2 * worst.extreme.value,
+            "{most}"
+        );
         assert!(unsettled(&cycle).unwrap().unwrap() < 0.02);
     }
 }
@@ -169,7 +172,7 @@ fn below_a_coating() {
     assert!(worst(&site, &judged, &of, 0).unwrap().is_none());
     let point = worst(&site, &judged, &of, 1).unwrap().unwrap();
     assert!(
-        point.depth.layer == 1 && point.depth.z >= 20e-6,
+        point.extreme.depth.layer == 1 && point.extreme.depth.z >= 20e-6,
         "{point:?}"
     );
     let in_layer = |layer, length| Distance {
@@ -184,7 +187,7 @@ fn below_a_coating() {
         .map(|f: &AtPoint| f.value)
         .fold(0.0, f64::max);
     assert!(
-        most > 0.1 * point.score && most < 1.001 * point.score,
+        most > 0.1 * point.extreme.value && most < 1.001 * point.extreme.value,
         "{most} {point:?}"
     );
     let refused = average(&site, BELOW, &in_layer(0, 20e-6), &of)

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use contact_core::Error;
 use contact_core::assess::{
-    Averaging, ByCriterion, Distance, Judged, OverCycle, Site, StoredCycle, Worst, Zone, average,
+    Averaging, ByCriterion, Distance, Judged, OverCycle, Site, StoredCycle, Worst, average,
     inclination, judge, materials_of_layers, unsettled, worst,
 };
 use contact_core::fatigue::{
     Assessment, AtPoint, CRITERIA, Material, Search, materials, materials_from,
 };
-use contact_core::fields::{Line, Side, chosen_depths, depths, residual_of_layers};
+use contact_core::fields::{Line, Side, Zone, chosen_depths, depths, residual_of_layers};
 use contact_core::output::Store;
 use contact_core::scene::Body;
 use serde_json::json;
@@ -197,7 +197,7 @@ fn points(
             all.extend(worst(site, judged, of, layer)?.map(|worst| (worst, assessment)));
         }
     }
-    let margin = |(w, a): &(Worst<AtPoint>, &Assessment)| a.margin(w.score);
+    let margin = |(w, a): &(Worst<AtPoint>, &Assessment)| a.margin(w.extreme.value);
     let least =
         all.iter().map(margin).fold(
             f64::INFINITY,
@@ -211,26 +211,26 @@ fn points(
         let (criterion, unit) = (a.criterion.name(), a.criterion.unit());
         let normal = a.criterion.has_plane().then_some(w.found.normal);
         let angle = normal.map(|n| inclination(n, judged.line).to_degrees());
-        let at = w.at.map(|zone| match zone {
+        let at = w.extreme.at.map(|zone| match zone {
             Zone::Contact => "rim of the contact",
             Zone::Stick => "border of the stick zone",
         });
-        let error = w.error.sum();
+        let error = w.extreme.error.sum();
         let json = json!({
-            "criterion": criterion, name: margin, "value": w.score, "unit": unit, "error": error,
-            "error_x": w.error.x, "error_y": w.error.y, "error_z": w.error.z,
-            "error_tractions": w.error.tractions, "x": w.x, "y": w.y, "z": w.depth.z,
-            "layer": w.depth.layer, "at": at, "normal": normal, "inclination": angle,
+            "criterion": criterion, name: margin, "value": w.extreme.value, "unit": unit, "error": error,
+            "error_x": w.extreme.error.x, "error_y": w.extreme.error.y, "error_z": w.extreme.error.z,
+            "error_tractions": w.extreme.error.tractions, "x": w.extreme.x, "y": w.extreme.y, "z": w.extreme.depth.z,
+            "layer": w.extreme.depth.layer, "at": at, "normal": normal, "inclination": angle,
             "decides": decides,
         });
         let mut line = format!(
             "layer {}: {}, {criterion} {:.5e} {unit} +- {error:.2e} at x = {:.4e} m, y = {:.4e} m, z = {:.4e} m",
-            w.depth.layer,
+            w.extreme.depth.layer,
             said(margin, a),
-            w.score,
-            w.x,
-            w.y,
-            w.depth.z
+            w.extreme.value,
+            w.extreme.x,
+            w.extreme.y,
+            w.extreme.depth.z
         );
         if let Some(angle) = angle.filter(|angle| angle.is_finite()) {
             let _ = write!(line, ", plane {angle:.1} degrees from the surface normal");
@@ -241,7 +241,7 @@ fn points(
         if decides {
             line.push_str(", decides");
         }
-        let at_rim = w.at == Some(Zone::Contact);
+        let at_rim = w.extreme.at == Some(Zone::Contact);
         Row { line, json, at_rim }
     });
     Ok(rows.collect())

@@ -7,7 +7,7 @@ use contact_core::assess::{
     Site, Zone,
 };
 use contact_core::fatigue::{AtPoint, Search, Yield};
-use contact_core::fields::{Depth, Line, Side, residual_of_layers};
+use contact_core::fields::{Depth, Line, Side, Zone, residual_of_layers};
 use contact_core::{Error, scene};
 use ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyReadonlyArray2};
@@ -330,16 +330,20 @@ fn fields<'py, 'a>(
 /// Place and errors of a worst point.
 fn place<'py, F>(py: Python<'py>, worst: &core::Worst<F>) -> PyResult<Bound<'py, PyDict>> {
     let found = PyDict::new(py);
-    let (depth, error) = (worst.depth, worst.error);
-    found.set_item("score", worst.score)?;
-    for (name, value) in [("x", worst.x), ("y", worst.y), ("z", depth.z)] {
+    let (depth, error) = (worst.extreme.depth, worst.extreme.error);
+    found.set_item("score", worst.extreme.value)?;
+    for (name, value) in [
+        ("x", worst.extreme.x),
+        ("y", worst.extreme.y),
+        ("z", depth.z),
+    ] {
         found.set_item(name, value)?;
     }
     found.set_item("layer", depth.layer)?;
     found.set_item("errors", (error.x, error.y, error.z, error.tractions))?;
     found.set_item(
         "at",
-        worst.at.map(|zone| match zone {
+        worst.extreme.at.map(|zone| match zone {
             Zone::Contact => "contact",
             Zone::Stick => "stick",
         }),
@@ -403,7 +407,7 @@ impl CriterionBelow {
             return Ok(None);
         };
         let found = place(py, &worst)?;
-        found.set_item("margin", assessment.margin(worst.score))?;
+        found.set_item("margin", assessment.margin(worst.extreme.value))?;
         if assessment.criterion.has_plane() {
             let normal = worst.found.normal;
             found.set_item("normal", normal)?;

@@ -8,7 +8,6 @@
 //! [`crack`] takes the stress below a contact to the tip of a crack.
 
 mod average;
-mod border;
 mod by_criterion;
 mod by_yield;
 pub mod crack;
@@ -20,7 +19,6 @@ mod site;
 mod worst;
 
 pub use average::{Averaging, Distance, average};
-pub use border::{Errors, Zone};
 pub use by_criterion::{ByCriterion, inclination, materials_of_layers};
 pub use by_yield::ByYield;
 pub use cycle::StoredCycle;

@@ -4,12 +4,14 @@
 //! these, judged there, is climbed from: points beside it are judged along the line and in depth, closer and closer.
 //! Every value is that of a history at a point; nothing is extrapolated.
 
-use super::border::{Border, Errors, Zone, borders};
+use ndarray::Array2;
+
 use super::judged::{Judge, Judged};
 use super::moments::{Moments, coarser};
 use super::site::{At, History, Site};
+use crate::convolution::Tractions;
 use crate::error::Error;
-use crate::fields::{Depth, Line, Point};
+use crate::fields::{Border, Depth, Errors, Extreme, Line, Point, Zone, borders};
 use crate::scene::Grid;
 
 /// Most hills and most places on borders that are judged before the climb.
@@ -40,19 +42,8 @@ const SEEN: usize = 16;
 pub struct Worst<F> {
     /// What the judge found there.
     pub found: F,
-    /// How bad it is.
-    pub score: f64,
-    /// Place \[m\].
-    pub x: f64,
-    /// Place \[m\].
-    pub y: f64,
-    /// Depth and layer.
-    pub depth: Depth,
-    /// The border that it lies on, if any: at the rim of the contact a point value depends on how well the tractions
-    /// are known there, and a mean over a critical distance is to be preferred.
-    pub at: Option<Zone>,
-    /// What may be wrong with the score.
-    pub error: Errors,
+    /// How bad it is and where.
+    pub extreme: Extreme,
 }
 
 /// A point of a section: place on the line and depth \[m\].
@@ -124,16 +115,18 @@ pub fn worst<J: Judge>(
     };
     Ok(Some(Worst {
         found,
-        score,
-        x: point.0,
-        y: point.1,
-        depth: point.2,
-        at: border.map(|b| b.zone),
-        error: Errors {
-            x: x_error,
-            y: y_error,
-            z: left[1],
-            tractions: coarse.map(|coarse| (score - coarse).abs()),
+        extreme: Extreme {
+            value: score,
+            x: point.0,
+            y: point.1,
+            depth: point.2,
+            at: border.map(|b| b.zone),
+            error: Errors {
+                x: x_error,
+                y: y_error,
+                z: left[1],
+                tractions: coarse.map(|coarse| (score - coarse).abs()),
+            },
         },
     }))
 }
@@ -179,9 +172,9 @@ impl<J: Judge> Climb<'_, J> {
         let which: Vec<usize> = (0..count).rev().step_by(step).collect();
         let moments = self.site.cycle.moments(&which)?;
         let mut all: Vec<Border> = Vec::new();
-        for ([_, _, p], stick) in moments.tractions.iter().zip(&moments.stick) {
-            for border in borders(self.site.grid, p, stick, self.line) {
-                let apart = |b: &Border| (b.place - border.place).abs();
+        for (tractions, stick) in moments.tractions.iter().zip(&moments.stick) {
+            for border in borders_of(self.site.grid, tractions, stick, self.line)? {
+                let apart = |b: &Border| (self.along(b) - self.along(&border)).abs();
                 if !all.iter().any(|b| apart(b) < ON_BORDER / 2.0 * self.cell()) {
                     all.push(border);
                 }
@@ -202,7 +195,7 @@ impl<J: Judge> Climb<'_, J> {
             let nearest = (0..judged.along.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
             nearest.map_or(f64::NAN, |n| self.judge.score(&found[n]))
         };
-        let scored = known.iter().map(|b| (b.place, near(b.place)));
+        let scored = known.iter().map(|b| (self.along(b), near(self.along(b))));
         let mut by_score: Vec<_> = scored.filter(|(_, score)| !score.is_nan()).collect();
         by_score.sort_by(|a, b| b.1.total_cmp(&a.1));
         by_score
@@ -327,7 +320,7 @@ impl<J: Judge> Climb<'_, J> {
         let place = match border {
             None => [s, z],
             Some(border) => [
-                self.on_coarser_border(border, moments, &grid, middle)
+                self.on_coarser_border(border, moments, &grid, middle)?
                     .unwrap_or(s),
                 z,
             ],
@@ -343,30 +336,30 @@ impl<J: Judge> Climb<'_, J> {
         moments: &Moments,
         grid: &Grid,
         middle: (f64, f64),
-    ) -> Option<f64> {
-        let s = border.place;
+    ) -> Result<Option<f64>, Error> {
+        let s = self.along(border);
         let (line, shift) = match self.line {
             Line::AlongX(y) => (Line::AlongX(y - middle.1), middle.0),
             Line::AlongY(x) => (Line::AlongY(x - middle.0), middle.1),
         };
         let coarse = moments.on_coarser(self.site.grid);
         let mut nearest: Option<f64> = None;
-        for ([_, _, p], stick) in coarse.tractions.iter().zip(&coarse.stick) {
-            for other in borders(grid, p, stick, line) {
-                let at = other.place + shift;
+        for (tractions, stick) in coarse.tractions.iter().zip(&coarse.stick) {
+            for other in borders_of(grid, tractions, stick, line)? {
+                let at = self.along(&other) + shift;
                 let nearer = nearest.is_none_or(|known| (at - s).abs() < (known - s).abs());
                 if other.zone == border.zone && nearer {
                     nearest = Some(at);
                 }
             }
         }
-        nearest.filter(|at| (at - s).abs() < 4.0 * self.cell())
+        Ok(nearest.filter(|at| (at - s).abs() < 4.0 * self.cell()))
     }
 
     /// The border that a place lies on.
     fn on_border<'b>(&self, [s, z]: Place, known: &'b [Border]) -> Option<&'b Border> {
         let near = ON_BORDER * self.cell();
-        let mut on = known.iter().filter(|b| (b.place - s).abs() <= near);
+        let mut on = known.iter().filter(|b| (self.along(b) - s).abs() <= near);
         let first = on.next().filter(|_| z <= near && self.layer == 0)?;
         // Where both end together it is the rim that counts.
         Some(
@@ -374,6 +367,13 @@ impl<J: Judge> Climb<'_, J> {
                 .filter(|_| first.zone == Zone::Stick)
                 .unwrap_or(first),
         )
+    }
+
+    fn along(&self, border: &Border) -> f64 {
+        match self.line {
+            Line::AlongX(_) => border.x,
+            Line::AlongY(_) => border.y,
+        }
     }
 
     /// Distance of the samples along the line \[m\].
@@ -394,4 +394,19 @@ impl<J: Judge> Climb<'_, J> {
             Line::AlongY(x) => (x, s, depth),
         }
     }
+}
+
+/// Where a line crosses the borders of a moment.
+fn borders_of(
+    grid: &Grid,
+    [q_x, q_y, p]: &[Array2<f64>; 3],
+    stick: &Array2<bool>,
+    line: Line,
+) -> Result<Vec<Border>, Error> {
+    let tractions = Tractions {
+        q_x: q_x.as_slice(),
+        q_y: q_y.as_slice(),
+        p: p.as_slice(),
+    };
+    borders(grid, &tractions, stick.as_slice(), Some(line))
 }
