@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use contact_core::assess::{
     self as core, Averaging, ByCriterion, ByYield, Distance, Judge, Judged, Moments, OverCycle,
-    Site, Zone,
+    Site,
 };
 use contact_core::fatigue::{AtPoint, Search, Yield};
 use contact_core::fields::{Depth, Line, Side, Zone, residual_of_layers};
