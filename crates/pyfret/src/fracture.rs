@@ -41,7 +41,7 @@ fn refused(error: of_cracks::Error) -> PyErr {
 /// >>> crack = Crack(legs=[(1e-4, 0.0)])
 /// >>> tension = np.zeros((1, len(crack.points), 6))
 /// >>> tension[..., 0] = 100e6
-/// >>> K = crack.intensity(tension)["K_I"][0]
+/// >>> K = crack.intensity(tension).get("K_I").item(0)
 /// >>> round(K / (100e6 * np.sqrt(np.pi * 1e-4)), 4)
 /// 1.1215
 #[pyclass(frozen, module = "pyfret.fracture")]
@@ -279,6 +279,9 @@ pub(crate) fn equivalent_range(
     Ok(pairs.map(range).collect())
 }
 
+/// Verdict, length where it stops, crossings, margin and its length.
+type Arrested = (&'static str, Option<f64>, Vec<f64>, f64, f64);
+
 /// What becomes of a crack: verdict, length where it stops, crossings, margin and its length.
 #[pyfunction]
 pub(crate) fn arrest(
@@ -287,7 +290,7 @@ pub(crate) fn arrest(
     K_min: Vec<f64>,
     threshold_: Numbers,
     start: f64,
-) -> PyResult<(&'static str, Option<f64>, Vec<f64>, f64, f64)> {
+) -> PyResult<Arrested> {
     let found = curve(lengths, K_max, K_min)?
         .arrest(&threshold(threshold_)?, start)
         .map_err(refused)?;
