@@ -56,7 +56,7 @@ from pyfret._core import (
     __version__,
     graded,
 )
-from pyfret._util.names import MOVED, OTHER_NAMES, listing, moved
+from pyfret._util.names import MODULES, MOVED, OTHER_NAMES, listing, moved
 from pyfret.citation import cite
 from pyfret.result import Result, Snapshot, open
 from pyfret.scene.surfaces import read_surface
@@ -129,7 +129,7 @@ def __getattr__(name: str) -> Any:
                 raise
             message = 'figures need matplotlib: pip install "fretting[plot]"'
             raise ModuleNotFoundError(message, name="matplotlib") from absent
-    if name in MOVED:
+    if name in MOVED or name in MODULES:
         return moved(name)
     meant = OTHER_NAMES.get(name)
     hint = f"; it is called pyfret.{meant}" if meant else ""

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[expect(dead_code, reason = "numbers of the unit interval suffice here")]
 mod splitmix;
 
 use contact_core::kernels::{Complex64, RadialResponse, Stack, influence_coefficients, stress_at};

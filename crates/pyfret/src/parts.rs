@@ -78,7 +78,7 @@ pub(crate) fn equal(
     other: &Bound<'_, PyAny>,
     parts: &[(&str, &str)],
 ) -> PyResult<bool> {
-    if !other.get_type().is(&value.get_type()) {
+    if !other.get_type().is(value.get_type()) {
         return Ok(false);
     }
     arguments(value, parts)?.eq(arguments(other, parts)?)

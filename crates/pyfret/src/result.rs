@@ -143,12 +143,12 @@ pub(crate) fn solve(
 /// what a store says of the run, as JSON.
 #[pyfunction]
 #[pyo3(signature = (scene, *, error = false, on_increment = None))]
-pub(crate) fn solve_in_memory<'py>(
-    py: Python<'py>,
+pub(crate) fn solve_in_memory(
+    py: Python<'_>,
     scene: Scene,
     error: bool,
     on_increment: Option<Py<PyAny>>,
-) -> PyResult<(Bound<'py, PyDict>, String)> {
+) -> PyResult<(Bound<'_, PyDict>, String)> {
     check(&scene, error)?;
     let run = |watch: &mut dyn Observer| whole(&scene, error, watch);
     let (mut columns, bars) = watched(py, Columns::default(), on_increment, run)?;

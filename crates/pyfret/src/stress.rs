@@ -78,6 +78,9 @@ pub(crate) fn principal<'py>(
     Ok((values.into_pyarray(py), directions.into_pyarray(py)))
 }
 
+/// Value, place along the line, depth, layer and error.
+type Found = (f64, f64, f64, usize, f64);
+
 /// Largest value of a field known at samples alone, shape (depths, places) along x or y.
 ///
 /// The value, its place along the line, depth, layer and error.
@@ -87,7 +90,7 @@ pub(crate) fn largest_of_samples(
     z: List<f64>,
     layer: List<usize>,
     along: List<f64>,
-) -> PyResult<Option<(f64, f64, f64, usize, f64)>> {
+) -> PyResult<Option<Found>> {
     let (samples, depths) = (samples.as_array(), Subsurface::depths(&z, &layer)?);
     if samples.dim() != (depths.len(), along.len()) {
         return Err(PyValueError::new_err(format!(

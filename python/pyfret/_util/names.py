@@ -5,13 +5,13 @@ from __future__ import annotations
 import sys
 import warnings
 from importlib import import_module
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-__all__ = ["MOVED", "OTHER_NAMES", "called", "listing", "moved"]
+__all__ = ["MODULES", "MOVED", "OTHER_NAMES", "called", "listing", "moved"]
 
 #: What other programs call things of ``pyfret``.
 OTHER_NAMES = {
@@ -60,6 +60,20 @@ MOVED = {
 }
 
 
+#: Deprecated modules of ``pyfret``, where their names are, and those that have another one there.
+MODULES: dict[str, tuple[str, dict[str, str]]] = {
+    "averages": ("fatigue", {}),
+    "life": ("fatigue", {}),
+    "load_factors": ("fatigue", {}),
+    "interface": ("fracture", {}),
+    "residual": ("subsurface", {"thermal": "thermal_stress"}),
+    "studies": ("study", {}),
+    "sweep": ("study", {"running_map": "running_conditions"}),
+    "results": ("result", {}),
+    "doubts": ("scene.warnings", {}),
+}
+
+
 def listing(names: Sequence[str]) -> Callable[[], list[str]]:
     """Give the ``__dir__`` of a module: its public names and no others."""
     return lambda: list(names)
@@ -67,6 +81,12 @@ def listing(names: Sequence[str]) -> Callable[[], list[str]]:
 
 def moved(name: str) -> Any:
     """Give what a deprecated name of ``pyfret`` stands for, and warn of where it is."""
+    if name in MODULES:
+        place, others = MODULES[name]
+        warnings.warn(f"pyfret.{name} is pyfret.{place}", DeprecationWarning, stacklevel=3)
+        module_there = import_module(f"pyfret.{place}")
+        named = {old: getattr(module_there, new) for old, new in others.items()}
+        return SimpleNamespace(**vars(module_there), **named) if named else module_there
     module, _, renamed = MOVED[name].partition(".")
     place = f"pyfret.{module}.{renamed or name}"
     warnings.warn(f"pyfret.{name} is {place}", DeprecationWarning, stacklevel=3)

@@ -145,7 +145,7 @@ pub(crate) fn coated_indentation(
     positive("R", R).and(positive("W", W)).map_err(to_python)?;
     pair((indenter, Material(coating.0.material)))?;
     pair((Material(coating.0.material), substrate))?;
-    let given = coating.clone();
+    let given = coating;
     let (indenter, coating, substrate) = (indenter.0, coating.0, substrate.0);
     positive("coating.thickness", coating.thickness).map_err(to_python)?;
     let found = core::coated_indentation(R, indenter, coating, substrate, W);
