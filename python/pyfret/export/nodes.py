@@ -198,7 +198,7 @@ def _local(place: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[
     for _ in range(STEPS):
         r, s = local.T
         shapes = _shapes(local, 4)
-        missing = place - np.einsum("nk,nd->kd", shapes, corners)
+        missing = place - np.einsum("ik,ij->kj", shapes, corners)
         along_r = np.array([-(1 - s), 1 - s, 1 + s, -(1 + s)]) / 4
         along_s = np.array([-(1 - r), -(1 + r), 1 + r, 1 - r]) / 4
         slopes = np.stack([along_r.T @ corners, along_s.T @ corners], axis=-1)
