@@ -75,16 +75,22 @@ __all__ = [
     "Wedge",
     "YieldBelow",
     "__version__",
+    "arrest",
+    "channel_crack",
     "chosen_depths",
     "coated_indentation",
     "continued_pressure",
     "coupled_indentation",
+    "crack_life",
+    "crack_of_states",
     "criteria",
     "criterion_on",
     "cycle_temperature",
     "dang_van_path",
     "depths",
     "dundurs_beta",
+    "ellipse_factor",
+    "equivalent_range",
     "goodman_stick_ratio",
     "graded",
     "hertz",
@@ -97,6 +103,7 @@ __all__ = [
     "material_quantities",
     "materials",
     "measure",
+    "partial_crack",
     "principal",
     "probe_labels",
     "residual_of_layers",
@@ -109,7 +116,9 @@ __all__ = [
     "stress_at",
     "stress_coefficients",
     "surface_frf",
+    "threshold_at",
     "verify",
+    "verify_wear",
     "wear",
     "yielding_on",
 ]
@@ -2317,7 +2326,7 @@ class Crack:
     >>> crack = Crack(legs=[(1e-4, 0.0)])
     >>> tension = np.zeros((1, len(crack.points), 6))
     >>> tension[..., 0] = 100e6
-    >>> K = crack.intensity(tension)["K_I"][0]
+    >>> K = crack.intensity(tension).get("K_I").item(0)
     >>> round(K / (100e6 * np.sqrt(np.pi * 1e-4)), 4)
     1.1215
     """
@@ -2501,14 +2510,21 @@ class Subsurface:
     ) -> (
         tuple[float, float, float, float, int, str | None, tuple[float, float, float, float]] | None
     ):
-        """Largest value of a measure on a section, between its samples."""
+        r"""Largest value of a measure on a section, between its samples of shape (depths, places) \[Pa\], in one layer
+        alone if `only` names it.
+
+        Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y and z and of the
+        tractions.
+        """
     @property
     def rim(self) -> bool:
         """Whether the tractions are those of a contact."""
     def borders(
         self, *, x: float | None = None, y: float | None = None
     ) -> list[tuple[float, float, str, bool]]:
-        """Where a line crosses the rim of the contact and the border of the stick zone."""
+        r"""Where a line at x or y \[m\], or the lines of all cells, cross the rim of the contact and the border of the
+        stick zone: x, y, which, and whether it is known within a cell.
+        """
     def volume(
         self,
         out: str | PathLike[str],
