@@ -2510,11 +2510,10 @@ class Subsurface:
     ) -> (
         tuple[float, float, float, float, int, str | None, tuple[float, float, float, float]] | None
     ):
-        r"""Largest value of a measure on a section, between its samples of shape (depths, places) \[Pa\], in one layer
-        alone if `only` names it.
+        """Largest value of a measure on a section, between its samples; in the layer `only`.
 
-        Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y and z and of the
-        tractions.
+        Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y
+        and z and of the tractions.
         """
     @property
     def rim(self) -> bool:
@@ -2522,8 +2521,9 @@ class Subsurface:
     def borders(
         self, *, x: float | None = None, y: float | None = None
     ) -> list[tuple[float, float, str, bool]]:
-        r"""Where a line at x or y \[m\], or the lines of all cells, cross the rim of the contact and the border of the
-        stick zone: x, y, which, and whether it is known within a cell.
+        """Where a line, or the lines of all cells, cross rims of contact and stick zone.
+
+        x, y, which of them, and whether the place is known within a cell.
         """
     def volume(
         self,

@@ -340,11 +340,10 @@ impl Subsurface {
         Ok((stress.into_pyarray(py), u.into_pyarray(py)))
     }
 
-    /// Largest value of a measure on a section, between its samples of shape (depths, places) \[Pa\], in one layer
-    /// alone if `only` names it.
+    /// Largest value of a measure on a section, between its samples; in the layer `only`.
     ///
-    /// Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y and z and of the
-    /// tractions.
+    /// Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y
+    /// and z and of the tractions.
     #[pyo3(signature = (of, samples, z, layer, *, x = None, y = None, only = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn maximum(
@@ -394,8 +393,9 @@ impl Subsurface {
         self.rim
     }
 
-    /// Where a line at x or y \[m\], or the lines of all cells, cross the rim of the contact and the border of the
-    /// stick zone: x, y, which, and whether it is known within a cell.
+    /// Where a line, or the lines of all cells, cross rims of contact and stick zone.
+    ///
+    /// x, y, which of them, and whether the place is known within a cell.
     #[pyo3(signature = (*, x = None, y = None))]
     fn borders(
         &self,
