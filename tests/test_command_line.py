@@ -36,7 +36,7 @@ def test_the_same_scene_gives_the_same_bits(coated: fret.Result, tmp_path: Path)
         ("friction.mu=-1.0", "friction.mu = -1: must be"),
         ("friction.mu=nan", "friction.mu = nan: must be"),
         ("body1.E=-210e9", "body1.E = -210000000000: must be"),
-        ("body2.nu=0.5", "body2.nu = 0.5: must be"),
+        ("body2.nu=0.51", "body2.nu = 0.51: must be"),
         ("body2.nu=-1.0", "body2.nu = -1: must be"),
         ("body2.coatings.0.thickness=0.0", "body2.coatings[0].thickness = 0: must be"),
         ("grid.n=0", "grid.n"),
@@ -215,7 +215,7 @@ def test_a_new_scene_can_be_checked_and_solved(template: str, tmp_path: Path) ->
     largest = fret_run("stress", tmp_path / "out.zarr")
     assert largest.returncode == 0, largest.stderr
     assert "largest von_mises" in largest.stdout
-    assert "(depths +- " in largest.stdout
+    assert re.search(r"largest von_mises [-+.\de]+ \S+ \+- \d", largest.stdout), largest.stdout
 
 
 def test_a_scene_comes_from_the_standard_input() -> None:

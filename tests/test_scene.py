@@ -21,7 +21,7 @@ STEEL = fret.Elastic(E=210e9, nu=0.3)
         (-1.0, 0.3, r"E = -1: must be a positive modulus in Pa"),
         (0.0, 0.3, r"E = 0"),
         (math.nan, 0.3, r"E = NaN"),
-        (210e9, 0.5, r"nu = 0.5: must be -1 < nu < 0.5"),
+        (210e9, 0.51, r"nu = 0.51: must be -1 < nu <= 0.5"),
         (210e9, -1.0, r"nu = -1"),
     ],
 )

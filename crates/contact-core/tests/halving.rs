@@ -33,7 +33,7 @@ fn scene(settings: &[&str]) -> Scene {
 fn an_increment_that_does_not_converge_is_solved_in_pieces() {
     let whole = solve(&scene(&[]), &mut ()).unwrap();
     assert!(whole.iter().all(|i| i.work.parts == 1));
-    let tight = scene(&["skip.digits=false", "solver.max_iterations=3"]);
+    let tight = scene(&["skip.digits=false", "solver.max_iterations=2"]);
     let pieces = solve(&tight, &mut ()).unwrap();
     assert_eq!(pieces.len(), 3);
     let mut done = 0.0;
