@@ -13,7 +13,7 @@ import pyfret as fret
 from conftest import T_MAX, sphere_on_flat
 from conftest import W as LOAD
 from pyfret import fatigue
-from pyfret.fatigue import averages, cycle_stress
+from pyfret.fatigue import averages
 from pyfret.fatigue.section import Section, SectionOptions
 
 STEEL = fatigue.Materials()["steel_42CrMo4"]
@@ -27,11 +27,11 @@ def cycled() -> fret.Result:
     return fret.solve(sphere_on_flat(ratio=2.0, n=32), path, save="all", progress=False)
 
 
-def test_streamed_is_what_the_whole_history_gives(
-    cycled: fret.Result, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(cycle_stress, "CHUNK", 1e6)
-    streamed = cycled.life(STEEL, "findley", residual=[-3e8, 1e8])
+BOTH = [STEEL, STEEL]
+
+
+def test_streamed_is_what_the_whole_history_gives(cycled: fret.Result) -> None:
+    streamed = cycled.life(BOTH, "findley", residual=[-3e8, 1e8])
     z = np.unique(streamed.dataset.z)
     history = fatigue.history(cycled, z, y=0.0, residual=[-3e8, 1e8])
     whole = fatigue.assess(history, STEEL, "findley")
@@ -44,19 +44,21 @@ def test_streamed_is_what_the_whole_history_gives(
 
 
 def test_worst_point_lies_between_the_cells(cycled: fret.Result) -> None:
-    found = cycled.life(STEEL, "dang_van")
+    found = cycled.life(BOTH, "dang_van")
     worst = found.worst
     largest = float(found.dataset.value.max())
     assert worst.value >= largest
-    assert worst.value == pytest.approx(largest, rel=0.1)
+    assert worst.value == pytest.approx(largest, rel=0.3)
+    assert worst.errors.z < 0.05 * worst.value
     assert worst.margin == pytest.approx(STEEL.number("t_D") / worst.value, rel=1e-12)
     # The trailing edge, on the surface: fretting cracks start there.
     assert worst.z == 0.0
     assert 0.8 < abs(worst.x) / cycled.a_H < 1.1
     assert worst == found.worst_of(0)
     assert worst.normal is None
-    normal = np.array(cycled.life(STEEL, "findley", [0.0]).worst.normal)
-    assert np.linalg.norm(normal) == pytest.approx(1.0)
+    on_a_plane = cycled.life(BOTH, "findley", [0.0]).worst
+    assert np.linalg.norm(np.array(on_a_plane.normal)) == pytest.approx(1.0)
+    assert abs(on_a_plane.inclination) <= 90.0
     assert "safety factor" in repr(found)
 
 
@@ -64,21 +66,21 @@ def test_a_volume_is_its_sections(cycled: fret.Result) -> None:
     places = (-3e-5, 0.0, 1e-4)
     depths = [0.0, 5e-5, 2e-4]
     for across, along in (("y", "x"), ("x", "y")):
-        whole = cycled.life(STEEL, "findley", depths, **{across: places})
+        whole = cycled.life(BOTH, "findley", depths, **{across: places})
         assert whole.dataset.value.dims == ("depth", along, across)
         for n, place in enumerate(places):
-            one = cycled.life(STEEL, "findley", depths, **{across: place})
+            one = cycled.life(BOTH, "findley", depths, **{across: place})
             np.testing.assert_array_equal(whole.dataset.value[..., n], one.dataset.value)
             assert whole.section(place).worst == one.worst
         values = [whole.section(place).worst.value for place in places]
         assert whole.worst.value == max(values)
         assert getattr(whole.worst, across) == places[int(np.argmax(values))]
     with pytest.raises(ValueError, match="must be one number here"):
-        averages.average(cycled, STEEL, "crossland", L=3e-5, y=places)
+        averages.average(cycled, BOTH, "crossland", L=3e-5, y=places)
     with pytest.raises(ValueError, match="give x or y"):
-        cycled.life(STEEL, "crossland", x=0.0, y=0.0)
+        cycled.life(BOTH, "crossland", x=0.0, y=0.0)
     with pytest.raises(ValueError, match="cycle = 7: must be"):
-        cycled.life(STEEL, "crossland", cycle=7)
+        cycled.life(BOTH, "crossland", cycle=7)
 
 
 def test_keywords_are_the_fields_of_a_section() -> None:
@@ -93,23 +95,26 @@ def test_each_layer_with_its_own_material(cycled: fret.Result) -> None:
     assert only.worst.layer == 1
     with pytest.raises(ValueError, match="layer 0 is not judged"):
         only.worst_of(0)
-    with pytest.raises(ValueError, match="1 materials: must be one for all layers"):
+    with pytest.raises(ValueError, match="1 materials: must be one, or one for each"):
         cycled.life([STEEL], "crossland")
+    # One material is that of the substrate and says nothing about a coating.
+    alone = cycled.life(STEEL, "crossland", [0.0, 2e-4, 7e-4])
+    np.testing.assert_array_equal(alone.dataset.value, only.dataset.value)
     with pytest.raises(ValueError, match="no layer has a material"):
         cycled.life([None, None], "crossland")
     with pytest.raises(ValueError, match="residual = 1 numbers"):
-        cycled.life(STEEL, "crossland", residual=[1e6])
+        cycled.life(BOTH, "crossland", residual=[1e6])
     with pytest.raises(ValueError, match=r"aluminium_7075_T6`\.s_D"):
         cycled.life(fatigue.Materials()["aluminium_7075_T6"], "crossland")
 
 
 def test_averages_are_those_of_the_stress(cycled: fret.Result) -> None:
     L = 3e-5
-    point = averages.average(cycled, STEEL, "crossland", L=L, method="point")
-    there = cycled.life(STEEL, "crossland", [L / 2])
+    point = averages.average(cycled, BOTH, "crossland", L=L, method="point")
+    there = cycled.life(BOTH, "crossland", [L / 2])
     np.testing.assert_allclose(point.value, there.dataset.value[0], rtol=1e-12)
     # The mean of the stress over the line, by the midpoint rule on many depths.
-    line = averages.average(cycled, STEEL, "crossland", L=L, method="line")
+    line = averages.average(cycled, BOTH, "crossland", L=L, method="line")
     z = (np.arange(60) + 0.5) / 60 * 2 * L
     mean = fatigue.history(cycled, z, y=0.0).mean("depth")
     brute = fatigue.assess(mean.transpose("increment", "x", "component"), STEEL, "crossland")
@@ -117,22 +122,22 @@ def test_averages_are_those_of_the_stress(cycled: fret.Result) -> None:
     used, expected = 1 / line.safety_factor, 1 / brute.safety_factor
     np.testing.assert_allclose(used, expected, rtol=2e-3, atol=1e-4)
     # A distance far below the cell leaves the stress of the surface.
-    surface = cycled.life(STEEL, "crossland", [0.0]).dataset.value[0]
+    surface = cycled.life(BOTH, "crossland", [0.0]).dataset.value[0]
     for method in ("point", "line", "area"):
-        tiny = averages.average(cycled, STEEL, "crossland", L=1e-9, method=method)
+        tiny = averages.average(cycled, BOTH, "crossland", L=1e-9, method=method)
         inside = np.isfinite(tiny.value.values)
         assert inside.sum() >= surface.size - 2
         # At the rim the stress of the surface has a cusp.
         off = np.abs(tiny.value.values - surface.values)[inside]
         assert off.max() < 2e-2 * float(surface.max())
-    area = averages.average(cycled, STEEL, "crossland", L=L, method="area")
+    area = averages.average(cycled, BOTH, "crossland", L=L, method="area")
     assert float(area.value.max()) < float(surface.max())
-    with pytest.raises(ValueError, match="beyond the outermost layer"):
-        averages.average(cycled, STEEL, "crossland", L=1.0)
+    with pytest.raises(ValueError, match="belongs to one material"):
+        averages.average(cycled, BOTH, "crossland", L=1.0)
     with pytest.raises(ValueError, match="dK_th"):
-        averages.average(cycled, STEEL, "crossland")
+        averages.average(cycled, BOTH, "crossland")
     with pytest.raises(ValueError, match="positive length"):
-        averages.average(cycled, STEEL, "crossland", L=0.0)
+        averages.average(cycled, BOTH, "crossland", L=0.0)
 
 
 def test_the_mean_over_a_ball_is_near_that_over_its_disc() -> None:
@@ -152,24 +157,27 @@ def test_the_mean_over_a_ball_is_near_that_over_its_disc() -> None:
     assert 0.0 < off.max() < deeper / result.a_H * result.p_H
 
 
-def test_the_mean_over_a_ball_is_exact_for_a_quadratic() -> None:
-    # Means over the half ball: y^2 -> L^2/5; z and z^2 over its half discs as over the ball.
-    L = 2.0
-    discs = averages._discs("volume", L)
-    assert sum(d.share for d in discs) == pytest.approx(1.0)
-    assert sum(d.share * d.offset**2 for d in discs) == pytest.approx(L**2 / 5, rel=1e-12)
-    # The mean depth of a half disc is 4 r/(3 pi), that of the half ball 3 L/8.
-    depth = sum(d.share * 4 * d.radius / (3 * np.pi) for d in discs)
-    assert depth == pytest.approx(3 * L / 8, rel=1e-3)
+def test_a_critical_distance_in_the_substrate(cycled: fret.Result) -> None:
+    L = 3e-5
+    top = cycled.scene.interfaces()[0]
+    below = averages.average(cycled, STEEL, "crossland", L=L)
+    named = averages.average(cycled, STEEL, "crossland", L=L, layer=1)
+    np.testing.assert_array_equal(below.value, named.value)
+    z = top + (np.arange(60) + 0.5) / 60 * 2 * L
+    mean = fatigue.history(cycled, z, y=0.0).mean("depth")
+    brute = fatigue.assess(mean.transpose("increment", "x", "component"), STEEL, "crossland")
+    np.testing.assert_allclose(below.value, brute.value, rtol=2e-3, atol=1e5)
+    with pytest.raises(ValueError, match="layer = 2: must be 0 to 1"):
+        averages.average(cycled, STEEL, "crossland", L=L, layer=2)
 
 
-def test_the_mean_over_a_disc_of_a_linear_field_is_that_of_its_centroid() -> None:
-    x = np.linspace(-1.0, 1.0, 21)
-    history = np.broadcast_to((3.0 + 2.0 * x)[None, None, :, None], (2, 3, 21, 6))
-    mean = averages._over_width(np.array(history), x, np.array([0.05, 0.23, 0.4]))
-    inside = np.isfinite(mean)
-    assert inside.any(axis=(0, 2, 3)).all()
-    np.testing.assert_allclose(mean[inside], history[inside], rtol=1e-12)
+def test_strains_are_those_of_the_scene(cycled: fret.Result) -> None:
+    aluminium = fatigue.Materials()["aluminium_7075_T6"]
+    found = cycled.life(aluminium, "smith_watson_topper")
+    assert any("scene's E" in note for note in found.notes)
+    assert "scene's E" in repr(found)
+    # The cycle begins with the first shear and ends with its reversal back.
+    assert fatigue.Materials()["steel_42CrMo4"] == STEEL
 
 
 def test_ruiz_work_adds_up_to_the_energy_of_the_loop(cycled: fret.Result) -> None:
@@ -205,7 +213,7 @@ def test_what_was_not_kept_is_refused() -> None:
 def test_figures(cycled: fret.Result) -> None:
     aluminium = fatigue.Materials()["aluminium_7075_T6"]
     for found in (
-        cycled.life(STEEL, "dang_van"),
+        cycled.life(BOTH, "dang_van"),
         cycled.life([None, aluminium], "smith_watson_topper"),
     ):
         ax = fret.plot.criterion_map(found)
@@ -229,7 +237,7 @@ def test_figures(cycled: fret.Result) -> None:
     assert worst.value == pytest.approx(float(d.value[n]), rel=0.1)
     np.testing.assert_allclose(marked, [float(d.normal_mean[n]), float(d.normal_amplitude[n])])
     with pytest.raises(ValueError, match="no critical plane"):
-        fret.plot.haigh_diagram(cycled.life(STEEL, "dang_van", [0.0]))
+        fret.plot.haigh_diagram(cycled.life(BOTH, "dang_van", [0.0]))
     plt.close("all")
 
 

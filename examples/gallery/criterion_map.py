@@ -33,6 +33,6 @@ cooled = fret.subsurface.thermal_stress(
 
 figure, axes = plt.subplots(2, 1, figsize=(6.4, 6.4), layout="constrained")
 for ax, residual in zip(axes, (0.0, cooled), strict=True):
-    life = result.life(material, "dang_van", z, residual=[residual, 0.0])
+    life = result.life([material, material], "dang_van", z, residual=[residual, 0.0])
     fret.plot.criterion_map(life, ax=ax)
     ax.set_title(f"residual stress of the coating {residual / 1e6:.0f} MPa")

@@ -33,7 +33,7 @@ from pyfret.fatigue.criteria import (
 )
 from pyfret.fatigue.cycles import cycle_increments, history
 from pyfret.fatigue.factors import Least, LoadFactors, load_factors
-from pyfret.fatigue.lives import Life, Worst, life, ruiz
+from pyfret.fatigue.lives import Errors, Life, Worst, life, ruiz
 from pyfret.fatigue.section import Section
 
 __all__ = [
@@ -41,6 +41,7 @@ __all__ = [
     "CRITERIA",
     "Assessment",
     "Criterion",
+    "Errors",
     "Least",
     "Life",
     "LoadFactors",

@@ -2,35 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
-from pyfret.fatigue.criteria import assess
-from pyfret.fatigue.cycle_stress import CycleStress
-from pyfret.fatigue.section import Section
-from pyfret.subsurface.fields import interfaces
+from pyfret._core import Material
+from pyfret._util.lazy import xr
+from pyfret.fatigue.cycle_section import body_of, over_cycle
+from pyfret.fatigue.lives import described
+from pyfret.fatigue.section import Section, for_each_layer
 
 if TYPE_CHECKING:
-    import xarray as xr
-    from numpy.typing import NDArray
     from typing_extensions import Unpack
 
-    from pyfret._core import Material
     from pyfret.fatigue.criteria import CriterionName
+    from pyfret.fatigue.lives import Materials
     from pyfret.fatigue.section import SectionOptions
     from pyfret.run import Run
 
 __all__ = ["Averaging", "average", "critical_distance"]
 
-#: Stress at L/2 below the surface, its mean over the line down to 2 L, over the half disc or the
-#: half ball of radius L.
+#: Stress at L/2 below the top of the layer, its mean over the line down to 2 L, over the half disc
+#: or the half ball of radius L.
 Averaging = Literal["point", "line", "area", "volume"]
-
-#: Depths of the quadrature over lines and discs; its error is far below that of the stress.
-NODES = 16
-#: Discs of the quadrature over a ball.
-DISCS = 8
 
 
 def critical_distance(material: Material) -> float:
@@ -45,15 +39,16 @@ def critical_distance(material: Material) -> float:
 
 def average(
     result: Run,
-    material: Material,
+    material: Materials,
     criterion: CriterionName,
     *,
     L: float | None = None,
     method: Averaging = "line",
+    layer: int | None = None,
     tolerance: float = 1e-3,
     **section: Unpack[SectionOptions],
 ) -> xr.Dataset:
-    """Judge the stress averaged over a critical distance below every place of the surface.
+    """Judge the stress averaged over a critical distance in a layer below every place of a section.
 
     Contacts have steep stresses: what counts is not the largest value but that over a distance
     which belongs to the material. The stress is averaged, then judged.
@@ -62,14 +57,18 @@ def average(
     ----------
     result, criterion, tolerance
         As in :func:`pyfret.fatigue.life`.
-    material : Material
-        That of the outermost layer, which holds the distance.
+    material : Material or sequence of Material or None
+        That of the layer, or one for each layer from the surface down, the substrate's last.
     L : float, optional
         Critical distance [m] (default: that of the material, :func:`critical_distance`).
     method : "point", "line", "area" or "volume"
-        Stress at z = L/2; its mean over the line from the surface to z = 2 L; over the half disc of
-        radius L in the plane of the section; over the half ball of radius L: D. Taylor, as in
-        :func:`critical_distance`. The ball reaches beyond the section to either side.
+        Stress at L/2 below the top of the layer; its mean over the line from there to 2 L; over the
+        half disc of radius L in the plane of the section; over the half ball of radius L (D.
+        Taylor, as in :func:`critical_distance`). The ball reaches beyond the section on both
+        sides.
+    layer : int, optional
+        The layer that holds the distance, from the surface down (default: the outermost that has a
+        material; of one material alone the substrate).
     **section
         ``x`` or ``y``, ``body_number``, ``cycle``, ``residual``, as in :func:`pyfret.fatigue.life`.
 
@@ -82,107 +81,34 @@ def average(
     Raises
     ------
     ValueError
-        As :func:`pyfret.fatigue.life`, and if the distance reaches beyond the outermost layer.
+        As :func:`pyfret.fatigue.life`, and if the distance reaches beyond the layer.
     """
-    L = critical_distance(material) if L is None else float(L)
+    where = Section(**section)
+    layers = len(body_of(result, where).coatings) + 1
+    if layer is not None and not 0 <= layer < layers:
+        raise ValueError(f"layer = {layer}: must be 0 to {layers - 1}, from the surface down")
+    if isinstance(material, Material) and layer is not None:
+        each: list[Material | None] = [None] * layers
+        each[layer] = material
+    else:
+        each = for_each_layer(material, layers, "material", "materials")
+    there = next(n for n, m in enumerate(each) if m is not None) if layer is None else layer
+    of_layer = each[there]
+    if of_layer is None:
+        raise ValueError(f"layer = {there}: has no material")
+    L = critical_distance(of_layer) if L is None else float(L)
     if not (L > 0.0 and np.isfinite(L)):
         raise ValueError(f"L = {L}: must be a positive length in m")
     if method not in get_args(Averaging):
         raise ValueError(f"method = {method!r}: must be one of {', '.join(get_args(Averaging))}")
-    where = Section(**section)
-    of = CycleStress(result, where)
-    _check_reach(of, L, method)
-    mean = np.zeros(())
-    for disc in _discs(method, L):
-        # In plane strain all sections are the same.
-        offset = 0.0 if of.grid.plane_strain else disc.offset
-        beside = CycleStress(result, where.at(where.place + offset))
-        mean = mean + disc.share * _mean(beside, disc.radius, method)
+    below = over_cycle(result, where)
+    found = below.mean(L, method, there, each, criterion, tolerance=tolerance)
+    assessments = [None if m is None else m.assessment(criterion) for m in each]
+    grid = result.scene.grid
     along = where.along
-    places = np.asarray(of.grid.x if along == "x" else of.grid.y)
-    inside = np.isfinite(mean).all(axis=(0, 2))
-    judged = assess(mean[:, inside], material, criterion, tolerance=tolerance)
-    judged = judged.rename(dim_0=along).assign_coords({along: places[inside]})
-    attrs = {"criterion": criterion, "method": method, "L": L}
-    return judged.reindex({along: places}).assign_attrs(attrs)
-
-
-def _check_reach(of: CycleStress, L: float, method: Averaging) -> None:
-    """Refuse a distance that leaves the outermost layer."""
-    reach = _depth(L, method)
-    borders = interfaces(of.body)
-    if borders and borders[0] < reach:
-        raise ValueError(
-            f"the {method} method reaches {reach:.3e} m deep, beyond the outermost layer of "
-            f"{borders[0]:.3e} m: a critical distance belongs to one material"
-        )
-
-
-def _depth(L: float, method: Averaging) -> float:
-    """How deep a mean reaches [m]."""
-    return {"point": L / 2, "line": 2 * L}.get(method, L)
-
-
-class _Disc(NamedTuple):
-    """A section through what the stress is averaged over."""
-
-    #: Distance from the place that is judged [m].
-    offset: float
-    #: Radius, or critical distance of a point and a line [m].
-    radius: float
-    #: Part of the whole mean.
-    share: float
-
-
-def _discs(method: Averaging, L: float) -> list[_Disc]:
-    """The one section that a mean is over, or the half discs side by side that fill a half ball."""
-    if method != "volume":
-        return [_Disc(0.0, L, 1.0)]
-    nodes, weights = np.polynomial.legendre.leggauss(DISCS)
-    areas = weights * (1.0 - nodes * nodes)
-    pairs = zip(nodes, areas / areas.sum(), strict=True)
-    return [_Disc(L * s, L * np.sqrt(1.0 - s * s), share) for s, share in pairs]
-
-
-def _mean(of: CycleStress, L: float, method: Averaging) -> NDArray[np.float64]:
-    """The stress averaged in the plane of a section, of shape (time, along, 6)."""
-    nodes, weights = np.polynomial.legendre.leggauss(NODES)
-    nodes, weights = (nodes + 1) / 2, weights / 2
-    if method == "point":
-        nodes, weights = np.array([1.0]), np.array([1.0])
-    disc = method in ("area", "volume")
-    if disc:
-        weights = weights * np.sqrt(1.0 - nodes * nodes)
-    weights = weights / weights.sum()
-    depths = nodes * _depth(L, method)
-    mean = np.zeros(())
-    for some, share in zip(of.chunks(depths), of.chunks(weights), strict=True):
-        history, places = of.history(some)
-        if disc:
-            along = places[of.section.along].values
-            history = _over_width(history, along, np.sqrt(L * L - some * some))
-        mean = mean + np.einsum("k,tkxc->txc", share, history)
-    return mean
-
-
-def _over_width(
-    history: NDArray[np.float64], x: NDArray[np.float64], half: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Means over x - half ... x + half of a history linear between its places; NaN beyond them."""
-    steps = (history[:, :, 1:] + history[:, :, :-1]) / 2 * np.diff(x)[:, None]
-    whole = np.concatenate([np.zeros_like(history[:, :, :1]), np.cumsum(steps, axis=2)], axis=2)
-    found = np.full_like(history, np.nan)
-    d = x[1] - x[0]
-
-    def up_to(k: int, at: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The integral from x[0] to `at`: of a linear piece, exact."""
-        i = np.clip(((at - x[0]) / d).astype(int), 0, x.size - 2)
-        s = ((at - x[i]) / d)[:, None]
-        low, high = history[:, k, i], history[:, k, i + 1]
-        return np.asarray(whole[:, k, i] + d * s * (low + s / 2 * (high - low)))
-
-    for k, b in enumerate(half):
-        inside = (x - b >= x[0]) & (x + b <= x[-1])
-        mean = (up_to(k, x[inside] + b) - up_to(k, x[inside] - b)) / (2 * b)
-        found[:, k, inside] = mean
-    return found
+    shown = xr.Dataset(
+        coords={along: np.asarray(grid.x if along == "x" else grid.y), "axis": ["x", "y", "z"]}
+    )
+    for name, (values, attrs) in described(found, assessments).items():
+        shown[name] = ((along, "axis")[: values.ndim - 1], values[0], attrs)
+    return shown.assign_attrs(criterion=criterion, method=method, L=L, layer=there)

@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret import _core
 from pyfret._util.lazy import xr
 from pyfret.fatigue.criteria import COMPONENTS
 from pyfret.subsurface.contact import stress_below
+from pyfret.subsurface.fields import coordinates
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,7 +19,10 @@ if TYPE_CHECKING:
 
     from pyfret.run import Run
 
-__all__ = ["cycle_increments", "history"]
+__all__ = ["cycle_increments", "history", "moment_before"]
+
+#: Increments whose stresses are computed together: the kernels of a depth cost as much as ten.
+TOGETHER = 32
 
 
 def cycle_increments(result: Run, cycle: int | None = -1) -> NDArray[np.int64]:
@@ -33,6 +38,15 @@ def cycle_increments(result: Run, cycle: int | None = -1) -> NDArray[np.int64]:
             f"{kept.size} increments of the {of} were kept: solve with save='all' or more of them"
         )
     return kept
+
+
+def moment_before(result: Run, kept: NDArray[np.int64]) -> int | None:
+    """Give the increment at which the branch of the first kept one begins, if it was kept."""
+    branch = result.dataset.branch_of_increment
+    first = int(branch.sel(increment=int(kept[0])))
+    begin = int(result.dataset.increment.values[(branch == first).values][0])
+    saved = result.dataset.saved_increment.values
+    return begin - 1 if begin - 1 in saved else None
 
 
 def _inside(result: Run, saved: NDArray[np.int64], cycle: int) -> NDArray[np.bool_]:
@@ -81,6 +95,56 @@ def history(
         Stress [Pa] with the coordinates of the places, ``layer`` among them.
     """
     kept = cycle_increments(result, cycle)
+    if (x is None) == (y is None):
+        return _of_snapshots(result, kept, z, x, y, body_number, residual)
+    scene = result.scene
+    body = scene.body1 if body_number == 1 else scene.body2
+    given = np.atleast_1d(np.asarray(z, dtype=float)).tolist()
+    depths, layers = _core.depths(body, given)
+    parts = []
+    for some in np.array_split(kept, int(np.ceil(kept.size / TOGETHER))):
+        moments = [result.at(int(n)) for n in some]
+        fields = {
+            name: np.stack([now.dataset[name].values for now in moments])
+            for name in ("p", "q_x", "q_y", "stick")
+        }
+        fields["stick"] = fields["stick"].astype(bool)
+        stress = _core.section_of_states(
+            body,
+            scene.grid,
+            depths,
+            layers,
+            **fields,
+            sigma_B=[now.bulk_stress(body_number) for now in moments],
+            residual=residual,
+            x=x,
+            y=y,
+            body_number=body_number,
+        )
+        parts.append(np.moveaxis(stress, 1, -1))
+    along = "x" if x is None else "y"
+    stacked = xr.DataArray(
+        np.concatenate(parts),
+        dims=("increment", "depth", along, "component"),
+        coords={
+            **xr.Dataset(coords=coordinates(scene.grid, depths, layers, x, y)).coords,
+            "increment": kept,
+            "component": list(COMPONENTS),
+        },
+    )
+    return stacked.assign_attrs(units="Pa", long_name="stress").rename("stress")
+
+
+def _of_snapshots(
+    result: Run,
+    kept: NDArray[np.int64],
+    z: ArrayLike,
+    x: float | None,
+    y: float | None,
+    body_number: int,
+    residual: Sequence[float] | None,
+) -> xr.DataArray:
+    """The stress of every increment by itself, where it is no section."""
     snapshots = (
         stress_below(result.at(int(n)), z, x=x, y=y, body_number=body_number, residual=residual)
         for n in kept

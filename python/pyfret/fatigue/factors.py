@@ -16,20 +16,24 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 import numpy as np
 
-from pyfret import _core
 from pyfret._core import Material
 from pyfret._util.labelled import Labelled
-from pyfret.fatigue.criteria import first_yield
-from pyfret.fatigue.cycle_stress import judge
+from pyfret.fatigue.cycle_section import (
+    body_of,
+    depths_of,
+    labelled,
+    over_cycle,
+    side_by_side,
+)
+from pyfret.fatigue.lives import Errors
 from pyfret.fatigue.section import Section, for_each_layer
-from pyfret.fatigue.worst import largest
 
 if TYPE_CHECKING:
     import xarray as xr
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
     from typing_extensions import Unpack
 
-    from pyfret.fatigue.cycle_stress import Found
+    from pyfret._core import YieldBelow
     from pyfret.fatigue.section import SectionOptions
     from pyfret.run import Run
 
@@ -54,7 +58,8 @@ class Least(NamedTuple):
     z: float
     #: Layer from the surface down; their number for the substrate.
     layer: int
-    #: What the distances of the depths leave of an error of the factor, estimated.
+    #: What may be wrong with the factor, estimated: the search along the section and in depth, the
+    #: tractions on cells twice as large.
     error: float
 
 
@@ -66,8 +71,12 @@ class LoadFactors(Labelled):
     infinite without stress.
     """
 
-    def __init__(self, dataset: xr.Dataset, layers: Sequence[int]) -> None:
+    def __init__(
+        self, dataset: xr.Dataset, layers: Sequence[int], sections: Sequence[YieldBelow]
+    ) -> None:
         super().__init__(dataset)
+        self._sections = list(sections)
+        self._least: dict[tuple[int, Factor], Least] = {}
         #: The layers that are judged, from the surface down.
         self.layers = list(layers)
 
@@ -79,9 +88,28 @@ class LoadFactors(Labelled):
 
     def least_of(self, layer: int, of: Factor = "von_mises") -> Least:
         """Give the least factor of a layer; a ValueError where it is not judged."""
-        use, x, y, z, layer, error = largest(self.use(of), layer)
+        if (layer, of) not in self._least:
+            self._least[layer, of] = self._found(layer, of)
+        return self._least[layer, of]
+
+    def _found(self, layer: int, of: Factor) -> Least:
+        """The least factor of a layer, looked for."""
+        here = self.use(of).isel(depth=self.dataset.layer.values == layer)
+        values = here.values.reshape(-1, len(self._sections))
+        if values.size == 0 or not np.isfinite(values).any():
+            raise ValueError(f"layer {layer} is not judged: it has no yield stress or no depth")
+        n = int(np.nanmax(np.where(np.isfinite(values), values, -np.inf), axis=0).argmax())
+        found = self._sections[n].least(layer, of)
+        if found is None:
+            raise ValueError("the section holds no number")
+        use, error = found["score"], Errors(*found["errors"]).sum
         return Least(
-            1.0 / use if use > 0.0 else np.inf, x, y, z, layer, error / max(use, 1e-300) ** 2
+            1.0 / use if use > 0.0 else np.inf,
+            found["x"],
+            found["y"],
+            found["z"],
+            found["layer"],
+            error / max(use, 1e-300) ** 2,
         )
 
     def least(self, of: Factor = "von_mises") -> Least:
@@ -95,6 +123,13 @@ class LoadFactors(Labelled):
         return (
             super().__eq__(other) and isinstance(other, LoadFactors) and other.layers == self.layers
         )
+
+    def __getstate__(self) -> dict[str, object]:
+        """What is pickled: the least factors in place of what finds them."""
+        for layer in self.layers:
+            for of in get_args(Factor):
+                self.least_of(layer, of)
+        return {**self.__dict__, "_sections": []}
 
     def __repr__(self) -> str:
         """Say what decides."""
@@ -122,7 +157,7 @@ def load_factors(
         Solved with ``save="all"``, or with the increments of the cycle.
     s_y : float, Material, or sequence of them or None
         Yield stress [Pa] of all layers, or of each from the surface down, the substrate's last;
-        layers of ``None`` are not judged.
+        layers of ``None`` are not judged. A material alone is that of the substrate.
     z : array, optional
         Depths [m] (default: those that the layers ask for, both sides of every interface).
     **section
@@ -147,21 +182,23 @@ def load_factors(
     >>> result.load_factors(900e6).least("shakedown")  # doctest: +SKIP
     """
     where = Section(**section)
-    scene = result.scene
-    body = scene.body1 if where.body_number == 1 else scene.body2
-    limits = _yield_stresses(s_y, len(body.coatings) + 1)
-
-    residual = _core.residual_of_layers(body, where.residual).tolist()
-
-    def of_layer(load: NDArray[np.float64], layer: int) -> Found | None:
-        limit = limits[layer]
-        if limit is None:
-            return None
-        found = first_yield(
-            load, s_y=limit, constant=(residual[layer], residual[layer], 0, 0, 0, 0)
-        )
-        return {of: (found[of].values, found[of].attrs) for of in get_args(Factor)}
-
-    whole = judge(result, where, z, of_layer, residual=False)
+    limits = _yield_stresses(s_y, len(body_of(result, where).coatings) + 1)
+    depths = depths_of(result, where, z)
+    meanings = {
+        "von_mises": "load factor of first yield, von Mises",
+        "tresca": "load factor of first yield, Tresca",
+        "shakedown": "load factor of elastic shakedown, upper bound",
+    }
+    found, shown = [], []
+    for one in where.each():
+        judged = over_cycle(result, one).by_yield(*depths, limits)
+        fields = judged.fields()
+        labels = {
+            name: (fields[name], {"units": "1", "long_name": meaning})
+            for name, meaning in meanings.items()
+        }
+        found.append(judged)
+        shown.append(labelled(result, one, depths, labels))
+    whole = side_by_side(result, where, shown).drop_vars("axis")
     present = np.unique(whole.layer.values).tolist()
-    return LoadFactors(whole, [n for n in present if limits[n] is not None])
+    return LoadFactors(whole, [n for n in present if limits[n] is not None], found)

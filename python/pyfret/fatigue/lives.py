@@ -1,6 +1,6 @@
 """Will it crack? A fatigue criterion over a closed cycle of a run, below the contact.
 
-The stress is computed a few depths at a time, judged and let go: memory is bounded by the chunk. ::
+The core computes the stress a few depths at a time, judges it and lets it go. ::
 
     steel = fatigue.Materials()["steel_42CrMo4"]
     life = result.life(steel, "dang_van")
@@ -19,33 +19,62 @@ import numpy as np
 from pyfret._core import Material
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
-from pyfret.fatigue.criteria import evaluate
-from pyfret.fatigue.cycle_stress import CycleStress, judge
+from pyfret.fatigue.cycle_section import (
+    body_of,
+    depths_of,
+    labelled,
+    over_cycle,
+    side_by_side,
+)
+from pyfret.fatigue.cycles import cycle_increments, history
 from pyfret.fatigue.section import Section, for_each_layer
-from pyfret.fatigue.worst import largest
 from pyfret.scene.tables import table
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Unpack
 
-    from pyfret._core import Assessment
+    from pyfret._core import Assessment, CriterionBelow
     from pyfret.fatigue.criteria import CriterionName
-    from pyfret.fatigue.cycle_stress import Found
     from pyfret.fatigue.section import SectionOptions
     from pyfret.run import Run
 
-__all__ = ["Life", "Materials", "Worst", "life", "ruiz"]
+__all__ = ["Errors", "Life", "Materials", "Worst", "life", "ruiz"]
 
-#: A material for all layers, or one for each from the surface down, the substrate's last; layers of
-#: ``None`` are not judged.
+#: Part of the largest traction by which the ends of a cycle may differ before that is told.
+UNSETTLED = 0.02
+#: What is told of a worst point there.
+RIM = (
+    "the worst point is at the rim of the contact: a point value depends on the grid, use a "
+    "critical distance (fatigue.average)"
+)
+
+#: The material of the substrate, or one for each layer from the surface down, the substrate's last;
+#: layers of ``None`` are not judged.
 Materials = Material | Sequence[Material | None]
 
 
-class Worst(NamedTuple):
-    """The worst point of a section, between the samples."""
+class Errors(NamedTuple):
+    """What may be wrong with the value at a worst point, by its sources, in its unit."""
 
-    #: Value of the criterion, in its unit.
+    #: What the search along x and y leaves.
+    x: float
+    y: float
+    #: What the search over the depths leaves.
+    z: float
+    #: By how much the tractions on cells twice as large give another value.
+    tractions: float | None
+
+    @property
+    def sum(self) -> float:
+        """All together."""
+        return self.x + self.y + self.z + (self.tractions or 0.0)
+
+
+class Worst(NamedTuple):
+    """The worst point of a section, between the samples, rims of the contact included."""
+
+    #: Value of the criterion, in its unit: that of the stress at the point.
     value: float
     #: Safety factor, or life in cycles for criteria with a strain-life curve.
     margin: float
@@ -56,10 +85,20 @@ class Worst(NamedTuple):
     z: float
     #: Layer from the surface down; their number for the substrate.
     layer: int
-    #: What the distances of the depths leave of an error of the value, estimated.
-    error: float
-    #: Normal of the critical plane at the nearest sample, where the criterion has one.
+    #: What may be wrong with the value, by its sources.
+    errors: Errors
+    #: The border that it lies on: of the "contact" or of the zone of "stick".
+    at: str | None
+    #: Normal of the critical plane, where the criterion has one.
     normal: tuple[float, float, float] | None
+    #: Angle of the critical plane to the surface normal in the section [degrees], positive where it
+    #: leans towards larger x or y with depth.
+    inclination: float | None
+
+    @property
+    def error(self) -> float:
+        """What may be wrong with the value, all together."""
+        return self.errors.sum
 
 
 class Life(Labelled):
@@ -71,9 +110,17 @@ class Life(Labelled):
     over (depth, x, y) or (depth, y, x); NaN in layers without a material.
     """
 
-    def __init__(self, dataset: xr.Dataset, assessments: Sequence[Assessment | None]) -> None:
+    def __init__(
+        self,
+        dataset: xr.Dataset,
+        sections: Sequence[CriterionBelow],
+        notes: Sequence[str],
+    ) -> None:
         super().__init__(dataset)
-        self._assessments = assessments
+        self._sections = list(sections)
+        self._assessments = self._sections[0].assessments
+        self._notes = list(notes)
+        self._worst: dict[int, Worst] = {}
 
     @property
     def margin(self) -> xr.DataArray:
@@ -86,25 +133,44 @@ class Life(Labelled):
         found = np.unique(self.dataset.layer.values).tolist()
         return [n for n in found if self._assessments[n] is not None]
 
+    @property
+    def notes(self) -> list[str]:
+        """What to know of the numbers: other elastic constants, a cycle that is not settled."""
+        at_rim = [RIM] if self.worst.at == "contact" else []
+        return [*self._notes, *at_rim]
+
     def section(self, place: float) -> Life:
         """Give the one of several sections that is nearest to a place on the axis across [m]."""
         if self.dataset.value.ndim == 2:
             return self
         across = str(self.dataset.value.dims[2])
-        return Life(self.dataset.sel({across: place}, method="nearest"), self._assessments)
+        n = int(np.abs(self.dataset[across].values - place).argmin())
+        return Life(self.dataset.isel({across: n}), [self._sections[n]], self._notes)
 
     def worst_of(self, layer: int) -> Worst:
         """Give the worst point of a layer; a ValueError where it is not judged."""
-        peak = largest(self.dataset.value, layer)
-        assessment = self._assessments[layer]
-        assert assessment is not None
-        d = self.dataset.isel(depth=self.dataset.layer.values == layer)
-        near = d.isel(depth=int(np.abs(d.z.values - peak.z).argmin()))
-        axes = {axis: at for axis, at in (("x", peak.x), ("y", peak.y)) if axis in near.dims}
-        x, y, z = near.normal.sel(axes, method="nearest").values.tolist()
-        margin = margin_of(assessment, peak.value)
-        normal = (x, y, z) if assessment.criterion.has_plane else None
-        return Worst(peak.value, margin, *peak[1:], normal=normal)
+        if layer not in self._worst:
+            here = self.dataset.value.isel(depth=self.dataset.layer.values == layer)
+            values = here.values.reshape(-1, len(self._sections))
+            if values.size == 0 or not np.isfinite(values).any():
+                raise ValueError(f"layer {layer} is not judged: it has no material or no depth")
+            n = int(np.nanmax(np.where(np.isfinite(values), values, -np.inf), axis=0).argmax())
+            found = self._sections[n].worst(layer)
+            if found is None:
+                raise ValueError("the section holds no number")
+            self._worst[layer] = Worst(
+                found["score"],
+                found["margin"],
+                found["x"],
+                found["y"],
+                found["z"],
+                found["layer"],
+                Errors(*found["errors"]),
+                found["at"],
+                tuple(found["normal"]) if "normal" in found else None,
+                found.get("inclination"),
+            )
+        return self._worst[layer]
 
     @property
     def worst(self) -> Worst:
@@ -116,6 +182,12 @@ class Life(Labelled):
         """Whether dataset and assessments are the same."""
         same = super().__eq__(other)
         return same and isinstance(other, Life) and other._assessments == self._assessments
+
+    def __getstate__(self) -> dict[str, object]:
+        """What is pickled: the worst points in place of what finds them."""
+        for layer in self.layers:
+            self.worst_of(layer)
+        return {**self.__dict__, "_sections": []}
 
     def _repr_html_(self) -> str:
         """The worst point of every layer, for notebooks."""
@@ -134,9 +206,13 @@ class Life(Labelled):
         """Say what was judged and how it ends."""
         w = self.worst
         name = margin_name(self._assessments)[0].replace("_", " ")
+        plane = ""
+        if w.inclination is not None and np.isfinite(w.inclination):
+            plane = f", plane {w.inclination:.1f} degrees from the surface normal"
         return (
             f"Life({self.dataset.attrs['criterion']}, {name} {w.margin:.4g} at "
-            f"x = {w.x:.4g} m, y = {w.y:.4g} m, z = {w.z:.4g} m, layer {w.layer})"
+            f"x = {w.x:.4g} m, y = {w.y:.4g} m, z = {w.z:.4g} m, layer {w.layer}{plane})"
+            + "".join(f"\n  {note}" for note in self.notes)
         )
 
 
@@ -148,17 +224,36 @@ def margin_name(assessments: Sequence[Assessment | None]) -> tuple[str, str]:
     return "safety_factor", "limit over value"
 
 
-def margin_of(assessment: Assessment, value: float) -> float:
-    """Safety factor, or life in cycles."""
-    give = assessment.life if assessment.limit is None else assessment.safety_factor
-    return give(value)
+#: What is found at every point: unit and meaning; that of the value is the criterion's.
+FOUND = {
+    "value": ("", "value of the criterion"),
+    "planes": ("1", "planes looked at"),
+    "missed": ("", "most that another plane may have more"),
+    "shear_amplitude": ("Pa", "shear amplitude, radius of the smallest circle"),
+    "shear_chord": ("Pa", "half of the longest chord of the shear path"),
+    "normal_max": ("Pa", "largest normal stress on the critical plane"),
+    "normal_min": ("Pa", "smallest normal stress on the critical plane"),
+    "normal": ("1", "normal of the critical plane"),
+}
 
 
-def _assessments(
-    materials: Materials, criterion: CriterionName, layers: int
-) -> list[Assessment | None]:
-    each = for_each_layer(materials, layers, "material", "materials")
-    return [None if m is None else m.assessment(criterion) for m in each]
+def described(
+    found: dict[str, NDArray[np.float64]], assessments: Sequence[Assessment | None]
+) -> dict[str, tuple[NDArray[np.float64], dict[str, str]]]:
+    """What the core found at points, with names and units."""
+    unit = next(a.criterion.unit for a in assessments if a is not None)
+    shown = {
+        name: (found[name], {"units": of or unit, "long_name": meaning})
+        for name, (of, meaning) in FOUND.items()
+    }
+    most, least = found["normal_max"], found["normal_min"]
+    mean = {"units": "Pa", "long_name": "mean normal stress on the critical plane"}
+    shown["normal_mean"] = ((most + least) / 2, mean)
+    amplitude = {"units": "Pa", "long_name": "amplitude of the normal stress there"}
+    shown["normal_amplitude"] = ((most - least) / 2, amplitude)
+    name, meaning = margin_name(assessments)
+    shown[name] = (found["margin"], {"units": "1", "long_name": meaning})
+    return shown
 
 
 def life(
@@ -172,14 +267,16 @@ def life(
 ) -> Life:
     """Judge a section below the contact, or several, over a closed cycle of the load path.
 
+    The strains of a criterion follow from the stress by the scene's E and nu.
+
     Parameters
     ----------
     result : Result
         Solved with ``save="all"``, or with the increments of the cycle. The bulk stress of the body
         is part of the stress as the path has it, in or out of phase with the other loads.
     materials : Material or sequence of Material or None
-        One for all layers, or one for each from the surface down, the substrate's last; layers of
-        ``None`` are not judged.
+        That of the substrate, or one for each layer from the surface down, the substrate's last;
+        layers of ``None``, and coatings where one material is given, are not judged.
     criterion : str
         One of :data:`pyfret.fatigue.CRITERIA`.
     z : array, optional
@@ -197,24 +294,25 @@ def life(
         that the criterion needs.
     """
     where = Section(**section)
-    scene = result.scene
-    body = scene.body1 if where.body_number == 1 else scene.body2
-    assessments = _assessments(materials, criterion, len(body.coatings) + 1)
-    name, meaning = margin_name(assessments)
-
-    def of_layer(stress: NDArray[np.float64], layer: int) -> Found | None:
-        assessment = assessments[layer]
-        if assessment is None:
-            return None
-        found = evaluate(stress, assessment.criterion, tolerance=tolerance)
-        margins = [margin_of(assessment, v) for v in found.value.values.ravel().tolist()]
-        values: Found = {str(k): (v.values, v.attrs) for k, v in found.data_vars.items()}
-        attrs = {"units": "1", "long_name": meaning}
-        values[name] = (np.reshape(margins, found.value.shape), attrs)
-        return values
-
-    whole = judge(result, where, z, of_layer)
-    return Life(whole.assign_attrs(criterion=criterion), assessments)
+    layers = len(body_of(result, where).coatings) + 1
+    each = for_each_layer(materials, layers, "material", "materials")
+    depths = depths_of(result, where, z)
+    found: list[CriterionBelow] = []
+    shown, notes = [], list[str]()
+    for one in where.each():
+        below = over_cycle(result, one)
+        judged = below.by_criterion(*depths, each, criterion, tolerance=tolerance)
+        found.append(judged)
+        shown.append(labelled(result, one, depths, described(judged.fields(), judged.assessments)))
+        if not notes and where.cycle is not None:
+            much = below.unsettled()
+            if much is not None and much > UNSETTLED:
+                notes.append(
+                    f"the cycle is not settled: its tractions end {100 * much:.0f} % of the "
+                    "largest one off from where they began; go through it more often"
+                )
+    whole = side_by_side(result, where, shown).assign_attrs(criterion=criterion)
+    return Life(whole, found, [*found[0].notes, *notes])
 
 
 def _work_until(result: Run, increment: int, y: float) -> xr.DataArray:
@@ -247,18 +345,26 @@ def ruiz(result: Run, **section: Unpack[SectionOptions]) -> xr.Dataset:
     xarray.Dataset
         Over x: ``F1`` [J/m^2] and ``F2`` [J Pa/m^2]; F2 is 0 where the surface is never in tension.
     """
-    of = CycleStress(result, Section(**section))
-    if of.section.along != "x":
+    where = Section(**section)
+    if where.along != "x":
         raise ValueError("x is given: Ruiz' parameters are those along x, at a y")
-    y = of.place
+    y = where.place
+    kept = cycle_increments(result, where.cycle)
     branch = result.dataset.branch_of_increment
-    cycle_branches = branch.sel(increment=of.kept).values
+    cycle_branches = branch.sel(increment=kept).values
     inside = (branch >= cycle_branches.min()) & (branch <= cycle_branches.max())
     whole = result.dataset.increment.values[inside.values]
     # The field adds up over the path: the work of the cycle is the difference of its ends.
     work = _work_until(result, int(whole[-1]), y) - _work_until(result, int(whole[0]) - 1, y)
-    history, _ = of.history([0.0])
-    tension = np.maximum(history[:, 0, :, 0].max(axis=0), 0.0)
+    stress = history(
+        result,
+        [0.0],
+        y=y,
+        body_number=where.body_number,
+        cycle=where.cycle,
+        residual=where.residual,
+    )
+    tension = np.maximum(stress.values[:, 0, :, 0].max(axis=0), 0.0)
     F1 = work.drop_vars(set(work.coords) - {"x"})
     F1 = F1.assign_attrs(units="J/m^2", long_name="frictional work per area and cycle")
     F2 = (F1 * tension).assign_attrs(units="J Pa/m^2", long_name="F1 times the largest s_xx")

@@ -8,6 +8,8 @@ from typing import Any, TypedDict
 
 import numpy as np
 
+from pyfret._core import Material
+
 __all__ = ["Section", "SectionOptions", "for_each_layer"]
 
 
@@ -87,16 +89,18 @@ class Section:
 def for_each_layer(given: Any, layers: int, one: str, several: str) -> list[Any]:
     """What is given for all layers or for each from the surface down; None for those not judged.
 
-    `one` and `several` name it in the errors: a ValueError for another number of layers, and where
-    nothing is judged.
+    One material alone is that of the substrate: it says nothing about coatings. `one` and `several`
+    name it in the errors: a ValueError for another number of layers, and where nothing is judged.
     """
     if isinstance(given, str):
         # A sequence, but of letters.
         raise TypeError(f"{given!r}: must be one of the {several}, or one for each layer")
+    if isinstance(given, Material):
+        given = [None] * (layers - 1) + [given]
     each = list(given) if isinstance(given, Sequence) else [given] * layers
     if len(each) != layers:
         raise ValueError(
-            f"{len(each)} {several}: must be one for all layers, or one for each of the {layers} "
+            f"{len(each)} {several}: must be one, or one for each of the {layers} layers "
             "from the surface down, the substrate's last; None leaves a layer out"
         )
     if all(of is None for of in each):

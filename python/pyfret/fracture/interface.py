@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from pyfret._util.lazy import xr
-from pyfret.fatigue.cycle_stress import CycleStress
+from pyfret.fatigue.cycles import history
 from pyfret.fatigue.section import Section
 from pyfret.subsurface.fields import interfaces
 
@@ -58,10 +58,11 @@ def over_cycle(
         The body has no coating, one of the strengths is missing or not positive, or as
         :func:`pyfret.fatigue.life`.
     """
-    of = CycleStress(result, Section(**section))
-    depths = interfaces(of.body)
+    where = Section(**section)
+    scene = result.scene
+    depths = interfaces(scene.body1 if where.body_number == 1 else scene.body2)
     if not depths:
-        raise ValueError(f"body {of.section.body_number} has no coating and no interface")
+        raise ValueError(f"body {where.body_number} has no coating and no interface")
     strengths = {"peel_strength": peel_strength, "shear_strength": shear_strength}
     given = [name for name, value in strengths.items() if value is not None]
     if len(given) == 1:
@@ -69,12 +70,19 @@ def over_cycle(
     for name, value in strengths.items():
         if value is not None and not (value > 0.0 and np.isfinite(value)):
             raise ValueError(f"{name} = {value}: must be a positive stress in Pa")
-    history, places = of.history(depths)
+    along = where.along
+    stress = history(
+        result,
+        depths,
+        x=where.place if along == "y" else None,
+        y=where.place if along == "x" else None,
+        body_number=where.body_number,
+        cycle=where.cycle,
+    )
     # Both sides carry the same traction; that of the upper layer stands for it.
-    history = history[:, ::2]
-    peel = np.maximum(history[..., 2], 0.0)
-    shear = history[..., 4:6]
-    along = of.section.along
+    of_upper = stress.values[:, ::2]
+    peel = np.maximum(of_upper[..., 2], 0.0)
+    shear = of_upper[..., 4:6]
     dims = ("interface", along)
     pascal = {"units": "Pa"}
     found = xr.Dataset(
@@ -91,7 +99,7 @@ def over_cycle(
                 {**pascal, "long_name": "half the longest chord of the shear path"},
             ),
         },
-        coords={"z": ("interface", depths, {"units": "m"}), along: places[along]},
+        coords={"z": ("interface", depths, {"units": "m"}), along: stress[along]},
     )
     if peel_strength is not None and shear_strength is not None:
         square = (peel / peel_strength) ** 2 + (shear**2).sum(axis=-1) / shear_strength**2

@@ -1,0 +1,95 @@
+"""Sections of a body over the kept increments of a closed cycle, as the core judges them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pyfret import _core
+from pyfret._util.lazy import xr
+from pyfret.fatigue.cycles import cycle_increments, moment_before
+from pyfret.subsurface.fields import coordinates, interfaces
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from pyfret._core import Body
+    from pyfret.fatigue.section import Section
+    from pyfret.run import Run
+
+__all__ = ["body_of", "depths_of", "labelled", "over_cycle", "side_by_side"]
+
+
+def body_of(result: Run, section: Section) -> Body:
+    """The body that a section lies in."""
+    scene = result.scene
+    return scene.body1 if section.body_number == 1 else scene.body2
+
+
+def over_cycle(result: Run, section: Section) -> _core.CycleSection:
+    """A section at one place over its cycle."""
+    kept = cycle_increments(result, section.cycle)
+    before = moment_before(result, kept)
+
+    def moments(which: Sequence[int] | None) -> tuple[list[Any], ...] | None:
+        if which is None and before is None:
+            return None
+        increments = [before] if which is None else [int(kept[n]) for n in which]
+        now = [result.at(int(n)) for n in increments if n is not None]
+        fields = [
+            [np.ascontiguousarray(one.dataset[name].values, dtype=float) for one in now]
+            for name in ("q_x", "q_y", "p")
+        ]
+        stick = [np.ascontiguousarray(one.dataset["stick"].values, dtype=bool) for one in now]
+        bulk = [one.bulk_stress(section.body_number) for one in now]
+        return (*fields, stick, bulk)
+
+    place = section.place
+    return _core.CycleSection(
+        body_of(result, section),
+        result.scene.grid,
+        moments,
+        len(kept),
+        x=place if section.across == "x" else None,
+        y=place if section.across == "y" else None,
+        body_number=section.body_number,
+        residual=section.residual,
+    )
+
+
+def depths_of(result: Run, section: Section, z: ArrayLike | None) -> tuple[list[float], list[int]]:
+    """The depths of a section with their layers: those given, or those that the layers ask for."""
+    body = body_of(result, section)
+    if z is None:
+        return _core.chosen_depths(body, a=result.length, deepest=2.0 * result.length)
+    return _core.depths(body, np.unique(np.asarray(z, dtype=float)).tolist())
+
+
+def labelled(
+    result: Run,
+    section: Section,
+    depths: tuple[list[float], list[int]],
+    fields: Mapping[str, tuple[NDArray[np.float64], dict[str, str]]],
+) -> xr.Dataset:
+    """Arrays over (depth, place) or (depth, place, axis) of a section with their coordinates."""
+    x = section.place if section.across == "x" else None
+    y = section.place if section.across == "y" else None
+    places = coordinates(result.scene.grid, *depths, x, y)
+    shown = xr.Dataset(coords={**xr.Dataset(coords=places).coords, "axis": ["x", "y", "z"]})
+    for name, (values, attrs) in fields.items():
+        shown[name] = (("depth", section.along, "axis")[: values.ndim], values, attrs)
+    return shown
+
+
+def side_by_side(result: Run, section: Section, found: Sequence[xr.Dataset]) -> xr.Dataset:
+    """The sections of one or several places as one dataset."""
+    if np.ndim(section.places) == 0:
+        whole = found[0]
+    else:
+        whole = xr.concat(found, dim=section.across, coords="minimal", compat="override")
+        whole = whole.transpose("depth", section.along, section.across, ...)
+    yardsticks = {k: v for k, v in result.dataset.attrs.items() if k in ("a_H", "p_H")}
+    return whole.assign_attrs(yardsticks, interfaces=interfaces(body_of(result, section)))
