@@ -41,8 +41,8 @@ __all__ = ["Factor", "Least", "LoadFactors", "YieldStresses", "load_factors"]
 
 #: First yield by von Mises' or Tresca's condition, or the end of elastic shakedown.
 Factor = Literal["von_mises", "tresca", "shakedown"]
-#: A yield stress [Pa] or a material that has one for all layers, or one for each from the surface
-#: down, the substrate's last; layers of ``None`` are not judged.
+#: A yield stress [Pa] for all layers, a material that has one for the substrate, or one for each
+#: layer from the surface down, the substrate's last; layers of ``None`` are not judged.
 YieldStresses = float | Material | Sequence[float | Material | None]
 
 

@@ -166,7 +166,7 @@ class Cracking:
     Parameters
     ----------
     materials : Material or sequence of Material or None
-        One for all layers, or one for each from the surface down, the substrate's last.
+        That of the substrate, or one for each layer from the surface down, the substrate's last.
     criterion : str
         One of :data:`pyfret.fatigue.CRITERIA`.
     body_number : 1 or 2
