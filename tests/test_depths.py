@@ -115,4 +115,4 @@ def test_a_layer_above_the_first_row_of_cells_is_told() -> None:
         contact.at(-1).stress()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        fret.solve(sphere_on_flat(n=16), PATH, progress=False).at(-1).stress()
+        fret.solve(sphere_on_flat(n=24), PATH, progress=False).at(-1).stress()
