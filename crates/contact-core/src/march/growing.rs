@@ -59,7 +59,8 @@ pub(super) fn steps(problem: &Problem, state: &State, point: &LoadPoint) -> Vec<
 fn radii(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
     let largest = problem.largest;
     let touches = state.interface.p.iter().any(|&p| p > 0.0);
-    let part = |to: f64, of: f64, power: i32| (to / of).clamp(0.0, 1.0).powf(1.0 / f64::from(power));
+    let part =
+        |to: f64, of: f64, power: i32| (to / of).clamp(0.0, 1.0).powf(1.0 / f64::from(power));
     if let Some(delta_z) = point.loads.given.delta_z {
         let now = state.motion.delta_z;
         // Bodies that have touched did so about where their middles met.
