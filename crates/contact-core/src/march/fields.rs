@@ -36,7 +36,7 @@ pub struct Fields {
     pub contact: Array2<bool>,
     /// Contact cells that do not slip in this increment.
     pub stick: Array2<bool>,
-    /// Those of them that are at the limit of friction, and slip by less than an increment can tell.
+    /// Those of them whose shear is at the limit of friction: they slip by less than an increment can tell.
     pub at_limit: Array2<bool>,
 }
 
@@ -94,6 +94,10 @@ impl March {
             .and(&slips)
             .and(&at_limit)
             .map_collect(|&c, &slips, &at_limit| c && (!slips || at_limit));
+        // Cells beside them that stick below the limit belong to the state's mask, not here.
+        let at_limit = ndarray::Zip::from(&slips)
+            .and(&at_limit)
+            .map_collect(|&slips, &at_limit| slips && at_limit);
         Fields {
             gap: u_z.clone() + self.problem.scene.h_init() - rigid,
             q_x,

@@ -1,6 +1,9 @@
 //! The test rig: a sphere on a flat, run through a path.
 
+use std::sync::Arc;
+
 use contact_core::march::{Increment, March};
+use contact_core::plan::Plan;
 use contact_core::reference::{Hertz, hertz};
 use contact_core::scene::{
     Body, Branch, Coating, Elastic, Friction, Grid, LoadPath, Loads, Scene, Settings, Shape,
@@ -87,8 +90,23 @@ pub(crate) fn cell(scene: &Scene) -> f64 {
 
 /// Runs the path; `watch` sees every increment. In each, the energies balance and friction takes
 /// energy in every cell.
-pub(crate) fn run(scene: &Scene, mut watch: impl FnMut(&March, &Increment)) -> Vec<Increment> {
-    let mut march = March::new(scene).expect("a scene");
+pub(crate) fn run(scene: &Scene, watch: impl FnMut(&March, &Increment)) -> Vec<Increment> {
+    along(scene, March::new(scene).expect("a scene"), watch)
+}
+
+/// The same where a contact grows whole in each increment, for orders in the increments that are given.
+pub(crate) fn run_without_growth_steps(scene: &Scene) -> Vec<Increment> {
+    let mut plan = Plan::new(scene);
+    plan.methods.growth_steps = 1;
+    let march = March::planned(scene, plan, &Arc::default()).expect("a scene");
+    along(scene, march, |_, _| ())
+}
+
+fn along(
+    scene: &Scene,
+    mut march: March,
+    mut watch: impl FnMut(&March, &Increment),
+) -> Vec<Increment> {
     let mut increments = Vec::new();
     let mut dissipated = Array2::<f64>::zeros((scene.grid.nx, scene.grid.ny));
     let (mut q_max, mut work) = (0.0_f64, 0.0);

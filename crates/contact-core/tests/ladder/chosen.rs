@@ -166,11 +166,19 @@ fn given_increments_do_not_drive_those_that_are_chosen() {
             counts(&given),
             counts(&all)
         );
-        // What the given increment leaves is said.
+        // What the given increment leaves is said, of the largest shear of the path.
+        let mut pressed = given.clone();
+        pressed.path.branches.truncate(1);
+        let mut in_many = pressed.clone();
+        in_many.path.branches[0].increments = Some(64);
+        let (pressed, in_many) = (shear(&pressed), shear(&in_many));
+        let size = |q: &[Array2<f64>; 2]| norm(&q[0]).hypot(norm(&q[1]));
+        let largest = size(&in_many).max(size(&shear(&given)));
+        let left = distance(&pressed, &in_many) * size(&in_many) / largest;
+        let said = given.path.branches[0].path_error.expect("an estimate");
         assert!(
-            given.path.branches[0].path_error > Some(0.05),
-            "{:?}",
-            given.path.branches
+            left < 1.5 * said && said < 20.0 * left,
+            "{left:.2e} {said:.2e}"
         );
         let mut fine = given.clone();
         for branch in &mut fine.path.branches[1..] {

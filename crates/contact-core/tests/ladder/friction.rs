@@ -117,11 +117,6 @@ fn friction_follows_the_slip_and_the_energy_of_each_cell() {
         let mut expected = 0.0;
         let mut sliding = 0;
         audited(&scene, |fields, i| {
-            if i.status == Status::GrossSlip {
-                // All slips along x: the sum of mu p, to the rounding of some thousand cells.
-                close("T_x", i.point.loads.T_x / expected, 1.0, 1e-12);
-                sliding += 1;
-            }
             // Slip went one way: its sum is its length.
             let history = match of {
                 History::Slip => &fields.slip_x,
@@ -133,6 +128,12 @@ fn friction_follows_the_slip_and_the_energy_of_each_cell() {
                 * Zip::from(history)
                     .and(&fields.p)
                     .fold(0.0, |sum, h, p| sum + factor(h) * p);
+            if i.status == Status::GrossSlip {
+                // All slips along x: the sum of mu p, each coefficient that of the history by then, to 1e-3
+                // of itself at most.
+                close("T_x", i.point.loads.T_x / expected, 1.0, 1e-3);
+                sliding += 1;
+            }
         });
         assert!(sliding >= 5, "{sliding}");
         close("T_x/(mu W)", expected / (MU * W), 1.5, 0.1);
