@@ -9,7 +9,7 @@ use super::lu::largest;
 use super::stress::{PlaneStress, tractions};
 
 /// Passes between pressure and shear of the faces before the search gives up.
-const MOST_PASSES: usize = 200;
+const MOST_PASSES: usize = 2000;
 /// Change of the pressure from pass to pass that ends the search, over its largest.
 const SETTLED: f64 = 1e-7;
 /// What counts as zero, over the largest of its kind.

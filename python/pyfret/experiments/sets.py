@@ -249,7 +249,7 @@ def baydoun2019(n: int) -> Experiment:
         body1=Body(steel, shape=FlatPunch(radius=side / math.sqrt(math.pi), edge=0.05)),
         body2=Body(steel),
         mu=0.70,
-        grid=Grid.centred(extent=1.6 * side, n=48),
+        grid=Grid.centred(extent=2.4 * side, n=72),
         path=to_and_fro(row["pressure_Pa"] * side**2, slip),
     )
     law = wearing.DissipatedEnergy(4.383e-14)

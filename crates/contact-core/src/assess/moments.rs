@@ -7,8 +7,7 @@ use ndarray::Array2;
 
 use crate::convolution::Tractions;
 use crate::error::Error;
-use crate::fields::States;
-use crate::scene::Grid;
+use crate::fields::{States, TwiceAsLarge};
 
 /// Tractions and bulk stress at several moments.
 #[derive(Clone, Debug, Default)]
@@ -62,21 +61,17 @@ impl Moments {
         })
     }
 
-    /// On cells twice as large, those of [`coarser`].
-    pub(super) fn on_coarser(&self, grid: &Grid) -> Self {
-        let across = if grid.ny == 1 { 1 } else { 2 };
-        let shape = (grid.nx.div_ceil(2), grid.ny.div_ceil(across));
-        let part = 1.0 / (2 * across) as f64;
-        let cells = |(i, j): (usize, usize)| {
-            let columns = 2 * i..(2 * i + 2).min(grid.nx);
-            let rows = across * j..(across * j + across).min(grid.ny);
-            columns.flat_map(move |i| rows.clone().map(move |j| (i, j)))
-        };
+    /// On cells twice as large.
+    pub(super) fn on_coarser(&self, cells: &TwiceAsLarge) -> Self {
+        let shape = (cells.grid.nx, cells.grid.ny);
         let mean = |field: &Array2<f64>| {
-            Array2::from_shape_fn(shape, |at| part * cells(at).map(|c| field[c]).sum::<f64>())
+            let means = cells.mean(&field.iter().copied().collect::<Vec<_>>());
+            Array2::from_shape_fn(shape, |(i, j)| means[i * shape.1 + j])
         };
-        let any =
-            |field: &Array2<bool>| Array2::from_shape_fn(shape, |at| cells(at).any(|c| field[c]));
+        let any = |field: &Array2<bool>| {
+            let marked = cells.any(&field.iter().copied().collect::<Vec<_>>());
+            Array2::from_shape_fn(shape, |(i, j)| marked[i * shape.1 + j])
+        };
         Self {
             tractions: self
                 .tractions
@@ -115,23 +110,4 @@ pub fn unsettled(cycle: &dyn OverCycle) -> Result<Option<f64>, Error> {
         }
     }
     Ok(Some(worst))
-}
-
-/// A grid of cells twice as large, and where its middle is \[m\].
-pub(super) fn coarser(grid: &Grid) -> (Grid, (f64, f64)) {
-    let across = if grid.ny == 1 { 1 } else { 2 };
-    let (nx, ny) = (grid.nx.div_ceil(2), grid.ny.div_ceil(across));
-    let coarse = Grid {
-        nx,
-        ny,
-        dx: 2.0 * grid.dx,
-        dy: across as f64 * grid.dy,
-        ..*grid
-    };
-    // Cells beyond a grid of an odd number carry nothing.
-    let middle = (
-        (2 * nx - grid.nx) as f64 * 0.5 * grid.dx,
-        (across * ny - grid.ny) as f64 * 0.5 * grid.dy,
-    );
-    (coarse, middle)
 }

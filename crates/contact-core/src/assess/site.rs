@@ -5,9 +5,9 @@ use std::sync::atomic::AtomicBool;
 
 use ndarray::{Array3, Axis};
 
-use super::moments::{Moments, OverCycle, coarser};
+use super::moments::{Moments, OverCycle};
 use crate::error::Error;
-use crate::fields::{Depth, Line, Point, Points, Section, Side};
+use crate::fields::{Depth, Line, Point, Points, Section, Side, TwiceAsLarge};
 use crate::scene::{Body, Grid};
 
 /// Moments whose stresses are computed together: the kernels of a depth cost as much as ten.
@@ -88,8 +88,8 @@ impl Site<'_> {
 
     /// The same of the tractions on cells twice as large.
     pub(super) fn under_coarser(&self, moments: &Moments) -> Result<At, Error> {
-        let (grid, middle) = coarser(self.grid);
-        self.at(&grid, &moments.on_coarser(self.grid), middle)
+        let cells = TwiceAsLarge::new(self.grid);
+        self.at(&cells.grid, &moments.on_coarser(&cells), cells.middle)
     }
 
     fn at(&self, grid: &Grid, moments: &Moments, middle: (f64, f64)) -> Result<At, Error> {

@@ -7,11 +7,11 @@
 use ndarray::Array2;
 
 use super::judged::{Judge, Judged};
-use super::moments::{Moments, coarser};
+use super::moments::Moments;
 use super::site::{At, History, Site};
 use crate::convolution::Tractions;
 use crate::error::Error;
-use crate::fields::{Border, Depth, Errors, Extreme, Line, Point, Zone, borders};
+use crate::fields::{Border, Depth, Errors, Extreme, Line, Point, TwiceAsLarge, Zone, borders};
 use crate::scene::Grid;
 
 /// Most hills and most places on borders that are judged before the climb.
@@ -313,14 +313,14 @@ impl<J: Judge> Climb<'_, J> {
         border: Option<&Border>,
         moments: &Moments,
     ) -> Result<Option<f64>, Error> {
-        let (grid, middle) = coarser(self.site.grid);
-        if grid.nx < 4 {
+        let cells = TwiceAsLarge::new(self.site.grid);
+        if cells.grid.nx < 4 {
             return Ok(None);
         }
         let place = match border {
             None => [s, z],
             Some(border) => [
-                self.on_coarser_border(border, moments, &grid, middle)?
+                self.on_coarser_border(border, moments, &cells)?
                     .unwrap_or(s),
                 z,
             ],
@@ -334,18 +334,18 @@ impl<J: Judge> Climb<'_, J> {
         &self,
         border: &Border,
         moments: &Moments,
-        grid: &Grid,
-        middle: (f64, f64),
+        cells: &TwiceAsLarge,
     ) -> Result<Option<f64>, Error> {
         let s = self.along(border);
+        let middle = cells.middle;
         let (line, shift) = match self.line {
             Line::AlongX(y) => (Line::AlongX(y - middle.1), middle.0),
             Line::AlongY(x) => (Line::AlongY(x - middle.0), middle.1),
         };
-        let coarse = moments.on_coarser(self.site.grid);
+        let coarse = moments.on_coarser(cells);
         let mut nearest: Option<f64> = None;
         for (tractions, stick) in coarse.tractions.iter().zip(&coarse.stick) {
-            for other in borders_of(grid, tractions, stick, line)? {
+            for other in borders_of(&cells.grid, tractions, stick, line)? {
                 let at = self.along(&other) + shift;
                 let nearer = nearest.is_none_or(|known| (at - s).abs() < (known - s).abs());
                 if other.zone == border.zone && nearer {

@@ -5,6 +5,62 @@ use crate::convolution::Tractions;
 use crate::error::Error;
 use crate::scene::{Body, Grid};
 
+/// Cells of twice the length along each axis.
+pub(crate) struct TwiceAsLarge {
+    fine: Grid,
+    pub(crate) grid: Grid,
+    /// Where the middle of their grid is \[m\]: cells beyond a grid of an odd number carry nothing.
+    pub(crate) middle: (f64, f64),
+}
+
+impl TwiceAsLarge {
+    pub(crate) fn new(fine: &Grid) -> Self {
+        let across = if fine.ny == 1 { 1 } else { 2 };
+        let (nx, ny) = (fine.nx.div_ceil(2), fine.ny.div_ceil(across));
+        let grid = Grid {
+            nx,
+            ny,
+            dx: 2.0 * fine.dx,
+            dy: across as f64 * fine.dy,
+            ..*fine
+        };
+        let middle = (
+            (2 * nx - fine.nx) as f64 * 0.5 * fine.dx,
+            (across * ny - fine.ny) as f64 * 0.5 * fine.dy,
+        );
+        Self {
+            fine: *fine,
+            grid,
+            middle,
+        }
+    }
+
+    fn across(&self) -> usize {
+        if self.fine.ny == 1 { 1 } else { 2 }
+    }
+
+    /// The cells of the finer grid that make cell n.
+    fn cells(&self, n: usize) -> impl Iterator<Item = usize> {
+        let (across, Grid { nx, ny, .. }) = (self.across(), self.fine);
+        let (i, j) = (2 * (n / self.grid.ny), across * (n % self.grid.ny));
+        let rows = j..(j + across).min(ny);
+        (i..(i + 2).min(nx)).flat_map(move |i| rows.clone().map(move |j| i * ny + j))
+    }
+
+    /// The mean over each cell.
+    pub(crate) fn mean(&self, field: &[f64]) -> Vec<f64> {
+        let part = 1.0 / (2 * self.across()) as f64;
+        let of = |n: usize| part * self.cells(n).map(|m| field[m]).sum::<f64>();
+        (0..self.grid.cells()).map(of).collect()
+    }
+
+    /// Whether any part of each cell is marked.
+    pub(crate) fn any(&self, mask: &[bool]) -> Vec<bool> {
+        let of = |n: usize| self.cells(n).any(|m| mask[m]);
+        (0..self.grid.cells()).map(of).collect()
+    }
+}
+
 /// A body under the tractions of the first of some states on cells twice as large.
 pub(super) struct Coarser {
     points: Points,
@@ -21,31 +77,10 @@ impl Coarser {
         line: Option<Line>,
         states: &States<'_>,
     ) -> Result<Self, Error> {
-        let across = if grid.ny == 1 { 1 } else { 2 };
-        let (nx, ny) = (grid.nx.div_ceil(2), grid.ny.div_ceil(across));
-        let coarse = Grid {
-            nx,
-            ny,
-            dx: 2.0 * grid.dx,
-            dy: across as f64 * grid.dy,
-            ..*grid
-        };
-        // Cells beyond a grid of an odd number carry nothing.
-        let middle = (
-            (2 * nx - grid.nx) as f64 * 0.5 * grid.dx,
-            (across * ny - grid.ny) as f64 * 0.5 * grid.dy,
-        );
+        let cells = TwiceAsLarge::new(grid);
+        let middle = cells.middle;
         let own = states.tractions.first().copied().unwrap_or_default();
-        let cells = |n: usize| {
-            let (i, j) = (2 * (n / ny), across * (n % ny));
-            let columns = i..(i + 2).min(grid.nx);
-            columns.flat_map(move |i| (j..(j + across).min(grid.ny)).map(move |j| i * grid.ny + j))
-        };
-        let part = 1.0 / (2 * across) as f64;
-        let mean = |field: Option<&[f64]>| -> Option<Vec<f64>> {
-            let of = |field: &[f64], n: usize| part * cells(n).map(|m| field[m]).sum::<f64>();
-            field.map(|field| (0..nx * ny).map(|n| of(field, n)).collect())
-        };
+        let mean = |field: Option<&[f64]>| field.map(|field| cells.mean(field));
         let [p, q_x, q_y] = [own.p, own.q_x, own.q_y].map(mean);
         let tractions = [Tractions {
             p: p.as_deref(),
@@ -53,10 +88,7 @@ impl Coarser {
             q_y: q_y.as_deref(),
         }];
         let stick = states.stick.and_then(|stick| stick.first());
-        let stick: Option<Vec<bool>> = stick.map(|stick| {
-            let any = |n: usize| cells(n).any(|m| stick[m]);
-            (0..nx * ny).map(any).collect()
-        });
+        let stick: Option<Vec<bool>> = stick.map(|stick| cells.any(stick));
         let stick: Vec<&[bool]> = stick.iter().map(Vec::as_slice).collect();
         let line = line.map(|line| match line {
             Line::AlongX(y) => Line::AlongX(y - middle.1),
@@ -67,7 +99,7 @@ impl Coarser {
             stick: states.stick.map(|_| &stick[..]),
             ..states.clone()
         };
-        let points = Points::new(body, side, &coarse, states)?;
+        let points = Points::new(body, side, &cells.grid, states)?;
         Ok(Self {
             borders: points.borders(0, line),
             points,

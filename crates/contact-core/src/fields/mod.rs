@@ -45,6 +45,7 @@ pub use ::fatigue::{
     Principal, StressTensor, hydrostatic, principal, principal_values, tresca, von_mises,
 };
 pub use borders::{Border, Zone, borders};
+pub(crate) use coarser::TwiceAsLarge;
 pub use depth::{Depth, Side, chosen_depths, depths};
 pub use energy::{Cycle, Direction, LoopPoint, cycles, loops};
 pub use envelope::{DepthEnvelope, Envelope, Extremes};
