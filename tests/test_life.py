@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from dataclasses import fields
 from pathlib import Path
 
@@ -72,6 +73,9 @@ def test_a_volume_is_its_sections(cycled: fret.Result) -> None:
             one = cycled.life(BOTH, "findley", depths, **{across: place})
             np.testing.assert_array_equal(whole.dataset.value[..., n], one.dataset.value)
             assert whole.section(place).worst == one.worst
+            again = pickle.loads(pickle.dumps(whole))
+            assert again.worst == whole.worst
+            assert again.section(place).worst == one.worst
         values = [whole.section(place).worst.value for place in places]
         assert whole.worst.value == max(values)
         assert getattr(whole.worst, across) == places[int(np.argmax(values))]

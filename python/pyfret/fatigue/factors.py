@@ -12,6 +12,7 @@ below a sphere and by its square below a cylinder, other forces keeping their ra
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 import numpy as np
@@ -95,7 +96,7 @@ class LoadFactors(Labelled):
     def _found(self, layer: int, of: Factor) -> Least:
         """The least factor of a layer, looked for."""
         here = self.use(of).isel(depth=self.dataset.layer.values == layer)
-        values = here.values.reshape(-1, len(self._sections))
+        values = here.values.reshape(-1, here.shape[2] if here.ndim > 2 else 1)
         if values.size == 0 or not np.isfinite(values).any():
             raise ValueError(f"layer {layer} is not judged: it has no yield stress or no depth")
         n = int(np.nanmax(np.where(np.isfinite(values), values, -np.inf), axis=0).argmax())
@@ -128,7 +129,9 @@ class LoadFactors(Labelled):
         """What is pickled: the least factors in place of what finds them."""
         for layer in self.layers:
             for of in get_args(Factor):
-                self.least_of(layer, of)
+                # A layer without a number is refused when it is asked for.
+                with suppress(ValueError):
+                    self.least_of(layer, of)
         return {**self.__dict__, "_sections": []}
 
     def __repr__(self) -> str:

@@ -11,6 +11,7 @@ The core computes the stress a few depths at a time, judges it and lets it go. :
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from html import escape
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -121,6 +122,8 @@ class Life(Labelled):
         self._assessments = self._sections[0].assessments
         self._notes = list(notes)
         self._worst: dict[int, Worst] = {}
+        # Those of a pickled life, which has no sections to look in.
+        self._parts: list[Life] = []
 
     @property
     def margin(self) -> xr.DataArray:
@@ -145,13 +148,15 @@ class Life(Labelled):
             return self
         across = str(self.dataset.value.dims[2])
         n = int(np.abs(self.dataset[across].values - place).argmin())
+        if self._parts:
+            return self._parts[n]
         return Life(self.dataset.isel({across: n}), [self._sections[n]], self._notes)
 
     def worst_of(self, layer: int) -> Worst:
         """Give the worst point of a layer; a ValueError where it is not judged."""
         if layer not in self._worst:
             here = self.dataset.value.isel(depth=self.dataset.layer.values == layer)
-            values = here.values.reshape(-1, len(self._sections))
+            values = here.values.reshape(-1, here.shape[2] if here.ndim > 2 else 1)
             if values.size == 0 or not np.isfinite(values).any():
                 raise ValueError(f"layer {layer} is not judged: it has no material or no depth")
             n = int(np.nanmax(np.where(np.isfinite(values), values, -np.inf), axis=0).argmax())
@@ -186,8 +191,14 @@ class Life(Labelled):
     def __getstate__(self) -> dict[str, object]:
         """What is pickled: the worst points in place of what finds them."""
         for layer in self.layers:
-            self.worst_of(layer)
-        return {**self.__dict__, "_sections": []}
+            # A layer without a number is refused when it is asked for.
+            with suppress(ValueError):
+                self.worst_of(layer)
+        parts = self._parts
+        if self.dataset.value.ndim > 2 and not parts:
+            across = str(self.dataset.value.dims[2])
+            parts = [self.section(place) for place in self.dataset[across].values.tolist()]
+        return {**self.__dict__, "_sections": [], "_parts": parts}
 
     def _repr_html_(self) -> str:
         """The worst point of every layer, for notebooks."""
