@@ -198,7 +198,7 @@ fn long_paths_fill_several_chunks() {
     let path = free("long.zarr");
     let mut writer = StoreWriter::create(&path, false).unwrap();
     let scene = scene(&[
-        "grid.n=6",
+        "grid.n=8",
         "path.1.increments=1100",
         "path.2.increments=1000",
     ]);

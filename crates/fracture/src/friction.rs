@@ -9,7 +9,10 @@ use super::lu::largest;
 use super::stress::{PlaneStress, tractions};
 
 /// Passes between pressure and shear of the faces before the search gives up.
-const MOST_PASSES: usize = 2000;
+const MOST_PASSES: usize = 500;
+/// Passes after which the shear that the faces carry is averaged with that of the last pass: a point that comes and goes
+/// keeps the others from settling.
+const ALTERNATE: usize = 50;
 /// Change of the pressure from pass to pass that ends the search, over its largest.
 const SETTLED: f64 = 1e-7;
 /// What counts as zero, over the largest of its kind.
@@ -115,7 +118,7 @@ impl Faces {
         let mut carried = Array1::zeros(n);
         let mut pressure: Option<Array1<f64>> = None;
         let mut change = f64::INFINITY;
-        for _ in 0..MOST_PASSES {
+        for pass in 0..MOST_PASSES {
             let load = normal + &contact.nt.dot(&(&carried - shear));
             let mut open = self.open.clone();
             let Some(opening) = contact.open(&load, &mut open) else {
@@ -135,15 +138,20 @@ impl Faces {
                 self.moving = vec![1; n];
                 return Ok(());
             }
-            carried = self.stick(contact, &known, &before).ok_or(Error::Faces {
+            let now = self.stick(contact, &known, &before).ok_or(Error::Faces {
                 length: self.crack.length(),
                 passes: MOST_PASSES,
                 change,
             })?;
             if change <= SETTLED {
-                self.shear = carried;
+                self.shear = now;
                 return Ok(());
             }
+            carried = if pass < ALTERNATE {
+                now
+            } else {
+                0.5 * (now + &carried)
+            };
         }
         Err(Error::Faces {
             length: self.crack.length(),

@@ -156,11 +156,14 @@ class Life(Labelled):
         """Give the worst point of a layer; a ValueError where it is not judged."""
         if layer not in self._worst:
             here = self.dataset.value.isel(depth=self.dataset.layer.values == layer)
-            values = here.values.reshape(-1, here.shape[2] if here.ndim > 2 else 1)
-            if values.size == 0 or not np.isfinite(values).any():
+            if not np.isfinite(here.values).any():
                 raise ValueError(f"layer {layer} is not judged: it has no material or no depth")
-            n = int(np.nanmax(np.where(np.isfinite(values), values, -np.inf), axis=0).argmax())
-            found = self._sections[n].worst(layer)
+            # A section whose samples are lower may have the worst point between them.
+            found = max(
+                filter(None, (section.worst(layer) for section in self._sections)),
+                key=lambda worst: worst["score"],
+                default=None,
+            )
             if found is None:
                 raise ValueError("the section holds no number")
             self._worst[layer] = Worst(

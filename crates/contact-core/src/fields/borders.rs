@@ -53,7 +53,7 @@ pub fn borders(
         }
     }
     let window = (0..grid.nx, 0..grid.ny);
-    let continued = Continued::new(grid, tractions, stick, &window);
+    let continued = Continued::new(grid, tractions, stick, &window, false);
     Ok(of(&continued, grid, line))
 }
 

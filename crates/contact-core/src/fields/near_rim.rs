@@ -11,7 +11,7 @@ use super::loads::{Plane, snapped};
 use super::{Depth, Side};
 use crate::convolution::Tractions;
 use crate::kernels::{Cell, DepthKernel, Quantity, Stress};
-use crate::scene::Grid;
+use crate::scene::{Body, Grid};
 use crate::zones::{Continued, Within};
 
 /// Deepest samples, in cells.
@@ -22,6 +22,8 @@ const FARTHEST: u8 = 3 + REACH as u8;
 const FARTHEST_AT_SURFACE: u8 = 24;
 /// Depth in cells down to which the slope counts: what varies from cell to cell falls like exp(-2 pi z).
 const AT_SURFACE: f64 = 1.0;
+/// Thickness in cells below which a layer does not let tractions be continued to a rim that is not known.
+const THIN: f64 = 2.0;
 /// Cells on each side of a sample that are cut.
 const REACH: usize = 3;
 /// Rows of s_zz, s_xz, s_yz: on the surface they are minus the traction named beside.
@@ -78,6 +80,7 @@ struct Part {
 impl NearRim {
     /// For samples in the cells of these columns and rows.
     pub(super) fn new(
+        body: &Body,
         grid: &Grid,
         side: Side,
         states: &[Tractions<'_>],
@@ -89,8 +92,14 @@ impl NearRim {
             cells.start.saturating_sub(REACH + 2)..(cells.end + REACH + 2).min(count)
         };
         let window = (wider(columns, grid.nx), wider(rows, grid.ny));
+        let cell = if grid.ny == 1 {
+            grid.dx
+        } else {
+            grid.dx.max(grid.dy)
+        };
+        let thin = (body.coatings.iter()).any(|layer| layer.thickness < THIN * cell);
         let of_state = |(n, tractions): (usize, &Tractions<'_>)| {
-            Continued::new(grid, tractions, stick.get(n).copied(), &window)
+            Continued::new(grid, tractions, stick.get(n).copied(), &window, thin)
         };
         Self {
             plane: Plane::new(grid, false),
@@ -189,6 +198,18 @@ impl NearRim {
     fn depth_in_cells(&self, depth: Depth) -> f64 {
         let d = self.plane.d;
         depth.z / if self.is_flat() { d.0 } else { d.0.max(d.1) }
+    }
+
+    /// The place itself, or where tractions stay constant at a rim the middle of its cell: the stress next to a step is
+    /// infinite, and in the middle that of the cells' loads.
+    pub(super) fn away_from_steps(&self, grid: &Grid, x: f64, y: f64) -> (f64, f64) {
+        let (cell, (s, t)) = Self::locate(grid, x, y);
+        let Plane { d, .. } = self.plane;
+        if self.states.iter().any(|state| state.has_steps(cell)) {
+            (x - s * d.0, y - t * d.1)
+        } else {
+            (x, y)
+        }
     }
 
     /// The tractions of a state.

@@ -51,10 +51,23 @@ impl Points {
 
     /// Stress of each state at each point \[Pa\]: xx, yy, zz, xy, xz, yz.
     ///
-    /// Under the tractions of contacts ([`States::stick`]) it is continuous, but for s_xx, s_yy, s_xy of layers. Under
+    /// Under the tractions of contacts ([`States::stick`]) it is continuous, but for s_xx, s_yy, s_xy of layers, and for
+    /// points near a rim that is not known within its cell on a layer as thin as the cells: they are taken in the middle of
+    /// theirs. Under
     /// those constant in each cell it jumps on the surface at the border of a cell; there it is the mean of both
     /// sides, and what would be infinite is taken a 2 pi-th of a cell beside the border.
     pub fn stress(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 6]>>, Error> {
+        let away = |&(x, y, depth): &Point| {
+            let rim = self
+                .loaded
+                .rim
+                .as_ref()
+                .filter(|_| x.is_finite() && y.is_finite());
+            let (x, y) = rim.map_or((x, y), |rim| rim.away_from_steps(&self.loaded.grid, x, y));
+            (x, y, depth)
+        };
+        let points: Vec<Point> = points.iter().map(away).collect();
+        let points = points.as_slice();
         let mut all = self.gather(points, |kernel, depth, n, values: &mut [[f64; 6]]| {
             let Some(rim) = &self.loaded.rim else { return };
             let (cell, offset) = NearRim::locate(&self.loaded.grid, points[n].0, points[n].1);

@@ -81,7 +81,7 @@ impl Loaded {
         body.check_alone()?;
         grid.check_alone()?;
         let window = window()?;
-        let near = |stick| NearRim::new(grid, side, states.tractions, stick, window);
+        let near = |stick| NearRim::new(body, grid, side, states.tractions, stick, window);
         Ok(Self {
             stack: Stack::new(body),
             body: body.clone(),

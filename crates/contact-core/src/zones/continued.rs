@@ -5,7 +5,9 @@
 //! be interpolated: p^2, and with it q/p; near the stick zone (m p - |q|)^2, m being |q|/p where
 //! cells slip. They are interpolated bilinearly between the middles of the cells, with the values at the
 //! borders that `level` extrapolates from inside. Where no border can be extrapolated (a punch with a
-//! sharp edge, a contact of few cells) the tractions stay constant.
+//! sharp edge, a contact of few cells) it is taken a quarter of a cell beyond the edge of the outermost one, where a root
+//! carries as much from its middle on as half the cell. So the tractions have no step anywhere, next to which the stress
+//! would be infinite. Below a layer as thin as the cells that is wrong by more than a tenth of p_H: there they stay constant.
 
 use ndarray::{Array2, Zip};
 use std::ops::Range;
@@ -18,6 +20,9 @@ use crate::scene::Grid;
 
 /// Farthest cells from a border, in cells along or across, whose load is that of the continued tractions.
 const BESIDE: u8 = 3;
+/// Where a border is taken that cannot be extrapolated, in cells from the middle of the outermost cell: a root that is 1 in
+/// the middle and vanishes there carries 2/3 of the distance, and half a cell 1/2.
+const TAKEN: f64 = 0.75;
 
 /// The tractions of a contact as fields over a window of its cells.
 #[derive(Clone, Debug)]
@@ -26,6 +31,8 @@ pub(crate) struct Continued {
     start: (usize, usize),
     /// The tractions q_x, q_y, p as they are \[Pa\].
     constant: [Array2<f64>; 3],
+    /// What is added to the interpolated ones \[Pa\].
+    lacking: [Array2<f64>; 3],
     /// p^2 \[Pa^2\], below zero in cells beside the contact.
     level: Array2<f64>,
     /// q/p, in cells beside the contact the mean of their neighbours' within.
@@ -33,6 +40,10 @@ pub(crate) struct Continued {
     /// m, not a number far from the slip cells, and (m p - |q|)^2 \[Pa^2\], below zero in cells beside the stick zone.
     bound: Option<[Array2<f64>; 2]>,
     varying: Array2<Varying>,
+    /// Cells whose level is not known from inside.
+    taken: Array2<bool>,
+    /// Whether the tractions are constant there.
+    steps: bool,
     /// Distance of the cells from those beside a border that the tractions are continued to, in
     /// cells along or across, up to 255.
     distance: Array2<u8>,
@@ -62,12 +73,14 @@ enum Varying {
 
 impl Continued {
     /// Of tractions on a grid, each of shape (nx, ny) \[Pa\], in a window of columns and rows. Without
-    /// the cells that stick, shear is taken to slip at the rim.
+    /// the cells that stick, shear is taken to slip at the rim. On a layer as thin as the cells (`thin`) the tractions
+    /// stay constant where no border can be extrapolated.
     pub(crate) fn new(
         grid: &Grid,
         tractions: &Tractions<'_>,
         stick: Option<&[bool]>,
         window: &(Range<usize>, Range<usize>),
+        thin: bool,
     ) -> Self {
         let shape = (grid.nx, grid.ny);
         let field = |values: Option<&[f64]>| {
@@ -75,7 +88,16 @@ impl Continued {
         };
         let q = [tractions.q_x, tractions.q_y].map(field);
         let p = field(tractions.p);
-        let rim = SampledBorder::of_contact(grid, &p);
+        let mut rim = SampledBorder::of_contact(grid, &p);
+        let mut taken = Array2::from_elem(shape, false);
+        for &cell in &rim.unknown {
+            taken[cell] = true;
+            if p[cell] <= 0.0 && !thin {
+                let pressed = || around(cell, shape).map(|at| p[at]).filter(|p| *p > 0.0);
+                let sum: f64 = pressed().map(|p| p * p).sum();
+                rim.level[cell] = (1.0 - 1.0 / TAKEN) * sum / pressed().count().max(1) as f64;
+            }
+        }
         let zone = stick.and_then(|stick| StickZone::new(grid, &p, &q, stick));
         let mut varying = Array2::from_shape_fn(shape, |cell| {
             let presses = around(cell, shape).any(|at| rim.level[at] > 0.0);
@@ -87,24 +109,29 @@ impl Continued {
             }
         });
         let sticks = |n: usize| stick.is_some_and(|stick| stick[n]);
-        for &cell in &rim.known {
+        for &cell in rim.known.iter().chain(&rim.unknown) {
             // Shear that sticks at the rim does not follow from the pressure.
             if sticks(cell.0 * grid.ny + cell.1) && q.iter().any(|q| q[cell] != 0.0) {
                 around(cell, shape).for_each(|at| varying[at] = Varying::Pressure);
             }
         }
-        for cell in &rim.unknown {
-            around(*cell, shape).for_each(|at| varying[at] = Varying::Nothing);
+        let constant = rim.unknown.iter().filter(|_| thin);
+        for at in constant.flat_map(|cell| around(*cell, shape)) {
+            varying[at] = Varying::Nothing;
         }
         let zone_known = zone.iter().flat_map(|zone| &zone.border.known);
-        let distance = distances(shape, rim.known.iter().chain(zone_known));
+        let at_rim = (rim.known.iter()).chain(rim.unknown.iter().filter(|_| !thin));
+        let distance = distances(shape, at_rim.chain(zone_known));
         let mut continued = Self {
             start: (window.0.start, window.1.start),
             ratios: [0, 1].map(|c| cut(&ratio(&q[c], &p), window)),
             constant: [&q[0], &q[1], &p].map(|field| cut(field, window)),
+            lacking: [(); 3].map(|()| Array2::zeros((window.0.len(), window.1.len()))),
             level: cut(&rim.level, window),
             bound: zone.map(|zone| [&zone.m, &zone.border.level].map(|field| cut(field, window))),
             varying: cut(&varying, window),
+            taken: cut(&taken, window),
+            steps: thin && !rim.unknown.is_empty(),
             distance: cut(&distance, window),
         };
         continued.keep_loads();
@@ -130,6 +157,7 @@ impl Continued {
             }
         };
         let presses = |n: usize| on_line(&self.constant[2], n) > 0.0;
+        let taken = |n: usize| [lower, upper].iter().any(|row| self.taken[cell(n, *row)]);
         let zones = [
             Some(&self.level),
             self.bound.as_ref().map(|[_, level]| level),
@@ -144,8 +172,8 @@ impl Continued {
                 if (a > 0.0) == (b > 0.0) || (zone == 1 && !presses(outside)) {
                     continue;
                 }
-                let within_cell = a.min(b) < 0.0;
-                let step = if within_cell { a / (a - b) } else { 0.5 };
+                let within_cell = a.min(b) < 0.0 && !(zone == 0 && (taken(n - 1) || taken(n)));
+                let step = if a.min(b) < 0.0 { a / (a - b) } else { 0.5 };
                 let along = (start[axis] + n - 1) as f64 + step;
                 let place = if axis == 0 { [along, at] } else { [at, along] };
                 all.push(Crossing {
@@ -173,6 +201,19 @@ impl Continued {
         self.place(cell).map_or(u8::MAX, |at| self.distance[at])
     }
 
+    /// Whether the tractions have a step at the edges of a cell or of one next to it, where none of the contact should be.
+    pub(crate) fn has_steps(&self, cell: (usize, usize)) -> bool {
+        if !self.steps {
+            return false;
+        }
+        let steps = |at: (usize, usize)| {
+            self.varying[at] == Varying::Nothing
+                && around(at, self.varying.dim()).any(|at| self.taken[at])
+        };
+        self.place(cell)
+            .is_some_and(|at| around(at, self.varying.dim()).any(steps))
+    }
+
     /// The tractions within a cell; none where they are constant.
     pub(crate) fn within(&self, cell: (usize, usize)) -> Option<Within> {
         let at = self.place(cell)?;
@@ -186,14 +227,15 @@ impl Continued {
         Some(Within {
             varying,
             constant: [0, 1, 2].map(|c| self.constant[c][at]),
+            lacking: [0, 1, 2].map(|c| self.lacking[c][at]),
             level: around(&self.level),
             ratios: self.ratios.each_ref().map(around),
             bound: bound.map(|fields| fields.each_ref().map(around)),
         })
     }
 
-    /// Far from the borders what varies within a cell is counted from its mean, so that the cell's load stays as it is:
-    /// constant tractions are right to second order there.
+    /// Far from the borders what the mean of a cell lacks of its own tractions is added, so that the cell's load stays as it
+    /// is: constant tractions are right to second order there.
     fn keep_loads(&mut self) {
         let (columns, rows) = self.level.dim();
         let cells = (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j)));
@@ -211,8 +253,8 @@ impl Continued {
         };
         let means: Vec<_> = cells.filter(far).filter_map(mean).collect();
         for (cell, mean) in means {
-            for (constant, mean) in self.constant.iter_mut().zip(mean) {
-                constant[cell] = mean;
+            for (c, mean) in mean.into_iter().enumerate() {
+                self.lacking[c][cell] = self.constant[c][cell] - mean;
             }
         }
     }
@@ -221,8 +263,9 @@ impl Continued {
 /// The tractions within a cell.
 pub(crate) struct Within {
     varying: Varying,
-    /// What the tractions are counted from: those of the whole cell \[Pa\].
+    /// Those of the whole cell \[Pa\].
     pub(crate) constant: [f64; 3],
+    lacking: [f64; 3],
     level: Around,
     ratios: [Around; 2],
     bound: Option<[Around; 2]>,
@@ -236,6 +279,11 @@ impl Within {
 
     /// q_x, q_y, p at an offset from the middle in cells \[Pa\].
     pub(crate) fn at(&self, offset: (f64, f64)) -> [f64; 3] {
+        let q = self.interpolated(offset);
+        std::array::from_fn(|c| q[c] + self.lacking[c])
+    }
+
+    fn interpolated(&self, offset: (f64, f64)) -> [f64; 3] {
         let p = self.level.at(offset).max(0.0).sqrt();
         if self.varying == Varying::Pressure {
             return [self.constant[0], self.constant[1], p];

@@ -168,9 +168,12 @@ fn cells_without_friction_slip_freely() {
 #[test]
 fn surfaces_touch_where_they_lie() {
     let path = "path=[{W=0.0,increments=1},{W=50.0,increments=2},{W=0.0,increments=1}]";
-    let raised = "body2.shape={height_map={spacing=1e-3,z=[[1e-3,1e-3],[1e-3,1e-3]]}}";
-    let plain = solved(&pressed(&[path]).unwrap()).unwrap();
-    let scene = pressed(&[path, raised]).unwrap();
+    let at_height = |z: &str| {
+        let map = format!("body2.shape={{height_map={{spacing=1e-3,z=[[{z},{z}],[{z},{z}]]}}}}");
+        pressed(&[path, &map]).unwrap()
+    };
+    let plain = solved(&at_height("0.0")).unwrap();
+    let scene = at_height("1e-3");
     let (_, violations) = audited(&scene, &Arc::<AtomicBool>::default()).unwrap();
     assert!(violations.hold(), "{violations:?}");
     let all = solved(&scene).unwrap();

@@ -134,7 +134,8 @@ fn at_limit(
         .tolerance
         .max(TELLS * most);
     let tells: Vec<bool> = slips.iter().map(|&slip| slip > told).collect();
-    let hardly = |n: usize| marked[n] && !tells[n];
+    // What has no friction has no limit either: it slips freely.
+    let hardly = |n: usize| marked[n] && !tells[n] && setup.mu[n] > 0.0;
     if !(0..marked.len()).any(hardly) {
         return vec![false; marked.len()];
     }
