@@ -67,7 +67,7 @@ def test_what_cannot_be_told_apart_is_said() -> None:
     true = fret.study.varied(ball(), {"mu": 2.0, "rig.stiffness": 2e7})
     shift, T = loop(true, 1e-6, 0.01, 2)
     found = fret.fit(
-        fret.study.varied(ball(), {"mu": 5.0}),
+        fret.study.varied(ball(), {"mu": 2.0}),
         fret.fit.Loops.of(shift, T),
         unknown={"rig.stiffness": (2e6, 2e8), "body2.E": (5e10, 1e12)},
     )

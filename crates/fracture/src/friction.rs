@@ -13,8 +13,9 @@ const MOST_PASSES: usize = 500;
 /// Passes after which the shear that the faces carry is averaged with that of the last pass: a point that comes and goes
 /// keeps the others from settling.
 const ALTERNATE: usize = 50;
-/// Change of the pressure from pass to pass that ends the search, over its largest.
-const SETTLED: f64 = 1e-7;
+/// Change of the pressure from pass to pass that ends the search, over its largest: a point between open and closed, or
+/// between stick and slip, that comes and goes changes it by some 1e-7; K is told to 1e-4.
+const SETTLED: f64 = 1e-6;
 /// What counts as zero, over the largest of its kind.
 const ZERO: f64 = 1e-12;
 
