@@ -94,8 +94,8 @@ def test_first_yield_of_the_run_is_that_of_the_closed_form(
         assert found == pytest.approx(exact, rel=3e-3)
         assert least.z / HERTZ.a == pytest.approx(0.445, abs=0.01)
     else:
-        # The stress has a cusp at the edge; the last sample is up to a cell away, 0.0375 a.
-        assert exact * (1 - 1e-3) < found < exact * 1.02
+        # The stress has a cusp at the edge, which no sample reaches: it is followed to the rim.
+        assert found == pytest.approx(exact, rel=3e-3)
         assert least.z == 0.0
         assert abs(abs(least.x) / HERTZ.a - 1.0) < 0.04
 
@@ -109,7 +109,8 @@ def test_a_sphere_that_slides_to_and_fro_shakes_down_up_to_k_over_mu(
     assert max(float(root_J2(s).max()) for s in shear) == pytest.approx(1.0, rel=1e-9)
     least = result.load_factors(S_Y).least("shakedown")
     assert least.factor * HERTZ.p0 / K == pytest.approx(1 / mu, rel=1e-3)
-    assert abs(least.x) < 1e-3 * HERTZ.a
+    # The top is flat: it may be found anywhere in the two cells beside the middle.
+    assert abs(least.x) < 1.01 * result.scene.grid.dx
     assert least.z == 0.0
 
 

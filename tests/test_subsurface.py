@@ -92,10 +92,15 @@ def test_sections_lines_and_planes_agree(coated: fret.Result) -> None:
         plane = planes[name]
         np.testing.assert_allclose(along_x[name], plane[:, :, 5], atol=scale)
         np.testing.assert_allclose(along_y[name], plane[:, 20, :], atol=scale)
-        np.testing.assert_allclose(line[name], plane[:, 20, 5], atol=scale)
+        # A single point cuts the cells around it more finely than points that share the parts.
+        np.testing.assert_allclose(line[name], plane[:, 20, 5], atol=1e-3 * coated.p_H)
+        np.testing.assert_allclose(line[name][1:], plane[1:, 20, 5], atol=1e-5 * coated.p_H)
     # On the surface they are the tractions, at the rim those that are continued to it.
     inside = snapshot.contact.rolling(x=3, y=3, center=True).min().fillna(0) > 0
-    np.testing.assert_allclose(planes.s_zz[0].where(inside), -snapshot.p.where(inside), atol=scale)
+    # Linear between the middles, with the load of the cells: off by half the bend over one.
+    bend = coated.p_H * (coated.scene.grid.dx / coated.a_H) ** 2
+    pressed = snapshot.p.where(inside)
+    np.testing.assert_allclose(planes.s_zz[0].where(inside), -pressed, atol=0.6 * bend)
     assert np.abs(planes.s_xz[0] + snapshot.q_x).max() < 0.05 * coated.p_H
     np.testing.assert_allclose(planes.s_zz[2], planes.s_zz[3], atol=scale)
     assert abs(planes.s_xx[2] - planes.s_xx[3]).max() > 0.1 * coated.p_H

@@ -24,7 +24,7 @@ STEEL = fret.Elastic(E=210e9, nu=0.3)
 ALUMINIUM = fret.Elastic(E=70e9, nu=0.3)
 PAIR = (STEEL, ALUMINIUM)
 GRID = fret.Grid.from_spacing((6, 5), (1e-5, 2e-5))
-WIDE = fret.Grid.from_spacing((6, 5), (2e-4, 2e-4))
+WIDE = fret.Grid.from_spacing((14, 12), (1e-4, 1e-4))
 COATED = fret.Body(STEEL, coatings=[fret.Coating(ALUMINIUM, thickness=3e-5)])
 HERTZ = reference.hertz(R=0.01, bodies=PAIR, W=100.0)
 TORN = np.zeros((12, 5))[::2]

@@ -5,7 +5,7 @@ use std::ops::Deref;
 use contact_core::fields::Side;
 use contact_core::memory::available_memory;
 use ndarray::{Dimension, Ix2};
-use numpy::{AllowTypeChange, PyArrayLike};
+use numpy::{AllowTypeChange, PyArrayLike, PyReadonlyArray};
 use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -38,16 +38,41 @@ impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Array<'py, D> {
             ));
         }
         let array: PyArrayLike<'py, f64, D, AllowTypeChange> = value.extract()?;
-        // An array that repeats its numbers takes no memory, a copy of it does.
-        let size = COPIES * 8.0 * array.as_array().len() as f64;
-        if size > available_memory() {
-            return Err(PyMemoryError::new_err(format!(
-                "an array of {} numbers does not fit into memory",
-                array.as_array().len()
-            )));
-        }
+        must_fit(array.as_array().len(), 8.0)?;
         Ok(Self(array))
     }
+}
+
+/// An array of yes and no; copies of it fit into memory.
+pub(crate) struct Mask<'py, D: Dimension>(PyReadonlyArray<'py, bool, D>);
+
+impl<'py, D: Dimension> Deref for Mask<'py, D> {
+    type Target = PyReadonlyArray<'py, bool, D>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
+
+impl<'a, 'py, D: Dimension + 'py> FromPyObject<'a, 'py> for Mask<'py, D> {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let array: PyReadonlyArray<'py, bool, D> = value.extract()?;
+        must_fit(array.as_array().len(), 1.0)?;
+        Ok(Self(array))
+    }
+}
+
+/// Refuses arrays of so many numbers of so many bytes whose copies do not fit: one that repeats its numbers takes no memory,
+/// a copy of it does.
+fn must_fit(numbers: usize, bytes: f64) -> PyResult<()> {
+    if COPIES * bytes * numbers as f64 > available_memory() {
+        return Err(PyMemoryError::new_err(format!(
+            "an array of {numbers} numbers does not fit into memory"
+        )));
+    }
+    Ok(())
 }
 
 /// Values one after another. What an object says of its length is not trusted.
@@ -59,6 +84,15 @@ impl<T> Deref for List<T> {
 
     fn deref(&self) -> &Self::Target {
         &self.0
+    }
+}
+
+impl<T> IntoIterator for List<T> {
+    type Item = T;
+    type IntoIter = std::vec::IntoIter<T>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
     }
 }
 

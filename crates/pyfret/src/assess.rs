@@ -9,22 +9,22 @@ use contact_core::assess::{
 use contact_core::fatigue::{AtPoint, Search, Yield};
 use contact_core::fields::{Depth, Line, Side, Zone, residual_of_layers};
 use contact_core::{Error, scene};
-use ndarray::{Array2, Array3};
-use numpy::{IntoPyArray, PyReadonlyArray2};
+use ndarray::{Array2, Array3, Ix2};
+use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::argument::to_python;
-use crate::arguments::side;
+use crate::arguments::{Array, List, Mask, side};
 use crate::fatigue::{Assessment, Material};
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 use crate::subsurface::{Subsurface, line};
 
 /// Fields of several moments.
-type Fields<'py> = Vec<PyReadonlyArray2<'py, f64>>;
-type Sticking<'py> = Vec<PyReadonlyArray2<'py, bool>>;
+type Fields<'py> = List<Array<'py, Ix2>>;
+type Sticking<'py> = List<Mask<'py, Ix2>>;
 /// A load factor of several.
 type Factor = fn(&Yield) -> f64;
 
@@ -61,7 +61,11 @@ impl Given {
             Vec<f64>,
         ) = given.extract(py)?;
         let lengths = [q_x.len(), q_y.len(), p.len(), stick.len(), sigma_B.len()];
-        let shapes = q_x.iter().chain(&q_y).chain(&p).map(|f| f.as_array().dim());
+        let shapes = q_x
+            .iter()
+            .chain(q_y.iter())
+            .chain(p.iter())
+            .map(|f| f.as_array().dim());
         let mut shapes = shapes.chain(stick.iter().map(|f| f.as_array().dim()));
         if lengths.iter().any(|n| *n != lengths[0]) || shapes.any(|found| found != self.shape) {
             return Err(PyValueError::new_err(format!(
@@ -69,7 +73,7 @@ impl Given {
                 self.shape
             )));
         }
-        let own = |f: &PyReadonlyArray2<'_, f64>| f.as_array().as_standard_layout().into_owned();
+        let own = |f: &Array<'_, Ix2>| f.as_array().as_standard_layout().into_owned();
         let tractions = (0..p.len()).map(|n| [own(&q_x[n]), own(&q_y[n]), own(&p[n])]);
         Ok(Some(Moments {
             tractions: tractions.collect(),
@@ -159,7 +163,7 @@ impl CycleSection {
         x: Option<f64>,
         y: Option<f64>,
         body_number: u8,
-        residual: Option<Vec<f64>>,
+        residual: Option<List<f64>>,
     ) -> PyResult<Self> {
         let residual = residual_of_layers(&body.0, &residual.unwrap_or_default());
         let below = Below {
@@ -190,9 +194,9 @@ impl CycleSection {
     fn by_criterion(
         &self,
         py: Python<'_>,
-        z: Vec<f64>,
-        layer: Vec<usize>,
-        materials: Vec<Option<Material>>,
+        z: List<f64>,
+        layer: List<usize>,
+        materials: List<Option<Material>>,
         criterion: &str,
         tolerance: f64,
     ) -> PyResult<CriterionBelow> {
@@ -212,13 +216,13 @@ impl CycleSection {
     fn by_yield(
         &self,
         py: Python<'_>,
-        z: Vec<f64>,
-        layer: Vec<usize>,
-        s_y: Vec<Option<f64>>,
+        z: List<f64>,
+        layer: List<usize>,
+        s_y: List<Option<f64>>,
     ) -> PyResult<YieldBelow> {
         let depths = Subsurface::depths(&z, &layer)?;
         let of = ByYield {
-            s_y,
+            s_y: s_y.0,
             residual: self.below.residual.clone(),
             of: |found| found.von_mises,
         };
@@ -240,7 +244,7 @@ impl CycleSection {
         L: f64,
         method: &str,
         layer: usize,
-        materials: Vec<Option<Material>>,
+        materials: List<Option<Material>>,
         criterion: &str,
         tolerance: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
@@ -271,7 +275,7 @@ impl CycleSection {
 
 fn criterion_of(
     below: &Below,
-    materials: Vec<Option<Material>>,
+    materials: List<Option<Material>>,
     criterion: &str,
     tolerance: f64,
 ) -> PyResult<ByCriterion> {

@@ -7,12 +7,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use contact_core::fatigue as core;
-use ndarray::{Array1, Array2};
-use numpy::{IntoPyArray, PyReadonlyArray2, PyReadonlyArray3};
+use ndarray::{Array1, Array2, Ix2, Ix3};
+use numpy::IntoPyArray;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyTuple};
 
+use crate::arguments::{Array, List};
 use crate::error::of_criterion as refused;
 use crate::interruptible::interruptible;
 
@@ -236,7 +237,11 @@ pub(crate) struct Material(pub(crate) core::Material);
 impl Material {
     #[new]
     #[pyo3(signature = (name, numbers, title = None))]
-    fn new(name: &str, numbers: Vec<(String, f64, String)>, title: Option<&str>) -> PyResult<Self> {
+    fn new(
+        name: &str,
+        numbers: List<(String, f64, String)>,
+        title: Option<&str>,
+    ) -> PyResult<Self> {
         let made = core::Material::new(name, title.unwrap_or(name), numbers);
         made.map(Self).map_err(refused)
     }
@@ -311,7 +316,7 @@ pub(crate) fn material_quantities() -> Vec<(&'static str, &'static str, &'static
 pub(crate) fn criterion_on<'py>(
     py: Python<'py>,
     criterion: Criterion,
-    stress: PyReadonlyArray3<'py, f64>,
+    stress: Array<'py, Ix3>,
     tolerance: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (view, stop) = (stress.as_array(), Arc::default());
@@ -343,7 +348,7 @@ pub(crate) fn criterion_on<'py>(
 #[pyo3(signature = (stress, *, s_y, constant))]
 pub(crate) fn yielding_on<'py>(
     py: Python<'py>,
-    stress: PyReadonlyArray3<'py, f64>,
+    stress: Array<'py, Ix3>,
     s_y: f64,
     constant: [f64; 6],
 ) -> PyResult<Bound<'py, PyDict>> {
@@ -369,7 +374,7 @@ pub(crate) fn yielding_on<'py>(
 #[pyfunction]
 pub(crate) fn dang_van_path<'py>(
     py: Python<'py>,
-    stress: PyReadonlyArray2<'py, f64>,
+    stress: Array<'py, Ix2>,
 ) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
     let stress = stress.as_array();
     if stress.ncols() != 6 {

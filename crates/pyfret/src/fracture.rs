@@ -6,13 +6,13 @@ use ::fracture as of_cracks;
 use contact_core::assess::crack as core;
 use contact_core::convolution::Tractions;
 use contact_core::fields::States;
-use ndarray::{Array1, Array2};
-use numpy::{IntoPyArray, PyReadonlyArray3};
+use ndarray::{Array1, Array2, Ix3};
+use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arguments::side;
+use crate::arguments::{Array, List, Mask, side};
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::material::Elastic;
@@ -58,7 +58,7 @@ impl Crack {
 
     #[new]
     #[pyo3(signature = (*, legs, x = 0.0))]
-    fn new(legs: Vec<(f64, f64)>, x: f64) -> PyResult<Self> {
+    fn new(legs: List<(f64, f64)>, x: f64) -> PyResult<Self> {
         let path = of_cracks::Path::kinked(x, &legs);
         of_cracks::Crack::new(path).map(Self).map_err(refused)
     }
@@ -109,7 +109,7 @@ impl Crack {
     fn intensity<'py>(
         &self,
         py: Python<'py>,
-        stress: PyReadonlyArray3<'_, f64>,
+        stress: Array<'_, Ix3>,
         friction: Option<f64>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let stress = stress.as_array();
@@ -158,16 +158,16 @@ pub(crate) fn crack_of_states<'py>(
     py: Python<'py>,
     body: Body,
     grid: Grid,
-    p: PyReadonlyArray3<'_, f64>,
-    q_x: PyReadonlyArray3<'_, f64>,
-    q_y: PyReadonlyArray3<'_, f64>,
-    stick: PyReadonlyArray3<'_, bool>,
-    sigma_B: Vec<f64>,
+    p: Array<'_, Ix3>,
+    q_x: Array<'_, Ix3>,
+    q_y: Array<'_, Ix3>,
+    stick: Mask<'_, Ix3>,
+    sigma_B: List<f64>,
     x: f64,
-    lengths: Vec<f64>,
+    lengths: List<f64>,
     angle: f64,
     friction: f64,
-    residual: Option<Vec<f64>>,
+    residual: Option<List<f64>>,
     body_number: u8,
 ) -> PyResult<Bound<'py, PyDict>> {
     let shape = (sigma_B.len(), grid.0.nx, grid.0.ny);
@@ -198,7 +198,7 @@ pub(crate) fn crack_of_states<'py>(
     let cracks = core::Cracks {
         x,
         angle,
-        lengths,
+        lengths: lengths.0,
         friction,
     };
     let side = side(body_number)?;
@@ -228,7 +228,7 @@ pub(crate) fn crack_of_states<'py>(
 }
 
 /// A curve of K over lengths [m] from the largest and smallest K_I of the cycle [Pa m^0.5].
-fn curve(lengths: Vec<f64>, K_max: Vec<f64>, K_min: Vec<f64>) -> PyResult<of_cracks::Curve> {
+fn curve(lengths: List<f64>, K_max: List<f64>, K_min: List<f64>) -> PyResult<of_cracks::Curve> {
     if K_max.len() != K_min.len() {
         return Err(PyValueError::new_err(
             "K_max and K_min: must be of the same length",
@@ -236,7 +236,7 @@ fn curve(lengths: Vec<f64>, K_max: Vec<f64>, K_min: Vec<f64>) -> PyResult<of_cra
     }
     let extremes = K_max.into_iter().zip(K_min);
     let extremes = extremes.map(|(K_max, K_min)| of_cracks::Extremes { K_max, K_min });
-    of_cracks::Curve::new(lengths, extremes.collect()).map_err(refused)
+    of_cracks::Curve::new(lengths.0, extremes.collect()).map_err(refused)
 }
 
 /// Threshold as its numbers: dK_th, dS_0, Y, Walker's exponent, table of R.
@@ -261,7 +261,7 @@ fn threshold((dK_th, dS_0, Y, walker, table): Numbers) -> PyResult<of_cracks::Th
 
 /// Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m].
 #[pyfunction]
-pub(crate) fn threshold_at(threshold_: Numbers, lengths: Vec<f64>) -> PyResult<(Vec<f64>, f64)> {
+pub(crate) fn threshold_at(threshold_: Numbers, lengths: List<f64>) -> PyResult<(Vec<f64>, f64)> {
     let of = threshold(threshold_)?;
     Ok((lengths.iter().map(|l| of.at(*l)).collect(), of.a_0()))
 }
@@ -270,8 +270,8 @@ pub(crate) fn threshold_at(threshold_: Numbers, lengths: Vec<f64>) -> PyResult<(
 #[pyfunction]
 pub(crate) fn equivalent_range(
     threshold_: Numbers,
-    K_max: Vec<f64>,
-    K_min: Vec<f64>,
+    K_max: List<f64>,
+    K_min: List<f64>,
 ) -> PyResult<Vec<f64>> {
     let of = threshold(threshold_)?;
     let pairs = K_max.into_iter().zip(K_min);
@@ -285,9 +285,9 @@ type Arrested = (&'static str, Option<f64>, Vec<f64>, f64, f64);
 /// What becomes of a crack: verdict, length where it stops, crossings, margin and its length.
 #[pyfunction]
 pub(crate) fn arrest(
-    lengths: Vec<f64>,
-    K_max: Vec<f64>,
-    K_min: Vec<f64>,
+    lengths: List<f64>,
+    K_max: List<f64>,
+    K_min: List<f64>,
     threshold_: Numbers,
     start: f64,
 ) -> PyResult<Arrested> {
@@ -312,9 +312,9 @@ pub(crate) fn arrest(
 #[pyfunction]
 #[pyo3(signature = (lengths, K_max, K_min, threshold_, *, C, m, growth, short, start, end))]
 pub(crate) fn crack_life(
-    lengths: Vec<f64>,
-    K_max: Vec<f64>,
-    K_min: Vec<f64>,
+    lengths: List<f64>,
+    K_max: List<f64>,
+    K_min: List<f64>,
     threshold_: Numbers,
     C: f64,
     m: f64,

@@ -4,13 +4,13 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::heat as core;
-use ndarray::{Array2, Array3, ArrayView2, Axis, stack};
-use numpy::{IntoPyArray, PyReadonlyArray2, PyReadonlyArray3};
+use ndarray::{Array2, Array3, ArrayView2, Axis, Ix2, Ix3, stack};
+use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::argument::to_python;
-use crate::arguments::List;
+use crate::arguments::{Array, List, Mask};
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 
@@ -42,8 +42,8 @@ pub(crate) fn cycle_temperature<'py>(
     bulk: (f64, f64),
     frequency: f64,
     ends: List<f64>,
-    heat: PyReadonlyArray3<'py, f64>,
-    contact: PyReadonlyArray2<'py, bool>,
+    heat: Array<'py, Ix3>,
+    contact: Mask<'py, Ix2>,
     harmonics: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
     let one = layers(&conductor1, &body1, "conductor1")?;

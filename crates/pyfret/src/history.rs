@@ -6,14 +6,14 @@ use std::sync::atomic::AtomicBool;
 use contact_core::fields as core;
 use contact_core::fields::{Line, Stream};
 use contact_core::march;
-use ndarray::{Array1, Array2, Axis};
-use numpy::{IntoPyArray, PyReadonlyArray2};
+use ndarray::{Array1, Array2, Axis, Ix2};
+use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::argument::to_python;
-use crate::arguments::{Field, List, side};
+use crate::arguments::{Field, List, Mask, side};
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, LoadPath};
 use crate::stress::measures;
@@ -109,7 +109,7 @@ impl Envelope {
         p: Field<'_>,
         q_x: Field<'_>,
         q_y: Field<'_>,
-        stick: PyReadonlyArray2<'_, bool>,
+        stick: Mask<'_, Ix2>,
         sigma_B: f64,
     ) -> PyResult<()> {
         let tractions = [q_x, q_y, p].map(|f| f.as_array().as_standard_layout().into_owned());

@@ -4,14 +4,13 @@ use std::sync::Arc;
 
 use contact_core::kernels as core;
 use contact_core::kernels::{Complex64, Stack};
-use ndarray::{Array2, Array3, ArrayView2};
-use numpy::{
-    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray1, PyReadonlyArray3,
-};
+use ndarray::{Array2, Array3, ArrayView2, Ix1};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::argument::to_python;
+use crate::arguments::Array;
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid, Settings};
 
@@ -20,8 +19,8 @@ use crate::scene::{Body, Grid, Settings};
 pub(crate) fn surface_frf<'py>(
     py: Python<'py>,
     body: Body,
-    k_x: PyReadonlyArray1<'py, f64>,
-    k_y: PyReadonlyArray1<'py, f64>,
+    k_x: Array<'py, Ix1>,
+    k_y: Array<'py, Ix1>,
 ) -> PyResult<Bound<'py, PyArray3<Complex64>>> {
     let stack = Stack::checked(&body.0).map_err(to_python)?;
     let mut frf = Array3::zeros((k_x.len()?, 3, 3));

@@ -7,12 +7,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 use contact_core::estimate::choose_increments;
 use contact_core::march as core;
 use contact_core::output::{FIELDS, Kind, SCALARS, group_attributes};
-use numpy::{AllowTypeChange, IntoPyArray, PyArray2, PyArrayLike2};
+use numpy::{IntoPyArray, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
 
+use crate::arguments::Field;
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::{Grid, Scene};
@@ -128,16 +129,16 @@ impl March {
 #[pyfunction]
 pub(crate) fn continued_pressure<'py>(
     py: Python<'py>,
-    p: PyArrayLike2<'py, f64, AllowTypeChange>,
+    p: Field<'py>,
     grid: Grid,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let (p, shape) = (p.as_array().to_owned(), (grid.0.nx, grid.0.ny));
+    let (p, shape) = (p.as_array(), (grid.0.nx, grid.0.ny));
     if p.dim() != shape {
         return Err(PyValueError::new_err(format!(
             "p: must be of the grid's shape {shape:?}"
         )));
     }
-    Ok(contact_core::zones::continued_pressure(&p, &grid.0).into_pyarray(py))
+    Ok(contact_core::zones::continued_pressure(&p.to_owned(), &grid.0).into_pyarray(py))
 }
 
 /// Units and meaning of every variable of a result, scalars and fields.

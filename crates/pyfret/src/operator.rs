@@ -6,10 +6,11 @@ use contact_core::convolution::{DcFft, Displacements, SurfaceOperator as _, Trac
 use contact_core::kernels::influence_coefficients;
 use contact_core::plan::Mirror;
 use ndarray::{Array3, ArrayViewMut2, Axis};
-use numpy::{AllowTypeChange, PyArray3, PyArrayLike2, ToPyArray};
+use numpy::{PyArray3, ToPyArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::arguments::Field;
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::parts::made;
@@ -46,7 +47,6 @@ pub(crate) struct SurfaceOperator {
 made!(SurfaceOperator by "SurfaceOperator": body1, body2, grid, settings);
 
 /// A field on the grid.
-type Field<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 
 #[pymethods]
 impl SurfaceOperator {

@@ -9,15 +9,13 @@ use contact_core::fields as core;
 use contact_core::fields::{Depth, Line, Side};
 use contact_core::output::{ImageData, StressStore, VolumeSink, write_volume};
 use contact_core::scene;
-use ndarray::{Array2, Axis};
-use numpy::{
-    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyReadonlyArray2, PyReadonlyArray3,
-};
+use ndarray::{Array2, Axis, Ix2, Ix3};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::argument::to_python;
-use crate::arguments::{Field, List, side};
+use crate::arguments::{Array, Field, List, Mask, side};
 use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 
@@ -72,10 +70,10 @@ pub(crate) fn section_of_states<'py>(
     grid: Grid,
     z: List<f64>,
     layer: List<usize>,
-    p: PyReadonlyArray3<'_, f64>,
-    q_x: PyReadonlyArray3<'_, f64>,
-    q_y: PyReadonlyArray3<'_, f64>,
-    stick: PyReadonlyArray3<'_, bool>,
+    p: Array<'_, Ix3>,
+    q_x: Array<'_, Ix3>,
+    q_y: Array<'_, Ix3>,
+    stick: Mask<'_, Ix3>,
     sigma_B: List<f64>,
     residual: Option<List<f64>>,
     x: Option<f64>,
@@ -237,7 +235,7 @@ impl Subsurface {
         sigma_B: f64,
         residual: Option<List<f64>>,
         rim: bool,
-        stick: Option<PyReadonlyArray2<'_, bool>>,
+        stick: Option<Mask<'_, Ix2>>,
     ) -> PyResult<Self> {
         let shape = (grid.0.nx, grid.0.ny);
         let cells = |name: &str, field: Option<Field<'_>>| match field {

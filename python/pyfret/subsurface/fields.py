@@ -22,12 +22,18 @@ if TYPE_CHECKING:
 
 __all__ = ["Stress", "displacement", "envelope", "stress", "write_volume"]
 
+#: Most depths that are taken at once.
+MOST_DEPTHS = 1_000_000
+
 
 def _depths(body: Body, z: ArrayLike | None, length: float) -> tuple[list[float], list[int]]:
     """Depths with their layers: those given, or those that the layers ask for."""
     if z is None:
         return _core.chosen_depths(body, a=length, deepest=2.0 * length)
-    depths = np.atleast_1d(plain(z, "z")).tolist()
+    given = np.atleast_1d(plain(z, "z"))
+    if given.size > MOST_DEPTHS:
+        raise ValueError(f"z has {given.size} depths: must be at most {MOST_DEPTHS}")
+    depths = given.tolist()
     if not depths:
         raise ValueError("z is empty: give depths in m, or leave it out for those of the layers")
     return _core.depths(body, depths)

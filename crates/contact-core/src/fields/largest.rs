@@ -108,7 +108,7 @@ fn between_samples(
     let hill = highest(&all)?;
     let coarser = highest(&every_other(depths)).filter(|_| !of_interfaces);
     let left = coarser.map_or(0.0, |coarser| (hill.top.value - coarser.top.value).abs());
-    let added = (hill.top.value - hill.top.sampled).abs();
+    let added = hill.top.left.max((hill.top.value - hill.top.sampled).abs());
     let [s] = hill.top.place;
     let ((x, y), [along_x, along_y]) = match line {
         Line::AlongX(y) => ((s, y), [added, 0.0]),

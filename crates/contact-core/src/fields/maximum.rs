@@ -23,6 +23,9 @@ pub struct Top<const D: usize> {
     pub sample: [usize; D],
     /// The value of that sample.
     pub sampled: f64,
+    /// What the samples of a line leave of the value: what the parabola adds to the sample, and at the end of the line by
+    /// how much the sample beside it differs.
+    pub left: f64,
 }
 
 /// A depth whose top is higher than those of the depths beside it in its layer.
@@ -47,11 +50,24 @@ pub fn top_of_line(values: &ArrayView1<'_, f64>, along: &[f64]) -> Option<Top<1>
             place: [place],
             sample: [i],
             sampled: value,
+            left: 0.0,
         })
         .collect();
     let beside = |n: usize, m: usize| tops[n].sample[0].abs_diff(tops[m].sample[0]) == 1;
-    let (at, top) = summit(&tops, largest(&tops)?, |n| tops[n].place[0], &beside);
-    Some(Top { place: [at], ..top })
+    let n = largest(&tops)?;
+    let (at, top) = summit(&tops, n, |n| tops[n].place[0], &beside);
+    let at_end = n == 0 || n + 1 == tops.len();
+    let next = [n.checked_sub(1), Some(n + 1)];
+    let next = next.into_iter().flatten().find_map(|n| tops.get(n));
+    let left = match next.filter(|_| at_end) {
+        Some(next) => top.value - next.value,
+        None => top.value - top.sampled,
+    };
+    Some(Top {
+        place: [at],
+        left: left.abs(),
+        ..top
+    })
 }
 
 /// The largest value on a plane of samples at x and y \[m\]; `None` without a number.
@@ -68,6 +84,7 @@ pub fn top_of_plane(values: &Array2<f64>, x: &[f64], y: &[f64]) -> Option<Top<2>
         place: [at, top.place[0]],
         sample: [samples[n], top.sample[0]],
         sampled: top.sampled,
+        left: top.left,
     })
 }
 
@@ -158,6 +175,7 @@ fn summit<const D: usize>(
             place,
             sample: top.sample,
             sampled: top.sampled,
+            left: top.left,
         },
     )
 }

@@ -116,18 +116,40 @@ impl CattaneoMindlin {
     /// Energy dissipated in one closed loop between -`T_m` and `T_m` \[J\],
     /// (9 mu^2 W^2/(10 a G*)) {1 - (1 - q)^(5/3) - (5 q/6) \[1 + (1 - q)^(2/3)\]}, q = T_m/(mu W).
     pub fn loop_energy(&self, T_m: f64) -> f64 {
-        let q = T_m.abs() / self.T_limit();
-        let rest = (1.0 - q).max(0.0).cbrt();
         0.9 * self.T_limit().powi(2) / (self.hertz.a * self.G_star)
-            * (1.0 - rest.powi(5) - 5.0 * q / 6.0 * (1.0 + rest * rest))
+            * loop_shape(T_m.abs() / self.T_limit())
     }
 
     /// Loop energy over the energy 4 T_m delta_x(T_m) of the rectangle around the loop; 0.2 where
     /// partial slip ends (S. Fouvry, Ph. Kapsa, L. Vincent, Wear 185 (1995) 35).
     pub fn energy_ratio(&self, T_m: f64) -> f64 {
-        if T_m == 0.0 {
+        let q = T_m.abs() / self.T_limit();
+        if q == 0.0 {
             return 0.0;
         }
-        self.loop_energy(T_m) / (4.0 * T_m.abs() * self.shift_loading(T_m).abs())
+        // 1 - c^2/a^2, exact for small q.
+        let shift = -(2.0 / 3.0 * (-q.min(1.0)).ln_1p()).exp_m1();
+        loop_shape(q) / q / (5.0 / 6.0 * shift)
     }
+}
+
+/// 1 - (1 - q)^(5/3) - (5 q/6) \[1 + (1 - q)^(2/3)\], which starts with 5 q^3/162.
+fn loop_shape(q: f64) -> f64 {
+    /// Below it what is left of the difference is less than its series.
+    const SMALL: f64 = 0.1;
+    if q > SMALL {
+        let rest = (1.0 - q).max(0.0).cbrt();
+        return 1.0 - rest.powi(5) - 5.0 * q / 6.0 * (1.0 + rest * rest);
+    }
+    // Coefficients of (1 - q)^(5/3) and, of the power before, (1 - q)^(2/3).
+    let (mut five, mut two) = (5.0 / 9.0, -2.0 / 3.0);
+    let (mut sum, mut power) = (0.0, q * q);
+    for k in 3..20 {
+        let n = f64::from(k);
+        five *= (n - 1.0 - 5.0 / 3.0) / n;
+        two *= (n - 2.0 - 2.0 / 3.0) / (n - 1.0);
+        power *= q;
+        sum -= (five + 5.0 / 6.0 * two) * power;
+    }
+    sum
 }

@@ -103,8 +103,8 @@ impl Wear {
 
     /// Fails with the key, the value and what is allowed if this has no meaning for a scene.
     pub fn check(&self, scene: &Scene) -> Result<(), Error> {
-        if !(self.cycles > 0.0 && self.cycles <= MOST_CYCLES) {
-            let allowed = format!("above 0, at most {MOST_CYCLES:e}");
+        if !(1.0..=MOST_CYCLES).contains(&self.cycles) {
+            let allowed = format!("1 to {MOST_CYCLES:e}");
             return Err(Error::invalid("wear.cycles", self.cycles, allowed));
         }
         let bodies = [("body1", &scene.body1), ("body2", &scene.body2)];

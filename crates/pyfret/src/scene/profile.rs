@@ -4,6 +4,7 @@ use contact_core::kernels as core;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::arguments::List;
 use crate::error::to_python;
 use crate::material::Coating;
 use crate::parts::{Remade, remade_by_method};
@@ -48,8 +49,8 @@ impl Profile {
 
     /// Interpolate linearly between the points (s, value), s rising from 0 to 1.
     #[staticmethod]
-    fn table(points: Vec<(f64, f64)>) -> Self {
-        Self(core::Profile::Table(points))
+    fn table(points: List<(f64, f64)>) -> Self {
+        Self(core::Profile::Table(points.0))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Remade<'py>> {
