@@ -104,6 +104,8 @@ def test_each_layer_with_its_own_material(cycled: fret.Result) -> None:
     # One material is that of the substrate and says nothing about a coating.
     alone = cycled.life(STEEL, "crossland", [0.0, 2e-4, 7e-4])
     np.testing.assert_array_equal(alone.dataset.value, only.dataset.value)
+    with pytest.raises(ValueError, match=r"no depth lies .* material .layer 1 begins at 0.00048"):
+        cycled.life(STEEL, "crossland", [0.0, 2e-4])
     with pytest.raises(ValueError, match="no layer has a material"):
         cycled.life([None, None], "crossland")
     with pytest.raises(ValueError, match="residual = 1 numbers"):

@@ -182,7 +182,7 @@ def test_measured_surfaces_come_in_metres(
 
 
 def test_a_measured_surface_is_pressed(tmp_path: Path) -> None:
-    grid = fret.Grid.centred(extent=2e-5, n=20)
+    grid = fret.Grid.centred(extent=2e-5, n=144)
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     heights = 3e-8 * np.cos(8e5 * (x + 0.4 * y))
     write_x3p(tmp_path / "rough.x3p", heights, grid.dx)
@@ -195,8 +195,9 @@ def test_a_measured_surface_is_pressed(tmp_path: Path) -> None:
     )
     path = fret.LoadPath.start().normal(0.02, increments=2).tangential(2e-3, increments=2)
     end = fret.solve(scene, path, progress=False).at(-1)
+    assert end.doubts == []
     # Heights point towards the other body: it touches where they are high.
     touched = end.contact.to_numpy()
     under = np.hypot(x, y) < np.hypot(x, y)[touched].max()
-    assert 20 < touched.sum() < 0.8 * under.sum()
+    assert 20e-12 < touched.sum() * grid.dx * grid.dy < 0.8 * under.sum() * grid.dx * grid.dy
     assert heights[touched].mean() > heights[under & ~touched].mean() + 1e-8

@@ -232,17 +232,18 @@ def test_a_coarse_map_is_a_doubt() -> None:
 
 
 def test_the_scene_file_reads_by_the_same_rules(tmp_path: Path) -> None:
-    rows = [[1e6 * v for v in p] for p in points()]
+    # Wide enough for the sphere to part from the flat: 1.8 um at the border, more than the heights.
+    rows = [[20e6 * x, 20e6 * y, 1e6 * z] for x, y, z in points()]
     written(tmp_path / "z.txt", rows, ";", ",")
     (tmp_path / "h.txt").write_bytes(
         "t;W;T_x;delta_x\ns;N;mN;um\n1;10;0;0\n2;10;500;0,05\n".encode("utf-16")
     )
     text = """schema = 1
-body1 = { shape = { sum = [{ sphere = { R = 0.01 } },
+body1 = { shape = { sum = [{ sphere = { R = 1e-3 } },
   { height_map = { file = "z.txt", unit = "um" } }] }, E = 210e9, nu = 0.3 }
 body2 = { shape = "flat", E = 210e9, nu = 0.3 }
 friction = { mu = 0.3 }
-grid = { n = 4, extent = 8e-6 }
+grid = { n = 32, extent = 120e-6 }
 path = { file = "h.txt", increments = 1, drive = "T_x" }
 """
     (tmp_path / "s.toml").write_bytes(text.encode("utf-16"))
@@ -250,6 +251,9 @@ path = { file = "h.txt", increments = 1, drive = "T_x" }
         warnings.simplefilter("ignore", SceneWarning)
         scene = fret.Scene.from_file(tmp_path / "s.toml")
     assert scene.path.T_x.tolist() == [0.0, 0.5]
+    assert scene.body1.shape == fret.Sphere(R=1e-3) + fret.read_surface(
+        tmp_path / "z.txt", unit="um"
+    )
     (tmp_path / "s.toml").write_text(text.replace(', drive = "T_x"', ""))
     with pytest.raises(fret.errors.InvalidSceneError, match="say which drives"):
         fret.Scene.from_file(tmp_path / "s.toml")

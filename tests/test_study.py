@@ -18,6 +18,7 @@ import xarray as xr
 
 import pyfret as fret
 from conftest import MU, ROOT, R, W, sphere_on_flat
+from pyfret import citation
 
 #: A cycle, small.
 PATH = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=150.0, increments=6)
@@ -282,6 +283,6 @@ def test_a_study_can_be_pickled(whole: fret.study.Study) -> None:
 
 def test_sources_are_those_of_the_bibliography() -> None:
     known = (ROOT / "references.bib").read_text()
-    assert all(source.doi in known for source in fret.citing.sources())
+    assert all(source.doi in known for source in citation.sources())
     assert "10.1115/1.3261591" in fret.cite(SCENE)
     assert "10.1115/1.3261591" not in fret.cite(sphere_on_flat())

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from types import ModuleType
 from typing import Any
 
+import numpy as np
 import pytest
 import xarray as xr
 
@@ -27,6 +28,8 @@ BODY = fret.Body(STEEL, coatings=[COATING], shape=fret.Sphere(0.01))
 SPRINGS = fret.reference.Springs(HERTZ, R=0.018, bodies=PAIR, mu=0.3, n=20)
 SPRINGS.load(W=1e3, T=100.0)
 MAP = fret.SurfaceMap([[0.0, 1e-8], [2e-8, -0.0]], spacing=1e-6)
+LAW = fret.wear.Archard(1e-14)
+TURN = np.linspace(0.0, 6.0 * np.pi, 900)
 
 #: A value of every class that needs no run; the members of enumerations are values as well.
 VALUES: list[Any] = [
@@ -94,9 +97,21 @@ VALUES: list[Any] = [
     fret.export.Frame(),
     fret.fracture.CrackLife(1e6, 1e-3, stopped=False),
     fret.fracture.Cracks.from_arrays([1e-5, 1e-4], [1e6, 2e6], [0.0, 1e5]),
+    fret.study.Averaged(MATERIAL, "crossland", L=5e-5),
+    fret.study.Threshold(1e3, 5.0, 2, ((900.0, 1.1), (1100.0, 0.9))),
+    fret.study.Limits(MATERIAL, 5e-5, 0.9, 0.1, np.array([0.9, np.nan, 1.1]), (2e-5, 1e-4)),
+    fret.experiments.icf13("FF_1", n=64),
+    fret.experiments.fouvry2007("TiC"),
+    fret.fit.Loops.of(1e-6 * np.cos(TURN), 5.0 * np.sin(TURN)),
+    fret.fit.Indentation.of([1.0, 2.0], [1e-7, 2e-7]),
+    fret.fit.Scar.of(TURN, np.cos(TURN), wear={"cycles": 1e3, "body2": LAW}),
+    fret.fit.Lives(1e3 * TURN, [{"mu": 0.3}] * TURN.size, {"body2": LAW}),
 ]
 #: Classes whose values may change or hold what may, which are no keys of a dict.
-NO_KEYS = ("Springs", "Material", "Assessment", "Materials", "Cracking", "Cracks", "Wear")
+NO_KEYS = (
+    *("Springs", "Material", "Assessment", "Materials", "Cracking", "Cracks", "Wear"),
+    *("Averaged", "Limits", "Experiment", "Loops", "Indentation", "Scar", "Lives"),
+)
 
 
 def modules() -> list[ModuleType]:
@@ -119,17 +134,19 @@ def of_a_run() -> list[Any]:
     scene = sphere_on_flat(ratio=2.0, n=16)
     path = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=100.0, increments=4)
     result = fret.solve(scene, path, save="all", progress=False)
-    life = result.life(MATERIAL, "dang_van", [0.0, 1e-4])
+    life = result.life([MATERIAL, MATERIAL], "dang_van", [0.0, 1e-4])
     factors = result.load_factors(900e6, [0.0, 1e-4])
     stress = result.at(-1).stress()
     round_trip = fret.LoadPath.start().normal(W, increments=2)
     round_trip = round_trip.tangential([100.0, -100.0, 0.0], increments=6)
-    law = fret.wear.Archard(1e-14)
-    worn = fret.wear.solve(scene, round_trip, cycles=10.0, jumps=1, body2=law, progress=False)
+    worn = fret.wear.solve(scene, round_trip, cycles=10.0, jumps=1, body2=LAW, progress=False)
     study = fret.study.solve(
         scene.replace(path=path), {"mu": [0.3]}, measure="p_max", executor=1, progress=False
     )
     march = fret.march(scene, paper_path(1, 9))
+    curve = fret.fit.Indentation.of(W * np.array([0.3, 0.6, 1.0]), [6.1e-6, 9.6e-6, 1.33e-5])
+    of_path = scene.replace(path=path)
+    found = fret.fit.fit(of_path, curve, unknown={"body2.E": (1e11, 4e11)})
     return [
         result,
         result.at(-1),
@@ -139,10 +156,12 @@ def of_a_run() -> list[Any]:
         stress.maximum().errors,
         life,
         life.worst,
+        life.worst.errors,
         factors,
         factors.least(),
         worn,
         study,
+        found,
         Check("what", "source", ours=1.0, truth=1.0, scale=1.0, last=0.0),
     ]
 
@@ -225,9 +244,14 @@ def test_increments_of_a_march_are_those_of_a_run() -> None:
     scene = sphere_on_flat(ratio=2.0, n=16)
     path = fret.LoadPath.start().normal(W, increments=3).tangential(100.0, increments=3)
     result = fret.solve(scene, path, save="all", progress=False)
+    assert "6.2 cells" in result.doubts[0]
     for increment in fret.march(scene.replace(save="all"), path):
         same = result.at(int(increment.increment)).dataset
         mine = increment.dataset
         xr.testing.assert_equal(mine, same)
-        assert {**mine.attrs, "status": "done"} == same.attrs
+        # How the run ends is known at its end; what is doubted is known as far as it has come.
+        so_far = {"status": "done", "doubts": result.dataset.attrs["doubts"]}
+        assert {**mine.attrs, **so_far} == same.attrs
+        assert f"{float(increment.cells_per_radius):.1f} cells" in increment.doubts[0]
         assert all(mine[name].attrs == same[name].attrs for name in mine.variables)
+    assert increment.doubts == result.doubts

@@ -411,13 +411,8 @@ def open(path: str | os.PathLike[str]) -> Result:
     if not Path(path).exists():
         raise StoreError(f"{fspath(path)}: no such file or folder")
     # Zarr reads the attributes of the group from a file that no checksum covers.
-    copy = Path(path).suffix == ".nc" or files.is_copy(path)
-    attributes = {} if copy else json.loads(_core.verify(path))
-    try:
-        dataset = files.read(path)
-    except Exception as error:
-        message = " ".join(str(error).split())
-        raise StoreError(f"{fspath(path)}: {type(error).__name__}: {message}") from error
+    attributes = {} if files.is_copy(path) else json.loads(_core.verify(path))
+    dataset = files.opened(path)
     if "scene" not in dataset.attrs or "increment" not in dataset.sizes:
         raise StoreError(f"{fspath(path)}: is no result of pyfret: it has no scene or no increment")
     kept = {name: value for name, value in attributes.items() if name in dataset.attrs}

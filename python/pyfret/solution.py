@@ -181,7 +181,11 @@ class Increment(Snapshot):
                     f"the march has gone on to increment {reached}; "
                     f"ask for the fields of increment {mine} before that"
                 )
-            self._labelled = dataset(self._running.variables(), self._running.attributes)
+            labelled = dataset(self._running.variables(), self._running.attributes)
+            if doubts := self._running.doubts():
+                # Of the increments so far, as a store has them that ends here.
+                labelled.attrs["doubts"] = "\n".join(doubts)
+            self._labelled = labelled
         return self._labelled
 
     def __reduce__(self) -> tuple[type[Snapshot], tuple[xr.Dataset]]:

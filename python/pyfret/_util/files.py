@@ -10,12 +10,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pyfret._core import StoreError
 from pyfret._util.lazy import xr
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["beside", "is_copy", "read", "write"]
+__all__ = ["beside", "is_copy", "opened", "read", "write"]
 
 #: Bytes of a NetCDF file beside its numbers, more than.
 MARGIN = 1 << 20
@@ -94,11 +95,22 @@ def read(path: str | os.PathLike[str]) -> xr.Dataset:
     return dataset
 
 
-def is_copy(path: str | os.PathLike[str]) -> bool:
-    """Whether a Zarr folder is one without checksums, by :meth:`pyfret.Result.save` or xarray.
+def opened(path: str | os.PathLike[str]) -> xr.Dataset:
+    """The dataset of a file, as :func:`read`; a StoreError with the reason where it has none."""
+    try:
+        return read(path)
+    except Exception as error:
+        message = " ".join(str(error).split())
+        raise StoreError(f"{os.fspath(path)}: {type(error).__name__}: {message}") from error
 
-    Those of schema 1 are stores: they had none either, and are refused as such.
+
+def is_copy(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is one without checksums, by :func:`write` or xarray.
+
+    Zarr folders of schema 1 are stores: they had none either, and are refused as such.
     """
+    if Path(path).suffix == ".nc":
+        return True
     try:
         if (Path(path) / "zarr.json").is_file():
             # Format 3, which xarray writes unless it is told otherwise.

@@ -65,13 +65,14 @@ __all__ = [
     "ruiz",
     "to_pylife",
 ]
-#: What solves contacts, and so stands above the criteria.
+#: What solves contacts, and so stands above the criteria, in :mod:`pyfret.study`.
 SOLVES = ("Averaged", "Limits", "Threshold", "fit_limits", "threshold")
-__dir__ = listing((*__all__, *SOLVES))
+__all__ += SOLVES
+__dir__ = listing(__all__)
 
 
 def __getattr__(name: str) -> Any:
-    """Give what finds thresholds, in :mod:`pyfret.study`."""
+    """Give what finds thresholds."""
     if name in SOLVES:
         return getattr(import_module("pyfret.study"), name)
     raise AttributeError(f"module 'pyfret.fatigue' has no attribute {name!r}")

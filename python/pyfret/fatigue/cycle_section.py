@@ -60,12 +60,28 @@ def over_cycle(result: Run, section: Section) -> _core.CycleSection:
     )
 
 
-def depths_of(result: Run, section: Section, z: ArrayLike | None) -> tuple[list[float], list[int]]:
-    """The depths of a section with their layers: those given, or those that the layers ask for."""
+def depths_of(
+    result: Run, section: Section, z: ArrayLike | None, each: Sequence[object], one: str
+) -> tuple[list[float], list[int]]:
+    """The depths of a section with their layers: those given, or those that the layers ask for.
+
+    `each` is what every layer is judged by, None where it is not, and `one` its name in the error:
+    a ValueError where no depth lies in a layer that is judged.
+    """
     body = body_of(result, section)
     if z is None:
-        return _core.chosen_depths(body, a=result.length, deepest=2.0 * result.length)
-    return _core.depths(body, np.unique(np.asarray(z, dtype=float)).tolist())
+        depths = _core.chosen_depths(body, a=result.length, deepest=2.0 * result.length)
+    else:
+        depths = _core.depths(body, np.unique(np.asarray(z, dtype=float)).tolist())
+    judged = [n for n, of in enumerate(each) if of is not None]
+    if not set(judged) & set(depths[1]):
+        tops = [0.0, *interfaces(body)]
+        begins = ", ".join(f"layer {n} begins at {tops[n]:.4g} m" for n in judged)
+        raise ValueError(
+            f"z: no depth lies in a layer that has a {one} ({begins}); a material alone is that "
+            "of the substrate"
+        )
+    return depths
 
 
 def labelled(

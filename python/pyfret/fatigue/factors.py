@@ -121,9 +121,9 @@ class LoadFactors(Labelled):
 
     def __eq__(self, other: object) -> bool:
         """Whether dataset and layers are the same."""
-        return (
-            super().__eq__(other) and isinstance(other, LoadFactors) and other.layers == self.layers
-        )
+        if not isinstance(other, LoadFactors):
+            return NotImplemented
+        return super().__eq__(other) is True and other.layers == self.layers
 
     def __getstate__(self) -> dict[str, object]:
         """What is pickled: the least factors in place of what finds them."""
@@ -186,7 +186,7 @@ def load_factors(
     """
     where = Section(**section)
     limits = _yield_stresses(s_y, len(body_of(result, where).coatings) + 1)
-    depths = depths_of(result, where, z)
+    depths = depths_of(result, where, z, limits, "yield stress")
     meanings = {
         "von_mises": "load factor of first yield, von Mises",
         "tresca": "load factor of first yield, Tresca",

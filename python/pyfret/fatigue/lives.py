@@ -188,8 +188,9 @@ class Life(Labelled):
 
     def __eq__(self, other: object) -> bool:
         """Whether dataset and assessments are the same."""
-        same = super().__eq__(other)
-        return same and isinstance(other, Life) and other._assessments == self._assessments
+        if not isinstance(other, Life):
+            return NotImplemented
+        return super().__eq__(other) is True and other._assessments == self._assessments
 
     def __getstate__(self) -> dict[str, object]:
         """What is pickled: the worst points in place of what finds them."""
@@ -304,13 +305,13 @@ def life(
     Raises
     ------
     ValueError
-        There is no closed cycle, too few of its increments were kept, or a material lacks a number
-        that the criterion needs.
+        There is no closed cycle, too few of its increments were kept, a material lacks a number
+        that the criterion needs, or no depth lies in a layer that has one.
     """
     where = Section(**section)
     layers = len(body_of(result, where).coatings) + 1
     each = for_each_layer(materials, layers, "material", "materials")
-    depths = depths_of(result, where, z)
+    depths = depths_of(result, where, z, each, "material")
     found: list[CriterionBelow] = []
     shown, notes = [], list[str]()
     for one in where.each():

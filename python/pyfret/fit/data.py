@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from pyfret._util.holds_arrays import HoldsArrays
 from pyfret.fit import tables
 
 if TYPE_CHECKING:
@@ -16,14 +17,27 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Indentation", "Lives", "Loops", "Scar", "indentation", "lives", "loops", "scar"]
+__all__ = [
+    "Data",
+    "Indentation",
+    "Lives",
+    "Loops",
+    "Measured",
+    "Scar",
+    "indentation",
+    "lives",
+    "loops",
+    "scar",
+]
+
+Data: TypeAlias = "Loops | Indentation | Scar | Lives"
 
 #: Part of the range of the shift that a turn has to go back to count as one.
 TURN = 0.3
 
 
-@dataclass(frozen=True)
-class Loops:
+@dataclass(frozen=True, eq=False, repr=False)
+class Loops(HoldsArrays):
     """Friction loops: force over shift, branch by branch.
 
     Attributes
@@ -90,8 +104,8 @@ class Loops:
         return Loops(shift[order], force[order], down[order], cycle[order], W, noise, drift)
 
 
-@dataclass(frozen=True)
-class Indentation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Indentation(HoldsArrays):
     """An indentation curve: approach [m] over normal force [N]."""
 
     W: NDArray[np.float64]
@@ -106,8 +120,8 @@ class Indentation:
         return Indentation(force[loaded], approach[loaded], noise)
 
 
-@dataclass(frozen=True)
-class Scar:
+@dataclass(frozen=True, eq=False, repr=False)
+class Scar(HoldsArrays):
     """A worn profile along x: depth [m] of a body, or of both together (``body=0``).
 
     ``wear`` holds the arguments of the run that made it, such as ``cycles`` and ``body2``.
@@ -133,8 +147,8 @@ class Scar:
         return Scar(place, worn, wear, body, noise)
 
 
-@dataclass(frozen=True)
-class Lives:
+@dataclass(frozen=True, eq=False, repr=False)
+class Lives(HoldsArrays):
     """Cycles to the end of a coating in several tests.
 
     Attributes
@@ -157,6 +171,17 @@ class Lives:
     part: float = 1.0
     body: int = 2
     noise: float | None = field(default=None)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Measured(HoldsArrays):
+    """The numbers of a set of data in a row, and how they are drawn."""
+
+    data: Data
+    measured: NDArray[np.float64]
+    #: Coordinate that the numbers are drawn over, what it is, and what they are.
+    along: NDArray[np.float64]
+    labels: tuple[str, str]
 
 
 def loops(

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from pyfret.fit.models import Model
+    from pyfret.fit.data import Measured
 
 __all__ = ["curves", "residuals"]
 
@@ -32,19 +32,19 @@ def shown(label: str, values: NDArray[np.float64]) -> tuple[NDArray[np.float64],
 
 @styled
 def curves(
-    model: Model,
+    of: Measured,
     computed: NDArray[np.float64],
     values: Mapping[str, float],
     ax: Axes | None = None,
 ) -> Axes:
     """What was measured, as points, and what the values found make of it, as a line."""
     ax = axes(ax)
-    along, label = shown(model.labels[0], model.along)
+    along, label = shown(of.labels[0], of.along)
     ax.set_xlabel(label)
-    measured, label = shown(model.labels[1], model.measured)
-    line, _ = shown(model.labels[1], computed)
+    measured, label = shown(of.labels[1], of.measured)
+    line, _ = shown(of.labels[1], computed)
     ax.plot(along, measured, ".", color="0.55", markersize=3, label="measured")
-    down = getattr(model.data, "down", None)
+    down = getattr(of.data, "down", None)
     parts = [np.ones(along.size, bool)] if down is None else [down, ~down]
     for n, part in enumerate(parts):
         order = np.argsort(along[part], kind="stable")
@@ -57,13 +57,13 @@ def curves(
 
 
 @styled
-def residuals(model: Model, residual: NDArray[np.float64], ax: Axes | None = None) -> Axes:
+def residuals(of: Measured, residual: NDArray[np.float64], ax: Axes | None = None) -> Axes:
     """Measured less computed; what is left should scatter about zero without a pattern."""
     ax = axes(ax)
-    along, label = shown(model.labels[0], model.along)
+    along, label = shown(of.labels[0], of.along)
     ax.set_xlabel(label)
-    left, label = shown(model.labels[1], residual)
-    down = getattr(model.data, "down", None)
+    left, label = shown(of.labels[1], residual)
+    down = getattr(of.data, "down", None)
     parts = {"": np.ones(along.size, bool)} if down is None else {"back": down, "forth": ~down}
     for name, part in parts.items():
         ax.plot(along[part], left[part], ".", markersize=3, label=name or None)

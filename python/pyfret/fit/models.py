@@ -11,7 +11,7 @@ import numpy as np
 from pyfret import wear
 from pyfret._core import LoadPath, OffGridError, Scene
 from pyfret._util.extras import needed
-from pyfret.fit.data import Indentation, Lives, Loops, Scar
+from pyfret.fit.data import Data, Indentation, Lives, Loops, Measured, Scar
 from pyfret.solution import solve
 from pyfret.study.design import varied
 from pyfret.study.point import GROWTHS, grown
@@ -19,9 +19,8 @@ from pyfret.study.point import GROWTHS, grown
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["Data", "Model", "model_of", "wear_arguments"]
+__all__ = ["Model", "model_of", "wear_arguments"]
 
-Data: TypeAlias = "Loops | Indentation | Scar | Lives"
 T = TypeVar("T")
 Curve: TypeAlias = "Callable[[NDArray[np.float64]], NDArray[np.float64]]"
 
@@ -29,8 +28,8 @@ Curve: TypeAlias = "Callable[[NDArray[np.float64]], NDArray[np.float64]]"
 WAY, INDENTATION = 24, 16
 
 
-@dataclass(frozen=True)
-class Model:
+@dataclass(frozen=True, eq=False, repr=False)
+class Model(Measured):
     """How a kind of data is computed.
 
     Attributes
@@ -43,8 +42,6 @@ class Model:
         Solves that one prediction takes.
     predict : callable
         What the numbers measured should have been under a scene, given offsets afterwards.
-    measured : array
-        The numbers measured.
     """
 
     offsets: tuple[str, ...]
@@ -53,12 +50,11 @@ class Model:
     predict: Callable[
         [Scene, Mapping[str, float]], Callable[[NDArray[np.float64]], NDArray[np.float64]]
     ]
-    measured: NDArray[np.float64]
     noise: float | None
-    data: Data
-    #: Coordinate that the numbers are drawn over, what it is, and what they are.
-    along: NDArray[np.float64]
-    labels: tuple[str, str]
+
+    def without(self) -> Measured:
+        """What was measured, without what computes it."""
+        return Measured(self.data, self.measured, self.along, self.labels)
 
 
 def model_of(data: Data) -> Model:
@@ -126,7 +122,7 @@ def of_loops(data: Loops) -> Model:
     scales = np.array([reach, force])
     offsets = ("offset of the shift [m]", "offset of the force [N]")
     labels = ("shift [m]", "force [N]")
-    return Model(offsets, scales, 1, predict, data.T, data.noise, data, data.delta, labels)
+    return Model(data, data.T, data.delta, labels, offsets, scales, 1, predict, data.noise)
 
 
 def of_indentation(data: Indentation) -> Model:
@@ -149,7 +145,7 @@ def of_indentation(data: Indentation) -> Model:
     scales = np.array([float(np.ptp(data.delta_z))])
     labels = ("normal force [N]", "approach [m]")
     offsets = ("offset of the approach [m]",)
-    return Model(offsets, scales, 1, predict, data.delta_z, data.noise, data, data.W, labels)
+    return Model(data, data.delta_z, data.W, labels, offsets, scales, 1, predict, data.noise)
 
 
 def of_scar(data: Scar) -> Model:
@@ -172,9 +168,8 @@ def of_scar(data: Scar) -> Model:
 
     labels = ("x [m]", "worn depth [m]")
     offsets = ("offset of x [m]",)
-    return Model(
-        offsets, np.array([half]), 1, predict, data.depth, data.noise, data, data.x, labels
-    )
+    scales = np.array([half])
+    return Model(data, data.depth, data.x, labels, offsets, scales, 1, predict, data.noise)
 
 
 def of_lives(data: Lives) -> Model:
@@ -196,17 +191,9 @@ def of_lives(data: Lives) -> Model:
 
     labels = ("test", "ln of the cycles")
     count = len(data.cycles)
-    return Model(
-        (),
-        np.zeros(0),
-        count,
-        predict,
-        np.log(data.cycles),
-        data.noise,
-        data,
-        np.arange(count, dtype=float),
-        labels,
-    )
+    along = np.arange(count, dtype=float)
+    measured = np.log(data.cycles)
+    return Model(data, measured, along, labels, (), np.zeros(0), count, predict, data.noise)
 
 
 def growing(scene: Scene, run: Callable[[Scene], T]) -> T:

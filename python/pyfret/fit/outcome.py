@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._util.holds_arrays import HoldsArrays
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from pyfret._core import Scene
-    from pyfret.fit.models import Model
+    from pyfret.fit.data import Measured
 
 __all__ = ["Found", "Known"]
 
@@ -45,8 +47,8 @@ class Known:
     at_bound: bool
 
 
-@dataclass(frozen=True)
-class Found:
+@dataclass(frozen=True, eq=False)
+class Found(HoldsArrays):
     """The unknowns of a scene as data tell them.
 
     Attributes
@@ -57,8 +59,10 @@ class Found:
         Zeros of the gauges.
     correlation : array
         Correlation of the unknowns, in their order.
-    residual : list of array
-        Measured less computed, of each set of data.
+    residual, computed : list of array
+        Measured less computed, and what is computed, of each set of data.
+    sets : list
+        What was measured, as it is drawn.
     noise : list of float
         Root mean square of the residuals.
     solves : int
@@ -74,7 +78,7 @@ class Found:
     correlation: NDArray[np.float64]
     residual: list[NDArray[np.float64]]
     computed: list[NDArray[np.float64]]
-    models: list[Model]
+    sets: list[Measured]
     noise: list[float]
     solves: int
     converged: bool
@@ -93,13 +97,13 @@ class Found:
         """Draw what was measured, and what the values found make of it."""
         from pyfret.fit.figures import curves
 
-        return curves(self.models[data], self.computed[data], self.values, ax)
+        return curves(self.sets[data], self.computed[data], self.values, ax)
 
     def plot_residuals(self, *, data: int = 0, ax: Axes | None = None) -> Axes:
         """Draw measured less computed; it should scatter about zero without a pattern."""
         from pyfret.fit.figures import residuals
 
-        return residuals(self.models[data], self.residual[data], ax)
+        return residuals(self.sets[data], self.residual[data], ax)
 
     @property
     def doubts(self) -> list[str]:
@@ -124,8 +128,8 @@ class Found:
                 )
         if not self.converged:
             said.append(f"the search did not settle in {self.solves} solves")
-        for n, model in enumerate(self.models):
-            drift = getattr(model.data, "drift", None)
+        for n, measured in enumerate(self.sets):
+            drift = getattr(measured.data, "drift", None)
             if drift is not None and abs(drift[1]) > 2 * self.noise[n]:
                 said.append(
                     f"the middle of the loops drifts by {drift[0]:.2g} m and {drift[1]:.2g} N "
@@ -146,9 +150,9 @@ class Found:
                 f"{k.noise:9.2g}, {k.solver:9.2g}"
             )
         lines += [f"{name}: {value:.3g}" for name, value in self.offsets.items()]
-        for model, noise in zip(self.models, self.noise, strict=True):
-            part = noise / float(np.ptp(model.measured)) if np.ptp(model.measured) else 0.0
-            lines.append(f"residual of {model.labels[1]}: {noise:.3g}, {part:.1%} of its range")
+        for of, noise in zip(self.sets, self.noise, strict=True):
+            part = noise / float(np.ptp(of.measured)) if np.ptp(of.measured) else 0.0
+            lines.append(f"residual of {of.labels[1]}: {noise:.3g}, {part:.1%} of its range")
         lines.append(f"{self.solves} solves")
         return "\n".join(lines + self.doubts)
 

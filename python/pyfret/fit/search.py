@@ -19,7 +19,8 @@ import numpy as np
 
 from pyfret._core import Grid, Scene
 from pyfret._util.extras import needed
-from pyfret.fit.models import Data, Model, model_of, split
+from pyfret.fit.data import Data
+from pyfret.fit.models import Model, model_of, split
 from pyfret.fit.outcome import Found, Known
 from pyfret.study.design import varied
 
@@ -303,7 +304,7 @@ class Search:
             correlation=correlation,
             residual=rest,
             computed=computed,
-            models=self.models,
+            sets=[model.without() for model in self.models],
             noise=[float(np.sqrt(np.mean(r**2))) for r in rest],
             solves=self.solves,
             converged=converged,

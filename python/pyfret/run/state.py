@@ -51,6 +51,7 @@ class State(OfRun):
     stick_area: xr.DataArray
     stick_ratio: xr.DataArray
     contact_radius: xr.DataArray
+    cells_per_radius: xr.DataArray
     p_max: xr.DataArray
     q_max: xr.DataArray
     work: xr.DataArray
@@ -83,6 +84,7 @@ class State(OfRun):
     dissipated_density: xr.DataArray
     contact: xr.DataArray
     stick: xr.DataArray
+    at_limit: xr.DataArray
 
     @property
     def dataset(self) -> xr.Dataset:

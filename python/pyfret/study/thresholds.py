@@ -17,6 +17,7 @@ import numpy as np
 
 from pyfret._core import Grid, Scene
 from pyfret._util.extras import needed
+from pyfret._util.holds_arrays import HoldsArrays
 from pyfret._util.lazy import xr
 from pyfret.fatigue.averages import average
 from pyfret.fatigue.criteria import Material
@@ -91,14 +92,14 @@ class Threshold:
         Half of the bracket, and what cells twice as wide move it by.
     solves : int
         Contacts solved.
-    path : list of (float, float)
+    path : tuple of (float, float)
         Loads tried and what was measured.
     """
 
     value: float
     error: float
     solves: int
-    path: list[tuple[float, float]] = field(repr=False)
+    path: tuple[tuple[float, float], ...] = field(repr=False)
 
     def __float__(self) -> float:
         """The threshold."""
@@ -235,7 +236,7 @@ def one(
         slope = steepness(points, root)
         of_grid = abs(margin(math.exp(root), 2) - at(root)) / max(abs(slope), 1e-3) * math.exp(root)
         solves += 1
-    path = [(load, value * math.exp(m)) for load, m in tried.items()]
+    path = tuple((load, value * math.exp(m)) for load, m in tried.items())
     return Threshold(math.exp(root), bracket + of_grid, solves, path)
 
 
@@ -263,8 +264,8 @@ def wider(grid: Grid, times: int) -> Grid:
     return grid.replace(nx=nx, ny=ny, dx=grid.dx * grid.nx / nx, dy=grid.dy * grid.ny / ny)
 
 
-@dataclass(frozen=True)
-class Limits:
+@dataclass(frozen=True, eq=False, repr=False)
+class Limits(HoldsArrays):
     """A critical distance and a limit fitted to tests at their thresholds.
 
     Attributes

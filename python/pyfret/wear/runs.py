@@ -6,15 +6,16 @@ import math
 import sys
 import tempfile
 from importlib import import_module
+from os import fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
 from pyfret import _core
-from pyfret._core import Scene
+from pyfret._core import Scene, StoreError
+from pyfret._util import files
 from pyfret._util.labelled import Labelled
-from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
 from pyfret.scene.tables import table
 
@@ -26,6 +27,7 @@ else:
 if TYPE_CHECKING:
     import os
 
+    import xarray as xr
     from numpy.typing import NDArray
 
     from pyfret._core import LoadPath
@@ -164,17 +166,18 @@ class WearResult(Labelled):
         return "\n".join(lines)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the result as a store that :func:`open` reads.
+        """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
+
+        :func:`open` opens both. The place must be free.
 
         Raises
         ------
         FileExistsError
             There is something already.
+        ValueError
+            The ending is another.
         """
-        place = Path(path)
-        if place.exists():
-            raise FileExistsError(f"{place}: exists; choose another path")
-        self.dataset.load().drop_encoding().to_zarr(place, mode="w-", zarr_format=2)
+        files.write(self.dataset.load().drop_encoding(), path)
 
     def report(self, path: str | os.PathLike[str]) -> None:
         """Write a page for a browser: the contact on its unworn surfaces, and what wears."""
@@ -419,15 +422,19 @@ def resume(
 
 
 def open(store: str | os.PathLike[str]) -> WearResult:
-    """Open the store of a run of :func:`solve` or ``fret wear``.
+    """Open the store of a run of :func:`solve` or ``fret wear``, or what was saved of one.
 
-    Every file of it is checked before: what is read is what was written.
+    Every file of a store is checked before: what is read is what was written. What
+    :meth:`WearResult.save` wrote has no checksums and is not checked.
 
     Raises
     ------
     StoreError
         There is no run of wear, or a file of it is missing or damaged; the message names both.
     """
-    _core.verify_wear(store)
-    data = xr.open_zarr(Path(store))
+    if not files.is_copy(store):
+        _core.verify_wear(store)
+    data = files.opened(store)
+    if "wear" not in data.attrs or "block" not in data.sizes:
+        raise StoreError(f"{fspath(store)}: holds no run of wear")
     return WearResult(data.set_coords(["cycles", "block_cycles"]))

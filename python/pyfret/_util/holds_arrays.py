@@ -1,0 +1,63 @@
+"""What dataclasses need whose fields are arrays: comparison and a short text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+    Base = DataclassInstance
+else:
+    Base = object
+
+__all__ = ["HoldsArrays"]
+
+#: Numbers of an array, or entries of a list, that are shown.
+SHOWN = 6
+
+
+class HoldsArrays(Base):
+    """A dataclass with arrays, equal where all of its fields are, NaN to NaN; no key of a dict.
+
+    Its decorator is ``@dataclass(frozen=True, eq=False, repr=False)``.
+    """
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the other one is of the same class with the same fields."""
+        if type(other) is not type(self):
+            return NotImplemented
+        names = [of.name for of in fields(self) if of.compare]
+        return all(alike(getattr(self, name), getattr(other, name)) for name in names)
+
+    def __repr__(self) -> str:
+        """Give the fields, long ones by their size."""
+        shown = (f"{of.name}={short(getattr(self, of.name))}" for of in fields(self) if of.repr)
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+
+def alike(one: Any, other: Any) -> bool:
+    """Whether two fields are the same, arrays and lists of them entry by entry."""
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        numbers = np.asarray(one).dtype.kind == "f" and np.asarray(other).dtype.kind == "f"
+        return np.array_equal(one, other, equal_nan=numbers)
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return one.keys() == other.keys() and all(alike(one[key], other[key]) for key in one)
+    if isinstance(one, (list, tuple)) and isinstance(other, (list, tuple)):
+        return len(one) == len(other) and all(map(alike, one, other))
+    return bool(one == other)
+
+
+def short(value: Any) -> str:
+    """A field as text."""
+    if isinstance(value, np.ndarray) and value.size > SHOWN:
+        return f"<array of {' x '.join(map(str, value.shape))}>"
+    if isinstance(value, Sequence) and not isinstance(value, str) and len(value) > SHOWN:
+        return f"<{type(value).__name__} of {len(value)}>"
+    return repr(value)
