@@ -2799,6 +2799,8 @@ class Material:
         """Name, value and source of every number."""
     def number(self, name: str) -> float:
         """A number of the material by its key."""
+    def doubts(self) -> list[str]:
+        """Numbers that look like those of another unit, in words."""
     def assessment(self, criterion: str) -> Assessment:
         """The criterion of that name with the limit or life curve of the material."""
     def __eq__(self, value: object, /) -> bool: ...

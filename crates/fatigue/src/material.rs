@@ -152,6 +152,22 @@ impl Material {
         Ok(material)
     }
 
+    /// Numbers that look like those of another unit, with what was understood.
+    pub fn doubts(&self) -> Vec<String> {
+        /// Below it nothing is as weak as a fatigue limit, and no modulus as low \[Pa\].
+        const WEAK: f64 = 1e5;
+        let in_pascal = |name: &str| QUANTITIES.iter().any(|q| q.name == name && q.unit == "Pa");
+        let weak = (self.numbers.iter()).filter(|(name, of)| in_pascal(name) && of.value < WEAK);
+        weak.map(|(name, of)| {
+            format!(
+                "material {}: {name} = {v} Pa is less than any solid has: stresses are in Pa, {v} MPa is {v}e6",
+                self.name,
+                v = of.value
+            )
+        })
+        .collect()
+    }
+
     /// A number; fails with what is missing and what is known.
     pub fn number(&self, name: &str) -> Result<f64, Error> {
         if let Some(sourced) = self.numbers.get(name) {

@@ -108,6 +108,9 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
         (Side::Body2, &scene.body2)
     };
     let given = given_materials(options)?;
+    for doubt in given.iter().flatten().flat_map(Material::doubts) {
+        say(&format!("fret: warning: {doubt}"));
+    }
     let search = Search::default();
     let of = ByCriterion::new(
         &options.criterion,

@@ -275,6 +275,11 @@ impl Material {
         self.0.number(name).map_err(refused)
     }
 
+    /// Numbers that look like those of another unit, in words.
+    fn doubts(&self) -> Vec<String> {
+        self.0.doubts()
+    }
+
     /// The criterion of that name with the limit or life curve of the material.
     fn assessment(&self, criterion: &str) -> PyResult<Assessment> {
         let found = core::Assessment::of(criterion, &self.0).map_err(refused)?;

@@ -1,8 +1,8 @@
 //! Wear over many cycles.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use contact_core::output::{WearStore, resume_wear_by as take_up, verify_wear as verify};
 use contact_core::wear::{
@@ -10,7 +10,7 @@ use contact_core::wear::{
     WornThrough,
 };
 use numpy::{PyArrayLike1, PyArrayLike2, ToPyArray};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::argument::to_python;
@@ -132,9 +132,12 @@ impl DissipatedEnergy {
     }
 }
 
-/// A callable on arrays.
+/// What a law of one's own has raised.
+type Raised = Arc<Mutex<Option<PyErr>>>;
+
+/// A callable on arrays, and where what it raises is kept.
 #[derive(Debug)]
-struct Own(Py<PyAny>);
+struct Own(Py<PyAny>, Raised);
 
 impl Law for Own {
     fn depth(
@@ -169,13 +172,15 @@ impl Law for Own {
         let wrong = |e: PyErr| {
             let allowed = "a function of (pressed_way, way, dissipated, worn, cycles) that gives the depth \
                            of each cell";
-            contact_core::Error::invalid("wear.law", e, allowed)
+            let error = contact_core::Error::invalid("wear.law", &e, allowed);
+            *self.1.lock().unwrap_or_else(PoisonError::into_inner) = Some(e);
+            error
         };
         Python::attach(|py| call(py).map_err(wrong))
     }
 }
 
-fn law(given: &Bound<'_, PyAny>) -> PyResult<Arc<dyn Law>> {
+fn law(given: &Bound<'_, PyAny>, raised: &Raised) -> PyResult<Arc<dyn Law>> {
     if let Ok(law) = given.extract::<Archard>() {
         return Ok(varying(law.0, law.1.as_ref()));
     }
@@ -190,21 +195,25 @@ fn law(given: &Bound<'_, PyAny>) -> PyResult<Arc<dyn Law>> {
         }));
     }
     if given.is_callable() {
-        return Ok(Arc::new(Own(given.clone().unbind())));
+        return Ok(Arc::new(Own(given.clone().unbind(), raised.clone())));
     }
     Err(PyTypeError::new_err(format!(
         "a wear law must be an Archard, a DissipatedEnergy, a function, or None for what does not wear, not {given}"
     )))
 }
 
-fn body(given: Option<&Bound<'_, PyAny>>, share: Option<f64>) -> PyResult<BodyWear> {
+fn body(
+    given: Option<&Bound<'_, PyAny>>,
+    share: Option<f64>,
+    raised: &Raised,
+) -> PyResult<BodyWear> {
     let laws = match given {
         None => Vec::new(),
         Some(list) if list.is_instance_of::<pyo3::types::PyList>() => list
             .try_iter()?
-            .map(|one| law(&one?))
+            .map(|one| law(&one?, raised))
             .collect::<PyResult<_>>()?,
-        Some(one) => vec![law(one)?],
+        Some(one) => vec![law(one, raised)?],
     };
     Ok(BodyWear { laws, share })
 }
@@ -260,7 +269,11 @@ pub(crate) fn wear(
     on_jump: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     scene.0.check().map_err(scene_to_python)?;
-    let bodies = [body(body1.as_ref(), share1)?, body(body2.as_ref(), share2)?];
+    let raised = Raised::default();
+    let bodies = [
+        body(body1.as_ref(), share1, &raised)?,
+        body(body2.as_ref(), share2, &raised)?,
+    ];
     let wear = core::Wear {
         first_branch,
         debris_kept,
@@ -296,8 +309,8 @@ pub(crate) fn wear(
         Ok((run, store))
     };
     let begun: Result<_, contact_core::Error> = interruptible(py, &stop, run)?;
-    let (run, store) = begun.map_err(to_python)?;
-    go(py, run, store, &stop, on_jump.as_ref())
+    let (run, store) = begun.map_err(|e| caused(py, to_python(e), &raised))?;
+    go(py, run, store, (&stop, &raised), on_jump.as_ref())
 }
 
 /// Fails if a file of the store of a run of wear is missing, or is not as it was written.
@@ -316,13 +329,27 @@ pub(crate) fn resume_wear(
     body2: Option<Bound<'_, PyAny>>,
     on_jump: Option<Py<PyAny>>,
 ) -> PyResult<()> {
-    let own = |law: Option<&Bound<'_, PyAny>>| law.map(|law| body(Some(law), None)).transpose();
+    let raised = Raised::default();
+    let own =
+        |law: Option<&Bound<'_, PyAny>>| law.map(|law| body(Some(law), None, &raised)).transpose();
     let own = [own(body1.as_ref())?, own(body2.as_ref())?];
     let stop = Arc::<AtomicBool>::default();
     let found = interruptible(py, &stop, || take_up(&store, &own, &stop))?.map_err(to_python)?;
     match found {
         None => Ok(()),
-        Some((run, store)) => go(py, run, store, &stop, on_jump.as_ref()),
+        Some((run, store)) => go(py, run, store, (&stop, &raised), on_jump.as_ref()),
+    }
+}
+
+/// An error with what a law has raised as its cause; an interrupt within a law as it is.
+fn caused(py: Python<'_>, error: PyErr, raised: &Raised) -> PyErr {
+    let cause = raised.lock().unwrap_or_else(PoisonError::into_inner).take();
+    match cause {
+        Some(interrupt) if interrupt.is_instance_of::<PyKeyboardInterrupt>(py) => interrupt,
+        cause => {
+            error.set_cause(py, cause);
+            error
+        }
     }
 }
 
@@ -330,7 +357,7 @@ fn go(
     py: Python<'_>,
     mut run: WearRun,
     mut store: WearStore,
-    stop: &Arc<AtomicBool>,
+    (stop, raised): (&Arc<AtomicBool>, &Raised),
     on_jump: Option<&Py<PyAny>>,
 ) -> PyResult<()> {
     loop {
@@ -346,8 +373,12 @@ fn go(
                 }
             }
             Ok(Some(Err(error))) => {
-                store.finish(&run, &error.to_string()).map_err(to_python)?;
-                return Err(to_python(error));
+                let text = error.to_string();
+                let error = caused(py, to_python(error), raised);
+                let stopped = error.is_instance_of::<PyKeyboardInterrupt>(py);
+                let status = if stopped { "stopped" } else { &text };
+                store.finish(&run, status).map_err(to_python)?;
+                return Err(error);
             }
             Err(raised) => {
                 store.finish(&run, "stopped").map_err(to_python)?;

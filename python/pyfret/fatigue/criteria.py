@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, get_args
 
@@ -11,6 +12,7 @@ from pyfret import _core
 from pyfret._core import Assessment, Criterion, Material
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
+from pyfret.scene.warnings import SceneWarning
 
 if TYPE_CHECKING:
     import os
@@ -67,7 +69,10 @@ class Materials(Mapping[str, Material]):
     def __init__(self, file: str | os.PathLike[str] | None = None) -> None:
         self._materials = {m.name: m for m in _core.materials()}
         if file is not None:
-            self._materials.update({m.name: m for m in _core.materials(file)})
+            own = _core.materials(file)
+            for doubt in (doubt for material in own for doubt in material.doubts()):
+                warnings.warn(doubt, SceneWarning, stacklevel=2)
+            self._materials.update({m.name: m for m in own})
 
     def __getitem__(self, name: str) -> Material:
         """Give a material by its name."""

@@ -67,6 +67,8 @@ class Found(HoldsArrays):
         Root mean square of the residuals.
     solves : int
         Contacts solved.
+    grid_known : bool
+        Whether cells twice as wide told what the grid leaves; else the confidence holds none of it.
     converged : bool
         Whether the search ended by itself.
     scene : Scene
@@ -81,6 +83,7 @@ class Found(HoldsArrays):
     sets: list[Measured]
     noise: list[float]
     solves: int
+    grid_known: bool
     converged: bool
     scene: Scene
 
@@ -126,6 +129,11 @@ class Found(HoldsArrays):
                 said.append(
                     f"{key} is not resolved by these data: {known.low:.3g} to {known.high:.3g}"
                 )
+        if not self.grid_known:
+            said.append(
+                "cells twice as wide could not be solved: what the grid leaves is not in the "
+                "confidence; give more cells"
+            )
         if not self.converged:
             said.append(f"the search did not settle in {self.solves} solves")
         for n, measured in enumerate(self.sets):

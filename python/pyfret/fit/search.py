@@ -163,6 +163,8 @@ class Search:
     ranges: list[Range]
     workers: int
     solves: int = 0
+    #: Whether cells twice as wide could be solved, too.
+    grid_known: bool = True
     known: dict[tuple[float, ...], list[Any]] = field(default_factory=dict)
 
     def start(self) -> NDArray[np.float64]:
@@ -307,6 +309,7 @@ class Search:
             sets=[model.without() for model in self.models],
             noise=[float(np.sqrt(np.mean(r**2))) for r in rest],
             solves=self.solves,
+            grid_known=self.grid_known,
             converged=converged,
             scene=varied(self.scene, values) if values else self.scene,
         )
@@ -316,8 +319,9 @@ class Search:
         coarse = self.scene.replace(grid=coarser(self.scene.grid))
         try:
             predictions = self.predictions(coarse, u)
-        except Exception:
+        except (RuntimeError, ValueError):
             # On cells that are too wide for the contact there is no telling.
+            self.grid_known = False
             return np.zeros_like(self.weighted(self.known[u], gauges))
         self.solves += sum(model.solves for model in self.models)
         return self.weighted(predictions, gauges) - self.weighted(self.known[u], gauges)

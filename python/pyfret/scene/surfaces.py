@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from pyfret._core import StoreError, SurfaceMap
+from pyfret.scene.warnings import SceneWarning
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -125,7 +126,7 @@ def is_plain(path: Path) -> bool:
 
 
 def chosen_channel(reader: Any, channel: str | int | None) -> int:
-    """The index of a channel of heights; a StoreError names them all if it is not said which."""
+    """The index of a channel of heights; a warning names them all where it is not said which."""
     channels = list(reader.channels)
     names = [str(of.name) for of in channels]
     heights = [n for n, of in enumerate(channels) if is_height(of)] or list(range(len(channels)))
@@ -135,9 +136,13 @@ def chosen_channel(reader: Any, channel: str | int | None) -> int:
     if channel is None:
         if len(heights) == 1:
             return heights[0]
-        raise StoreError(
-            f"has {len(heights)} channels: {listed}; say which, channel={names[heights[0]]!r}"
+        warnings.warn(
+            f"the file has {len(heights)} channels: {listed}; the first is read, another by "
+            f"channel={names[heights[-1]]!r}",
+            SceneWarning,
+            stacklevel=4,
         )
+        return heights[0]
     if isinstance(channel, str):
         found = [n for n, name in enumerate(names) if name == channel]
         if len(found) == 1:

@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from pyfret._core import OffGridError, Scene
 from pyfret._util.progress import Progress
 from pyfret.study.design import Combine, Design, Source
@@ -111,7 +113,12 @@ def solve(
         Store.prepare(place, design, said)
         with writing(Path(place)):
             go_through(Store(place, design, said))
-        return open(place)
+        study = open(place)
+        # Where every point failed nothing has been measured.
+        for name in (of for of in measures if isinstance(of, str) and of not in study.dataset):
+            status = study.dataset["status"]
+            study.dataset[name] = (status.dims, np.full(status.shape, np.nan))
+        return study
 
     def go_through(store: Store) -> None:
         points = store.open_points(again=again)

@@ -24,9 +24,19 @@ pub(super) fn consolidated(folder: &Folder) -> Result<Consolidated, Error> {
         ref schema if *schema != SCHEMA => Err(folder.error(&format!(
             "is a store of schema {schema}: this version reads schema {SCHEMA}"
         ))),
+        _ if !whole && !text_has_sums(&text) => Err(folder.error(
+            &"is a copy without checksums, as `save` or xarray write one: it can be opened in Python, but not be gone on \
+              with; the store itself has them",
+        )),
         _ if !whole => Err(damaged(&"it is not what was written")),
         _ => Ok(consolidated),
     }
+}
+
+/// Whether metadata hold any checksum, their own or those of the arrays.
+fn text_has_sums(text: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(text);
+    text.contains("\"checksums\"") || text.contains("\"crc32\"")
 }
 
 /// Fails if a file of the store is missing, or is not as it was written; the error names it.
