@@ -14,7 +14,7 @@ export MPLBACKEND ?= Agg
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
 .DEFAULT_GOAL := help
-.PHONY: help setup constants ablation stub demo figure-13 loads validation test stress path-errors error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs wheel wheel-test clean
+.PHONY: help setup constants ablation largest stub demo figure-13 loads validation test stress path-errors error-bars kill wear wear-jumps memory fuzz deny check format bench bench-kernels bench-stress bench-peers docs wheel wheel-test clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -44,6 +44,10 @@ stress: ## 10 000 random scenes, 30 minutes at most; the numbers go to docs/reli
 
 path-errors: ## the estimated error of the path against the true one in 50 random scenes
 	FRET_PATH_ERRORS=50 cargo test --release --locked --package contact-core --test path_error -- --nocapture
+
+largest: ## largest stresses of 60 random contacts against four times as many cells; the numbers go to docs/reliability.md
+	FRET_LARGEST=60 FRET_LARGEST_REPORT=$(CURDIR)/docs/reliability.md \
+		cargo test --release --locked --package contact-core --test largest -- --nocapture random
 
 error-bars: ## error bars against the true errors in 160 random scenes; the numbers go to docs/error_bars.md
 	FRET_ERROR_BARS=160 FRET_ERROR_BARS_REPORT=$(CURDIR)/docs/error_bars.md \

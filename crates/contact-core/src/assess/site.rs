@@ -124,6 +124,12 @@ impl Site<'_> {
 }
 
 impl At {
+    /// Whether a point of the surface lies beside a rim that is not known within its cell.
+    pub(super) fn rim_is_unknown(&self, (x, y, depth): Point) -> bool {
+        let moved = (x - self.middle.0, y - self.middle.1, depth);
+        self.points.rim_is_unknown(moved)
+    }
+
     pub(super) fn history(&self, points: &[Point]) -> Result<History, Error> {
         let moved: Vec<Point> = points
             .iter()

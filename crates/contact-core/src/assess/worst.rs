@@ -109,9 +109,20 @@ pub fn worst<J: Judge>(
     let score = judge.score(&found);
     let border = climb.on_border(place, &known);
     let coarse = climb.on_coarser_cells(place, border, &moments)?;
+    // Where the rim is not known within its cell it may lie half a cell elsewhere.
+    let beside = if at.rim_is_unknown(point) {
+        [-half_cell, half_cell]
+            .map(|by| [place[0] + by, place[1]])
+            .into()
+    } else {
+        Vec::new()
+    };
+    let beside = climb.scores(&at, &beside)?.into_iter();
+    let unsure = beside.map(|beside| (score - beside).abs());
+    let along = unsure.fold(left[0], f64::max);
     let (x_error, y_error) = match judged.line {
-        Line::AlongX(_) => (left[0], 0.0),
-        Line::AlongY(_) => (0.0, left[0]),
+        Line::AlongX(_) => (along, 0.0),
+        Line::AlongY(_) => (0.0, along),
     };
     Ok(Some(Worst {
         found,

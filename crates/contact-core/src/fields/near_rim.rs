@@ -22,8 +22,10 @@ const FARTHEST: u8 = 3 + REACH as u8;
 const FARTHEST_AT_SURFACE: u8 = 24;
 /// Depth in cells down to which the slope counts: what varies from cell to cell falls like exp(-2 pi z).
 const AT_SURFACE: f64 = 1.0;
-/// Thickness in cells below which a layer does not let tractions be continued to a rim that is not known.
+/// A layer that is thinner than so many cells, and whose modulus is so many times that of what it lies on or less than its
+/// inverse, does not let tractions be continued to a rim that is not known.
 const THIN: f64 = 2.0;
+const CONTRAST: f64 = 2.0;
 /// Cells on each side of a sample that are cut.
 const REACH: usize = 3;
 /// Rows of s_zz, s_xz, s_yz: on the surface they are minus the traction named beside.
@@ -97,7 +99,12 @@ impl NearRim {
         } else {
             grid.dx.max(grid.dy)
         };
-        let thin = (body.coatings.iter()).any(|layer| layer.thickness < THIN * cell);
+        let below = body.coatings.iter().skip(1).map(|layer| layer.material);
+        let below = below.chain([body.substrate]);
+        let thin = body.coatings.iter().zip(below).any(|(layer, below)| {
+            let ratio = layer.material.E / below.E;
+            layer.thickness < THIN * cell && !(1.0 / CONTRAST..=CONTRAST).contains(&ratio)
+        });
         let of_state = |(n, tractions): (usize, &Tractions<'_>)| {
             Continued::new(grid, tractions, stick.get(n).copied(), &window, thin)
         };
@@ -210,6 +217,13 @@ impl NearRim {
         } else {
             (x, y)
         }
+    }
+
+    /// Whether a place less than a cell deep lies beside a rim that is not known in some state.
+    pub(super) fn is_unknown(&self, grid: &Grid, depth: Depth, (x, y): (f64, f64)) -> bool {
+        let (cell, _) = Self::locate(grid, x, y);
+        let unknown = |state: &Continued| state.rim_is_unknown(cell);
+        self.depth_in_cells(depth) < 1.0 && self.states.iter().any(unknown)
     }
 
     /// The tractions of a state.

@@ -97,6 +97,12 @@ impl Points {
         self.gather(points, |_: &DepthKernel<Displacement, 5, 3>, _, _, _| {})
     }
 
+    /// Whether a point lies on the surface beside a rim that is not known within its cell.
+    pub(crate) fn rim_is_unknown(&self, (x, y, depth): Point) -> bool {
+        let rim = self.loaded.rim.as_ref();
+        rim.is_some_and(|rim| rim.is_unknown(&self.loaded.grid, depth, (x, y)))
+    }
+
     /// Where `line`, or without one the lines through the middles of all rows and columns of cells, crosses the rim of the
     /// contact and the border of the stick zone in a state; nowhere under tractions constant in each cell.
     pub fn borders(&self, state: usize, line: Option<Line>) -> Vec<Border> {

@@ -234,6 +234,11 @@ impl Search {
         let (place, value, left) = climb(&values, start, value, bounds)?;
         let at = point(place, start.layer);
         let border = self.border_at(at);
+        let unsure = self.points.rim_is_unknown(at);
+        let inwards = if unsure { self.beside(at) } else { Vec::new() };
+        let inwards = values(&inwards)?.into_iter();
+        let unsure = inwards.map(|beside| (value - beside).abs());
+        let unsure = unsure.fold(0.0, f64::max);
         let coarse = match probe {
             Probe::Stress(m) => (m.value)(&self.coarser.stress(at, border)?),
             Probe::Displacement(c) => self.coarser.displacement(at.0, at.1, at.2)?[c.axis()],
@@ -245,7 +250,7 @@ impl Search {
             depth: at.2,
             at: border.map(|b| b.zone),
             error: Errors {
-                x: left[0],
+                x: left[0].max(unsure),
                 y: left[1],
                 z: left[2],
                 tractions: Some((value - coarse).abs()),
@@ -277,6 +282,15 @@ impl Search {
             known: None,
         };
         by_sample.iter().take(BORDERS).map(start).collect()
+    }
+
+    /// Where the value would be if the rim lay half a cell elsewhere.
+    fn beside(&self, (x, y, depth): Point) -> Vec<Point> {
+        let steps = match self.line {
+            Some(Line::AlongY(_)) => [(0.0, STEP * self.d.1), (0.0, -STEP * self.d.1)],
+            _ => [(STEP * self.d.0, 0.0), (-STEP * self.d.0, 0.0)],
+        };
+        steps.map(|(s, t)| (x + s, y + t, depth)).into()
     }
 
     /// The border that a point lies on.

@@ -214,6 +214,12 @@ impl Continued {
             .is_some_and(|at| around(at, self.varying.dim()).any(steps))
     }
 
+    /// Whether a cell or one next to it is at a rim that is not known within its cell.
+    pub(crate) fn rim_is_unknown(&self, cell: (usize, usize)) -> bool {
+        self.place(cell)
+            .is_some_and(|at| around(at, self.taken.dim()).any(|at| self.taken[at]))
+    }
+
     /// The tractions within a cell; none where they are constant.
     pub(crate) fn within(&self, cell: (usize, usize)) -> Option<Within> {
         let at = self.place(cell)?;

@@ -3,6 +3,10 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, non_snake_case)]
 
+#[path = "../document/mod.rs"]
+mod document;
+mod random;
+
 use contact_core::convolution::Tractions;
 use contact_core::fields::{
     Extreme, Line, Measure, Points, Probe, Search, Section, Side, States, Zone, borders,
@@ -40,6 +44,15 @@ fn tractions(fields: &Fields) -> Tractions<'_> {
 
 /// The largest value on y = 0 in body 2, in a layer or in all, as the command line and Python give it.
 fn largest(scene: &Scene, fields: &Fields, of: &str, layer: Option<usize>) -> Extreme {
+    in_layer(scene, fields, of, (scene.hertz().unwrap().a, layer))
+}
+
+/// The same of a contact about as large as `a`.
+fn on_section(scene: &Scene, fields: &Fields, of: &str, a: f64) -> Extreme {
+    in_layer(scene, fields, of, (a, None))
+}
+
+fn in_layer(scene: &Scene, fields: &Fields, of: &str, (a, layer): (f64, Option<usize>)) -> Extreme {
     let (body, grid) = (&scene.body2, &scene.grid);
     let states = [tractions(fields)];
     let stick = [fields.stick.as_slice().unwrap()];
@@ -50,7 +63,6 @@ fn largest(scene: &Scene, fields: &Fields, of: &str, layer: Option<usize>) -> Ex
     let line = Line::AlongX(0.0);
     let search = Search::new(body, Side::Body2, grid, Some(line), &states).unwrap();
     let section = Section::new(body, Side::Body2, grid, line, states).unwrap();
-    let a = scene.hertz().unwrap().a;
     let depths = chosen_depths(body, a, 2.0 * a, 1.0).unwrap();
     let x: Vec<f64> = (0..grid.nx).map(|i| grid.x(i)).collect();
     let probe = Probe::named(of, "of").unwrap();
@@ -167,7 +179,7 @@ fn rims_of_line_contacts_are_right_on_every_grid() {
 #[test]
 fn coated_spheres_agree_with_hankel_quadrature() {
     let file: Value =
-        serde_json::from_str(include_str!("data/largest_stress_coated.json")).unwrap();
+        serde_json::from_str(include_str!("../data/largest_stress_coated.json")).unwrap();
     let truths = file["cases"].as_array().unwrap();
     let slice = std::env::var("LARGEST").map_or(3, |n| n.parse().unwrap());
     for truth in truths.iter().take(slice) {
