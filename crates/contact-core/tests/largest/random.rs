@@ -3,6 +3,7 @@
 //! `make largest` runs 60 of them on 128 cells against 512 and writes what came out into `docs/reliability.md`; the test
 //! runs a slice on fewer cells. `FRET_LARGEST` is the number of contacts, `FRET_LARGEST_FINER` how much finer the truth is.
 
+use std::fmt::Write as _;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
@@ -223,7 +224,7 @@ fn random_contacts_are_within_their_errors() {
     };
     let mut report = format!(
         "{count} contacts on {n} cells against {} ({}): {:.1} % of the largest values within their error, {:.1} % within 2 %, \
-         {:.1} % within 5 %. Not within their error, or off by more than 5 %:\n",
+         {:.1} % within 5 %. Not within their error, or off by more than 5 %:\n\n",
         n * finer,
         MEASURES.join(", "),
         part(&|c| c.covered),
@@ -232,12 +233,8 @@ fn random_contacts_are_within_their_errors() {
     );
     for c in found.iter().filter(|c| !c.covered || c.off > 0.05) {
         let covered = if c.covered { "" } else { ", not covered" };
-        report += &format!(
-            "\n- {}: {} off by {:.1} %{covered}",
-            c.what,
-            c.of,
-            100.0 * c.off
-        );
+        let off = 100.0 * c.off;
+        writeln!(report, "- {}: {} off by {off:.1} %{covered}", c.what, c.of).unwrap();
     }
     println!("{report}");
     if let Ok(document) = std::env::var("FRET_LARGEST_REPORT") {
