@@ -10,6 +10,8 @@ export PATH := $(HOME)/.cargo/bin:$(PATH)
 # The interpreter that the binding is built for, whatever else is installed.
 export PYO3_PYTHON := $(CURDIR)/$(PY)
 export MPLBACKEND ?= Agg
+# The tests start many interpreters: what they import is compiled once.
+unexport PYTHONDONTWRITEBYTECODE
 
 RUST := $(shell find crates -name '*.rs' -o -name '*.toml') Cargo.toml Cargo.lock
 
