@@ -237,7 +237,7 @@ impl WearRun {
             }
             self.model.restore(&self.state.model);
             let tried = match self.attempt(n) {
-                Err(Error::NotConverged { .. }) if self.may_be_shorter(n) => {
+                Err(Error::NotConverged { .. }) if self.may_be_cut(n) => {
                     n *= SHORTER;
                     for_event = None;
                     continue;
@@ -284,6 +284,11 @@ impl WearRun {
     /// Whether the run chooses the length of its jumps and may take less than n cycles.
     fn may_be_shorter(&self, n: f64) -> bool {
         matches!(self.wear.jumps, Jumps::Tolerance(_)) && n > SHORTEST * self.wear.cycles
+    }
+
+    /// Whether a jump of n cycles that cannot be solved may be made in more than one.
+    fn may_be_cut(&self, n: f64) -> bool {
+        !matches!(self.wear.jumps, Jumps::Explicit(_)) && n > SHORTEST * self.wear.cycles
     }
 
     /// A jump of n cycles whole and in two halves.

@@ -29,7 +29,7 @@ pub enum Jumps {
     /// Implicit, as long as the error of one stays below this part of the worn depth, and a
     /// twentieth of that of the pressure (root mean squares); of second order.
     Tolerance(f64),
-    /// Implicit, that many of equal length; of second order.
+    /// Implicit, that many of equal length, and more where one cannot be solved whole; of second order.
     Number(usize),
     /// Explicit, that many of equal length, with the pressure of the start of each: of first
     /// order, and unstable where they are long. The usual way, kept as a yardstick.
