@@ -9,10 +9,7 @@ use super::lu::largest;
 use super::stress::{PlaneStress, tractions};
 
 /// Passes between pressure and shear of the faces before the search gives up.
-const MOST_PASSES: usize = 500;
-/// Passes after which the shear that the faces carry is averaged with that of the last pass: a point that comes and goes
-/// keeps the others from settling.
-const ALTERNATE: usize = 50;
+const MOST_PASSES: usize = 200;
 /// Change of the pressure from pass to pass that ends the search, over its largest: a point between open and closed, or
 /// between stick and slip, that comes and goes changes it by some 1e-7; K is told to 1e-4.
 const SETTLED: f64 = 1e-6;
@@ -119,7 +116,7 @@ impl Faces {
         let mut carried = Array1::zeros(n);
         let mut pressure: Option<Array1<f64>> = None;
         let mut change = f64::INFINITY;
-        for pass in 0..MOST_PASSES {
+        for _ in 0..MOST_PASSES {
             let load = normal + &contact.nt.dot(&(&carried - shear));
             let mut open = self.open.clone();
             let Some(opening) = contact.open(&load, &mut open) else {
@@ -139,20 +136,15 @@ impl Faces {
                 self.moving = vec![1; n];
                 return Ok(());
             }
-            let now = self.stick(contact, &known, &before).ok_or(Error::Faces {
+            carried = self.stick(contact, &known, &before).ok_or(Error::Faces {
                 length: self.crack.length(),
                 passes: MOST_PASSES,
                 change,
             })?;
             if change <= SETTLED {
-                self.shear = now;
+                self.shear = carried;
                 return Ok(());
             }
-            carried = if pass < ALTERNATE {
-                now
-            } else {
-                0.5 * (now + &carried)
-            };
         }
         Err(Error::Faces {
             length: self.crack.length(),

@@ -46,9 +46,10 @@ impl Fineness {
         Self { grading, cuts }
     }
 
-    /// For a point, which may lie on a border: the root of the smallest part is left out there.
+    /// For a point, which may lie on a border: the root of the smallest part is left out there, 2 (2 d_x/a 3^-10)^(1/2) of
+    /// p_H at most.
     fn of_a_point(flat: bool) -> Self {
-        let (grading, cuts) = if flat { (8.0, 12) } else { (3.0, 7) };
+        let (grading, cuts) = if flat { (8.0, 12) } else { (3.0, 10) };
         Self { grading, cuts }
     }
 }

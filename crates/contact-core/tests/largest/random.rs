@@ -181,8 +181,7 @@ fn compared(seed: u64, n: usize, finer: usize) -> Vec<Compared> {
         Compared {
             what: drawn.what.clone(),
             of,
-            // What is below a thousandth of the pressure is no stress that anybody reads.
-            covered: off.abs() <= error + 1e-3,
+            covered: off.abs() <= error,
             off: off.abs() / truth.value.abs().max(0.05),
         }
     };
