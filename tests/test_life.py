@@ -49,7 +49,8 @@ def test_worst_point_lies_between_the_cells(cycled: fret.Result) -> None:
     worst = found.worst
     largest = float(found.dataset.value.max())
     assert worst.value >= largest
-    assert worst.value == pytest.approx(largest, rel=0.3)
+    # On 32 cells the rim lies between two samples and has a third more.
+    assert worst.value < 1.4 * largest
     assert worst.errors.z < 0.05 * worst.value
     assert worst.margin == pytest.approx(STEEL.number("t_D") / worst.value, rel=1e-12)
     # The trailing edge, on the surface: fretting cracks start there.
