@@ -1,4 +1,4 @@
-//! How well the equations hold at the end of an increment, from the fields alone.
+//! Residuals of the equations at the end of an increment, from the fields alone.
 
 use super::domain::{Domain, half_lengths};
 use super::lifted::lifted;
@@ -12,14 +12,15 @@ use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::{NoSlipTerms, not_opposite, slip};
 use crate::solvers::{Interface, friction_bound};
 
-/// What sums in another order may differ by.
+/// Relative difference of sums in different order.
 const ROUNDING: f64 = 1e-9;
-/// What balances and Coulomb's law may be off by, over what they are measured against: they hold by construction,
+/// Largest relative residual of the balances and of Coulomb's law: they hold by construction,
 /// moments to 1e-10.
 const EXACT: f64 = 1e-9;
 
-/// Whether the solution is one of the whole problem: loads that friction carries, a contact within window
-/// and grid, and cells beyond that stay clear; how far they do at least \[m\].
+/// Whether the solution holds on the whole grid: loads within the limit of friction, a contact
+/// within window and grid, no overlap beyond the window. Returns a lower bound of the gap there
+/// \[m\].
 pub(super) fn admissible(
     setup: &Setup<'_>,
     domain: &Domain,
@@ -54,7 +55,7 @@ pub(super) fn admissible(
     clear.ok_or(Failure::Beyond)
 }
 
-/// How well the equations hold; and the largest pressure and shear \[Pa\].
+/// The residuals, and the largest pressure and shear \[Pa\].
 pub(super) fn residuals(
     setup: &Setup<'_>,
     no_slip: &NoSlipTerms,
@@ -94,7 +95,7 @@ pub(super) fn residuals(
         ..Residuals::default()
     };
     let rms = |squares: f64, count: f64| (squares / count.max(1.0)).sqrt();
-    // Where nothing ever presses there is no approach to measure by.
+    // A path that never presses has no approach as a scale.
     let over_approach = |length: f64| if length > 0.0 { length / approach } else { 0.0 };
     r.gap = over_approach(rms(gap_squares, contact));
     r.penetration = over_approach(overlap);
@@ -112,8 +113,8 @@ pub(super) fn residuals(
     (r, [p_max, q_max])
 }
 
-/// Largest error of the balances of the loads that are given, over what the contact could carry of them:
-/// across the plane W, in it what friction bears at most, moments times the grid's half-length.
+/// Largest error of the balances of given loads over their scale: W for the normal force, the sum
+/// of mu p dA for forces in the plane, either times the half-length of the grid for moments.
 fn missing_loads(setup: &Setup<'_>, now: &Interface) -> f64 {
     let point = setup.point;
     let all_given = LoadPoint {
@@ -135,8 +136,8 @@ fn missing_loads(setup: &Setup<'_>, now: &Interface) -> f64 {
         })
 }
 
-/// The normal force, and the largest force that friction bears under it, the normal force where that has
-/// no limit \[N\].
+/// The normal force, and the limit of friction under it, sum of mu p dA \[N\]; the normal force
+/// again where mu is infinite.
 fn bearable(setup: &Setup<'_>, now: &Interface) -> [f64; 2] {
     let [p, bounds, unbounded] = sums([&now.p[..], setup.mu], |_, [p, mu]| {
         let bound = friction_bound(mu, p);
@@ -151,8 +152,8 @@ fn bearable(setup: &Setup<'_>, now: &Interface) -> [f64; 2] {
     [p * cell_area, friction * cell_area]
 }
 
-/// Says which load nothing in the contact carries: its motion is free, and without friction or contact
-/// nothing resists it.
+/// The error for a given load whose free motion meets no resistance, for lack of contact or
+/// friction.
 fn unresisted(setup: &Setup<'_>, now: &Interface) -> Option<Error> {
     let [pressed, friction] = bearable(setup, now);
     let (asked, motions) = (
@@ -175,9 +176,9 @@ fn unresisted(setup: &Setup<'_>, now: &Interface) -> Option<Error> {
     })
 }
 
-/// Whatever a solver took for solved: gap and overlap, and the slip that should not be over all contact
-/// cells, are within the tolerance, loads are balanced and no shear is beyond its bound, or the increment is
-/// not converged.
+/// Independently of the solvers' own tests: gap, overlap and residual slip over all contact cells
+/// must be within the tolerance, the loads balanced and the shear within its bound; otherwise the
+/// increment has not converged.
 pub(super) fn within_tolerance(
     setup: &Setup<'_>,
     increment: &Increment,
@@ -187,7 +188,7 @@ pub(super) fn within_tolerance(
     let r = &increment.residuals;
     let mu = scene.friction.scale();
     let slips = if increment.status == Status::GrossSlip {
-        // A body that slides may have any shift beyond the incipient one.
+        // In gross slip the shift is arbitrary beyond the incipient one.
         0.0
     } else {
         let stick = r.stick.powi(2) * (contact - slipping) as f64;

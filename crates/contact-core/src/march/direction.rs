@@ -2,14 +2,14 @@
 
 use crate::scene::{Given, Loads};
 
-/// Loads and motions that are measured alike, in the order of `RigidMotion::ALL`: the two tilts, and the
-/// forces or shifts along x and y.
+/// Kinds of loads and motions that share a scale, in the order of `RigidMotion::ALL`: the two tilts
+/// are one kind, and so are the forces or shifts along x and y.
 const KIND: [usize; 6] = [0, 1, 1, 2, 2, 3];
-/// Cosine of the largest turn between two steps of a path that goes on: 60 degrees.
+/// Cosine of the largest angle between successive steps of a continued path: 60 degrees.
 const TURN: f64 = 0.5;
 
 impl Loads {
-    /// The change from `before` and `motions` to here, of what is given.
+    /// The change of the given loads and motions from `before` and `motions` to these.
     pub(crate) fn since(&self, before: &Self, motions: [f64; 6]) -> Self {
         let forces = before.forces();
         let (to, given) = (self.forces(), self.given.motions());
@@ -27,8 +27,9 @@ impl Loads {
         )
     }
 
-    /// The factor f with self = f other along the other, if the two changes are of the same kind and the path
-    /// turns by 60 degrees at most from one to the other: a straight branch, a chord of a smooth curve.
+    /// The factor f of the projection f `other` of this change on the other one, if both are of the
+    /// same kind and the path turns by 60 degrees at most: a straight branch, or chords of a smooth
+    /// curve.
     pub(crate) fn along(&self, other: &Self) -> Option<f64> {
         let (a, b) = (self.given.motions(), other.given.motions());
         if (0..6).any(|k| a[k].is_some() != b[k].is_some()) {
@@ -36,7 +37,7 @@ impl Loads {
         }
         let (f, g) = (self.forces(), other.forces());
         let pair = |k: usize| a[k].zip(b[k]).unwrap_or((f[k], g[k]));
-        // Forces, moments, lengths and angles compare as parts of the larger of the two.
+        // Forces, moments, lengths and angles are scaled by the larger of the two changes.
         let scale = |k: usize| {
             let alike = (0..6).filter(|&j| KIND[j] == KIND[k] && a[j].is_some() == a[k].is_some());
             alike

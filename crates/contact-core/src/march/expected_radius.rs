@@ -1,11 +1,11 @@
-//! How large a contact is expected to be before it is solved.
+//! Estimate of the contact radius before the solution.
 
 use crate::kernels::Stack;
 use crate::scene::Scene;
 
-/// About the longer semi-axis of the contact under the largest load of the path \[m\]: Hertz's,
-/// a^3 = 3 W R/(4 E*), with the modulus that a wave about as long as the contact meets,
-/// 2/E* = sum of k C_33(k) at k = 1.5/a. Zero where the nominal shapes form no Hertz contact.
+/// Estimate of the longer semi-axis of the contact under the largest load of the path \[m\], after
+/// Hertz: a^3 = 3 W R/(4 E*), with the modulus of a wave about as long as the contact, 2/E* = sum
+/// of k C_33(k) at k = 1.5/a. Zero where the nominal shapes form no Hertz contact.
 pub(super) fn expected_radius(scene: &Scene) -> f64 {
     let Some(hertz) = scene.hertz() else {
         return 0.0;
@@ -18,8 +18,8 @@ pub(super) fn expected_radius(scene: &Scene) -> f64 {
     let compliance = |k: f64| -> f64 { stacks.iter().map(|s| s.response(k).zz).sum() };
     let uncoated = 2.0 / hertz.E_star;
     let mut a = hertz.a;
-    // The radius goes with the cube root of the compliance, which falls with k: halfway steps
-    // settle.
+    // a ~ compliance^(1/3), and the compliance falls with k: a fixed-point iteration with averaging
+    // converges.
     for _ in 0..60 {
         a = (a * hertz.a * (compliance(1.5 / a) / uncoated).cbrt()).sqrt();
     }

@@ -1,12 +1,12 @@
-//! The pressure that the first increment of a contact starts from.
+//! The initial guess of the pressure of a first contact.
 
 use ndarray::Array2;
 
 use super::problem::Problem;
 use crate::scene::LoadPoint;
 
-/// A pressure for bodies that have not touched, on the whole grid: that of a paraboloid of the approach
-/// expected at a point, up to a factor; everywhere the same without
+/// Initial pressure of bodies that have not touched, on the whole grid: up to a factor that of a
+/// paraboloid of the approach expected at a point; uniform without
 /// [`Methods::first_contact`](crate::plan::Methods::first_contact).
 pub(super) fn first_pressure(problem: &Problem, point: &LoadPoint) -> Array2<f64> {
     let h_init = problem.scene.h_init();

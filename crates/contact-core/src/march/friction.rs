@@ -1,18 +1,18 @@
-//! The friction coefficient of each cell, after what its material has been through.
+//! The friction coefficient of each cell as a function of the history of its material.
 //!
-//! The bound of the shear at the end of an increment is that of the history by then, which the slip of the increment
-//! adds to: the increment is solved with what the last one makes expect, and again with what came out, until the
-//! coefficient settles.
+//! The bound at the end of an increment depends on the history up to then, and so on the slip of
+//! the increment itself. The increment is solved with an extrapolated history, then again with the
+//! history that the solution gives, until the coefficient no longer changes.
 
 use super::setup::Setup;
 use crate::scene::History;
 
-/// Times that an increment is solved again at most, and the change of a coefficient, over itself, that is left.
+/// Most corrections of the coefficient in an increment, and the relative change that ends them.
 pub(super) const CORRECTIONS: usize = 8;
 const SETTLED: f64 = 1e-3;
 
-/// Sets `mu` at the end of an increment in which the history of cell n grows by `grows(n)`, and `before` at its start,
-/// the material rolled as it is.
+/// Sets `mu` at the end of an increment in which the history of cell n grows by `grows(n)`, and
+/// `before` at its start for the same material (rolling included).
 pub(super) fn update(
     setup: &Setup<'_>,
     grows: impl Fn(usize) -> f64,
@@ -50,7 +50,8 @@ pub(super) fn update(
     }
 }
 
-/// What the history of each cell is expected to grow by: as much as in the last increment, if the path goes on.
+/// Extrapolated growth of the history of each cell: that of the last increment times the ratio of
+/// the steps, zero where the path turns.
 pub(super) fn expected(setup: &Setup<'_>) -> impl Fn(usize) -> f64 {
     let (ratio, mirror) = (setup.goes_on.unwrap_or(0.0), setup.problem.plan.mirror);
     move |n| {
@@ -59,7 +60,8 @@ pub(super) fn expected(setup: &Setup<'_>) -> impl Fn(usize) -> f64 {
     }
 }
 
-/// Whether the coefficient that a solution makes is the one that it was found with, up to what is left.
+/// Whether the coefficient that follows from a solution agrees with the one that it was solved
+/// with.
 pub(super) fn has_settled(mu: &[f64], next: &[f64]) -> bool {
     mu.iter()
         .zip(next)

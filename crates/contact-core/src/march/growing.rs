@@ -1,36 +1,39 @@
-//! Growth of a contact within one increment: in steps where it grows by much.
+//! Substeps of an increment in which the contact grows by much.
 //!
-//! A cell that comes into contact sticks where it entered, and how it moved before depends on the contact that there
-//! was then. Of an increment that begins without contact nothing is known of that but the solution at its end, and of
-//! one that begins with a small contact little: the cells that enter last keep a ring of wrong shear, which later
-//! increments bury in the stick zone as it is. From the radius b to a the ring is off by about 1.2 (1 - b/a)^2 of
-//! the shear then, by 2 from nothing, and the shear goes with a: steps of equal sqrt(a) leave the same error everywhere.
-//! Those at small radii are solved in a small window and cost little.
+//! A cell that comes into contact sticks where it entered, and its motion before entry depends on
+//! the contact at that time. An increment that starts without contact, or with a small one, has
+//! little information on that contact: the cells that enter last get a ring of wrong shear, which
+//! stays in the stick zone. In an increment from the radius b to a the relative error of the shear
+//! in the ring is about 1.2 (1 - b/a)^2, and 2 for b = 0. Since the shear itself grows like a,
+//! steps of equal a^(1/2) give the same absolute error everywhere. Steps at small radii are solved
+//! in small windows and cost little.
 //!
-//! Where similar bodies are sheared as they grow the error is that of the first contact alone: of n increments uniform in
-//! W it covers n^(-1/3) of the radius. Steps of equal radius do there: the error of the shear is about 0.12, 0.033, 0.012,
-//! 0.007 with 1, 2, 4, 8 of them (nu = 0.3, T = W/4). Similar bodies under the load alone have no shear.
+//! For similar bodies that are sheared while the contact grows, only the first contact has this
+//! error: the first of n increments uniform in W reaches the radius n^(-1/3) a. Steps of equal
+//! radius suffice there: the error of the shear is about 0.12, 0.033, 0.012, 0.007 with 1, 2, 4, 8
+//! of them (nu = 0.3, T = W/4). Similar bodies under the load alone have no shear.
 
 use super::State;
 use super::problem::Problem;
 use crate::scene::{LoadPoint, RigidMotion, Scene, Shape};
 
-/// What rounding makes of a whole number of steps: the same scene in other units is solved in as many.
+/// Tolerance in the number of steps, so that the same scene in other units gets the same number.
 const ROUNDING: f64 = 1e-9;
-/// Powers of the radius that load and approach of a paraboloid go with.
+/// Exponents n of W ~ a^n and delta_z ~ a^n of a paraboloid.
 const FORCE: i32 = 3;
 const APPROACH: i32 = 2;
 
-/// The ends of the steps in which an increment is solved whose contact grows, but the last; none where one step will do.
+/// Intermediate loads of the substeps of an increment, the last excepted; empty where one step is
+/// enough.
 pub(super) fn steps(problem: &Problem, state: &State, point: &LoadPoint) -> Vec<LoadPoint> {
     let plan = &problem.plan;
     let [from, to] = radii(problem, state, point);
-    // Not numbers where nothing presses.
+    // NaN where nothing presses.
     if !(plan.methods.entry && plan.friction && to > from) {
         return Vec::new();
     }
     let most = plan.methods.growth_steps as f64;
-    // What goes evenly is this power of the radius.
+    // The steps are even in this power of the radius.
     let (power, steps) = if plan.coupling && are_paraboloids(&problem.scene) {
         (0.5, most * (to.sqrt() - from.sqrt()))
     } else if from == 0.0 && is_sheared(point) {
@@ -54,8 +57,8 @@ pub(super) fn steps(problem: &Problem, state: &State, point: &LoadPoint) -> Vec<
         .collect()
 }
 
-/// The radius of the contact before and after an increment over the largest of the path: of a paraboloid it goes with
-/// the root of the approach, the cube root of the load.
+/// The contact radius before and after an increment over the largest of the path, as of a
+/// paraboloid: a ~ delta_z^(1/2), a ~ W^(1/3).
 fn radii(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
     let largest = problem.largest;
     let touches = state.interface.p.iter().any(|&p| p > 0.0);
@@ -63,7 +66,7 @@ fn radii(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
         |to: f64, of: f64, power: i32| (to / of).clamp(0.0, 1.0).powf(1.0 / f64::from(power));
     if let Some(delta_z) = point.loads.given.delta_z {
         let now = state.motion.delta_z;
-        // Bodies that have touched did so about where their middles met.
+        // Bodies in contact first touched near delta_z = 0.
         let touching = if touches { 0.0 } else { now };
         let at = |approach: f64| part(approach - touching, largest.delta_z - touching, APPROACH);
         [if touches { at(now) } else { 0.0 }, at(delta_z)]
@@ -76,7 +79,7 @@ fn radii(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
     }
 }
 
-/// Whether the bodies are such that their contact grows from a point.
+/// Whether the contact grows from a point: smooth convex shapes.
 fn are_paraboloids(scene: &Scene) -> bool {
     let smooth = |shape: &Shape| {
         matches!(

@@ -33,7 +33,7 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
         ([p.max(0.0)], [p.max(0.0)])
     });
     if setup.drives.normal.free[0] && sum <= 0.0 {
-        // Extrapolated out of contact.
+        // Every cell would have left the contact: no extrapolation.
         copy(&state.interface.p, &mut guess.p);
     } else if setup.drives.normal.free[0] {
         let factor = setup.drives.normal.sums[0] / sum;
@@ -42,9 +42,9 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
     guess
 }
 
-/// Extrapolates the shear. The shear of a stick cell nears its bound as the root of the distance
-/// to the moving slip front (Cattaneo: g - q ~ (c^2 - r^2)^(1/2)): the square of what is left of the way
-/// to the bound is extrapolated; a cell for which nothing is left starts to slip.
+/// Extrapolates the shear. The shortfall of a stick cell goes with the square root of its distance
+/// from the moving slip front (Cattaneo: g - q ~ (c^2 - r^2)^(1/2)), so that the square of the
+/// shortfall is extrapolated linearly; where that is not positive the cell starts to slip.
 fn extrapolate_shear(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64], factor: f64) {
     let Interface { p, q, slip, .. } = guess;
     let [q_x, q_y] = q;

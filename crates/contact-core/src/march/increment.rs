@@ -84,8 +84,8 @@ pub(super) fn increment(
     Ok(increment)
 }
 
-/// The solution, and in `ws` the friction coefficients that belong to it: where these follow what cells go through
-/// it is found again with what came out.
+/// The solution, and in `ws` its friction coefficients; where these depend on the history of the
+/// cells, the increment is solved again until both agree.
 fn with_its_friction<'a>(
     given: &Setup<'_>,
     response: Response<'a>,
@@ -131,7 +131,7 @@ fn with_its_friction<'a>(
     }
 }
 
-/// Asks for a wider window where a contact would roll off this one; refuses one that would roll off the grid.
+/// The failure of a contact that rolls off: a wider window is needed, or the grid is too small.
 fn rolls_off(
     problem: &Problem,
     state: &State,
@@ -156,13 +156,14 @@ fn rolls_off(
     .into()
 }
 
-/// The solution from a first guess; of bodies that nothing presses together, that they carry nothing.
+/// The solution from a first guess; without tractions if nothing presses the bodies together.
 fn solve(
     setup: &Setup<'_>,
     solver: &mut Solver<'_>,
     extrapolates: bool,
 ) -> Result<Solution, Error> {
-    // Without an approach of the path nothing ever presses, even where a moment could tilt a body against the other one.
+    // A path without any approach never presses, even if a moment could tilt one body against the
+    // other.
     if setup.drives.press() && setup.problem.approach > 0.0 {
         let guess = guess::first_guess(setup, extrapolates);
         return entry::solve(setup, solver, guess);

@@ -1,17 +1,18 @@
-//! Whether a contact that never slips holds: friction without a limit, and cells that their shear would lift.
+//! Existence of a contact with mu = infinity: cells that the shear would lift off.
 //!
-//! On dissimilar bodies shear along the surface moves it up or down. At the rim of a contact that sticks there may be
-//! cells that have no place: held, they would be under tension; parted, they overlap. Such a cell is pressed without
-//! shear ([`solvers::intermediate`](crate::solvers::intermediate)): what large coefficients of friction tend to are
-//! cells that slip in a region that shrinks towards the rim. Where cells within the contact are
-//! lifted, or all of them, the bodies are shifted so far that no contact that sticks everywhere is in equilibrium.
+//! On dissimilar bodies shear along the surface moves it up or down. At the rim of a sticking
+//! contact there may be cells with no admissible state: sticking, they would be under tension;
+//! separated, they overlap. Such a cell is pressed without shear
+//! ([`solvers::intermediate`](crate::solvers::intermediate)), the limit of large mu, where cells
+//! slip in a region that shrinks towards the rim. If cells inside the contact are lifted, or all
+//! cells, no contact that sticks everywhere is in equilibrium under this shift.
 
 use super::setup::Setup;
 use crate::cells::Lattice;
 use crate::error::Error;
 use crate::solvers::Interface;
 
-/// Says so where more is lifted than a rim.
+/// The error if more than cells at the rim are lifted.
 pub(super) fn lifted(setup: &Setup<'_>, now: &Interface) -> Option<Error> {
     if setup.problem.scene.friction.mu.is_finite() {
         return None;

@@ -1,7 +1,7 @@
 //! Stage 5: THE LOAD PATH, one increment at a time (the outer loop of figure 2 of the paper).
 //!
-//! [`March::advance`] takes the next point of the load path, sees to the window that is solved on, and
-//! computes the increment: drives -> no slip -> guess -> solve -> check -> account.
+//! [`March::advance`] takes the next point of the load path, fits the window, and computes the
+//! increment: drives -> no slip -> guess -> solve -> check -> account.
 
 mod accounts;
 mod check;

@@ -5,12 +5,12 @@ use super::setup::Setup;
 use crate::error::Error;
 use crate::solvers::Interface;
 
-/// What a grid should be longer than the contact that is expected on it.
+/// Length of a sufficient grid over that of the expected contact.
 const CLEARANCE: f64 = 1.4;
-/// What a grid should grow by where nothing is known but that it is too small.
+/// Factor by which a grid is to grow where the contact cannot be estimated.
 const GROWTH: f64 = 1.4;
 
-/// Fails if a cell at the border of the grid is in contact; that of a window is kept free.
+/// Fails if a cell at the border of the grid is in contact; the border of a window is kept free.
 pub(super) fn check(setup: &Setup<'_>, now: &Interface) -> Result<(), Error> {
     let (whole, grid) = (&setup.problem.scene.grid, &setup.geometry.grid);
     let (at_x, at_y) = (

@@ -1,4 +1,4 @@
-//! The problem that a march solves: what does not change along the path, and what drives an increment.
+//! The data of a march that are constant along the path, and the drives of an increment.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,7 +12,7 @@ use crate::scene::{LoadPath, LoadPoint, RigidMotion, Scene};
 use crate::solvers::inner::{NormalParams, TangentialParams};
 use crate::solvers::intermediate::AlternationParams;
 
-/// A scene and all that is decided before its first increment.
+/// A scene and the decisions taken before its first increment.
 pub(super) struct Problem {
     /// The scene, with the tolerance that it is solved with.
     pub(super) scene: Scene,
@@ -20,7 +20,7 @@ pub(super) struct Problem {
     pub(super) plan: Plan,
     /// Largest normal force \[N\] and largest approach \[m\] that the path gives.
     pub(super) largest: Largest,
-    /// Approach that lengths are measured against \[m\].
+    /// Approach that scales lengths \[m\].
     pub(super) approach: f64,
     /// Cycles of wear done.
     pub(super) cycles: f64,
@@ -28,7 +28,7 @@ pub(super) struct Problem {
     pub(super) stop: Arc<AtomicBool>,
 }
 
-/// What a load path gives at most; it takes a look at every branch.
+/// The largest loads that a path gives, over all branches.
 #[derive(Clone, Copy)]
 pub(super) struct Largest {
     pub(super) W: f64,
@@ -53,7 +53,8 @@ pub(super) struct Drives {
 }
 
 impl Drives {
-    /// Of an increment to a point. By symmetry the half of a mirrored scene has no motion that turns it.
+    /// The drives of an increment to a point. Motions that are odd under the mirror vanish by
+    /// symmetry.
     pub(super) fn new(problem: &Problem, arms: &Arms, state: &State, point: &LoadPoint) -> Self {
         let cell_area = problem.cell_area();
         let (forces, given) = (point.loads.forces(), point.loads.given.motions());
@@ -85,16 +86,18 @@ impl Drives {
     }
 }
 
-/// Share of the tolerance with which a predicted pressure is taken as it is: the shear moves it
-/// further.
+/// Tolerance within which a predicted pressure is accepted, over the whole: the shear changes the
+/// gap further.
 const PREDICTED_SHARE: f64 = 0.8;
 /// Share of the tolerance that the normal solver iterates to.
 const NORMAL_SHARE: f64 = 0.4;
-/// Share of the tolerance that the tangential solver iterates to; nothing moves after it.
+/// Share of the tolerance that the tangential solver iterates to; it is the last to change
+/// displacements.
 pub(crate) const TANGENTIAL_SHARE: f64 = 0.6;
-/// Part of the tolerance of the tangential solver that a change of the shear may move a cell by and yet be neglected.
+/// A change of the shear is not convolved if it displaces a cell by less than this part of the
+/// tangential tolerance.
 const NEGLIGIBLE_SHARE: f64 = 0.1;
-/// Part of the gap that a pass of the alternation begins with down to which its inner loops solve.
+/// Tolerance of the inner loops over the gap at the start of a pass of the alternation.
 const FORCING: f64 = 0.1;
 
 impl Problem {
@@ -106,8 +109,8 @@ impl Problem {
         Ok(())
     }
 
-    /// The approach at the loads of a point from that at which the bodies touch \[m\], about: that of a Hertz
-    /// contact, which a coating makes as much larger or smaller as it does the square of the contact radius.
+    /// Estimate of the approach at the loads of a point, from first touch \[m\]: that of a Hertz
+    /// contact, scaled like the square of the expected contact radius for coatings.
     pub(super) fn approach_at(&self, point: &LoadPoint, touching: f64) -> f64 {
         let hertz = || {
             let radius = expected_radius(&self.scene);
@@ -132,11 +135,11 @@ impl Problem {
         self.plan.mirror != Mirror::None && RigidMotion::ALL[load].is_odd_in_y()
     }
 
-    /// The settings of the loops, with lengths in metres, for a share of the tolerance.
+    /// The settings of the loops for a share of the tolerance, with tolerances as lengths \[m\].
     pub(super) fn params(&self, share: f64) -> AlternationParams {
         let solver = &self.scene.settings.solver;
         let gap = share * self.scene.tolerance() * self.approach;
-        // What the shear misses acts on the gap, however large mu is.
+        // An error of the shear acts on the gap, however large mu is: the factor mu is capped at 1.
         let slip = TANGENTIAL_SHARE * self.scene.friction.scale().min(1.0) * gap;
         AlternationParams {
             tolerance: gap,

@@ -1,17 +1,18 @@
-//! What a run comes to at most, and what is to be doubted of it.
+//! Largest values of a run, and warnings that follow from them.
 
 use super::Increment;
 use crate::error::Error;
 use crate::scene::{FEW_CELLS, FEWEST_CELLS, LARGE_STRAIN, Scene};
 
-/// Part of Young's modulus that the hardness of metals and most ceramics stays below.
+/// Upper bound of the hardness of metals and most ceramics over Young's modulus.
 const HARD: f64 = 0.05;
-/// Times the tolerance of the path from which on the error that its increments leave is told.
+/// A warning names the error of the increments if it exceeds the tolerance of the path by this
+/// factor.
 const TOLD: f64 = 2.0;
-/// Young's modulus of a solid that yields, and is not stretched many times like rubber, at least \[Pa\].
+/// Least Young's modulus of a solid that yields, other than rubber \[Pa\].
 const YIELDS: f64 = 1e9;
 
-/// The most that the increments of a run came to.
+/// Largest values over the increments of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reached {
     /// Cells across the radius of the contact.
@@ -21,7 +22,7 @@ pub struct Reached {
 }
 
 impl Reached {
-    /// Of a run so far.
+    /// The largest values of these increments.
     pub fn of(increments: &[Increment]) -> Self {
         let mut reached = Self::default();
         for of in increments {
@@ -44,7 +45,8 @@ impl Reached {
         Ok(())
     }
 
-    /// What of a run is to be doubted that [`Scene::doubts`] can't know, one sentence each.
+    /// Warnings that need the results of a run, beyond those of [`Scene::doubts`]; one sentence
+    /// each.
     pub fn doubts(&self, scene: &Scene) -> Vec<String> {
         let mut doubts = Vec::new();
         if self.cells_per_radius > 0.0 && self.cells_per_radius < FEW_CELLS {

@@ -1,4 +1,4 @@
-//! What one increment ends with: the numbers a user reads, the residuals and the work done.
+//! The results of one increment: numbers, residuals and work.
 
 use serde::{Deserialize, Serialize};
 
@@ -51,7 +51,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// All, the more they slip the later.
+    /// All, in the order of increasing slip.
     pub const ALL: [Self; 4] = [
         Self::NoContact,
         Self::FullStick,
@@ -68,31 +68,31 @@ impl Status {
 /// Energy of one increment, with mid-increment (trapezoidal) tractions \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
-    /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi), of the bulk stress on what the
-    /// contact moves, and of what makes the bodies roll.
+    /// Work of the loads, W d(delta_z) + T . d(delta) + M . d(phi), of the bulk stress on the
+    /// displacements of the contact, and of the drive of rolling bodies.
     pub work: f64,
     /// Change of the elastic energy, 1/2 sum of traction times displacement.
     pub elastic: f64,
-    /// Energy dissipated by friction, -sum of q . ds dA, >= 0 up to the solver's tolerance: a cell
-    /// slips at its bound, so that the shear is the mean bound of the increment against the slip.
+    /// Energy dissipated by friction, sum of g_m |ds| dA with the mean bound g_m of the increment,
+    /// since a cell slips at its bound; >= 0 up to the solver's tolerance.
     pub dissipated: f64,
-    /// Work of the tractions on cells that close or open, -sum of p dh dA, and of the shear on what
-    /// cells moved before they closed; it vanishes with the increment.
+    /// Work of the tractions on cells that close or open, -sum of p dh dA, and of the shear on the
+    /// motion of cells before they enter; a discretisation error that vanishes with the increment.
     pub opening: f64,
-    /// What `dissipated` is more than -sum of q . ds dA with the mean shear of the increment, the
-    /// rule of the other terms; it vanishes with the increment.
+    /// `dissipated` less -sum of q . ds dA by the trapezoidal rule, which the other terms use; it
+    /// vanishes with the increment.
     pub quadrature: f64,
 }
 
 impl Energy {
-    /// What the balance misses \[J\]: zero up to the solver's tolerance, for any size of the
+    /// Error of the energy balance \[J\]: zero up to the solver's tolerance, for any size of the
     /// increment.
     pub fn imbalance(&self) -> f64 {
         self.work - self.elastic - (self.dissipated - self.quadrature) - self.opening
     }
 }
 
-/// How well the equations hold at the end of an increment, in physical terms.
+/// Residuals of the equations at the end of an increment, in physical terms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Residuals {
     /// Root-mean-square gap in the contact over the Hertz approach.
@@ -109,7 +109,7 @@ pub struct Residuals {
     /// Angle between the slip and the shear that it opposes, root mean square over the slip
     /// cells, each with the square of its slip \[rad\].
     pub angle: f64,
-    /// Largest error of the balances of the loads that are given, over what the contact could carry of them.
+    /// Largest error of the balances of given loads, over the load that the contact can carry.
     pub balance: f64,
     /// Energy imbalance over the work done so far.
     pub energy: f64,
@@ -136,15 +136,15 @@ pub struct Work {
 pub struct Increment {
     /// Increment, from 1.
     pub index: usize,
-    /// The place in the path and the loads, those of given motions as the solution says.
+    /// The place in the path and the loads; for given motions the loads of the solution.
     pub point: LoadPoint,
     /// Rigid-body motion.
     pub motion: Motion,
     /// State of the interface.
     pub status: Status,
-    /// Area of the contact \[m^2\], of cells at its rim the part within.
+    /// Area of the contact \[m^2\]; cells at the rim count with the part inside.
     pub contact_area: f64,
-    /// Area of the stick zone \[m^2\], of cells at its border the part within.
+    /// Area of the stick zone \[m^2\]; cells at its border count with the part inside.
     pub stick_area: f64,
     /// Cells across the radius of the contact: the half width, the smaller semi-axis of an ellipse, of many
     /// spots that of the one in the middle of their area; zero without a contact.
@@ -155,9 +155,9 @@ pub struct Increment {
     pub q_max: f64,
     /// Energies of the increment.
     pub energy: Energy,
-    /// How well the equations hold.
+    /// Residuals of the equations.
     pub residuals: Residuals,
-    /// What it cost.
+    /// Work of the solvers.
     pub work: Work,
 }
 

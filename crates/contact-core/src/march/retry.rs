@@ -1,12 +1,12 @@
 //! Increments that do not converge are retried, from the last tractions as they are, then in halves.
 //!
-//! A guess that goes too far may lead astray: where it is left out the answer is the same. Half of the
-//! way is an easier problem: the last state is nearer to the solution. It is also a finer path, so that
-//! the answer differs from that of one piece as that of twice the increments would. A contact that grows by much
-//! is solved in steps to begin with ([`growing`](super::growing)).
-//! [`Work::parts`](super::Work::parts) says in how many pieces an increment was solved. All tries together
-//! have a bound on their work; then the increment is given up, and [`why`] says what in the physics makes it
-//! hard.
+//! An extrapolated guess may lie outside the domain of convergence; without it the solution is the
+//! same. Half of the increment is an easier problem, since the last state is nearer to the
+//! solution. It is also a finer path, so that the result changes as with twice the increments. A
+//! contact that grows by much is solved in steps to begin with ([`growing`](super::growing)).
+//! [`Work::parts`](super::Work::parts) says in how many pieces an increment was solved. All tries
+//! together have a bound on their work; beyond it the increment fails, and [`why`] names the
+//! physical cause.
 
 use std::f64::consts::TAU;
 
@@ -22,14 +22,15 @@ use crate::scene::{Body, LoadPoint, Preset, Scene};
 
 /// Halvings of an increment before the run gives up.
 const HALVINGS: u32 = 5;
-/// Most convolutions for an increment, all tries together. Increments that are solved take a few, at the limits
-/// of friction and coupling some thousand.
+/// Most convolutions for an increment, all tries together. Usual increments take a few, those at
+/// the limits of friction and coupling some thousand.
 pub(super) const CONVOLUTIONS: usize = 10_000;
 
-/// Waves that are looked at for the coupling of the bodies.
+/// Wave numbers at which the coupling of the bodies is evaluated.
 const WAVES: u32 = 64;
 
-/// The increment to `point`, whole if that can be, or in pieces; after a failure the state is as before.
+/// The increment to `point`, in one piece if it converges, else in several; a failure leaves the
+/// state unchanged.
 pub(super) fn reach(
     problem: &Problem,
     domain: &mut Domain,
@@ -65,7 +66,7 @@ pub(super) fn reach(
     ended
 }
 
-/// What in the physics makes an increment hard that did not converge, as the end of a sentence.
+/// The physical cause of an increment that did not converge, as the end of a sentence.
 pub(super) fn why(problem: &Problem, domain: &Domain) -> String {
     let mut parts = Vec::new();
     if domain.is_spent() {
@@ -88,14 +89,14 @@ pub(super) fn why(problem: &Problem, domain: &Domain) -> String {
     parts.concat()
 }
 
-/// How much shear moves the surfaces towards each other over how much pressure does: the largest of
+/// Coupling: the normal displacement under shear over that under pressure, the largest of
 ///
 /// ```text
 /// |rz_1 - rz_2| / (zz_1 + zz_2)
 /// ```
 ///
-/// over the waves from the length of the grid down to two cells; of half-spaces Dundurs' beta. A soft layer that keeps its
-/// volume has more.
+/// over the waves from the length of the grid down to two cells; for half-spaces Dundurs' beta, and
+/// more for a soft incompressible layer.
 fn coupling(scene: &Scene) -> f64 {
     let bodies = [(1.0, &scene.body1), (-1.0, &scene.body2)];
     let rigid = |body: &Body| body.substrate.is_rigid() && body.coatings.is_empty();
@@ -121,7 +122,7 @@ fn stalled(ended: &Result<Increment, Failure>) -> bool {
     matches!(ended, Err(Failure::Error(Error::NotConverged { .. })))
 }
 
-/// The increment to `point` by the ends of some steps: all of them are one increment of the path.
+/// The increment to `point` in substeps that count as one increment of the path.
 fn in_steps(
     problem: &Problem,
     domain: &mut Domain,
@@ -152,7 +153,7 @@ fn in_steps(
     Ok(all)
 }
 
-/// Of a window that is too narrow, the contact with the cells around that a step needs in which others enter.
+/// Adds to the contact of a too narrow window the cells that entering cells need around them.
 fn with_room_to_enter(failure: Failure) -> Failure {
     match failure {
         Failure::Narrow(half) => Failure::Narrow(half.map(|cells| cells + AROUND)),
@@ -189,7 +190,7 @@ fn in_halves(
 }
 
 impl Increment {
-    /// Both as one: the state at the end of the second, energies and work of both, the worse
+    /// Both as one: the state at the end of the second, the sums of energies and work, the larger
     /// residuals.
     fn followed_by(self, second: &Self) -> Self {
         let (e, f) = (self.energy, second.energy);

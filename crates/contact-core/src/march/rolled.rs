@@ -1,18 +1,18 @@
-//! What the bodies bring into an increment when they roll or are stretched meanwhile.
+//! Rolling and bulk strain: the state of the last increment carried along with the material.
 //!
 //! The grid goes with the contact. When the contact has rolled on by s along x, the material that
 //! is now at x was at x + s before, and with it its displacement, its shear and its history. Bulk
-//! stresses that change meanwhile stretch the surface of body 2 by d(eps) more than that of body 1
-//! (`scene::bulk_stress`). Both enter the slip, eq. (7), through the displacement that means none:
-//! since u = u(2) - u(1), that of the material before, less d(eps_x) x and d(eps_y) y.
+//! stresses that change stretch the surface of body 2 by d(eps) more than that of body 1
+//! (`scene::bulk_stress`). Both enter the slip, eq. (7), through the no-slip displacement: with u =
+//! u(2) - u(1), the last displacement of the same material less (d(eps_x) x, d(eps_y) y).
 //!
-//! Material that comes from beyond the cells has the displacement that the tractions gave it there, u(x + s) =
-//! C * t(. + s): the response to the tractions as they have rolled on, which must not leave the cells.
+//! Material from beyond the cells had the displacement u(x + s) = C * t(. + s): the response to the
+//! tractions shifted with the material, which must not leave the cells.
 //!
-//! A rotation d(phi_z) that is given moves the material on its way from x + s to x by d(phi_z) (x + s/2)
-//! along y, the motions of the bodies by d(phi_z) x: what they leave out is as if stretched besides. Of a
-//! rotation that follows from M_z it is left out: with the shift along y given too, an error of first order
-//! in s; where that is free it takes it up.
+//! A given rotation d(phi_z) moves the material on its way from x + s to x by d(phi_z) (x + s/2)
+//! along y; the rigid motion contains d(phi_z) x of it, and the difference d(phi_z) s/2 is added to
+//! the stretch. For a rotation that follows from M_z the difference is left out: an error of first
+//! order in s if the shift along y is given, none if it is free.
 
 use super::State;
 use super::domain::Geometry;
@@ -28,12 +28,12 @@ pub(super) struct Roll {
     pub(super) cells: isize,
     /// Strain d(eps_x), d(eps_y) of body 2 less that of body 1.
     strain: [f64; 2],
-    /// What a given rotation moves the rolling material along y besides \[m\].
+    /// d(phi_z) s/2 of a given rotation \[m\].
     turned: f64,
 }
 
 impl Roll {
-    /// On the way to a point.
+    /// Rolling and strain of the increment to a point.
     pub(super) fn new(problem: &Problem, state: &State, point: &LoadPoint) -> Self {
         let (scene, now, before) = (&problem.scene, &point.loads, &state.loads);
         let at = |rolled: f64| (rolled / scene.grid.dx).round() as isize;
@@ -51,12 +51,12 @@ impl Roll {
         }
     }
 
-    /// Whether the material stays where it is, unstretched.
+    /// Whether the bodies neither roll nor are stretched.
     fn rests(&self) -> bool {
         self.cells == 0 && self.strain.iter().all(|e| *e == 0.0)
     }
 
-    /// How far the stretch moves body 2 against body 1 in cell n \[m\].
+    /// Relative displacement of the bodies by the stretch in cell n \[m\].
     pub(super) fn stretch_at(&self, geometry: &Geometry, n: usize) -> [f64; 2] {
         if self.rests() {
             return [0.0; 2];
@@ -68,13 +68,13 @@ impl Roll {
         ]
     }
 
-    /// Where the material in cell n was before, if that was on the grid.
+    /// The cell in which the material of cell n was before, if on the grid.
     pub(super) fn origin(&self, geometry: &Geometry, mirror: Mirror, n: usize) -> Option<usize> {
         source(geometry, mirror, n, self.cells)
     }
 
-    /// How much wider the undeformed gap over the material in cell n is than before \[m\]; that of material from
-    /// beyond the cells is continued by the parabola through the last three.
+    /// Increase of the undeformed gap of the material in cell n \[m\]; beyond the cells the gap is
+    /// extrapolated by the parabola through the last three.
     pub(super) fn gap_at(&self, geometry: &Geometry, mirror: Mirror, n: usize) -> f64 {
         if self.cells == 0 {
             return 0.0;
@@ -99,32 +99,33 @@ impl Roll {
         h[n] - from
     }
 
-    /// Cells that a contact must be away from the border of the cells for the displacement of what rolls in.
+    /// Least distance of the contact from the border of the cells \[cells\], for the displacement
+    /// of entering material.
     pub(super) fn margin(&self) -> usize {
         self.cells.unsigned_abs()
     }
 
-    /// A field of the material, where that is now; material from beyond the grid has none.
+    /// A field carried along with the material; zero for material from beyond the cells.
     pub(super) fn field(&self, geometry: &Geometry, mirror: Mirror, field: &[f64]) -> Vec<f64> {
         rolled(geometry, mirror, field, self.cells)
     }
 }
 
-/// The last increment's state as the material brings it into this one.
+/// The state of the last increment, carried along with the material.
 pub(super) struct Rolled {
     /// Tractions and displacements of the material that is now in each cell; the displacements
     /// less the stretch.
     pub(super) interface: Interface,
     /// Its residual slip \[m\].
     pub(super) residual: [Vec<f64>; 2],
-    /// Pressure and shear of that material an increment earlier, if the contact rolled on as far in that.
+    /// Pressure and shear of that material an increment earlier, if it rolled equally far then.
     pub(super) p_before: Vec<f64>,
     pub(super) q_before: [Vec<f64>; 2],
 }
 
 impl Rolled {
-    /// `None` where the material stays where it is. Fails where the contact rolls off the cells, with the cells
-    /// between the two.
+    /// `None` without rolling and stretch. Fails, with the cells left, if the contact rolls off the
+    /// cells.
     pub(super) fn new(
         roll: &Roll,
         geometry: &Geometry,
@@ -171,12 +172,12 @@ impl Rolled {
     }
 }
 
-/// The contact would roll off the cells: so few lie between it and their border.
+/// The contact would roll off the cells.
 pub(super) struct RollsOff {
     pub(super) room: usize,
 }
 
-/// Cells along x between a contact and the border of the cells that its material rolls to.
+/// Cells along x between the contact and the border that its material moves towards.
 fn room(roll: &Roll, geometry: &Geometry, mirror: Mirror, p: &[f64]) -> usize {
     let rows = mirror.rows(geometry.grid.ny);
     let free = |column: &&[f64]| column.iter().all(|&p| p <= 0.0);

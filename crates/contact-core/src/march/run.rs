@@ -1,4 +1,4 @@
-//! The whole load path at once, and what each branch comes to.
+//! The whole load path, and the results of each branch.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -23,7 +23,7 @@ pub trait Observer {
     }
 }
 
-/// Nobody watches.
+/// The observer that does nothing.
 impl Observer for () {
     fn on_increment(&mut self, _: &March, _: &Increment) -> Result<(), Error> {
         Ok(())
@@ -36,8 +36,8 @@ pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Vec<Increment
 }
 
 impl March {
-    /// Runs through what is left of the path; returns the increments `before` and those. Fails at the end if
-    /// the contact has too few cells to mean anything ([`Reached::check`]).
+    /// Solves the rest of the path; returns the increments `before` and the new ones. Fails at the
+    /// end if the contact has too few cells ([`Reached::check`]).
     pub fn run(
         mut self,
         mut before: Vec<Increment>,
@@ -102,11 +102,12 @@ pub struct BranchSummary {
 }
 
 impl BranchSummary {
-    /// The same for people: motions and loads in the plane that the run cannot tell from zero are 0.
+    /// For display: motions and loads in the plane that are zero within the solver's tolerance
+    /// become 0.
     ///
-    /// The slip in stick cells is held to `tolerance` mu times the approach; a shift that answers to a load
-    /// is no better known, nor is a force that answers to a shift than `tolerance` mu W. The arm of rotations
-    /// and moments is the radius of the contact.
+    /// The slip of stick cells has the tolerance `tolerance` mu delta_z, and so have shifts under
+    /// given loads; forces under given shifts have `tolerance` mu W. The arm of rotations and
+    /// moments is the radius of the contact.
     #[must_use]
     pub fn told(mut self, scene: &Scene) -> Self {
         let part = scene.tolerance() * scene.friction.mu.min(1.0);

@@ -1,4 +1,4 @@
-//! What an increment is given, works on, and what solves its equations.
+//! Data of an increment, its buffers, and the solver of its equations.
 
 use super::State;
 use super::domain::Geometry;
@@ -13,7 +13,7 @@ use crate::solvers::intermediate::{
 use crate::solvers::no_slip::{Earlier, NoSlip, NoSlipTerms, Start};
 use crate::solvers::{Interface, Response};
 
-/// Why an increment has not come to its end.
+/// Why an increment failed.
 pub(super) enum Failure {
     /// The contact has these half-lengths, in cells, and the window no margin around it.
     Narrow([usize; 2]),
@@ -49,7 +49,7 @@ impl Workspace {
         }
     }
 
-    /// Takes another number of cells.
+    /// Resizes to another number of cells.
     pub(super) fn fit(&mut self, cells: usize, mu: f64) {
         if self.mu.len() != cells {
             *self = Self::new(cells, mu);
@@ -57,7 +57,7 @@ impl Workspace {
     }
 }
 
-/// What is given in an increment.
+/// Data of an increment.
 #[derive(Clone, Copy)]
 pub(super) struct Setup<'a> {
     pub(super) problem: &'a Problem,
@@ -74,12 +74,12 @@ pub(super) struct Setup<'a> {
     pub(super) mu_before: &'a [f64],
     pub(super) point: &'a LoadPoint,
     pub(super) drives: Drives,
-    /// The factor by which the change of the loads is that of the last increment, if the path goes on.
+    /// Change of the loads over that of the last increment, if the path continues in its direction.
     pub(super) goes_on: Option<f64>,
 }
 
 impl Setup<'_> {
-    /// The interface that the material brings along.
+    /// The interface after the last increment, carried along with the material.
     pub(super) fn last(&self) -> &Interface {
         self.rolled
             .map_or(&self.state.interface, |rolled| &rolled.interface)
@@ -91,7 +91,8 @@ impl Setup<'_> {
             .map_or(&self.state.residual, |rolled| &rolled.residual)
     }
 
-    /// Tractions an increment earlier, whose change of the loads this one's is so many times.
+    /// Tractions an increment earlier; `ratio` is the change of the loads over that of the last
+    /// increment.
     fn earlier(&self, ratio: f64) -> Earlier<'_> {
         let (p, q) = match self.rolled {
             Some(rolled) => (&rolled.p_before, &rolled.q_before),
@@ -100,7 +101,7 @@ impl Setup<'_> {
         Earlier::new(p, q, ratio)
     }
 
-    /// What the slip is reckoned from; with the shear an increment earlier where it is to follow its turn.
+    /// The start of the slip increment; with the earlier tractions if the turn of the shear counts.
     fn start(&self, turns: bool) -> Start<'_> {
         let turns = turns && self.problem.plan.methods.turning;
         Start {
@@ -124,20 +125,20 @@ impl Setup<'_> {
 /// A solution of an increment.
 pub(super) type Solution = (Interface, AlternationInfo);
 
-/// What solves the equations of an increment.
+/// The solver of the equations of an increment.
 pub(super) struct Solver<'a> {
     pub(super) response: Response<'a>,
     pub(super) no_slip: &'a mut NoSlipTerms,
     pub(super) workspace: &'a mut AlternationWorkspace,
 }
 
-/// What one solution of the equations is asked for.
+/// One set of equations of an increment.
 pub(super) struct Asked<'a> {
     /// Gap between the undeformed surfaces \[m\].
     pub(super) h_init: &'a [f64],
     /// Share of the tolerance.
     pub(super) share: f64,
-    /// Whether the slip follows the turn of the shear.
+    /// Whether the turn term t of u_0 is computed.
     pub(super) turns: bool,
     /// Motion of cells before they enter the contact \[m\].
     pub(super) entry: Option<&'a [Vec<f64>; 2]>,
@@ -180,7 +181,7 @@ impl Solver<'_> {
         }
     }
 
-    /// Bodies that nothing presses together carry nothing: their undeformed surfaces just touch.
+    /// No tractions: the undeformed surfaces just touch.
     pub(super) fn apart(&mut self, setup: &Setup<'_>, touching: f64) -> Solution {
         let apart = Interface::unloaded(setup.geometry.h_init.len());
         let [_, tilts @ ..] = setup.drives.normal.given;

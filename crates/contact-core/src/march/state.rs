@@ -1,4 +1,4 @@
-//! All that the next increment depends on.
+//! The state on which the next increment depends.
 
 use serde::{Deserialize, Serialize};
 
@@ -27,24 +27,24 @@ pub struct State {
     pub slip_length: Vec<f64>,
     /// Energy dissipated per area over the path \[J/m^2\].
     pub dissipated: Vec<f64>,
-    /// What the last increment added to the history that friction depends on \[m, J/m^2\]; zero where it does not.
+    /// Increment of the history that friction depends on, in the last increment \[m, J/m^2\]; zero
+    /// without one.
     pub(crate) history_step: Vec<f64>,
     /// Work of the applied forces over the path \[J\].
     pub work: f64,
     /// Area of the cells that did not slip in the last increment \[m^2\].
     pub(crate) without_slip: f64,
-    /// Cells that slip at the limit of friction in the last increment by less than it can tell: they count as
+    /// Cells at the limit of friction in the last increment (`accounts::areas`): they count as
     /// sticking.
     pub(crate) at_limit: Vec<bool>,
-    /// How far the cells beyond the window are at least from overlapping \[m\]; zero where that is not
-    /// known.
+    /// Lower bound of the gap beyond the window \[m\]; zero if unknown.
     pub(crate) clear: f64,
     /// Pressure before the last increment \[Pa\].
     pub(crate) p_before: Vec<f64>,
     /// Shear before the last increment \[Pa\].
     pub(crate) q_before: [Vec<f64>; 2],
-    /// Residual slip of the last increment, what the solver left within its tolerance of slip that should be
-    /// zero \[m\]: the next one corrects it.
+    /// Residual slip of the last increment: slip that should be zero, within the solver's tolerance
+    /// \[m\]. The next increment corrects it.
     pub(crate) residual: [Vec<f64>; 2],
     /// Change of the loads in the last increment.
     pub(crate) step: Loads,
@@ -79,7 +79,7 @@ impl State {
         }
     }
 
-    /// Whether it is one of that grid: a window in its middle, and fields that fill this.
+    /// Whether it fits a grid: a window in its middle, and fields of its size.
     pub(crate) fn fits(&self, grid: &Grid, mirror: Mirror) -> bool {
         let within = |n: usize, whole: usize| n > 0 && n <= whole && (whole - n).is_multiple_of(2);
         let (nx, ny) = self.window;
@@ -108,8 +108,8 @@ impl State {
         [0, 1, 2].map(|k| motions[k] * arms.unit(k))
     }
 
-    /// The factor by which the change of the loads to a point is that of the last increment, if the path
-    /// goes on.
+    /// Change of the loads to a point over that of the last increment, if the path continues in its
+    /// direction.
     pub(super) fn going_on(&self, point: &LoadPoint) -> Option<f64> {
         let step = point.loads.since(&self.loads, self.motion.motions());
         step.along(&self.step).filter(|_| self.increments > 1)

@@ -9,14 +9,16 @@ use std::time::{Duration, Instant};
 
 use rayon::Yield;
 
-/// How long the work waits for the other threads to come.
+/// How long `work` waits for the other threads.
 const PATIENCE: Duration = Duration::from_micros(100);
 
-/// Does the work on a thread of the pool while the others look for parts of it without pause.
+/// Runs `work` on a thread of the pool while the other threads poll for its parallel parts instead
+/// of sleeping.
 ///
-/// A thread that does not come in time, being busy with other work of the pool, stays out: it might
-/// else begin to watch in the middle of a part of this work, which would wait for it for ever. So
-/// whatever a watcher holds up was begun before the work it watches, and no two wait for each other.
+/// A thread that is busy with another job and does not arrive within [`PATIENCE`] is left out.
+/// Arriving later it might start to poll from inside a part of this `work` (by stealing the polling
+/// job): that part would wait for `work` to end, and `work` for that part. With this rule a polling
+/// thread suspends only jobs that began before `work`, so that no cycle of waiting can form.
 pub(super) fn with_busy_threads<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     let watchers: Vec<_> = (1..rayon::current_num_threads())
         .map(|_| AtomicBool::new(false))

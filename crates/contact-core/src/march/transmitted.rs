@@ -5,7 +5,8 @@ use crate::cells::sums;
 use crate::scene::{LoadPoint, Loads};
 use crate::solvers::Interface;
 
-/// The loads of an increment to `point`: those given, and for given motions what the tractions come to.
+/// The loads of an increment to `point`: those given, and for given motions the resultants of the
+/// tractions.
 pub(super) fn transmitted(setup: &Setup<'_>, point: &LoadPoint, now: &Interface) -> Loads {
     let (problem, arms) = (setup.problem, &setup.geometry.arms);
     let cell_area = problem.cell_area();
@@ -17,7 +18,7 @@ pub(super) fn transmitted(setup: &Setup<'_>, point: &LoadPoint, now: &Interface)
     let motions = given.motions();
     let transmitted = std::array::from_fn(|k| match motions[k] {
         None => forces[k],
-        // The other half has the opposite.
+        // The mirrored half has the opposite sign.
         Some(_) if problem.is_odd(k) => 0.0,
         Some(_) => sums[k / 3][k % 3] * cell_area * arms.unit(k),
     });

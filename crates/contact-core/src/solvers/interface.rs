@@ -1,4 +1,4 @@
-//! What the bodies do to each other at the interface, and how the surfaces answer.
+//! Tractions at the interface and the displacements of the surfaces.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +21,7 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// Nothing acts.
+    /// Without tractions.
     pub fn unloaded(cells: usize) -> Self {
         let field = || vec![0.0; cells];
         Self {
@@ -33,7 +33,7 @@ impl Interface {
         }
     }
 
-    /// Every field changed to another one.
+    /// Applies a function to every field.
     pub(crate) fn map(
         &self,
         field: impl Fn(&[f64]) -> Vec<f64>,
@@ -54,7 +54,7 @@ impl Interface {
         [&self.q[0], &self.q[1], &self.p]
     }
 
-    /// What the tangential solvers work on.
+    /// The unknowns of the tangential solvers.
     pub(super) fn shear(&mut self) -> Shear<'_> {
         let ([q_x, q_y], [u_x, u_y]) = (&mut self.q, &mut self.u);
         Shear {
@@ -64,8 +64,8 @@ impl Interface {
         }
     }
 
-    /// Computes the displacements from the tractions, to all digits; those along the surface only with
-    /// `shear` or where pressure causes them.
+    /// Computes the displacements from the tractions in double precision; the tangential ones only
+    /// with `shear` or where pressure causes them.
     pub(crate) fn evaluate(&mut self, response: &mut Response<'_>, shear: bool) {
         let tractions = Tractions {
             q_x: shear.then_some(&self.q[0][..]),

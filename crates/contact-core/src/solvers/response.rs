@@ -1,4 +1,4 @@
-//! What the solvers ask of the bodies: displacements under tractions, and a guess of the inverse.
+//! The bodies as the solvers know them: displacements under tractions, and an approximate inverse.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -15,9 +15,10 @@ pub struct Response<'a> {
     pub stop: Option<&'a AtomicBool>,
     /// Transforms of the operator after which the iterations end.
     pub last_transform: usize,
-    /// Whether changes of the tractions are answered with all digits too.
+    /// Whether responses to changes of the tractions are computed in double precision too.
     pub exact: bool,
-    /// Sum of the squares of the changes that have been added up since the last evaluation \[Pa^2\].
+    /// Sum of the squares of the changes whose responses have been added since the last full
+    /// evaluation \[Pa^2\].
     pub squares: f64,
 }
 
@@ -40,8 +41,9 @@ impl<'a> Response<'a> {
         raised || self.op.transforms() >= self.last_transform
     }
 
-    /// What the displacements may miss by the changes that they are made of \[m\]; zero where all have
-    /// all digits. Each change misses a part of its size, whatever is left of it by those that follow.
+    /// Estimated rounding error of the displacements \[m\]: `rounding` times the root of the sum of
+    /// the squared changes, since each response has a relative error of its own; zero in double
+    /// precision.
     pub(crate) fn rounded(&self) -> f64 {
         if self.exact {
             0.0
@@ -50,12 +52,12 @@ impl<'a> Response<'a> {
         }
     }
 
-    /// Takes note of a change that displacements have followed, the sum of its squares \[Pa^2\].
+    /// Adds the sum of squares of a change of the tractions \[Pa^2\] to the estimate of rounding.
     pub(crate) fn changed(&mut self, squares: f64) {
         self.squares += squares;
     }
 
-    /// The displacements under a change of the tractions, which are added up.
+    /// The displacements under a change of the tractions; counted for rounding.
     pub(crate) fn respond(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>) {
         let parts = [tractions.q_x, tractions.q_y, tractions.p];
         let squares = parts.into_iter().flatten().map(|part| dot(part, part));
@@ -71,7 +73,7 @@ impl<'a> Response<'a> {
         }
     }
 
-    /// u_z under a change of p alone; whoever adds it up, or a multiple, notes the change.
+    /// u_z under a change of p alone; the caller counts it for rounding ([`Self::changed`]).
     pub(crate) fn normal(&mut self, p: &[f64], u_z: &mut [f64]) {
         let tractions = Tractions {
             p: Some(p),
@@ -86,7 +88,8 @@ impl<'a> Response<'a> {
         );
     }
 
-    /// u_x, u_y under a change of shear alone; whoever adds them up, or a multiple, notes the change.
+    /// u_x, u_y under a change of shear alone; the caller counts it for rounding
+    /// ([`Self::changed`]).
     pub(crate) fn tangential(&mut self, q: [&[f64]; 2], u: [&mut [f64]; 2]) {
         let [u_x, u_y] = u;
         let tractions = Tractions {
@@ -102,7 +105,7 @@ impl<'a> Response<'a> {
         self.answer(tractions, displacements);
     }
 
-    /// u_z under a change of shear alone, which is added up.
+    /// u_z under a change of shear alone; counted for rounding.
     pub(crate) fn normal_under_shear(&mut self, q: [&[f64]; 2], u_z: &mut [f64]) {
         let tractions = Tractions {
             q_x: Some(q[0]),

@@ -1,29 +1,31 @@
-//! Areas of the contact and of the stick zone, with the cells that their borders go through.
+//! Areas of the contact and of the stick zone, with the parts of the cells that their borders
+//! cross.
 //!
-//! With the distance d inwards from the rim the pressure grows like d^(1/2 + e), or like d on a layer
-//! thinner than the cells; and mu p - q . t, t being the direction of the shear where cells slip, like
-//! d^(1/2) from the border of a stick zone that shrinks, like d^(3/2) from that of one that grows. A power
-//! of either, the level f, vanishes linearly:
+//! The pressure grows like d^(1/2 + e) with the distance d inwards from the rim, or like d on a
+//! layer thinner than the cells. The shortfall mu p - q . t, t being the direction of the shear in
+//! the slip cells, grows like d^(1/2) from the border of a stick zone that shrinks and like d^(3/2)
+//! from that of one that grows. A power of either, the level f, vanishes linearly at the border:
 //!
 //! ```text
 //! f = b_1 d + b_2 d^2 + ...,   f = p^(2/(1 + 2 e)) or (mu p - q . t)^2,   tan(pi e) = beta q_n/p
 //! ```
 //!
-//! with Dundurs' beta and the shear q_n towards the inside on body 2 (a rim that slides on dissimilar
-//! bodies; M. Comninou, J. Appl. Mech. 43 (1976) 631). Of the laws that may hold the one counts whose level is
-//! the straightest.
+//! with Dundurs' beta and the shear q_n towards the inside on body 2 (a rim that slides on
+//! dissimilar bodies; M. Comninou, J. Appl. Mech. 43 (1976) 631). Of the laws in question the one
+//! with the straightest level is taken.
 //!
-//! Where a stick zone grows, cells stick with the shear that they slipped with, and how they fall short of
-//! their bound depends on where the border was in every increment. There the slip s of the increment shows
-//! it, which goes like d^(3/2) from the border outwards, f = s^(2/3): the border in the middle of the
-//! increment, to second order, since what slips in all of it are the cells outside that. By the end its
-//! radius has grown by half of what it grew from the last increment.
+//! Where a stick zone grows, cells come to stick with the shear with which they slipped, and their
+//! shortfall depends on the position of the border in every increment. There the slip s of the
+//! increment is used, which grows like d^(3/2) outwards from the border: f = s^(2/3). It gives the
+//! border in the middle of the increment to second order; the radius at the end is extrapolated by
+//! half of its growth since the last increment.
 //!
-//! **Cells at the limit.** Where a cycle comes back to the shear that an earlier one left, cells reach their bound
-//! and do not slip: what they move by is what the solver leaves, and whether they count among the cells that slip
-//! would be left to rounding. A cell that slips by less than that, or by less than [`TELLS`] of the most, counts as
-//! sticking where such cells are more than one abreast: a border that moves leaves fewer of them. The border
-//! beside them is where the slip of the others vanishes.
+//! **Cells at the limit.** Where a cycle returns to the shear of an earlier one, cells reach their
+//! bound without slipping. Their computed slip is within the solver's tolerance, and rounding would
+//! decide whether they count as slipping. A cell whose slip is below that tolerance, or below
+//! [`TELLS`] times the largest slip, counts as sticking where such cells lie more than one abreast;
+//! a moving border leaves a single row. The border of the stick zone beside them is where the slip
+//! of the other cells vanishes.
 
 use super::energy::slip_of;
 use crate::cells::{Lattice, size};
@@ -34,17 +36,18 @@ use crate::solvers::no_slip::NoSlipTerms;
 use crate::solvers::{Interface, friction_bound};
 use crate::zones::{Edge, Level, Line, Power, SHRINKS, STICK, Stencil, cells_per_radius};
 
-/// Cells across a slip ring on dissimilar bodies up to which its rim is continued from cells that stick
-/// as well, whose pressure follows another law: fewer cannot show it. In wider ones all count but the
-/// innermost, next to where that law begins, and no fewer than leave two after those that are skipped.
+/// The rim of a slip ring on dissimilar bodies, n slip cells wide: for n > RING the pressure is
+/// extrapolated from the outermost max(n - 1, FEWEST) cells of a line, that is from slip cells but
+/// for the innermost, and from two at least besides those that the stencil skips. For n <= RING it
+/// is extrapolated from all cells of the line, though those that stick follow another law.
 const RING: usize = 3;
 const FEWEST: usize = 4;
-/// Part of the bound that a cell beside them lacks at most to be at the limit too.
+/// A sticking cell beside cells at the limit is at the limit too if |q| > (1 - REACHES) mu p.
 const REACHES: f64 = 5e-3;
-/// Largest e of the law of a rim: that of mu beta = 3.
+/// Largest |e| of the law of a rim, reached at mu beta = tan(0.4 pi) = 3.1.
 const STEEPEST: f64 = 0.4;
-/// Part of the largest slip of an increment below which a cell does not slip. Slip rises like d^(3/2) from the border of
-/// a zone: this leaves 1 % of the width of a ring.
+/// Slip below TELLS times the largest of the increment counts as none. Slip grows like d^(3/2) from
+/// the border of a stick zone: this moves the border by TELLS^(2/3) = 1 % of the width of the ring.
 const TELLS: f64 = 1e-3;
 
 /// Areas, in kept cells.
@@ -60,7 +63,7 @@ pub(super) struct Areas {
     pub(super) at_limit: Vec<bool>,
 }
 
-/// Of a solved increment.
+/// The areas at the end of a solved increment.
 pub(super) fn areas(
     setup: &Setup<'_>,
     no_slip: &NoSlipTerms,
@@ -85,7 +88,7 @@ pub(super) fn areas(
             at_limit: cells.at_limit,
         };
     }
-    // Without a limit no cell is near its bound: whole cells count.
+    // With mu = infinity no cell is near its bound: whole cells count.
     let border = if partial && setup.problem.scene.friction.mu.is_finite() {
         cells.stick_border(&rim, slip)
     } else {
@@ -108,15 +111,15 @@ pub(super) fn areas(
     }
 }
 
-/// The area of a zone whose border goes through the cells `edges`.
+/// The area of a zone whose border crosses the cells `edges`.
 fn area(zone: &[bool], edges: &[(usize, Edge)]) -> f64 {
     let whole = zone.iter().filter(|&&inside| inside).count() as f64;
     let partial = |(n, edge): &(usize, Edge)| edge.share() - f64::from(u8::from(zone[*n]));
     whole + edges.iter().map(partial).sum::<f64>()
 }
 
-/// The cells among those `marked` as slipping that slip by less than an increment can tell, given the slip of a cell
-/// \[m\].
+/// The cells `marked` as slipping that are at the limit of friction (see above), given the slip of
+/// a cell \[m\].
 fn at_limit(
     setup: &Setup<'_>,
     lattice: Lattice,
@@ -134,7 +137,7 @@ fn at_limit(
         .tolerance
         .max(TELLS * most);
     let tells: Vec<bool> = slips.iter().map(|&slip| slip > told).collect();
-    // What has no friction has no limit either: it slips freely.
+    // Cells without friction slip freely: they have no limit.
     let hardly = |n: usize| marked[n] && !tells[n] && setup.mu[n] > 0.0;
     if !(0..marked.len()).any(hardly) {
         return vec![false; marked.len()];
@@ -146,7 +149,7 @@ fn at_limit(
         .collect()
 }
 
-/// The kept cells by what they do.
+/// The kept cells by state: contact, stick, slip, at the limit.
 struct Cells<'a> {
     setup: &'a Setup<'a>,
     now: &'a Interface,
@@ -159,7 +162,7 @@ struct Cells<'a> {
 }
 
 impl<'a> Cells<'a> {
-    /// Given the slip of a cell in the increment \[m\].
+    /// From the slip of each cell in the increment \[m\].
     fn new(setup: &'a Setup<'_>, now: &'a Interface, slip: impl Fn(usize) -> f64) -> Self {
         let contact: Vec<bool> = now.p.iter().map(|&p| p > 0.0).collect();
         let lattice = Lattice::new(&setup.geometry.grid, setup.problem.plan.mirror);
@@ -171,7 +174,7 @@ impl<'a> Cells<'a> {
             .map(|(&s, &l)| s && !l)
             .collect();
         if at_limit.contains(&true) {
-            // Cells beside them that have come to the limit and stick.
+            // Sticking cells beside them that have reached the limit.
             let reaches = |n: usize| {
                 let bound = friction_bound(setup.mu[n], now.p[n]);
                 contact[n]
@@ -208,7 +211,7 @@ impl<'a> Cells<'a> {
                 line.shorten((ring - 1).max(FEWEST));
             }
             let q_n = now.q[0][at] * line.inwards[0] + now.q[1][at] * line.inwards[1];
-            // A rim that never slides has no such law.
+            // With mu = infinity the rim does not slide: e = 0.
             let slides = scene.friction.mu.is_finite();
             let ratio = if slides { q_n / now.p[at] } else { 0.0 };
             let e = ((beta * ratio).atan() / std::f64::consts::PI).clamp(-STEEPEST, STEEPEST);
@@ -273,15 +276,15 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// What the shear of cell n falls short of its bound along that of a cell that slips \[Pa\].
+    /// mu p - q . t of cell n \[Pa\], t being the direction of the shear of the cell `slipping`.
     fn shortfall(&self, at: &Interface, n: usize, slipping: usize) -> f64 {
         let q = [self.now.q[0][slipping], self.now.q[1][slipping]];
         let [x, y] = q.map(|q_k| q_k / size(q).max(f64::MIN_POSITIVE));
         friction_bound(self.setup.mu[n], at.p[n]) - (at.q[0][n] * x + at.q[1][n] * y)
     }
 
-    /// Whether the stick zone has grown at a cell in it: that has come to stick, but for a reversal, or falls
-    /// further behind its bound.
+    /// Whether the stick zone has grown at a cell in it: the cell has come to stick, other than by
+    /// a reversal, or its shortfall has increased.
     fn grew(&self, stuck: usize, slipping: usize) -> bool {
         let before = self.setup.last();
         let short = |at| self.shortfall(at, stuck, slipping);

@@ -8,9 +8,9 @@ use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::{NoSlipTerms, slip};
 use crate::solvers::{Interface, friction_bound};
 
-/// Energies with mid-increment tractions, an identity for any symmetric C: the sum of mean
-/// traction times change of displacement is the change of the elastic energy. What friction
-/// takes is not reckoned with the mean shear; the difference stands apart.
+/// Energies by the trapezoidal rule, exact for any symmetric C: the sum of mean traction times
+/// change of displacement is the change of the elastic energy. The dissipated energy is not
+/// computed with the mean shear; the difference is returned as `quadrature`.
 pub(super) fn energies(
     setup: &Setup<'_>,
     no_slip: &NoSlipTerms,
@@ -98,12 +98,12 @@ pub(super) fn slip_of(
     ([moved[0] - entered[0], moved[1] - entered[1]], entered)
 }
 
-/// Energy per area that friction takes from a cell by its `slip` against the final shear, with the friction
-/// coefficients at the end and at the start \[J/m^2\]: a cell slips at its bound, so it is the mean bound of the increment times the slip,
-/// where the trapezoidal rule takes a mean of the shear before slip and in slip. A single increment
-/// is exact while the pressure stays. It is not negative because slip opposes the shear, to the
-/// tolerance. A cell that leaves the contact slips under half of the shear that it carried, if it
-/// gives way to it; how it moves once it is free is no slip.
+/// Energy per area dissipated in a cell by its `slip`, with the friction coefficients at the end
+/// and at the start \[J/m^2\]. A cell slips at its bound: the energy is the mean bound of the
+/// increment times the slip against the final shear, exact for constant pressure in an increment of
+/// any size (the trapezoidal rule would mix in the shear before the onset). It is not negative, up
+/// to the tolerance, since slip opposes the shear. A cell that leaves the contact dissipates half
+/// of its last shear times its slip, if it moves against that shear.
 pub(super) fn dissipated(
     [mu, mu_before]: [f64; 2],
     now: &Interface,

@@ -1,4 +1,4 @@
-//! The state that an increment leaves: what the material of each cell has been through.
+//! The state after an increment, with the history of the material in each cell.
 
 use super::energy::{dissipated, slip_of};
 use crate::cells::{set, size};
@@ -11,7 +11,7 @@ use crate::scene::History;
 use crate::solvers::Interface;
 use crate::solvers::no_slip::{NoSlipTerms, not_opposite, slip};
 
-/// What did not slip in an increment.
+/// The cells that did not slip in an increment.
 pub(in crate::march) struct Stuck {
     /// Area of the cells that did not slip \[m^2\].
     pub(in crate::march) area: f64,
@@ -19,7 +19,7 @@ pub(in crate::march) struct Stuck {
     pub(in crate::march) at_limit: Vec<bool>,
 }
 
-/// What an increment was computed with, the state apart.
+/// Inputs of an increment other than the state.
 pub(in crate::march) struct Closing<'a> {
     pub(in crate::march) geometry: &'a Geometry,
     pub(in crate::march) mirror: Mirror,
@@ -27,7 +27,7 @@ pub(in crate::march) struct Closing<'a> {
     pub(in crate::march) rolled: Option<&'a Rolled>,
     /// Friction coefficients at the end and at the start.
     pub(in crate::march) mu: [&'a [f64]; 2],
-    /// What friction depends on, if on the history of cells.
+    /// The history that friction depends on, if any.
     pub(in crate::march) history: Option<History>,
     pub(in crate::march) no_slip: &'a NoSlipTerms,
     /// Whether the residual slip is corrected in the next increment.
@@ -35,7 +35,7 @@ pub(in crate::march) struct Closing<'a> {
     /// d(delta_x), d(delta_y), d(phi_z) times the length \[m\].
     pub(in crate::march) shift: [f64; 3],
     pub(in crate::march) stuck: Stuck,
-    /// How far the cells beyond the window stay clear at least \[m\].
+    /// Lower bound of the gap of the cells beyond the window \[m\].
     pub(in crate::march) clear: f64,
 }
 
@@ -73,7 +73,7 @@ pub(in crate::march) fn close(
     state.increments += 1;
 }
 
-/// What a solution adds to the history of each cell that friction depends on \[m, J/m^2\].
+/// Increment of the history that friction depends on, in each cell \[m, J/m^2\].
 pub(in crate::march) fn growth(
     setup: &Setup<'_>,
     no_slip: &NoSlipTerms,
@@ -107,8 +107,8 @@ fn of_history(state: &State, history: Option<History>) -> Option<&[f64]> {
     }
 }
 
-/// Keeps the slip that should not be, for the next increment to correct; a body that slides may
-/// have any shift beyond the incipient one.
+/// Stores the residual slip, which the next increment corrects; none in gross slip, where the shift
+/// is arbitrary beyond the incipient one.
 fn keep_residual(state: &mut State, status: Status, now: &Interface, closing: &Closing<'_>) {
     let keeps = closing.keeps_residual && status != Status::GrossSlip;
     let arms = &closing.geometry.arms;
@@ -131,7 +131,7 @@ fn keep_residual(state: &mut State, status: Status, now: &Interface, closing: &C
     });
 }
 
-/// Adds the slip of the increment and what friction took to the histories of the cells.
+/// Adds the slip and the dissipated energy of the increment to the histories of the cells.
 fn add_slip(state: &mut State, last: &Interface, closing: &Closing<'_>) {
     let now = &state.interface;
     let before = closing.rolled.map_or(last, |rolled| &rolled.interface);

@@ -1,4 +1,4 @@
-//! The accounts of an increment: motion, loads, areas, energies; and the state that it leaves.
+//! Results of an increment: motion, loads, areas, energies; and the state after it.
 
 mod areas;
 mod energy;
@@ -14,7 +14,7 @@ use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::NoSlipTerms;
 
-/// What a solved increment comes to, and what did not slip in it.
+/// The results of a solved increment, and the cells that did not slip in it.
 pub(super) fn draw_up(
     setup: &Setup<'_>,
     no_slip: &NoSlipTerms,
@@ -45,7 +45,7 @@ pub(super) fn draw_up(
         status: match (contact, slipping) {
             (0, _) => Status::NoContact,
             (_, 0) => Status::FullStick,
-            // Below the limit of friction the bodies do not slide, though every cell may slip.
+            // Below the limit of friction the bodies do not slide, even if every cell slips.
             (contact, slipping) if contact == slipping && slides(setup, info) => Status::GrossSlip,
             _ => Status::PartialSlip,
         },
@@ -71,14 +71,14 @@ pub(super) fn draw_up(
     (increment, stuck)
 }
 
-/// Whether bodies whose cells all slip slide: below the limit of friction the forces hold them where they are.
+/// Whether bodies slide whose cells all slip: under given forces only at the limit of friction.
 fn slides(setup: &Setup<'_>, info: &AlternationInfo) -> bool {
     let given = setup.point.loads.given;
     let turns = given.phi_z.is_some_and(|to| to != setup.state.motion.phi_z);
     info.uses_all_friction() || given.delta_x.is_some() || given.delta_y.is_some() || turns
 }
 
-/// The rigid motion at the end of the increment; what is given is kept as it was said.
+/// The rigid motion at the end of the increment; given motions to the last bit.
 fn motion(setup: &Setup<'_>, info: &AlternationInfo) -> Motion {
     let (last, arms) = (&setup.state.motion, &setup.geometry.arms);
     let given = &setup.point.loads.given;

@@ -1,4 +1,4 @@
-//! The cells beyond the window: whether they stay clear of each other.
+//! The cells beyond the window: whether the surfaces overlap there.
 
 use std::sync::PoisonError;
 
@@ -12,9 +12,10 @@ use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 
 impl Domain {
-    /// How far the cells beyond the window are at least from overlapping in this solution \[m\]; `None`
-    /// where some do overlap. What an earlier check has found is good until the tractions have changed by
-    /// enough to close it. Fails where the run is stopped meanwhile.
+    /// Lower bound of the gap beyond the window in this solution \[m\]; `None` if cells overlap
+    /// there. The bound of an earlier increment, less the largest closing since
+    /// ([`Self::closes_beyond`]), is used as long as it is positive; then the gap is computed anew.
+    /// Fails if the run is stopped.
     pub(in crate::march) fn clear_beyond(
         &self,
         problem: &Problem,
@@ -65,8 +66,9 @@ impl Domain {
         Ok((clear >= 0.0).then_some(clear))
     }
 
-    /// What the gap closes by at most beyond the window from the last increment to this solution \[m\]:
-    /// no displacement changes by more than the norm of a kernel times that of the change of traction.
+    /// Upper bound of the closing of the gap beyond the window since the last increment \[m\], by
+    /// Cauchy and Schwarz: a displacement changes by at most |kernel| |change of traction|, plus
+    /// the rigid motion.
     fn closes_beyond(
         &self,
         problem: &Problem,

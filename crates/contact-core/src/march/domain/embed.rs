@@ -1,11 +1,11 @@
-//! Fields in another window around the same middle.
+//! Fields transferred to another window with the same centre.
 
 use crate::march::State;
 use crate::plan::Mirror;
 use crate::solvers::Interface;
 
-/// A field of kept cells on more cells around the same middle, `elsewhere` on the new ones; or on fewer.
-/// Shapes are cells along x and kept rows.
+/// A field of kept cells in a wider window with the same centre, `elsewhere` in the new cells; or
+/// cut to a narrower one. Shapes are cells along x and kept rows.
 pub(super) fn embedded<T: Copy>(
     field: &[T],
     from: (usize, usize),
@@ -13,13 +13,13 @@ pub(super) fn embedded<T: Copy>(
     mirror: Mirror,
     elsewhere: T,
 ) -> Vec<T> {
-    // Where the one begins in the other.
+    // Offset of the smaller window in the larger one.
     let begins =
         |from: usize, to: usize| (to.saturating_sub(from) / 2, from.saturating_sub(to) / 2);
     let (i, i_from) = begins(from.0, to.0);
     let (j, j_from) = match mirror {
         Mirror::None => begins(from.1, to.1),
-        // The half begins in the middle.
+        // The kept half begins at the middle row.
         Mirror::Y => (0, 0),
     };
     let (columns, rows) = (from.0.min(to.0), from.1.min(to.1));
@@ -31,7 +31,8 @@ pub(super) fn embedded<T: Copy>(
     embedded
 }
 
-/// An interface in another window; in a wider one the displacements are not those of the new cells.
+/// An interface in another window; in a wider one the displacements of the new cells are not
+/// computed.
 pub(super) fn interface(
     now: &Interface,
     from: (usize, usize),
@@ -44,7 +45,7 @@ pub(super) fn interface(
     )
 }
 
-/// A state in another window; in a wider one the displacements are not those of the new cells.
+/// A state in another window; in a wider one the displacements of the new cells are not computed.
 pub(super) fn state(
     state: &State,
     from: (usize, usize),

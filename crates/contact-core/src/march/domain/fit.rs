@@ -1,4 +1,4 @@
-//! How wide the window is: for the contact, what it is expected to grow by, and a margin.
+//! Width of the window: the contact, its expected growth, and a margin.
 
 use std::sync::PoisonError;
 
@@ -14,13 +14,13 @@ use crate::solvers::Response;
 
 /// Least cells between the contact and the border of the window.
 const MARGIN: usize = 2;
-/// What the contact is expected to grow by until the next, wider window, if the loads still grow by as
-/// much.
+/// Growth of the contact for which a window is widened in advance, at most.
 const GROWTH: f64 = 1.08;
 
 impl Domain {
-    /// Puts the state into a window wide enough for the contact that is expected in the increment to
-    /// `point`; returns it as it was in another one. Fails where the run is stopped meanwhile; nothing is changed then.
+    /// Moves the state into a window wide enough for the contact expected in the increment to
+    /// `point`. Returns the state in the former window if that was another. Fails, without a
+    /// change, if the run is stopped.
     pub(in crate::march) fn fit(
         &mut self,
         problem: &Problem,
@@ -56,15 +56,16 @@ impl Domain {
         }
         if let Some(shape) = self.without_growth(problem, state, point, half) {
             let moved = self.move_into(problem, state, shape)?;
-            // What was found clear lay beyond the wider one.
+            // The known bound holds beyond the wider window only.
             state.clear = 0.0;
             return Ok(moved);
         }
         Ok(None)
     }
 
-    /// The shape of a narrower window once the last cells have entered: if the last increment pressed harder than any
-    /// later one will, and no cell beyond it has been in contact.
+    /// The shape of a narrower window once the contact no longer grows: W grew in the last
+    /// increment, will not grow on the rest of the path, and no cell outside the narrower window
+    /// has been in contact.
     fn without_growth(
         &self,
         problem: &Problem,
@@ -89,8 +90,8 @@ impl Domain {
             .then_some(shape)
     }
 
-    /// Whether the window has no margin around a contact of these half-lengths \[cells\] in an increment
-    /// to `point`.
+    /// Whether the window lacks the margin around a contact of these half-lengths \[cells\] in an
+    /// increment to `point`.
     pub(in crate::march) fn is_narrow(
         &self,
         problem: &Problem,
@@ -104,9 +105,9 @@ impl Domain {
         narrow(half[0], now.0, whole.0) || narrow(half[1], now.1, whole.1)
     }
 
-    /// Puts the state into a window wide enough for a contact of these half-lengths \[cells\] and what it
-    /// is expected to grow by on the rest of the path; into the whole grid without them. Returns the state as it
-    /// was in another window.
+    /// Moves the state into a window wide enough for a contact of these half-lengths \[cells\] and
+    /// its expected growth on the rest of the path; into the whole grid if none are given. Returns
+    /// the state in the former window if that was another.
     pub(in crate::march) fn widen(
         &mut self,
         problem: &Problem,
@@ -125,8 +126,8 @@ impl Domain {
         self.move_into(problem, state, shape_for(whole, wider))
     }
 
-    /// Lays out a window of another shape and puts the state into it; where the run is stopped meanwhile
-    /// nothing is changed. Returns the state as it was in another window.
+    /// Builds a window of another shape and moves the state into it; without a change if the run is
+    /// stopped. Returns the state in the former window if that was another.
     fn move_into(
         &mut self,
         problem: &Problem,
@@ -150,7 +151,7 @@ impl Domain {
         Ok(self.embed(problem, state))
     }
 
-    /// Puts a state into the window, with the displacements of the cells that are new to it.
+    /// Moves a state into the window and computes the displacements of its new cells.
     fn embed(&mut self, problem: &Problem, state: &mut State) -> Option<State> {
         if state.window == self.shape() {
             return None;
@@ -179,14 +180,14 @@ impl Domain {
     }
 }
 
-/// Cells between the contact and the border of the window: those that enter it need their neighbours.
+/// Cells between the contact and the border of the window; entering cells need their neighbours.
 fn margin(problem: &Problem, state: &State, point: &LoadPoint) -> usize {
     let [within, _] = growth(problem, state, point);
     if within > 1.0 { AROUND } else { MARGIN }
 }
 
-/// What the contact is expected to grow by in an increment to `point`, and on the rest of the path:
-/// that of a sphere grows like the cube root of the force and like the root of the approach.
+/// Expected factors by which the radius grows in an increment to `point` and on the rest of the
+/// path, after Hertz: a ~ W^(1/3), a ~ delta_z^(1/2).
 fn growth(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
     let largest = problem.largest;
     let touches = state.loads.W > 0.0;

@@ -1,4 +1,4 @@
-//! The cells that are solved on: a window around the contact, cells far from it are left out.
+//! The cells that are solved for: a window around the contact.
 //!
 //! Tractions act in the contact alone, and displacements of other cells matter only where these might
 //! touch. So an increment is solved in a window around the contact, with a margin between the two, and
@@ -29,11 +29,11 @@ use crate::plan::{Half, Mirror, Plan};
 use crate::scene::{Grid, Scene};
 use crate::solvers::Response;
 
-/// Cells between the contact and the border of a window in which cells may enter: the motion of those is
-/// found from the cells so far around.
+/// Cells between the contact and the border of a window in which cells may enter: the radius within
+/// which their motion is fitted.
 pub(super) const AROUND: usize = 7;
 
-/// Where the cells are that are solved on, and what is given on them.
+/// The cells that are solved for, and the data on them.
 pub(super) struct Geometry {
     /// The cells; those of the scene's grid where nothing is left out.
     pub(super) grid: Grid,
@@ -66,9 +66,9 @@ pub(super) struct Domain {
     pub(super) window: Window,
     /// The whole grid, once it has been needed.
     pub(super) whole: Mutex<Option<Window>>,
-    /// Transforms done in windows that were given up.
+    /// Transforms done in windows that have been replaced.
     transforms: usize,
-    /// Transforms after which an increment is given up.
+    /// Transforms after which an increment has failed.
     limit: usize,
 }
 
@@ -127,12 +127,12 @@ impl Domain {
         self.limit = self.transforms() + transforms;
     }
 
-    /// Whether what was allowed is done.
+    /// Whether the allowed transforms are used up.
     pub(super) fn is_spent(&self) -> bool {
         self.transforms() >= self.limit
     }
 
-    /// The count of the window's operator at which what was allowed is done.
+    /// The count of the window's operator at which the allowed transforms are used up.
     pub(super) fn last_transform(&self) -> usize {
         let elsewhere = self.transforms() - self.window.op.transforms();
         self.limit.saturating_sub(elsewhere)
@@ -169,7 +169,7 @@ impl Domain {
         let to = (grid.nx, mirror.rows(grid.ny));
         let from = (part.0, mirror.rows(part.1));
         let mut whole = embed::interface(now, from, to, mirror);
-        // Asked for what there is, also of a run that has been stopped.
+        // Fields can be read after a stop, too.
         let lay_out = || {
             let (shape, stop) = (shape_of(grid), AtomicBool::new(false));
             let window = self.kernels.window(scene, plan, shape, &stop);
@@ -191,7 +191,7 @@ impl Domain {
     }
 }
 
-/// What a field of the kept cells of a state is on the whole grid; zero beyond its window.
+/// A field of the kept cells of a state on the whole grid; zero beyond its window.
 pub(super) fn on_grid(problem: &Problem, state: &State, field: &[f64], half: Half) -> Array2<f64> {
     let (grid, mirror) = (&problem.scene.grid, problem.plan.mirror);
     let to = (grid.nx, mirror.rows(grid.ny));
@@ -275,7 +275,7 @@ impl Geometry {
         (self.grid.nx, mirror.rows(self.grid.ny))
     }
 
-    /// What a field on the whole grid is in the window, on the kept cells.
+    /// A field on the whole grid cut to the kept cells of the window.
     pub(super) fn cut(&self, mirror: Mirror, field: &Array2<f64>) -> Vec<f64> {
         mirror.fold(&middle(field, shape_of(&self.grid)))
     }

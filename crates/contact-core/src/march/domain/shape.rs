@@ -4,7 +4,7 @@ use crate::convolution::good_size;
 use crate::plan::Plan;
 use crate::scene::{Grid, Scene};
 
-/// Part of the grid's length from which a window is not worth it.
+/// Windows longer than this part of the grid are replaced by the whole grid.
 const WHOLE: f64 = 0.9;
 /// The least cells along an axis of a window.
 const LEAST: usize = 32;
@@ -23,8 +23,8 @@ pub(super) fn shape_of(grid: &Grid) -> (usize, usize) {
     (grid.nx, grid.ny)
 }
 
-/// The shape of a window in which so many cells along x and y fit, the longest that transforms take
-/// no longer for.
+/// The shape of a window for so many cells along x and y: the largest whose transforms take no
+/// longer.
 pub(super) fn shape_for(grid: &Grid, cells: [usize; 2]) -> (usize, usize) {
     let along = |whole: usize, cells: usize| {
         // A window of an odd grid is odd, too, so that it has the same middle.

@@ -1,9 +1,10 @@
-//! What the solutions of an increment are asked for: on all cells, on the old cells alone, with new ones.
+//! The equations of an increment: on all cells, on the old contact alone, or with entering cells.
 
 use crate::march::setup::{Asked, Setup};
 
-/// Shares of the tolerance that increments in which cells enter are solved to, on the old cells alone
-/// and with the new ones: where these stick their residual slip stays.
+/// Tolerances of increments in which cells enter, over that of others: on the old contact alone
+/// (KEPT) and with the new cells (ENTERED). The residual slip of new cells that stick remains to
+/// the end.
 const KEPT_SHARE: f64 = 0.5;
 const ENTERED_SHARE: f64 = 0.25;
 
@@ -17,7 +18,7 @@ pub(super) fn whole<'a>(setup: &'a Setup<'_>) -> Asked<'a> {
     }
 }
 
-/// The old cells alone: the others are `apart` \[m\].
+/// The old contact alone: the gap `apart` keeps all other cells open \[m\].
 pub(super) fn kept(apart: &[f64]) -> Asked<'_> {
     Asked {
         h_init: apart,
@@ -27,7 +28,7 @@ pub(super) fn kept(apart: &[f64]) -> Asked<'_> {
     }
 }
 
-/// All cells, of which those outside the last contact enter it after a motion \[m\].
+/// All cells; those outside the last contact with their motion before entry \[m\].
 pub(super) fn entered<'a>(setup: &'a Setup<'_>, motion: &'a [Vec<f64>; 2]) -> Asked<'a> {
     Asked {
         h_init: &setup.geometry.h_init,

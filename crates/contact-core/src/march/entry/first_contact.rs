@@ -1,8 +1,8 @@
 //! Bodies that touch for the first time in an increment.
 //!
-//! They move rigidly before they do: the gap h_init closes by delta_z, a cell enters at
-//! theta = h_init/delta_z of the increment, and its motion is -theta d(delta), which the solution has yet
-//! to show.
+//! They move rigidly before they touch: the gap h_init closes by delta_z, a cell enters at the part
+//! theta = h_init/delta_z of the increment, and its motion before entry is -theta d(delta). The
+//! shift d(delta) is part of the solution, so that the equations are solved repeatedly.
 
 use super::asked::entered;
 use crate::error::Error;
@@ -10,13 +10,14 @@ use crate::march::setup::{Setup, Solution, Solver};
 use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 
-/// Rounds that look for the shift of bodies that touch for the first time.
+/// Most iterations for the shift.
 const ROUNDS: usize = 6;
-/// Change of that shift that ends the search, over the shift or the approach, whichever is more.
+/// Change of the shift that ends the iteration, over the larger of shift and approach.
 const SETTLED: f64 = 1e-8;
 
-/// Solves for the first contact: the shift s before the entry of the cells is that of the
-/// solution. It depends on the s assumed almost linearly, so that two solutions give the third.
+/// Solves for the first contact: finds the shift s with s = S(s), S being the shift of the solution
+/// with the entry motion of an assumed s. S is almost linear, so that a secant step from two
+/// solutions nearly always suffices.
 pub(super) fn solve_first_contact(
     setup: &Setup<'_>,
     solver: &mut Solver<'_>,
@@ -43,13 +44,13 @@ pub(super) fn solve_first_contact(
         info.add_work(&work);
         work = info;
         let misfit: [f64; 3] = std::array::from_fn(|k| info.shift[k] - assumed[k]);
-        // By symmetry the shift may be nothing but rounding.
+        // By symmetry the shift may vanish: then the approach is the scale.
         let least = setup.problem.approach;
         let settled = size(misfit) <= SETTLED * size(info.shift).max(least);
         if settled || round == ROUNDS || info.exceeds_friction() {
             return Ok((now, info));
         }
-        // Secant: the misfit falls by the part that the last change of s made of it.
+        // Secant step along the last change of s.
         let next = match last {
             Some((before, misfit_before)) => {
                 let ds: [f64; 3] = std::array::from_fn(|k| assumed[k] - before[k]);

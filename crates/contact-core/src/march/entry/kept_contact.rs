@@ -23,7 +23,7 @@ pub(super) struct KeptContact {
 }
 
 impl KeptContact {
-    /// From a solution on the old contact alone.
+    /// From a solution on the old contact.
     pub(super) fn new(setup: &Setup<'_>, kept: &Interface, info: &AlternationInfo) -> Self {
         let (geometry, mirror) = (setup.geometry, setup.problem.plan.mirror);
         let (last, arms) = (setup.last(), &geometry.arms);

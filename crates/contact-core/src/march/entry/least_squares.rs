@@ -1,11 +1,11 @@
-//! A fit of few terms to values around.
+//! Least squares of a few terms.
 
 use crate::cells::{inverse, product};
 
-/// Regularisation of the terms after the first, which few values may not determine.
+/// Relative ridge of all terms but the first, which a few values may not determine.
 pub(super) const RIDGE: f64 = 1e-6;
 
-/// Least squares of N terms, of which the first is preferred, to V kinds of values.
+/// Normal equations of N terms for V right-hand sides; the first term has no ridge.
 pub(super) struct LeastSquares<const N: usize, const V: usize> {
     gram: [[f64; N]; N],
     right: [[f64; N]; V],
@@ -19,7 +19,7 @@ impl<const N: usize, const V: usize> LeastSquares<N, V> {
         }
     }
 
-    /// One place more, where the terms and the values are these.
+    /// Adds a place with the terms and the values there.
     pub(super) fn add(&mut self, weight: f64, terms: [f64; N], values: [f64; V]) {
         for (row, term) in self.gram.iter_mut().zip(terms) {
             let weighted = weight * term;
@@ -35,7 +35,7 @@ impl<const N: usize, const V: usize> LeastSquares<N, V> {
         }
     }
 
-    /// The factors of the terms, for each kind of values.
+    /// The coefficients of the terms, for each right-hand side.
     pub(super) fn factors(&self) -> [[f64; N]; V] {
         let mut ridged = self.gram;
         for (k, row) in ridged.iter_mut().enumerate().skip(1) {
@@ -45,7 +45,7 @@ impl<const N: usize, const V: usize> LeastSquares<N, V> {
         self.right.map(|right| product(&inverse, right))
     }
 
-    /// The sum of the product of the terms with these factors and a kind of values.
+    /// Sum over the places of the terms with these coefficients times a right-hand side.
     pub(super) fn fitted(&self, factors: &[f64; N], kind: usize) -> f64 {
         let terms = factors.iter().zip(self.right[kind]);
         terms.map(|(factor, right)| factor * right).sum()

@@ -1,9 +1,9 @@
 //! Cells that come into contact within an increment, because it grows or because it rolls on.
 //!
-//! Such a cell moves freely until it touches: its slip counts from its entry, not from the start of the
-//! increment. A first solution on the old contact gives the motion of each new cell before its entry
-//! ([`KeptContact`]), which is added to the displacement that means no slip. A cell that leaves the contact
-//! needs no such term: its shear ends with its pressure.
+//! Such a cell moves freely until it touches: its slip counts from its entry, not from the start of
+//! the increment. A first solution on the old contact gives the motion of each new cell before its
+//! entry ([`KeptContact`]), which is added to the no-slip displacement u_0. A cell that leaves the
+//! contact needs no such term: its shear vanishes with its pressure.
 
 mod asked;
 mod first_contact;
@@ -21,7 +21,7 @@ use super::setup::{Setup, Solution, Solver};
 use crate::error::Error;
 use crate::solvers::Interface;
 
-/// Solves the increment from a first guess, its new cells with the motion before their entry.
+/// Solves the increment from a first guess, with the motion of new cells before their entry.
 pub(super) fn solve(
     setup: &Setup<'_>,
     solver: &mut Solver<'_>,
@@ -36,7 +36,7 @@ pub(super) fn solve(
     let (kept, info) = solve_kept(setup, solver, on_old_cells(setup, &guess))?;
     let last = setup.last();
     let motion = KeptContact::new(setup, &kept, &info).motion_before_entry(|n| last.p[n] <= 0.0);
-    // The new cells are all that is missing, unless the old ones alone had no solution.
+    // The solution on the old contact is the better guess, if there is one.
     let solved = !info.exceeds_friction() && kept.p.iter().any(|&p| p > 0.0);
     let guess = if solved { kept } else { guess };
     let (now, mut found) = solver.solve(setup, &asked::entered(setup, &motion), guess)?;
@@ -44,7 +44,7 @@ pub(super) fn solve(
     Ok((now, found))
 }
 
-/// Solves with the contact kept to its old cells: the others are far apart.
+/// Solves on the old contact: all other cells have a large gap.
 fn solve_kept(
     setup: &Setup<'_>,
     solver: &mut Solver<'_>,
@@ -60,7 +60,7 @@ fn solve_kept(
     solver.solve(setup, &asked::kept(&apart), guess)
 }
 
-/// The first guess on the old cells alone: pressure as predicted, scaled to the load, shear as it was.
+/// First guess on the old contact: the predicted pressure scaled to the load, the last shear.
 fn on_old_cells(setup: &Setup<'_>, guess: &Interface) -> Interface {
     let mut kept = setup.last().clone();
     let old = kept.p.iter().map(|&p| p > 0.0);
@@ -79,7 +79,7 @@ fn on_old_cells(setup: &Setup<'_>, guess: &Interface) -> Interface {
     kept
 }
 
-/// Whether contact grows or rolls on in the increment and it matters how a cell moved before.
+/// Whether cells enter in the increment, by growth or rolling, under shear or coupling.
 fn cells_enter(setup: &Setup<'_>) -> bool {
     let (plan, drives) = (&setup.problem.plan, &setup.drives);
     let Interface { p, q, .. } = &setup.state.interface;

@@ -1,9 +1,10 @@
 //! The motion of cells outside the contact before they enter it, from the solution on the old contact.
 //!
-//! On the old contact (eq. (5)-(8) solved with p = q = 0 in all other cells) the gap of a cell outside closes
-//! by c in the increment, and the cell moves by m relative to the rigid shift. Both depend on its distance from
-//! the edge of the contact, which approaches as cells enter: a closing dg goes with a motion (m/c) dg, with the
-//! m/c of the distance at that stage. A cell of gap g has moved before entry by
+//! On the old contact (eq. (5)-(8) solved with p = q = 0 in all other cells) the gap of a cell
+//! outside closes by c in the increment, and the cell moves by m relative to the rigid shift. The
+//! ratio m/c depends on the distance of the cell from the edge of the contact, which approaches as
+//! cells enter. While its gap closes by dg the cell moves by (m/c) dg, m/c being that of its
+//! distance at that moment. Before it enters, a cell of gap g moves by
 //!
 //! ```text
 //! M = int_0^g (m/c) dg
@@ -53,8 +54,8 @@ impl KeptContact {
         [moved(0), moved(1)]
     }
 
-    /// M of cell n from its neighbours that enter before: theirs plus the mean of both m/c times the difference
-    /// of the gaps, weighted by the squared slope of the gap.
+    /// M of cell n from its neighbours m that enter before it: M_m plus the mean of both m/c times
+    /// the difference of the gaps, averaged with the squared slope of the gap as weight.
     fn moved_farther_off(&self, n: usize, known: &[Option<[f64; 2]>]) -> [f64; 2] {
         let ratio = |n: usize| [0, 1].map(|c| self.motion[c][n] / self.closing[n]);
         let (own, gap) = (ratio(n), self.gap[n]);
@@ -79,7 +80,7 @@ impl KeptContact {
         }
     }
 
-    /// The contact as seen from the cells that enter and from the cells outside around them.
+    /// The [`View`] of the contact from the entering cells and the cells outside around them.
     fn views(
         &self,
         entering: &[usize],

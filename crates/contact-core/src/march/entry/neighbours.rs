@@ -9,7 +9,7 @@ use crate::scene::Grid;
 /// Fewest cells whose neighbours are worth a task of their own.
 pub(super) const TASK: usize = 256;
 
-/// The ways to the cells around a kept one.
+/// Offsets to the cells around a kept one.
 pub(super) struct Neighbours {
     lattice: Lattice,
     /// Whether the cells are strips of plane strain.
@@ -18,11 +18,11 @@ pub(super) struct Neighbours {
     ways: Vec<Way>,
 }
 
-/// A way to a cell.
+/// An offset.
 struct Way {
     columns: isize,
     rows: isize,
-    /// What it adds to the number of a cell, mirror images apart.
+    /// Difference of the cell numbers, if the neighbour is not a mirror image.
     step: isize,
     off: [f64; 2],
     direction: [f64; 2],
@@ -44,22 +44,22 @@ impl Way {
 #[derive(Clone, Copy)]
 pub(super) struct Neighbour {
     pub(super) cell: usize,
-    /// The way to it, in lengths of a cell.
+    /// Offset to it, in lengths of a cell.
     pub(super) off: [f64; 2],
-    /// Its square, in columns and rows.
+    /// Squared offset, in columns and rows.
     pub(super) square: isize,
-    /// The direction of the way.
+    /// Unit vector of the offset.
     pub(super) direction: [f64; 2],
     /// Its weight in a [`View`](super::view::View).
     pub(super) weight: f64,
-    /// The response u_z of one to pressure on the other, over that to its own.
+    /// C(r)/C(0): u_z of the one under pressure on the other, over that under its own.
     pub(super) response: f64,
     /// Sign of its components along y: -1 of a mirror image.
     pub(super) sign: f64,
 }
 
 impl Neighbour {
-    /// The way back.
+    /// The same pair seen from the other cell.
     pub(super) fn back(&self) -> Self {
         let back = |[x, y]: [f64; 2]| [-x, -y * self.sign];
         Self {
@@ -74,14 +74,14 @@ impl Neighbour {
         size(self.off)
     }
 
-    /// A weight that falls from one to zero at the radius.
+    /// A weight that falls from 1 to 0 at the radius.
     pub(super) fn nearness(&self, reach: isize) -> f64 {
         1.0 - self.square as f64 / (reach as f64 + 0.5).powi(2)
     }
 }
 
 impl Neighbours {
-    /// Those of the kept cells of a grid, as far as `reach` cells and a half, where C_zz is `kernel` \[m/Pa\].
+    /// The neighbours within `reach` + 1/2 cells on a grid, with C_zz = `kernel` \[m/Pa\].
     pub(super) fn new(grid: &Grid, mirror: Mirror, reach: isize, kernel: &Quadrant) -> Self {
         let unit = if grid.plane_strain {
             grid.dx
@@ -120,7 +120,7 @@ impl Neighbours {
         }
     }
 
-    /// Cell n and those not further from it than `reach` cells and a half.
+    /// Cell n and its neighbours within `reach` + 1/2 cells.
     pub(super) fn of(&self, n: usize, reach: isize) -> impl Iterator<Item = Neighbour> {
         let (i, j) = self.lattice.place(n);
         let clear = self.lattice.is_clear(n, reach);

@@ -37,10 +37,11 @@ pub(super) const FITTED: isize = AROUND as isize;
 /// Lower bound of a closing rate, over that of the old contact.
 const SLOWEST: f64 = 1e-3;
 
-/// Cells that enter within this part of the increment enter together, as mirror images do.
+/// Cells whose times of entry differ by less than this part of the increment enter together, as
+/// mirror images do.
 const AT_ONCE: f64 = 1e-4;
 
-/// The motion of a cell per closing, as a function of the contact around it.
+/// m/c as a function of the distance and direction of the contact.
 struct Law {
     /// A, B, C, D for each component.
     ratio: [[f64; 4]; 2],
@@ -69,10 +70,10 @@ struct Entering {
     slowest: f64,
     /// Rate of its motion, over a whole increment \[m\].
     motion: [f64; 2],
-    /// Its gap at `time` \[m\].
+    /// Gap at `time` \[m\].
     gap: f64,
     moved: [f64; 2],
-    /// Part of the increment up to which gap and motion are advanced.
+    /// Part of the increment up to which gap and motion are integrated.
     time: f64,
     stage: Stage,
 }
@@ -99,7 +100,7 @@ impl Entering {
         self.time = time;
     }
 
-    /// Takes in a new contact cell, which reduces the closing rate by `held_back` \[m\].
+    /// Adds a contact cell to the view and reduces the closing rate by `held_back` \[m\].
     fn sees(&mut self, near: &Neighbour, held_back: f64) {
         self.view.add(near);
         self.closing = (self.closing - held_back).max(self.slowest);
@@ -107,8 +108,8 @@ impl Entering {
     }
 }
 
-/// The motion before entry of the `cells` that enter in the increment \[m\]; `views`: the contact as seen
-/// from the cells outside that the fits use.
+/// The motion before entry of the entering `cells` \[m\]; `views` of the contact from the cells
+/// that the fits use.
 pub(super) fn moved(
     contact: &KeptContact,
     views: &[Option<View>],

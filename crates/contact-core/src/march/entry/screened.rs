@@ -1,4 +1,5 @@
-//! The response of cells outside the contact to pressure on each other while the contact is held.
+//! Response of cells outside the contact to pressure on each other while the surface in the contact
+//! is fixed.
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
@@ -6,23 +7,24 @@ use super::neighbours::Neighbour;
 use crate::kernels::Quadrant;
 use crate::scene::Grid;
 
-/// Least d: that of a cell with contact all around.
+/// Lower bound of d: that of a cell surrounded by contact.
 const NEAREST: f64 = 0.35;
-/// Least S_nn/C_nn, for cells far longer than wide; of square ones it is 0.74 at `NEAREST`.
+/// Lower bound of S_nn/C_nn, for cells far longer than wide; for square ones S_nn/C_nn is 0.74 at
+/// `NEAREST`.
 const LEAST: f64 = 0.5;
 
-/// The response u_z of a cell m under pressure on a cell n, both outside, over that of a cell to its own
-/// where no contact is held:
+/// The response u_z of a cell m to pressure on a cell n, both outside, over the response of a cell
+/// to its own pressure without a contact:
 ///
 /// ```text
 /// S_mn/C_nn = (C_mn/C_nn) (2/pi) arctan(2 (d_m d_n)^(1/2)/r),
 /// ```
 ///
-/// r from one to the other, d their distances from the edge: the potential of a point charge in the plane
-/// of a conducting half-plane (Sommerfeld 1897) for kernels that go with 1/r, and what of any other kernel
-/// the contact leaves. Of n under its own pressure it is 1 - 1/(pi d P), P = integral of 1/r over the cell.
-/// In plane strain the contact has the image C((d_m^(1/2) + d_n^(1/2))^2) of the kernel C(r). Lengths in
-/// those of a cell.
+/// r being their distance and d their distances from the edge. The factor of C_mn is that of the
+/// potential of a point charge in the plane of a conducting half-plane (Sommerfeld 1897), exact for
+/// kernels ~ 1/r and used for all others. For m = n, S_nn/C_nn = 1 - 1/(pi d P), P = integral of
+/// 1/r over the cell. In plane strain the image C((d_m^(1/2) + d_n^(1/2))^2) is subtracted from the
+/// kernel C(r). Unit of length: the cell.
 pub(super) struct Screened {
     /// 1/(pi P)
     own: f64,
@@ -31,7 +33,7 @@ pub(super) struct Screened {
 }
 
 impl Screened {
-    /// Of the kernel C_zz on a grid \[m/Pa\].
+    /// For the kernel C_zz on a grid \[m/Pa\].
     pub(super) fn new(grid: &Grid, kernel: &Quadrant) -> Self {
         let ratio = (grid.dx / grid.dy).sqrt();
         let potential = 2.0 * (ratio * ratio.powi(-2).asinh() + ratio.powi(2).asinh() / ratio);

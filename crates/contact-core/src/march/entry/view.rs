@@ -7,9 +7,9 @@ use crate::cells::size;
 
 /// Radius within which contact cells count, in columns and rows.
 pub(super) const REACH: isize = 8;
-/// A sum below this part of that of the half-plane beyond the radius means no contact nearby.
+/// No contact is near if S exceeds that of the half-plane beyond the radius by less than this part.
 const ONSET: f64 = 0.03;
-/// The S of a half-plane at the distance d times d^(1/4): 4 pi^(1/2) Gamma(5/8)/Gamma(9/8).
+/// S d^(1/4) of a half-plane at the distance d: 4 pi^(1/2) Gamma(5/8)/Gamma(9/8).
 const EDGE: f64 = 10.799_631_181_215_187;
 /// The same in plane strain.
 const FLAT_EDGE: f64 = 4.0;
@@ -33,7 +33,7 @@ pub(super) struct View {
 }
 
 impl View {
-    /// From cell n; none without contact nearby.
+    /// The view from cell n; none if no contact is near.
     pub(super) fn of(
         n: usize,
         cells: &Neighbours,
@@ -64,7 +64,7 @@ impl View {
         (edge / self.sum).powi(2)
     }
 
-    /// e; nothing where the contact lies evenly around.
+    /// e; zero where the contact surrounds the cell evenly.
     pub(super) fn toward(&self) -> [f64; 2] {
         let all = size(self.toward).max(f64::MIN_POSITIVE);
         self.toward.map(|toward| toward / all)

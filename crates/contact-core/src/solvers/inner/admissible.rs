@@ -6,13 +6,14 @@ use crate::cells::{set, sums, sweep};
 use crate::cells::{set_cells, size};
 use crate::solvers::Shear;
 
-/// Rounds of clipping and balancing before the stick cells are taken to be too few.
+/// Most rounds of clipping and balancing; after them the stick cells are taken to be too few for
+/// the missing force.
 const ROUNDS: usize = 8;
 
-/// Makes the shear admissible without asking for its response: slip cells and cells beyond the
-/// bound go to the circle |q| = g, cells outside the contact to zero, and stick cells share the
-/// force that is missing. Where they cannot carry it and the rigid motion is about `shift` \[m\] another cell sticks,
-/// or the nearest admissible shear is taken.
+/// Makes the shear admissible without a convolution: slip cells and cells beyond the bound are set
+/// on the circle |q| = g, cells outside the contact to zero, and stick cells share the missing
+/// force. Where they cannot carry it, one more cell is made to stick, chosen by its slip under the
+/// rigid motion `shift` \[m\]; failing that, the nearest admissible shear is taken.
 pub(crate) fn admissible(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
     if share_force(problem, &mut shear.q, shear.slip) {
         return;
@@ -24,8 +25,9 @@ pub(crate) fn admissible(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>,
     mark_circle(problem, &shear.q, shear.slip);
 }
 
-/// Where every cell slips none can take up what the bounds leave of a force: the cell with the least slip sticks, of
-/// those whose shear the rest makes smaller; whether there is one. So it is where the stick zone is narrower than a cell.
+/// Where every cell slips, no cell can take up the difference between the sum of the bounds and the
+/// given force. The stick zone is then narrower than a cell: of the cells whose shear that
+/// difference reduces, the one with the least slip is made to stick. Returns whether there is one.
 fn hold_one(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) -> bool {
     let [free_x, free_y, _] = problem.drive.free;
     if !(free_x || free_y) {
@@ -38,7 +40,8 @@ fn hold_one(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64;
     }
     let [x, y] = sums([&*q[0], &*q[1]], |_, q| q);
     let rest = missing(problem, [x, y, 0.0]).map(|m| -m);
-    // Mirror images all slip, in balance: which of them stuck would be chance, and the shift with it.
+    // No difference to take up: which of two mirror images were made to stick would be decided by
+    // rounding, and with it the shift.
     if rest[0].hypot(rest[1]) <= rounding(problem) {
         return false;
     }
@@ -52,9 +55,9 @@ fn hold_one(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64;
     least.is_some()
 }
 
-/// Cuts the shear to the bound and lets the stick cells share the missing loads, by the smallest
-/// change; whether that ended with both conditions met. Cells without a bound carry nothing and keep
-/// their mark; those without shear do not slip.
+/// Cuts the shear to the bound and distributes the missing loads over the stick cells by the
+/// smallest change; returns whether both conditions are met. Cells with a bound of zero carry
+/// nothing and keep their slip flag; cells without shear do not slip.
 fn share_force(
     problem: &TangentialProblem<'_>,
     q: &mut [&mut [f64]; 2],
@@ -110,7 +113,7 @@ fn share_force(
     false
 }
 
-/// The loads that the sums lack; zero for motions that are given.
+/// Given loads less the sums of the shear; zero for motions that are given.
 fn missing(problem: &TangentialProblem<'_>, sums: [f64; 3]) -> [f64; 3] {
     let drive = &problem.drive;
     std::array::from_fn(|k| {
@@ -129,8 +132,8 @@ fn modes(x: f64, y: f64, [xx, xy, yy]: [f64; 3]) -> [f64; 6] {
     [xx, xy, yy, r[0], r[1], x * r[1] - y * r[0]]
 }
 
-/// What rounding may leave of the sums: a part of all that friction can carry, or of the loads
-/// where the bound is infinite.
+/// Rounding error of the sums: a fixed part of the sum of the bounds, or of the loads where a bound
+/// is infinite.
 pub(crate) fn rounding(problem: &TangentialProblem<'_>) -> f64 {
     let finite = |g: f64| if g.is_finite() { g } else { 0.0 };
     let [carried] = sums([problem.bound], |_, [g]| [finite(g)]);
@@ -141,7 +144,7 @@ pub(crate) fn rounding(problem: &TangentialProblem<'_>) -> f64 {
 /// The part of the bound from which a cell counts as slipping.
 const ON_CIRCLE: f64 = 1.0 - 1e-9;
 
-/// Slip cells are those on the circle; cells without one keep their mark.
+/// Marks the cells on the circle |q| = g as slipping; cells with g = 0 keep their flag.
 pub(crate) fn mark_circle(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], slip: &mut [bool]) {
     set_cells(slip, |n, slips| {
         let g = problem.bound[n];

@@ -9,7 +9,7 @@ use crate::solvers::Shear;
 
 type Pair = [Vec<f64>; 2];
 
-/// What the tangential solver is given and works on, of the contact cells.
+/// Data and unknowns of the tangential solver on the contact cells.
 #[derive(Debug, Default)]
 pub(crate) struct ContactShear {
     bound: Vec<f64>,
@@ -83,7 +83,7 @@ impl Shear<'_> {
     }
 }
 
-/// What rounding leaves of a difference of two numbers, over their size.
+/// Rounding error of a difference of two numbers, over their size.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The shear before a step.
@@ -111,10 +111,10 @@ impl Before {
         }
     }
 
-    /// Whether the energy was lower before, by more than `tolerance` \[m\] makes of the change of
-    /// shear and rounding of the work. With C symmetric and the sum of the change zero, the difference
-    /// of the energy is the change times the mean slip. Of that the rigid motion `shift` is left out:
-    /// rounding keeps the sum from being zero, and the shift is thousands of times the misfit.
+    /// Whether the energy was lower before the step, by more than |dq| `tolerance` \[m\] and the
+    /// rounding error of the work. With C symmetric and sum dq = 0 the difference of the energy is
+    /// sum of dq times the mean slip. The rigid motion `shift` is left out of the slip: it is
+    /// thousands of times the misfit, and rounding keeps sum dq from being exactly zero.
     pub(crate) fn is_lower(
         &self,
         problem: &TangentialProblem<'_>,

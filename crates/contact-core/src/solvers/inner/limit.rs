@@ -9,7 +9,7 @@ use super::TangentialProblem;
 use crate::cells::{add, inverse, product};
 use crate::cells::{size, sum};
 
-/// How near the loads are to full sliding.
+/// The loads over the limit of friction, and the sliding motion that they drive.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sliding {
     /// Loads over the limit; infinite where nothing bears a load.
@@ -18,9 +18,9 @@ pub(crate) struct Sliding {
     pub(crate) motion: [f64; 3],
 }
 
-/// Loads this close to the limit slide; rounding decides below that.
+/// Loads of at least 1 - FULL of the limit slide: the difference is rounding.
 const FULL: f64 = 1e-11;
-/// Loads above the limit by more have no equilibrium.
+/// Loads above 1 + BEYOND times the limit have no equilibrium.
 const BEYOND: f64 = 1e-9;
 
 impl Sliding {

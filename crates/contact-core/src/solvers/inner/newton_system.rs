@@ -7,7 +7,7 @@ use crate::cells::{add, inverse, product, set, sums, sweep};
 use crate::solvers::no_slip::slip;
 use crate::solvers::{Response, Shear};
 
-/// The eigenvalue c_0 at which the guess of the inverse is right, over C_xx(0,0).
+/// c_0/C_xx(0,0), c_0 being the eigenvalue of C at which the approximate inverse is exact.
 const RIGHT: f64 = 2.0;
 
 /// The linear system
@@ -17,38 +17,41 @@ const RIGHT: f64 = 2.0;
 /// ```
 ///
 /// with B the rigid motions that are free, Pi the projection on the tangent space (stick cells:
-/// both components; slip cells: across q) and D the curvature |ds|/g of the circle, less the part of it
-/// by which u_0 turns with q ([`Self::set_turning`]). The unknowns are packed contact cells;
-/// what goes through the operator covers the grid.
+/// both components; slip cells: across q) and D = (1 - t') |ds|/g the curvature of the circle, t'
+/// being the derivative of the turn term of u_0 ([`Self::set_turning`]). The unknowns are packed
+/// contact cells; fields that the operator takes and gives cover the grid.
 ///
-/// With P the inverse of C, and c an eigenvalue of C, the guess of the inverse is S P S + A,
+/// With P the approximate inverse of C, and c an eigenvalue of C, the preconditioner is S P S + A,
 ///
 /// ```text
 /// 1/(c + D) ~ s^2 / c + (1 - s^2)/(c_0 + max(D, d)),    s^2 = max(0, (1 - D/d)/(1 + D/c_0))
 /// ```
 ///
-/// with equality for c = c_0 = 2 C_xx(0,0), and d = 2 C_xx(0,0) times the root of the cells across the
-/// contact, about the geometric mean of the eigenvalues of the shortest and the longest waves; both factors
-/// are those that took the fewest passes. At the rim D has no bound, and there a cell must not hear of the
-/// others through P: the little that it would move too far is D times as much in the residual.
+/// with equality for c = c_0 = 2 C_xx(0,0). The curvature limit is d = 2 C_xx(0,0) n^(1/2), with
+/// n = N^(1/2) contact cells across the contact: about the geometric mean of the eigenvalues of the
+/// shortest waves, O(C_xx), and of the longest, O(n C_xx). Both factors 2 took the fewest passes in
+/// tests. A cell with D >= d has s = 0, so that P does not couple it to other cells. D is unbounded
+/// at the rim, where g vanishes; an error dx that the coupling made in x there would enter the
+/// residual as D dx.
 #[derive(Debug)]
 pub(crate) struct NewtonSystem {
     tangent: Tangent,
-    /// The part of a turn of the shear that u_0 takes over.
+    /// t': derivative of the turn term of u_0 by the angle of the shear, over |ds| \[1\].
     turning: Vec<f64>,
     /// D \[m/Pa\].
     diagonal: Vec<f64>,
-    /// S \[1\] and A \[Pa/m\] of the guess S P S + A of (C + D)^-1.
+    /// S \[1\] and A \[Pa/m\] of the preconditioner S P S + A ~ (C + D)^-1.
     scale: Vec<f64>,
     alone: Vec<f64>,
-    /// Solution, and the change of the shear after it that brings cells back to their circle \[Pa\].
+    /// Solution x, and the correction after it that returns slip cells to the circle |q| = g
+    /// \[Pa\].
     x: Pair,
     pub(super) change: Pair,
     residual: Pair,
     residual_norm: f64,
     z: Pair,
     direction: Pair,
-    /// C x, and C times what was added to x, \[m\] on the grid.
+    /// C applied to x and to the corrections since, on the grid \[m\].
     response_x: Pair,
     /// Traction and displacement on the grid.
     traction: Pair,
@@ -78,7 +81,7 @@ impl NewtonSystem {
         }
     }
 
-    /// Makes room for the contact cells.
+    /// Resizes all fields to the number of contact cells.
     pub(crate) fn set_contact(&mut self, problem: &TangentialProblem<'_>) {
         let count = problem.bound.len();
         let of_cells = [
@@ -113,7 +116,7 @@ impl NewtonSystem {
         clear(&mut self.traction);
     }
 
-    /// Takes over the part of a turn of the shear that u_0 follows in each cell of the grid; none without.
+    /// Sets t' in the contact cells from its values on the grid; zero where none are given.
     pub(super) fn set_turning(&mut self, contact: &ContactCells, turning: Option<&[f64]>) {
         match turning {
             Some(turning) => contact.pack(turning, &mut self.turning),
@@ -122,7 +125,8 @@ impl NewtonSystem {
     }
 
     /// Tangent space, curvature and residual at the present shear and slip; x starts from zero.
-    /// Returns the shift that fits the tangent space best, which the residual is that of.
+    /// Returns the rigid shift of least squares on the tangent space; the residual is taken at that
+    /// shift.
     pub(crate) fn linearise(
         &mut self,
         problem: &TangentialProblem<'_>,
@@ -132,7 +136,7 @@ impl NewtonSystem {
     ) -> [f64; 3] {
         let t = &mut self.tangent;
         let right = RIGHT * c_xx;
-        // The root of the contact cells is about the number across.
+        // The square root of the number of contact cells is about their number across.
         let limit = 2.0 * c_xx * (problem.bound.len() as f64).powf(0.25);
         let ([x, y], [q_x, q_y], [u_x, u_y]) = (problem.no_slip, &shear.q, &shear.u);
         let from = [u_x, u_y, x, y, q_x, q_y, problem.bound, &self.turning];
@@ -283,7 +287,7 @@ impl NewtonSystem {
         self.add_response(step);
     }
 
-    /// Adds so many times the last displacement to what x causes.
+    /// response_x += factor times the last displacement.
     fn add_response(&mut self, factor: f64) {
         let ([u_x, u_y], [x, y]) = (&self.displacement, &mut self.response_x);
         set([&u_x[..], u_y], [x, y], |_, u, x| {
@@ -291,8 +295,8 @@ impl NewtonSystem {
         });
     }
 
-    /// Adds C times a change of the shear, packed, to the displacements and to what x causes; the change is
-    /// that left in [`Self::change`].
+    /// Adds the response C dq to the displacements and to `response_x`, dq being [`Self::change`]
+    /// (packed).
     pub(crate) fn respond(
         &mut self,
         response: &mut Response<'_>,
@@ -319,7 +323,7 @@ impl NewtonSystem {
         });
     }
 
-    /// Begins anew: x = 0.
+    /// Sets x = 0.
     pub(crate) fn restart(&mut self) {
         clear(&mut self.x);
         clear(&mut self.response_x);

@@ -5,13 +5,14 @@
 //! ```
 //!
 //! with h_0 = h_init + C_zx q_x + C_zy q_y; its multipliers are the approach delta_z and the tilts
-//! phi_x, phi_y, its gradient the gap h = C_zz p + h_0 - (delta_z + y phi_x - x phi_y). A motion that
-//! is given enters h_0, and its load has no constraint. Conjugate gradients on the contact with the
-//! constraints projected out (I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219, eq. (5)-(6) of the paper),
-//! preconditioned, and kept going when the contact set changes: cells whose pressure would turn
-//! negative leave, cells that overlap enter, and the Polak-Ribiere factor forgets the old
-//! direction as far as the change makes it useless. The displacement is carried along, so an
-//! iteration costs one convolution, and a second one only when cells leave.
+//! phi_x, phi_y, its gradient the gap h = C_zz p + h_0 - (delta_z + y phi_x - x phi_y). A motion
+//! that is given enters h_0, and its load has no constraint. Conjugate gradients on the contact
+//! with the constraints projected out (I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219, eq.
+//! (5)-(6) of the paper), preconditioned, and not restarted when the contact set changes: cells
+//! whose pressure would turn negative leave, cells that overlap enter, and the Polak-Ribiere factor
+//! reduces the weight of the old direction accordingly. The displacement is updated by the response
+//! to each step, so that an iteration costs one convolution, and a second one only when cells
+//! leave.
 
 use crate::cells::{Arms, Drive, add};
 use crate::cells::{add_scaled, copy};
@@ -88,9 +89,9 @@ impl NormalWorkspace {
     }
 }
 
-/// Iterations without a better gap after which the preconditioner is given up: it is made of a
-/// kernel cut at the border of the grid, and of one that reaches far beyond, that of a stiff plate
-/// on a soft ground, little is left.
+/// Iterations without a smaller gap after which the preconditioner is dropped. It is built from the
+/// kernel cut off at the border of the grid; a kernel that reaches far beyond it (a stiff plate on
+/// a soft foundation) is badly approximated.
 const PATIENCE: usize = 50;
 
 /// Solves for `p`, with `u_z` the total normal displacement, that under the shear included.
@@ -140,7 +141,7 @@ pub fn normal(
         }
         iterations += 1;
         if solved {
-            // The contact was too small for the moments when it was balanced last.
+            // The contact at the last balance was too small to carry the moments.
             copy(p, &mut ws.response);
             balance(problem, p);
             add_response_of_change(response, p, u_z, ws);
@@ -170,7 +171,7 @@ impl Descent {
         }
     }
 
-    /// Gives the preconditioner up where the misfit stalls.
+    /// Drops the preconditioner where the misfit stalls.
     fn watch(&mut self, misfit: f64) {
         if misfit < self.best {
             (self.best, self.since_best) = (misfit, 0);
@@ -183,7 +184,7 @@ impl Descent {
         }
     }
 
-    /// A step to the least energy along the next direction; pressures that would pull are cut.
+    /// A step to the least energy along the next direction; negative pressures are set to zero.
     fn step(
         &mut self,
         response: &mut Response<'_>,
@@ -249,7 +250,7 @@ impl Descent {
         let from = [p, residual, z];
         let touches = |_: usize, [p, r, z]: [f64; 3]| (f64::from(u8::from(p > 0.0 || r > 0.0)), z);
         let of_all = arms.fit_across(problem.drive.free, from, touches);
-        // A cell without pressure that the direction would pull at stays out.
+        // A cell without pressure stays out if the direction would make its pressure negative.
         set(from, [free], |n, [p, r, z], _| {
             let changes = p > 0.0 || (r > 0.0 && z > arms.across(of_all, n));
             [f64::from(u8::from(changes))]
@@ -274,10 +275,10 @@ impl Descent {
     }
 }
 
-/// What rounding leaves of the sum of a pressure that has been brought to its load, over the sum.
+/// Rounding error of the sum of a pressure that has been scaled to its load, over the sum.
 const SUMMED: f64 = 1e-13;
 
-/// Rounds of weighting and cutting that bring the pressure to its loads.
+/// Most rounds of weighting and cutting that scale the pressure to its loads.
 const ROUNDS: usize = 20;
 
 /// Scales p to the force asked for, or weights it with a rigid motion, p (1 + B m), to the force
@@ -310,7 +311,7 @@ fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
     }
 }
 
-/// The loads that the pressure lacks; zero for motions that are given.
+/// Given loads less the sums of the pressure; zero for motions that are given.
 fn missing(problem: &NormalProblem<'_>, p: &[f64]) -> [f64; 3] {
     let now = sums([p], |n, [p]| problem.arms.sums_across(p, n));
     let drive = problem.drive;
@@ -318,7 +319,7 @@ fn missing(problem: &NormalProblem<'_>, p: &[f64]) -> [f64; 3] {
     std::array::from_fn(|k| if drive.free[k] { missing(k) } else { 0.0 })
 }
 
-/// Part of the load that may be missing at the end; rounding leaves far less.
+/// Tolerance of the balance at the end, over the load; rounding errors are far smaller.
 const BALANCED: f64 = 1e-10;
 
 /// Whether the pressure carries the moments; the force is met by construction.
@@ -347,7 +348,8 @@ fn add_response_of_change(
     add_scaled(u_z, 1.0, &ws.response);
 }
 
-/// The motion (what fits h_init + u_z best over the contact) and what the equations miss.
+/// The rigid motion (least squares fit to h_init + u_z over the contact) and the residuals of the
+/// equations.
 pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> NormalInfo {
     let Drive { free, given, .. } = problem.drive;
     let fields = [p, u_z, problem.h_init];

@@ -1,4 +1,5 @@
-//! Accelerated projected gradients for the tangential problem: slow, but every step goes down.
+//! Accelerated projected gradients for the tangential problem: slow, but every step lowers the
+//! energy.
 //!
 //! The Newton method hands over here when a step would raise the energy, which happens when many
 //! cells change between stick and slip at once. Y. Nesterov's acceleration with restart
@@ -54,17 +55,18 @@ impl ProjectedGradient {
         let mut shift = [0.0; 3];
         for _ in 0..passes {
             self.step(response, problem, shear, stiffness, &mut shift);
-            // The sum of the change is zero to rounding only: the shift stays out of the energy.
+            // The sum of the change is zero only up to rounding, so that the shift is left out of
+            // the energy.
             let rigid = shift.map(|s| s / stiffness);
             let [change_size, curvature, descent] = self.add_response(problem, shear, rigid);
             response.changed(change_size);
             if change_size == 0.0 || response.stopped() {
                 break;
             }
-            // The step must not exceed the inverse of the compliance met.
+            // The step must not exceed the inverse of the compliance along the change.
             stiffness = stiffness.min(change_size / curvature.max(f64::MIN_POSITIVE));
             if descent > 0.0 {
-                // Uphill: go back and start anew without momentum.
+                // The energy has risen: return to the last point and restart without momentum.
                 for c in 0..2 {
                     shear.q[c].copy_from_slice(&self.q_last[c]);
                     shear.u[c].copy_from_slice(&self.u_last[c]);
@@ -80,8 +82,8 @@ impl ProjectedGradient {
         add(problem.drive.given, shift.map(|s| -s / stiffness))
     }
 
-    /// A projected step along the gradient from the point ahead; the response to the change of the shear, which
-    /// is left in `ahead`, is left in `shear.u` \[m\].
+    /// A projected step along the gradient from the extrapolated point. On exit `ahead` holds the
+    /// change of the shear \[Pa\] and `shear.u` its response \[m\].
     fn step(
         &mut self,
         response: &mut Response<'_>,
@@ -108,8 +110,9 @@ impl ProjectedGradient {
         response.tangential([change_x, change_y], [u_x, u_y]);
     }
 
-    /// Makes the displacements of the response to the change of a step; sums of the squares of the change, of
-    /// its product with the response, and the change of the energy, without the `rigid` motion \[m\].
+    /// Adds the last displacements to the response in `shear.u`. Returns three sums over the cells:
+    /// change squared, change times response, and the change of the energy, in which the `rigid`
+    /// motion \[m\] is left out.
     fn add_response(
         &self,
         problem: &TangentialProblem<'_>,
@@ -131,7 +134,7 @@ impl ProjectedGradient {
         [squares, curvature, descent]
     }
 
-    /// The point from which the next step goes, `beta` of the last change further.
+    /// Extrapolates the last change by `beta`: the point from which the next step starts.
     fn look_ahead(&mut self, shear: &Shear<'_>, beta: f64) {
         for c in 0..2 {
             for (n, (&q, &u)) in shear.q[c].iter().zip(&*shear.u[c]).enumerate() {

@@ -1,4 +1,4 @@
-//! What the tangential solvers are given, work on and end with.
+//! Data, unknowns and results of the tangential solvers.
 
 use crate::cells::{Arms, Drive, add};
 use crate::plan::TangentialMethod;
@@ -37,7 +37,7 @@ pub struct TangentialParams {
     pub method: TangentialMethod,
     /// Largest root-mean-square misfit of the slip conditions over the contact \[m\].
     pub tolerance: f64,
-    /// Displacement that a change of the shear may cause and yet be neglected \[m\].
+    /// A change of the shear whose displacement is smaller than this is not convolved \[m\].
     pub negligible: f64,
     /// Most Newton steps.
     pub max_iterations: usize,
@@ -54,7 +54,8 @@ pub struct TangentialInfo {
     pub shift: [f64; 3],
     /// Root-mean-square misfit \[m\].
     pub misfit: f64,
-    /// Newton steps; of a single step none where the shear was the solution already.
+    /// Newton steps; of [`newton_step`](super::newton_step) 0 if the shear was the solution
+    /// already.
     pub iterations: usize,
     /// Conjugate-gradient passes, one convolution each.
     pub passes: usize,

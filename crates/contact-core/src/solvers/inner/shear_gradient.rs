@@ -1,11 +1,11 @@
 //! The tangential problem as the paper solves it: conjugate gradients of the Polonsky-Keer type.
 //!
 //! The inner loop of figure 3, with the structure of the normal solver: a conjugate-gradient step
-//! on the cells taken to stick, while slip cells follow their slip, eq. (20); then cells beyond
-//! the bound are cut to it and slip, those that fall inside stick, the stick cells share the
-//! missing force. No preconditioner, no Newton steps: the baseline that
-//! [`tangential`](super::tangential()) is measured against. Where its sets cycle, projected gradients, of
-//! which every step goes down, take over for some iterations.
+//! on the cells taken to stick, while slip cells follow their slip, eq. (20); then cells beyond the
+//! bound are cut to it and slip, those that fall inside stick, the stick cells share the missing
+//! force. No preconditioner, no Newton steps: the baseline that [`tangential`](super::tangential())
+//! is compared with. Where its sets cycle, projected gradients, which lower the energy in every
+//! step, take over for some iterations.
 
 use super::admissible;
 use super::projected_gradient::ProjectedGradient;
@@ -41,7 +41,8 @@ impl GradientBuffers {
 
 /// Iterations without a smaller misfit after which the sets are taken to cycle.
 const PATIENCE: usize = 30;
-/// Iterations of projected gradients then: what a contact of some fifty cells across takes to the tolerance.
+/// Iterations of projected gradients after that: enough for a contact of some fifty cells across to
+/// reach the tolerance.
 const DESCENT: usize = 200;
 
 /// Solves for the shear. On entry it must be admissible.
@@ -53,7 +54,8 @@ pub(crate) fn shear_gradient(
     params: &TangentialParams,
 ) -> Result<TangentialInfo, SolverError> {
     let cells = problem.bound.len();
-    // Slip cells take the longest step that cannot overshoot.
+    // Slip cells take the longest step that cannot overshoot: the inverse of the largest
+    // eigenvalue.
     let slip_step = 1.0 / descent.largest_compliance(response, problem);
     ws.make_room(cells);
     let mut info = TangentialInfo::default();

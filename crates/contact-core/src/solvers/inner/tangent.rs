@@ -1,17 +1,17 @@
-//! The tangent space of the tangential problem: what the shear may change by, cell by cell.
+//! The tangent space of the tangential problem: the admissible changes of the shear, cell by cell.
 
 use crate::cells::{product, sums, sweep};
 
 /// A field of two components.
 pub(super) type Pair = [Vec<f64>; 2];
 
-/// The tangent space: the projection Pi on it, and what is left of tractions whose sums are to be zero
-/// and of displacements up to a rigid motion.
+/// The tangent space: the projection Pi on it, and the projections of tractions on zero sums and of
+/// displacements on the complement of the rigid motions.
 ///
-/// Where the curvature D is large a cell hardly gives way: a motion taken out of all cells alike would
-/// be far more than it can follow. It counts with the weight w = 1/(1 + D/C_xx(0,0)): tractions t become
-/// t - w Pi B m with B^T t = 0, displacements v become v - Pi B m with B^T w v = 0, and their products are
-/// what they were.
+/// A cell of large curvature D hardly moves, so that a rigid motion subtracted from all cells alike
+/// would be far too large for it. It is therefore weighted by w = 1/(1 + D/C_xx(0,0)): tractions t
+/// become t - w Pi B m with B^T t = 0, displacements v become v - Pi B m with B^T w v = 0, and the
+/// products t.v do not change.
 #[derive(Debug)]
 pub(super) struct Tangent {
     /// Direction across the shear of slip cells, along which alone it may change; zero in stick cells.
@@ -68,9 +68,8 @@ impl Tangent {
         [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]]
     }
 
-    /// Projects the `value(v, from)` on the tangent space of each cell, into v; returns the motion m
-    /// to be taken out for which the sums of what `sums` makes of a cell's v are zero, and the sum of v
-    /// times what the values come with.
+    /// v = Pi `value(v, from)` in each cell, and the sum of v times the second result of `value`.
+    /// Returned before it is the motion m to be subtracted, for which the sums of `sums(v)` vanish.
     pub(super) fn project<const N: usize>(
         &self,
         v: &mut Pair,
@@ -100,8 +99,8 @@ impl Admitted {
         }
     }
 
-    /// Pi v. With 1 - e_x^2 in place of t_x^2, where few cells stick, rounding would hide what slip cells
-    /// whose shear is turned a little aside give way by.
+    /// Pi v, with t_x^2 and not the equal 1 - e_x^2: for shear nearly along an axis that difference
+    /// is rounding, which matters where few cells stick and slip cells carry the free motion.
     pub(super) fn project(self, v: [f64; 2]) -> [f64; 2] {
         let [x, y] = self.across;
         let along = x * v[0] + y * v[1];

@@ -8,16 +8,17 @@
 //! slip ds = u - u_0 - d(delta). A motion that is given enters w, and its force has
 //! no constraint. Eq. (7)-(8) and (20) of the paper are its optimality conditions.
 //!
-//! A semi-smooth Newton method: on stick cells both components are free; on slip cells q = g e and
-//! only the motion along the circle is, where the constraint adds the diagonal |ds|/g. Each step is
-//! a linear system on that tangent space with the force constraint projected out, solved by
-//! conjugate gradients preconditioned with an approximate inverse ([`newton_system`](super::newton_system)).
-//! Then q returns to the circle, stick cells beyond it start to slip, and slip cells whose slip would go
-//! along q stick again.
+//! A semi-smooth Newton method: on stick cells both components are free; on slip cells q = g e only
+//! moves along the circle |q| = g, whose curvature adds |ds|/g to the diagonal. Each step is a
+//! linear system on that tangent space with the force constraint projected out, solved by conjugate
+//! gradients preconditioned with an approximate inverse ([`newton_system`](super::newton_system)).
+//! Then q returns to the circle, stick cells beyond it start to slip, and slip cells whose slip
+//! would go along q stick again.
 //!
-//! [`tangential`] solves the problem for a u_0 that stays: a step that raises the energy is taken back and
-//! projected gradients, which cannot, go on from there; so they do where the slip set cycles.
-//! [`newton_step`] is one step for a u_0 that follows the solution, where there is no energy to lower.
+//! [`tangential`] solves the problem for a constant u_0: a step that raises the energy is undone,
+//! and projected gradients, which cannot raise it, continue from there; likewise where the slip set
+//! cycles. [`newton_step`] is one step for a u_0 that depends on the solution; no energy exists
+//! then.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -59,14 +60,15 @@ impl TangentialWorkspace {
 /// the tolerance.
 const SETTLED: f64 = 0.1;
 
-/// Part of the tolerance that the last conjugate gradients aim at: returning to the circles adds to it.
+/// Target of the last conjugate gradients over the tolerance; the return to the circles adds an
+/// error.
 const AIM: f64 = 0.4;
 
 /// Iterations of projected gradients after a Newton step that would have raised the energy.
 const DESCENT: usize = 10;
 
-/// Newton steps without a smaller misfit after which the slip set is taken to cycle, and projected
-/// gradients go on; and after which the iteration has failed.
+/// Newton steps without a smaller misfit after which the slip set is taken to cycle, so that
+/// projected gradients continue (CYCLE), and after which the iteration has failed (STALLED).
 const CYCLE: usize = 10;
 const STALLED: usize = 100;
 
@@ -121,9 +123,9 @@ pub fn tangential(
     Ok(newton.info)
 }
 
-/// One Newton step towards the shear, of which u_0 takes over the part `turning` of a turn in each cell.
-/// No step is done, and `iterations` is zero, where the conditions hold within the tolerance. On entry the
-/// shear must be admissible.
+/// One Newton step for the shear, with the derivative `turning` of the turn term of u_0 in each
+/// cell. If the conditions hold within the tolerance no step is done and `iterations` is 0. On
+/// entry the shear must be admissible.
 pub fn newton_step(
     response: &mut Response<'_>,
     problem: &TangentialProblem<'_>,
@@ -189,8 +191,9 @@ impl<'a> Newton<'a> {
         }
     }
 
-    /// Releases slip cells that should stick and linearises there; whether the conditions hold. Slip cells
-    /// that were judged by another shift than fits best are judged again.
+    /// Releases slip cells that should stick and linearises; returns whether the conditions hold.
+    /// If the fitted shift differs from the one that slip cells were tested with, they are tested
+    /// again.
     fn holds(&mut self) -> bool {
         for _ in 0..self.params.max_iterations {
             let released = release(&self.inside, &mut self.now, self.info.shift, self.settled);
@@ -209,7 +212,7 @@ impl<'a> Newton<'a> {
         false
     }
 
-    /// Solves the linear system, moves on, and returns to the circles.
+    /// Solves the linear system, adds its solution, and returns slip cells to their circles.
     fn step(&mut self, response: &mut Response<'_>) {
         let params = self.params;
         self.info.iterations += 1;

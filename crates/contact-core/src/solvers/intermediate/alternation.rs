@@ -1,10 +1,11 @@
 //! The intermediate loop: pressure and shear of one increment in turn (figure 2 of the paper).
 //!
-//! The pressure is found for known shear, then the shear for known pressure, until the gap that
-//! the shear leaves behind is within the tolerance. Where the bodies are similar neither changes
-//! the other and one pass is exact. The displacements are carried along: each solver adds the
-//! response to what it changed. As long as a pass leaves a gap that the next one must close, the inner
-//! loops end early (inexact steps: R. S. Dembo, S. C. Eisenstat, T. Steihaug, SIAM J. Numer. Anal. 19 (1982) 400-408).
+//! The pressure is found for known shear, then the shear for known pressure, until the gap that the
+//! shear causes is within the tolerance. Where the bodies are similar neither changes the other and
+//! one pass is exact. The displacements are kept: each solver adds the response to its own change
+//! of the tractions. As long as a pass leaves a gap that the next one must close, the inner loops
+//! end early (inexact steps: R. S. Dembo, S. C. Eisenstat, T. Steihaug, SIAM J. Numer. Anal. 19
+//! (1982) 400-408).
 
 use super::known_pressure::{
     bring_within_bound, follow_pressure, incipient_shift, let_new_cells_slip,
@@ -71,7 +72,7 @@ pub(super) fn alternate(
             return Ok(info);
         }
 
-        // What the change of shear does to the gap.
+        // The gap after the change of shear.
         residual = gap_after_shear(response, &gap, now, ws, &mut info);
         if last && residual <= params.tolerance {
             return Ok(info);
@@ -83,7 +84,8 @@ pub(super) fn alternate(
     }
 }
 
-/// Brings bound, shear and u_t to the pressure that the normal solver found; how near the loads are to sliding.
+/// Updates bound, shear and u_t for the pressure of the normal solver; returns the loads over the
+/// limit of friction.
 fn take_pressure(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,
@@ -103,8 +105,8 @@ fn take_pressure(
     sliding
 }
 
-/// Adds to u_z what the change of the shear makes of it; the residual of the gap then \[m\], 0 where the shear has
-/// not changed: the gap is that of the normal solver.
+/// Adds the response to the change of shear to u_z. Returns the residual of the gap \[m\]; 0 if the
+/// shear has not changed, since the gap is then that of the normal solver.
 fn gap_after_shear(
     response: &mut Response<'_>,
     problem: &NormalProblem<'_>,

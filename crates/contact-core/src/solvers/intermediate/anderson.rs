@@ -1,11 +1,11 @@
 //! Anderson acceleration of the intermediate loop, for contacts where plain alternation is slow.
 //!
 //! The unknown of the loop is the part s of u_z that the shear causes: the pressure is solved for a
-//! given s, the shear for that pressure, and this shear causes G(s). Plain alternation takes
-//! s = G(s); it contracts as long as friction times coupling is small. Where the misfit
-//! f = G(s) - s falls too slowly, the next s is the combination of the last ones whose misfit on
-//! the contact is least, plus that misfit, or less of it where that leads astray (D. G. Anderson, J. ACM 12 (1965) 547-560; H. F. Walker,
-//! P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715-1735).
+//! given s, the shear for that pressure, and this shear causes G(s). Plain alternation takes s =
+//! G(s); it contracts as long as friction times coupling is small. Where the misfit f = G(s) - s
+//! falls too slowly, the next s is the combination of the last ones whose misfit on the contact is
+//! least, plus that misfit times a damping factor (D. G. Anderson, J. ACM 12 (1965) 547-560; H. F.
+//! Walker, P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715-1735).
 //!
 //! Steel scenes never need it; a rigid sphere on a body with nu = 0 and mu = 2, pressed and sheared on 64 x 64
 //! cells, takes 2800 convolutions with it and 12 700 without.
@@ -16,11 +16,12 @@ use crate::cells::{set, sums};
 
 /// Passes that are combined.
 const DEPTH: usize = 8;
-/// A pass that leaves more than this part of the misfit is slow.
+/// A pass is slow if the misfit after it is more than SLOW times that before.
 const SLOW: f64 = 0.5;
 /// Slow passes before the acceleration begins.
 const PATIENCE: usize = 2;
-/// Accelerated passes that leave more than [`SLOW`] of the least misfit before the steps are damped.
+/// Accelerated passes in a row, none with a misfit below [`SLOW`] times the least, after which the
+/// damping is halved.
 const TRIALS: usize = 12;
 /// Least damping.
 const LEAST: f64 = 1.0 / 16.0;
@@ -30,7 +31,7 @@ const RIDGE: f64 = 1e-12;
 /// Memory of the loop over one increment.
 #[derive(Debug)]
 pub(crate) struct Anderson {
-    /// The present s less the s that the shear causes \[m\]; zero in plain alternation.
+    /// s - G, G being the u_z under the present shear \[m\]; zero in plain alternation.
     ahead: Vec<f64>,
     /// Misfit of the last pass \[m\].
     misfit: Vec<f64>,
@@ -42,9 +43,9 @@ pub(crate) struct Anderson {
     size: f64,
     slow_passes: usize,
     enabled: bool,
-    /// Part of the misfit that is added to s: less than one where whole steps go astray.
+    /// Damping: factor of the misfit that is added to s, 1 to [`LEAST`].
     damping: f64,
-    /// Least misfit that counted, and passes since.
+    /// Least misfit that was below [`SLOW`] times the one before, and passes since.
     least: f64,
     since_least: usize,
 }
@@ -66,7 +67,7 @@ impl Anderson {
         }
     }
 
-    /// Begins anew, in plain alternation; for good unless `enabled`.
+    /// Restarts in plain alternation; stays there unless `enabled`.
     pub(crate) fn restart(&mut self, enabled: bool) {
         self.enabled = enabled;
         set([], [&mut self.ahead], |_, [], _| [0.0]);
@@ -78,13 +79,13 @@ impl Anderson {
         self.since_least = 0;
     }
 
-    /// Whether the loop has turned out to be slow, and its passes are combined.
+    /// Whether [`PATIENCE`] passes were slow, so that passes are combined.
     pub(crate) fn accelerates(&self) -> bool {
         self.enabled && self.slow_passes >= PATIENCE
     }
 
-    /// After a pass that changed what the shear causes by `change`: `u_z`, solved for with the
-    /// present s, becomes that of the tractions.
+    /// After a pass in which u_z under the shear changed by `change`: corrects `u_z` from the
+    /// assumed s to that of the tractions.
     pub(crate) fn close_pass(&mut self, change: &[f64], u_z: &mut [f64]) {
         let cells = u_z.len();
         if self.accelerates() {
@@ -112,7 +113,7 @@ impl Anderson {
         });
     }
 
-    /// Takes the next s, for the contact of the pressure `p`, into `u_z`.
+    /// Adds the next s - G to `u_z`; the misfit is weighed on the contact, p > 0.
     pub(crate) fn extrapolate(&mut self, p: &[f64], u_z: &mut [f64]) {
         let on_contact = |a: &[f64], b: &[f64]| -> f64 {
             let inside = |p: f64, product: f64| if p > 0.0 { product } else { 0.0 };

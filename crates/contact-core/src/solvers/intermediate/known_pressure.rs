@@ -11,14 +11,15 @@ use crate::solvers::inner::{
 use crate::solvers::no_slip::{NoSlip, slip};
 use crate::solvers::{Interface, Response, SolverError, friction_bound};
 
-/// Newton steps without a smaller misfit, each halving the part of the way that u_0 follows, after which
-/// u_0 stays in a pass, and passes after which it stays for good.
+/// After STALLED Newton steps without a smaller misfit, each of which halves the relaxation of u_0,
+/// the turn term of u_0 is dropped in this pass; after UNSETTLED such passes in the whole
+/// increment.
 const STALLED: usize = 5;
 const UNSETTLED: usize = 3;
 
-/// Brings the shear within the bound mu p of the present pressure and to the loads asked for; how near
-/// these are to sliding, by a motion that is about `shift` \[m\]. Cells in contact that have no friction slip; cells
-/// out of contact carry nothing.
+/// Brings the shear within the bound mu p of the present pressure and to the given loads; returns
+/// these over the limit of friction. `shift` is an estimate of the rigid motion \[m\]. Contact
+/// cells without friction slip; cells out of contact carry nothing.
 pub(super) fn bring_within_bound(
     problem: &IncrementProblem<'_>,
     no_slip: &NoSlip<'_>,
@@ -55,9 +56,10 @@ pub(super) fn bring_within_bound(
     slides
 }
 
-/// Lets cells slip that the normal solver has brought into contact, where friction does not hold what they have moved:
-/// taken to stick they would be the largest misfit of all. One that is held alone moves by about 2 C_xx(0,0) times its
-/// shear. In the first pass the shift is that of the cells that have stuck so far.
+/// Cells that the normal solver has brought into contact slip if |ds| > 2 C_xx(0,0) mu p: more than
+/// the displacement that the largest shear of such a cell alone can prevent. Taken to stick, they
+/// would have the largest misfit of all cells. In the first pass the shift is fitted to the cells
+/// that have stuck so far.
 pub(super) fn let_new_cells_slip(
     problem: &IncrementProblem<'_>,
     no_slip: &NoSlip<'_>,
@@ -89,7 +91,7 @@ pub(super) fn let_new_cells_slip(
     }
 }
 
-/// u_t after the pressure changed from `p_before` and the shear from `q_before`.
+/// Updates u_t for the changes of the pressure from `p_before` and of the shear from `q_before`.
 pub(super) fn follow_pressure(
     response: &mut Response<'_>,
     now: &mut Interface,
@@ -139,7 +141,7 @@ pub(super) fn shear_for_known_pressure(
         info.shift = first_shift(&shear, &now.shear());
     }
     if ws.bound.iter().all(|&bound| bound <= 0.0) {
-        // Nothing carries shear, and nothing holds a motion that is free.
+        // No cell carries shear: free motions are undetermined and taken as zero.
         info.shift = problem.tangential.given;
         return Ok(());
     }
@@ -161,8 +163,8 @@ pub(super) fn shear_for_known_pressure(
     Ok(())
 }
 
-/// Newton steps, between which u_0 follows the solution as long as the misfit falls; whether that ended with
-/// both in agreement.
+/// Newton steps, between which the turn term of u_0 is updated as long as the misfit falls; returns
+/// whether shear and u_0 agree at the end.
 fn follow_the_turn(
     response: &mut Response<'_>,
     problem: &IncrementProblem<'_>,

@@ -1,13 +1,15 @@
-//! Cells that friction without a limit would hold and that their shear would lift.
+//! Cells under friction without a limit that the shear would lift off.
 //!
-//! A cell at the rim of a contact that never slips may have no place: while it sticks, the shear asks for a
-//! tension, and once it has parted it carries no shear and overlaps. What large coefficients of friction tend
-//! to lies between: the cell slips, under a shear that leaves it just pressed, in a region that shrinks towards
-//! the rim. So a cell that has left the contact with a shear is pressed without shear once it is back.
+//! A cell at the rim of a contact with mu = infinity may have neither state: if it sticks, the
+//! shear requires a tension; if it separates, it carries no shear and overlaps. The limit of large
+//! mu lies between: the cell slips, under a shear that leaves it just pressed, in a region that
+//! shrinks towards the rim as mu grows. A cell that has left the contact while it carried shear is
+//! therefore pressed without shear when it comes back.
 
 use crate::solvers::Interface;
 
-/// Passes from which on a cell that leaves the contact is looked at: the first ones find the contact.
+/// First pass in which a cell that leaves the contact counts as lifted: the passes before find the
+/// contact.
 const FIRST: usize = 3;
 
 /// The numbers of such cells.
@@ -15,13 +17,13 @@ const FIRST: usize = 3;
 pub(super) struct Lifted(Vec<usize>);
 
 impl Lifted {
-    /// Begins anew: no cell is lifted.
+    /// Forgets all lifted cells.
     pub(super) fn clear(&mut self) {
         self.0.clear();
     }
 
-    /// Looks for cells that the normal solver has taken out of the contact in a pass, from 1; their pressure
-    /// was `p_before`.
+    /// Adds the cells that the normal solver has taken out of the contact in a pass (from 1), with
+    /// p = `p_before` before it.
     pub(super) fn find(&mut self, pass: usize, mu: &[f64], p_before: &[f64], now: &Interface) {
         if pass < FIRST {
             return;
@@ -30,7 +32,7 @@ impl Lifted {
         self.0.extend((0..mu.len()).filter(left));
     }
 
-    /// Takes the bounds of lifted cells away.
+    /// Sets the bound of lifted cells to zero.
     pub(super) fn limit(&self, bound: &mut [f64]) {
         for &n in &self.0 {
             bound[n] = 0.0;

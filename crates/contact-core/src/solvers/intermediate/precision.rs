@@ -1,16 +1,18 @@
-//! Digits of the displacements: changes of the tractions may be answered in single precision.
+//! Precision of the displacements: responses to changes of the tractions may be computed in single
+//! precision.
 //!
-//! What that rounds adds up over the changes, those that are taken back included: a contact that slides far goes
-//! through tractions that are many times those of its solution. Where it comes to matter, a convolution in double
-//! precision ties the displacements to the tractions again, and the iteration goes on from there, by smaller changes;
-//! where it keeps the iteration from its end, all is answered in double precision.
+//! The rounding errors of the changes add up, also of changes that are undone: a contact that
+//! slides far passes through tractions many times those of its solution. Where their estimate
+//! exceeds the tolerance, the displacements are evaluated once in double precision, and the
+//! iteration continues from there with smaller changes; where the iteration does not converge, all
+//! responses are computed in double precision.
 
 use super::alternation::alternate;
 use super::problem::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};
 use crate::solvers::no_slip::NoSlip;
 use crate::solvers::{Interface, Response, SolverError};
 
-/// Part of the tolerances that rounding may come to.
+/// Largest estimate of the rounding error over the tolerances.
 const ROUNDED: f64 = 0.1;
 /// Most evaluations in double precision between changes in single precision.
 const EVALUATIONS: usize = 5;

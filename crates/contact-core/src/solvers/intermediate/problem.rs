@@ -1,4 +1,4 @@
-//! What the intermediate loop is given, works on and ends with.
+//! Data, unknowns and results of the intermediate loop.
 
 use super::anderson::Anderson;
 use super::lifted::Lifted;
@@ -20,7 +20,8 @@ pub struct IncrementProblem<'a> {
     pub mu: &'a [f64],
     /// Where the cells are.
     pub arms: &'a Arms,
-    /// Whether cells come into contact because it grows or rolls on, or are kept from that.
+    /// Whether cells may enter because the contact grows or rolls, or are kept out (a solution on
+    /// the old contact).
     pub enters: bool,
     /// What drives approach and tilts, from the unloaded state.
     pub normal: Drive,
@@ -63,19 +64,19 @@ pub struct AlternationParams {
     pub tangential: TangentialParams,
     /// Most passes.
     pub max_alternations: usize,
-    /// Part of the gap that the pass before left down to which the inner loops solve; 0 solves to their tolerance in
-    /// each pass \[1\].
+    /// Tolerance of the inner loops over the gap after the last pass, where that exceeds their own;
+    /// 0 solves to their own tolerance in each pass \[1\].
     pub forcing: f64,
-    /// Whether cells slip at once that the normal solver brings into contact, where friction does not hold them; in the
-    /// first pass where no cell enters (default true).
+    /// Whether cells that the normal solver brings into contact slip at once where friction cannot
+    /// hold them; in the first pass only if no cell enters by growth (default true).
     pub new_cells_slip: bool,
     /// Whether slow alternation is accelerated (default true).
     pub anderson: bool,
 }
 
 impl AlternationParams {
-    /// The settings with the tolerances of the inner loops in a pass that begins with such a `residual` of the gap
-    /// \[m\], and whether these are those of the end.
+    /// The settings with the inner tolerances of a pass that begins with this `residual` of the gap
+    /// \[m\], and whether these are the final ones.
     pub(super) fn inner(&self, residual: f64) -> (Self, bool) {
         let looser = self.forcing * residual / self.tolerance;
         if !(looser > 1.0) {
@@ -96,7 +97,7 @@ pub struct AlternationInfo {
     pub approach: [f64; 3],
     /// Shifts of this increment, and the rotation phi_z times the length \[m\].
     pub shift: [f64; 3],
-    /// What the loads ask for over what friction can carry; full sliding from 1 on.
+    /// Loads over the limit of friction \[1\]; full sliding from 1 on.
     pub friction_used: f64,
     /// Passes.
     pub alternations: usize,
@@ -107,13 +108,13 @@ pub struct AlternationInfo {
 }
 
 impl AlternationInfo {
-    /// Whether the loads are more than friction can carry: there is no equilibrium, and the shear
-    /// was not solved for.
+    /// Whether the loads exceed the limit of friction: there is no equilibrium, and the shear was
+    /// not solved.
     pub fn exceeds_friction(&self) -> bool {
         exceeds(self.friction_used)
     }
 
-    /// Whether the loads are all that friction can carry.
+    /// Whether the loads reach the limit of friction.
     pub fn uses_all_friction(&self) -> bool {
         is_full(self.friction_used)
     }
@@ -135,14 +136,14 @@ pub struct AlternationWorkspace {
     pub(super) bound: Vec<f64>,
     /// Pressure before the normal solver.
     pub(super) p_before: Vec<f64>,
-    /// The shear that u_z answers to.
+    /// The shear to which u_z belongs.
     pub(super) q_before: [Vec<f64>; 2],
     pub(super) change: [Vec<f64>; 2],
     pub(super) response: [Vec<f64>; 2],
     pub(super) anderson: Anderson,
-    /// Cells that stick without a limit and that their shear would lift.
+    /// Cells under friction without a limit that the shear would lift off.
     pub(super) lifted: Lifted,
-    /// Passes in which u_0 did not settle.
+    /// Passes in which the turn term of u_0 did not settle.
     pub(super) unsettled: usize,
 }
 

@@ -8,12 +8,12 @@
 //!
 //! - u_start: the displacement of the material of the cell at the start of the increment, rolled and
 //!   stretched with it;
-//! - r, the residual slip: what the last increment left of slip that should be zero (all of it in stick
-//!   cells, in slip cells the part that does not oppose the shear), within the tolerance. Taken off here
-//!   it does not add up along the path (defect correction);
+//! - r, the residual slip: what the last increment left of slip that should be zero (all of it in
+//!   stick cells, in slip cells the part that does not oppose the shear), within the tolerance.
+//!   Taken off here it does not add up along the path (defect correction);
 //! - m, the entry motion of cells outside the last contact: how far they move freely before they touch;
-//! - t, the turn of cells in it: eq. (8) holds the slip against the shear at the end of the increment,
-//!   where it opposed a shear that turned.
+//! - t, the turn of cells in the last contact: eq. (8) makes the slip opposite to the shear at the
+//!   end of the increment, but the shear rotated while the cell slipped.
 //!
 //! Slip is computed here and nowhere else: [`slip`] in one cell.
 
@@ -28,14 +28,14 @@ use self::turn::turn;
 use super::Interface;
 use crate::cells::{Arms, CHUNK, set, size};
 
-/// The fields of the noun, kept from one increment to the next.
+/// The fields of u_0, allocated once for all increments.
 #[derive(Debug)]
 pub struct NoSlipTerms {
     /// u_0 \[m\].
     sum: [Vec<f64>; 2],
     /// m of cells outside the last contact, t of cells in it \[m\].
     added: [Vec<f64>; 2],
-    /// Derivative of the part of the slip across the final shear by the angle of that shear, over the slip.
+    /// t': derivative of t by the angle of the final shear, over |ds| \[1\].
     turning: Vec<f64>,
 }
 
@@ -70,9 +70,9 @@ pub struct Start<'a> {
     pub residual: &'a [Vec<f64>; 2],
     /// Where the cells are.
     pub arms: &'a Arms,
-    /// The tractions an increment earlier, where the slip is to follow the turn of the shear.
+    /// The tractions an increment earlier, where t is computed.
     pub earlier: Option<Earlier<'a>>,
-    /// How far the shear may move a surface before the bodies slide, about: mu times the approach \[m\].
+    /// Elastic displacement at which the bodies slide, about mu times the approach \[m\].
     pub elastic_slip: f64,
 }
 
@@ -83,7 +83,7 @@ pub struct NoSlip<'a> {
 }
 
 impl<'a> NoSlip<'a> {
-    /// Without a turn; with the entry motion m of cells outside the contact \[m\], zero if not given.
+    /// With t = 0 and the entry motion m of cells outside the contact \[m\], zero if not given.
     pub fn new(
         start: Start<'a>,
         terms: &'a mut NoSlipTerms,
@@ -108,19 +108,19 @@ impl<'a> NoSlip<'a> {
         self.terms.displacement()
     }
 
-    /// The part of a turn of the final shear that u_0 takes over from the slip, in each cell.
+    /// t' in each cell \[1\].
     pub fn turning(&self) -> &[f64] {
         &self.terms.turning
     }
 
-    /// Whether the slip follows the turn of the shear at all.
+    /// Whether t is computed at all.
     pub fn turns(&self) -> bool {
         self.start.earlier.is_some()
     }
 
-    /// Takes t a `part` of the way to what the shear `now` and the `shift` d(delta) make of it \[m\]; false
-    /// where it is zero since no cell sticks: bodies slide as they are moved, and the shear has turned into
-    /// that direction at the end.
+    /// t += `part` (t_new - t), with t_new of the shear `now` and the `shift` d(delta) \[m\].
+    /// Returns false, with t = 0, where no cell sticks: the bodies then slide along the given
+    /// motion, and the shear has its direction at the end.
     pub fn follow(&mut self, now: &Interface, shift: [f64; 3], part: f64) -> bool {
         let Some(earlier) = self.start.earlier else {
             return false;
@@ -142,7 +142,8 @@ impl<'a> NoSlip<'a> {
             }
             let at = |u: &[Vec<f64>; 2]| [u[0][n], u[1][n]];
             let slip = size(slip(at(&now.u), at(&last.u), arms.in_plane(shift, n)));
-            // Where a cell slips by as much as the shear can move a surface the bodies slide.
+            // The turn fades out for slips between half of and all of the elastic displacement: the
+            // bodies slide then.
             let slides = (2.0 - 2.0 * slip / elastic_slip).clamp(0.0, 1.0);
             turn(last, &earlier, now, slip, n).map_or(([0.0; 2], 0.0), |(across, follows)| {
                 (across.map(|t| slides * t), part * slides * follows)
@@ -168,7 +169,7 @@ impl<'a> NoSlip<'a> {
                     continue;
                 }
                 let (to, follows) = turned(n);
-                // A cell that sticks has no turn to follow.
+                // A cell that sticks has t = 0 at once, without relaxation.
                 let part = if now.slip[n] { part } else { 1.0 };
                 x[i] += part * (to[0] - x[i]);
                 y[i] += part * (to[1] - y[i]);
@@ -180,7 +181,8 @@ impl<'a> NoSlip<'a> {
         true
     }
 
-    /// Takes the slip for opposite to the shear at the end, where its turn cannot be followed: t is zero.
+    /// Sets t = 0, where the iteration for it does not converge: the slip is opposite to the final
+    /// shear.
     pub fn straighten(&mut self) {
         if self.start.earlier.is_none() {
             return;

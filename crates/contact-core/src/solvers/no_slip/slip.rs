@@ -8,8 +8,8 @@ pub fn slip(u: [f64; 2], u_0: [f64; 2], rigid: [f64; 2]) -> [f64; 2] {
     [u[0] - u_0[0] - rigid[0], u[1] - u_0[1] - rigid[1]]
 }
 
-/// The part of a slip that does not oppose the shear `q` \[m\]; none of it where friction bears nothing and
-/// any slip will do.
+/// The part of a slip that does not oppose the shear `q` \[m\]; zero where q = 0, since without
+/// friction any slip is admissible.
 pub fn not_opposite(slip: [f64; 2], q: [f64; 2]) -> [f64; 2] {
     let size = size(q);
     if size == 0.0 {

@@ -4,11 +4,11 @@
 //! ds = -lambda m,   m = (e_1 + a e_0 + b e_-1)/|e_1 + a e_0 + b e_-1|
 //! ```
 //!
-//! with e_1 and e_0 the directions of the shear at the end of the increment and where the slip begins, and e_-1
-//! that an increment earlier. The part of that slip across e_1, t = |ds| ((m.e_1) e_1 - m), is a term of u_0, so
-//! that the solver, which holds the slip against the final shear, finds it there; it follows the solution until
-//! both agree. With w e = a e_0 + b e_-1, |e| = 1, m turns by 1/(1 + w) of a small turn of e_1, which the Newton
-//! steps reckon with.
+//! with e_1 and e_0 the directions of the shear at the end of the increment and where the slip
+//! begins, and e_-1 that an increment earlier. The solver makes the slip opposite to e_1; the
+//! component of the true slip across e_1, t = |ds| ((m.e_1) e_1 - m), is therefore a term of u_0.
+//! It is updated with the solution until both agree. With w e = a e_0 + b e_-1, |e| = 1, a small
+//! rotation of e_1 rotates m by 1/(1 + w) of it; the Newton steps contain that derivative.
 //!
 //! **A cell that slips all the time.** A direction that turns evenly has its mean in the middle of the increment,
 //!
@@ -16,35 +16,40 @@
 //! (1 + a + b)/2 = 1 - b/r,
 //! ```
 //!
-//! r being the increment over the last one. With b = 0 that is the trapezoidal rule, a = 1, which does not damp
-//! an error of e_0: it comes back in e_1 with the other sign. Errors of e_1 follow z^2 + a z + b = 0 from one
-//! increment to the next; they fall the fastest where both roots are -a/2, b = a^2/4:
+//! r being the increment over the last one. With b = 0 this is the trapezoidal rule, a = 1, which
+//! does not damp an error of e_0: the error returns in e_1 with the other sign. Errors of e_1
+//! follow z^2 + a z + b = 0 from one increment to the next; they fall the fastest where both roots
+//! are -a/2, b = a^2/4:
 //!
 //! ```text
 //! a = 2/(1 + (2 + 2/r)^(1/2));   a = 2/3, b = 1/9, z = -1/3 for r = 1.
 //! ```
 //!
-//! **A cell that starts to slip.** Its slip grows with the 3/2 power of the time since then (Cattaneo's slip front
-//! moves evenly), so that the mean of a direction that turns evenly has the weights a = 2/3, b = 0; e_0 is
-//! where its shear, extrapolated from the last increment, meets the bound. In the increment after that the mean
-//! of the square root of the time has a = 0.8. Of a cell that entered the contact in the last increment e_0 is
-//! mostly the error of its entry motion: it has no turn.
+//! **A cell that starts to slip.** Its slip grows with the power 3/2 of the time since the onset
+//! (Cattaneo's slip front moves evenly), so that the mean of an evenly turning direction has the
+//! weights a = 2/3, b = 0; e_0 is the direction at which the shear, extrapolated from the last
+//! increment, meets the bound. In the increment after that, averaging with the square root of the
+//! time gives a = 0.8. A cell that entered the contact in the last increment has t = 0: its e_0 is
+//! dominated by the error of its entry motion.
 
 use crate::cells::size;
 use crate::solvers::Interface;
 
 /// Weight a of the direction at the beginning of a cell that starts to slip.
 const STARTS: f64 = 2.0 / 3.0;
-/// The same of one that started in the last increment.
+/// Weight a of a cell that started to slip in the last increment.
 const STARTED: f64 = 0.8;
-/// Part of its bound, less than all of it, that the shear an increment earlier had in a cell that started to slip in
-/// the last increment; what the cell is taken for is faded, so that rounding decides nothing.
+/// With r = (|q_-1|/p_-1)/(|q_0|/p_0) of a cell that slips, its weights are those of a cell that
+/// slips all the time for r = 1, those of one that started in the last increment for r <= SLIPPED,
+/// and linear in r between the two, so that rounding cannot make them jump.
 const SLIPPED: f64 = 0.9;
-/// Cosines of the angle between two directions over which the turn is faded in: beyond 60 degrees the path of
-/// the direction in between is not known.
+/// The turn counts fully where the cosine of the angle between two directions is above FADE\[1\],
+/// not at all below FADE\[0\], and linearly between: beyond 60 degrees the path of the direction is
+/// unknown.
 const FADE: [f64; 2] = [0.5, 0.7];
-/// Part by which the onset of slip is farther from the end than the start of the increment was from which on its turn
-/// does not count; it is faded out, so that rounding decides nothing.
+/// Test that the extrapolated onset of slip lies within the increment: with d_0 = |q_0 - g e_1| at
+/// the start and d = |q - g e_1| at the onset, the turn counts fully for d <= d_0, not at all for
+/// d >= (1 + FARTHER) d_0, and linearly between.
 const FARTHER: f64 = 0.1;
 
 /// The tractions an increment earlier.
@@ -71,13 +76,13 @@ impl<'a> Earlier<'a> {
     }
 }
 
-/// The part t of a `slip` \[m\] of cell n across its final shear \[m\], as far as the way there is known,
+/// t of cell n for |ds| = `slip` \[m\],
 ///
 /// ```text
 /// |ds| fade(cos c) w sin(c)/|w e + e_1|,   c the angle from e to e_1,
 /// ```
 ///
-/// and its derivative by c over |ds|.
+/// and t', its derivative by c over |ds|.
 pub(super) fn turn(
     last: &Interface,
     earlier: &Earlier<'_>,
@@ -111,9 +116,9 @@ pub(super) fn turn(
     Some(([-across * e_1[1], across * e_1[0]], follows))
 }
 
-/// The direction e of a cell that starts to slip, where its shear, extrapolated from `before` through `last`, meets
-/// the bound \[Pa\], its weight, and how far that is known: slip begins with a shear that is no farther from the one
-/// at the end than the one at the start was.
+/// A cell that starts to slip: the direction e at which its shear, extrapolated from `before`
+/// through `last`, meets the bound \[Pa\], the weight w, and a factor 0 to 1 by which the turn
+/// counts ([`FARTHER`]).
 fn starts(
     before: [f64; 2],
     last: [f64; 2],
@@ -127,9 +132,9 @@ fn starts(
     Some((direction(begin).0, STARTS, known))
 }
 
-/// The direction e of a cell that has slipped before, its weight w, and how far it is known. A turn of the last increment
-/// counts as far as it is no larger than that of this one and, where it went the other way, b times it no larger than
-/// a times this one, so that the mean lies between e_0 and e_1.
+/// A cell that has slipped before: the direction e, the weight w, and the factor 1. b is reduced
+/// where the turn of the last increment, times r or b/a, is larger than that of this one, so that
+/// the mean direction lies between e_0 and e_1 if the two turns have opposite signs.
 fn goes_on(
     last: &Interface,
     earlier: &Earlier<'_>,
@@ -138,7 +143,7 @@ fn goes_on(
 ) -> ([f64; 2], f64, f64) {
     let at = |q: &[Vec<f64>; 2]| [q[0][n], q[1][n]];
     let ((e_0, bound), (e_before, before)) = (direction(at(&last.q)), direction(at(earlier.q)));
-    // The shear over the pressure is as large in all cells that slip.
+    // |q|/p is the coefficient of friction in all cells that slip.
     let of_bound = before * last.p[n] / (bound * earlier.p[n]).max(f64::MIN_POSITIVE);
     let slipped = (of_bound - SLIPPED) / (1.0 - SLIPPED);
     let turned = (dot(e_0, e_before) - FADE[0]) / (FADE[1] - FADE[0]);
