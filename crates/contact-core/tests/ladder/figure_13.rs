@@ -96,7 +96,7 @@ fn on_two_grids(ratio: f64, n: usize) -> Stressed {
     fine
 }
 
-/// In the compliant coating, in its middle.
+/// In the compliant coating, in its middle, by a tenth: more than ten errors of the surface's.
 #[test]
 fn a_compliant_coating_is_stressed_most_in_its_middle() {
     let Stressed {
@@ -104,7 +104,7 @@ fn a_compliant_coating_is_stressed_most_in_its_middle() {
         below: (value, at),
     } = on_two_grids(0.5, 64);
     assert!(at.layer == 0 && (0.3..0.6).contains(&at.z), "{at:?}");
-    assert!(value > 1.1 * surface.0);
+    assert!(value > surface.0 + 10.0 * surface.2, "{value} {surface:?}");
 }
 
 /// On the free surface, at the trailing rim, by a few hundredths.
