@@ -1,23 +1,24 @@
-//! The error bar of a number, of what cells, increments and solver leave in it.
+//! The error bar of a number, with its parts from cells, increments and solver.
 
 use serde::{Deserialize, Serialize};
 
 /// The estimated error of a number and its parts, >= 0, in the unit of the number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Bar {
-    /// All: the root of the sum of the squares; where cells and increments are off to the same side, their sum
-    /// and the solver's part. Errors of opposite signs are not taken to cancel: neither is known so well.
+    /// The root of the sum of squares; if the errors of cells and increments have the same sign,
+    /// their sum combined with the solver's part. Errors of opposite sign are not taken to cancel:
+    /// neither is known well enough.
     pub total: f64,
-    /// What the cells leave.
+    /// Error of the cells.
     pub cells: f64,
-    /// What the increments leave.
+    /// Error of the increments.
     pub path: f64,
-    /// What the solver's tolerance leaves.
+    /// Error within the solver's tolerance.
     pub solver: f64,
 }
 
 impl Bar {
-    /// Of parts whose signs are not known.
+    /// From parts of unknown sign.
     pub(super) fn new(cells: f64, path: f64, solver: f64) -> Self {
         Self {
             total: cells.hypot(path).hypot(solver),
@@ -27,8 +28,8 @@ impl Bar {
         }
     }
 
-    /// Of an error of the cells `off`, whose sign is known, and of the `scatter` that they leave to chance; the sign
-    /// of what the increments leave is known too.
+    /// From the signed error `off` of the cells and their random part `scatter`, and the signed
+    /// error `path` of the increments.
     pub(super) fn signed(off: f64, scatter: f64, path: f64, solver: f64) -> Self {
         let together = off.hypot(path).max((off + path).abs());
         Self {

@@ -1,7 +1,8 @@
-//! How many increments a tolerance of the path asks for.
+//! The numbers of increments for a tolerance of the path.
 //!
-//! Rounds of the path on a coarse grid, each with an error of every branch (`path_error`): a branch whose error
-//! is too large gets more increments by the order that its error has fallen with.
+//! In rounds: the path is run on a coarse grid, the error of every branch estimated (`path_error`),
+//! and a branch whose error is too large gets more increments, by the order with which its error
+//! has fallen.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -10,38 +11,41 @@ use super::trial::{PathError, Trial};
 use crate::error::Error;
 use crate::scene::{Branch, LoadPath, Loads, RigidMotion, Scene, Spacing};
 
-/// Orders that a branch may show from one round to the next.
+/// Bounds of the order m, error ~ n^-m, computed from two rounds.
 const ORDERS: (f64, f64) = (1.25, 2.0);
-/// The order that is expected before two rounds tell, but of the growth of contact and of what is nearly
-/// enough, where it is the least.
+/// Order m assumed after the first round. For a growing contact, and where the error is nearly
+/// small enough ([`NEAR`]), the lower bound of [`ORDERS`] is assumed instead.
 const EXPECTED: f64 = 1.6;
-/// Increments to begin with: of a branch that begins without contact, of one with which the path ends
-/// too, whose slip rings are of interest, and of others.
+/// Increments in the first round: of a branch that starts without contact and is followed by
+/// others; of one that starts without contact and ends the path (its slip ring is the result); of
+/// all others.
 const FIRST: (usize, usize, usize) = (12, 56, 6);
-/// Part of the tolerance that is aimed at.
+/// Error aimed at, over the allowed error.
 const AIM: f64 = 0.9;
-/// Part of the tolerance that an estimate may come to.
+/// Largest accepted estimate, over the tolerance.
 const ACCEPTED: f64 = 0.9;
-/// Part of the tolerance that is left to the growth of contact from nothing, over the part that the
-/// shear has by then of the largest, which is what dissimilar bodies make of the load alone. Where
-/// nothing follows, the error is measured against the shear that friction can bear.
+/// Allowed error of a branch in which contact grows from nothing, over the tolerance: clamp(GROWN
+/// |q|/q_max, INHERITED), |q| being the norm of the shear at its end (from the load alone, of
+/// dissimilar bodies) and q_max the largest of the path. If no branch follows: max(1, mu
+/// |p|/q_max).
 const GROWN: f64 = 6.0;
-/// The least and the most part that is.
+/// Bounds of that ratio; once later branches have kept their error in spite of more increments
+/// ([`KEPT`]), the lower bound alone.
 const INHERITED: (f64, f64) = (0.36, 0.9);
-/// Part of its error that the end of a branch has at least kept, with more increments of this branch,
-/// where the error is that of the growth: what sticks keeps it.
+/// A branch has inherited its error from the growth of contact if more increments of its own reduce
+/// it to no less than KEPT times: cells that stick keep that error.
 const KEPT: f64 = 0.8;
-/// Most that the number of increments of a branch grows by in a round.
+/// Largest factor of the increments of a branch in a round.
 const GROWTH: f64 = 4.0;
-/// Times the error aimed at from which a branch gets its increments without another round: with an order that two
-/// rounds have shown, and with the least order.
+/// No other round is needed if the error is at most NEAR times the one aimed at: NEAR.0 with an
+/// order from two rounds, NEAR.1 with the assumed one.
 const NEAR: (f64, f64) = (3.0, 2.0);
-/// Times the error of a growth of contact from nothing that an error has that is not inherited from it.
+/// An error above OWN times that of a preceding growth of contact is not inherited from it.
 const OWN: f64 = 2.0;
-/// Rounds of choosing.
+/// Most rounds.
 const ROUNDS: usize = 8;
-/// Most increments of a path that are chosen, and of a branch: where those are not enough (friction that falls with
-/// slip is of first order) the error that they leave is told.
+/// Most increments of a path and of a branch. Where these are not enough (friction that falls with
+/// slip is of first order) the run reports the remaining error.
 const MOST: usize = 20_000;
 const MOST_OF_BRANCH: usize = 1000;
 
@@ -59,7 +63,7 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
     chosen.settings.solver.tolerance = Some(scene.tolerance());
     begin(&mut chosen.path, scene.friction.mu > 0.0);
     if scene.friction.mu == 0.0 {
-        // Pressure depends on the loads alone.
+        // Without friction the pressure depends on the loads alone, not on the path.
         let branches = chosen.path.branches.iter_mut();
         branches.for_each(|b| b.path_error = Some(0.0));
         return Ok(chosen);
@@ -68,7 +72,7 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
     let mut choice = Choice::new(scene, chosen.path);
     let settled = choice.settle(&mut trial)?;
     chosen.path = choice.path;
-    // At the end what given increments leave counts.
+    // The errors of branches with given increments are reported, too.
     if !settled || choice.open.contains(&false) {
         let errors = trial.errors(&chosen.path, |_| true)?;
         for (branch, error) in chosen.path.branches.iter_mut().zip(errors) {
@@ -83,9 +87,9 @@ struct Choice {
     path: LoadPath,
     /// Branches whose increments are chosen.
     open: Vec<bool>,
-    /// What a branch had in the last round in which it was refined, and the error with it.
+    /// Increments and error of a branch in the last round in which it was refined.
     before: Vec<Option<(usize, f64)>>,
-    /// Largest part of the tolerance left to a growth of contact.
+    /// Upper bound of the allowed error of a growth of contact, over the tolerance.
     most_inherited: f64,
     /// `solver.path_tolerance`.
     tolerance: f64,
@@ -103,18 +107,19 @@ impl Choice {
         }
     }
 
-    /// Rounds until every branch has an error that is allowed; whether that came about.
+    /// Rounds until the error of every branch is allowed; returns whether it is.
     fn settle(&mut self, trial: &mut Trial) -> Result<bool, Error> {
         let last = self.path.branches.len() - 1;
         let mut until = last;
         for _ in 0..ROUNDS {
             let mut part = self.path.clone();
             part.branches.truncate(until + 1);
-            // Whatever given increments leave is no matter of those that are chosen.
+            // Only the increments that are chosen are varied.
             let errors = trial.errors(&part, |k| self.open[k])?;
             until = match self.refine(&errors) {
                 None if until == last => return Ok(true),
-                // What follows the growth of contact starts from it.
+                // The branches after a growth of contact depend on it: they are looked at once it
+                // is refined.
                 Some(k) if self.path.branches[k].spacing == Spacing::EqualRadius => k,
                 _ => last,
             };
@@ -125,10 +130,10 @@ impl Choice {
         Ok(false)
     }
 
-    /// More increments for the branches whose error is too large; the first of them to look at again.
+    /// Refines the branches whose error is too large; returns the first that needs another round.
     fn refine(&mut self, errors: &[PathError]) -> Option<usize> {
         self.see_what_is_inherited(errors);
-        // The error of a growth of contact that is still too large.
+        // `inherited`: the error of the last growth of contact that is still too large.
         let (mut first, mut inherited) = (None, 0.0);
         for (k, error) in errors.iter().enumerate() {
             let allowed = self.allowed(k, error);
@@ -146,8 +151,8 @@ impl Choice {
         first
     }
 
-    /// Leaves less of the tolerance to the growths of contact where more increments of a later branch
-    /// have not lowered its error.
+    /// Lowers the allowed error of growths of contact if more increments of a later branch have not
+    /// lowered its error ([`KEPT`]).
     fn see_what_is_inherited(&mut self, errors: &[PathError]) {
         let keeps_its_error = |k: usize| {
             let error = errors[k].q;
@@ -161,7 +166,7 @@ impl Choice {
         }
     }
 
-    /// The error that branch `k` may have.
+    /// The allowed error of branch `k`.
     fn allowed(&self, k: usize, error: &PathError) -> f64 {
         let part = match self.path.branches[k].spacing {
             Spacing::Uniform | Spacing::ShortFirst => ACCEPTED,
@@ -174,8 +179,8 @@ impl Choice {
     }
 }
 
-/// Gives a branch the increments with which its error comes to what is allowed, by what it was with fewer of them;
-/// whether they need no other round.
+/// Sets the increments of a branch for the allowed error, from the order since the last round;
+/// returns whether no other round is needed.
 fn refine(
     branch: &mut Branch,
     error: f64,
@@ -210,9 +215,9 @@ fn order(before: (usize, f64), now: (usize, f64)) -> f64 {
     fallen.clamp(ORDERS.0, ORDERS.1)
 }
 
-/// Gives open branches the increments to begin with. Those that begin without contact grow by equal radii, those
-/// that shear from a turn of the path on have a short first increment, and those that go on, as the chords of a curve
-/// do, begin with one.
+/// The increments of the first round. Branches that start without contact have increments of equal
+/// radius; those that shear after a turn of the path a short first increment; those that continue
+/// the direction of the last one, as chords of a curve do, a single increment.
 fn begin(path: &mut LoadPath, friction: bool) {
     let mut touches = false;
     let last = path.branches.len() - 1;

@@ -1,4 +1,4 @@
-//! The path on coarser grids: how far numbers and tractions change from them to the grid itself.
+//! The path on coarser grids: changes of numbers and tractions from these to the grid itself.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -13,20 +13,21 @@ use crate::scene::{Grid, RigidMotion, SaveFields, Scene};
 
 /// Cells of the coarser grids each way, over those of the grid.
 const PARTS: [f64; 2] = [0.5, 0.375];
-/// Order m of the [`numbers`]: between that of thin coatings, whose rim is off by a part of a cell, and that of smooth
-/// solutions, 2, which that of the rotation is: in 28 branches with torsion (seeds 1000 to 1072 of the scenes of
-/// `tests/error_bars.rs`) true errors are 1.03 times what it tells, 0.61 times what 1.5 would.
+/// Order m of the [`numbers`]: 1.5, between that of thin coatings, whose rim is off by a part of a
+/// cell (1), and that of smooth solutions (2). The rotation has 2: in 28 branches with torsion of
+/// random scenes (`tests/error_bars.rs`) true errors are 1.03 times the estimate with m = 2, and
+/// 0.61 times that with m = 1.5.
 pub(super) const ORDER: [f64; NUMBERS] = {
     let mut order = [1.5; NUMBERS];
     order[MOTIONS + RigidMotion::PhiZ.index()] = 2.0;
     order
 };
-/// Order m of the tractions, which are off in the cells of the rim.
+/// Order m of the tractions, whose errors are those of the cells at the rim.
 const FIELDS: f64 = 1.0;
 /// Fewest cells each way of a coarser grid.
 const FEWEST: usize = 8;
 
-/// What the coarser grids tell of a branch.
+/// Error estimates of a branch from the coarser grids.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Told {
     /// Scale of the errors of the numbers: root of the mean square over the grids, each in its unit.
@@ -35,7 +36,7 @@ pub(super) struct Told {
     pub(super) fields: [f64; 2],
 }
 
-/// Of the branches of a run that ended with these tractions.
+/// For the branches of a run that ended with these tractions.
 pub(super) fn coarser_grids(
     scene: &Scene,
     fine: &[BranchSummary],
@@ -67,13 +68,13 @@ pub(super) fn coarser_grids(
     Ok(told)
 }
 
-/// The scene on the coarsest of the grids that tell the errors of the cells. Fails where there is none.
+/// The scene on the coarsest grid of the error estimate. Fails if there is none.
 pub fn coarsest(scene: &Scene) -> Result<Scene, Error> {
     coarser(scene, PARTS[1])
 }
 
-/// The scene in a part of its cells each way, an odd number of them where it has an odd one, so that
-/// as much lies in the middle of a cell; a strip keeps its one row.
+/// The scene with a part of its cells each way, odd numbers staying odd, so that the middle of the
+/// grid stays the centre of a cell; a strip keeps its one row.
 fn coarser(scene: &Scene, part: f64) -> Result<Scene, Error> {
     let grid = &scene.grid;
     let fewer = |n: usize| {
@@ -106,7 +107,7 @@ fn coarser(scene: &Scene, part: f64) -> Result<Scene, Error> {
     Ok(coarse)
 }
 
-/// The cell of a grid over that of another, on the mean of both axes.
+/// Ratio of the cells of two grids, geometric mean of both axes.
 fn ratio(grid: &Grid, finer: &Grid) -> f64 {
     let along_x = grid.dx / finer.dx;
     if grid.plane_strain {
@@ -133,7 +134,7 @@ fn distances(fine: &[Tractions], coarse: &[Tractions]) -> Vec<[f64; 2]> {
 
 /// The means of a field over the cells of a coarser grid of the same extent.
 pub fn means(fine: &Array2<f64>, (nx, ny): (usize, usize)) -> Array2<f64> {
-    // The fine cells that a coarse one covers, and the parts of it that they are.
+    // The fine cells that a coarse one covers, with their parts of it.
     let covered = |i: usize, fine: usize, coarse: usize| -> Vec<(usize, f64)> {
         let ratio = fine as f64 / coarse as f64;
         let (low, high) = (i as f64 * ratio, (i + 1) as f64 * ratio);

@@ -1,23 +1,24 @@
-//! How far the numbers of a run are off: what cells, increments and solver leave in them.
+//! Errors of the numbers of a run, from cells, increments and solver.
 //!
-//! **Cells.** The path is run again on coarser grids, of r_i times the cell (`coarser`). An error that falls like the
-//! m-th power of the cell is told by each of them (Richardson),
+//! **Cells.** The path is run again on coarser grids with cells r_i times as large (`coarser`).
+//! Each gives the error of a number f that falls like the m-th power of the cell (Richardson),
 //!
 //! ```text
 //! error = |f - c_i|/(r_i^m - 1)
 //! ```
 //!
-//! but the place of the rim within the cells makes errors of numbers go up and down from grid to grid, as
-//! much as they fall where the rim is well found: the root of the mean square over the grids is the scale
-//! of the error. A finer grid tells the error itself (`finer`), up to what it leaves on that scale. The
-//! tractions are compared as fields, their means over the cells of the first coarser grid.
+//! c_i being the number on grid i. Since the position of the rim within the cells makes errors rise
+//! and fall from grid to grid, the root mean square over the grids is taken as the scale of the
+//! error. A finer grid gives the error itself with its sign (`finer`), up to its own error on that
+//! scale. The tractions are compared as fields: their means over the cells of the first coarser
+//! grid.
 //!
-//! **Increments.** The change from fewer or to more of them (`path_error`), of every number.
+//! **Increments.** The change of every number from fewer increments, or to more (`path_error`).
 //!
-//! **Solver.** Its tolerance, and that of the runs that tell the errors.
+//! **Solver.** Its tolerance, and that of the additional runs.
 //!
-//! Errors of cells and of increments whose signs are the same add up; where they are opposite they are not taken
-//! to cancel (`bar`).
+//! Errors of cells and increments of the same sign add up; those of opposite sign are not taken to
+//! cancel (`bar`).
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -38,14 +39,17 @@ use crate::march::{BranchSummary, Increment, TANGENTIAL_SHARE, Tractions, summar
 use crate::plan::Plan;
 use crate::scene::{Branch, Scene};
 
-/// How well the border of a stick zone is found at least, in cells: so well where the slip ring is wide.
+/// Error of the position of the border of a stick zone, at least \[cells\]; reached for wide slip
+/// rings.
 const BORDER: f64 = 0.07;
-/// How wide a slip ring is at least that the cells show: all of a narrower one, or of none, may be missed.
+/// Narrowest slip ring that the cells resolve \[cells\]. A narrower one may be missed as a whole,
+/// or a spurious one found.
 const SEEN: f64 = 0.5;
-/// Energy that a narrow slip ring takes while bodies are pressed together, over mu^2 W delta_z (1 - S)^2 with a stick
-/// zone of the part S of the contact: the median of 26 indentations of dissimilar bodies (the test's scenes from seed
-/// 1000 on, 0.02 < 1 - S < 0.6; half of them between 0.022 and 0.035). The ring bears mu W (1 - S)^(3/2) and slips by
-/// some mu delta_z (1 - S)^(3/2) while the contact grows by its width, which it does 1/(1 - S) times.
+/// E/(mu^2 W delta_z (1 - S)^2), E being the energy dissipated in a narrow slip ring during
+/// indentation and S the stick area over the contact area: the median of 26 indentations of
+/// dissimilar bodies (random scenes, 0.02 < 1 - S < 0.6; half of them between 0.022 and 0.035).
+/// Scaling: the ring carries the shear mu W (1 - S)^(3/2) and slips by about mu delta_z (1 -
+/// S)^(3/2) while the contact grows by the width of the ring, 1/(1 - S) times in all.
 const RING_ENERGY: f64 = 0.024;
 
 /// Estimated errors of the numbers at the end of a branch.
@@ -112,10 +116,10 @@ impl ErrorBars {
     }
 }
 
-/// Solves the scene again on two coarser grids, along the path with fewer increments, and in few
-/// increments on a finer grid, at some times the work of the run, and gives the errors of the branches of
-/// `increments`, which ended with these tractions. Where a finer grid would have more than 512 x 512
-/// cells the coarser ones alone tell the scale of errors. Ends when `stop` is raised.
+/// The errors of the branches of `increments`, which ended with these tractions. Solves the scene
+/// again on two coarser grids, with fewer increments, and in few increments on a finer grid: a few
+/// times the work of the run. Where a finer grid would have more than 512 x 512 cells the coarser
+/// ones alone give the scale of the errors. Ends when `stop` is raised.
 pub fn error_bars(
     scene: &Scene,
     increments: &[Increment],
@@ -140,7 +144,7 @@ pub fn error_bars(
         .collect())
 }
 
-/// What a finer grid tells of a branch.
+/// Errors of a branch from a finer grid.
 struct Differs {
     /// Cells of the finer grid each way over those of the grid.
     ratio: f64,
@@ -178,7 +182,7 @@ fn bars(
         match finer {
             None => Bar::new(told.numbers[n].hypot(least), path.numbers[n].abs(), solver),
             Some(finer) => {
-                // What the finer grid leaves of an error.
+                // The error of the finer grid over that of the grid.
                 let left = finer.ratio.powf(-ORDER[n]);
                 let scatter = (left * told.numbers[n]).hypot(least);
                 Bar::signed(
@@ -216,11 +220,11 @@ fn bars(
     }
 }
 
-/// What a tolerance leaves of each number, in its unit: of most a part of the number.
+/// Error of each number within a tolerance, in its unit: for most numbers tol times the number.
 ///
-/// Slip is left up to a share s of tol mu delta_z, also where cells hardly slip. Friction takes energy from the
-/// cells that slip: they bear W (1 - S)^(3/2) of the load under the pressure of Hertz, with a stick zone of the part S
-/// of the contact, so that s tol mu^2 W (1 - S)^(3/2) delta_z are left.
+/// The slip has the error s tol mu delta_z, s being the tangential share of the tolerance. Under
+/// Hertz's pressure the slip ring outside a stick zone of the area ratio S carries W (1 - S)^(3/2),
+/// so that the dissipated energy has the error s tol mu^2 W delta_z (1 - S)^(3/2).
 fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NUMBERS] {
     let value = numbers(fine).map(f64::abs);
     let mut parts = value.map(|value| tolerance * value);
@@ -234,8 +238,9 @@ fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NU
     parts
 }
 
-/// What is not known of the stick ratio: a ring along the border of the stick zone over the area of the contact; of
-/// a zone as large as the contact, the ring that the cells do not show.
+/// Uncertainty of the stick ratio: the area of a ring of width [`BORDER`] along the border of the
+/// stick zone over that of the contact; if the slip ring is not resolved, of a ring of width
+/// [`SEEN`].
 fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {
     if !may_slip(scene) || fine.contact_radius <= 0.0 {
         return 0.0;
@@ -247,8 +252,8 @@ fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {
     2.0 * (BORDER * cell).max(missed) * ratio.max(0.0).sqrt()
 }
 
-/// What is not known of the energy dissipated while dissimilar bodies are pressed together, since so much more of the
-/// contact may slip \[J\]; where shear acts it is little of what that dissipates.
+/// Uncertainty of the energy dissipated in the indentation of dissimilar bodies, whose slip ring
+/// may be larger by `ring` \[J\]; negligible where loads in the plane act.
 fn energy_of_ring(scene: &Scene, fine: &BranchSummary, ring: f64) -> f64 {
     let mut until = scene.path.branches[..=fine.branch].iter();
     if ring <= 0.0 || !Plan::new(scene).coupling || !until.all(Branch::only_presses) {
@@ -265,7 +270,7 @@ fn may_slip(scene: &Scene) -> bool {
     mu > 0.0 && mu.is_finite() && (Plan::new(scene).coupling || !scene.path.only_presses())
 }
 
-/// The side of a square as large as a cell; in plane strain its length \[m\].
+/// Side of the square with the area of a cell; in plane strain the length of the cell \[m\].
 fn cell(scene: &Scene) -> f64 {
     if scene.grid.plane_strain {
         scene.grid.dx

@@ -1,9 +1,9 @@
-//! What the cells leave in the numbers of a run: the same path in few increments, on the grid and on a
-//! finer one.
+//! Errors of the cells in the numbers of a run: the same path in few increments, on the grid and on
+//! a finer one.
 //!
-//! The place of a rim within the cells puts numbers off to either side by chance. On the grid itself,
-//! whatever the increments, the rim lies at the same place, so that the difference to a finer grid is the
-//! error with its sign.
+//! The position of a rim within the cells makes random errors of either sign. It is the same on the
+//! same grid whatever the increments, so that the difference from a finer grid is the error with
+//! its sign.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -19,7 +19,7 @@ const INCREMENTS: usize = 24;
 /// than [`MOST`].
 const TIMES: [usize; 2] = [3, 2];
 const MOST: usize = 512 * 512;
-/// Least tolerance of the solver: cells leave more.
+/// Least tolerance of the solver: the errors of the cells are larger.
 const TOLERANCE: f64 = 1e-5;
 
 /// The errors of the grid in the numbers of each branch.
@@ -33,8 +33,8 @@ pub(crate) struct Finer {
 }
 
 impl Finer {
-    /// Of a scene whose increments are chosen. None where a finer grid is too large, or does not come to
-    /// its end; fails only once `stop` is raised.
+    /// For a scene whose increments are chosen. None if a finer grid is too large or its run fails;
+    /// fails only once `stop` is raised.
     pub(crate) fn solve(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Option<Self>, Error> {
         let Some(fine) = finest(scene) else {
             return Ok(None);
@@ -66,8 +66,8 @@ impl Finer {
     }
 }
 
-/// The scene in few increments on the finer grid that tells the errors of the cells, if there is one. Error
-/// bars take its memory besides that of the run.
+/// The scene in few increments on the finer grid of the error estimate, if there is one. Error bars
+/// need its memory besides that of the run.
 pub fn finest(scene: &Scene) -> Option<Scene> {
     let grids = TIMES.map(|times| refined(&scene.grid, times));
     let grid = grids.into_iter().find(|grid| grid.nx * grid.ny <= MOST)?;

@@ -1,4 +1,4 @@
-//! HOW WRONG: the error of a run, and the increments that a tolerance asks for. Runs load paths.
+//! HOW WRONG: the error of a run, and the increments for a tolerance. Runs load paths.
 
 mod bar;
 mod branch_ends;

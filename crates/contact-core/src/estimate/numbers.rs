@@ -26,7 +26,8 @@ pub(crate) fn numbers(branch: &BranchSummary) -> [f64; NUMBERS] {
     numbers
 }
 
-/// Whether the path gives a number of a branch, so that it has no error: of each motion either that or its load.
+/// Whether the path gives a number of a branch, which then has no error: of each pair of motion and
+/// load one is given.
 pub(crate) fn is_given(branch: &BranchSummary, number: usize) -> bool {
     let given = branch.loads.given.motions().map(|motion| motion.is_some());
     match number.checked_sub(MOTIONS) {

@@ -1,17 +1,17 @@
-//! The error that the increments leave along the path.
+//! The error of the increments along the path.
 //!
-//! The path is run through with n and with n/2 increments in each branch. What the shear at the end of
-//! a branch changes by, over the largest shear of the path (L2), is a multiple of the error with n:
+//! The path is solved with n and with n/2 increments in each branch. The change of the shear at the
+//! end of a branch, over the largest shear of the path (L2), is a multiple of the error with n:
 //!
 //! ```text
 //! error(n) = |q_n - q_(n/2)|/(2^order - 1) = error(n/2)/2^order
 //! ```
 //!
-//! Where a branch has one increment only, the path is run through with n and with 2 n. The steps in which a contact grows
-//! within an increment are halved and doubled with them.
+//! Where a branch has a single increment, the path is solved with n and 2 n. The substeps of an
+//! increment in which a contact grows are halved or doubled with them.
 //!
-//! The error along the path hardly depends on the grid, so that a coarse one does, which takes a small
-//! part of the time; the contact must span it well.
+//! The error along the path hardly depends on the grid: a coarse grid is used, which takes a small
+//! part of the time; the contact must cover enough of its cells.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -37,10 +37,10 @@ pub fn estimate_path_error(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scen
     Ok(estimated)
 }
 
-/// What the increments of a path that has all of them leave at the end of each branch.
+/// Errors of the increments at the end of each branch of a path whose increments are all given.
 pub(crate) fn path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Vec<PathError>, Error> {
     if scene.friction.mu == 0.0 {
-        // Pressure depends on the loads alone.
+        // Without friction the pressure depends on the loads alone, not on the path.
         let branches = scene.path.branches.iter();
         return Ok(branches.map(|_| PathError::default()).collect());
     }

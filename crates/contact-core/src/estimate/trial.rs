@@ -1,7 +1,7 @@
-//! A scene on a grid that is just fine enough, run through along its path again and again.
+//! A scene on the coarsest sufficient grid, solved repeatedly with different increments.
 //!
-//! The ends of the branches are kept: a path that begins as the last one did is gone on with where it
-//! differs.
+//! The states at the ends of the branches are kept: a path with the same first branches as the last
+//! one is continued from there.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -13,34 +13,36 @@ use crate::error::Error;
 use crate::march::{BranchSummary, Increment, March, Motion, State, Tractions, summarise};
 use crate::scene::{Branch, Grid, LoadPath, Scene};
 
-/// Order of the error in the increments: between that of cells that enter one by one and that of
-/// turning slip; and where friction falls once a cell has slipped, an increment later.
+/// Order of the error in the increments: 1.5, between that of cells entering one by one (1) and
+/// that of turning slip (2); 1 where friction falls once a cell has slipped, one increment late.
 const ORDER: f64 = 1.5;
 const KINETIC_ORDER: f64 = 1.0;
 /// The same near full sliding: the shift of unlike bodies at 0.999 mu W in 161 and 400 increments differs by 8 %.
 const SLIDING_ORDER: f64 = 1.0;
-/// Solver tolerance of these runs over the tolerance on the path: what each increment misses adds up.
+/// Solver tolerance of these runs over the tolerance of the path: the errors of the increments add
+/// up.
 const SOLVED: f64 = 4e-3;
-/// Cells of a grid that is not made coarser.
+/// Grids of fewer than four times so many cells are not coarsened.
 const CELLS: usize = 32 * 32;
-/// Cells of a grid on which the error of the increments is that of any finer one, and the error over that on coarser
-/// grids, where the last ring of cells counts for more: 20 to 30 % less is found there on the paper's scene.
+/// Error of the increments on a grid of ENOUGH cells or more, over that on coarser ones: coarser
+/// grids underestimate it by 20 to 30 % on the paper's scene, since the ring of the last cells is
+/// wider there.
 const ENOUGH: usize = 64 * 64;
 const MISSED: f64 = 1.25;
 /// Contact cells that a grid must have.
 const CONTACT: usize = 300;
 
-/// What the increments leave at the end of a branch.
+/// Error of the increments at the end of a branch.
 #[derive(Default)]
 pub(crate) struct PathError {
     /// In the shear: L2 norm, over the largest of the path.
     pub(crate) q: f64,
     /// In the pressure: L2 norm, over the largest of the path.
     pub(crate) p: f64,
-    /// In the numbers of the branch, each in its unit, with its sign: what they are more than with many
-    /// increments.
+    /// In the numbers of the branch, each in its unit: less those with many increments.
     pub(crate) numbers: [f64; NUMBERS],
-    /// In the shift and in the energy that friction takes, the larger, over the largest of the path.
+    /// The larger of the errors of the shift and of the dissipated energy, each over the largest of
+    /// the path.
     pub(crate) motion: f64,
     /// Whether the shift follows from a force.
     pub(crate) driven: bool,
@@ -50,18 +52,19 @@ pub(crate) struct PathError {
     pub(crate) bearable: f64,
 }
 
-/// Part of the shear that friction can bear from which on shift and energy run away, while the shear hardly
-/// changes; and how much larger than that of the shear their errors may be.
+/// Above SLIDING times the limit of friction shift and energy grow without bound while the shear
+/// hardly changes; their errors may be RUN_AWAY times that of the shear.
 const SLIDING: f64 = 0.99;
 const RUN_AWAY: f64 = 3.0;
 
 impl PathError {
-    /// Whether friction bears nearly all that it can, and a force drives the shift.
+    /// Whether a given force is near the limit of friction.
     fn is_near_sliding(&self) -> bool {
         self.driven && self.reached > SLIDING * self.bearable
     }
 
-    /// What increments are chosen by: the error of the shear, and near full sliding that of shift and energy.
+    /// The error by which increments are chosen: that of the shear, near full sliding also that of
+    /// shift and energy.
     pub(crate) fn chosen_by(&self) -> f64 {
         if self.is_near_sliding() {
             self.q.max(self.motion / RUN_AWAY)
@@ -70,7 +73,7 @@ impl PathError {
         }
     }
 
-    /// So many times as large.
+    /// All errors times a factor.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self {
             q: factor * self.q,
@@ -88,19 +91,19 @@ pub(crate) struct Trial {
     many: Run,
     /// The error on the grid of the scene over that on the grid of the trial.
     missed: f64,
-    /// Steps in which a contact grows in the run itself.
+    /// Substeps in which a contact grows, as in the run itself.
     growth_steps: usize,
     mu: f64,
     /// Order of the error in the increments.
     order: f64,
     /// The largest p and q at the end of a branch so far (L2).
     largest: (f64, f64),
-    /// The largest shift, and the largest energy that friction takes in a branch, so far \[m, J\].
+    /// The largest shift and the largest energy dissipated in a branch, so far \[m, J\].
     moved: (f64, f64),
 }
 
 impl Trial {
-    /// On the coarsest grid on which the contact is not lost.
+    /// On the coarsest grid on which the contact has at least [`CONTACT`] cells.
     pub(crate) fn new(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         let mut grids = vec![scene.grid];
         while let Some(coarse) = grids.last().and_then(halved) {
@@ -116,7 +119,7 @@ impl Trial {
             }
             trial.grid = grid;
             let mut once = trial.clone();
-            // Only the contact counts.
+            // Only the area of the contact is needed.
             once.settings.solver.entering = false;
             once.path
                 .branches
@@ -144,8 +147,7 @@ impl Trial {
         })
     }
 
-    /// Estimated errors at the end of each branch, those that the increments of the branches leave that are
-    /// `varied`.
+    /// Estimated errors at the end of each branch, from the increments of the `varied` branches.
     pub(crate) fn errors(
         &mut self,
         path: &LoadPath,
@@ -163,7 +165,8 @@ impl Trial {
         let mut counts = (path.branches.iter().enumerate())
             .filter(|(k, _)| varied(*k))
             .map(|(_, branch)| branch.equal_increments());
-        // Half of few increments tells little where friction falls with slip.
+        // Where friction falls with slip, half of a few increments is no basis: twice as many are
+        // compared.
         let halves = self.order == ORDER && counts.all(|count| count > 1);
         let change = if halves {
             self.grow_in([self.growth_steps / 2, self.growth_steps]);
@@ -174,7 +177,7 @@ impl Trial {
         };
         let (missed, usual) = (self.missed, self.order);
         let of_path = |change: PathError| {
-            // Shift and energy run away in the last increments alone.
+            // Shift and energy near sliding are dominated by the last increments: first order.
             let order = if change.is_near_sliding() {
                 SLIDING_ORDER
             } else {
@@ -190,7 +193,7 @@ impl Trial {
         Ok(change.into_iter().map(of_path).collect())
     }
 
-    /// Lets the steps in which contacts grow within increments be few and many as these are.
+    /// Sets the substeps of growing contacts of both runs.
     fn grow_in(&mut self, [few, many]: [usize; 2]) {
         self.few.grow_in(few);
         self.many.grow_in(many);
@@ -236,14 +239,14 @@ impl Trial {
     }
 }
 
-/// A run, and the ends of the branches that it has been through.
+/// A run, and the ends of its branches so far.
 struct Run {
     march: March,
     growth_steps: usize,
     ends: Vec<End>,
 }
 
-/// How a branch ends.
+/// The end of a branch.
 struct End {
     branch: Branch,
     state: State,
@@ -261,7 +264,7 @@ impl Run {
         })
     }
 
-    /// Grows contacts in so many steps; what was known with another number is forgotten.
+    /// Sets the substeps of growing contacts; another number discards the known ends.
     fn grow_in(&mut self, steps: usize) {
         if self.growth_steps != steps {
             self.growth_steps = steps;
@@ -270,7 +273,7 @@ impl Run {
         }
     }
 
-    /// The path run through, and how each of its branches ends.
+    /// Solves the path; returns the ends of its branches.
     fn along(&mut self, path: &LoadPath) -> Result<&[End], Error> {
         let known = self.ends.iter().zip(&path.branches);
         let known = known.take_while(|(end, branch)| end.branch == unjudged(branch));
@@ -297,7 +300,7 @@ impl Run {
     }
 }
 
-/// The branch, whatever is known of its error.
+/// The branch without its error.
 fn unjudged(branch: &Branch) -> Branch {
     Branch {
         path_error: None,
@@ -319,7 +322,7 @@ fn norm(f: &Array2<f64>) -> f64 {
     f.iter().map(|f| f * f).sum::<f64>().sqrt()
 }
 
-/// The most contact cells that the branches end with.
+/// The largest number of contact cells at the ends of the branches.
 fn most_contact(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<usize, Error> {
     let cell_area = scene.grid.cell_area();
     let mut march = March::until(scene, stop)?;
@@ -330,7 +333,7 @@ fn most_contact(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<usize, Error> {
     Ok((most / cell_area).round() as usize)
 }
 
-/// An increment of a trial; a stop comes before the first increment of the run itself.
+/// An increment of a trial; an interruption counts as one before the first increment of the run.
 fn of_trial(increment: Result<Increment, Error>) -> Result<Increment, Error> {
     increment.map_err(|error| match error {
         Error::Interrupted { .. } => Error::Interrupted { increment: 0 },
@@ -338,7 +341,7 @@ fn of_trial(increment: Result<Increment, Error>) -> Result<Increment, Error> {
     })
 }
 
-/// The grid of half as many cells each way, if there is one that is not too coarse.
+/// The grid of half as many cells each way, if that is fine enough.
 fn halved(grid: &Grid) -> Option<Grid> {
     let Grid { nx, ny, dx, dy, .. } = *grid;
     let line = grid.plane_strain;

@@ -1,13 +1,16 @@
-//! Tractions of a contact between the middles of its cells, out to its rim and to the stick zone.
+//! Tractions of a contact interpolated between the centres of its cells, up to the rim and the
+//! border of the stick zone.
 //!
-//! Constant tractions cannot follow the root with which pressure and shear vanish at the rim, nor that
-//! with which the shear falls short of its bound inside a stick zone that shrinks. The squares can
-//! be interpolated: p^2, and with it q/p; near the stick zone (m p - |q|)^2, m being |q|/p where
-//! cells slip. They are interpolated bilinearly between the middles of the cells, with the values at the
-//! borders that `level` extrapolates from inside. Where no border can be extrapolated (a punch with a
-//! sharp edge, a contact of few cells) it is taken a quarter of a cell beyond the edge of the outermost one, where a root
-//! carries as much from its middle on as half the cell. So the tractions have no step anywhere, next to which the stress
-//! would be infinite. Below a layer as thin as the cells that is wrong by more than a tenth of p_H: there they stay constant.
+//! Pressure and shear vanish at the rim like the square root of the distance, and so does the
+//! shortfall of the shear from its bound inside a stick zone that shrinks; tractions constant in
+//! each cell cannot represent that. Their squares are nearly linear and are interpolated bilinearly
+//! between the centres of the cells: p^2, with q/p beside it; near the stick zone (m p - |q|)^2, m
+//! being |q|/p of the slip cells. In cells at a border the values are extrapolated from inside
+//! (`level`). Where that is impossible (a punch with a sharp edge, a contact of few cells) the
+//! border is assumed a quarter of a cell outside the edge of the outermost cell, where a root from
+//! the centre of the cell carries the load of half the cell. So the tractions have no step, next to
+//! which the stress would be infinite. On a layer as thin as the cells the assumed border makes
+//! errors above 0.1 p_H; tractions stay constant there.
 
 use ndarray::{Array2, Zip};
 use std::ops::Range;
@@ -18,10 +21,11 @@ use super::stick_zone::StickZone;
 use crate::convolution::Tractions;
 use crate::scene::Grid;
 
-/// Farthest cells from a border, in cells along or across, whose load is that of the continued tractions.
+/// Cells up to this distance from a border, along or across, carry the load of the continued
+/// tractions; those farther off the load of the cell.
 const BESIDE: u8 = 3;
-/// Where a border is taken that cannot be extrapolated, in cells from the middle of the outermost cell: a root that is 1 in
-/// the middle and vanishes there carries 2/3 of the distance, and half a cell 1/2.
+/// Assumed distance t of a border that cannot be extrapolated from the centre of the outermost cell
+/// \[cells\]: the integral of (1 - s/t)^(1/2) over 0..t is 2 t/3 = 1/2, the load of half a cell.
 const TAKEN: f64 = 0.75;
 
 /// The tractions of a contact as fields over a window of its cells.
@@ -29,23 +33,24 @@ const TAKEN: f64 = 0.75;
 pub(crate) struct Continued {
     /// First column and row of the window.
     start: (usize, usize),
-    /// The tractions q_x, q_y, p as they are \[Pa\].
+    /// The tractions q_x, q_y, p constant in each cell \[Pa\].
     constant: [Array2<f64>; 3],
-    /// What is added to the interpolated ones \[Pa\].
+    /// Constant corrections of the interpolated tractions, far from borders \[Pa\].
     lacking: [Array2<f64>; 3],
     /// p^2 \[Pa^2\], below zero in cells beside the contact.
     level: Array2<f64>,
     /// q/p, in cells beside the contact the mean of their neighbours' within.
     ratios: [Array2<f64>; 2],
-    /// m, not a number far from the slip cells, and (m p - |q|)^2 \[Pa^2\], below zero in cells beside the stick zone.
+    /// m, NaN far from the slip cells, and (m p - |q|)^2 \[Pa^2\], negative in cells beside the
+    /// stick zone.
     bound: Option<[Array2<f64>; 2]>,
     varying: Array2<Varying>,
-    /// Cells whose level is not known from inside.
+    /// Cells whose level could not be extrapolated from inside.
     taken: Array2<bool>,
-    /// Whether the tractions are constant there.
+    /// Whether the tractions are constant in those cells.
     steps: bool,
-    /// Distance of the cells from those beside a border that the tractions are continued to, in
-    /// cells along or across, up to 255.
+    /// Distance from the nearest cell at a known or assumed border, in cells along or across, up
+    /// to 255.
     distance: Array2<u8>,
 }
 
@@ -54,27 +59,27 @@ pub(crate) struct Continued {
 pub(crate) struct Crossing {
     /// Column and row of the grid, in cells from the middle of the first.
     pub(crate) place: [f64; 2],
-    /// Whether the zone is that of stick, not the contact.
+    /// Whether the zone is the stick zone; else the contact.
     pub(crate) stick: bool,
-    /// Whether the border is known within the cell; else it is taken between two cells.
+    /// Whether the border is extrapolated to a place within the cell; else it is assumed.
     pub(crate) within_cell: bool,
 }
 
-/// What of the tractions varies in a cell.
+/// Which tractions vary within a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Varying {
     Nothing,
     Pressure,
-    /// And the shear in proportion to it.
+    /// The pressure, and the shear in proportion to it.
     Both,
-    /// The shear as its bound less the shortfall.
+    /// The pressure, and the shear as m p less the shortfall.
     Shortfall,
 }
 
 impl Continued {
-    /// Of tractions on a grid, each of shape (nx, ny) \[Pa\], in a window of columns and rows. Without
-    /// the cells that stick, shear is taken to slip at the rim. On a layer as thin as the cells (`thin`) the tractions
-    /// stay constant where no border can be extrapolated.
+    /// From the tractions on a grid, each of shape (nx, ny) \[Pa\], in a window of columns and
+    /// rows. Without `stick` all cells at the rim are taken to slip. On a layer as thin as the
+    /// cells (`thin`) the tractions stay constant where no border can be extrapolated.
     pub(crate) fn new(
         grid: &Grid,
         tractions: &Tractions<'_>,
@@ -110,7 +115,7 @@ impl Continued {
         });
         let sticks = |n: usize| stick.is_some_and(|stick| stick[n]);
         for &cell in rim.known.iter().chain(&rim.unknown) {
-            // Shear that sticks at the rim does not follow from the pressure.
+            // In cells that stick at the rim the shear is not proportional to the pressure.
             if sticks(cell.0 * grid.ny + cell.1) && q.iter().any(|q| q[cell] != 0.0) {
                 around(cell, shape).for_each(|at| varying[at] = Varying::Pressure);
             }
@@ -138,8 +143,8 @@ impl Continued {
         continued
     }
 
-    /// Where the line `at` so many rows (`axis` 0: a line along x) or columns (1) of the grid crosses the rim of the
-    /// contact and the border of the stick zone.
+    /// The places where a line along x (`axis` 0) or y (1), at `at` rows or columns from the first,
+    /// crosses the rim of the contact and the border of the stick zone.
     pub(crate) fn crossings(&self, axis: usize, at: f64) -> Vec<Crossing> {
         let across = 1 - axis;
         let start = [self.start.0, self.start.1];
@@ -201,7 +206,7 @@ impl Continued {
         self.place(cell).map_or(u8::MAX, |at| self.distance[at])
     }
 
-    /// Whether the tractions have a step at the edges of a cell or of one next to it, where none of the contact should be.
+    /// Whether the tractions have a spurious step at the edges of a cell or of one next to it.
     pub(crate) fn has_steps(&self, cell: (usize, usize)) -> bool {
         if !self.steps {
             return false;
@@ -214,7 +219,7 @@ impl Continued {
             .is_some_and(|at| around(at, self.varying.dim()).any(steps))
     }
 
-    /// Whether a cell or one next to it is at a rim that is not known within its cell.
+    /// Whether a cell or one next to it is at an assumed rim.
     pub(crate) fn rim_is_unknown(&self, cell: (usize, usize)) -> bool {
         self.place(cell)
             .is_some_and(|at| around(at, self.taken.dim()).any(|at| self.taken[at]))
@@ -240,8 +245,8 @@ impl Continued {
         })
     }
 
-    /// Far from the borders what the mean of a cell lacks of its own tractions is added, so that the cell's load stays as it
-    /// is: constant tractions are right to second order there.
+    /// Shifts the interpolated tractions of cells far from the borders to the mean of the constant
+    /// ones, which are right to second order there: the load of the cell is kept.
     fn keep_loads(&mut self) {
         let (columns, rows) = self.level.dim();
         let cells = (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j)));
@@ -269,7 +274,7 @@ impl Continued {
 /// The tractions within a cell.
 pub(crate) struct Within {
     varying: Varying,
-    /// Those of the whole cell \[Pa\].
+    /// The constant tractions of the cell \[Pa\].
     pub(crate) constant: [f64; 3],
     lacking: [f64; 3],
     level: Around,

@@ -14,7 +14,8 @@ pub(crate) struct Edge {
 }
 
 impl Edge {
-    /// The same border as that of the zone on its other side; `inside`: whether the cell is in that.
+    /// The border as that of the zone on its other side; `inside`: whether the cell is in that
+    /// zone.
     pub(crate) fn other_side(self, inside: bool) -> Self {
         let level = self.level.map(|level| Level {
             bias: -level.bias,
@@ -40,8 +41,9 @@ impl Edge {
 impl Lattice {
     /// Every cell at the border of a zone, in it or next to it, in order.
     ///
-    /// `laws` of a line of cells gives K powers and the value of a cell on it: the value to one of
-    /// them vanishes linearly at the border, the straightest counts, extrapolated from its stencil.
+    /// `laws` of a line of cells gives K powers and a function for the value of a cell. The value
+    /// to one of the powers is linear in the distance from the border; the straightest is taken and
+    /// extrapolated by its stencil.
     pub(crate) fn edges<const K: usize, V: Fn(usize) -> f64>(
         self,
         zone: &[bool],

@@ -1,4 +1,5 @@
-//! Laws by which a traction vanishes at the border of a zone: a power of it is linear in the distance.
+//! Laws of a traction at the border of a zone, where it vanishes: a power of it is linear in the
+//! distance.
 
 /// The power of a value that vanishes linearly at the border: the level.
 #[derive(Clone, Copy, Debug)]
@@ -10,7 +11,7 @@ pub(crate) enum Power {
 }
 
 impl Power {
-    /// The level of a value, which is not below zero.
+    /// The level of a value >= 0.
     pub(super) fn of(self, value: f64) -> f64 {
         let value = value.max(0.0);
         match self {
@@ -24,5 +25,5 @@ impl Power {
 
 /// The laws of a stick zone's border, by the power of mu p - q . t that vanishes linearly.
 pub(crate) const STICK: [Power; 2] = [Power::Two, Power::TwoThirds];
-/// Of these that of a zone that shrinks; the other is that of one that grows.
+/// Index of the law of a zone that shrinks; the other is that of one that grows.
 pub(crate) const SHRINKS: usize = 0;

@@ -1,40 +1,42 @@
 //! The level of a zone, extrapolated to the cells at its border.
 //!
-//! A level f is a power of a traction that vanishes linearly at the border. Constant tractions in the cells
-//! leave errors in it next to the border: where f is the square of a root, the outermost cell shows a border
-//! that is off by up to a tenth of a cell, the second by a thirtieth, those further in by less than a
-//! hundredth. So f is extrapolated outwards from these: along that line of cells, out of eight, that meets
-//! the border most squarely, by the parabola through the next cells (`parabola`); where the level of a line is
-//! no parabola, by the cells before its middle. A linear law needs no cells left out, slip is extrapolated
-//! from those next to its border. Where the extrapolated f is zero runs the border, a straight line within
-//! a cell.
+//! A level f is a power of a traction that vanishes linearly at the border. Tractions constant in
+//! the cells make errors of f next to the border: where f is the square of a root, the border
+//! computed from the outermost cell is off by up to 1/10 of a cell, from the second by 1/30, from
+//! those further in by less than 1/100. So f is extrapolated from the cells further in: along the
+//! line of cells, out of eight directions, closest to the normal of the border, by the parabola
+//! through the next cells (`parabola`), or from the cells before the middle of the zone if f is no
+//! parabola. A linear law needs no cells left out, and slip is extrapolated from the cells next to
+//! its border. The border is the straight line f = 0 within a cell.
 
 use super::laws::Power;
 use super::parabola::Parabola;
 use crate::cells::Lattice;
 
-/// Farthest that the border may lie from the middle between the outermost cell of the zone and its
-/// neighbour outside, in cells along the line: beyond, f is no such level (a punch with a sharp edge).
+/// Largest distance of the border from the edge between the outermost cell of the zone and its
+/// neighbour outside, in cells along the line: beyond it f is not such a level (a punch with a
+/// sharp edge).
 const FARTHEST: f64 = 1.5;
 /// Most cells of a line that a level is extrapolated from, those left out included.
 const ALONG: usize = 7;
-/// A level that bends by less of its rise needs no other law.
+/// A law is accepted at once if the second differences of its level sum to at most this part of its
+/// rise.
 const STRAIGHT: f64 = 0.1;
 
-/// Which cells of a line a level is extrapolated from.
+/// The cells of a line from which a level is extrapolated.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stencil {
     /// Outermost cells that are left out.
     skipped: usize,
-    /// Most cells of a line, with these.
+    /// Most cells of a line, those included.
     most: usize,
-    /// Whether only the cells before the middle of a line count where the level is no parabola.
+    /// Whether only the cells before the middle of the zone are used if the level is no parabola.
     before_middle: bool,
-    /// How much further out than the true border the level of constant tractions vanishes, in cells: the mean
-    /// over places and directions of the border within the cells, from Hertz contacts and their stick zones
-    /// on 384 to 768 cells. Contacts that did not set it confirm it: c/a of the coupled indentation (nu = 0.3,
-    /// mu = 0.2, 40 increments) is off by 0.30, 0.025 and 0.001 % on 64, 128 and 256 cells with it, by 0.45,
-    /// 0.10 and 0.04 % without.
+    /// Distance by which the level of constant tractions vanishes outside the true border
+    /// \[cells\]: the mean over positions and directions of the border within the cells, from Hertz
+    /// contacts and their stick zones on 384 to 768 cells. Check on a contact that was not used for
+    /// it: c/a of the coupled indentation (nu = 0.3, mu = 0.2, 40 increments) is off by 0.30, 0.025
+    /// and 0.001 % on 64, 128 and 256 cells with it, by 0.45, 0.10 and 0.04 % without.
     bias: f64,
 }
 
@@ -46,7 +48,7 @@ impl Stencil {
         before_middle: false,
         bias: 0.010,
     };
-    /// For a linear law, or a root where only the law is of interest.
+    /// For a linear law, or for a root where only the law is asked for.
     pub(crate) const LINEAR: Self = Self {
         skipped: 0,
         most: ALONG,
@@ -61,8 +63,8 @@ impl Stencil {
         bias: 0.024,
     };
 
-    /// The same for a level that may have a kink in the middle of a line: the shortfall of the shear from its
-    /// bound has a cone in the middle of a contact that is twisted.
+    /// The same for a level that may have a kink in the middle of the zone, like the shortfall of
+    /// the shear in the middle of a contact under torsion (a cone).
     pub(crate) const fn before_the_middle(self) -> Self {
         Self {
             before_middle: true,
@@ -70,14 +72,15 @@ impl Stencil {
         }
     }
 
-    /// The levels of a line that count, how many of them are left out, and the cell whose gradient gives the
-    /// direction of the border.
+    /// The levels of a line that are used, how many of them are left out, and the cell whose
+    /// gradient gives the normal of the border.
     fn choose(self, levels: &[f64], half: usize) -> (&[f64], usize, usize) {
         let levels = &levels[..levels.len().min(self.most)];
         if !self.before_middle {
             return (levels, self.skipped, 2);
         }
-        // Where an earlier border has left its trace next to this one, the cells before that count.
+        // A former border next to this one makes the level fall again: only the cells before it are
+        // used.
         let rising = levels
             .windows(2)
             .take_while(|pair| pair[1] > pair[0])
@@ -109,7 +112,7 @@ pub(crate) struct Line {
     pub(crate) inwards: [f64; 2],
     /// From cell to cell, in columns and rows.
     step: [f64; 2],
-    /// Steps from the cell whose level is asked for to the outermost one of the zone.
+    /// Steps from the cell at which the level is extrapolated to the outermost cell of the zone.
     first: f64,
     /// Cells before the middle of the zone along the line, or `ALONG` if there are more.
     half: usize,
@@ -124,7 +127,7 @@ impl Line {
         let in_zone = |m: &usize| zone[*m];
         let first = (-1..=1).find(|&k| at(k).is_some_and(|m| zone[m]))?;
         let step = inwards.map(|k| k as f64);
-        // As far as it stays in the zone.
+        // Up to the other side of the zone.
         let cells = (first..).map_while(|k| at(k).filter(in_zone));
         let mut line = Self {
             outside: at(first - 1).filter(|m| !in_zone(m))?,
@@ -147,7 +150,7 @@ impl Line {
         self.cells[0]
     }
 
-    /// Leaves no more than the first cells to extrapolate from.
+    /// Keeps the first `count` cells for the extrapolation.
     pub(crate) fn shorten(&mut self, count: usize) {
         self.count = self.count.min(count);
     }
@@ -157,8 +160,8 @@ impl Line {
         &self.cells[..self.count]
     }
 
-    /// The first of these laws whose level is straight along the line, or the straightest, and its levels; the
-    /// first `checked` cells count.
+    /// The first law whose level is straight ([`STRAIGHT`]) over the first `checked` cells of the
+    /// line, or the straightest one; and its levels.
     fn straightest<const K: usize>(
         &self,
         powers: &[Power; K],
@@ -192,11 +195,11 @@ pub(crate) struct Level {
     /// The line that it is extrapolated along, and the law that it follows.
     pub(crate) line: Line,
     pub(crate) law: usize,
-    /// How much further out than the border it vanishes, in cells.
+    /// [`Stencil::bias`]
     pub(crate) bias: f64,
     /// Its value at the cell's centre.
     pub(crate) middle: f64,
-    /// Its change from cell to cell along x and y.
+    /// Its gradient per cell along x and y.
     pub(crate) gradient: [f64; 2],
 }
 
@@ -219,7 +222,7 @@ impl Lattice {
         let (law, levels) = line.straightest(&powers, &value, checked);
         let (levels, skipped, sloping) = stencils[law].choose(&levels[..line.count], line.half);
         let parabola = Parabola::through(levels, skipped)?;
-        // The outermost cell, and this one, on the parabola.
+        // The positions of the outermost cell and of cell n on the parabola.
         let outermost = -(skipped as f64);
         let place = 0.5 - parabola.at(outermost) / parabola.slope(outermost);
         let here = outermost - line.first;
@@ -232,7 +235,7 @@ impl Lattice {
         let gradient = sloping.map_or([0.0; 2], |&m| {
             self.gradient(m, zone, |m| powers[law].of(value(m)))
         });
-        // In the direction of the central differences, with the slope of the parabola along the line.
+        // Gradient: direction of the central differences, slope of the parabola along the line.
         let d = line.step;
         let along = gradient[0] * d[0] + gradient[1] * d[1];
         let gradient = if along > 0.0 {
@@ -265,7 +268,7 @@ impl Lattice {
     }
 }
 
-/// How much a level bends along a line, against its rise.
+/// Sum of the second differences of a level along a line over its rise.
 fn bend(levels: &[f64]) -> f64 {
     let near = &levels[..levels.len().min(4)];
     let bends = near.windows(3).map(|y| (y[2] - 2.0 * y[1] + y[0]).abs());

@@ -33,7 +33,7 @@ impl Around {
     }
 }
 
-/// Cells that lack a quantity get the mean of their neighbours that have it.
+/// Fills cells without a value with the mean of their neighbours that have one.
 pub(super) fn filled(known: &Array2<Option<f64>>) -> Array2<Option<f64>> {
     Array2::from_shape_fn(known.dim(), |cell| {
         known[cell].or_else(|| {
@@ -44,7 +44,7 @@ pub(super) fn filled(known: &Array2<Option<f64>>) -> Array2<Option<f64>> {
     })
 }
 
-/// Distances from some cells, by two sweeps.
+/// Chessboard distances from the given cells, by two sweeps.
 pub(super) fn distances<'a>(
     shape: (usize, usize),
     from: impl Iterator<Item = &'a (usize, usize)>,

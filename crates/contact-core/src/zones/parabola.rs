@@ -1,11 +1,11 @@
 //! The parabola by which a level is extrapolated along a line.
 
-/// Largest second difference of the level along a line, and largest change of it from cell to cell,
-/// over the first change of the level: beyond, another border lies there (of the stick zone before
-/// a reversal).
+/// Largest first second-difference of the level along a line (FIRST_BEND) and largest change of the
+/// second difference from cell to cell (BEND), both over the first difference: larger ones indicate
+/// another border there (of the stick zone before a reversal).
 const FIRST_BEND: f64 = 0.4;
 const BEND: f64 = 0.15;
-/// How much a cubic may move the border, in cells, where the parabola holds.
+/// The parabola is accepted if the cubic term moves the border by less than this \[cells\].
 const MOVED: f64 = 0.2;
 
 /// f = c_0 + c_1 s + c_2 s^2 along a line, s in cells from the first one that is not skipped.
@@ -13,10 +13,11 @@ const MOVED: f64 = 0.2;
 pub(crate) struct Parabola([f64; 3]);
 
 impl Parabola {
-    /// Given the outermost cell and the next ones: least squares through five that are not skipped,
-    /// the parabola through three if there are no more, a straight line through two if these are all.
+    /// From the levels of the outermost cell and the next ones, `skipped` left out: least squares
+    /// through five, the parabola through three, or the straight line through two, whichever the
+    /// smooth part of the line allows.
     pub(crate) fn through(levels: &[f64], skipped: usize) -> Option<Self> {
-        // With the last one skipped, which shows a bend right behind it.
+        // The last skipped cell is tested too: a kink right behind it shows there.
         let before = usize::from(skipped > 0);
         let (checked, used) = (levels.get(skipped - before..)?, levels.get(skipped..)?);
         let &[y_1, y_2, ..] = checked else {
@@ -31,7 +32,7 @@ impl Parabola {
             };
             (bend - before).abs() <= most * (y_2 - y_1).abs()
         });
-        // Cells on the line before a bend that is too sharp; small zones bend, but like a parabola.
+        // Cells before the first kink; a small zone is curved, but like a parabola.
         let cells = if Self::holds(levels, skipped) {
             levels.len() - skipped
         } else {
@@ -47,14 +48,14 @@ impl Parabola {
             }
             (3.., &[a, b, c, ..]) => Self([a, 2.0 * b - 1.5 * a - 0.5 * c, 0.5 * (a + c) - b]),
             (2.., &[a, b, ..]) => Self([a, b - a, 0.0]),
-            // With the last one skipped.
+            // The straight line through the last skipped cell and the first used one.
             (_, &[a, ..]) => Self([a, y_2 - y_1, 0.0]),
             (_, []) => return None,
         })
     }
 
-    /// Whether the cubic through five cells that are not skipped vanishes near where the parabola does, about
-    /// half a cell outside.
+    /// Whether the cubic term through five cells is small at the border, about half a cell outside
+    /// the outermost cell.
     pub(crate) fn holds(levels: &[f64], skipped: usize) -> bool {
         let Some(&[a, b, _, d, e, ..]) = levels.get(skipped..) else {
             return false;

@@ -11,9 +11,10 @@ use crate::scene::Grid;
 /// The pressure at the centres of the cells \[Pa\], shape (nx, ny), with that at the rim of the contact
 /// extrapolated from inside.
 ///
-/// Cells at the rim carry what balances the others, a tenth more or less than the pressure at their
-/// centres; without them the error of p falls from first to second order. The sum over the cells is
-/// that of the load only to first order: balances need the pressure as it was solved for.
+/// The solved pressure of cells at the rim differs by about a tenth from the pressure at their
+/// centres, since it balances the load; with the extrapolated values the error of p is of second
+/// instead of first order. Their sum equals the load only to first order: balances need the solved
+/// pressure.
 pub fn continued_pressure(p: &Array2<f64>, grid: &Grid) -> Array2<f64> {
     let lattice = Lattice::new(grid, Mirror::None);
     let contact: Vec<bool> = p.iter().map(|&p| p > 0.0).collect();

@@ -10,18 +10,19 @@ use crate::cells::Lattice;
 use crate::plan::Mirror;
 use crate::scene::Grid;
 
-/// Most that the level of a cell may differ from the one extrapolated from inside, in its change over a
-/// cell: a larger difference means that the level is not smooth (a rough contact, a layer as thin as the
+/// Largest difference of the level of a cell from the extrapolated one, over the change of the
+/// level per cell: beyond it the level is not smooth (a rough contact, a layer as thin as the
 /// cells).
 const OFF: f64 = 0.12;
 
-/// Cells with a known level around one outside whose own cannot be extrapolated, from which it is taken.
+/// Neighbours with an extrapolated level from which the level of a cell outside is averaged if its
+/// own cannot be extrapolated, at least.
 const ENOUGH: usize = 4;
 
-/// A level that is above zero in a zone and below on the other side of its border.
+/// A level sampled at the cells: positive inside a zone, negative outside.
 pub(super) struct SampledBorder {
     pub(super) level: Array2<f64>,
-    /// Cells at the border whose level is known, and the others.
+    /// Cells at the border with an extrapolated level, and those without.
     pub(super) known: Vec<(usize, usize)>,
     pub(super) unknown: Vec<(usize, usize)>,
 }
@@ -37,7 +38,7 @@ impl SampledBorder {
         Self::new(&level, &edges)
     }
 
-    /// The level `own` of the cells of a zone, with that extrapolated to the cells at its border.
+    /// From the level `own` of the cells of a zone; at its border the extrapolated level.
     pub(super) fn new(own: &Array2<f64>, edges: &[(usize, Edge)]) -> Self {
         let planes = Planes::new(own, edges);
         let mut level = own.clone();
@@ -54,8 +55,8 @@ impl SampledBorder {
             }
             known.push(cell);
         }
-        // Cells of the zone whose middle lies outside: the constant level of those next to them is wrong
-        // like that of outermost ones.
+        // A cell of the zone whose centre lies outside makes its inner neighbours the outermost
+        // ones: their own level is wrong, too.
         let thin = |at: (usize, usize), plane: Plane| own[at] > 0.0 && plane.middle < 0.0;
         let thin_cells = planes
             .cells()
@@ -81,11 +82,11 @@ impl SampledBorder {
 struct Plane {
     /// In the middle of the cell.
     middle: f64,
-    /// Its change from cell to cell along x and y.
+    /// Its gradient per cell along x and y.
     slope: [f64; 2],
 }
 
-/// The levels extrapolated to the cells at a border, where they agree with the zone's own.
+/// The levels extrapolated to the cells at a border; dropped where they disagree with `own`.
 struct Planes<'a> {
     own: &'a Array2<f64>,
     edges: &'a [(usize, Edge)],
@@ -129,13 +130,14 @@ impl<'a> Planes<'a> {
         self.edges.binary_search_by_key(&n, |(n, _)| *n).ok()
     }
 
-    /// Whether a plane comes near the own level of a cell, which is not below zero.
+    /// Whether a plane agrees with the own level of a cell ([`OFF`]); negative values count as
+    /// zero.
     fn agrees(&self, cell: (usize, usize), plane: Plane) -> bool {
         let off = (plane.middle.max(0.0) - self.own[cell]).abs();
         off <= OFF * plane.slope[0].hypot(plane.slope[1])
     }
 
-    /// The mean level of a cell by the planes of those cells around for which `of` is true, and their number.
+    /// The mean level of a cell by the planes of its neighbours with `of`, and their number.
     fn mean_around(
         &self,
         cell: (usize, usize),

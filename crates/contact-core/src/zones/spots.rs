@@ -1,15 +1,16 @@
-//! How many cells the spots of a contact have across their radii.
+//! Cells across the radius of the spots of a contact.
 //!
-//! A spot is a patch of cells in contact that touch, corners included. Its radius is the smaller semi-axis
-//! of the ellipse with its second moments, 2 sqrt(m) with the smaller principal moment m per area; of a patch
-//! that fills no ellipse (a ring, a net) half of its width, its area over its perimeter. All lengths are
-//! in cells, so that cells that are longer than wide count as they resolve. In plane strain it is the half
-//! width.
+//! A spot is a patch of cells in contact that touch, corners included. Its radius is the smaller
+//! semi-axis of the ellipse with its second moments, 2 sqrt(m) with the smaller principal moment m
+//! per area; of a patch that fills no ellipse (a ring, a net) half of its width, its area over its
+//! perimeter. Lengths are counted in cells along each axis, so that oblong cells count with their
+//! resolution. In plane strain the radius is the half-width.
 
 use crate::cells::Lattice;
 
-/// Part of the ellipse of its moments that a spot fills at least which is one patch through and through: a disc
-/// fills all of it, a rectangle 3/pi = 0.95, half of a disc 0.96, a ring as wide as a third of its radius 0.52.
+/// Area of a spot over that of the ellipse of its moments, at least, for the ellipse to give its
+/// radius: a disc has 1, a rectangle 3/pi = 0.95, half a disc 0.96, a ring as wide as a third of
+/// its radius 0.52.
 const FILLS: f64 = 0.75;
 
 /// A patch of cells in contact: its sums over the cells, and the faces to cells outside.
@@ -32,8 +33,8 @@ struct Run {
     spot: usize,
 }
 
-/// Cells across the radius of a contact: of the spot in the middle, half of the contact lying in spots that have no
-/// fewer; zero without a contact.
+/// Cells across the radius of a contact: the median of the radii of its spots, weighted by area;
+/// zero without a contact.
 pub(crate) fn cells_per_radius(lattice: Lattice, contact: &[bool]) -> f64 {
     let mut spots: Vec<(f64, f64)> = spots(lattice, contact)
         .into_iter()
@@ -52,7 +53,7 @@ pub(crate) fn cells_per_radius(lattice: Lattice, contact: &[bool]) -> f64 {
 /// The spots of a contact, those of the half that is not kept included.
 fn spots(lattice: Lattice, contact: &[bool]) -> Vec<Spot> {
     let rows = lattice.rows();
-    // Of each run the spot, or another run of the same one that comes before it.
+    // For each run its spot, or an earlier run of the same spot (union-find).
     let (mut of, mut all) = (Vec::new(), Vec::new());
     let (mut last, mut here) = (Vec::<Run>::new(), Vec::<Run>::new());
     for (i, column) in contact.chunks_exact(rows).enumerate() {
@@ -89,7 +90,7 @@ fn spots(lattice: Lattice, contact: &[bool]) -> Vec<Spot> {
         .collect()
 }
 
-/// The first run of the spot of a run; the way to it is shortened.
+/// The first run of the spot of a run, with path compression.
 fn root(of: &mut [usize], mut run: usize) -> usize {
     while of[run] != run {
         of[run] = of[of[run]];
@@ -148,7 +149,8 @@ impl Spot {
         if self.cells >= FILLS * ellipse {
             return small;
         }
-        // Of all directions of a border the faces of the cells are 4/pi times as long.
+        // Averaged over the directions of a border, the faces of the cells are 4/pi times as long
+        // as it.
         let perimeter = self.faces * std::f64::consts::FRAC_PI_4;
         (self.cells / perimeter).min(small)
     }

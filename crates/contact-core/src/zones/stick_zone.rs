@@ -1,4 +1,4 @@
-//! The shear in and around a stick zone: its bound, and how far it falls short of that.
+//! The shear in and around a stick zone: bound m p and shortfall m p - |q|.
 
 use ndarray::{Array2, Zip};
 
@@ -13,9 +13,9 @@ use crate::scene::Grid;
 /// Columns or rows of stick cells over which m is extended from the slip cells beside them.
 const EXTENDED: usize = 10;
 
-/// What bounds the shear, and how far it falls short of that.
+/// The bound of the shear and its shortfall.
 pub(super) struct StickZone {
-    /// |q|/p where cells slip, extended into the zone; not a number further in.
+    /// |q|/p of the slip cells, extended into the zone; NaN further in.
     pub(super) m: Array2<f64>,
     /// (m p - |q|)^2 \[Pa^2\].
     pub(super) border: SampledBorder,
@@ -44,11 +44,12 @@ impl StickZone {
         let short = |cell: (usize, usize)| (m[cell] * p[cell] - q[cell]).max(0.0);
         let level = Array2::from_shape_fn(shape, |cell| match m[cell] {
             _ if !sticks(cell) => 0.0,
-            // Far inside nothing but its sign matters.
+            // Far inside only the sign matters.
             m if m.is_nan() => p[cell].powi(2),
             _ => short(cell).powi(2),
         });
-        // Where the zone grows the shortfall vanishes with the power 3/2: constant tractions follow that.
+        // Where the zone grows the shortfall vanishes like d^(3/2), which constant tractions
+        // represent.
         let mut edges =
             Lattice::new(grid, Mirror::None).edges(stick, [Stencil::ROOT, Stencil::LINEAR], |_| {
                 (STICK, |n: usize| short((n / grid.ny, n % grid.ny)))
@@ -68,14 +69,14 @@ impl StickZone {
         Some(Self { m, border, near })
     }
 
-    /// Whether the shear in a cell follows from its bound.
+    /// Whether the shear in a cell is computed from bound and shortfall.
     pub(super) fn reaches(&self, cell: (usize, usize)) -> bool {
         self.near[cell] && around(cell, self.m.dim()).all(|at| self.m[at].is_finite())
     }
 }
 
-/// A quantity known in some cells, extended to the next ones by the mean of their neighbours; not a number
-/// beyond.
+/// A quantity known in some cells, extended to the next [`EXTENDED`] rings by the mean of their
+/// neighbours; NaN beyond.
 fn extended(known: &Array2<Option<f64>>) -> Array2<f64> {
     let mut all = known.mapv(|v| v.unwrap_or(f64::NAN));
     let lacks = |all: &Array2<f64>, cell| all[cell].is_nan();
