@@ -239,8 +239,8 @@ fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NU
 }
 
 /// Uncertainty of the stick ratio: the area of a ring of width [`BORDER`] along the border of the
-/// stick zone over that of the contact; if the slip ring is not resolved, of a ring of width
-/// [`SEEN`].
+/// stick zone over that of the contact; where the slip ring is narrower than [`SEEN`], of a ring of
+/// the missing width.
 fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {
     if !may_slip(scene) || fine.contact_radius <= 0.0 {
         return 0.0;

@@ -1,4 +1,4 @@
-//! What one cycle does to every cell, summed over its increments.
+//! Sums over the increments of a cycle, in every cell.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +9,7 @@ use crate::cells::{Lattice, size};
 use crate::march::{Increment, State};
 use crate::solvers::Interface;
 
-/// What one cycle does to every kept cell.
+/// The results of one cycle in every kept cell.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Cycled {
     /// Pressed way `int p |ds|` \[Pa m\].
@@ -30,7 +30,7 @@ pub(crate) struct Cycled {
     pub(crate) stick_ratio: f64,
     /// Cells in contact that slip nowhere in the cycle.
     pub(crate) stick: Vec<bool>,
-    /// Cells of a line contact that the border of the stick zone runs through.
+    /// Cells of a line contact that contain the border of the stick zone.
     pub(crate) cuts: Vec<Cut>,
 }
 
@@ -44,9 +44,9 @@ pub(crate) struct Sums {
     shape: usize,
     /// The coefficient of friction where it is one.
     mu: Option<f64>,
-    /// Least that the shear falls short of its bound, over the coefficient \[Pa\].
+    /// Least p - |q|/mu over the cycle \[Pa\].
     short: Vec<f64>,
-    /// Way of each cell against the next \[m\].
+    /// Way of each cell relative to the next one \[m\].
     apart: Vec<f64>,
 }
 
@@ -76,7 +76,7 @@ impl Sums {
     pub(crate) fn add(&mut self, before: &State, now: &State, increment: &Increment) {
         self.add_to_border(&before.interface, &now.interface);
         let cycled = &mut self.cycled;
-        // An increment that dissipates nothing counts a little, so that a contact that sticks has a mean.
+        // A small weight without dissipation, so that the mean exists for a contact that sticks.
         let weight = increment.energy.dissipated.max(0.0)
             + 1e-12 * increment.energy.elastic.abs()
             + f64::MIN_POSITIVE;
@@ -104,7 +104,7 @@ impl Sums {
         self.contact_area = increment.contact_area;
     }
 
-    /// What tells where the border of the stick zone runs.
+    /// Updates the fields from which the border of the stick zone is located.
     fn add_to_border(&mut self, before: &Interface, now: &Interface) {
         let moved = |c: usize| [0, 1].map(|k| now.u[k][c] - before.u[k][c]);
         for c in 0..self.shape {
@@ -117,7 +117,8 @@ impl Sums {
         }
     }
 
-    /// What the cycle did on surfaces worn so far; the gap grows by a part `opens` of that.
+    /// The results of the cycle on surfaces worn so far; the gap grows by the part `opens` of the
+    /// worn depth.
     pub(crate) fn cycled(
         self,
         pressing: &mut Pressing,
@@ -127,7 +128,8 @@ impl Sums {
         let mut cycled = self.cycled;
         cycled.dissipated.iter_mut().for_each(|d| *d = d.max(0.0));
         if let Some(mu) = self.mu {
-            // |q| = mu p wherever something slips: the energy, which the march reckons more closely, tells.
+            // |q| = mu p in slip: int p |ds| follows from the dissipated energy, which the march
+            // integrates more accurately.
             let ways = cycled.pressed_way.iter_mut().zip(&cycled.dissipated);
             ways.for_each(|(way, dissipated)| *way = dissipated / mu);
         }

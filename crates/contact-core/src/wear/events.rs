@@ -1,4 +1,4 @@
-//! What wear does to coatings: thinned, worn through.
+//! Events of wear: a coating thinned or worn through.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,19 +11,19 @@ use crate::scene::Scene;
 /// What happened to a coating.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum EventKind {
-    /// The worn depth is a stated part of the coatings' thickness: that their response is one of
-    /// constant thickness begins to matter.
+    /// The worn depth reaches a stated part of the coatings' thickness; the elastic response, that
+    /// of the full thickness, begins to be inaccurate.
     Thinned,
-    /// A coating is worn through: what is below is bare.
+    /// A coating is worn through: the layer below is bare.
     WornThrough,
 }
 
-/// Something that happened to a coating, first at one place.
+/// An event of a coating, at the place where it first occurs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Event {
-    /// What.
+    /// The kind.
     pub kind: EventKind,
-    /// Cycles done when it happens, as close as the jumps' tolerance tells.
+    /// Cycles at the event, within the tolerance of the jumps.
     pub cycles: f64,
     /// Body, 1 or 2.
     pub body: usize,
@@ -47,14 +47,14 @@ fn bottoms(scene: &Scene) -> [Vec<f64>; 2] {
     })
 }
 
-/// Whether an event is known already.
+/// Whether an event is in the list.
 fn known(events: &[Event], kind: EventKind, b: usize, coating: usize) -> bool {
     events
         .iter()
         .any(|e| e.kind == kind && e.body == b + 1 && e.coating == coating)
 }
 
-/// The part of a jump after which it first wears a coating through, if it does.
+/// The part of a jump after which a coating is first worn through, if one is.
 pub(crate) fn crossing(scene: &Scene, past: &[Event], passage: &Passage<'_>) -> Option<f64> {
     let mut first: Option<f64> = None;
     for (b, bottoms) in bottoms(scene).into_iter().enumerate() {
@@ -88,7 +88,7 @@ fn place(scene: &Scene, cell: usize) -> (f64, f64) {
     (scene.grid.x(i), scene.grid.y(j))
 }
 
-/// What newly happens within a jump of n cycles, and after how many.
+/// The new events within a jump of n cycles.
 pub(crate) fn events(
     scene: &Scene,
     wear: &Wear,
@@ -121,7 +121,7 @@ pub(crate) fn events(
     new
 }
 
-/// What has happened to surfaces that a run begins on.
+/// The events of worn surfaces that a run starts from.
 pub(crate) fn passed(scene: &Scene, wear: &Wear, worn: &Worn) -> Vec<Event> {
     let none = worn.depth.each_ref().map(|d| vec![0.0; d.len()]);
     let passage = Passage {

@@ -11,8 +11,8 @@ pub struct Jump {
     pub cycles: f64,
     /// Cycles that it is long.
     pub length: f64,
-    /// Estimated error of what it adds to the worn depth, root mean square over the depth so far;
-    /// zero for explicit jumps, which have none.
+    /// Estimated error of the depth worn in the jump: root mean square over that of the depth so
+    /// far; zero for explicit jumps, which have no estimate.
     pub error: f64,
     /// The same of the pressure.
     pub pressure_error: f64,

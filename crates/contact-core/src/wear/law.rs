@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::error::Error;
 
-/// What each cell of a surface goes through in one cycle, in the coordinates of its own body.
+/// Loading of each cell of a surface in one cycle, in the coordinates of its own body.
 #[derive(Clone, Copy, Debug)]
 pub struct CellCycle<'a> {
     /// Integral of the pressure over the way slipped, `int p |ds|` \[Pa m\] = \[J/m^2\] per unit of mu.
@@ -35,12 +35,12 @@ pub trait Law: Debug + Send + Sync {
         Ok(())
     }
 
-    /// Whether it has no meaning without a frequency.
+    /// Whether it needs a frequency.
     fn needs_frequency(&self) -> bool {
         false
     }
 
-    /// The law as a table of a scene file; `None` if that cannot hold it.
+    /// The law as a table of a scene file; `None` if a file cannot represent it.
     fn written(&self) -> Option<String> {
         None
     }
@@ -149,8 +149,8 @@ pub struct BodyWear {
     /// A law for each coating, the outermost first, then one for the substrate; a single one is
     /// that of all layers; none: the body does not wear.
     pub laws: Vec<Arc<dyn Law>>,
-    /// Part of what the laws say that this body loses (default 1): what wear the two bodies share
-    /// out between them.
+    /// Factor of the depths of the laws for this body (default 1): how the wear of the pair is
+    /// divided between its bodies.
     pub share: Option<f64>,
 }
 
@@ -193,8 +193,8 @@ impl BodyWear {
         self.laws.iter().try_for_each(|law| law.check(key))
     }
 
-    /// The coefficient k of each cell with which `depth = k pressed_way` per cycle \[1/Pa\], of what
-    /// is bare there: `thickness` lists those of the coatings \[m\].
+    /// The coefficient k of each cell, `depth = k pressed_way` per cycle \[1/Pa\], by the law of
+    /// the layer that is bare there; `thickness` of the coatings \[m\].
     pub(crate) fn coefficients(
         &self,
         cycle: &CellCycle<'_>,

@@ -1,8 +1,8 @@
-//! Worn depth, and what a jump adds to it.
+//! Worn depth, and the loss in a jump.
 
 use serde::{Deserialize, Serialize};
 
-/// What the surfaces have been through, on the kept cells.
+/// The history of the surfaces, on the kept cells.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Worn {
     /// Cycles done.
@@ -11,7 +11,7 @@ pub(crate) struct Worn {
     pub(crate) depth: [Vec<f64>; 2],
     /// Energy per area dissipated at body 1 and body 2, each in its own coordinates \[J/m^2\].
     pub(crate) energy: [Vec<f64>; 2],
-    /// Way slipped in contact, as the cells of the grid have \[m\].
+    /// Way slipped in contact, in the cells of the grid \[m\].
     pub(crate) slid: Vec<f64>,
 }
 
@@ -40,10 +40,10 @@ impl Worn {
     }
 }
 
-/// What a jump takes from both bodies.
+/// The loss of both bodies in a jump.
 #[derive(Clone, Debug)]
 pub(crate) struct Loss {
-    /// Cycles that it is long.
+    /// Length in cycles.
     pub(crate) cycles: f64,
     /// Depth \[m\], >= 0.
     pub(crate) depth: [Vec<f64>; 2],
@@ -72,8 +72,8 @@ impl Loss {
     /// (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I (1993), II.4),
     /// and the depth that this moves, root mean square over that of the `worn` depth at the end.
     ///
-    /// Nothing grows: where the extrapolation would add material it takes nothing, and all the rest in
-    /// proportion less, so that the volume is that of the extrapolation.
+    /// Depths do not decrease: a negative extrapolated loss is set to zero and the others are
+    /// scaled down, so that the volume is that of the extrapolation.
     pub(crate) fn extrapolated(mut self, whole: &Self, worn: &Worn) -> (Self, f64) {
         let (mut moved, mut size) = (0.0, 0.0);
         for b in 0..2 {

@@ -1,19 +1,20 @@
 //! Cycles of any load path, solved increment by increment.
 //!
-//! One cycle through [`March`] on given surfaces tells for every cell the pressed way `P = int p |ds|`,
-//! the way and the energy that it slips in a cycle. A jump of n cycles is implicit in the pressure:
+//! One cycle through [`March`] on given surfaces gives for every cell the pressed way
+//! `P = int p |ds|`, the way slipped and the energy dissipated. A jump of n cycles is implicit in
+//! the pressure:
 //!
 //! ```text
 //! w = n k sigma p,   sigma = P/p_m                      of the cycle
 //! g = h + (1 - kept)(w_0 + w) + C p + u_q - delta_z >= 0,  p >= 0,  p g = 0
 //! ```
 //!
-//! p_m being the mean pressure of the cycle, weighted by what its increments dissipate, and u_q the mean of the
-//! normal displacement under the shear with the same weights; so for n = 0 p is p_m. `kept` is the part of what is
-//! worn that stays in the contact. The normal problem has the compliance (1 - kept) n k sigma, whatever the loads do
-//! within the cycle. Sigma is that of the last
-//! cycle at first (predictor); then a cycle is solved on the surfaces so predicted, and the jump is made
-//! again with its sigma, until the pressure stays (corrector).
+//! p_m being the mean pressure of the cycle, weighted with the energy dissipated in its increments,
+//! and u_q the mean normal displacement under the shear with the same weights, so that p = p_m for
+//! n = 0. `kept` is the part of the worn volume that stays in the contact as debris. The normal
+//! problem has the compliance (1 - kept) n k sigma, whatever the loads within the cycle. Predictor:
+//! sigma of the last cycle. Corrector: a cycle is solved on the predicted surfaces and the jump
+//! repeated with its sigma, until the pressure no longer changes.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -37,10 +38,10 @@ const AGREES: f64 = 0.02;
 /// Most corrections of a jump.
 const CORRECTIONS: usize = 3;
 
-/// All that the next jump depends on.
+/// The state on which the next jump depends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct MarchedState {
-    /// The march at the beginning of a cycle.
+    /// The state of the march at the start of a cycle.
     start: State,
     cycled: Cycled,
 }
@@ -56,9 +57,9 @@ pub(crate) struct Marched {
     /// Increments before the cycle.
     lead_in: usize,
     gives_approach: bool,
-    /// The coefficient of friction where it is one for all cells, before what cycles make of it.
+    /// The coefficient of friction, if uniform, before its dependence on cycles.
     plain_mu: Option<f64>,
-    /// What cycles make of it.
+    /// Its dependence on history.
     history: Option<FrictionHistory>,
     pub(crate) state: MarchedState,
     /// Mean pressure at the end of the last jump \[Pa\].
@@ -68,7 +69,7 @@ pub(crate) struct Marched {
 }
 
 impl Marched {
-    /// Leads in and solves a cycle on the unworn surfaces, or goes on from a state.
+    /// Solves the lead-in and a cycle on the unworn surfaces, or continues from a state.
     pub(crate) fn new(
         scene: &Scene,
         wear: &Wear,
@@ -82,7 +83,7 @@ impl Marched {
             path_error: None,
             ..scene.path.branches[first_branch - 1]
         };
-        // A branch that changes no load: in it the contact goes over to surfaces that have worn.
+        // A branch without a change of loads, in which the contact adapts to the worn surfaces.
         scene.path.branches.insert(first_branch, settles);
         for (i, branch) in scene.path.branches.iter_mut().enumerate() {
             branch.t_end = (i + 1) as f64;
@@ -138,7 +139,7 @@ impl Marched {
         Ok(marched)
     }
 
-    /// Solves a cycle on surfaces worn so far; the next one begins where it ends.
+    /// Solves a cycle on surfaces worn so far; the next one starts from its end.
     pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
         let (cycled, mut start) = self.cycle(worn)?;
         start.increments = self.lead_in;
@@ -146,7 +147,7 @@ impl Marched {
         Ok(())
     }
 
-    /// What n cycles take from both bodies.
+    /// The loss of both bodies in n cycles.
     pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
         let mut rates = self.rates(worn, &self.state.cycled)?;
         let mut p = self.state.cycled.p.clone();
@@ -184,12 +185,12 @@ impl Marched {
         unreachable!("the last correction returns")
     }
 
-    /// What the last cycle did.
+    /// The results of the last cycle.
     pub(crate) fn cycled(&self) -> &Cycled {
         &self.state.cycled
     }
 
-    /// What a jump takes from the surfaces as they are, under about the pressure p.
+    /// The coefficients of the loss in a jump on the present surfaces, near the pressure p.
     fn takes(&self, n: f64, rates: &Rates, worn: &Worn, p: &[f64]) -> Takes {
         let mut way: Vec<f64> = rates.sigma.iter().map(|sigma| n * sigma).collect();
         let mut borne = vec![0.0; way.len()];
@@ -207,7 +208,7 @@ impl Marched {
         Takes { n, way, borne }
     }
 
-    /// The coefficient of friction after so many cycles, where it is one for all cells.
+    /// The coefficient of friction after so many cycles, if uniform.
     fn mu(&self, cycles: f64) -> Option<f64> {
         let factor = self.history.as_ref().map_or(1.0, |h| h.factor(cycles));
         self.plain_mu.map(|mu| mu * factor)
@@ -218,13 +219,13 @@ impl Marched {
         let gap = gap(&self.h, worn, self.wear.opens());
         let mut start = self.state.start.clone();
         if self.history.is_some() {
-            // What friction makes of a cell's history is that of all cycles so far.
+            // The history that friction depends on includes all cycles so far.
             start.slip_length.clone_from(&worn.slid);
             start.dissipated.clone_from(&worn.energy[0]);
         }
         self.march.go_on_from(start, &gap);
         self.march.after_cycles(worn.cycles);
-        // The contact goes over to the worn surfaces; what slips thereby is of no cycle.
+        // The contact adapts to the worn surfaces; the slip of this increment belongs to no cycle.
         advance(&mut self.march)?;
         let cells = self.h.len();
         let mut sums = Sums::new(cells, self.mu(worn.cycles));
@@ -243,7 +244,7 @@ impl Marched {
         ))
     }
 
-    /// How fast every cell wears per pressure; cells outside the contact as those beside them.
+    /// Rates of wear of every cell; cells outside the contact have those of their neighbours.
     fn rates(&self, worn: &Worn, cycled: &Cycled) -> Result<Rates, Error> {
         let cells = self.h.len();
         let largest = cycled.p.iter().fold(0.0, |m: f64, p| m.max(*p));
@@ -302,13 +303,13 @@ impl Marched {
     }
 }
 
-/// How fast cells wear.
+/// Rates of wear of the cells.
 struct Rates {
     /// Coefficient of each body \[1/Pa\].
     k: [Vec<f64>; 2],
     /// Pressed way over the mean pressure \[m\].
     sigma: Vec<f64>,
-    /// Energy dissipated over the pressed way.
+    /// Energy dissipated over the pressed way \[1\].
     mu: Vec<f64>,
     /// Way slipped in a cycle \[m\].
     slips: Vec<f64>,
@@ -317,18 +318,18 @@ struct Rates {
     drive: Drive,
 }
 
-/// What a jump takes: of each body k way (p - borne).
+/// Loss in a jump: k way (p - borne) of each body.
 struct Takes {
     /// Cycles.
     n: f64,
     /// Way slipped in all its cycles \[m\].
     way: Vec<f64>,
-    /// Pressure that wears nothing \[Pa\]: what the part of a cut cell that sticks bears.
+    /// Pressure on the sticking part of a cut cell, which does not wear \[Pa\].
     borne: Vec<f64>,
 }
 
 impl Takes {
-    /// The loss under the pressure at its end.
+    /// The loss under the pressure p at the end of the jump.
     fn loss(&self, rates: &Rates, p: &[f64], cell_area: f64) -> Loss {
         let way = |c: usize| self.way[c] * (p[c] - self.borne[c]).max(0.0);
         let depth = [0, 1].map(|b| (0..p.len()).map(|c| rates.k[b][c] * way(c)).collect());
@@ -351,7 +352,7 @@ impl Takes {
     }
 }
 
-/// The coefficient of friction if it is one for all cells, whatever cycles make of it.
+/// The coefficient of friction, if uniform apart from a dependence on cycles.
 fn plain(friction: &Friction) -> Option<f64> {
     let of_cycles = |h: &FrictionHistory| h.of == History::Cycles;
     let mut level = friction.clone();
@@ -359,7 +360,7 @@ fn plain(friction: &Friction) -> Option<f64> {
     (level == Friction::coulomb(friction.mu)).then_some(friction.mu)
 }
 
-/// Gap between surfaces worn so far, of what is worn a part `opens` \[m\].
+/// Gap between worn surfaces: h plus the part `opens` of the worn depths \[m\].
 fn gap(h: &[f64], worn: &Worn, opens: f64) -> Vec<f64> {
     let [one, two] = &worn.depth;
     let cells = h.iter().zip(one.iter().zip(two));
@@ -368,7 +369,7 @@ fn gap(h: &[f64], worn: &Worn, opens: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Whether two pressures agree.
+/// Whether two pressures agree within [`AGREES`].
 fn agree(last: &[f64], now: &[f64]) -> bool {
     let (mut moved, mut size) = (0.0, 0.0);
     for (last, now) in last.iter().zip(now) {

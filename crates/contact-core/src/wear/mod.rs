@@ -1,13 +1,14 @@
-//! Wear: what cycles do to the surfaces. It stands above the march and runs marches.
+//! Wear of the surfaces over cycles. Stands above the march and runs marches.
 //!
-//! A cycle of the load path takes from each cell of each body a depth that a [`Law`] makes of the
-//! pressed way `int p |ds|`, the way and the energy dissipated there. Thousands of cycles are done in
-//! jumps: a jump of n cycles wears n times what one cycle would, with the pressure of its end, so that
-//! `n k s` is a compliance in series with the half-space in every cell (`compliant`) and no jump is too
-//! long to be stable. Two ways to solve a cycle ([`Cycling`]): increment by increment through the march
-//! (`marched`), or, in gross slip with any stroke, the normal problem alone at each place of the stroke, the
-//! worn surfaces read where they then lie (`sliding`). Each jump is made whole and in halves, extrapolated to
-//! second order, and as long as the difference of both allows (`run`).
+//! A cycle of the load path wears each cell of each body by a depth that a [`Law`] computes from
+//! the pressed way `int p |ds|`, the way slipped and the energy dissipated there. Thousands of
+//! cycles are done in jumps: a jump of n cycles wears n times the depth of one cycle at the
+//! pressure of its end. `n k s` is then a compliance in series with the half-space in every cell
+//! (`compliant`), and jumps of any length are stable. Two ways to solve a cycle ([`Cycling`]):
+//! increment by increment through the march (`marched`), or, in gross slip with any stroke, the
+//! normal problem alone at each place of the stroke, the worn surfaces read where they then lie
+//! (`sliding`). Each jump is made whole and in two halves, extrapolated to second order; the
+//! difference controls its length (`run`).
 
 mod block;
 mod border;

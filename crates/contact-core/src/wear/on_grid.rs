@@ -1,15 +1,15 @@
-//! Contacts of a stroke that reach beyond the grid: its border, or that of the worn depth that is kept of
-//! the body that slides over it.
+//! Contacts of a stroke that reach beyond the grid, or beyond the stored worn depth of the body
+//! that slides over it.
 
 use super::shift::Shift;
 use crate::error::Error;
 use crate::scene::Grid;
 
-/// What a grid should grow by where nothing is known but that it is too small.
+/// Factor by which a grid is to grow where the contact cannot be estimated.
 const GROWTH: f64 = 1.4;
 
-/// Fails if a cell at the border of the grid carries pressure p \[Pa\], or one whose place on a body, a
-/// shift away, is not on the grid; fields of `rows` cells per column, of which the last lies at the border.
+/// Fails if a cell with pressure p \[Pa\] lies at the border of the grid, or if its place on a
+/// shifted body is off the grid; fields of `rows` cells per column, the last at the border.
 pub(super) fn check(grid: &Grid, rows: usize, p: &[f64], shifts: &[Shift]) -> Result<(), Error> {
     let pressed = || (0..p.len()).filter(|&n| p[n] > 0.0);
     let columns = pressed().fold(None, |range: Option<(usize, usize)>, n| {

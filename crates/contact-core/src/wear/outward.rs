@@ -1,7 +1,7 @@
-//! A quantity that the cells of the contact have, carried on outwards.
+//! A field known in the contact, extrapolated outwards.
 
-/// Gives cells without a value the mean of their neighbours that have one, row after row outwards; fields of
-/// `rows` cells per column. Zero where no cell has any.
+/// Fills cells without a value with the mean of their neighbours that have one, ring by ring;
+/// fields of `rows` cells per column. Zero if no cell has a value.
 pub(crate) fn outward(rows: usize, cells: usize, known: impl Fn(usize) -> Option<f64>) -> Vec<f64> {
     let mut values: Vec<Option<f64>> = (0..cells).map(known).collect();
     let columns = cells / rows;

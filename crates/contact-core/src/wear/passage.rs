@@ -1,12 +1,13 @@
-//! How the surfaces pass through a jump: between its ends as a parabola through its middle.
+//! Worn depth within a jump: the parabola through its start, middle and end.
 
 use super::loss::Worn;
 
-/// The depth of every cell within a jump \[m\]: `w_0 + (4 m - e) s + (2 e - 4 m) s^2` at a part s of it, m and e being
-/// what it takes in its first half and in all. Both are of second order, and so is what lies between.
+/// The depth of every cell within a jump \[m\]: `w_0 + (4 m - e) s + (2 e - 4 m) s^2` at the part s
+/// of the jump, m and e being the losses in its first half and in all. Both are of second order,
+/// and so is the parabola.
 pub(crate) struct Passage<'a> {
     pub(crate) worn: &'a Worn,
-    /// Depth taken in the first half, and in all \[m\].
+    /// Loss in the first half, and in all \[m\].
     pub(crate) half: &'a [Vec<f64>; 2],
     pub(crate) whole: &'a [Vec<f64>; 2],
 }
@@ -23,12 +24,13 @@ impl Passage<'_> {
     }
 }
 
-/// The part of a jump after which it has taken `asked`, `half` in its first half and `whole` in all.
+/// The part of a jump at which the loss is `asked`, with the loss `half` in its first half and
+/// `whole` in all.
 fn part(asked: f64, half: f64, whole: f64) -> f64 {
     if !(asked > 0.0 && whole > 0.0) {
         return 0.0;
     }
-    // Nothing grows: the parabola does not turn within the jump.
+    // The loss is monotone: the vertex of the parabola must not lie within the jump.
     let half = half.clamp(0.25 * whole, 0.75 * whole);
     let (slope, bend) = (4.0 * half - whole, 2.0 * whole - 4.0 * half);
     let root = (slope * slope + 4.0 * bend * asked).max(0.0).sqrt();

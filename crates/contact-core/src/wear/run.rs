@@ -1,4 +1,4 @@
-//! The jumps of a run: how long they are, what their errors come to, where they end.
+//! The jumps of a run: their length, their errors, their end at an event.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,19 +16,19 @@ use crate::error::Error;
 use crate::plan::Plan;
 use crate::scene::Scene;
 
-/// Part of the length that the estimate of the error asks for, and most that a jump is longer or shorter
-/// than the one before.
+/// The next length is CAUTIOUS (tol/error)^(1/2) times the last one, within SHORTER to LONGER.
 const CAUTIOUS: f64 = 0.9;
 const LONGER: f64 = 4.0;
 const SHORTER: f64 = 0.2;
-/// The first jump wears about this part of the approach.
+/// Depth of the first jump over the approach, about.
 const FIRST: f64 = 0.05;
-/// The pressure at the end of a jump may be off by so many times the tolerance: it is solved anew on
-/// the surfaces that are accepted, and tells only of jumps that miss how it moves.
+/// Allowed change of the end pressure between a whole jump and two halves, over the tolerance of
+/// the depth. It bounds the change of the pressure within a jump only: on the accepted surfaces the
+/// pressure is solved anew.
 const PRESSURE: f64 = 20.0;
-/// Jumps are not cut below this part of all cycles.
+/// Least length of a jump over all cycles.
 const SHORTEST: f64 = 1e-9;
-/// Tries of a jump: shorter ones for the error, others for the cycle of an event.
+/// Most attempts of a jump, for its error and for the cycle of an event.
 const TRIES: usize = 60;
 
 /// A run over all cycles, jump by jump.
@@ -41,13 +41,13 @@ pub struct WearRun {
 }
 
 impl WearRun {
-    /// Checks, chooses what is left open ([`Wear::settled`]), leads in and solves the first cycle; ends when `stop` is
-    /// raised.
+    /// Checks, chooses the open settings ([`Wear::settled`]), solves the lead-in and the first
+    /// cycle; ends when `stop` is raised.
     pub fn new(scene: &Scene, wear: &Wear, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         Self::begin(scene, wear, None, stop)
     }
 
-    /// The same on surfaces that have worn: their cycles count on.
+    /// The same on worn surfaces, whose cycles are counted further.
     pub fn from_worn(
         scene: &Scene,
         wear: &Wear,
@@ -103,8 +103,8 @@ impl WearRun {
         Ok(run)
     }
 
-    /// Goes on from a state of the same scene and wear; what follows is what would have followed
-    /// without the interruption, bit by bit.
+    /// Continues from a state of the same scene and wear, with the same bits as without the
+    /// interruption.
     pub fn resume(
         scene: &Scene,
         wear: &Wear,
@@ -134,7 +134,7 @@ impl WearRun {
         &self.state
     }
 
-    /// Cycles that one jump of a run of so many takes, or the first of a run that chooses.
+    /// Cycles of a jump for a given number of jumps, else of the first jump.
     fn first_jump(&mut self) -> Result<f64, Error> {
         let all = self.wear.cycles;
         match self.wear.jumps {
@@ -151,7 +151,7 @@ impl WearRun {
         }
     }
 
-    /// What one cycle adds to the gap between the present surfaces at most, of either body \[m\].
+    /// Largest growth of the gap in one cycle by the wear of one body \[m\].
     fn rate(&mut self) -> Result<f64, Error> {
         let one = self.model.jump(&self.state.worn, 1.0, false)?;
         self.model.restore(&self.state.model);
@@ -177,7 +177,7 @@ impl WearRun {
         Some(jump.map_err(|error| self.told(error)))
     }
 
-    /// An error in the words of a run over cycles.
+    /// Completes an error with the cycles done or the physical cause.
     fn told(&mut self, error: Error) -> Error {
         match error {
             Error::NotConverged {
@@ -210,7 +210,8 @@ impl WearRun {
         }
     }
 
-    /// What makes jumps hard, as the end of a sentence: wear that is much in one cycle.
+    /// The physical cause of jumps that do not converge, as the end of a sentence: large wear in
+    /// one cycle.
     fn why(&mut self) -> String {
         let (rate, approach) = (self.rate().unwrap_or(0.0), self.scene.approach());
         if rate < FIRST * approach {
@@ -224,7 +225,7 @@ impl WearRun {
 
     fn jump(&mut self, left: f64) -> Result<Jump, Error> {
         let mut n = self.state.next.min(left);
-        // What would be left is not worth a jump of its own.
+        // A negligible rest is included in this jump.
         if left - n < 1e-6 * n {
             n = left;
         }
@@ -261,7 +262,8 @@ impl WearRun {
                 whole: &tried.loss.depth,
             };
             if let Some(part) = crossing(&self.scene, &self.state.events, &passage) {
-                // Towards the cycle in which the first cell is through, from above and from below.
+                // Iterates towards the cycle at which the first cell is worn through, from both
+                // sides.
                 let last = for_event.replace(n);
                 if part < 1.0 - 1e-3 && retries + 1 < TRIES && last != Some(n * part) {
                     n *= part * (1.0 + 1e-4);
@@ -286,7 +288,7 @@ impl WearRun {
         matches!(self.wear.jumps, Jumps::Tolerance(_)) && n > SHORTEST * self.wear.cycles
     }
 
-    /// Whether a jump of n cycles that cannot be solved may be made in more than one.
+    /// Whether a jump of n cycles that does not converge may be divided.
     fn may_be_cut(&self, n: f64) -> bool {
         !matches!(self.wear.jumps, Jumps::Explicit(_)) && n > SHORTEST * self.wear.cycles
     }
@@ -321,7 +323,7 @@ impl WearRun {
             both.map(|(halves, whole)| halves - whole).collect()
         });
         let (loss, error) = halves.extrapolated(&whole, worn);
-        // What two halves miss of the second order a single one misses half of.
+        // The second-order correction of a first half is half of that of the whole jump.
         let half = [0, 1].map(|b| {
             let cells = one_half[b].iter().zip(&moved[b]).zip(&loss.depth[b]);
             let to = |((half, moved), whole): ((&f64, &f64), &f64)| {
@@ -394,8 +396,8 @@ impl WearRun {
         &self.state.history
     }
 
-    /// Whether the fields after the last jump are to be kept: where the cycles have grown by a fifth or
-    /// by a fiftieth of all, and at the end. Notes that they are.
+    /// Whether the fields after the last jump are to be stored: after a growth of the cycles by a
+    /// fifth or by a fiftieth of all, and at the end. Records that they are.
     pub fn keeps(&mut self) -> bool {
         let (cycles, all) = (self.state.cycles, self.wear.cycles);
         let (done, kept_at) = (
@@ -415,16 +417,16 @@ impl WearRun {
         &self.scene
     }
 
-    /// What wears it.
+    /// The wear settings.
     pub fn wear(&self) -> &Wear {
         &self.wear
     }
 }
 
-/// A jump that may be taken or not.
+/// An attempted jump.
 struct Tried {
     loss: Loss,
-    /// Depth that its first half takes \[m\].
+    /// Loss in its first half \[m\].
     half: [Vec<f64>; 2],
     error: f64,
     pressure_error: f64,

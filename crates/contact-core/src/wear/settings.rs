@@ -1,4 +1,4 @@
-//! What a user says about wear: laws, cycles, jumps, what is told.
+//! The wear settings of a user: laws, cycles, jumps, events.
 
 use super::law::BodyWear;
 use super::stroke::stroke;
@@ -18,8 +18,9 @@ pub enum Cycling {
     /// against the contact.
     #[default]
     March,
-    /// Gross slip along x under given shifts: every cell slips by what the bodies move, |q| = mu p, and
-    /// the pressure is found at every place of the stroke, with the two worn surfaces where they then lie.
+    /// Gross slip along x under given shifts: every cell slips by the motion of the bodies, |q| =
+    /// mu p, and the pressure is solved at every place of the stroke, with the worn surfaces in
+    /// their shifted positions.
     Sliding,
 }
 
@@ -29,10 +30,10 @@ pub enum Jumps {
     /// Implicit, as long as the error of one stays below this part of the worn depth, and a
     /// twentieth of that of the pressure (root mean squares); of second order.
     Tolerance(f64),
-    /// Implicit, that many of equal length, and more where one cannot be solved whole; of second order.
+    /// Implicit, that many of equal length, and more where one does not converge; of second order.
     Number(usize),
-    /// Explicit, that many of equal length, with the pressure of the start of each: of first
-    /// order, and unstable where they are long. The usual way, kept as a yardstick.
+    /// Explicit, that many of equal length, with the pressure at the start of each: of first order,
+    /// and unstable where they are long. The usual method, for comparison.
     Explicit(usize),
 }
 
@@ -48,12 +49,12 @@ pub enum WornThrough {
     /// It ends there (default).
     #[default]
     Stop,
-    /// It goes on; where the next layer is bare it wears by that layer's law. The elastic response
-    /// stays that of the whole coating.
+    /// It continues; where the next layer is bare it wears by that layer's law. The elastic
+    /// response stays that of the full coating.
     GoOn,
 }
 
-/// What wears, over how many cycles, and how this is computed.
+/// Laws of wear, number of cycles, and method.
 #[derive(Clone, Debug)]
 pub struct Wear {
     /// How body 1 and body 2 wear.
@@ -74,13 +75,13 @@ pub struct Wear {
     pub jumps: Jumps,
     /// What happens when a coating is worn through.
     pub worn_through: WornThrough,
-    /// Part of what both bodies lose that stays in the contact as debris, 0 to 1 (default 0): the gap
-    /// grows by the rest. Debris lies where it was made and is as stiff as the body that it was. A worn
-    /// scar that fits its counterbody is then `(1 - kept) depth = b^2/(2 R)` deep (the geometry of
-    /// P. Arnaud, S. Baydoun, S. Fouvry, Tribol. Int. 161 (2021) 107077).
+    /// Part of the worn volume of both bodies that stays in the contact as debris, 0 to 1 (default
+    /// 0): the gap grows by the rest. Debris lies where it was worn off and is as stiff as the
+    /// body. A worn scar that fits its counterbody is then `(1 - kept) depth = b^2/(2 R)` deep (the
+    /// geometry of P. Arnaud, S. Baydoun, S. Fouvry, Tribol. Int. 161 (2021) 107077).
     pub debris_kept: f64,
-    /// Part of a coating's thickness from which a worn depth is told (default 0.1): the response is
-    /// that of a layer of constant thickness.
+    /// Worn depth over the thickness of the coatings from which the event `thinned` is reported
+    /// (default 0.1): the elastic response is that of constant thickness.
     pub tell_from: f64,
 }
 
@@ -181,12 +182,12 @@ impl Wear {
         self.jumps.check()
     }
 
-    /// Part of what the bodies lose by which the gap grows.
+    /// 1 - kept: growth of the gap over the worn depth.
     pub(crate) fn opens(&self) -> f64 {
         1.0 - self.debris_kept
     }
 
-    /// Fails if a cycle that begins with a branch does not end where it begins.
+    /// Fails if the cycle that starts with a branch is not closed.
     pub(super) fn closed(scene: &Scene, first_branch: usize) -> Result<(), Error> {
         let branches = &scene.path.branches;
         let (before, last) = (
@@ -208,7 +209,7 @@ impl Wear {
             } else {
                 crate::scene::RigidMotion::ALL.map(crate::scene::RigidMotion::load)
             }[k];
-            // A turn ends where it begins but for rounding.
+            // Closed up to rounding.
             let largest = |of: &dyn Fn(&Branch) -> f64| {
                 let sizes = branches.iter().map(|branch| of(branch).abs());
                 ROUNDING * sizes.fold(0.0, f64::max)

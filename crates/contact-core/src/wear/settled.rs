@@ -1,4 +1,4 @@
-//! What a user leaves open: which branches are the cycle, and in how many increments they are solved.
+//! Open settings: the branches of the cycle and their increments.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -8,7 +8,8 @@ use crate::error::Error;
 use crate::estimate::choose_increments;
 use crate::scene::Scene;
 
-/// Most places of a branch of a stroke that are chosen, and the part of the first contact's half-width between two.
+/// Most chosen places of a branch of a stroke, and their distance over the half-width of the first
+/// contact.
 const MOST: usize = 12;
 const APART: f64 = 0.25;
 /// Fewest where the normal force changes within the branch.
@@ -35,9 +36,9 @@ impl Wear {
             })
     }
 
-    /// Scene and wear with what is left open chosen: the cycle, and increments for the branches that have none, by
-    /// [`choose_increments`] in a march, by the stroke over the first contact in gross slip. What is chosen already
-    /// stays.
+    /// Scene and wear with the open settings chosen: the cycle, and increments for the branches
+    /// that have none, by [`choose_increments`] in a march, by stroke over contact width in gross
+    /// slip. Given settings stay.
     pub fn settled(&self, scene: &Scene, stop: &Arc<AtomicBool>) -> Result<(Scene, Self), Error> {
         scene.check()?;
         let mut wear = self.clone();
@@ -60,7 +61,7 @@ impl Wear {
     }
 }
 
-/// As many places for each way of a stroke as the contact sees apart.
+/// Places for each branch of a stroke, [`APART`] of the contact's half-width apart.
 fn choose_places(scene: &mut Scene) {
     let (extent, _) = scene.grid.extent();
     let apart = APART * scene.hertz().map_or(0.25 * extent, |hertz| hertz.a);

@@ -1,9 +1,10 @@
-//! The worn surface of a body that lies a shift away from the cells of the grid.
+//! The worn surface of a body that is shifted against the grid.
 //!
-//! What cell n wears off is put on the two cells between which its place lies on the other body, in
-//! the parts of linear interpolation: S, whose columns sum to one, so that no volume is lost. The
-//! worn depth under cell n is read with the same parts, S^T. That both are one matrix makes the
-//! wear of a jump the gradient of a convex energy ([`sliding`](super::sliding)).
+//! The depth worn by cell n is distributed to the two cells between which it lies on the other
+//! body, with the weights of linear interpolation: the matrix S, whose columns sum to 1, so that
+//! volume is conserved. The worn depth under cell n is read with the same weights, S^T. Since both
+//! are the same matrix, the wear of a jump is the gradient of a convex energy
+//! ([`sliding`](super::sliding)).
 
 /// A shift along x by a number of cells that need not be whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,8 +39,7 @@ impl Shift {
         self.pairs(field.len(), rows, |n, m, part| onto[n] += part * field[m]);
     }
 
-    /// The cells n, the cells m where these lie on the other body, and the part of each; what
-    /// lies beyond the grid is left out.
+    /// Calls `each(n, m, weight)` for the entries of S; entries beyond the grid are left out.
     fn pairs(self, cells: usize, rows: usize, mut each: impl FnMut(usize, usize, f64)) {
         for (by, part) in [(self.whole, 1.0 - self.part), (self.whole + 1, self.part)] {
             if part == 0.0 {

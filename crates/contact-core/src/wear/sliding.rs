@@ -1,29 +1,29 @@
 //! Gross slip: the implicit jump of a stroke.
 //!
-//! With d_i the places of the stroke, s_i the way slipped at each per cycle and p_i the pressure there,
-//! n cycles take from body b (k_b being the coefficient of its law in its own coordinates, S_bi the
-//! shift of the grid against it, [`shift`](super::shift))
+//! With d_i the places of the stroke, s_i the way slipped at each per cycle and p_i the pressure
+//! there, n cycles wear body b (k_b being the coefficient of its law in its own coordinates, S_bi
+//! the shift of the grid against it, [`shift`](super::shift)) by
 //!
 //! ```text
 //! w_b = n k_b sum_i s_i S_bi p_i                                             depth
 //! g_i = h + C p_i + o sum_b S_bi^T (w_b0 + w_b) - delta_i >= 0,  p_i >= 0,  p_i g_i = 0
 //! ```
 //!
-//! with the pressures of the end of the jump, o being the part of what is worn by which the gap grows, the rest debris that
-//! lies where it was made. These are the conditions of the minimum of
+//! with the pressures at the end of the jump; o = 1 - kept is the growth of the gap over the worn
+//! depth, the rest being debris. These are the conditions of the minimum of
 //!
 //! ```text
 //! sum_i s_i [ 1/2 p_i.C p_i + p_i.(h + o S_bi^T w_b0) ] + 1/2 o n sum_b k_b |sum_i s_i S_bi p_i|^2
 //! ```
 //!
-//! over p_i >= 0 of given sums: convex for any n, so that no jump is too long to be solved. The places
-//! are solved one by one, each as if the pressure changed alike at all others: by Cauchy's
-//! inequality `|sum s_i x_i|^2 <= s sum s_i x_i^2` with s the sum of the s_i, that majorises the energy,
-//! which therefore falls with every round (D. R. Hunter, K. Lange, Am. Stat. 58 (2004) 30-37). The
-//! normal problem of a place has the compliance `o n s sum_b S_bi^T k_b`. One place needs one round; for
-//! more the rounds are accelerated (Y. Nesterov; A. Beck, M. Teboulle, SIAM J. Imaging Sci. 2 (2009)
-//! 183-202), and begin anew where a step turns back (B. O'Donoghue, E. Candes, Found. Comput. Math. 15
-//! (2015) 715-732).
+//! over p_i >= 0 of given sums: convex for any n, so that a solution exists for jumps of any
+//! length. The places are solved one by one, each as if the pressure changed alike at all others:
+//! by Cauchy's inequality `|sum s_i x_i|^2 <= s sum s_i x_i^2`, s being the sum of the s_i, this
+//! majorises the energy, which therefore falls in every round (D. R. Hunter, K. Lange, Am. Stat. 58
+//! (2004) 30-37). The normal problem of a place has the compliance `o n s sum_b S_bi^T k_b`. One
+//! place needs one round; for more the rounds are accelerated (Y. Nesterov; A. Beck, M. Teboulle,
+//! SIAM J. Imaging Sci. 2 (2009) 183-202), and restarted where a step reverses (B. O'Donoghue, E.
+//! Candes, Found. Comput. Math. 15 (2015) 715-732).
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -43,7 +43,7 @@ use crate::scene::{FrictionHistory, Scene, Shape};
 const SETTLED: f64 = 1e-3;
 /// Times the tolerance of the scene to which the pressures of a round are solved.
 const ROUGH: f64 = 10.0;
-/// Most rounds: what is left then is seen by the estimate of the jump's error.
+/// Most rounds; a remaining error enters the estimate of the jump's error.
 const ROUNDS: usize = 60;
 
 /// The gross slip of a stroke.
@@ -51,11 +51,11 @@ pub(crate) struct Sliding {
     pub(crate) pressing: Pressing,
     pub(crate) places: Vec<Place>,
     pub(crate) corners: Vec<Corner>,
-    /// How the grid lies on body 1 and body 2 at each place.
+    /// Shift of the grid against body 1 and body 2 at each place.
     shifts: Vec<[Shift; 2]>,
     wear: Wear,
     coatings: [Vec<f64>; 2],
-    /// Coefficient of friction, and what cycles make of it.
+    /// Coefficient of friction, and its dependence on cycles.
     mu: f64,
     history: Option<FrictionHistory>,
     /// Cycles done.
@@ -67,7 +67,7 @@ pub(crate) struct Sliding {
 }
 
 impl Sliding {
-    /// Of unworn surfaces, or with the pressures of a state.
+    /// On unworn surfaces, or with the pressures of a state.
     pub(crate) fn new(
         scene: &Scene,
         wear: &Wear,
@@ -132,7 +132,7 @@ impl Sliding {
         Ok(())
     }
 
-    /// What n cycles take from both bodies; the pressures become those of the end.
+    /// The loss of both bodies in n cycles; sets the pressures at the end.
     pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
         self.cycles = worn.cycles;
         let ways = self.summed(&self.p);
@@ -176,7 +176,7 @@ impl Sliding {
         Ok(self.loss(n, &k, &ways))
     }
 
-    /// One round over the places: the minimum of what majorises the energy around given pressures.
+    /// One round over the places: minimises the majorant of the energy at the pressures `around`.
     fn round(
         &mut self,
         worn: &Worn,
@@ -263,7 +263,7 @@ impl Sliding {
         sums
     }
 
-    /// The same into sums that are there.
+    /// The same into given buffers.
     fn sum(&self, field: &[Vec<f64>], sums: &mut [Vec<f64>; 2]) {
         for sum in sums.iter_mut() {
             sum.fill(0.0);
@@ -285,7 +285,8 @@ impl Sliding {
         let (touched, s) = (self.summed(&touched), self.way());
         let mut k = [vec![0.0; self.h.len()], vec![0.0; self.h.len()]];
         for b in 0..2 {
-            // A cell that is reached within the jump wears by the same law: as if it were pressed.
+            // Cells that come into contact within the jump need a coefficient, too: they get a
+            // small pressed way.
             let least = 1e-9 * ways[b].iter().fold(0.0, |m: f64, w| m.max(*w));
             let pressed: Vec<f64> = ways[b].iter().map(|w| w.max(least)).collect();
             let way: Vec<f64> = touched[b]
@@ -307,7 +308,7 @@ impl Sliding {
         Ok(k)
     }
 
-    /// The sum of fields of both bodies as the grid finds them at a place.
+    /// The sum of fields of both bodies, shifted to the grid at a place.
     fn read(&self, fields: &[Vec<f64>; 2], i: usize, into: &mut [f64]) {
         into.fill(0.0);
         for (shift, field) in self.shifts[i].iter().zip(fields) {
@@ -315,7 +316,7 @@ impl Sliding {
         }
     }
 
-    /// Gap between the worn surfaces at a place, less what debris fills \[m\].
+    /// Gap between the worn surfaces at a place, filled by debris \[m\].
     fn gap(&self, worn: &Worn, i: usize, into: &mut [f64]) {
         self.read(&worn.depth, i, into);
         let opens = self.wear.opens();
@@ -324,7 +325,7 @@ impl Sliding {
             .for_each(|(gap, h)| *gap = opens * *gap + h);
     }
 
-    /// Solves the pressure at a place to so many times the tolerance of the scene.
+    /// Solves the pressure at a place to `times` the tolerance of the scene.
     fn press(&mut self, i: usize, h: &[f64], compliance: &[f64], times: f64) -> Result<(), Error> {
         let drive = self.pressing.under(self.places[i].W);
         self.pressing
@@ -333,7 +334,7 @@ impl Sliding {
     }
 }
 
-/// The fields that the rounds of a jump work in.
+/// Buffers of the rounds of a jump.
 struct Room {
     /// Pressed ways of a cycle in the coordinates of each body \[Pa m\].
     ways: [Vec<f64>; 2],

@@ -1,4 +1,4 @@
-//! What a run of wear carries from jump to jump.
+//! The state of a run of wear between jumps.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,35 +7,36 @@ use super::jump::Jump;
 use super::loss::Worn;
 use super::model::{Model, ModelState};
 
-/// All that the next jump depends on.
+/// The state on which the next jump depends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WearState {
     /// Jumps done.
     pub jumps: usize,
     /// Cycles done.
     pub cycles: f64,
-    /// Cycles that the surfaces had been through when the run began.
+    /// Cycles of the surfaces before the run.
     pub began: f64,
-    /// Deepest depths \[m\] and volumes \[m^3\] that body 1 and body 2 had lost then.
+    /// Deepest depths \[m\] and volumes \[m^3\] of body 1 and body 2 before the run.
     pub lost_before: [[f64; 2]; 2],
-    /// Energy dissipated by friction in them \[J\].
+    /// Energy dissipated by friction in all cycles \[J\].
     pub dissipated: f64,
-    /// What happened to the coatings.
+    /// Events of the coatings.
     pub events: Vec<Event>,
     pub(crate) worn: Worn,
     pub(crate) model: ModelState,
-    /// Jumps so far, and the cycles of the last block that is kept.
+    /// Jumps so far, and the cycles of the last stored block.
     pub(crate) history: Vec<Jump>,
     pub(crate) kept_at: f64,
     /// Length of the next jump in cycles.
     pub(crate) next: f64,
-    /// What extrapolation has added to the worn depth of both bodies in all jumps \[m\].
+    /// Sum over all jumps of the corrections of the worn depth by extrapolation \[m\].
     pub(crate) moved: [Vec<f64>; 2],
     pub(crate) ended: bool,
 }
 
 impl WearState {
-    /// The last jump in numbers: what came of it, of what is lost a part `kept` being debris; how it came about is zero.
+    /// The present values of a [`Jump`]; its errors, length and retries are zero. `kept`: part of
+    /// the loss that is debris.
     pub(super) fn seen(&self, model: &Model, kept: f64) -> Jump {
         let area = model.pressing().cell_area();
         let seen = model.seen();

@@ -1,9 +1,9 @@
-//! The places of a stroke: where the bodies slide past each other, and by how much.
+//! The places of a stroke: shifts of the bodies and the way slipped at each.
 
 use crate::error::Error;
 use crate::scene::{FrictionHistory, History, Scene, Shape};
 
-/// Part of a cell within which two places are one.
+/// Places closer than this part of a cell are the same.
 const SAME: f64 = 1e-9;
 
 /// A place of the stroke, the middle of an increment of the cycle.
@@ -22,9 +22,9 @@ pub(crate) type Corner = [f64; 3];
 
 /// The places of the cycle, which begins with the branch `first_branch`, and the corners of its loop.
 ///
-/// A rig of stiffness K \[N/m\] drives the contact through a spring, and the contact follows where the
-/// spring pulls with mu W: with u the shift of the rig and d that of the contact, each increment
-/// takes d to the nearest place with `|u - d| <= mu W/K` (a Prandtl element).
+/// A rig of stiffness K \[N/m\] drives the contact through a spring (a Prandtl element): with u the
+/// shift of the rig and d that of the contact, each increment moves d by the least amount to
+/// `|u - d| <= mu W/K`.
 pub(crate) fn stroke(
     scene: &Scene,
     first_branch: usize,
@@ -55,7 +55,7 @@ pub(crate) fn stroke(
     }
     let mut places: Vec<Place> = Vec::new();
     let (mut corners, mut force) = (Vec::new(), 0.0);
-    // The first pass brings the contact to where every further cycle begins.
+    // The first pass leads to the closed cycle, the second runs through it.
     for pass in 0..2 {
         for k in lead_in..points.len() {
             let (before, W_before) = (d, W);
@@ -73,7 +73,7 @@ pub(crate) fn stroke(
                 continue;
             }
             if turns {
-                // Within the increment, where the spring pulls enough.
+                // Onset of sliding within the increment.
                 corners.push([before + force / rig_stiffness, before, force]);
             }
             corners.push([u_of(k), d, force]);

@@ -64,8 +64,8 @@ impl Wear {
         Ok((scene, wear))
     }
 
-    /// The table `[wear]` in SI, every number in full. A law of the user's own, which no file can hold, is `{ own = true
-    /// }` in it: who reads that has to give it again.
+    /// The table `[wear]` in SI, every number in full. A law of the user's own, which a file cannot
+    /// represent, is written `{ own = true }`: to read the file, it has to be given again.
     pub fn to_toml(&self) -> String {
         let mut text = format!("\n[wear]\ncycles = {:?}\n", self.cycles);
         if let Some(first) = self.first_branch {
@@ -216,7 +216,7 @@ fn factor(law: &Section<'_>) -> Result<Option<Factor>, Fault> {
     Ok(Some(Factor { of, table }))
 }
 
-/// A law of the user's own that a file has a place for and cannot hold.
+/// Placeholder of a law of the user's own in a file.
 #[derive(Debug)]
 struct Missing;
 

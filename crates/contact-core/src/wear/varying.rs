@@ -7,14 +7,14 @@ use super::law::{CellCycle, Law};
 use crate::error::Error;
 use crate::scene::{FrictionHistory, History};
 
-/// What the factor of a wear coefficient is a function of.
+/// The variable of the factor of a wear coefficient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Of {
     /// Cycles done so far, the same for all cells.
     Cycles,
     /// Mean pressure of a cell over the way that it slips \[Pa\].
     Pressure,
-    /// Energy dissipated per area and time, that of a cycle times the frequency \[W/m^2\].
+    /// Energy dissipated per area and time: that of a cycle times the frequency \[W/m^2\].
     PowerDensity,
     /// Energy dissipated per area so far \[J/m^2\].
     Energy,
@@ -40,13 +40,14 @@ impl Of {
 
 /// A factor of a wear coefficient, piecewise linear, level beyond its ends.
 ///
-/// Within a jump it is that of the surfaces and pressures at the jump's start; the halves of the jump see how it
-/// changes. One that falls faster than the pressure grows, or grows faster, makes the pressure of long jumps swing.
+/// Within a jump it is evaluated at the surfaces and pressures of the jump's start; the comparison
+/// with two halves shows its change. A factor that changes faster than in proportion to the
+/// pressure makes the pressure of long jumps oscillate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Factor {
-    /// What it is a function of.
+    /// The variable.
     pub of: Of,
-    /// Pairs of that and the factor, growing.
+    /// Pairs of the variable, ascending, and the factor.
     pub table: Vec<(f64, f64)>,
 }
 

@@ -1,4 +1,4 @@
-//! A run that begins on surfaces that have worn.
+//! A run that starts from worn surfaces.
 
 use ndarray::Array2;
 
@@ -7,7 +7,8 @@ use crate::error::Error;
 use crate::plan::{Half, Mirror};
 use crate::scene::Grid;
 
-/// Surfaces that have worn, fields of shape (nx, ny): what a run goes on from, as with another stroke.
+/// Worn surfaces from which a run starts, for example with another stroke; fields of shape (nx,
+/// ny).
 #[derive(Clone, Debug, PartialEq)]
 pub struct WornStart {
     /// Cycles done.
