@@ -15,10 +15,11 @@ const NODES: usize = 16;
 /// Discs of the quadrature over a ball.
 const DISCS: usize = 8;
 
-/// What the stress is averaged over, from the top of a layer down, for a critical distance L.
+/// The region over which the stress is averaged, from the top of a layer down, for a critical
+/// distance L.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Averaging {
-    /// Nothing: the stress at the depth L/2.
+    /// The point at the depth L/2.
     Point,
     /// The line down to 2 L.
     Line,
@@ -37,7 +38,7 @@ impl Averaging {
         ("volume", Self::Volume),
     ];
 
-    /// How deep it reaches, in L.
+    /// Its depth over L.
     fn reach(self) -> f64 {
         match self {
             Self::Point => 0.5,
@@ -54,16 +55,16 @@ impl Averaging {
 /// A critical distance in a layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distance {
-    /// What is averaged over.
+    /// The region.
     pub method: Averaging,
     /// L \[m\].
     pub length: f64,
-    /// The layer that it lies in, from the surface down.
+    /// The layer, from the surface down.
     pub layer: usize,
 }
 
-/// What a judge finds in the mean stress below every place of a line; nothing at places that are nearer to the border
-/// of the grid than the mean reaches.
+/// The judgement of the mean stress below every place of a line; `None` at places nearer to the
+/// border of the grid than the region reaches.
 pub fn average<J: Judge>(
     site: &Site<'_>,
     line: Line,

@@ -10,7 +10,8 @@ use crate::error::Error;
 use crate::fields::Line;
 use crate::scene::Body;
 
-/// Difference of an elastic constant of a material from that of the scene that is told.
+/// Relative difference of an elastic constant of a material from that of the scene above which a
+/// note is added.
 const TOLD: f64 = 0.05;
 
 /// A criterion with the numbers of the material of every layer.
@@ -18,9 +19,9 @@ const TOLD: f64 = 0.05;
 pub struct ByCriterion {
     /// Of every layer from the surface down, the substrate's last; none where it is not judged.
     pub assessments: Vec<Option<Assessment>>,
-    /// How far the search for a plane goes.
+    /// Settings of the search for the critical plane.
     pub search: Search,
-    /// What a reader should know: materials whose elastic constants are not those of the scene.
+    /// Notes for the reader: materials whose elastic constants differ from those of the scene.
     pub notes: Vec<String>,
 }
 

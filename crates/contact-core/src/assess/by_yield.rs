@@ -16,7 +16,7 @@ pub struct ByYield {
     pub s_y: Vec<Option<f64>>,
     /// Residual stress of every layer \[Pa\], which does not grow with the load.
     pub residual: Vec<f64>,
-    /// Which factor decides what is worst.
+    /// The factor by which points are ranked.
     pub of: fn(&Yield) -> f64,
 }
 

@@ -17,7 +17,7 @@ const STEP: f64 = 0.15;
 const NEAREST: f64 = 1e-3;
 /// Samples that an interpolation takes.
 const POINTS: usize = 6;
-/// Relative error of K that the samples leave: 7e-6 under a sliding contact at most.
+/// Relative error of K from the sampling: bound of 7e-6 found under a sliding contact.
 const SAMPLES: f64 = 2e-5;
 /// Step of the quadrature along the crack: K within 1e-4 in closed cracks.
 const QUADRATURE: f64 = 0.12;
@@ -25,7 +25,7 @@ const QUADRATURE: f64 = 0.12;
 /// partial cracks in a film (|alpha| to 0.8), rounded up.
 const LAYERED: f64 = 1.2;
 
-/// The error of the core that says the same.
+/// The corresponding error of the core.
 pub fn refused(error: fracture::Error) -> Error {
     match error {
         fracture::Error::Invalid {
@@ -64,8 +64,8 @@ pub struct OverCycle {
 
 /// K of the cracks in the body `side` under each of the states, one length after the other.
 ///
-/// K is that of a crack in the homogeneous half-plane of whatever material, under the stress of the
-/// layered body; where layers differ its error grows by what published partial cracks in films change.
+/// K is that of a crack in a homogeneous half-plane under the stress of the layered body. Where
+/// layers differ, the error includes the change of K of published partial cracks in films.
 pub fn over_cycle(
     body: &Body,
     side: Side,
@@ -83,7 +83,7 @@ pub fn over_cycle(
     let unit = Crack::with_step(unit, QUADRATURE).map_err(refused)?;
     let line = Line::new(body, cracks, (NEAREST * shortest, longest));
     let sampled = line.sample(body, side, grid, states)?;
-    // Tractions constant in each cell: what the cells leave open of the tractions within them.
+    // Constant tractions: the difference estimates the error of the tractions within the cells.
     let plain = States {
         stick: None,
         ..states.clone()
@@ -188,7 +188,7 @@ impl Line {
         let (sin, cos) = self.angle.sin_cos();
         let bottoms = body.interfaces();
         let place = |s: f64, layer: usize| {
-            // Rounding must not take a sample of an interface into the next layer.
+            // A sample on an interface must stay in its layer in spite of rounding.
             let top = layer.checked_sub(1).map_or(0.0, |n| bottoms[n]);
             let bottom = bottoms.get(layer).copied().unwrap_or(f64::INFINITY);
             let z = (s * cos).clamp(top, bottom);

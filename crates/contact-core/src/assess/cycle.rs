@@ -9,13 +9,13 @@ use crate::scene::Branch;
 /// The kept increments of a closed cycle of a store.
 pub struct StoredCycle<'a> {
     store: &'a Store,
-    /// Places among those that were kept.
+    /// Indices among the stored increments.
     kept: Vec<usize>,
-    /// That of the increment before the cycle.
+    /// Index of the increment before the cycle.
     before: Option<usize>,
     /// Bulk stress of the body at every increment \[Pa\].
     sigma_B: Vec<f64>,
-    /// Increment of every place, from 1.
+    /// Increment of every index, from 1.
     increments: Vec<usize>,
 }
 

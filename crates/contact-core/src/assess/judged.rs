@@ -1,4 +1,4 @@
-//! A judge taken to a section.
+//! A judge applied to a section.
 
 use std::sync::atomic::AtomicBool;
 
@@ -9,24 +9,24 @@ use super::site::Site;
 use crate::error::Error;
 use crate::fields::{Depth, Line};
 
-/// What gives a judgement of the stress history of points.
+/// A rule that judges the stress history of points.
 pub trait Judge: Sync {
-    /// What it finds at a point.
+    /// The judgement of a point.
     type Found: Copy + Send + Sync;
     /// Whether it judges a layer, from the surface down.
     fn judges(&self, layer: usize) -> bool;
-    /// What it finds in stresses of shape (moments, points, 6) of a layer that it judges \[Pa\].
+    /// The judgements of stresses of shape (moments, points, 6) in a layer that it judges \[Pa\].
     fn judge(
         &self,
         layer: usize,
         stress: &ArrayView3<'_, f64>,
         stop: &AtomicBool,
     ) -> Result<Vec<Self::Found>, Error>;
-    /// How bad that is: the larger the worse.
+    /// The severity of a judgement: the larger the worse.
     fn score(&self, found: &Self::Found) -> f64;
 }
 
-/// What a judge found on a section.
+/// The judgements on a section.
 #[derive(Clone, Debug)]
 pub struct Judged<F> {
     /// The line that the section is below.
@@ -35,11 +35,11 @@ pub struct Judged<F> {
     pub along: Vec<f64>,
     /// Depths.
     pub depths: Vec<Depth>,
-    /// What was found at each depth along the line; nothing in layers that are not judged.
+    /// The judgements at each depth along the line; `None` in layers that are not judged.
     pub found: Vec<Option<Vec<F>>>,
 }
 
-/// Takes judges to the section below a line, all to the same stress.
+/// Applies judges to the section below a line, all to the same stress.
 pub fn judge<J: Judge>(
     site: &Site<'_>,
     line: Line,

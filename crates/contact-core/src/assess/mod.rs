@@ -1,11 +1,12 @@
 //! Stage 7: FROM STRESS TO DECISION: does it crack, yield or shake down, over a closed cycle of a contact.
 //!
-//! A [`Judge`] gives what it finds in the stress history of a point: [`ByCriterion`] a fatigue criterion, [`ByYield`]
-//! load factors of first yield and shakedown. [`judge`] takes it to a section, a few depths at a time, so that memory
-//! is bounded whatever the number of increments ([`OverCycle`] gives them, from a store or from arrays);
-//! [`worst`] looks for the worst point of a layer, between the samples and on the rim of the contact, by judging the
-//! stress there; [`average`] judges means over a critical distance of the material.
-//! [`crack`] takes the stress below a contact to the tip of a crack.
+//! A [`Judge`] judges the stress history of a point: [`ByCriterion`] by a fatigue criterion,
+//! [`ByYield`] by load factors of first yield and shakedown. [`judge`] applies it to a section, a
+//! few depths at a time, so that memory is bounded for any number of increments ([`OverCycle`]
+//! gives them, from a store or from arrays); [`worst`] finds the worst point of a layer, between
+//! the samples and on the rim of the contact, by judging the stress there; [`average`] judges means
+//! over a critical distance of the material. [`crack`] gives the stress intensity of a crack under
+//! the stress below a contact.
 
 mod average;
 mod by_criterion;

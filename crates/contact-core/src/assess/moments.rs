@@ -1,4 +1,4 @@
-//! What acts on a contact at moments of a cycle.
+//! The states of a contact at moments of a cycle.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -20,13 +20,13 @@ pub struct Moments {
     pub sigma_B: Vec<f64>,
 }
 
-/// The moments of a cycle, which are asked for a few at a time.
+/// The moments of a cycle, read a few at a time.
 pub trait OverCycle: Sync {
     /// How many there are.
     fn count(&self) -> usize;
     /// The moments of these numbers, from 0.
     fn moments(&self, which: &[usize]) -> Result<Moments, Error>;
-    /// Where the cycle begins: the moment before its first, if it was kept.
+    /// The start of the cycle: the moment before its first, if stored.
     fn start(&self) -> Result<Option<Moments>, Error>;
 }
 
@@ -84,9 +84,9 @@ impl Moments {
     }
 }
 
-/// By how much the tractions at the end of a cycle differ from those where it begins, over the largest of the cycle's
-/// end: 0 for a settled one. Where that is large the cycle is not the one that goes on. None where the increment before
-/// the cycle was not kept.
+/// Difference of the tractions at the end and at the start of a cycle, over the largest at the end:
+/// 0 for a steady cycle. A large value means that later cycles differ from this one. `None` if the
+/// increment before the cycle was not stored.
 pub fn unsettled(cycle: &dyn OverCycle) -> Result<Option<f64>, Error> {
     let Some(start) = cycle.start()? else {
         return Ok(None);
@@ -96,7 +96,7 @@ pub fn unsettled(cycle: &dyn OverCycle) -> Result<Option<f64>, Error> {
         return Ok(None);
     };
     let (mut change, mut largest) = (0.0_f64, 0.0_f64);
-    // Pressure and shear have sizes of their own.
+    // Pressure and shear are scaled separately.
     let mut worst = 0.0_f64;
     for (n, (before, after)) in before.iter().zip(after).enumerate() {
         for (a, b) in before.iter().zip(after) {

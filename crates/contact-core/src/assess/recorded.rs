@@ -1,11 +1,11 @@
-//! A closed cycle of a march, kept as it goes.
+//! A closed cycle of a march, recorded during the march.
 
 use super::moments::{Moments, OverCycle};
 use crate::error::Error;
 use crate::fields::Side;
 use crate::march::{Increment, March, Observer};
 
-/// Keeps what acts on a body in the increments of some branches of a march.
+/// Records the states of a body in the increments of some branches of a march.
 pub struct Recorded {
     side: Side,
     branches: (usize, usize),

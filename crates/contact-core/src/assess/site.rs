@@ -1,4 +1,4 @@
-//! Where it is judged: a body under a cycle, whose stress is asked for on lines and at points.
+//! A body under a cycle of a contact: its stress on lines and at points.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -12,7 +12,7 @@ use crate::scene::{Body, Grid};
 
 /// Moments whose stresses are computed together: the kernels of a depth cost as much as ten.
 const TOGETHER: usize = 32;
-/// Largest size of the stress that is held at a time \[bytes\].
+/// Largest memory of the stress at a time \[bytes\].
 const ROOM: f64 = 256e6;
 
 /// Stress over the moments of a cycle \[Pa\], of shape (moments, points, 6).
@@ -28,9 +28,9 @@ pub struct Site<'a> {
     pub grid: &'a Grid,
     /// Residual stress of every layer from the surface down, the substrate's last \[Pa\]; none if empty.
     pub residual: &'a [f64],
-    /// What acts on it.
+    /// The states over the cycle.
     pub cycle: &'a dyn OverCycle,
-    /// Ends what is asked for with [`Error::Interrupted`] once it is raised.
+    /// Once raised, ends the computation with [`Error::Interrupted`].
     pub stop: Arc<AtomicBool>,
 }
 
@@ -38,7 +38,7 @@ pub struct Site<'a> {
 pub(super) struct At {
     points: Points,
     moments: usize,
-    /// Where the middle of its grid is \[m\].
+    /// The middle of its grid \[m\].
     middle: (f64, f64),
 }
 
@@ -81,7 +81,7 @@ impl Site<'_> {
         Ok(())
     }
 
-    /// The stress at points under some moments, which is then asked for several times.
+    /// The stress at points under some moments, for repeated use.
     pub(super) fn under(&self, moments: &Moments) -> Result<At, Error> {
         self.at(self.grid, moments, (0.0, 0.0))
     }
@@ -124,7 +124,7 @@ impl Site<'_> {
 }
 
 impl At {
-    /// Whether a point of the surface lies beside a rim that is not known within its cell.
+    /// Whether a point of the surface lies beside an assumed rim.
     pub(super) fn rim_is_unknown(&self, (x, y, depth): Point) -> bool {
         let moved = (x - self.middle.0, y - self.middle.1, depth);
         self.points.rim_is_unknown(moved)

@@ -1,8 +1,9 @@
 //! The worst point of a layer on a section, between the samples and on borders of the contact.
 //!
-//! Samples tell the hills, the tractions where the rim of the contact and the border of the stick zone are; the worst of
-//! these, judged there, is climbed from: points beside it are judged along the line and in depth, closer and closer.
-//! Every value is that of a history at a point; nothing is extrapolated.
+//! Starting points are the local maxima of the samples (hills) and the places where the rim of the
+//! contact and the border of the stick zone cross the line. From the worst of these the search
+//! ascends: points beside it along the line and in depth are judged, with smaller and smaller
+//! steps. Every value is that of a history at a point; none is extrapolated.
 
 use ndarray::Array2;
 
@@ -14,42 +15,43 @@ use crate::error::Error;
 use crate::fields::{Border, Depth, Errors, Extreme, Line, Point, TwiceAsLarge, Zone, borders};
 use crate::scene::Grid;
 
-/// Most hills and most places on borders that are judged before the climb.
+/// Most hills and most places on borders that are judged before the ascent.
 const HILLS: usize = 3;
 const BORDERS: usize = 6;
-/// Lowest hill that is looked at, over the highest.
+/// Hills below this part of the highest are ignored.
 const LOWEST: f64 = 0.8;
 /// First step along the line in cells, and in depth over the distance to the neighbouring one.
 const STEP: f64 = 0.5;
-/// What a step that leads nowhere is divided by, and steps below this part of the first end the climb.
+/// Divisor of a step without gain; steps below SHORTEST times the first end the ascent.
 const CLOSER: f64 = 3.0;
 const SHORTEST: f64 = 0.01;
-/// Most rounds of the climb.
+/// Most rounds of the ascent.
 const ROUNDS: usize = 16;
-/// Gain over the score that counts.
+/// Least relative gain of a step.
 const GAIN: f64 = 1e-6;
-/// Farthest that a point on a border lies from it, in cells.
+/// A point is on a border if it is at most this many cells from it.
 const ON_BORDER: f64 = 0.1;
-/// Cells in contact times moments up to which every point of the climb is judged by the whole history.
+/// Contact cells times moments up to which every point of the ascent is judged by the whole
+/// history.
 const CHEAP: usize = 100_000;
-/// Moments that stand for a longer history during the climb.
+/// Moments that represent a longer history during the ascent.
 const STAND_FOR: usize = 32;
-/// Moments whose borders are looked at.
+/// Moments whose borders are used as starting points.
 const SEEN: usize = 16;
 
 /// The worst point of a layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worst<F> {
-    /// What the judge found there.
+    /// The judgement there.
     pub found: F,
-    /// How bad it is and where.
+    /// Its score and place.
     pub extreme: Extreme,
 }
 
 /// A point of a section: place on the line and depth \[m\].
 type Place = [f64; 2];
 
-/// The worst point of a layer of what a judge found on a section; none where the layer has no number.
+/// The worst point of a layer from the judgements on a section; `None` if the layer has no number.
 pub fn worst<J: Judge>(
     site: &Site<'_>,
     judged: &Judged<J::Found>,
@@ -89,7 +91,7 @@ pub fn worst<J: Judge>(
         highest,
         |best, start| if start.1 > best.1 { start } else { best },
     );
-    // The neighbours in depth of where it starts.
+    // The neighbouring depths of the start.
     let gap = of_layer()
         .map(|z| (z - best.0[1]).abs())
         .filter(|gap| *gap > 0.0)
@@ -109,7 +111,7 @@ pub fn worst<J: Judge>(
     let score = judge.score(&found);
     let border = climb.on_border(place, &known);
     let coarse = climb.on_coarser_cells(place, border, &moments)?;
-    // Where the rim is not known within its cell it may lie half a cell elsewhere.
+    // An assumed rim may be half a cell off.
     let beside = if at.rim_is_unknown(point) {
         [-half_cell, half_cell]
             .map(|by| [place[0] + by, place[1]])
@@ -246,7 +248,8 @@ impl<J: Judge> Climb<'_, J> {
         self.site.cycle.moments(&chosen)
     }
 
-    /// From a place uphill: the top, and what the last steps beside it lose along the line and in depth.
+    /// Ascends from a place: the top, and the drop of the score at the last steps along the line
+    /// and in depth.
     fn climbed(
         &self,
         at: &At,
@@ -254,7 +257,7 @@ impl<J: Judge> Climb<'_, J> {
         first: [f64; 2],
         [top, deepest]: [f64; 2],
     ) -> Result<(Place, [f64; 2]), Error> {
-        // What stands for a longer history may score less than the samples.
+        // The representative moments may score less than the whole history of the sample.
         score = self.scores(at, &[place])?.first().copied().unwrap_or(score);
         let reach = self.site.along(self.line);
         let ends = [reach[0], reach[reach.len() - 1]];
@@ -340,7 +343,7 @@ impl<J: Judge> Climb<'_, J> {
         Ok(self.scores(&at, &[place])?.first().copied())
     }
 
-    /// Where the border of the same zone that is nearest to one is on cells twice as large.
+    /// The nearest border of the same zone on cells twice as large.
     fn on_coarser_border(
         &self,
         border: &Border,
@@ -372,7 +375,7 @@ impl<J: Judge> Climb<'_, J> {
         let near = ON_BORDER * self.cell();
         let mut on = known.iter().filter(|b| (self.along(b) - s).abs() <= near);
         let first = on.next().filter(|_| z <= near && self.layer == 0)?;
-        // Where both end together it is the rim that counts.
+        // Where both zones end together the rim is reported.
         Some(
             on.find(|b| b.zone == Zone::Contact)
                 .filter(|_| first.zone == Zone::Stick)
@@ -407,7 +410,7 @@ impl<J: Judge> Climb<'_, J> {
     }
 }
 
-/// Where a line crosses the borders of a moment.
+/// The crossings of a line with the borders of a moment.
 fn borders_of(
     grid: &Grid,
     [q_x, q_y, p]: &[Array2<f64>; 3],

@@ -22,14 +22,14 @@ pub struct Arms {
     pub x: Vec<f64>,
     /// y of each cell over `length`.
     pub y: Vec<f64>,
-    /// What motions and displacements along y are multiplied by, and forces and tractions divided
-    /// by: elliptic friction is round in these. The modes in the plane are (1, 0), (0, 1) and
-    /// (-y, stretch x).
+    /// Factor of motions and displacements along y, and divisor of forces and tractions along y:
+    /// elliptic friction becomes circular. The modes in the plane are (1, 0), (0, 1) and (-y,
+    /// stretch x).
     pub stretch: f64,
 }
 
 impl Arms {
-    /// What motion k of [`RigidMotion::ALL`] is multiplied by, and its load divided by, for the solvers.
+    /// Factor of motion k of [`RigidMotion::ALL`], and divisor of its load, in the solvers.
     pub(crate) fn unit(&self, k: usize) -> f64 {
         match RigidMotion::ALL[k] {
             motion if motion.is_rotation() => self.length,
@@ -69,8 +69,8 @@ impl Arms {
         [p, self.y[n] * p, -self.x[n] * p]
     }
 
-    /// The motion within `free` that fits best in the plane what `weighted` makes, a weight and a value,
-    /// of the cells of some fields.
+    /// The motion within `free` with the least weighted squares of its difference in the plane from
+    /// the values of `weighted`, which returns the weight and the value of a cell of some fields.
     pub(crate) fn fit_in_plane<F: Fields>(
         &self,
         free: [bool; 3],
@@ -95,8 +95,9 @@ impl Arms {
         product(&inverse(plane, free), [a, b, moment])
     }
 
-    /// The motion within `free` that fits best across the plane what `weighted` makes, a weight and a
-    /// value, of the cells of some fields.
+    /// The motion within `free` with the least weighted squares of its difference across the plane
+    /// from the values of `weighted`, which returns the weight and the value of a cell of some
+    /// fields.
     pub(crate) fn fit_across<F: Fields>(
         &self,
         free: [bool; 3],
@@ -114,7 +115,7 @@ impl Arms {
         self.solve_across(free, fields, weighted, None)
     }
 
-    /// The motion m within `free` with which the weights times B m have the sums asked for.
+    /// The motion m within `free` for which the sums of the weights times B m are those asked for.
     pub(crate) fn spread_across(
         &self,
         free: [bool; 3],
@@ -143,7 +144,7 @@ impl Arms {
     }
 }
 
-/// What drives three motions that belong together.
+/// The drive of three motions: given, or free under given loads.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Drive {
     /// Whether each motion is free to balance its load.
@@ -154,7 +155,7 @@ pub struct Drive {
     pub given: [f64; 3],
 }
 
-/// Part of a diagonal entry below which what elimination leaves of it is rounding.
+/// A pivot below this part of its diagonal entry is rounding: the unknown is undetermined.
 const PIVOT: f64 = 1e-13;
 
 /// Inverse of a symmetric positive semidefinite matrix on the unknowns that are free and that it

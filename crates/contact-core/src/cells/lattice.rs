@@ -122,12 +122,12 @@ impl Lattice {
         self.kept(i + columns, j + rows)
     }
 
-    /// What a cell so many columns and rows further has more in its number, mirror images apart.
+    /// Difference of cell numbers for an offset in columns and rows, without mirror images.
     pub(crate) fn step(self, columns: isize, rows: isize) -> isize {
         columns * self.rows + rows
     }
 
-    /// Whether a stored cell has so many columns and rows around it.
+    /// Whether a stored cell is at least `reach` columns and rows from the border.
     pub(crate) fn is_clear(self, n: usize, reach: isize) -> bool {
         let (i, j) = self.place(n);
         let inside = |k: isize, of: isize| (reach..of - reach).contains(&k);

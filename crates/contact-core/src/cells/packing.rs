@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::{CHUNK, both};
 
-/// Cells that are looked at together: most often all of them lie in the contact, or none.
+/// Cells that are tested together: mostly all of them lie in the contact, or none.
 const STRIDE: usize = 16;
 
 /// Runs of contact cells in the order of the grid.

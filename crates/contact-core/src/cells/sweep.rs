@@ -1,9 +1,9 @@
 //! Sweeps over the cells of some fields at once.
 //!
-//! Most of what is not a convolution waits for memory: what can be done to a cell is done in one sweep.
-//! The cells are handed over by their values, not looked up by their number, so that the processor takes
-//! several at once; and in chunks shared by the threads. The order of sums depends on nothing but the
-//! number of cells.
+//! Most work besides convolutions is limited by memory: all operations on a cell are done in one
+//! sweep. The cells are handed over by their values, not looked up by their number, so that the
+//! processor takes several at once; and in chunks shared by the threads. The order of sums depends
+//! on nothing but the number of cells.
 
 use std::ops::Range;
 

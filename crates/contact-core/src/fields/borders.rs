@@ -1,5 +1,5 @@
-//! Where the rim of a contact and the border of its stick zone run: there the stress at the surface has its
-//! cusps, between the middles of the cells.
+//! The rim of a contact and the border of its stick zone, where the stress at the surface has its
+//! cusps.
 
 use super::Line;
 use super::loads::Plane;
@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::scene::Grid;
 use crate::zones::{Continued, Crossing};
 
-/// What ends at a border.
+/// A zone that ends at a border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Zone {
     /// The contact: its rim.
@@ -24,15 +24,16 @@ pub struct Border {
     pub x: f64,
     /// Place on the surface \[m\].
     pub y: f64,
-    /// What ends there.
+    /// The zone that ends there.
     pub zone: Zone,
-    /// Whether it is known within a cell, from the tractions further in; else it is taken between two cells.
+    /// Whether it is extrapolated to a place within a cell from the tractions further in; else it
+    /// is assumed.
     pub within_cell: bool,
 }
 
-/// The places where a line crosses the rim of the contact and the border of the stick zone under
-/// tractions, each of shape (nx, ny) \[Pa\]; without the cells that stick the rim alone. Without a line the places
-/// where these cross the lines through the middles of all rows and columns of cells.
+/// The places where a line crosses the rim of the contact and the border of the stick zone, from
+/// tractions, each of shape (nx, ny) \[Pa\]; without `stick` the rim alone. Without a line: the
+/// crossings with the lines through the centres of all rows and columns of cells.
 pub fn borders(
     grid: &Grid,
     tractions: &Tractions<'_>,
@@ -57,7 +58,7 @@ pub fn borders(
     Ok(of(&continued, grid, line))
 }
 
-/// The same of tractions continued to them.
+/// The same from continued tractions.
 pub(super) fn of(continued: &Continued, grid: &Grid, line: Option<Line>) -> Vec<Border> {
     let Plane { n, d, .. } = Plane::new(grid, false);
     let [to_column, to_row] =

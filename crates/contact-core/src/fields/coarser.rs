@@ -1,4 +1,5 @@
-//! The tractions of a contact on cells twice as large: how much a value changes with them tells what the cells leave.
+//! The tractions of a contact on cells twice as large: the change of a value estimates the error of
+//! the cells.
 
 use super::{Border, Depth, Line, Point, Points, Side, States, StressTensor};
 use crate::convolution::Tractions;
@@ -9,7 +10,8 @@ use crate::scene::{Body, Grid};
 pub(crate) struct TwiceAsLarge {
     fine: Grid,
     pub(crate) grid: Grid,
-    /// Where the middle of their grid is \[m\]: cells beyond a grid of an odd number carry nothing.
+    /// The middle of their grid \[m\]; beyond a grid of an odd number of cells there are no
+    /// tractions.
     pub(crate) middle: (f64, f64),
 }
 
@@ -54,7 +56,7 @@ impl TwiceAsLarge {
         (0..self.grid.cells()).map(of).collect()
     }
 
-    /// Whether any part of each cell is marked.
+    /// For each cell whether any part of it is marked.
     pub(crate) fn any(&self, mask: &[bool]) -> Vec<bool> {
         let of = |n: usize| self.cells(n).any(|m| mask[m]);
         (0..self.grid.cells()).map(of).collect()
@@ -65,7 +67,7 @@ impl TwiceAsLarge {
 pub(super) struct Coarser {
     points: Points,
     borders: Vec<Border>,
-    /// Where the middle of its grid is \[m\].
+    /// The middle of its grid \[m\].
     middle: (f64, f64),
 }
 
@@ -107,7 +109,8 @@ impl Coarser {
         })
     }
 
-    /// Where in the coarser grid a place is, on the border nearest to it where it lies on one.
+    /// A place in the coordinates of the coarser grid; a place on a border is moved to the nearest
+    /// border there.
     fn place(&self, x: f64, y: f64, border: Option<&Border>) -> (f64, f64) {
         let (x, y) = (x - self.middle.0, y - self.middle.1);
         let same = self

@@ -1,10 +1,10 @@
-//! Where in which body.
+//! Body, layer and depth.
 
 use crate::error::Error;
 use crate::kernels::{Stack, refuse_rigid};
 use crate::scene::Body;
 
-/// A depth and the layer it is looked at from.
+/// A depth and the layer in which the stress is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Depth {
     /// Depth below the surface of the body \[m\].
@@ -58,13 +58,13 @@ const SHALLOW: f64 = 0.02;
 /// Fewest steps across a layer.
 const STEPS_OF_A_LAYER: f64 = 4.0;
 
-/// The depths at which the stress is looked at where none are named, with both sides of every
-/// interface: from the surface to the depth `deepest` \[m\] under a contact of the radius `a` \[m\].
-/// `finer` times as many as the default, 1.
+/// The default depths for stresses, with both sides of every interface: from the surface to the
+/// depth `deepest` \[m\] under a contact of the radius `a` \[m\]. `finer` times as many as the
+/// default, 1.
 ///
-/// What tractions on the surface cause at a depth z varies along z over lengths of the order of z, so
-/// that neighbours are a tenth of their depth apart, near the surface a five-hundredth of `a`; a layer
-/// has five of them at least, its borders among them.
+/// The stress under tractions on the surface varies along z over lengths of the order of z:
+/// neighbours are a tenth of their depth apart, near the surface a five-hundredth of `a`; a layer
+/// has five depths at least, its borders included.
 pub fn chosen_depths(body: &Body, a: f64, deepest: f64, finer: f64) -> Result<Vec<Depth>, Error> {
     if !(deepest > 0.0 && deepest.is_finite()) {
         return Err(Error::invalid("depth", deepest, "a positive length in m"));
@@ -87,7 +87,8 @@ pub fn chosen_depths(body: &Body, a: f64, deepest: f64, finer: f64) -> Result<Ve
     depths(body, &z)
 }
 
-/// Which depths stay if every other one of each layer is left out, its first and last kept.
+/// The depths that remain if every other one of each layer is left out, its first and last
+/// excepted.
 pub(super) fn every_other(depths: &[Depth]) -> Vec<bool> {
     let layers = depths.chunk_by(|a, b| a.layer == b.layer);
     let kept = layers.flat_map(|of| (0..of.len()).map(|n| n % 2 == 0 || n + 1 == of.len()));

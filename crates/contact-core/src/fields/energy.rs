@@ -24,7 +24,7 @@ pub enum Direction {
     Torsion,
 }
 
-/// A closed piece of the load path: the loads at its end are those at its start.
+/// A closed part of the load path: the loads at its end are those at its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
     /// First and last branch, from 0.
@@ -40,7 +40,7 @@ pub struct Cycle {
     pub stiffness: f64,
     /// Half the opening of the loop where the force passes the middle of its range \[m\].
     pub opening: f64,
-    /// What the interface did: gross slip if it slid at any increment.
+    /// Gross slip if the interface slid in any increment.
     pub status: Status,
 }
 
@@ -120,7 +120,7 @@ pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
     found
 }
 
-/// What a loop is made of, at the end of an increment.
+/// A point of a loop: force and shift at the end of an increment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopPoint {
     /// Branch of the load path, from 0.
@@ -154,8 +154,7 @@ impl LoopPoint {
     }
 }
 
-/// The loops of the cycles of a path; those that the history has not run through to the end are
-/// left out.
+/// The loops of the cycles of a path that the history contains completely.
 pub fn loops(path: &LoadPath, history: &[LoopPoint]) -> Vec<Cycle> {
     let upto = |branch: usize| -> usize {
         let before = path.branches.iter().take(branch);

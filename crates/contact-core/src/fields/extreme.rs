@@ -1,4 +1,4 @@
-//! The largest value of a number below a contact, where it is, and how well it is known.
+//! The largest value of a number below a contact, its place and its error.
 
 use super::{Depth, Zone};
 
@@ -13,29 +13,30 @@ pub struct Extreme {
     pub y: f64,
     /// Depth and layer; at an interface that of the side named.
     pub depth: Depth,
-    /// The border that it lies on, if any. At the rim of the contact a value depends on how well the
-    /// tractions are known there, and a criterion of fatigue wants a mean over a critical distance.
+    /// The border on which it lies, if any. At the rim of the contact a value depends on the
+    /// accuracy of the tractions there; a fatigue criterion should be averaged over a critical
+    /// distance.
     pub at: Option<Zone>,
-    /// What may be wrong with the value.
+    /// Error of the value.
     pub error: Errors,
 }
 
-/// What may be wrong with a largest value, by its sources, in the unit of the value.
+/// Error of a largest value by source, in the unit of the value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Errors {
-    /// What the search along x leaves.
+    /// Of the search along x.
     pub x: f64,
-    /// What the search along y leaves.
+    /// Of the search along y.
     pub y: f64,
-    /// What the search over the depths leaves.
+    /// Of the search along depth.
     pub z: f64,
-    /// What the cells leave of the tractions: by how much the value differs under the tractions of cells twice as
-    /// large; none where that was not looked at.
+    /// Of the tractions: change of the value under the tractions on cells twice as large; `None` if
+    /// not computed.
     pub tractions: Option<f64>,
 }
 
 impl Errors {
-    /// All together.
+    /// The sum of all.
     pub fn sum(&self) -> f64 {
         self.x + self.y + self.z + self.tractions.unwrap_or_default()
     }
@@ -52,7 +53,7 @@ impl Extreme {
         }
     }
 
-    /// The largest of several; none where there is no number.
+    /// The largest of several; `None` if all are NaN.
     pub fn largest(of: impl IntoIterator<Item = Self>) -> Option<Self> {
         let numbers = of.into_iter().filter(|e| !e.value.is_nan());
         numbers.reduce(Self::or_larger)

@@ -1,4 +1,4 @@
-//! The largest stress at every increment of a load path, and where it is.
+//! The largest stress at every increment of a load path, with its place.
 
 use ndarray::{Array2, ArrayView2};
 
@@ -6,8 +6,8 @@ use super::depth::{every_other, on_interfaces};
 use super::maximum::{hills, top_of_line};
 use super::{Accumulate, Border, Depth, Errors, Extreme, Line, Measure, Moment, StressTensor, Top};
 
-/// Keeps the largest value of measures of stress below a line at every increment: a number and a
-/// place per depth, between the samples by a parabola, and on the surface at the rims and stick borders.
+/// Records the largest value of measures of stress below a line at every increment: value and place
+/// per depth, by a parabola between the samples, and on the surface at the rims and stick borders.
 #[derive(Clone, Debug)]
 pub struct Largest {
     /// The measures of which the largest value is sought.
@@ -39,9 +39,9 @@ pub struct MomentTops {
 }
 
 impl Largest {
-    /// The largest values over all depths, by moment and measure, from the accumulators of the depths. Their errors
-    /// are what the parabolas add to the samples and what the value changes by if every other depth of each layer
-    /// is left out.
+    /// The largest values over all depths, by moment and measure, from the accumulators of the
+    /// depths. Their errors: the difference between parabola and sample, and the change of the
+    /// value if every other depth of each layer is left out.
     pub fn over_depths(&self, kept: &[DepthTops]) -> Vec<(Moment, Vec<Option<Extreme>>)> {
         let Some(first) = kept.first() else {
             return Vec::new();
@@ -75,9 +75,9 @@ impl Largest {
     }
 }
 
-/// The largest value of a field that is known at samples alone, shape (depths, places), below a line at the places
-/// `along` it \[m\], between the samples by parabolas. Its errors are what the parabola adds to the sample and what
-/// the value changes by if every other depth of each layer is left out.
+/// The largest value of a sampled field, shape (depths, places), below a line at the places `along`
+/// it \[m\], by parabolas between the samples. Its errors: the difference between parabola and
+/// sample, and the change of the value if every other depth of each layer is left out.
 pub fn largest_of_samples(
     values: &ArrayView2<'_, f64>,
     depths: &[Depth],

@@ -194,7 +194,7 @@ impl LineTransform {
             for ((s, e), o) in spectrum.iter_mut().zip(even).zip(odd) {
                 *s = Complex64::new(e.re + o.im, e.im - o.re);
             }
-            // A real line has real first and last frequencies; rounding must not say otherwise.
+            // The first and last frequencies of a real line are real; rounding errors are removed.
             spectrum[0].im = 0.0;
             spectrum[frequencies - 1].im = 0.0;
             self.inverse

@@ -7,8 +7,8 @@ use crate::convolution::Tractions;
 use crate::kernels::{DepthKernel, Quantity};
 use crate::scene::Grid;
 
-/// Depth in cells from which on point loads stand for a cell's uniform load. What they miss of it
-/// decays like exp(-pi z/dx): 1e-11 of what a cell causes, itself a hundredth of the traction.
+/// Depth in cells from which on point loads replace the uniform load of a cell. The error decays
+/// like exp(-pi z/dx): 1e-11 of the stress of a cell, itself a hundredth of the traction.
 pub(super) const DEEP: f64 = 8.0;
 /// Neighbours on each side that share a cell's load.
 const REACH: usize = 6;
@@ -30,7 +30,7 @@ impl Source {
         usize::from(self == Self::Points)
     }
 
-    /// What serves at the depth z.
+    /// The source to use at the depth z.
     pub(super) fn at(z: f64, d: (f64, f64)) -> Self {
         if z < DEEP * d.0.max(d.1) {
             Self::Cells
@@ -61,8 +61,8 @@ impl Source {
     }
 }
 
-/// A distance in cells, rid of rounding where it is a whole number of half cells, so that a point
-/// on the border of a cell is recognised.
+/// A distance in cells, rounded to a whole number of half cells if within rounding errors of it, so
+/// that a point on the border of a cell is recognised.
 pub(super) fn snapped(cells: f64) -> f64 {
     let halves = (2.0 * cells).round() / 2.0;
     if (cells - halves).abs() < 1e-9 {
@@ -105,8 +105,8 @@ static WEIGHTS: LazyLock<[f64; 2 * REACH + 1]> = LazyLock::new(|| {
     weights
 });
 
-/// Length along y of a row of cells in plane strain, in lengths of the grid: what is missing at its
-/// ends is a part 1/STRIP of the stress.
+/// Length along y of a row of cells in plane strain, in lengths of the grid; the error of its
+/// finite length is 1/STRIP of the stress.
 const STRIP: f64 = 1e7;
 
 /// Loaded columns and rows of a grid, the columns in the middle of it.

@@ -1,30 +1,30 @@
-//! Where sampled fields are largest: the hills that a search for the largest value starts from.
+//! Local maxima of sampled fields, from which a search for the largest value starts.
 //!
-//! One direction after the other: the top of each line is that of the parabola through its largest
-//! sample and the two beside it; the tops of the lines of a plane are samples again, and of the depths those
-//! count whose tops are higher than their neighbours'.
+//! One direction after the other: the top of a line is the vertex of the parabola through its
+//! largest sample and the two beside it. The tops of the lines of a plane are treated as samples
+//! again, and a hill is a depth whose top is higher than those of its neighbours.
 
 use ndarray::{Array2, ArrayView1};
 
 use super::Depth;
 
-/// Largest shift of the sample, in cells, between the tops of neighbouring lines or depths for
-/// them to belong to one hill.
+/// Tops of neighbouring lines or depths belong to one hill if their samples are at most this many
+/// cells apart.
 const SAME_HILL: usize = 2;
 
 /// The largest value at one depth: on a line (D = 1) or on a plane (D = 2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Top<const D: usize> {
-    /// Value, of the parabolas through the samples around.
+    /// Value at the vertex of the parabolas.
     pub value: f64,
     /// Place along the line, or x and y \[m\].
     pub place: [f64; D],
-    /// The sample next to it.
+    /// The nearest sample.
     pub sample: [usize; D],
     /// The value of that sample.
     pub sampled: f64,
-    /// What the samples of a line leave of the value: what the parabola adds to the sample, and at the end of the line by
-    /// how much the sample beside it differs.
+    /// Error of the value: vertex of the parabola less the sample; at the end of the line the
+    /// difference of the last two samples.
     pub left: f64,
 }
 
@@ -34,9 +34,9 @@ pub(super) struct Hill<const D: usize> {
     /// The top of the parabolas through the tops of this depth and the two beside it.
     pub(super) top: Top<D>,
     pub(super) depth: Depth,
-    /// Depth of the sample next to it \[m\].
+    /// Depth of the nearest sample \[m\].
     pub(super) sampled_z: f64,
-    /// Distance to the next depth \[m\]; 0 where no depth is beside it.
+    /// Distance to the next depth \[m\]; 0 without a neighbour.
     pub(super) step: f64,
 }
 
@@ -88,8 +88,9 @@ pub fn top_of_plane(values: &Array2<f64>, x: &[f64], y: &[f64]) -> Option<Top<2>
     })
 }
 
-/// The hills over depths, from the tops at each, the highest first; depths of other layers are no
-/// neighbours, so that kinks stay kinks. `smooth` says whether there is anything between neighbours.
+/// The hills over depths, from the tops at each, the highest first. Depths of different layers are
+/// not neighbours, so that kinks at interfaces remain. `smooth`: whether the field is interpolated
+/// between depths.
 pub(super) fn hills<const D: usize>(
     tops: &[Option<Top<D>>],
     depths: &[Depth],
@@ -133,8 +134,9 @@ fn largest<const D: usize>(tops: &[Top<D>]) -> Option<usize> {
     (0..tops.len()).max_by(|&a, &b| tops[a].value.total_cmp(&tops[b].value))
 }
 
-/// The top of the parabola through one of `tops`, no lower than the two beside it, and these: where it lies
-/// along `at`, and what it is there. Without neighbours on the same hill the sample stands.
+/// The vertex of the parabola through one of `tops` and its two neighbours, which are no higher:
+/// its place along `at` and its value; the sample itself if the neighbours are not on the same
+/// hill.
 fn summit<const D: usize>(
     tops: &[Top<D>],
     n: usize,
@@ -160,7 +162,7 @@ fn summit<const D: usize>(
     };
     let (slope, half) = parabola(low.value, top.value, high.value);
     let step = -slope / (2.0 * half);
-    // Beyond the neighbours the samples are no parabola.
+    // A vertex beyond the neighbours is rejected.
     if !(half < 0.0 && -a <= step && step <= b) {
         return stays;
     }

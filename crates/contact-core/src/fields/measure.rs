@@ -8,11 +8,11 @@ use ndarray::{Array1, ArrayView2, Axis};
 pub struct Measure {
     /// Name.
     pub name: &'static str,
-    /// What it is; all are in Pa.
+    /// Description; all are in Pa.
     pub long_name: &'static str,
     /// Its value.
     pub value: fn(&StressTensor) -> f64,
-    /// Whether it lives on interfaces: its largest value is looked for there alone.
+    /// Whether its largest value is searched on interfaces only.
     pub of_interfaces: bool,
 }
 
@@ -46,7 +46,7 @@ const fn of_interfaces(measure: Measure) -> Measure {
     }
 }
 
-/// Everything that can be asked for by name.
+/// All measures.
 pub const MEASURES: &[Measure] = &[
     measure("s_xx", "normal stress along x, tension positive", |s| s[0]),
     measure("s_yy", "normal stress along y, tension positive", |s| s[1]),

@@ -1,18 +1,17 @@
-//! Stage 6: WHAT FOLLOWS from the tractions below the surface: stress and displacement; energy of
-//! the loops.
+//! Stage 6: BELOW THE SURFACE: stress and displacement under the tractions; energy of the loops.
 //!
-//! The largest value of a number, an [`Extreme`], is its value at a point, which [`Search`] looks for; [`borders`] says
-//! where the rim of the contact and the border of the stick zone are.
+//! [`Search`] finds the largest value of a number, an [`Extreme`], as a value at a point;
+//! [`borders`] gives the rim of the contact and the border of the stick zone.
 //!
 //! Three ways to ask, each computing that and nothing else: [`Section`], lines along x or y at any
 //! depths, by one-dimensional transforms; [`Slices`], whole planes parallel to the surface, by
 //! two-dimensional ones; [`Points`], single points anywhere, by summation. One transform of each
 //! traction serves all depths and components, and several states of a load path share the kernels.
 //!
-//! Depth z is counted into the body; components are those of the axes of `docs/conventions.md`,
-//! in body 1 as well. At an interface s_xx, s_yy and s_xy have two values: a [`Depth`] names the
-//! layer. The stress is that which the tractions cause, and where they are named the body's bulk
-//! stress and the residual stress of its layers with it; displacements are those that the tractions cause in the stretched body.
+//! Depth z is counted into the body; components are those of the axes of `docs/conventions.md`, in
+//! body 1 as well. At an interface s_xx, s_yy and s_xy have two values: a [`Depth`] names the
+//! layer. The stress is that of the tractions plus, if given, the bulk stress of the body and the
+//! residual stress of its layers; displacements are those of the tractions alone.
 //!
 //! From a depth of eight cells on, the uniform load of a cell is replaced by point loads
 //! on it and its neighbours that act alike to 1e-9 of the traction there; nearer to the surface it

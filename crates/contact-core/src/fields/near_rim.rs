@@ -1,9 +1,10 @@
-//! What the tractions within the cells add to the stress near the surface of a contact.
+//! Stress near the surface of a contact: contribution of the variation of the tractions within the
+//! cells.
 //!
-//! Beside the rim, and beside the border of the stick zone, the stress of constant tractions is off by
-//! the root of the cell. There the cells around a sample are cut into parts, the nearer to the
-//! sample the smaller, and what the continued tractions are more than constant on each is added. The
-//! parts' responses depend on offsets and depth alone: all samples of a depth share them.
+//! Beside the rim, and beside the border of the stick zone, the stress of constant tractions is off
+//! by the root of the cell size. There the cells around a sample are divided into parts, smaller
+//! near the sample, and the difference of the continued and the constant tractions is added on each
+//! part. The parts' responses depend on offsets and depth alone: all samples of a depth share them.
 
 use std::ops::Range;
 
@@ -16,23 +17,25 @@ use crate::zones::{Continued, Within};
 
 /// Deepest samples, in cells.
 const DEEPEST: f64 = 6.0;
-/// Farthest samples from a border in cells along or across: below the surface, where no cell farther away than the
-/// border's own counts, and near the surface, where constant tractions are off by their slope as well.
+/// Largest distance of a sample from a border, in cells along or across, at which the correction is
+/// computed: below the surface, where only cells at the border contribute, and near the surface,
+/// where the slope of the tractions counts as well.
 const FARTHEST: u8 = 3 + REACH as u8;
 const FARTHEST_AT_SURFACE: u8 = 24;
-/// Depth in cells down to which the slope counts: what varies from cell to cell falls like exp(-2 pi z).
+/// Depth in cells down to which the slope counts: variations of the period of a cell decay like
+/// exp(-2 pi z).
 const AT_SURFACE: f64 = 1.0;
-/// A layer that is thinner than so many cells, and whose modulus is so many times that of what it lies on or less than its
-/// inverse, does not let tractions be continued to a rim that is not known.
+/// Tractions are not continued to an assumed rim on a layer thinner than THIN cells with E/E_below
+/// above CONTRAST or below 1/CONTRAST.
 const THIN: f64 = 2.0;
 const CONTRAST: f64 = 2.0;
-/// Cells on each side of a sample that are cut.
+/// Cells on each side of a sample that are divided.
 const REACH: usize = 3;
-/// Rows of s_zz, s_xz, s_yz: on the surface they are minus the traction named beside.
+/// Rows of s_zz, s_xz, s_yz with the traction whose negative they are on the surface.
 const OF_TRACTIONS: [(usize, usize); 3] = [(2, 2), (4, 0), (5, 1)];
 
-/// How finely cells are cut: a part is smaller than its distance from the sample over `grading`, or of the smallest
-/// size, a cell cut by three so many times.
+/// Division of the cells: a part is smaller than its distance from the sample over `grading`, or of
+/// the smallest size, 3^-`cuts` cells.
 #[derive(Clone, Copy)]
 struct Fineness {
     grading: f64,
@@ -40,14 +43,14 @@ struct Fineness {
 }
 
 impl Fineness {
-    /// For samples that share their parts; none of them is meant to lie on a border.
+    /// For samples that share their parts; none lies on a border.
     fn shared(flat: bool) -> Self {
         let (grading, cuts) = if flat { (8.0, 5) } else { (2.0, 4) };
         Self { grading, cuts }
     }
 
-    /// For a point, which may lie on a border: the root of the smallest part is left out there, 2 (2 d_x/a 3^-10)^(1/2) of
-    /// p_H at most.
+    /// For a point, which may lie on a border: the error of the root within the smallest part is at
+    /// most 2 (2 d_x/a 3^-10)^(1/2) p_H.
     fn of_a_point(flat: bool) -> Self {
         let (grading, cuts) = if flat { (8.0, 12) } else { (3.0, 10) };
         Self { grading, cuts }
@@ -73,8 +76,8 @@ pub(super) struct Parts {
 
 /// A part of a cell.
 struct Part {
-    /// Where its tractions are taken, from the middle of the cell, in cells: in its middle, or at a sample that it holds,
-    /// so that the traction has no step there.
+    /// Place at which its tractions are evaluated, from the middle of the cell, in cells: its own
+    /// middle, or the sample if the part contains it, so that the traction has no step there.
     at: (f64, f64),
     /// The stress at the sample under unit q_x, q_y, p on it.
     response: [[f64; 3]; 6],
@@ -90,7 +93,7 @@ impl NearRim {
         stick: &[&[bool]],
         (columns, rows): (Range<usize>, Range<usize>),
     ) -> Self {
-        // One cell more on each side for what lies between, one for samples on a border.
+        // One more cell on each side for the interpolation, one for samples on a border.
         let wider = |cells: Range<usize>, count: usize| {
             cells.start.saturating_sub(REACH + 2)..(cells.end + REACH + 2).min(count)
         };
@@ -116,7 +119,7 @@ impl NearRim {
         }
     }
 
-    /// The nearest cell to a place, and the place from its middle in cells.
+    /// The nearest cell to a place, and the offset from its middle in cells.
     pub(super) fn locate(grid: &Grid, x: f64, y: f64) -> ((usize, usize), (f64, f64)) {
         let Plane { n, d, .. } = Plane::new(grid, false);
         let along = |v: f64, n: usize, d: f64| {
@@ -128,7 +131,7 @@ impl NearRim {
         ((i, j), (s, t))
     }
 
-    /// The parts around samples at a depth that lie so many cells from the middle of their cell;
+    /// The parts around samples at a depth and an `offset` in cells from the middle of their cell;
     /// none where they are too deep.
     pub(super) fn parts(
         &self,
@@ -192,7 +195,7 @@ impl NearRim {
         })
     }
 
-    /// Whether stress is added at samples in a cell at a depth.
+    /// Whether the correction is computed at samples in a cell at a depth.
     pub(super) fn is_near(&self, state: usize, depth: Depth, cell: (usize, usize)) -> bool {
         let at_surface = self.depth_in_cells(depth) < AT_SURFACE;
         let farthest = if at_surface {
@@ -208,8 +211,8 @@ impl NearRim {
         depth.z / if self.is_flat() { d.0 } else { d.0.max(d.1) }
     }
 
-    /// The place itself, or where tractions stay constant at a rim the middle of its cell: the stress next to a step is
-    /// infinite, and in the middle that of the cells' loads.
+    /// The place itself; next to a step of constant tractions, where the stress is infinite, the
+    /// middle of its cell.
     pub(super) fn away_from_steps(&self, grid: &Grid, x: f64, y: f64) -> (f64, f64) {
         let (cell, (s, t)) = Self::locate(grid, x, y);
         let Plane { d, .. } = self.plane;
@@ -220,7 +223,7 @@ impl NearRim {
         }
     }
 
-    /// Whether a place less than a cell deep lies beside a rim that is not known in some state.
+    /// Whether a place less than a cell deep lies beside an assumed rim in any state.
     pub(super) fn is_unknown(&self, grid: &Grid, depth: Depth, (x, y): (f64, f64)) -> bool {
         let (cell, _) = Self::locate(grid, x, y);
         let unknown = |state: &Continued| state.rim_is_unknown(cell);
@@ -232,7 +235,7 @@ impl NearRim {
         self.states.get(state)
     }
 
-    /// Adds to the stress of a state at a sample in a cell what the tractions are more than constant \[Pa\].
+    /// Adds the correction to the stress of a state at a sample in a cell \[Pa\].
     pub(super) fn add(
         &self,
         parts: &Parts,
@@ -270,13 +273,13 @@ impl NearRim {
     }
 }
 
-/// What the tractions at an offset in a cell are more than constant \[Pa\].
+/// Continued less constant tractions at an offset in a cell \[Pa\].
 fn excess(within: &Within, offset: (f64, f64)) -> [f64; 3] {
     let q = within.at(offset);
     std::array::from_fn(|c| q[c] - within.constant[c])
 }
 
-/// How a cell is cut for a sample.
+/// The division of a cell for a sample.
 struct Cut<'a> {
     kernel: &'a DepthKernel<Stress, 10, 6>,
     side: Side,
@@ -290,8 +293,8 @@ struct Cut<'a> {
 }
 
 impl Cut<'_> {
-    /// The thirds along each side of a part, `times` being how often they have been cut from the
-    /// cell, and where one is too large its own thirds.
+    /// Adds the nine thirds of a part, `times` being the number of divisions so far; a third that
+    /// is too large is divided again.
     fn thirds(&self, parts: &mut Vec<Part>, middle: (f64, f64), whole: f64, times: u32) {
         const THIRDS: [f64; 3] = [0.0, -1.0 / 3.0, 1.0 / 3.0];
         let size = whole / 3.0;

@@ -231,7 +231,7 @@ impl PlaneTransform {
         let period = self.period.0 as isize;
         for (j, line) in lines.chunks_exact(self.frequencies()).enumerate() {
             spectrum.copy_from_slice(line);
-            // A real row has real first and last frequencies; rounding must not say otherwise.
+            // The first and last frequencies of a real row are real; rounding errors are removed.
             spectrum[0].im = 0.0;
             spectrum[self.period.0 / 2].im = 0.0;
             self.x_inverse

@@ -51,11 +51,11 @@ impl Points {
 
     /// Stress of each state at each point \[Pa\]: xx, yy, zz, xy, xz, yz.
     ///
-    /// Under the tractions of contacts ([`States::stick`]) it is continuous, but for s_xx, s_yy, s_xy of layers, and for
-    /// points near a rim that is not known within its cell on a layer as thin as the cells: they are taken in the middle of
-    /// theirs. Under
-    /// those constant in each cell it jumps on the surface at the border of a cell; there it is the mean of both
-    /// sides, and what would be infinite is taken a 2 pi-th of a cell beside the border.
+    /// Under the tractions of contacts ([`States::stick`]) it is continuous, except for s_xx, s_yy,
+    /// s_xy across interfaces, and near an assumed rim on a layer as thin as the cells, where it is
+    /// taken in the middle of the cell. Under constant tractions it jumps on the surface at the
+    /// border of a cell: there it is the mean of both sides, and infinite terms are evaluated 1/(2
+    /// pi) of a cell beside the border.
     pub fn stress(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 6]>>, Error> {
         let away = |&(x, y, depth): &Point| {
             let rim = self
@@ -97,14 +97,15 @@ impl Points {
         self.gather(points, |_: &DepthKernel<Displacement, 5, 3>, _, _, _| {})
     }
 
-    /// Whether a point lies on the surface beside a rim that is not known within its cell.
+    /// Whether a point lies on the surface beside an assumed rim.
     pub(crate) fn rim_is_unknown(&self, (x, y, depth): Point) -> bool {
         let rim = self.loaded.rim.as_ref();
         rim.is_some_and(|rim| rim.is_unknown(&self.loaded.grid, depth, (x, y)))
     }
 
-    /// Where `line`, or without one the lines through the middles of all rows and columns of cells, crosses the rim of the
-    /// contact and the border of the stick zone in a state; nowhere under tractions constant in each cell.
+    /// The crossings of `line` with the rim of the contact and the border of the stick zone in a
+    /// state; without a line those of the lines through the middles of all rows and columns of
+    /// cells. Empty under constant tractions.
     pub fn borders(&self, state: usize, line: Option<Line>) -> Vec<Border> {
         let rim = self.loaded.rim.as_ref();
         let continued = rim.and_then(|rim| rim.continued(state));

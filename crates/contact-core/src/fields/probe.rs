@@ -1,5 +1,4 @@
-//! What can be asked of a place below the surface by its name: what follows from the stress, and
-//! the displacements.
+//! Numbers at a place below the surface by name: measures of the stress, and displacements.
 
 use ndarray::{Array2, Array3, ArrayView1, Axis};
 
@@ -9,7 +8,7 @@ use crate::error::Error;
 /// A number at a place below the surface.
 #[derive(Clone, Copy, Debug)]
 pub enum Probe {
-    /// What follows from the stress \[Pa\].
+    /// A measure of the stress \[Pa\].
     Stress(Measure),
     /// A displacement relative to infinity \[m\].
     Displacement(Component),
@@ -20,7 +19,7 @@ pub enum Probe {
 pub struct Component {
     /// Its name.
     pub name: &'static str,
-    /// What it is; all are in m.
+    /// Description; all are in m.
     pub long_name: &'static str,
     axis: usize,
 }
@@ -70,7 +69,7 @@ impl Probe {
         }
     }
 
-    /// What it is.
+    /// Description.
     pub fn long_name(&self) -> &'static str {
         match self {
             Self::Stress(m) => m.long_name,

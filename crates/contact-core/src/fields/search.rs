@@ -1,8 +1,9 @@
 //! The largest value of a number below a contact: a value at a point.
 //!
-//! Samples tell the hills, the tractions where rims and stick borders are; the highest of these, evaluated there, is
-//! climbed from: the number is evaluated beside it along every free direction and at the top of the parabolas, closer
-//! and closer. Nothing is extrapolated.
+//! Starting points are the local maxima of the samples (hills) and the places where rims and stick
+//! borders cross the line. From the highest of these the search ascends: the number is evaluated on
+//! both sides along every free direction and at the vertex of the parabola through these values,
+//! with smaller and smaller steps. No value is extrapolated.
 
 use ndarray::{Array2, ArrayView2, Axis};
 
@@ -18,17 +19,18 @@ use crate::scene::{Body, Grid};
 /// Most hills and most places on borders that are evaluated.
 const HILLS: usize = 3;
 const BORDERS: usize = 6;
-/// Lowest hill that is evaluated, over the highest: what lies between samples is not much more than they.
+/// Hills below this part of the highest are not evaluated: the field between samples exceeds them
+/// by little.
 const LOWEST: f64 = 0.8;
-/// Most times that the steps of the climb are taken, and what each takes of the last.
+/// Most rounds of the ascent, and the ratio of the steps of successive rounds.
 const ROUNDS: usize = 5;
 const CLOSER: f64 = 1.0 / 3.0;
-/// Gain of a round over the value that ends the climb.
+/// Relative gain of a round that ends the ascent.
 const ENOUGH: f64 = 1e-4;
 /// First steps along x and y in cells, from a hill and from a border.
 const STEP: f64 = 0.5;
 const STEP_AT_BORDER: f64 = 0.25;
-/// Farthest that a point on a border lies from it, in cells.
+/// A point is on a border if it is at most this many cells from it.
 const ON_BORDER: f64 = 0.1;
 
 /// Looks for the largest values below a contact.
@@ -42,11 +44,11 @@ pub struct Search {
     flat: bool,
 }
 
-/// Where a climb starts.
+/// A starting point of an ascent.
 struct Start {
     place: [f64; 3],
     layer: usize,
-    /// First steps along x, y, z; 0 where there is nothing to look for.
+    /// First steps along x, y, z; 0 along directions that are not searched.
     steps: [f64; 3],
     /// The value there, where it is a sample.
     known: Option<f64>,
@@ -81,8 +83,8 @@ impl Search {
         })
     }
 
-    /// The largest value on a section, from its samples of shape (depths, places) at the places `along` the line
-    /// \[m\]; in one layer alone if it is named. None without a number.
+    /// The largest value on a section, from its samples of shape (depths, places) at the places
+    /// `along` the line \[m\]; in one `layer` if given. `None` if all samples are NaN.
     pub fn on_section(
         &self,
         probe: &Probe,
@@ -135,8 +137,8 @@ impl Search {
         self.climbed(probe, starts, depths, layer, &near)
     }
 
-    /// The largest value in a volume, from the tops of the planes at its depths and the samples on the first of them,
-    /// shape (nx, ny); in one layer alone if it is named. None without a number.
+    /// The largest value in a volume, from the tops of the planes at its depths and the samples on
+    /// the first of them, shape (nx, ny); in one `layer` if given. `None` if all samples are NaN.
     pub fn in_volume(
         &self,
         probe: &Probe,
@@ -179,8 +181,8 @@ impl Search {
         self.climbed(probe, starts, depths, layer, &near)
     }
 
-    /// The top reached from the highest of the starts and of the borders, where they are on the surface; `near` gives the
-    /// sample next to a border.
+    /// The result of the ascent from the highest of the starts and, if the surface is included, of
+    /// the borders; `near` gives the sample next to a border.
     fn climbed(
         &self,
         probe: &Probe,
@@ -284,7 +286,7 @@ impl Search {
         by_sample.iter().take(BORDERS).map(start).collect()
     }
 
-    /// Where the value would be if the rim lay half a cell elsewhere.
+    /// The points half a cell to both sides: the value there bounds the effect of an uncertain rim.
     fn beside(&self, (x, y, depth): Point) -> Vec<Point> {
         let steps = match self.line {
             Some(Line::AlongY(_)) => [(0.0, STEP * self.d.1), (0.0, -STEP * self.d.1)],
@@ -318,7 +320,7 @@ fn lives_on_interfaces(probe: &Probe) -> bool {
     matches!(probe, Probe::Stress(m) if m.of_interfaces)
 }
 
-/// The hills of the layer, or of all, that are worth a climb.
+/// The hills of a layer, or of all, that are evaluated.
 fn hills_of<const D: usize>(
     probe: &Probe,
     tops: &[Option<Top<D>>],
@@ -332,7 +334,7 @@ fn hills_of<const D: usize>(
     };
     let asked_for = |(k, top): (usize, &Option<Top<D>>)| top.filter(|_| asked(k));
     let tops: Vec<_> = tops.iter().enumerate().map(asked_for).collect();
-    // An interface is no sample of anything: there is nothing between two of them.
+    // Interfaces are not samples of a continuous field: no interpolation between two of them.
     let mut hills = hills(&tops, depths, !of_interfaces);
     let highest = hills.first().map_or(0.0, |hill| hill.top.value);
     let spread = highest.abs() * (1.0 - LOWEST);
@@ -341,8 +343,8 @@ fn hills_of<const D: usize>(
     hills
 }
 
-/// Climbs from a start of a value, between two depths of its layer: place, value and what is left to gain along each
-/// direction.
+/// Ascends from a start of a given value, between two depths of its layer. Returns place, value and
+/// the remaining error along each direction.
 fn climb(
     values: &Values<'_>,
     start: &Start,
@@ -400,11 +402,12 @@ fn climb(
     Ok((place, best, left))
 }
 
-/// The top of the parabola through a value and those at one or two distances from it, no farther away than they: its distance, and
-/// what a third of the distances away from it misses.
+/// The vertex of the parabola through a value and those at one or two distances from it, limited to
+/// these: its distance, and the drop of the parabola at a third of the distances from it.
 fn vertex(value: f64, sides: &[(f64, f64)]) -> (f64, f64) {
     let &[(low, v_low), (high, v_high)] = sides else {
-        // At the border of a layer: the top, unless the value rises from there.
+        // At the border of a layer: the value itself is the top, unless the field rises away from
+        // it.
         let rises = sides.iter().filter(|(_, v)| *v > value);
         return rises
             .map(|(s, v)| (*s, v - value))
@@ -428,9 +431,9 @@ fn vertex(value: f64, sides: &[(f64, f64)]) -> (f64, f64) {
 pub type Probed = (Array2<f64>, Option<Extreme>);
 
 impl Section {
-    /// The probes under the first state, with the largest value of each, which `search` looks for below the same
-    /// line between the samples, whose places are `along` it \[m\]. Stress and displacement are computed only where
-    /// they are asked for.
+    /// The probes under the first state, with the largest value of each by `search` below the same
+    /// line; the samples are at the places `along` it \[m\]. Stress and displacement are computed
+    /// only if a probe needs them.
     pub fn probe(
         &self,
         depths: &[Depth],

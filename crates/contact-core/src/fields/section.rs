@@ -156,7 +156,7 @@ impl Section {
         Ok(lines)
     }
 
-    /// Adds to the stress lines of all states at a depth what the rim does to them.
+    /// Adds the correction of [`NearRim`] to the stress of all states at a depth.
     fn add_rim(
         &self,
         kernel: &DepthKernel<Stress, 10, 6>,

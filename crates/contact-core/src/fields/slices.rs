@@ -96,7 +96,7 @@ impl Slices {
         &self.loaded.grid
     }
 
-    /// Adds to the stress of all states at a depth what the rim does to it.
+    /// Adds the correction of [`NearRim`] to the stress of all states at a depth.
     fn add_rim(
         &self,
         kernel: &DepthKernel<Stress, 10, 6>,

@@ -1,4 +1,4 @@
-//! What acts on a body, and what every way to ask for stresses under it needs.
+//! The states that act on a body, and the shared data of sections, slices and points.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -13,24 +13,23 @@ use crate::kernels::{DepthKernel, Quantity, Stack, refuse_rigid};
 use crate::scene::{Body, Grid};
 use crate::stop::unless;
 
-/// What acts on a body in one or several states of a contact, and how it is taken. A slice or array of
-/// [`Tractions`] stands for states with all else at its default.
+/// Tractions and uniform stresses of a body in one or several states of a contact. A slice or array
+/// of [`Tractions`] converts to states with all else at its default.
 #[derive(Clone, Debug, Default)]
 pub struct States<'a> {
     /// Tractions of each state \[Pa\], each field of shape (nx, ny) of the grid.
     pub tractions: &'a [Tractions<'a>],
-    /// Bulk stress of the body in each state \[Pa\] (default: 0, also for states beyond the list). The
-    /// stress has that of each layer's own modulus besides what the tractions cause.
+    /// Bulk stress of the body in each state \[Pa\] (default: 0, also for states beyond the list).
+    /// In each layer it enters with that layer's modulus.
     pub sigma_B: &'a [f64],
     /// Residual stress of every layer from the surface down, the substrate's last \[Pa\], tension
     /// positive: [`super::residual_of_layers`] (default: none).
     pub residual: &'a [f64],
-    /// The cells that stick in each state, by which the tractions are those of contacts (for states beyond
-    /// the list: of contacts that slip at their rim). Near the surface and near the rim and the stick
-    /// zone the stress is then that of tractions that vary within the cells (default: `None`, constant
-    /// in each cell).
+    /// The cells that stick in each state. If given, the tractions are taken for those of contacts
+    /// (states beyond the list slip at their rim) and vary within the cells near the rim, the stick
+    /// zone and the surface (default: `None`, tractions constant in each cell).
     pub stick: Option<&'a [&'a [bool]]>,
-    /// Ends what is asked for with [`Error::Interrupted`] once it is raised (default: never).
+    /// Once raised, ends the computation with [`Error::Interrupted`] (default: never).
     pub stop: Arc<AtomicBool>,
 }
 
@@ -62,7 +61,7 @@ pub(super) struct Loaded {
     pub(super) grid: Grid,
     /// How many states there are.
     pub(super) states: usize,
-    /// What varies within the cells, if it counts.
+    /// The correction for tractions that vary within the cells, if any.
     pub(super) rim: Option<NearRim>,
     pub(super) stop: Arc<AtomicBool>,
     stack: Stack,

@@ -1,9 +1,8 @@
 //! Stress over the load path, increment by increment, without keeping the increments.
 //!
 //! [`Stream`] collects the tractions of a few increments, computes their stresses together, since
-//! they share the kernels, and hands them on depth by depth. What becomes of them is an
-//! [`Accumulate`]: [`super::Envelope`] and [`super::Largest`] are two, a pair of them is one again;
-//! a fatigue criterion on critical planes is another.
+//! they share the kernels, and passes them to an [`Accumulate`] depth by depth:
+//! [`super::Envelope`], [`super::Largest`], or a pair of accumulators.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -24,7 +23,7 @@ const BATCH: usize = 32;
 /// The same for whole planes, whose transforms fill the memory.
 const BATCH_OF_PLANES: usize = 8;
 
-/// Which moment of the load path a stress belongs to.
+/// A moment of the load path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
     /// Increment, from 1.
@@ -50,7 +49,7 @@ impl Moment {
     }
 }
 
-/// What is accumulated from the stresses of a path.
+/// A quantity accumulated over the stresses of a path.
 pub trait Accumulate: Sync {
     /// The accumulator of one depth.
     type Kept: Send;
@@ -119,7 +118,7 @@ impl<A: Accumulate> Stream<A> {
         depths: Vec<Depth>,
         accumulate: A,
     ) -> Result<Self, Error> {
-        // Refuses now what would fail after a long run.
+        // Fails now instead of after a long run.
         if let Some(line) = line {
             Section::new(body, side, grid, line, States::default())?;
         } else {
@@ -149,8 +148,8 @@ impl<A: Accumulate> Stream<A> {
         })
     }
 
-    /// Ends what is computed when `flag` is raised: [`Error::Interrupted`]. The accumulators are not
-    /// to be used then.
+    /// Raising `flag` ends the computation with [`Error::Interrupted`]; the accumulators are then
+    /// invalid.
     pub fn stop_on(&mut self, flag: Arc<AtomicBool>) {
         self.stop = flag;
     }

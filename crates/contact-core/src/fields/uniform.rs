@@ -1,5 +1,4 @@
-//! Stress that is the same all over a layer: the bulk stress of the body and residual stresses,
-//! beside what the tractions cause.
+//! Stress that is uniform in a layer: the bulk stress of the body and residual stresses.
 
 use crate::error::Error;
 use crate::scene::{Body, Grid};
