@@ -1,10 +1,10 @@
-//! What acts on a plane.
+//! Stresses on a plane.
 
 use crate::circle::half_chord;
 use crate::on_planes::ShearRoom;
 use crate::path::{Frame, Path};
 
-/// What acts on the plane of a unit normal, for people \[Pa\].
+/// Shear amplitude and normal stresses on the plane of a unit normal \[Pa\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Acting {
     pub(crate) shear_amplitude: f64,

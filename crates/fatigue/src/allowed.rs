@@ -27,7 +27,7 @@ impl Allowed {
             }
     }
 
-    /// What a value must be.
+    /// The requirement in words.
     pub fn wanted(self) -> &'static str {
         match self {
             Self::Stress => "a positive stress in Pa",

@@ -7,12 +7,12 @@ use crate::judge::Judge;
 use crate::life::inverted;
 use crate::material::Material;
 
-/// A criterion and what its values mean for a material.
+/// A criterion with the limit or the curve of lives of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assessment {
     /// The criterion with the weights of the material.
     pub criterion: Criterion,
-    /// What the values are compared with.
+    /// The limit or the curve.
     pub judge: Judge,
 }
 
@@ -25,8 +25,8 @@ impl Assessment {
         Ok(Self { criterion, judge })
     }
 
-    /// Limit over value: how often the stress may be multiplied; infinite where the value is not
-    /// positive. NaN for criteria that give lives.
+    /// Limit over value: the factor by which the stress may be multiplied; infinite where the value
+    /// is not positive. NaN for criteria that give lives.
     pub fn safety_factor(&self, value: f64) -> f64 {
         match self.judge {
             Judge::Limit(_) if value <= 0.0 => f64::INFINITY,

@@ -11,7 +11,7 @@ pub struct AtPoint {
     pub value: f64,
     /// No plane has more than value + missed, in the unit of the value; 0 without a plane.
     pub missed: f64,
-    /// Planes looked at, which is what the search costs; 0 without a plane.
+    /// Number of planes evaluated, the cost of the search; 0 without a plane.
     pub planes: usize,
     /// Unit normal of the critical plane, z >= 0; NaN where there is no stress.
     pub normal: [f64; 3],

@@ -13,8 +13,8 @@ use crate::lanes::{LANES, Lanes, largest, place_of};
 /// A point is outside if it is farther from the centre than this share of the radius beyond it;
 /// rounding is a few units of 1e-16.
 const OUTSIDE: f64 = 4e-15;
-/// A point whose distance from the flat through the others on the border is a smaller part of its
-/// distance from one of them adds nothing but rounding.
+/// A point whose distance from the affine hull of the others on the border, over its distance from
+/// one of them, is below FLAT is taken to lie in that hull: it would add rounding only.
 const FLAT: f64 = 1e-9;
 
 /// The smallest ball round points in D dimensions.
@@ -29,7 +29,7 @@ pub struct Ball<const D: usize> {
 /// Points in D dimensions, a coordinate after the other, as blocks of lanes.
 pub(crate) type Points<const D: usize> = Vec<[Lanes; D]>;
 
-/// Room for the search, so that the next one starts from the points that mattered last.
+/// Buffers of the search; the next one starts from the points on the last border.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Search<const D: usize> {
     /// Points that may lie on the border, the likely ones first.
@@ -77,7 +77,7 @@ impl<const D: usize> Search<D> {
             self.likely.insert(0, k);
             self.likely.truncate(2 * (D + 1));
             if larger.square <= before {
-                // Rounding: the ball is as large as it gets.
+                // Rounding: the ball no longer grows.
                 return ball.with_radius(far);
             }
             ball = larger;

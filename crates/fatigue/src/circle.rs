@@ -31,7 +31,7 @@ pub(crate) struct Round {
     pub(crate) square: f64,
 }
 
-/// Room for the search, and the points that mattered last.
+/// Buffers of the search, and the points of the last circle.
 #[derive(Clone, Debug)]
 pub(crate) struct Circles {
     on: [usize; 3],
@@ -62,7 +62,7 @@ impl Circles {
             }
             let (larger, on) = joined(k, self.on, &point);
             if larger.square <= circle.square {
-                // Rounding: the circle is as large as it gets.
+                // Rounding: the circle no longer grows.
                 return self.found(far, &point);
             }
             (circle, self.on) = (larger, on);
@@ -197,8 +197,8 @@ pub(crate) fn radius_of_three(points: [[f64; 2]; 3]) -> f64 {
     round_of_three(points).square.sqrt()
 }
 
-/// Radius of the circle through three points, or with two on a diameter: without the bend that the
-/// smallest circle has where the angle is right.
+/// Radius of the circle through three points, or with two on a diameter: a smooth function, unlike
+/// that of the smallest circle at a right angle.
 pub(crate) fn radius_through([a, b, c]: [[f64; 2]; 3]) -> f64 {
     let circle = through(a, b, c).unwrap_or_else(|| round_of_three([a, b, c]));
     circle.square.sqrt()

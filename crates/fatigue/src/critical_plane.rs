@@ -1,25 +1,25 @@
-//! The plane on which a criterion is largest, with a bound on what the search may have missed.
+//! The plane on which a criterion is largest, with a bound on the value of all other planes.
 //!
-//! On a plane turned by the angle t about an axis in it, each component of the stress is
-//! m + r cos(2 t + c) or r cos(t + c). Normal stresses, strain ranges and shear amplitudes are
-//! largest values of such functions, so that along every great circle their second derivative is
-//! nowhere below some -K (where pieces meet, it is infinitely positive). Within a circle of radius r
-//! about c the function K (1 - cos d(n, c))/cos r has a second derivative of at least K. Added to
-//! such a quantity it makes it convex, and a convex function on a triangle is largest at a corner
-//! (derived):
+//! On a plane turned by the angle t about an axis in it, each component of the stress is m + r
+//! cos(2 t + c) or r cos(t + c). Normal stresses, strain ranges and shear amplitudes are largest
+//! values of such functions, so that along every great circle their second derivative is nowhere
+//! below some -K (at kinks, where another instant takes over, it is +infinity). Within a circle of
+//! radius r about c the function K (1 - cos d(n, c))/cos r has a second derivative of at least K.
+//! Added to such a quantity it makes it convex, and a convex function on a triangle is largest at a
+//! corner (derived):
 //!
 //! f(n) <= largest f of the corners + K (1/cos r - 1) in the triangle of circumradius r.
 //!
-//! For criteria that are products f is a sum of their parts ([`Tangent`]). Where that does not rule a
-//! triangle out, the bound of [`crate::face_bound`] is taken, which counts how the corners differ, and
-//! then those of [`crate::forms`]. The triangles that may hold more
-//! than the best plane known are cut into four until the bound is within the tolerance of the best.
-//! Planes are measured eight at a time, in single precision where rounding, which is added to what is
-//! measured, is small against the tolerance, and a circle is not made the smallest where its plane
-//! cannot matter. What is left is refined: the instants that decide on a plane make a smooth function of
-//! it, a piece, whose top Newton's steps find; where other instants decide there, their piece is next.
-//! The largest value of several smooth functions is the top of one of them, so the place is found to
-//! rounding, much nearer than what is proved.
+//! For criteria that are products f is a sum of their parts ([`Tangent`]). If this bound does not
+//! exclude a triangle, the sharper bounds of [`crate::face_bound`], which uses the differences of
+//! the corners, and of [`crate::forms`] are tried. Triangles whose bound exceeds the best value are
+//! divided into four until the bound is within the tolerance of the best. Planes are evaluated
+//! eight at a time, in single precision where the rounding error, which is added to the values, is
+//! small against the tolerance; the smallest circle of a plane is not completed if that plane
+//! cannot be the best. The best plane is then refined: with the deciding instants fixed the
+//! criterion is a smooth function of the plane, a piece, whose maximum Newton's method finds; if
+//! other instants decide there, their piece is next. The criterion is the largest of these smooth
+//! functions, so that its maximum is found to rounding, far closer than the proved bound.
 
 use crate::hemisphere::{Face, midway};
 use crate::lanes::LANES;
@@ -29,15 +29,15 @@ use crate::plane_function::{Bend, Enough, Known, NO_EDGE, Plane, PlaneFunction};
 use crate::refine::{nearly, refine};
 use crate::tangent::Tangent;
 
-/// How far the search goes.
+/// Limits of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Search {
-    /// Largest part of the value by which a plane may be proved better than the one found
-    /// (default: 1e-3); of values that are small against what the stress could make, a thousandth of
-    /// this part of that. The plane found is usually the best one to rounding.
+    /// Relative tolerance of the proof that no plane is better (default: 1e-3). Values below 1e-3
+    /// times the largest possible value for this stress have a tolerance of 1e-3 times this part of
+    /// that value. The plane found is usually the best one to rounding.
     pub tolerance: f64,
-    /// Planes looked at, at most (default: 4096): a bound on time and memory, which histories reach that
-    /// are hardly in tension or hardly sheared. [`crate::AtPoint::missed`] says what is left then.
+    /// Most planes (default: 4096): a bound on time and memory, reached by histories with hardly
+    /// any tension or shear. [`crate::AtPoint::missed`] is larger then.
     pub planes: usize,
 }
 
@@ -57,37 +57,41 @@ pub(crate) struct Peak {
     pub(crate) value: f64,
     /// No plane has more than value + missed.
     pub(crate) missed: f64,
-    /// Planes looked at.
+    /// Number of planes evaluated.
     pub(crate) planes: usize,
 }
 
-/// Room for the search.
+/// Buffers of the search.
 #[derive(Default)]
 pub(crate) struct Room {
     planes: Vec<Plane>,
     faces: Vec<Face>,
     cut: Vec<Face>,
-    /// Middles of edges: the other end, the number of the middle, the next edge of the same end.
+    /// Edges with a known middle: the other end, the plane of the middle, the next edge of the same
+    /// end (linked list).
     edges: Vec<[usize; 3]>,
     corners: Vec<usize>,
     tried: Vec<([usize; 6], [f64; 3])>,
-    /// Planes that refining led to, and their values.
+    /// Refined planes and their values.
     tops: Vec<([f64; 3], f64)>,
 }
 
-/// Values below this part of what the stress could make are small.
+/// Values below this part of the yardstick of the stress are small: their tolerance is that of
+/// SMALL times the yardstick.
 const SMALL: f64 = 1e-3;
-/// Planes whose first parts differ by less than this part of them are equal: rounding.
+/// First parts are equal if their relative difference is below EQUAL.
 const EQUAL: f64 = 1e-9;
-/// What rounding takes from a first part.
+/// Relative rounding error of a first part.
 const ROUNDED: f64 = 1e-14;
-/// Triangles that are so few that they are cut on beyond the tolerance where planes may tie.
+/// If at most FEW triangles are left, they are divided further, beyond the tolerance, as long as
+/// their bound exceeds the value with which planes tie.
 const FEW: usize = 48;
-/// Planes nearer to each other than this cosine, 18 degrees, lead to the same top of a piece.
+/// Planes within 18 degrees (this cosine) and with the same deciding instants lead to the same
+/// maximum.
 const NEAR: f64 = 0.95;
-/// Planes nearer to each other than this cosine, twice what a top is off before it is refined, are one.
+/// Planes with a larger cosine are the same: twice the error of a maximum before it is refined.
 const SAME: f64 = 1.0 - 2e-6;
-/// Pieces whose top is refined at most.
+/// Most pieces that are refined.
 const PIECES: usize = 24;
 
 impl Search {
@@ -142,7 +146,7 @@ impl Search {
             missed = most.min(ceiling) - best.value;
             let open = tied > best.value && faces.len() <= FEW && most > tied;
             let done = most <= near && !open;
-            // A face that is cut has three new middles at most.
+            // The division of a face adds three planes at most.
             let full = seen + 3 * faces.len() > self.planes;
             if faces.is_empty() || done || full {
                 break;
@@ -178,8 +182,7 @@ impl Search {
 }
 
 impl Room {
-    /// Measures the first planes, and the bounds that follow. Where a plane cannot matter, its circle
-    /// is not made the smallest.
+    /// Evaluates the planes of the first triangles; returns the bounds on second derivatives.
     fn first_planes(&mut self, f: &mut impl PlaneFunction) -> Bend {
         let start = f.start();
         self.planes.clear();
@@ -218,7 +221,7 @@ impl Room {
         most.unwrap_or(0)
     }
 
-    /// The top that the piece on a plane leads to.
+    /// The maximum reached by refining the piece of a plane.
     fn refined(&mut self, f: &mut impl PlaneFunction, plane: usize) -> Peak {
         let n = self.planes[plane].n;
         let mut best = (n, f.at(n));
@@ -251,7 +254,7 @@ impl Room {
         }
     }
 
-    /// Refines the pieces at the corners of the faces left that promise more than the best.
+    /// Refines the pieces at the corners of the remaining faces that may exceed the best.
     fn try_the_rest(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
         self.corners.clear();
         self.corners
@@ -316,7 +319,7 @@ impl Room {
         }
     }
 
-    /// Cuts every face into four.
+    /// Divides every face into four.
     fn cut(&mut self) {
         self.edges.clear();
         for plane in &mut self.planes {
@@ -344,7 +347,7 @@ impl Room {
         (self.faces, self.cut) = (faces, cut);
     }
 
-    /// The middle of an edge and the number of its plane, looked at once.
+    /// The middle of an edge and its plane, which is evaluated once.
     fn middle(
         &mut self,
         (a, i): ([f64; 3], usize),

@@ -1,4 +1,4 @@
-//! The criteria, a row each: name, numbers, equation, what a material has to tell, lives.
+//! The criteria, a row each: name, parameters, equation, data of the material, lives.
 //!
 //! s_n is the normal stress on a plane, tension positive, its largest value over time s_n,max;
 //! tau_a the shear amplitude there, the radius of the smallest circle round the path of the shear
@@ -6,10 +6,10 @@
 //! the smallest sphere round the path of the deviatoric stress s, |s|^2 = s:s/2. Strains are those of the
 //! elastic stress.
 //!
-//! Dang Van's tau is half of Tresca's stress of the deviatoric stress from the centre of that sphere, the
-//! stress of a grain that has shaken down. Of planes with equal tau_a Matake's and McDiarmid's criterion takes
-//! that of the larger s_n,max, Brown and Miller's that of the larger range. Smith, Watson and Topper's product
-//! is 0 without tension, Fatemi and Socie's where the bracket is negative.
+//! Dang Van's tau is half of Tresca's stress of s less the centre of that sphere, the stress of a
+//! grain that has shaken down. Of planes with equal tau_a Matake's and McDiarmid's criterion takes
+//! that of the larger s_n,max, Brown and Miller's that of the larger range. Smith, Watson and
+//! Topper's product is 0 without tension, Fatemi and Socie's where the bracket is negative.
 
 use crate::allowed::Allowed;
 use crate::ball::Ball;
@@ -38,7 +38,7 @@ pub(crate) type Numbers = [f64; 4];
 pub struct Definition {
     /// Name, as in Python and on the command line.
     pub name: &'static str,
-    /// How it is written in figures.
+    /// Its title in figures.
     pub title: &'static str,
     /// The equation, with the unit of its value.
     pub equation: &'static str,
@@ -53,11 +53,11 @@ pub struct Definition {
     /// Its value in a uniaxial test of fully reversed strain that lasts for N cycles, where it gives
     /// lives.
     pub(crate) curve: fn(&CoffinManson, Numbers, f64) -> f64,
-    /// How it follows from the stress, for stresses in a unit \[Pa\].
+    /// How it is computed from the stress, for stresses in a unit \[Pa\].
     pub(crate) acts: fn(Numbers, f64) -> Acts,
 }
 
-/// How a criterion follows from the stress.
+/// How a criterion is computed from the stress.
 pub(crate) enum Acts {
     /// From the smallest sphere round the path of the deviatoric stress.
     OfInvariants(fn(&Path, &Ball<5>, Numbers) -> OfInvariants),
@@ -99,9 +99,9 @@ const NU: Parameter = parameter("nu", Allowed::Poisson);
 
 /// All criteria.
 ///
-/// The weights of those with a limit follow from the fatigue limits s_D in fully reversed bending or
-/// tension and t_D in torsion, for which the criterion is to give the same (derived from its
-/// definition).
+/// The weights of those with a limit follow from the fatigue limits s_D in fully reversed bending
+/// or tension and t_D in torsion, under both of which the criterion must equal its limit (derived
+/// from its definition).
 pub const CRITERIA: &[Definition] = &[
     Definition {
         name: "crossland",

@@ -12,14 +12,14 @@ use crate::circle::{Round, joined, needed, round_of_three};
 use crate::lanes::{Eight, LANES, Real};
 use crate::path::Path;
 
-/// A point's stresses, and room for the shear on eight planes.
+/// The stresses of a point, and buffers for the shear on eight planes.
 pub(crate) struct Instants<F> {
     stress: Vec<[F; 6]>,
     shear: Vec<[Eight<F>; 2]>,
     arch: Arch,
 }
 
-/// What a sweep over the instants finds on each plane, at most `LANES` of them.
+/// Extremes over the instants on each of at most `LANES` planes.
 #[derive(Clone, Copy)]
 pub(crate) struct Swept<F> {
     pub(crate) normal_max: Eight<F>,
@@ -29,15 +29,16 @@ pub(crate) struct Swept<F> {
     pub(crate) at: [Eight<F>; 3],
 }
 
-/// What two vectors a and b have of the stresses, for eight pairs: the most of a.S.b, and half the range of
-/// a.e.b, e being the strain.
+/// For eight pairs of vectors a and b: the largest a.S.b, and half the range of a.e.b, e being the
+/// strain.
 #[derive(Clone, Copy)]
 pub(crate) struct Mixed<F> {
     pub(crate) normal_max: Eight<F>,
     pub(crate) strain_amplitude: Eight<F>,
 }
 
-/// The circle of three instants on a plane, and when one of at most this square need not be better.
+/// The circle of three instants on a plane; a radius whose square is at most `enough` need not be
+/// exact.
 #[derive(Clone, Copy)]
 pub(crate) struct OfThree {
     pub(crate) on: [usize; 3],
@@ -109,7 +110,7 @@ impl<F: Real> Instants<F> {
         }
     }
 
-    /// What eight pairs of vectors a and b have of the stresses. a.e.b is `strain[0]` times a.S.b less
+    /// [`Mixed`] of eight pairs of vectors a and b. a.e.b is `strain[0]` times a.S.b less
     /// `strain[1]` a.b times the sum of the normal stresses; without it the amplitude is 0.
     pub(crate) fn mixed(
         &self,
@@ -149,8 +150,8 @@ impl<F: Real> Instants<F> {
         }
     }
 
-    /// Squares of radii of circles round the shear on each plane: the smallest circle's, or one
-    /// that is enough.
+    /// Squared radii of circles round the shear on each plane: of the smallest circle, or any with
+    /// at most `enough`.
     pub(crate) fn circles(&mut self, lanes: &mut [OfThree]) -> Eight<f64> {
         let shear = &self.shear;
         let mut centres = [[F::near(0.0); LANES]; 2];

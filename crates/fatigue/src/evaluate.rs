@@ -24,7 +24,7 @@ const CHUNK: usize = 64;
 /// The largest stress \[Pa\]: products of two stay finite.
 const LARGEST: f64 = 1e75;
 
-/// What a worker needs beside the path.
+/// Buffers of a worker besides the path.
 #[derive(Default)]
 struct Worker {
     room: Room,
@@ -58,7 +58,7 @@ pub fn evaluate(
     Ok(known.collect())
 }
 
-/// What `f` makes of the path of each point; `None` where there is no stress.
+/// `f` of the path of each point; `None` where there is no stress.
 pub(crate) fn over_points<W: Default, T: Send>(
     stress: &ArrayView3<'_, f64>,
     stop: &AtomicBool,
@@ -151,7 +151,7 @@ fn at_point(criterion: &Criterion, path: &Path, search: &Search, worker: &mut Wo
     }
 }
 
-/// Components of a normal below this are what its search leaves.
+/// Components of a normal below this are errors of its search.
 const NOISE: f64 = 1e-9;
 
 /// Of a normal and its opposite, the one that points along z, y or x, without noise.

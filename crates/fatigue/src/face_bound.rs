@@ -1,4 +1,4 @@
-//! The most that a function of the plane may be on a triangle, from its corners.
+//! An upper bound of a function of the plane on a triangle, from its corners.
 //!
 //! Let f have a second derivative along great circles of at least -K, and nowhere on the triangle be
 //! below a number l. With A = K - l the sum F = f + A has F'' + F >= 0, so that |v| F(v/|v|) is a

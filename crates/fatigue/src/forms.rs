@@ -8,8 +8,9 @@
 //!
 //! sum of w_i w_j ((s - z) a_i.a_j - x A_ij - y B_ij) >= 0 for all w >= 0 (derived).
 //!
-//! Other than a bound on second derivatives this knows directions. Stresses of contacts are often near to
-//! pressure in one direction: nothing changes along a whole ring of planes, and much across it.
+//! Unlike a bound on second derivatives this one depends on the direction. Stresses of contacts are
+//! often nearly uniaxial pressure: the criterion is constant along a ring of planes and varies
+//! strongly across it.
 
 use crate::copositive::is_copositive;
 use crate::hemisphere::{Face, Triangle};
@@ -38,7 +39,7 @@ impl Forms {
         }
     }
 
-    /// No plane of the triangle has more of a part.
+    /// Upper bound of a part on the triangle.
     pub(crate) fn largest(&self, part: usize) -> f64 {
         let corners = self.corners.iter().map(|parts| parts[part]);
         let edges = self.edges.iter().zip(self.cosines);
@@ -46,13 +47,13 @@ impl Forms {
         corners.chain(edges).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The least of rising values that the criterion is proved to be nowhere above.
+    /// The least of the ascending `values` that is proved to be an upper bound of the criterion.
     pub(crate) fn least_of(&self, values: &[f64; 3], tangents: &[Tangent]) -> Option<f64> {
         let proved = |value: &&f64| tangents.iter().any(|t| self.are_at_most(t, **value));
         values.iter().rev().take_while(proved).last().copied()
     }
 
-    /// Whether the tangent's sum is nowhere above what makes this value.
+    /// Whether `value` is proved to be an upper bound by this tangent.
     fn are_at_most(&self, tangent: &Tangent, value: f64) -> bool {
         let level = tangent.sum_of(value) - tangent.constant;
         let below = |parts: [f64; 2], cosine: f64| {
@@ -80,7 +81,7 @@ pub(crate) fn corners_of(faces: &[Face]) -> [[Eight<f64>; 3]; 3] {
     corners
 }
 
-/// Lowers what at most eight faces are known to hold.
+/// Lowers the bounds of at most eight faces.
 pub(crate) fn lower(faces: &mut [Face], most: impl Fn(usize, &Face) -> f64) {
     debug_assert!(faces.len() <= LANES);
     for (l, face) in faces.iter_mut().enumerate() {

@@ -14,7 +14,7 @@ pub(crate) struct Face {
     pub(crate) planes: [usize; 3],
     /// [`sag`] of the corners.
     pub(crate) sag: f64,
-    /// No plane in it is known to have more.
+    /// Upper bound of the value of its planes.
     pub(crate) most: f64,
 }
 
@@ -30,7 +30,7 @@ impl Face {
     }
 }
 
-/// What a search starts from: ten faces of an icosahedron, cut into four a few times.
+/// The start of a search: ten faces of an icosahedron, divided into four a few times.
 pub(crate) struct Hemisphere {
     /// A normal of every plane.
     pub(crate) planes: Vec<[f64; 3]>,
@@ -39,7 +39,7 @@ pub(crate) struct Hemisphere {
     pub(crate) sag: f64,
 }
 
-/// 40 faces, for bounds that are close on large ones.
+/// 40 faces, for criteria with sharp bounds on large faces.
 pub(crate) static COARSE: LazyLock<Hemisphere> = LazyLock::new(|| hemisphere(1));
 /// 160 faces.
 pub(crate) static FINE: LazyLock<Hemisphere> = LazyLock::new(|| hemisphere(2));

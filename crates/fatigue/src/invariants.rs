@@ -42,7 +42,7 @@ pub(crate) fn sphere(path: &Path, balls: &mut Balls<5>) -> Ball<5> {
     balls.ball(&path.blocks.iter().map(block).collect())
 }
 
-/// A criterion of invariants: its value, and the shear and the hydrostatic stress that make it.
+/// A criterion on invariants: its value, with its shear and hydrostatic stress.
 #[derive(Clone, Copy)]
 pub(crate) struct OfInvariants {
     value: f64,
@@ -51,7 +51,7 @@ pub(crate) struct OfInvariants {
 }
 
 impl OfInvariants {
-    /// For people, stresses being given in a unit \[Pa\].
+    /// The result in Pa, stresses being given in a unit \[Pa\].
     pub(crate) fn at_point(self, unit: f64) -> AtPoint {
         AtPoint {
             value: unit * self.value,

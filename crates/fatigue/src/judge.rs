@@ -1,10 +1,10 @@
-//! What the values of a criterion mean for a material.
+//! The limit or the curve of lives of a criterion for a material.
 
 use crate::error::Error;
 use crate::life::{Basquin, CoffinManson};
 use crate::material::Material;
 
-/// What a value is compared with.
+/// The limit or the curve of lives that a value is compared with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Judge {
     /// A limit for endless life, in the unit of the value.

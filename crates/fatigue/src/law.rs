@@ -1,23 +1,23 @@
-//! How a criterion follows from two parts on a plane.
+//! A criterion as a function of two parts on a plane.
 
 use crate::tangent::Tangent;
 
-/// What the second quantity may add to the first while the plane of the largest first one is looked for, as a
-/// part of it: enough to choose between equal planes. The planes found are then moved to the top of the first
-/// quantity alone.
+/// Weight of the second part b in the search for the plane of the largest first part a: a + TIE b
+/// is maximised, which decides between planes of equal a. The planes found are then moved to the
+/// maximum of a alone.
 const TIE: f64 = 1e-7;
 
-/// Part of the value from which on planes tie: more than TIE, and than what tops of pieces are off before
-/// they are refined.
+/// Planes tie if their values differ by less than this part: more than TIE, and than the error of a
+/// maximum before it is refined.
 const TIED: f64 = 2e-5;
 
-/// How the criterion follows from the two parts.
+/// The criterion as a function of its parts a and b.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Law {
     /// a + w b.
     Sum(f64),
-    /// a + w b where a is largest; of equal planes, that with the larger b, for which a + tie b is looked
-    /// for.
+    /// a + w b on the plane where a is largest, and b the larger of equal ones; the search
+    /// maximises a + tie b.
     First { weight: f64, tie: f64 },
     /// a b where b > 0.
     Product,
@@ -26,12 +26,12 @@ pub(crate) enum Law {
 }
 
 impl Law {
-    /// a + w b where a is largest.
+    /// a + w b on the plane where a is largest.
     pub(crate) fn first(weight: f64) -> Self {
         Self::First { weight, tie: TIE }
     }
 
-    /// For a history whose first parts are small against its second ones by this ratio.
+    /// For a history with this ratio of the sizes of a and b.
     pub(crate) fn for_ratio(self, ratio: f64) -> Self {
         match self {
             Self::First { weight, .. } => Self::First {
@@ -42,7 +42,7 @@ impl Law {
         }
     }
 
-    /// What is largest on the plane sought.
+    /// The function that is largest on the plane sought.
     pub(crate) fn value(&self, [a, b]: [f64; 2]) -> f64 {
         match self {
             Self::Sum(weight) => a + weight * b,
@@ -52,7 +52,7 @@ impl Law {
         }
     }
 
-    /// What bounds it, closely where the parts are these.
+    /// A [`Tangent`] of it that is exact at these parts.
     pub(crate) fn tangent(&self, parts: [f64; 2]) -> Tangent {
         match *self {
             Self::Sum(weight) => Tangent::sum(weight),
@@ -62,7 +62,7 @@ impl Law {
         }
     }
 
-    /// Part of the value from which on planes tie, 0 where the first part alone does not decide.
+    /// [`TIED`] if the first part alone decides on the plane, else 0.
     pub(crate) fn tie(&self) -> f64 {
         if matches!(self, Self::First { .. }) {
             TIED
@@ -79,7 +79,7 @@ impl Law {
         }
     }
 
-    /// A value that is not small: that of a first part and of normal stresses of 1.
+    /// A value that is not small: that of this first part and a normal stress of 1.
     pub(crate) fn yardstick(&self, first: f64) -> f64 {
         match self {
             Self::Sum(weight) => first + weight,

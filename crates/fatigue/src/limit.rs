@@ -1,11 +1,11 @@
-//! The most that a criterion may be on a triangle, from its corners and bounds on second derivatives.
+//! An upper bound of a criterion on a triangle, from its corners and bounds on second derivatives.
 
 use crate::face_bound::most_on;
 use crate::hemisphere::Face;
 use crate::plane_function::{Bend, Plane, PlaneFunction};
 use crate::tangent::Tangent;
 
-/// What is needed to bound the criterion on a face.
+/// Data for the bounds on faces.
 pub(crate) struct Limit {
     tangent: Tangent,
     bend: Bend,
@@ -26,7 +26,8 @@ impl Limit {
         }
     }
 
-    /// No plane in the face has more; not the least such number where it is below the best.
+    /// Upper bound of the criterion on the face; not the sharpest one if that is below the best
+    /// value anyway.
     pub(crate) fn bound(&self, f: &impl PlaneFunction, face: &Face, planes: &[Plane]) -> f64 {
         let Self { tangent, K, .. } = self;
         let [a, b, c] = face.planes;

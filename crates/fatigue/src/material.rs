@@ -40,7 +40,7 @@ const fn exponent(name: &'static str, long_name: &'static str) -> Quantity {
     }
 }
 
-/// Everything that may stand in a file of materials.
+/// All quantities of a file of materials.
 pub const QUANTITIES: &[Quantity] = &[
     quantity("E", "Pa", "Young's modulus"),
     Quantity {
@@ -84,7 +84,7 @@ pub const QUANTITIES: &[Quantity] = &[
     quantity("conductivity", "W/(m K)", "thermal conductivity"),
 ];
 
-/// A number and where it is from.
+/// A number and its source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sourced {
     /// Value, in the unit of its quantity.
@@ -106,7 +106,7 @@ impl Sourced {
     }
 }
 
-/// What is known of a material.
+/// The data of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Name in the table.
@@ -152,9 +152,9 @@ impl Material {
         Ok(material)
     }
 
-    /// Numbers that look like those of another unit, with what was understood.
+    /// Warnings for numbers that seem to be in another unit.
     pub fn doubts(&self) -> Vec<String> {
-        /// Below it nothing is as weak as a fatigue limit, and no modulus as low \[Pa\].
+        /// No fatigue limit and no modulus is below this \[Pa\].
         const WEAK: f64 = 1e5;
         let in_pascal = |name: &str| QUANTITIES.iter().any(|q| q.name == name && q.unit == "Pa");
         let weak = (self.numbers.iter()).filter(|(name, of)| in_pascal(name) && of.value < WEAK);
@@ -168,7 +168,7 @@ impl Material {
         .collect()
     }
 
-    /// A number; fails with what is missing and what is known.
+    /// A number; fails with the missing name and the known ones.
     pub fn number(&self, name: &str) -> Result<f64, Error> {
         if let Some(sourced) = self.numbers.get(name) {
             return Ok(sourced.value);
@@ -202,7 +202,7 @@ pub fn materials_from(path: &Path) -> Result<BTreeMap<String, Material>, Error> 
     read(&text, &file)
 }
 
-/// The materials of a text; `file` is what errors call it.
+/// The materials of a text; `file` is its name in errors.
 pub fn read(text: &str, file: &str) -> Result<BTreeMap<String, Material>, Error> {
     let wrong = |at: usize, message: String| Error::Table {
         file: file.to_owned(),

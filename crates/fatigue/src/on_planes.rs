@@ -22,20 +22,20 @@ use crate::shear_bound::About;
 use crate::tangent::Tangent;
 use crate::tensor::StressTensor;
 
-/// [`PlaneFunction::lead`] of products, whose faces are large: 3 of 1000 cycles of two random harmonics
-/// keep a plane that is not the best (by 3e-4 at most), 16 with 0.
+/// [`PlaneFunction::lead`] of products, whose faces are large. Of 1000 cycles of two random
+/// harmonics 3 end on a plane that is not the best (by 3e-4 at most); with LEAD = 0 it is 16.
 const LEAD: f64 = 0.01;
 
 /// Stresses below this part of the largest component are rounding.
 const NOTHING: f64 = 1e-12;
 
-/// Room for the shear path on a plane, and for eight planes in single and double precision.
+/// Buffers for the shear path on a plane, and for eight planes in single and double precision.
 pub(crate) struct ShearRoom {
     pub(crate) shear: Vec<[Lanes; 2]>,
     pub(crate) circles: Circles,
     single: Instants<f32>,
     double: Instants<f64>,
-    /// What [`About`] needs.
+    /// The squares of [`About`].
     squares: Instants<f32>,
 }
 
@@ -64,7 +64,7 @@ pub(crate) struct OnPlanes<'a> {
     /// Largest component of any instant.
     size: f64,
     in_double: bool,
-    /// The best plane, and the squares about it, where they are of use.
+    /// The best plane, and the bound about it, if it applies.
     best: [f64; 3],
     about: Option<About>,
 }
@@ -88,8 +88,8 @@ impl<'a> OnPlanes<'a> {
         }
     }
 
-    /// The plane of histories that need no search: nothing that counts is in tension, or the stress
-    /// changes by hydrostatic stress alone and no plane is sheared.
+    /// The plane of histories that need no search: no tension where the criterion requires it, or a
+    /// stress that changes hydrostatically only, so that no plane is sheared.
     ///
     /// No plane's normal is returned where the value is 0 on all of them.
     pub(crate) fn without_search(&mut self) -> Option<Peak> {
@@ -135,7 +135,7 @@ impl<'a> OnPlanes<'a> {
         })
     }
 
-    /// What rounding may take from the two parts.
+    /// Bounds of the rounding errors of the two parts.
     fn slack(&self) -> [f64; 2] {
         let spacing = if self.in_double {
             f64::EPSILON
@@ -209,13 +209,15 @@ impl<'a> OnPlanes<'a> {
         }
     }
 
-    /// No plane has more of the second part: no component of a unit normal is larger than 1.
+    /// Upper bound of the second part on all planes: no component of a unit normal is larger
+    /// than 1.
     fn most_of_second(&self) -> f64 {
         let of_stress = self.strain.map_or(1.0, |[along, across]| along + across);
         3.0 * of_stress * self.size
     }
 
-    /// Bounds about the best plane, where two instants make its circle, as long as they help.
+    /// Lowers the bounds by [`About`] the best plane, if two instants define its circle, as long as
+    /// that excludes faces.
     fn shear_bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &Known) {
         if self.best != known.n {
             self.best = known.n;
@@ -235,7 +237,7 @@ impl<'a> OnPlanes<'a> {
         let slack = self.slack()[1];
         let second = |eight: &[Face]| {
             if self.law.tie() > 0.0 {
-                // It counts for next to nothing: what it is at most anywhere is enough.
+                // Its weight is tiny: an upper bound over all planes is enough.
                 return [[self.most_of_second(); LANES]; 3];
             }
             let corners = corners_of(eight);
@@ -293,7 +295,7 @@ impl PlaneFunction for OnPlanes<'_> {
     }
 
     fn measure(&mut self, planes: &mut [Plane], enough: Enough) {
-        // Taken out, so that the planes can be measured with what else is known of the point.
+        // Moved out of `self`, which the evaluation borrows.
         if self.in_double {
             let mut instants = std::mem::replace(&mut self.room.double, Instants::new());
             for eight in planes.chunks_mut(LANES) {

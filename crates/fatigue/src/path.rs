@@ -1,4 +1,4 @@
-//! The stress at one point over time, and what it is on a plane.
+//! The stress at one point over time, and on planes.
 
 #![allow(
     clippy::inline_always,
@@ -175,7 +175,8 @@ impl Path {
         (TRESCA_OVER_MISES * whole, TRESCA_OVER_MISES * deviation)
     }
 
-    /// The largest component of any instant, by size: between 1 and 2, or 0 without stress.
+    /// The largest component of any instant by absolute value: between 1 and 2, or 0 without
+    /// stress.
     pub(crate) fn size(&self) -> f64 {
         size(self.blocks.as_flattened().as_flattened())
     }

@@ -1,4 +1,4 @@
-//! A criterion as a function of the plane, and what a search keeps of a plane.
+//! A criterion as a function of the plane, and the record of an evaluated plane.
 
 use crate::hemisphere::{Face, Hemisphere};
 use crate::refine::Deciding;
@@ -7,24 +7,25 @@ use crate::tangent::Tangent;
 /// No edge.
 pub(crate) const NO_EDGE: usize = usize::MAX;
 
-/// A plane that was looked at.
+/// An evaluated plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
     /// Unit normal.
     pub(crate) n: [f64; 3],
-    /// Two quantities, and the criterion, which rises with both: no less than they are.
+    /// Upper bounds (rounding included) of the two parts, and of the criterion, which increases
+    /// with both.
     pub(crate) parts: [f64; 2],
     pub(crate) value: f64,
-    /// The parts are no less than these.
+    /// Lower bounds of the parts.
     pub(crate) low: [f64; 2],
-    /// The instants that decide, as in [`Deciding`]; before it is measured a guess.
+    /// The deciding instants, as in [`Deciding`]; a guess before the plane is evaluated.
     pub(crate) instants: [usize; 6],
-    /// First of the edges that have this as the end of the smaller number.
+    /// Head of the list of edges whose lower-numbered end is this plane.
     pub(crate) edge: usize,
 }
 
-/// A plane on which the first part is at most `first`, or the tangent at most `sum`, need not be known
-/// better.
+/// A plane on which the first part is at most `first`, or the tangent at most `sum`, need not be
+/// evaluated exactly.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Enough {
     pub(crate) first: f64,
@@ -32,15 +33,15 @@ pub(crate) struct Enough {
     pub(crate) sum: f64,
 }
 
-/// The best plane known.
+/// The best plane so far.
 #[derive(Clone, Copy)]
 pub(crate) struct Known {
     pub(crate) n: [f64; 3],
     pub(crate) parts: [f64; 2],
-    /// At the parts.
+    /// The tangent at these parts.
     pub(crate) tangent: Tangent,
-    /// Its value, the one from which on planes tie with it, and the one that is within the tolerance:
-    /// what is not above these need not be known better.
+    /// Ascending: its value v, (1 + tie) v, up to which planes tie with it, and v + tolerance. A
+    /// face whose bound is below one of them needs no sharper bound for that purpose.
     pub(crate) values: [f64; 3],
 }
 
@@ -50,36 +51,36 @@ pub(crate) struct Known {
 pub(crate) struct Bend {
     pub(crate) parts: [f64; 2],
     pub(crate) slopes: [f64; 2],
-    /// No plane has more of the first part.
+    /// Upper bound of the first part over all planes.
     pub(crate) first: f64,
 }
 
 /// A criterion on planes.
 pub(crate) trait PlaneFunction {
-    /// Parts and values of planes, of which some need to be no better than `enough`.
+    /// Evaluates planes; exactly only where a plane may exceed `enough`.
     fn measure(&mut self, planes: &mut [Plane], enough: Enough);
     /// The faces to start from.
     fn start(&self) -> &'static Hemisphere;
-    /// What rounding may add to the value of a plane as measured.
+    /// Bound of the rounding error of the value of a plane.
     fn rounding(&mut self, n: [f64; 3]) -> f64;
-    /// Measures in double precision from here on.
+    /// Evaluates in double precision from now on.
     fn to_double(&mut self);
     /// The two quantities on the plane of a unit normal, to rounding.
     fn parts(&mut self, n: [f64; 3]) -> [f64; 2];
-    /// The criterion, which rises with both.
+    /// The criterion as a function of the parts; it increases with both.
     fn value(&self, parts: [f64; 2]) -> f64;
-    /// A sum of the parts that bounds the criterion, closely where the parts are these.
+    /// A [`Tangent`]: a linear bound of the criterion that is exact at these parts.
     fn tangent(&self, parts: [f64; 2]) -> Tangent;
     /// The bounds, from the largest first part on the first planes and the largest 1/cos r - 1 of
     /// their triangles.
     fn bend(&self, largest: f64, sag: f64) -> Bend;
-    /// Lowers what the faces may hold, where forms of their corners prove that.
+    /// Lowers the bounds of the faces by quadratic forms of their corners.
     fn bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &Known);
-    /// Tops of pieces that are lower than the best by less than this part of it are refined: they may
-    /// lead to a better one.
+    /// The maxima of pieces within this part of the best value are refined: they may lead to a
+    /// better plane.
     fn lead(&self) -> f64;
-    /// Part of the value from which on planes tie and a second quantity chooses, since complementary
-    /// planes have the same shear; 0 where none does.
+    /// Relative difference below which planes tie and the second part decides, since complementary
+    /// planes have the same shear; 0 for criteria without a tie.
     fn tie(&self) -> f64;
     /// The piece of instants.
     fn piece(&self, instants: [usize; 6]) -> Deciding;
@@ -88,10 +89,10 @@ pub(crate) trait PlaneFunction {
 
     /// A value that is not small.
     fn yardstick(&self, bend: &Bend) -> f64;
-    /// No plane has more, whatever the search finds.
+    /// Upper bound of the criterion over all planes, independent of the search.
     fn ceiling(&self, bend: &Bend) -> f64;
 
-    /// What is known of the best plane; within `tolerance` of its value others need not be known better.
+    /// The record of the best plane, with the tolerance of its value.
     fn known(&mut self, n: [f64; 3], value: f64, tolerance: f64) -> Known {
         let parts = self.parts(n);
         Known {
@@ -110,7 +111,7 @@ pub(crate) trait PlaneFunction {
 }
 
 impl Plane {
-    /// Not yet measured.
+    /// A plane that is not evaluated yet.
     pub(crate) fn of(n: [f64; 3], instants: [usize; 6]) -> Self {
         Self {
             n,
@@ -124,7 +125,7 @@ impl Plane {
 }
 
 impl Bend {
-    /// That of a sum of the parts.
+    /// The bound K of the tangent's sum.
     pub(crate) fn of(&self, tangent: &Tangent) -> f64 {
         tangent.first * self.parts[0] + tangent.second * self.parts[1]
     }

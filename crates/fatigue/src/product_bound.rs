@@ -1,4 +1,4 @@
-//! The most that Smith, Watson and Topper's product may be on a triangle of normals: [`Forms`] of the
+//! An upper bound of Smith, Watson and Topper's product on a triangle of normals: [`Forms`] of the
 //! strain amplitude and of the largest normal stress.
 
 use crate::eight_planes::Instants;
@@ -8,8 +8,8 @@ use crate::lanes::{LANES, Real};
 use crate::plane_function::{Known, Plane};
 use crate::tangent::Tangent;
 
-/// The strain is the first number times the normal stress less the second times the sum of all three;
-/// rounding may take `slack` from the strain amplitude and from the normal stress.
+/// The strain is the first number times the normal stress less the second times the sum of all
+/// three; `slack` bounds the rounding errors of the strain amplitude and of the normal stress.
 pub(crate) fn product_bounds<F: Real>(
     instants: &Instants<F>,
     strain: [f64; 2],
@@ -28,7 +28,7 @@ pub(crate) fn product_bounds<F: Real>(
             let parts = face.planes.map(|plane| planes[plane].parts);
             let forms = Forms::new(parts, [0, 1, 2].map(edge), &face.corners);
             let largest = [forms.largest(0), forms.largest(1)];
-            // No value is above that of the tangent there, which is their product.
+            // The bound is the value of the tangent at these parts, their product.
             let there = Tangent::of_product(0.0, 1.0, largest);
             let proved = forms.least_of(&known.values, &[known.tangent, there]);
             let product = largest[0] * largest[1].max(0.0);

@@ -1,27 +1,27 @@
-//! The top of a smooth function of the plane, by Newton's steps.
+//! The maximum of a smooth function of the plane, by Newton's method.
 
 use crate::circle::{radius_of_three, radius_through};
 use crate::path::{Frame, dot, normal_weights, shear_weights, unit};
 use crate::tensor::StressTensor;
 
-/// Turn of the planes from which slopes are taken \[rad\]: what these miss is its sixth power, what
-/// rounding adds 1e-16 over it.
+/// Angle of the difference stencil \[rad\]: the truncation error of the slopes is its sixth power,
+/// their rounding error 1e-16 over it.
 const TURN: f64 = 5e-3;
-/// Steps of this length end the search with simple slopes, which miss the top by less than the square
-/// of `TURN` \[rad\].
+/// Steps below this length end the search with second-order slopes, whose maximum is off by less
+/// than `TURN`^2 \[rad\].
 const NEARLY: f64 = 1e-3;
-/// A step of this length ends the search with sharp slopes: the next one would be its product with
-/// the error of the bends, the square of `TURN` \[rad\].
+/// A step below this length ends the search with sixth-order slopes: the next step would be this
+/// times the error of the second derivatives, `TURN`^2 \[rad\].
 const CLOSE: f64 = 1e-7;
 /// Longest step \[rad\].
 const LONGEST: f64 = 0.2;
 
-/// The instants that decide on a plane, and the smooth function that they make of it: the largest of
-/// such functions is the criterion.
+/// The deciding instants of a plane and their smooth function of the plane; the criterion is the
+/// largest of such functions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Deciding {
-    /// Those on the smallest circle, those of the largest and smallest of a range, that of the
-    /// second part.
+    /// Those on the smallest circle, those of the largest and smallest strain, that of the second
+    /// part.
     pub(crate) instants: [usize; 6],
     /// Stresses on the smallest circle; or else a tensor whose normal
     /// component the first part is.
@@ -117,7 +117,7 @@ fn difference(s: &StressTensor, from: &StressTensor) -> StressTensor {
     change
 }
 
-/// The top that is reached from the plane n, and the value there, to rounding.
+/// The maximum reached from the plane n, and the value there, to rounding.
 pub(crate) fn refine(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3]) -> ([f64; 3], f64) {
     let mut best = nearly(f, n, f64::NEG_INFINITY);
     for _ in 0..8 {
@@ -136,9 +136,8 @@ pub(crate) fn refine(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3]) -> ([f64; 3], f6
     best
 }
 
-/// The top that is reached from the plane n, and the value there, to the square of `NEARLY`; a plane
-/// on the way once the steps, each of which gains less than the one before, lead nowhere above
-/// `least`.
+/// The maximum reached from the plane n, and the value there, to `NEARLY`^2. Stops on the way if
+/// the gains, which decrease from step to step, cannot lead above `least`.
 pub(crate) fn nearly(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3], least: f64) -> ([f64; 3], f64) {
     let mut best = (n, f(n));
     for _ in 0..8 {
@@ -157,9 +156,9 @@ pub(crate) fn nearly(f: &impl Fn([f64; 3]) -> f64, n: [f64; 3], least: f64) -> (
     best
 }
 
-/// One step to the top of the quadratic through planes around; shorter ones while the value falls.
-/// How far it turns \[rad\], and where it leads. Slopes are to the sixth order of the turn if `SHARP`,
-/// else to the second.
+/// One Newton step with differences to planes around, shortened while the value falls. Returns its
+/// angle \[rad\], the plane and the value there. Slopes are of sixth order in `TURN` if `SHARP`,
+/// else of second.
 fn newton<const SHARP: bool>(
     f: &impl Fn([f64; 3]) -> f64,
     (n, here): ([f64; 3], f64),

@@ -1,4 +1,4 @@
-//! The most that a criterion with the shear amplitude may be on a triangle of normals, about the best
+//! An upper bound of a criterion with the shear amplitude on triangles of normals near the best
 //! plane.
 //!
 //! Let C be a constant tensor and D = S - C. The smallest circle on a plane is no larger than that about
@@ -21,7 +21,7 @@ use crate::tensor::StressTensor;
 
 /// Squares about the best plane.
 pub(crate) struct About {
-    /// What rounding may take from the squares \[Pa^2\].
+    /// Bound of the rounding errors of the squares \[Pa^2\].
     slack: f64,
 }
 
@@ -51,9 +51,9 @@ impl About {
         Self { slack }
     }
 
-    /// Lowers what the faces may hold. The amplitude is `s` on the best plane;
-    /// `second` gives what the second part has of the edges of eight faces. Ends and says so once less than
-    /// one face in four is done with.
+    /// Lowers the bounds of the faces. `s` is the amplitude on the best plane; `second` bounds the
+    /// second part on the edges of eight faces. Stops and returns false once fewer than one face in
+    /// four is excluded.
     pub(crate) fn bounds(
         &self,
         squares: &Instants<f32>,

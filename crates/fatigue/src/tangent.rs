@@ -1,4 +1,4 @@
-//! Sums of two parts that bound a criterion, closely where the parts are given ones.
+//! Linear bounds of a criterion in its two parts, exact at given parts.
 //!
 //! A product a h of a >= 0 and h = z + w b is at most the square of (r a + h/r)/2 for any r > 0 where
 //! h >= 0, and at most 0 elsewhere; both are equal where r^2 = h/a. The sum r a + h/r has a second
@@ -51,7 +51,7 @@ impl Tangent {
         self.first * a + self.second * b + self.constant
     }
 
-    /// The most that the criterion is where the sum is at most this.
+    /// Upper bound of the criterion where the sum is at most this.
     pub(crate) fn value(&self, sum: f64) -> f64 {
         if self.of_product {
             (sum.max(0.0) / 2.0).powi(2)
@@ -60,7 +60,7 @@ impl Tangent {
         }
     }
 
-    /// The criterion is at most this value where the sum is at most this.
+    /// The sum up to which the criterion is at most this value.
     pub(crate) fn sum_of(&self, value: f64) -> f64 {
         if self.of_product {
             2.0 * value.max(0.0).sqrt()
