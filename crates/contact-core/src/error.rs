@@ -1,4 +1,4 @@
-//! What can go wrong, with the numbers that say how.
+//! Errors, with the numbers that explain them.
 
 use std::fmt::Display;
 
@@ -82,7 +82,7 @@ pub enum Error {
         extent_y: f64,
         /// Recommended length \[m\].
         needed: f64,
-        /// What of the scene is hardly meant, as the end of a sentence; empty where nothing is.
+        /// Doubtful values of the scene, as the end of a sentence; empty without any.
         doubt: String,
     },
     /// The tangential forces and the torsional moment are more than friction can carry.
@@ -144,7 +144,7 @@ pub enum Error {
         tolerance: f64,
         /// Iterations done.
         iterations: usize,
-        /// What in the physics makes it hard, as the end of a sentence; empty where nothing is known.
+        /// The physical cause, as the end of a sentence; empty if unknown.
         why: String,
     },
     /// The conversion of a frequency response missed its tolerance.

@@ -55,7 +55,7 @@ impl Elastic {
     }
 }
 
-/// How a layer is bonded to what lies below it: springs that give way under the traction there.
+/// The bond of a layer to the one below it: springs under the traction there.
 ///
 /// The upper side moves against the lower one by compliance times traction; tension and pressure count
 /// alike, so that a bond that pulls apart holds until its strength is judged elsewhere.
@@ -68,7 +68,7 @@ pub struct Bond {
 }
 
 impl Bond {
-    /// A bond that does not give way.
+    /// A rigid bond.
     pub const PERFECT: Self = Self {
         normal: 0.0,
         shear: 0.0,
@@ -95,7 +95,7 @@ impl Bond {
     }
 }
 
-/// A layer of constant thickness on what is below it.
+/// A layer of constant thickness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coating {
     /// Material of the layer.

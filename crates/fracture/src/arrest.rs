@@ -9,7 +9,7 @@ const PARTS: usize = 8;
 /// Halvings of a part.
 const HALVINGS: usize = 50;
 
-/// What becomes of a crack.
+/// The fate of a crack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
     /// It does not grow from its first length.
@@ -23,7 +23,7 @@ pub enum Verdict {
 /// Growth against the threshold along a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrest {
-    /// What becomes of the crack.
+    /// The fate of the crack.
     pub verdict: Verdict,
     /// Lengths at which the range of K crosses the threshold \[m\]: down, up, ... or up, down, ...
     pub crossings: Vec<f64>,
@@ -72,7 +72,7 @@ impl Curve {
         })
     }
 
-    /// Lengths from `from` on at which the curve is looked at.
+    /// Lengths from `from` on at which the curve is evaluated.
     fn places(&self, from: f64) -> Vec<f64> {
         let later = self.lengths().iter().copied().filter(|l| *l > from);
         let mut places = vec![from];

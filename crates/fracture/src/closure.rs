@@ -12,9 +12,9 @@ use super::influence::influence;
 use super::lu::{Lu, largest};
 use super::rule::Rule;
 
-/// Changes of the set of open points before the search gives up.
+/// Most changes of the set of open points.
 const MOST_CHANGES: usize = 100;
-/// What counts as zero, over the largest of its kind.
+/// Values below this part of the largest of their kind count as zero.
 const ZERO: f64 = 1e-12;
 
 /// Tractions per jump of the faces of a crack of unit length.
@@ -94,7 +94,7 @@ impl Contact {
     }
 
     /// Opening under the normal traction `load` that closed faces would have; `open` is the first
-    /// guess and becomes the answer.
+    /// guess on entry and the open points on exit.
     ///
     /// Active set: open points that overlap close, closed ones in tension open. The compliance of a
     /// crack is nearly an M-matrix, for which this ends monotonically.

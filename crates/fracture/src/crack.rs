@@ -25,11 +25,11 @@ pub struct Intensity {
     pub K_I: f64,
     /// In-plane shear \[Pa m^0.5\]: K_I + i K_II = lim sqrt(2 pi r) (s_nn + i s_tn).
     pub K_II: f64,
-    /// What both may be off by the quadrature \[Pa m^0.5\]: the change against three times its step.
+    /// Error of both by the quadrature \[Pa m^0.5\]: the difference from three times its step.
     pub error: f64,
 }
 
-/// What a path of unit length from x = 0 answers; the tractions on any similar crack follow.
+/// The system of a path of unit length from x = 0; that of any similar crack follows from it.
 #[derive(Debug)]
 pub(crate) struct System {
     pub(crate) rule: Rule,
@@ -156,7 +156,8 @@ impl Crack {
         };
         let [K_I, K_II] = [0, 1].map(|i| fine(&self.system.weights[i]));
         let [c_I, c_II] = [0, 1].map(|i| coarse(&self.system.coarse[i]));
-        // What lies between the last point and the mouth, and between the points beside a kink.
+        // Error of the parts between the last point and the mouth, and between the points beside a
+        // kink.
         let kinks = if self.path.legs.len() > 1 { 2e-6 } else { 0.0 };
         let mouth = tractions.last().map_or(0.0, |t| t.normal.hypot(t.shear));
         let mouth = 4.0 * self.points_left_out() * mouth * (PI * self.length).sqrt();

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::crack::Intensity;
 
-/// What decides the direction of growth over a cycle.
+/// The criterion for the direction of growth over a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
     /// Largest range of the tangential stress ahead of the tip (F. Erdogan, G. C. Sih, J. Basic Eng.
@@ -83,7 +83,7 @@ pub fn kinked(turn: f64) -> [[f64; 2]; 2] {
 }
 
 impl Direction {
-    /// What opens a small kink of the angle `turn` \[rad\].
+    /// The opening stress or intensity of a small kink of the angle `turn` \[rad\].
     fn opening(self, k: &Intensity, turn: f64) -> f64 {
         match self {
             Self::TangentialStress => {
@@ -98,7 +98,7 @@ impl Direction {
         }
     }
 
-    /// Positive part of the range of what opens a kink \[Pa m^0.5\].
+    /// Positive part of the range of [`Self::opening`] \[Pa m^0.5\].
     fn range(self, cycle: &[Intensity], turn: f64) -> f64 {
         let values = cycle.iter().map(|k| self.opening(k, turn).max(0.0));
         let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), v| {
@@ -107,8 +107,8 @@ impl Direction {
         high - low.min(high)
     }
 
-    /// The turn of a crack under K over a cycle \[rad\], positive towards +x, and the range it has
-    /// there \[Pa m^0.5\]; none where nothing opens.
+    /// The turn of a crack under K over a cycle \[rad\], positive towards +x, and the range there
+    /// \[Pa m^0.5\]; `None` if no kink opens.
     pub fn turn(self, cycle: &[Intensity]) -> Option<(f64, f64)> {
         const COARSE: i32 = 90;
         // Beyond 80 degrees the series of small kinks ends.

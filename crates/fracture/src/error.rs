@@ -1,4 +1,4 @@
-//! What can go wrong, with the numbers that say how.
+//! Errors, with the numbers that explain them.
 
 use std::fmt::Display;
 

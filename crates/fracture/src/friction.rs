@@ -13,10 +13,10 @@ const MOST_PASSES: usize = 200;
 /// Change of the pressure from pass to pass that ends the search, over its largest: a point between open and closed, or
 /// between stick and slip, that comes and goes changes it by some 1e-7; K is told to 1e-4.
 const SETTLED: f64 = 1e-6;
-/// What counts as zero, over the largest of its kind.
+/// Values below this part of the largest of their kind count as zero.
 const ZERO: f64 = 1e-12;
 
-/// What the faces do at a point.
+/// State of the faces at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
     /// Apart.
@@ -204,7 +204,7 @@ impl Faces {
         None
     }
 
-    /// What the faces do, from the mouth to the tip: state, begin and end over the crack's length.
+    /// States of the faces from the mouth to the tip: state, begin and end over the crack's length.
     ///
     /// A border lies where the jump that grows from it with the power 3/2 of the distance goes to
     /// zero: the opening, or the slip since the last instant.

@@ -21,7 +21,7 @@ const MOST_PIECES: usize = 64;
 /// How a crack grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growing {
-    /// What decides the direction.
+    /// The criterion for the direction.
     pub direction: Direction,
     /// Length to grow to \[m\].
     pub to: f64,

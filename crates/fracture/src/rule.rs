@@ -30,7 +30,7 @@ pub(crate) struct Knot {
     pub(crate) s: f64,
     /// Direction of the crack as a unit number.
     pub(crate) along: Complex64,
-    /// Weight of the density's regular part: ds times what the density is divided by.
+    /// Weight of the density's regular part: ds times the singular factor of the density.
     pub(crate) weight: f64,
 }
 

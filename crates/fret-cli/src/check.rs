@@ -22,7 +22,7 @@ pub(crate) struct Options {
     json: bool,
 }
 
-/// Says what the scene means and what its solution needs.
+/// Prints the interpretation of the scene and the needs of its solution.
 pub(crate) fn check(options: &Options) -> Result<(), Failure> {
     let scene = options.scene.read().map_err(Failure::BadInput)?;
     scene.check_fit().map_err(Failure::BadInput)?;
@@ -52,7 +52,7 @@ pub(crate) fn check(options: &Options) -> Result<(), Failure> {
     plan.check_memory(&scene).map_err(Failure::BadInput)
 }
 
-/// Subjects and what is to be said of them.
+/// Subjects and their text.
 fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
     let grid = &scene.grid;
     let (length_x, length_y) = grid.extent();
@@ -135,7 +135,7 @@ fn body(body: &Body, cell: f64) -> String {
     layers.collect::<String>() + &material(&body.substrate)
 }
 
-/// The increments of the path, or what they are chosen for.
+/// The increments of the path, or the tolerance that they are chosen for.
 fn increments(scene: &Scene) -> String {
     let given: usize = scene
         .path
@@ -163,7 +163,7 @@ const CHOSEN: [usize; 2] = [12, 60];
 const COUPLED: [usize; 2] = [8, 60];
 const UNCOUPLED: [usize; 2] = [3, 12];
 
-/// What a solution takes, as a rule.
+/// Time and memory of a solution, as a rule.
 fn work(scene: &Scene, plan: &Plan) -> String {
     let branches = &scene.path.branches;
     let [least, most] = CHOSEN.map(|chosen| -> usize {

@@ -10,13 +10,13 @@ use crate::terminal::{colours, say};
 
 /// How a command that failed ends.
 pub(crate) enum Failure {
-    /// The run ended early; what it had is kept.
+    /// The run ended early; its increments so far are kept.
     EndedEarly(Error),
     /// The scene or the command line has no meaning.
     BadInput(Error),
     /// Ctrl-C, and nothing is kept.
     Stopped,
-    /// What was to be printed could not be written.
+    /// The output could not be written.
     Unwritten(Error),
 }
 

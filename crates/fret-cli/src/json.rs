@@ -1,4 +1,4 @@
-//! What the commands print, for programs: SI units, names of the store.
+//! Output of the commands for programs: SI units, names of the store.
 
 use contact_core::fields::{Cycle, Direction, LoopPoint, loops};
 use contact_core::march::{BranchSummary, Increment, Reached, summarise};

@@ -5,7 +5,7 @@ use contact_core::scene::Scene;
 
 use crate::summary::short;
 
-/// Says what the largest values of an increment are and where.
+/// Prints the largest values of an increment and their places.
 pub(crate) struct Largest<'a> {
     pub(crate) scene: &'a Scene,
     /// Coatings of the body.

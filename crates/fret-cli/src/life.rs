@@ -22,7 +22,7 @@ use crate::printed::print;
 use crate::stress::stop_on_interrupt;
 use crate::terminal::say;
 
-/// Share of the largest traction by which the ends of a cycle may differ before that is told.
+/// Difference of the ends of a cycle over the largest traction, above which a note is printed.
 const UNSETTLED: f64 = 0.02;
 
 /// Options of `fret life`.
@@ -88,7 +88,7 @@ pub(crate) struct Options {
     out: Option<PathBuf>,
 }
 
-/// Judges a result and says what came out.
+/// Judges a result and prints the judgement.
 pub(crate) fn life(options: &Options) -> Result<(), Failure> {
     let lines = judged(options).map_err(|error| match error {
         Error::Interrupted { .. } => Failure::Stopped,
@@ -97,7 +97,7 @@ pub(crate) fn life(options: &Options) -> Result<(), Failure> {
     lines.iter().try_for_each(|line| print(line))
 }
 
-/// What is to be printed; notes are said.
+/// The text to print; notes go to the standard error.
 fn judged(options: &Options) -> Result<Vec<String>, Error> {
     check_ending(options)?;
     let store = Store::open(&options.store)?;
@@ -180,7 +180,7 @@ fn judged(options: &Options) -> Result<Vec<String>, Error> {
     Ok(found.iter().map(line).collect())
 }
 
-/// What is said of a layer.
+/// The lines of a layer.
 struct Row {
     line: String,
     json: serde_json::Value,

@@ -12,7 +12,7 @@ use crate::terminal::{draws, say};
 const TEMPLATE: &str = "{bar:20} {pos}/{len} increments, {elapsed} elapsed, {eta} left  {msg}";
 const TICK: Duration = Duration::from_millis(200);
 
-/// What is shown on the standard error while the run goes on.
+/// The display on the standard error during the run.
 pub(crate) struct Progress {
     /// None if quiet.
     shown: Option<Shown>,

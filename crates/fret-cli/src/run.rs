@@ -159,7 +159,7 @@ impl Manner {
     }
 }
 
-/// What an error means for the exit code.
+/// The exit code of an error.
 fn ended(error: Error) -> Failure {
     match error {
         Error::InvalidScene { .. }

@@ -12,7 +12,7 @@ use crate::terminal::say;
 /// Bytes of a scene that is read from the standard input, fewer than: heights may stand in it.
 const LONGEST: u64 = 1 << 30;
 
-/// A scene file and what is changed in it.
+/// A scene file and the changes to it.
 #[derive(Args)]
 pub(crate) struct SceneOptions {
     /// Scene file (TOML); - reads it from the standard input
@@ -54,7 +54,7 @@ impl SceneOptions {
     }
 }
 
-/// Says what is allowed in a scene but hardly meant.
+/// Warns of allowed but implausible values of a scene.
 pub(crate) fn say_doubts(scene: &Scene) {
     for doubt in scene.doubts() {
         say(&format!("fret: warning: {doubt}"));

@@ -83,13 +83,13 @@ pub(crate) struct Options {
     of: Vec<String>,
 }
 
-/// What is to be computed.
+/// The probes and places to compute.
 struct Task {
     scene: Scene,
     side: Side,
-    /// What is written.
+    /// The depths that are written.
     depths: Vec<Depth>,
-    /// What the layers ask for; the largest values are looked for here as well.
+    /// The default depths of the layers; the largest values are searched here as well.
     chosen: Vec<Depth>,
     /// Whether lines are for programs.
     json: bool,

@@ -15,7 +15,7 @@ use crate::words::{state, word};
 /// Micrometres, or microjoules, per SI unit.
 const MICRO: f64 = 1e6;
 
-/// Digits of a number for people.
+/// A number with few digits.
 const DIGITS: i32 = 4;
 
 /// A number with a few digits, without zeros that say nothing.
@@ -102,7 +102,7 @@ fn units(of: RigidMotion) -> (&'static str, &'static str) {
     }
 }
 
-/// What a row of the table is made of: a branch, its last increment.
+/// The data of a row of the table: a branch, its last increment.
 type Row<'a> = (&'a BranchSummary, &'a Increment);
 
 /// A column of the table: title, and its cell for a branch.
@@ -178,7 +178,7 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
     columns
 }
 
-/// What the solvers have done.
+/// Work of the solvers.
 fn work_columns() -> [Column; 4] {
     [
         column("convo-\nlutions", |b, _| {
@@ -198,7 +198,7 @@ fn driven(scene: &Scene) -> impl Iterator<Item = RigidMotion> {
     })
 }
 
-/// A line for every cycle: what the interface did, its energy and its stiffness.
+/// A line for every cycle: state of the interface, energy and stiffness.
 fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
     let cycles = json::cycles(scene, increments);
     let line = |(n, (direction, c)): (usize, &(Direction, Cycle))| {
@@ -242,7 +242,7 @@ fn with_error(value: f64, error: f64) -> String {
 /// Of a branch a number, its error and the unit.
 type OfBranch = Box<dyn Fn(&BranchSummary, &ErrorBars) -> (f64, Bar, f64)>;
 
-/// What a run answers besides the headline numbers.
+/// Results of a run besides the headline numbers.
 struct Answer {
     title: String,
     of: OfBranch,
@@ -278,7 +278,7 @@ fn answers(scene: &Scene) -> Vec<Answer> {
     loads.chain(motions).collect()
 }
 
-/// The headline numbers at the end of every branch with their errors, and what leaves them.
+/// The headline numbers at the end of every branch with their errors and the sources of these.
 pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[ErrorBars]) -> String {
     let Measures { radius, pressure } = Measures::of(scene);
     let answers = answers(scene);

@@ -1,15 +1,15 @@
-//! What the commands say on the standard error, and what the terminal shows.
+//! Messages on the standard error, and the abilities of the terminal.
 
 use std::io::{self, IsTerminal, Write};
 
 use clap::ColorChoice;
 
-/// Writes a line to the standard error; if nobody listens, nobody is told.
+/// Writes a line to the standard error; a failure is ignored.
 pub(crate) fn say(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
-/// Colours for people who have not declined them (<https://no-color.org>), on terminals that show them.
+/// Colours, unless declined (<https://no-color.org>), on terminals that support them.
 pub(crate) fn colours() -> ColorChoice {
     let declined = std::env::var_os("NO_COLOR").is_some_and(|word| !word.is_empty());
     if follows_codes() && !declined {

@@ -46,7 +46,7 @@ pub(crate) struct Options {
     start: Option<PathBuf>,
 }
 
-/// What a run shows.
+/// Display of a run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shown {
     /// A bar and a table.
@@ -185,7 +185,7 @@ fn bar(cycles: f64, quiet: bool) -> ProgressBar {
     }
 }
 
-/// What an error means for the exit code.
+/// The exit code of an error.
 fn ended(error: Error) -> Failure {
     match error {
         Error::InvalidScene { .. } | Error::OffGrid { .. } | Error::TooLarge { .. } => {

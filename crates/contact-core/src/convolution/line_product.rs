@@ -20,9 +20,9 @@ enum Group {
     Coupling,
 }
 
-/// What carries a component of the tractions (column) to one of the displacements (row): group,
-/// kernel in it, factor. An odd kernel gives -i along each axis, and the y components carry -i
-/// (see `y_transform`).
+/// The kernel from a component of the tractions (column) to one of the displacements (row): group,
+/// kernel in it, factor. An odd kernel gives -i along each axis, and the y components carry -i (see
+/// `y_transform`).
 const KERNELS: [[(Group, usize, Unit); 3]; 3] = {
     use Group::{Coupling, Normal, Tangential};
     use Unit::{I, MinusI, MinusOne, One};

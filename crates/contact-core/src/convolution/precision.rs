@@ -1,8 +1,8 @@
 //! The precision that a product with spectra is computed in.
 //!
-//! Fields are f64 throughout. A product in f32 takes half of the time and of the memory; it scales
-//! what it is given by a power of two, so that no magnitude is lost, and errs by about 1e-7 of the
-//! largest displacement.
+//! Fields are f64 throughout. A product in f32 takes half of the time and of the memory; its input
+//! is scaled by a power of two, so that any magnitude is representable, and its error is about 1e-7
+//! of the largest displacement.
 
 use std::ops::{AddAssign, SubAssign};
 
@@ -17,7 +17,7 @@ pub(crate) trait Precision: FftNum + Float + AddAssign + SubAssign + Default {
     /// The number as f64.
     fn wide(self) -> f64;
 
-    /// What fields of that largest absolute value are divided by, a power of two.
+    /// The scale of fields with this largest absolute value, a power of two.
     fn unit(largest: impl FnOnce() -> f64) -> f64;
 }
 

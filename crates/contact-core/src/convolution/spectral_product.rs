@@ -41,7 +41,7 @@ pub(crate) struct SpectralProduct<T: Precision> {
     period: usize,
     y: YTransform<T>,
     spectra: LineSpectra<T>,
-    /// What the spectra are divided by.
+    /// The scale of the spectra.
     unit: f64,
     x_forward: Arc<dyn Fft<T>>,
     x_inverse: Arc<dyn Fft<T>>,
@@ -274,8 +274,7 @@ impl<T: Precision> SpectralProduct<T> {
     }
 }
 
-/// The largest absolute value by its bits, which are in the order of the values; what is not a number
-/// comes last.
+/// The bits of the largest absolute value; they are ordered like the values, NaN last.
 fn largest_of(field: &[f64]) -> u64 {
     let size = |v: &f64| v.abs().to_bits();
     field.iter().map(size).max().unwrap_or(0)

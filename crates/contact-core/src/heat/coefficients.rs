@@ -1,10 +1,10 @@
 //! Influence coefficients: the surface temperature that unit flux on one cell causes.
 //!
-//! A point source on a half-space answers with exp(-l r)/(2 pi K r), l = sqrt(i w C/K) (Carslaw and Jaeger
-//! 1959, chapter X). That is the divergence of (1 - exp(-l r))/(l r) along the radius, so that its
-//! integral over a cell is the flux of this field through the four sides: exact for cells small or
-//! large against 1/|l|, and of the steady state the closed form of Boussinesq's displacement. What
-//! a stack of layers answers beside it is smooth, and tabulated as the elastic one is.
+//! A point source on a half-space answers with exp(-l r)/(2 pi K r), l = sqrt(i w C/K) (Carslaw and
+//! Jaeger 1959, chapter X). That is the divergence of (1 - exp(-l r))/(l r) along the radius, so
+//! that its integral over a cell is the flux of this field through the four sides: exact for cells
+//! small or large against 1/|l|, and of the steady state the closed form of Boussinesq's
+//! displacement. The remainder of a stack of layers is smooth, and tabulated like the elastic one.
 
 use std::f64::consts::PI;
 
@@ -188,8 +188,8 @@ mod tests {
         }
     }
 
-    /// A fast cycle heats a cell as if it were endless, q/(K l), and no other: what
-    /// reaches farther is of the order exp(-200).
+    /// A fast cycle heats a cell as if it were infinite, q/(K l), and no other: the temperature of
+    /// the next one is of the order exp(-200).
     #[test]
     fn fast_ones_stay_within_the_cell() {
         let grid = Grid::from_spacing((4, 4), (1e-3, 1e-3)).unwrap();

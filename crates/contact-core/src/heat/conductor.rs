@@ -1,4 +1,4 @@
-//! What conducts the heat: materials, and the layers of a body.
+//! Thermal properties: materials, and the layers of a body.
 
 use crate::error::Error;
 
@@ -27,7 +27,7 @@ impl Conductor {
     }
 }
 
-/// The layers of a body as the heat sees them.
+/// The thermal layers of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layers {
     /// Layers from the surface down, each with its thickness \[m\].

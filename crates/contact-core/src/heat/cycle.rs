@@ -16,7 +16,7 @@ use crate::stop::unless;
 
 /// Most harmonics of a cycle.
 pub const MOST_HARMONICS: usize = 256;
-/// Instants looked at for each harmonic, and the fewest of a cycle.
+/// Instants per harmonic, and the fewest of a cycle.
 const INSTANTS: usize = 8;
 /// Memory of the amplitudes of a cell, for each harmonic \[bytes\].
 const AMPLITUDES: f64 = 64.0;
@@ -45,7 +45,7 @@ pub struct Temperature {
     pub heat: Array2<f64>,
     /// Part of the mean heat that flows into body 1 \[W/m^2\].
     pub flux: Array2<f64>,
-    /// Parts of the period at which the temperature was looked at.
+    /// Parts of the period at which the temperature was evaluated.
     pub instants: Vec<f64>,
     /// The largest temperature of either surface at these.
     pub peaks: Vec<f64>,
@@ -114,8 +114,8 @@ impl Cycle<'_> {
 
 /// The temperature of two bodies under the heat of a cycle, those far away being `bulk`.
 ///
-/// `harmonics` of the heat are followed, 0 for the mean alone: as many as half the increments of the cycle
-/// are what these tell of it. Ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
+/// The heat is expanded in `harmonics` (0: the mean alone); half the increments of the cycle is a
+/// sensible number. Ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
 pub fn temperature(
     bodies: [&Layers; 2],
     bulk: [f64; 2],

@@ -1,4 +1,4 @@
-//! CONTACT TEMPERATURE: what the frictional heat of a cycle does to the surfaces.
+//! CONTACT TEMPERATURE: the surface temperature under the frictional heat of a cycle.
 //!
 //! Both bodies are half-spaces, each homogeneous or coated, with insulated surfaces outside the contact. The
 //! heat of a cycle that repeats itself f times a second is a Fourier series in time; each harmonic of

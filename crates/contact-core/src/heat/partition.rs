@@ -14,10 +14,11 @@ use super::conduction::Conduction;
 use crate::error::Error;
 use crate::kernels::Complex64;
 
-/// Root mean square of the difference of the temperatures, over the lesser of those that either body
-/// would have if it took all of the heat, and the difference far away.
+/// Tolerance: root mean square of the temperature difference of the surfaces, over the smaller of
+/// the temperatures that either body would have under all of the heat, plus the difference far
+/// away.
 const TOLERANCE: f64 = 1e-9;
-/// What rounding leaves of a residual, over what is to be made equal.
+/// Rounding error of the residual, over the right-hand side.
 const ROUNDING: f64 = 1e-14;
 /// Most iterations: those of a matrix like 1/k grow with the root of the cells across the contact.
 const MOST: usize = 2000;

@@ -1,9 +1,10 @@
 //! Frequency response of a stack of layers to a heat flux on its surface.
 //!
-//! The flux q exp(i (k.x + w t)) into the body raises its surface by Y q. In a layer the temperature is the
-//! sum of two parts exp(-+ s z), s = sqrt(k^2 + i w C/K), Re s > 0, that conduct the fluxes +- m times
-//! themselves, m = K s. Of a half-space Y = 1/m. Above what conducts M per unit temperature the two
-//! parts stand in the ratio rho = (m - M)/(m + M) at the bottom of the layer, and at its top
+//! The flux q exp(i (k.x + w t)) into the body raises its surface by Y q. In a layer the
+//! temperature is the sum of two parts exp(-+ s z), s = sqrt(k^2 + i w C/K), Re s > 0, that conduct
+//! the fluxes +- m times themselves, m = K s. For a half-space Y = 1/m. If the material below a
+//! layer conducts the flux M per unit temperature, the two parts have the ratio rho = (m - M)/(m +
+//! M) at the bottom of the layer, and at its top
 //!
 //! ```text
 //! Y = (1 + rho E)/(m (1 - rho E)),  E = exp(-2 s h)

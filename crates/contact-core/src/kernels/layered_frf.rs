@@ -29,20 +29,21 @@
 //! 1 + R = (1 - P_u P_d) + P_u S P_d adds positive parts, and Y - Y_s is found without
 //! cancellation where x is small.
 //!
-//! Through a bond that gives way by (c_s, c_n) per traction, what is above it sees what is below it
-//! with Y + k diag(c_s, c_n), out of the plane with Y + k c_s; the tractions are the same on both
-//! sides.
+//! A bond of the compliance (c_s, c_n) adds to the response of the material below it: Y + k
+//! diag(c_s, c_n) in the plane, Y + k c_s out of it; the tractions are the same on both sides.
 
 use super::matrix::Matrix2;
 use crate::error::Error;
 use crate::scene::{Body, Bond, Elastic};
 
-/// Phase thickness k h below which Y is built on the response of what lies below the layer, above
-/// which on that of the layer's own half-space; both hold at either side.
+/// Phase thickness k h below which Y is computed as a change of the response of the material below
+/// the layer, and above which as a change of that of the layer's own half-space; both forms are
+/// valid on either side.
 const THIN: f64 = 0.5;
 
-/// Response of what lies below a thin layer, over the layer's own, from which on the change that the
-/// layer makes is most of it: the response is built on the layer again.
+/// If the response of the material below a thin layer exceeds SOFT times the layer's own, the
+/// second form is used for a thin layer, too: the change by the layer would be nearly the whole
+/// response.
 const SOFT: f64 = 1e4;
 
 /// The constants of a material: k times its half-space compliance.
@@ -133,7 +134,7 @@ fn one_minus_round_trip(x: f64) -> Matrix2 {
     Matrix2(first, off, off, last)
 }
 
-/// What lies below a plane, as seen from the plane.
+/// The response of the material below a plane.
 #[derive(Clone, Copy, Debug)]
 struct Below {
     /// In-plane response.
@@ -347,9 +348,9 @@ impl Stack {
         materials.map(|m| m.c).fold(0.0, f64::max)
     }
 
-    /// A wave number below which the response is well within its power series at k = 0: the
-    /// nearest singularity lies at 1/(H contrast) or beyond, H the height of the stack; a bond counts
-    /// as a layer of the softest material that gives way as much.
+    /// A wave number well within the radius of convergence of the power series of the response at
+    /// k = 0: the nearest singularity lies at 1/(H contrast) or beyond, H being the height of the
+    /// stack; a bond counts as a layer of the softest material with the same compliance.
     pub(crate) fn lowest_scale(&self) -> f64 {
         let materials = || self.layers.iter().map(|l| l.0).chain([self.substrate]);
         let finite = || materials().map(|m| m.c).filter(|c| *c > 0.0);

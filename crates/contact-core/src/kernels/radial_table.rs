@@ -4,12 +4,12 @@
 //! exp(-k zeta). Then g_n(r)/r^m is analytic in s = r^2 but for s <= -zeta^2, so that Chebyshev
 //! polynomials in s on panels that grow with s converge like 9.9^-n.
 //!
-//! The integral. Where k r is large only the smooth decay of A_n with k makes the integral small,
-//! and a smooth window shows it: A_n(k) is cut off by erfc((k r_a - C)/w)/2. What is cut off is,
-//! on the contour shifted by i w^2/(2 r) into the upper half-plane, of the order exp(-w^2/4). A
-//! fixed number of Gauss nodes is thus enough for every r. The radii of one octave [r_a, 2 r_a)
-//! share their nodes, and octaves are similar: in units of r_a nodes, radii and Bessel functions
-//! are the same, so these are computed once.
+//! The integral. Where k r is large the integrand oscillates, and A_n(k) is multiplied by the
+//! smooth window erfc((k r_a - C)/w)/2. The neglected part is, on the contour shifted by i w^2/(2
+//! r) into the upper half-plane, of the order exp(-w^2/4). A fixed number of Gauss nodes is thus
+//! enough for every r. The radii of one octave [r_a, 2 r_a) share their nodes, and octaves are
+//! similar: in units of r_a nodes, radii and Bessel functions are the same, so these are computed
+//! once.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -38,7 +38,7 @@ const LONGEST: f64 = 8.0;
 /// for amplitudes with singularities at 15 degrees from the real axis.
 const NODES: usize = 20;
 
-/// What is to be tabulated.
+/// The functions to be tabulated.
 pub(crate) struct Hankel<'a, const N: usize> {
     /// The amplitudes A_n(k).
     pub(crate) amplitude: &'a (dyn Fn(f64) -> [f64; N] + Sync),
@@ -125,7 +125,7 @@ fn octave(rule: &Rule) -> Arc<Octave> {
 }
 
 impl<const N: usize> Hankel<'_, N> {
-    /// End of the first panel in r, a power of two between 0.35 and 0.71 zeta, or what is needed.
+    /// End of the first panel in r, a power of two between 0.35 and 0.71 zeta, or larger if needed.
     fn r_first(&self, r_max: f64) -> f64 {
         let zeta = (0.5 * self.zeta).log2().round();
         zeta.min(r_max.log2().ceil()).exp2()
@@ -245,7 +245,7 @@ impl<const N: usize> Hankel<'_, N> {
         let deviation = |r: &f64| {
             let (fine, table) = (self.check(*r), table.at(r * r));
             let each = (0..N).map(|n| (fine[n] - table[n]).abs() * r.powi(self.orders[n] as i32));
-            // A maximum would pass over what is not a number.
+            // A maximum would ignore NaN.
             let largest = each.fold(
                 0.0,
                 |m: f64, v| if v.is_nan() { f64::INFINITY } else { m.max(v) },

@@ -1,12 +1,12 @@
 //! The frequency response at the points of an enlarged domain, eq. (9)-(11) of the paper.
 //!
-//! The displacement under uniform traction on one cell has the transform f(k) dx dy
-//! sinc(k_x dx/2) sinc(k_y dy/2), f the frequency response. On a domain of lambda N cells it is
-//! sampled at the frequencies 2 pi n/(lambda L); the terms beyond the Nyquist frequency, which the
-//! samples cannot tell from those below it, are left out or added up to a given order (alias
-//! sums, S. Liu, Q. Wang, G. Liu, Wear 243 (2000) 101-111). At zero frequency, where f is
-//! singular like 1/k, its mean over the cell of the frequency plane stands for it (T. Nogi,
-//! T. Kato, J. Tribology 119 (1997) 493-500).
+//! The displacement under uniform traction on one cell has the transform f(k) dx dy sinc(k_x dx/2)
+//! sinc(k_y dy/2), f the frequency response. On a domain of lambda N cells it is sampled at the
+//! frequencies 2 pi n/(lambda L); the terms beyond the Nyquist frequency, which the samples cannot
+//! distinguish from those below it, are left out or added up to a given order (alias sums, S. Liu,
+//! Q. Wang, G. Liu, Wear 243 (2000) 101-111). At zero frequency, where f is singular like 1/k, its
+//! mean over the cell of the frequency plane stands for it (T. Nogi, T. Kato, J. Tribology 119
+//! (1997) 493-500).
 
 use std::f64::consts::PI;
 

@@ -98,10 +98,10 @@ impl SurfaceKernel<'_> {
         }
     }
 
-    /// The coefficients at one offset; what is not of the set is any number.
+    /// The coefficients at one offset; entries outside the set are arbitrary.
     fn at(&self, i: usize, j: usize) -> Six {
         let cell = self.cell(i, j);
-        // The kernel falls off like 1/r, and so does what its integral may err.
+        // The kernel falls off like 1/r, and so does the allowed error of its integral.
         let cells_away = cell.x.hypot(cell.y) / (2.0 * cell.half_x.max(cell.half_y));
         let tolerance = CUBATURE * cells_away.max(1.0);
         let mut sum = [0.0; 6];
@@ -164,7 +164,7 @@ impl SurfaceKernel<'_> {
             for j in (0..ny).filter(|j| !mirrored(i, *j)) {
                 for ((c, value), odd) in row.iter_mut().zip(self.at(i, j)).zip(ODD) {
                     if let Some(c) = c.get_mut(j) {
-                        // What is odd vanishes on its axis.
+                        // Odd kernels vanish on their axis.
                         let vanishes = (odd.0 && i == 0) || (odd.1 && j == 0);
                         *c = if vanishes { 0.0 } else { value };
                     }

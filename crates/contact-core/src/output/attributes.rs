@@ -1,4 +1,4 @@
-//! What a store says about its run as a whole.
+//! Attributes of a store that describe the run as a whole.
 
 use serde_json::{Map, Value, json};
 
@@ -6,7 +6,7 @@ use super::schema::{CONVENTIONS, SCHEMA};
 use crate::plan::Plan;
 use crate::scene::Scene;
 
-/// What a result says about its run: the scene, the plan, the yardsticks, the status.
+/// Description of a run: scene, plan, scales, status.
 pub fn group_attributes(scene: &Scene, plan: &Plan) -> Map<String, Value> {
     let plan: Vec<_> = plan.lines.iter().map(ToString::to_string).collect();
     let mut attributes = Map::new();

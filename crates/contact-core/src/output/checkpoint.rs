@@ -32,7 +32,7 @@ const STATES: [&str; 2] = ["checkpoint/state.0", "checkpoint/state.1"];
 /// Bytes of a CRC-32.
 const CRC: usize = 4;
 
-/// What stands before a state.
+/// The header of a state.
 #[derive(Serialize, Deserialize)]
 struct Head {
     /// Version of the program: another one need not give the same bits.
@@ -59,7 +59,7 @@ pub(super) struct Checkpoints {
     older: usize,
 }
 
-/// What a run resumes from.
+/// The start of a resumed run.
 pub(super) struct Found {
     pub(super) checkpoints: Checkpoints,
     /// None if the run died before its first checkpoint.
@@ -196,7 +196,7 @@ impl Checkpoints {
             .is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
     }
 
-    /// Cuts the file `increments` to what the state knows of.
+    /// Cuts the file `increments` to the increments of the state.
     fn cut(&mut self, length: u64) -> Result<(), Error> {
         self.length = length;
         self.increments
@@ -266,7 +266,7 @@ fn decode(bytes: &[u8], scene: u32, log: &[u8]) -> Result<(Head, State, Vec<Incr
     Ok((head, state, increments))
 }
 
-/// Writes on, sums up what was written, and keeps what the system said.
+/// Writes, updates the checksum of the written bytes, and keeps the error of the system.
 struct Summed<W> {
     to: W,
     crc: crc32fast::Hasher,

@@ -1,4 +1,5 @@
-//! The consolidated metadata of a store, `.zmetadata`: what makes all of its files count at once.
+//! The consolidated metadata of a store, `.zmetadata`: replacing it makes all new files valid at
+//! once.
 //!
 //! Beside the metadata documents of Zarr, which every Zarr library reads, it holds what tells a whole
 //! store from a damaged one:
@@ -25,7 +26,7 @@ const LETTERS: usize = 8;
 /// The CRC-32 of the values of each chunk, by the name of the array.
 pub(super) type Checksums = BTreeMap<String, Vec<u32>>;
 
-/// What `.zmetadata` holds.
+/// The contents of `.zmetadata`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Consolidated {
     /// The metadata documents of the group and the arrays, by their place in the store.
@@ -57,7 +58,8 @@ impl Consolidated {
         [&text, TAIL.0, &format!("{crc:08x}"), TAIL.1].concat()
     }
 
-    /// What the file holds, and whether it is whole. An error if it is no consolidated metadata.
+    /// The contents of the file, and whether it is complete. An error if it is no consolidated
+    /// metadata.
     pub(super) fn decode(bytes: &[u8]) -> Result<(Self, bool), String> {
         let mut value: Value = serde_json::from_slice(bytes).map_err(|e| e.to_string())?;
         let Value::Object(documents) = value["metadata"].take() else {

@@ -32,7 +32,7 @@ fn unfinished(path: &Path) -> PathBuf {
 #[derive(Debug)]
 pub(super) struct Folder {
     root: PathBuf,
-    /// What errors call it.
+    /// Its name in errors.
     name: PathBuf,
 }
 

@@ -1,4 +1,4 @@
-//! A run kept in memory: what a store would hold, without one.
+//! A run kept in memory, with the contents of a store.
 
 use ndarray::Array2;
 use serde_json::{Map, Value, json};
@@ -30,7 +30,7 @@ pub struct Columns {
     pub saved: Vec<(usize, f64)>,
     /// Their fields, as in [`FIELDS`].
     pub fields: Vec<KeptField>,
-    /// What a store says of the run.
+    /// The attributes of the run.
     pub attributes: Map<String, Value>,
     last: Option<LoadPoint>,
     reached: Reached,
@@ -87,7 +87,7 @@ impl Observer for Columns {
         Ok(())
     }
 
-    /// The last increment keeps its fields whatever the scene says.
+    /// The last increment always keeps its fields.
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         let (index, saved) = (march.state().increments, self.saved.last());
         if failure.is_none()

@@ -20,7 +20,7 @@ use crate::scene::{LoadPoint, Scene};
 
 /// Largest part of the time that goes to checkpoints.
 const SHARE: f64 = 0.03;
-/// What a checkpoint is taken to cost before one has been timed.
+/// Assumed cost of a checkpoint before one has been timed.
 const FIRST_COST: Duration = Duration::from_millis(30);
 
 /// Variables that readers take for coordinates.

@@ -40,7 +40,7 @@ pub(super) struct Unfinished {
 }
 
 impl Unfinished {
-    /// An empty folder beside its place, which is cleared of what a killed process has left there.
+    /// An empty folder beside its place; remains of a killed process are removed.
     pub(super) fn begin(place: &Path) -> Result<Self, Error> {
         let folder = Folder::on_its_way(place, beside(place, "unfinished"));
         if place.file_name().is_none() {
@@ -97,7 +97,7 @@ impl Unfinished {
         }
         self.in_place = true;
         if old {
-            // The new store is in its place: what cannot be removed now is no reason to fail.
+            // The new store is in its place: remains that cannot be removed are no failure.
             let _ = remove(&replaced);
         }
         Ok(place)
@@ -188,7 +188,7 @@ pub(super) fn mend(place: &Path) {
     }
 }
 
-/// Removes what a killed process has left at `path`, if it is that.
+/// Removes the remains of a killed process at `path`, if they are such.
 fn clear(folder: &Folder, path: &Path) -> Result<(), Error> {
     if fs::symlink_metadata(path).is_err() {
         return Ok(());

@@ -1,4 +1,4 @@
-//! An array of a store that is read: what comes out is what was written, or an error.
+//! An array of a store: reading gives the written values or an error.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Write};

@@ -1,4 +1,4 @@
-//! What the store of a run of wear holds.
+//! The contents of the store of a run of wear.
 
 use crate::wear::Jump;
 

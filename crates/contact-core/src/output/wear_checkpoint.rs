@@ -24,7 +24,7 @@ pub(super) struct Kept {
     pub(super) checksums: Checksums,
 }
 
-/// Writes the state and what is known of the blocks that are kept.
+/// Writes the state and the list of the stored blocks.
 pub(super) fn write_checkpoint(
     folder: &Arc<Folder>,
     state: &WearState,

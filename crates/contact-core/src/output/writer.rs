@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::march::{Increment, March, Observer};
 use crate::scene::Grid;
 
-/// Time between two checkpoints: what a crash may lose.
+/// Time between two checkpoints: the run time that a crash may lose.
 const INTERVAL: Duration = Duration::from_secs(5);
 /// Cells of a grid from which on a run that is stopped does not wait for the fields of its last
 /// increment, a second and more; they follow from the checkpoint.

@@ -1,13 +1,13 @@
-//! Branches of the load path that one increment does for.
+//! Branches of the load path for which one increment is exact.
 //!
-//! Pressure without shear depends on the loads alone. Shear depends on the way it came about, but
-//! where pressure stays, slips go along one line and the loads do not turn back, a cell that slips
-//! goes on to do so: the end of the branch is that of a single step (M. Ciavarella, Int. J. Solids
-//! Struct. 35 (1998) 2349-2362). Slips keep to a line only where the shear kernel is isotropic, which
-//! of half-spaces are those with nu = 0: otherwise what one increment leaves out is of the size of
-//! nu (for nu = 0.3 a hundredth of q).
+//! Pressure without shear depends on the loads alone. Shear depends on the load path; but if the
+//! pressure is constant, all slip is along one line and the loads do not reverse, a cell that slips
+//! continues to slip, and a single step gives the end of the branch (M. Ciavarella, Int. J. Solids
+//! Struct. 35 (1998) 2349-2362). All slip is along one line only if the shear kernel is isotropic,
+//! for half-spaces if nu = 0; otherwise the error of a single increment is of the order of nu (for
+//! nu = 0.3 a hundredth of q).
 //!
-//! What is left out is the curve in between: the rows of the increments, the shape of a loop.
+//! The increments in between, such as the shape of a loop, are not computed.
 
 use crate::scene::{Branch, Loads, RigidMotion, SaveFields, Scene};
 

@@ -42,9 +42,9 @@ impl Numbers {
 }
 
 impl Plan {
-    /// Peak memory of a solution of the scene \[bytes\], what goes with it included: nested grids, the
-    /// choice of increments, error bars, the store. A bound from above: runs were measured to take 0.5
-    /// to 0.8 times as much from 256 cells per side on.
+    /// Peak memory of a solution of the scene \[bytes\], including nested grids, the choice of
+    /// increments, error bars, the store. A bound from above: runs were measured to take 0.5 to 0.8
+    /// times as much from 256 cells per side on.
     pub fn memory(&self, scene: &Scene) -> f64 {
         let grid = &scene.grid;
         let (kept, cells) = (

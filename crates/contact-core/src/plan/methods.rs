@@ -89,11 +89,12 @@ impl Methods {
     }
 }
 
-/// The finest tolerance that single precision serves: what it rounds is a tenth of that, or less.
+/// The finest tolerance for which single precision is used: its rounding errors are at most a tenth
+/// of it.
 const SINGLE: f64 = 1e-6;
 
-/// Whether, and why, single precision is enough for the response to a change of the tractions: the
-/// response to what they add up to is computed anew in each increment.
+/// Whether, and why, single precision is enough for the response to a change of the tractions; the
+/// response to the whole tractions is computed in double precision in each increment.
 pub(super) fn single_precision(scene: &Scene) -> Result<&'static str, &'static str> {
     if !scene.settings.skip.digits {
         Err("skip.digits is off")

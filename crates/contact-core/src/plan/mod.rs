@@ -1,4 +1,4 @@
-//! What a scene needs, decided before anything is computed.
+//! The computations that a scene needs, decided before the first of them.
 
 mod direct;
 mod memory;
@@ -13,7 +13,7 @@ use ndarray::Array2;
 use self::direct::direct_branches;
 use crate::scene::{Body, LoadPoint, Loads, RigidMotion, Scene, Spacing, SurfaceMap};
 
-/// What is computed and what is left out.
+/// The computations to do and those to skip.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(clippy::struct_excessive_bools)] // one for each rule
 pub struct Plan {
@@ -28,7 +28,7 @@ pub struct Plan {
     pub methods: Methods,
     /// Branches of the load path whose end does not depend on the way there.
     pub direct: Vec<bool>,
-    /// One line per rule, for people.
+    /// A readable line for each rule.
     pub lines: Vec<PlanLine>,
 }
 
@@ -47,7 +47,7 @@ pub enum KernelSet {
 /// One rule of the plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanLine {
-    /// What the rule is about.
+    /// The subject of the rule.
     pub subject: String,
     /// Whether it is skipped in this scene.
     pub skipped: bool,

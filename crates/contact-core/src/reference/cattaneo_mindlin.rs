@@ -135,7 +135,7 @@ impl CattaneoMindlin {
 
 /// 1 - (1 - q)^(5/3) - (5 q/6) \[1 + (1 - q)^(2/3)\], which starts with 5 q^3/162.
 fn loop_shape(q: f64) -> f64 {
-    /// Below it what is left of the difference is less than its series.
+    /// Below it the series is more accurate than the difference, which cancels.
     const SMALL: f64 = 0.1;
     if q > SMALL {
         let rest = (1.0 - q).max(0.0).cbrt();

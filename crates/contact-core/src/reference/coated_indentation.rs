@@ -66,7 +66,7 @@ pub fn coated_indentation(
     // Secants of ln W over ln a; W grows like a power of a, the cube on a half-space.
     let mut a = super::hertz(R, indenter, coating.material, W).a;
     is_thick_enough(a.min(super::hertz(R, indenter, substrate, W).a))?;
-    // A coating that gives way more than its substrate lets the first radius be too large.
+    // With a coating softer than its substrate the first radius may be too large.
     a = a.min(WIDEST * coating.thickness);
     let mut power = 3.0;
     let mut contact = CoatedIndentation::of_radius(R, indenter, coating, substrate, a);

@@ -1,8 +1,8 @@
 //! Closed forms: the truths the numerical solution is measured against.
 //!
-//! They know nothing of the solvers. Each says where it comes from; "derived" means derived here.
-//! Each is checked against something independent of it (a quadrature of point-load solutions, a
-//! limit, an energy balance) in its own tests or in `tests/reference.rs`.
+//! They do not use the solvers. Each names its source; "derived" means derived here. Each is
+//! checked against something independent of it (a quadrature of point-load solutions, a limit, an
+//! energy balance) in its own tests or in `tests/reference.rs`.
 //!
 //! | contact | truth |
 //! |---|---|

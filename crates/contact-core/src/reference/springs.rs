@@ -1,4 +1,4 @@
-//! One-dimensional springs: the answer for every path of W and T, uncoupled and axisymmetric.
+//! One-dimensional springs: the solution for every path of W and T, uncoupled and axisymmetric.
 
 use super::{Hertz, tangential_modulus};
 use crate::material::Elastic;

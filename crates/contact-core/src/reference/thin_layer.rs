@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::material::Elastic;
 
-/// Axisymmetric indentation: what a sphere of radius R does to a thin layer.
+/// Axisymmetric indentation of a thin layer by a sphere of radius R.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThinLayerContact {
     /// Contact radius a \[m\].

@@ -11,7 +11,7 @@ pub struct Body {
     pub substrate: Elastic,
     /// Layers from the surface down: `coatings[0]` is the outermost.
     pub coatings: Vec<Coating>,
-    /// Bond of each layer to what is below it; those that are missing are perfect.
+    /// Bond of each layer to the one below it; missing ones are perfect.
     pub bonds: Vec<Bond>,
     /// Shape of the undeformed surface.
     pub shape: Shape,
@@ -33,7 +33,7 @@ impl Body {
         self.coatings.first().map_or(self.substrate, |c| c.material)
     }
 
-    /// The bond of a layer to what is below it.
+    /// The bond of a layer to the one below it.
     pub fn bond(&self, layer: usize) -> Bond {
         self.bonds.get(layer).copied().unwrap_or_default()
     }

@@ -1,4 +1,4 @@
-//! A bulk stress: what stretches a body along x whether the other one is there or not.
+//! Bulk stress: a uniform stress of a body along x, independent of the contact.
 //!
 //! Layers that are bonded to the substrate are stretched as it is, and no traction acts on planes
 //! z = const. So the strains eps_x, eps_y are those of the substrate at every depth, and each layer
@@ -41,8 +41,8 @@ impl Body {
 }
 
 impl Scene {
-    /// By how much more body 2 is stretched than body 1: what the bulk stresses add to the gradients
-    /// of u = u(2) - u(1), eps_x and eps_y.
+    /// Bulk strains eps_x, eps_y of body 2 less those of body 1: their part of the gradients of u =
+    /// u(2) - u(1).
     pub(crate) fn bulk_mismatch(&self, loads: &Loads) -> [f64; 2] {
         let of = |body: &Body, sigma_B| body.bulk_strain(sigma_B, self.grid.plane_strain);
         let upper = of(&self.body1, loads.sigma_B1);

@@ -1,4 +1,4 @@
-//! Numbers that cannot be meant, and those that hardly can: another unit, a slip of the pen.
+//! Implausible numbers of a scene: a wrong unit, a typing error.
 //!
 //! Everything is compared with something else of the scene, never with what is usual, so that a scene
 //! in units of its own is a scene like any other.
@@ -18,13 +18,13 @@ const LIQUID: f64 = 1e3;
 /// hardly in metres: of a grid, of a radius \[m\].
 const GEL: f64 = 2e6;
 const LONG: [f64; 2] = [0.05, 0.5];
-/// Radius beyond which one is hardly in metres \[m\].
+/// Radii above this are probably not in metres \[m\].
 const LARGE_RADIUS: f64 = 1.0;
-/// Friction coefficient beyond which one is hardly no percentage.
+/// Friction coefficients above this are probably percentages.
 const ROUGHEST: f64 = 3.0;
-/// Thickness over the contact radius beyond which a coating is all that the contact sees.
+/// Thickness over contact radius above which the substrate of a coating hardly matters.
 const THICK: f64 = 1000.0;
-/// Root-mean-square slope of a measured surface beyond which its heights are hardly in metres.
+/// Root-mean-square slope of a measured surface above which its heights are probably not in metres.
 const STEEP: f64 = 0.5;
 /// Cells between two points of a map from which on it is coarser than the grid.
 const COARSE_MAP: f64 = 2.0;
@@ -35,7 +35,7 @@ pub(super) const UNITS: &str =
     "lengths are in m, moduli in Pa, forces in N: 3 um is 3e-6, 114 GPa is 114e9";
 
 impl Scene {
-    /// Fails at what cannot be meant: an approach beyond the radius, heights beyond the length of
+    /// Fails at impossible values: an approach beyond the radius, heights beyond the length of
     /// their map.
     pub(crate) fn check_sense(&self) -> Result<(), Error> {
         for (key, body) in [("body1", &self.body1), ("body2", &self.body2)] {
@@ -121,7 +121,7 @@ impl Scene {
         plain(&self.body1.shape) && plain(&self.body2.shape)
     }
 
-    /// What is allowed but hardly meant, one sentence each with what was understood.
+    /// Allowed but implausible values, one sentence each with the interpretation used.
     pub fn doubts(&self) -> Vec<String> {
         let hertz = self.hertz();
         let mut doubts = self.doubts_of_units();

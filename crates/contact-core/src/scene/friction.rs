@@ -22,20 +22,20 @@ pub struct Friction {
     pub kinetic: Option<f64>,
     /// Factor of the coefficient over the surface.
     pub map: Option<SurfaceMap>,
-    /// Factor of the coefficient as a function of what a cell has been through.
+    /// Factor of the coefficient as a function of the history of a cell.
     pub history: Option<FrictionHistory>,
 }
 
 /// A piecewise linear function of the history of a cell, level beyond its ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrictionHistory {
-    /// What it is a function of.
+    /// The variable.
     pub of: History,
     /// Pairs of history and factor, the history growing.
     pub table: Vec<(f64, f64)>,
 }
 
-/// What a cell has been through.
+/// A history of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum History {
     /// Increments done, the same for all cells.

@@ -64,7 +64,7 @@ impl Default for Given {
 }
 
 impl Loads {
-    /// What is prescribed of a motion.
+    /// A motion or its load, whichever is prescribed.
     pub fn prescribed(&self, of: RigidMotion) -> Prescribed {
         match self.given.motions()[of.index()] {
             None => Prescribed::Load(self.forces()[of.index()]),

@@ -1,4 +1,4 @@
-//! Refusal of numbers that nothing could be computed from.
+//! Refusal of numbers outside the range of the arithmetic.
 
 use super::shape::Range;
 use super::{Body, Grid, RigidMotion, Scene, Shape};
@@ -54,8 +54,8 @@ impl Scene {
         Ok(())
     }
 
-    /// The coefficients of friction and their factors: what a cell multiplies mu with is of the size
-    /// of one, if it is not zero.
+    /// The coefficients of friction and their factors over the surface, which are zero or of the
+    /// order of one.
     fn check_friction_magnitudes(&self) -> Result<(), Error> {
         let friction = &self.friction;
         within(SMALLEST, "friction.mu", friction.mu)?;
@@ -83,7 +83,7 @@ impl Scene {
         Ok(())
     }
 
-    /// The same of what they result in.
+    /// The same for the scales that follow from them.
     pub(super) fn check_yardsticks(&self) -> Result<(), Error> {
         let approach = self.approach();
         if approach == 0.0 || (SMALLEST..=LARGEST).contains(&approach) {

@@ -2,7 +2,7 @@
 
 use ndarray::{Array2, Axis, Slice};
 
-/// What becomes of points without a number.
+/// Treatment of points without a number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Missing {
     /// An error says how many there are and where (default).

@@ -1,4 +1,4 @@
-//! The six rigid motions of body 1 against body 2, and what is prescribed of each.
+//! The six rigid motions of body 1 against body 2, each given or driven by its load.
 
 /// A rigid motion of body 1 against body 2; the first three lie across the contact plane, the others
 /// in it.
@@ -119,7 +119,7 @@ impl Prescribed {
         matches!(self, Self::Motion(_))
     }
 
-    /// The name of what is prescribed.
+    /// The name of the prescribed motion or load.
     pub const fn name(self, of: RigidMotion) -> &'static str {
         match self {
             Self::Load(_) => of.load(),

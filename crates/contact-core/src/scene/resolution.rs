@@ -1,4 +1,4 @@
-//! Whether the cells of a grid can show the contact.
+//! Whether the cells of a grid resolve the contact.
 //!
 //! With one cell across the radius of a contact pressure and energy are off by half and more, with two by some
 //! 10 %, with eight by some per cent.
@@ -8,15 +8,15 @@ use super::{Grid, Scene};
 use crate::error::Error;
 use crate::reference::hertz_ellipse;
 
-/// Cells across the radius of a contact, its half width, below which nothing is known of it.
+/// Fewer cells across the radius of a contact (its half width) give no usable numbers.
 pub const FEWEST_CELLS: f64 = 2.0;
-/// Cells across the radius of a contact below which its numbers are off by more than some per cent.
+/// Fewer cells across the radius of a contact give errors of more than some per cent.
 pub const FEW_CELLS: f64 = 8.0;
 /// Part of the cells of a Hertz contact that may be missing where it is known before it is solved.
 const CERTAIN: f64 = 1.02;
-/// What a number of cells is rounded up beyond.
+/// Tolerance when a number of cells is rounded up.
 const ROUNDING: f64 = 1e-6;
-/// Times more cells than a grid has from which on its length is hardly in metres.
+/// Missing cells over those of the grid, above which its length is probably not in metres.
 const FAR: f64 = 20.0;
 
 impl Scene {
@@ -94,7 +94,7 @@ impl Grid {
         )
     }
 
-    /// What is to be doubted of a contact of so few cells across its radius.
+    /// The warning for a contact of so few cells across its radius.
     pub(crate) fn coarse(&self, cells: f64) -> String {
         format!(
             "the contact has {cells:.1} cells across its radius: with fewer than {FEW_CELLS} its numbers are off by more than \
@@ -103,7 +103,7 @@ impl Grid {
         )
     }
 
-    /// So many times the cells each way, for people.
+    /// A readable grid of `times` the cells each way.
     fn of_cells(&self, times: f64) -> String {
         let more = |n: usize| (times * n as f64 - ROUNDING).ceil();
         if self.plane_strain {

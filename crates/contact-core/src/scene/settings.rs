@@ -2,14 +2,14 @@
 
 use crate::error::Error;
 
-/// All settings; `Settings::default()` is what most users want.
+/// All settings; `Settings::default()` suits most users.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings {
     /// Conversion of the frequency response.
     pub kernel: KernelSettings,
     /// The three levels of iteration.
     pub solver: SolverSettings,
-    /// What may be skipped when the scene does not need it.
+    /// Computations that may be skipped where the scene does not need them.
     pub skip: SkipSettings,
     /// Which increments save their fields.
     pub save: SaveFields,

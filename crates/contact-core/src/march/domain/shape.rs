@@ -1,4 +1,4 @@
-//! Shapes of windows: as many cells as are asked for, in lengths that transforms are fast for.
+//! Shapes of windows: as many cells as are asked for, in lengths that the operator is fast for.
 
 use crate::convolution::good_size;
 use crate::plan::Plan;

@@ -20,8 +20,8 @@ pub enum Spacing {
     /// Increments of equal contact radius for a paraboloid: the force grows with the cube of the
     /// count, an approach that is given with the square. The natural spacing of an indentation.
     EqualRadius,
-    /// A short first increment, then equal ones: at the end of it the branch has its largest stick zone, and
-    /// the bodies the stiffness that they have there. What increments are chosen for after a reversal.
+    /// A short first increment, at whose end the branch has its largest stick zone and the
+    /// stiffness right after the reversal, then equal ones. Chosen automatically after a reversal.
     ShortFirst,
 }
 
@@ -97,7 +97,7 @@ impl Branch {
         self.count().saturating_sub(self.spacing.extra()).max(1)
     }
 
-    /// Gives it so many increments of equal size.
+    /// Sets the number of equal increments.
     pub(crate) fn set_equal_increments(&mut self, count: usize) {
         self.increments = Some(count + self.spacing.extra());
     }

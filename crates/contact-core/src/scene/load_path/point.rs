@@ -14,9 +14,9 @@ pub struct LoadPoint {
     pub ends_branch: bool,
     /// Path time.
     pub t: f64,
-    /// Part of what is left of the branch that the increment covers.
+    /// Part of the rest of the branch that the increment covers.
     pub part: f64,
-    /// Loads at the end of the increment; before the solution, NaN stands for what it has to say.
+    /// Loads at the end of the increment; NaN before the solution for loads that follow from it.
     pub loads: Loads,
 }
 

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// What parts the fields of a line.
+/// The separator of the fields of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Parting {
     /// One character.
@@ -11,7 +11,7 @@ pub(super) enum Parting {
     Blanks,
 }
 
-/// Lines at either end of a text from which the parting is told.
+/// Lines at either end of a text from which the separator is determined.
 const SAMPLE: usize = 100;
 
 impl Parting {

@@ -1,4 +1,4 @@
-//! What the numbers of a file are: a map, points on a lattice, a profile.
+//! Interpretation of the numbers of a file: a map, points on a lattice, a profile.
 
 use ndarray::Array2;
 
@@ -22,7 +22,7 @@ pub struct FileOfNumbers {
     /// The column of a list of points that holds the numbers, by its title or its number from 1, or
     /// the name of the channel in Gwyddion's text; `None` where there is one.
     pub channel: Option<String>,
-    /// What becomes of points without a number.
+    /// Treatment of points without a number.
     pub missing: Missing,
 }
 

@@ -159,7 +159,7 @@ fn with_units(words: Vec<String>) -> Vec<String> {
     titles
 }
 
-/// What stands where a number should.
+/// The text in place of a number.
 pub(super) fn no_number(line: usize, column: usize, field: &str) -> String {
     let shown: String = field.chars().take(40).collect();
     format!(

@@ -1,6 +1,6 @@
 //! Units that stand in files.
 
-/// What a unit measures.
+/// The quantity of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::scene) enum Kind {
     Length,

@@ -294,7 +294,7 @@ impl Shape {
     }
 }
 
-/// What a number of a shape may be.
+/// Range of a number of a shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Range {
     /// Finite, not zero.
