@@ -1,9 +1,11 @@
-//! Work and errors of the scenes of `examples/ablation`, for a scan of the constants in the methods.
+//! Work and errors of the scenes of `examples/ablation`, for a scan of the constants in the
+//! methods.
 //!
-//! `constants FOLDER` prints a line per scene: name, convolutions, errors of the shear after the first branch
-//! and at the ends, of the radii of contact and stick zone in cells; or what failed. The finer runs that these
-//! are measured against are kept in the folder, so that a build with another constant finds those of the
-//! present ones. `tools/constants.py` makes the builds (`make constants`).
+//! `constants FOLDER` prints a line per scene: name, convolutions, errors of the shear after the
+//! first branch and at the ends, of the radii of contact and stick zone in cells; or what failed.
+//! The finer runs that these are measured against are kept in the folder, so that a build with
+//! another constant finds those of the present ones. `tools/constants.py` makes the builds
+//! (`make constants`).
 #![allow(clippy::print_stdout)]
 
 #[path = "ablation/scenes.rs"]

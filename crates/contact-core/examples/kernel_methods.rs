@@ -2,9 +2,10 @@
 //!
 //! The body of the paper's figure 6: a coating four times as stiff as its substrate, eight cells
 //! thick, on a grid of 64 x 64 cells (or as many as the first argument says). Errors are those of
-//! C33 over its exact value: at the cell itself, at half the length of the grid, and the largest of all offsets over
-//! C33(0,0). The operator of the paper's reference \[15\] uses the same samples as the inverse
-//! transform without alias sums and errs alike; its time is that of one convolution more each.
+//! C33 over its exact value: at the cell itself, at half the length of the grid, and the largest of
+//! all offsets over C33(0,0). The operator of the paper's reference \[15\] uses the same samples as
+//! the inverse transform without alias sums and errs alike; its time is that of one convolution
+//! more each.
 #![allow(clippy::print_stdout)]
 
 use std::time::Instant;

@@ -13,12 +13,12 @@
 //! and the sums of the tractions balance the applied forces. Axes, signs and words are fixed in
 //! `docs/conventions.md`. The modules stand in the order of the computation:
 //!
-//! [`scene`] -> [`plan`] -> [`kernels`] -> [`convolution`] -> [`cells`] -> [`zones`] -> [`solvers`] ->
-//! [`march`] -> [`fields`] -> [`output`]; [`estimate`] and [`wear`] run marches, [`heat`] (contact temperature)
-//! stands on convolution, [`mod@reference`] (closed forms) stands
-//! beside; [`fatigue`] (criteria on plain stress histories) is a crate of its own. The method is that of S. Spinu,
-//! Tribology in Industry 42 (2020) 131-145, doi:10.24874/ti.2020.42.01.13 ("the paper"); where we
-//! left it, the module says why.
+//! [`scene`] -> [`plan`] -> [`kernels`] -> [`convolution`] -> [`cells`] -> [`zones`] ->
+//! [`solvers`] -> [`march`] -> [`fields`] -> [`output`]; [`estimate`] and [`wear`] run marches,
+//! [`heat`] (contact temperature) stands on convolution, [`mod@reference`] (closed forms) stands
+//! beside; [`fatigue`] (criteria on plain stress histories) is a crate of its own. The method is
+//! that of S. Spinu, Tribology in Industry 42 (2020) 131-145, doi:10.24874/ti.2020.42.01.13 ("the
+//! paper"); where we left it, the module says why.
 
 #![forbid(unsafe_code)]
 

@@ -57,13 +57,14 @@ impl Elastic {
 
 /// The bond of a layer to the one below it: springs under the traction there.
 ///
-/// The upper side moves against the lower one by compliance times traction; tension and pressure count
-/// alike, so that a bond that pulls apart holds until its strength is judged elsewhere.
+/// The upper side moves against the lower one by compliance times traction; tension and pressure
+/// count alike, so that a bond that pulls apart holds until its strength is judged elsewhere.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bond {
     /// Approach per pressure \[m/Pa\] (default 0, perfect).
     pub normal: f64,
-    /// Slip per shear traction \[m/Pa\] (default 0, perfect); a large one is a frictionless interface.
+    /// Slip per shear traction \[m/Pa\] (default 0, perfect); a large one is a frictionless
+    /// interface.
     pub shear: f64,
 }
 
@@ -128,8 +129,8 @@ impl Coating {
 
 /// Dundurs' parameter beta of the pair: the coupling of normal and tangential directions.
 ///
-/// beta = \[(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2\] / (2 \[(1 - nu1)/G1 + (1 - nu2)/G2\]); zero for similar
-/// bodies, at most 1/2 in size, negative when the bodies change places.
+/// beta = \[(1 - 2 nu1)/G1 - (1 - 2 nu2)/G2\] / (2 \[(1 - nu1)/G1 + (1 - nu2)/G2\]); zero for
+/// similar bodies, at most 1/2 in size, negative when the bodies change places.
 pub fn dundurs_beta(body1: Elastic, body2: Elastic) -> f64 {
     let coupling = |m: Elastic| (1.0 - 2.0 * m.nu) / m.G();
     let compliance = |m: Elastic| (1.0 - m.nu) / m.G();

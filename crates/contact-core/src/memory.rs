@@ -5,13 +5,14 @@ use sysinfo::{MemoryRefreshKind, System};
 use crate::error::Error;
 
 /// Memory that a process may still take \[bytes\]: what the system has to give, or what the control
-/// group or the limit of address space of the process leaves. Infinite where the system does not say.
+/// group or the limit of address space of the process leaves. Infinite where the system does not
+/// say.
 pub fn available_memory() -> f64 {
     system_memory().min(left_of_limit().unwrap_or(f64::INFINITY))
 }
 
-/// What the limit of address space leaves (`ulimit -v`); `None` where there is none, or none that can be
-/// read.
+/// What the limit of address space leaves (`ulimit -v`); `None` where there is none, or none that
+/// can be read.
 fn left_of_limit() -> Option<f64> {
     let limits = std::fs::read_to_string("/proc/self/limits").ok()?;
     let line = limits

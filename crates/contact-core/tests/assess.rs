@@ -1,4 +1,5 @@
-//! From stress to decision: the fretting-fatigue rig of titanium, layers, averages, cycles that are not settled.
+//! From stress to decision: the fretting-fatigue rig of titanium, layers, averages, cycles that are
+//! not settled.
 
 #![allow(clippy::unwrap_used)]
 
@@ -21,7 +22,8 @@ const TIN: Elastic = Elastic { E: 450e9, nu: 0.25 };
 const A: f64 = 6.255e-4;
 const BELOW: Line = Line::AlongX(0.0);
 
-/// Pads of 50 mm radius on a flat, 400 N/mm, shear of +-0.6 mu P in phase with a bulk stress of 0 to 350 MPa.
+/// Pads of 50 mm radius on a flat, 400 N/mm, shear of +-0.6 mu P in phase with a bulk stress of 0
+/// to 350 MPa.
 fn rig(n: usize, coatings: Vec<Coating>, branches: usize) -> Scene {
     let (W, mu) = (4e5, 0.6);
     let T = 0.6 * mu * W;
@@ -98,8 +100,8 @@ fn section<J: Judge + Clone>(site: &Site<'_>, of: &J) -> Judged<J::Found> {
         .remove(0)
 }
 
-/// The closed form has 3.348 MPa at the trailing rim, where the samples have 3.0 at 128 cells: the error of the value
-/// there covers it.
+/// The closed form has 3.348 MPa at the trailing rim, where the samples have 3.0 at 128 cells: the
+/// error of the value there covers it.
 #[test]
 fn worst_point_of_the_titanium_rig() {
     for n in [128, 200, 256] {

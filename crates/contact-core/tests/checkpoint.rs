@@ -304,8 +304,8 @@ fn a_raised_flag_ends_the_increment() {
     assert!(files(&path) == undisturbed("flagged_undisturbed.zarr").1);
 }
 
-/// On a large grid the fields of the increment that a run happened to be stopped after are not waited
-/// for; those that the scene asks for are there at its end.
+/// On a large grid the fields of the increment that a run happened to be stopped after are not
+/// waited for; those that the scene asks for are there at its end.
 #[test]
 fn a_stopped_run_on_a_large_grid_keeps_no_more_fields_than_asked_for() {
     let settings = [

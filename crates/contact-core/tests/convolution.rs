@@ -153,7 +153,8 @@ fn the_mirrored_inverse_equals_the_whole() {
     }
 }
 
-/// Single precision keeps seven digits of the largest displacement at any magnitude of the tractions.
+/// Single precision keeps seven digits of the largest displacement at any magnitude of the
+/// tractions.
 #[test]
 fn single_precision_keeps_its_digits_at_any_magnitude() {
     for (nx, ny) in [(8, 8), (23, 18), (64, 96)] {

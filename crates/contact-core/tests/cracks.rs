@@ -16,8 +16,8 @@ const MU: f64 = 0.6;
 const W: f64 = 2e5;
 const R: f64 = 0.05;
 
-/// K of cracks at the rim -a, normal and inclined, after T = share mu W, with its error, against the closed
-/// form of partial slip.
+/// K of cracks at the rim -a, normal and inclined, after T = share mu W, with its error, against
+/// the closed form of partial slip.
 fn compare(share: f64, cells: usize) {
     let E_star = STEEL.E / (2.0 * (1.0 - STEEL.nu * STEEL.nu));
     let line = line_contact(R, E_star, W);

@@ -1,5 +1,5 @@
-//! Stores that are damaged: what is read is what was written, what is resumed ends with the same bits,
-//! or the error names the store and the file.
+//! Stores that are damaged: what is read is what was written, what is resumed ends with the same
+//! bits, or the error names the store and the file.
 
 #![allow(clippy::unwrap_used, clippy::float_cmp)]
 

@@ -1,7 +1,8 @@
 //! Error bars: is the error of cells, increments and solver together what it is said to be?
 //!
-//! Random scenes with the increments that are chosen by default, each against four times the cells each way and four
-//! times the increments. A few in the test; `FRET_ERROR_BARS=160` for as many (`make error-bars`).
+//! Random scenes with the increments that are chosen by default, each against four times the cells
+//! each way and four times the increments. A few in the test; `FRET_ERROR_BARS=160` for as many
+//! (`make error-bars`).
 
 #![allow(clippy::print_stdout, reason = "a report for people")]
 
@@ -17,18 +18,19 @@ use contact_core::scene::{Elastic, Scene};
 use ndarray::Array2;
 use splitmix::Draw;
 
-/// True error over estimate: at most the second, in 95 % of a number, and at least the first, in 80 %.
+/// True error over estimate: at most the second, in 95 % of a number, and at least the first, in 80
+/// %.
 const HONEST: (f64, f64) = (0.2, 1.5);
 /// Cells each way and of the reference, and increments of the reference over those chosen.
 const CELLS: usize = 48;
 const FINE: usize = 4 * CELLS;
 const FINER: usize = 4;
-/// Seeds differ from those of the path's errors, and from those that orders and weights of the bars were
-/// chosen on (from 1000 to 4000).
+/// Seeds differ from those of the path's errors, and from those that orders and weights of the bars
+/// were chosen on (from 1000 to 4000).
 const FIRST_SEED: u64 = 5000;
 
-/// Largest moment over mu W a_H: two thirds of 3 pi/16, the moment of full slip, since a stiff coating makes the
-/// contact smaller.
+/// Largest moment over mu W a_H: two thirds of 3 pi/16, the moment of full slip, since a stiff
+/// coating makes the contact smaller.
 const TWISTED: f64 = 0.4;
 
 /// A coating of `body`, harder or softer than it.
@@ -68,7 +70,8 @@ fn shape(draw: &mut Draw, a: f64) -> String {
 const R: f64 = 0.01;
 const W: f64 = 100.0;
 
-/// A ball on a half-space, either coated or not, fretted, twisted, loaded obliquely or only pressed.
+/// A ball on a half-space, either coated or not, fretted, twisted, loaded obliquely or only
+/// pressed.
 fn drawn(seed: u64) -> String {
     let mut draw = Draw(seed);
     let [nu_1, nu_2] = [(); 2].map(|()| 0.45 * draw.next());
@@ -184,7 +187,8 @@ fn ratios(seed: u64) -> Option<Ratios> {
         let largest = truth.iter().map(|b| value(b).abs()).fold(0.0, f64::max);
         for ((ours, truth), bar) in ours.iter().zip(&truth).zip(&bars) {
             let error = (value(ours) - value(truth)).abs();
-            // What never moves or slips, like delta_x under W alone, has no error but what single precision rounds.
+            // What never moves or slips, like delta_x under W alone, has no error but what single
+            // precision rounds.
             let moves = !name.starts_with("delta") || largest > 1e-7 * truth.motion.delta_z;
             if value(truth).abs() > 1e-6 * largest && error > 1e-12 * largest && moves {
                 numbers.push((name, error / of(bar).total));

@@ -1,4 +1,5 @@
-//! Bonds that give way: limits, closed forms, the jump at every interface of random stacks; nu = 1/2.
+//! Bonds that give way: limits, closed forms, the jump at every interface of random stacks; nu =
+//! 1/2.
 
 #![allow(clippy::unwrap_used)]
 
@@ -52,8 +53,8 @@ fn a_perfect_bond_is_none() {
     assert_eq!(of(&bonded).unwrap(), of(&plain).unwrap());
 }
 
-/// A layer on a smooth rigid base (K. L. Johnson, Contact Mechanics (1985), sec. 5.7) and a free plate,
-/// half of it pressed from both sides, half bent.
+/// A layer on a smooth rigid base (K. L. Johnson, Contact Mechanics (1985), sec. 5.7) and a free
+/// plate, half of it pressed from both sides, half bent.
 #[test]
 fn smooth_interfaces_and_free_plates() {
     let (material, h) = (Elastic { E: 90e9, nu: 0.35 }, 2e-6);
@@ -99,8 +100,8 @@ fn a_thin_soft_layer_is_a_bond() {
     }
 }
 
-/// Within a layer all fields are elastic by construction; what fixes them is the traction on the surface
-/// and, at each interface, equal tractions and a jump of displacement that the bond allows.
+/// Within a layer all fields are elastic by construction; what fixes them is the traction on the
+/// surface and, at each interface, equal tractions and a jump of displacement that the bond allows.
 #[test]
 fn random_stacks_hold_together_as_their_bonds_say() {
     let mut random = Draw(48);

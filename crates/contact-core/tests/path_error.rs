@@ -1,8 +1,8 @@
 //! Increments chosen for an error of the path: is the error what it is said to be?
 //!
-//! Random coated scenes, each as it is run by default against a path of eight times the increments that
-//! were chosen, solved to a tolerance of 1e-6. A few in the test; `FRET_PATH_ERRORS=50` for as many
-//! (`make path-errors`).
+//! Random coated scenes, each as it is run by default against a path of eight times the increments
+//! that were chosen, solved to a tolerance of 1e-6. A few in the test; `FRET_PATH_ERRORS=50` for as
+//! many (`make path-errors`).
 
 #![allow(clippy::print_stdout, reason = "a report for people")]
 
@@ -126,8 +126,8 @@ fn the_estimated_error_of_the_path_is_honest() {
     assert!(10 * honest >= 9 * scenes, "{honest} of {scenes}");
 }
 
-/// In a contact that grows under its load alone, slip cells were released and slipped again, in every
-/// Newton step.
+/// In a contact that grows under its load alone, slip cells were released and slipped again, in
+/// every Newton step.
 #[test]
 fn a_slip_set_that_goes_in_circles_is_solved() {
     let mut scene = scene(17);

@@ -1,5 +1,5 @@
-//! Time of the criteria on random histories of 64 instants: `cargo run --release --example fatigue --
-//! [points]`.
+//! Time of the criteria on random histories of 64 instants:
+//! `cargo run --release --example fatigue -- [points]`.
 
 #![allow(clippy::print_stdout)]
 

@@ -35,7 +35,8 @@ impl Assessment {
         }
     }
 
-    /// Cycles until a crack has started; for criteria with a limit, infinite below it and NaN above.
+    /// Cycles until a crack has started; for criteria with a limit, infinite below it and NaN
+    /// above.
     pub fn life(&self, value: f64) -> f64 {
         let Judge::Life(curve) = self.judge else {
             let below = self.safety_factor(value) >= 1.0;

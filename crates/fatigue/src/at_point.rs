@@ -17,8 +17,8 @@ pub struct AtPoint {
     pub normal: [f64; 3],
     /// Shear amplitude there, by the smallest circle \[Pa\].
     pub shear_amplitude: f64,
-    /// Half of the longest chord of the shear path there \[Pa\]: at most the amplitude, and at least
-    /// sqrt(3)/2 of it.
+    /// Half of the longest chord of the shear path there \[Pa\]: at most the amplitude, and at
+    /// least sqrt(3)/2 of it.
     pub shear_chord: f64,
     /// Largest normal stress there \[Pa\].
     pub normal_max: f64,

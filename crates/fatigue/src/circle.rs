@@ -1,8 +1,9 @@
 //! Smallest circle round the path of the shear stress on a plane.
 //!
 //! The circle is that of two or three of the points. The farthest point outside the circle of these
-//! joins them, and of the circles of that point and one or two of the others the smallest that holds
-//! all is the next; its radius grows until no point is outside (see the `ball` module for sources).
+//! joins them, and of the circles of that point and one or two of the others the smallest that
+//! holds all is the next; its radius grows until no point is outside (see the `ball` module for
+//! sources).
 
 #![allow(
     clippy::inline_always,
@@ -233,8 +234,9 @@ fn through(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Option<Round> {
 
 /// Half of the longest chord of a plane path with its smallest circle.
 ///
-/// Two points on the circle are a diameter. Else an end of the longest chord, which is at least as long as
-/// a side L of the triangle of the points on it, is L - R or more from the centre: few points are.
+/// Two points on the circle are a diameter. Else an end of the longest chord, which is at least as
+/// long as a side L of the triangle of the points on it, is L - R or more from the centre: few
+/// points are.
 pub(crate) fn half_chord(path: &[[Lanes; 2]], circle: &Circle) -> f64 {
     let point = |k: usize| path[k / LANES].map(|lanes| lanes[k % LANES]);
     let on = circle.on.map(point);

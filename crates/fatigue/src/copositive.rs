@@ -1,7 +1,7 @@
 //! Whether a quadratic form is nowhere negative where all coordinates are positive.
 
-/// Whether the sum of m_ij w_i w_j is nowhere negative for w >= 0; `diagonal` is m_11, m_22, m_33 and
-/// `mixed` m_12, m_23, m_31.
+/// Whether the sum of m_ij w_i w_j is nowhere negative for w >= 0; `diagonal` is m_11, m_22, m_33
+/// and `mixed` m_12, m_23, m_31.
 ///
 /// K. P. Hadeler, Linear Algebra Appl. 49 (1983) 79-89.
 pub(crate) fn is_copositive(diagonal: [f64; 3], mixed: [f64; 3]) -> bool {

@@ -283,8 +283,8 @@ impl Room {
         }
     }
 
-    /// Of the planes found, that of the largest first part; of equal ones, that of the larger second
-    /// part.
+    /// Of the planes found, that of the largest first part; of equal ones, that of the larger
+    /// second part.
     fn of_the_first_part(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
         let enough = best.value - f.tie() * best.value.abs();
         let mut found: Option<([f64; 3], [f64; 2])> = None;

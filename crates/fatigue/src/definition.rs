@@ -2,9 +2,9 @@
 //!
 //! s_n is the normal stress on a plane, tension positive, its largest value over time s_n,max;
 //! tau_a the shear amplitude there, the radius of the smallest circle round the path of the shear
-//! stress, and gamma_a = tau_a/G with G = E/(2 (1 + nu)); p_h the hydrostatic stress; sqrt(J2,a) the radius of
-//! the smallest sphere round the path of the deviatoric stress s, |s|^2 = s:s/2. Strains are those of the
-//! elastic stress.
+//! stress, and gamma_a = tau_a/G with G = E/(2 (1 + nu)); p_h the hydrostatic stress; sqrt(J2,a)
+//! the radius of the smallest sphere round the path of the deviatoric stress s, |s|^2 = s:s/2.
+//! Strains are those of the elastic stress.
 //!
 //! Dang Van's tau is half of Tresca's stress of s less the centre of that sphere, the stress of a
 //! grain that has shaken down. Of planes with equal tau_a Matake's and McDiarmid's criterion takes
@@ -50,8 +50,8 @@ pub struct Definition {
     pub parameters: &'static [Parameter],
     /// Numbers and judge for a material.
     pub(crate) of: fn(&Material) -> Result<(Numbers, Judge), Error>,
-    /// Its value in a uniaxial test of fully reversed strain that lasts for N cycles, where it gives
-    /// lives.
+    /// Its value in a uniaxial test of fully reversed strain that lasts for N cycles, where it
+    /// gives lives.
     pub(crate) curve: fn(&CoffinManson, Numbers, f64) -> f64,
     /// How it is computed from the stress, for stresses in a unit \[Pa\].
     pub(crate) acts: fn(Numbers, f64) -> Acts,
@@ -71,8 +71,9 @@ pub(crate) struct OnPlane {
     pub(crate) law: Law,
     /// Whether the first part is tau_a; else it is the strain amplitude.
     pub(crate) shear: bool,
-    /// The strain is the first number times s_n less the second times the sum of the normal stresses.
-    /// The second part is s_n,max unless the strain amplitude is one and does not come first.
+    /// The strain is the first number times s_n less the second times the sum of the normal
+    /// stresses. The second part is s_n,max unless the strain amplitude is one and does not come
+    /// first.
     pub(crate) strain: Option<[f64; 2]>,
     /// The value over that of the law.
     pub(crate) factor: f64,

@@ -1,16 +1,16 @@
 //! An upper bound of a function of the plane on a triangle, from its corners.
 //!
-//! Let f have a second derivative along great circles of at least -K, and nowhere on the triangle be
-//! below a number l. With A = K - l the sum F = f + A has F'' + F >= 0, so that |v| F(v/|v|) is a
-//! convex function of the vector v, and at v = sum of w_i a_i, a mean of the corners a_i, at most the
-//! mean S of the corners' F. Hence f + A <= S(v)/|v| on the triangle. S is linear in v: in the plane
-//! of the corners, at the distance h from the origin, S = S_o + g.x, x reckoned from the foot o of
-//! the origin, and |v|^2 = h^2 + x^2, so that (Cauchy and Schwarz)
+//! Let f have a second derivative along great circles of at least -K, and nowhere on the triangle
+//! be below a number l. With A = K - l the sum F = f + A has F'' + F >= 0, so that |v| F(v/|v|) is
+//! a convex function of the vector v, and at v = sum of w_i a_i, a mean of the corners a_i, at most
+//! the mean S of the corners' F. Hence f + A <= S(v)/|v| on the triangle. S is linear in v: in the
+//! plane of the corners, at the distance h from the origin, S = S_o + g.x, x reckoned from the foot
+//! o of the origin, and |v|^2 = h^2 + x^2, so that (Cauchy and Schwarz)
 //!
 //! f + A <= sqrt((S_o/h)^2 + g^2), at x = g h^2/S_o,
 //!
-//! if that lies in the triangle; else the largest value is on an edge, where the same holds with one
-//! dimension less (derived). A function whose F'' + F is zero reaches the bound.
+//! if that lies in the triangle; else the largest value is on an edge, where the same holds with
+//! one dimension less (derived). A function whose F'' + F is zero reaches the bound.
 
 use crate::hemisphere::{Face, Triangle};
 use crate::path::{cross, dot};

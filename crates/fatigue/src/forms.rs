@@ -1,10 +1,11 @@
-//! Two quadratic forms of the corners of a triangle of normals, which bound two parts of a criterion.
+//! Two quadratic forms of the corners of a triangle of normals, which bound two parts of a
+//! criterion.
 //!
-//! With the corners a_i and v = sum of w_i a_i, w >= 0, the component n.T.n of a tensor on the plane of
-//! n = v/|v| is (sum of w_i w_j a_i.T.a_j)/|v|^2, and |v|^2 the sum of w_i w_j a_i.a_j. All w being
-//! positive, the largest component over several tensors is no larger than with the largest a_i.T.a_j
-//! of all, each for itself; half the range of the components likewise. With A_ij and B_ij of two parts
-//! the sum x a + y b + z of a [`Tangent`] is nowhere above s if
+//! With the corners a_i and v = sum of w_i a_i, w >= 0, the component n.T.n of a tensor on the
+//! plane of n = v/|v| is (sum of w_i w_j a_i.T.a_j)/|v|^2, and |v|^2 the sum of w_i w_j a_i.a_j.
+//! All w being positive, the largest component over several tensors is no larger than with the
+//! largest a_i.T.a_j of all, each for itself; half the range of the components likewise. With A_ij
+//! and B_ij of two parts the sum x a + y b + z of a [`Tangent`] is nowhere above s if
 //!
 //! sum of w_i w_j ((s - z) a_i.a_j - x A_ij - y B_ij) >= 0 for all w >= 0 (derived).
 //!

@@ -26,8 +26,8 @@ pub(crate) fn tensor([a, b, xy, xz, yz]: [f64; 5]) -> StressTensor {
     [a - b, -a - b, 2.0 * b, xy, xz, yz]
 }
 
-/// The smallest sphere round the path of the deviatoric stress; its radius is sqrt(J2,a), in the unit of the
-/// path.
+/// The smallest sphere round the path of the deviatoric stress; its radius is sqrt(J2,a), in the
+/// unit of the path.
 pub(crate) fn sphere(path: &Path, balls: &mut Balls<5>) -> Ball<5> {
     let block = |block: &[Lanes; 6]| {
         let mut coordinates = [[0.0; LANES]; 5];
@@ -104,8 +104,8 @@ fn tau_and_pressure(path: &Path, sphere: &Ball<5>) -> impl Iterator<Item = (f64,
     })
 }
 
-/// Path of one point in the plane of Dang Van: mesoscopic shear tau and hydrostatic stress \[Pa\] at
-/// every instant of its stress.
+/// Path of one point in the plane of Dang Van: mesoscopic shear tau and hydrostatic stress \[Pa\]
+/// at every instant of its stress.
 pub fn dang_van_path(stress: &[StressTensor]) -> Vec<(f64, f64)> {
     if stress.is_empty() {
         return Vec::new();

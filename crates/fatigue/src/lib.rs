@@ -1,10 +1,11 @@
 //! Will it crack, yield or shake down? Criteria of multiaxial fatigue on plain stress histories.
 //!
 //! Arrays in, numbers out: nothing here knows where a stress comes from. A history is of shape
-//! (time, points, 6), components xx, yy, zz, xy, xz, yz, tension positive, in Pa. [`evaluate`] takes
-//! a [`Criterion`] to all points in parallel: its value, the critical plane, and the most that another
-//! plane may have. [`Assessment`] has a criterion's weights, limit and lives from the numbers of a
-//! [`Material`]; [`yielding`] gives load factors of first yield and of elastic shakedown.
+//! (time, points, 6), components xx, yy, zz, xy, xz, yz, tension positive, in Pa. [`evaluate`]
+//! takes a [`Criterion`] to all points in parallel: its value, the critical plane, and the most
+//! that another plane may have. [`Assessment`] has a criterion's weights, limit and lives from the
+//! numbers of a [`Material`]; [`yielding`] gives load factors of first yield and of elastic
+//! shakedown.
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;

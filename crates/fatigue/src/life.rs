@@ -78,8 +78,8 @@ impl CoffinManson {
     }
 
     /// Value of Brown and Miller's criterion at a life of N cycles, from the uniaxial curve: on the
-    /// plane of the largest shear the normal strain has the range (1 - nu) e_a, with nu = 1/2 in the
-    /// plastic part.
+    /// plane of the largest shear the normal strain has the range (1 - nu) e_a, with nu = 1/2 in
+    /// the plastic part.
     pub fn brown_miller(&self, cycles: f64, nu: f64, S: f64) -> f64 {
         self.sum([1.0 + nu + S * (1.0 - nu), 1.5 + S / 2.0], cycles)
     }

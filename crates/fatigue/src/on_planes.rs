@@ -1,10 +1,10 @@
 //! The criteria that look for a plane, as functions of the plane.
 //!
 //! M bounds the shear amplitude of all planes, Q Tresca's stress of all instants. Along a great
-//! circle the second derivative of s_n is at least -2 Q, its slope at most Q; that of tau_a at least
-//! -4 M, its slope at most 2 M; that of half the strain range at least -(1 + nu)/E 2 D, its slope at
-//! most (1 + nu)/E D, D bounding Tresca's stress of the deviation of any instant from a constant
-//! stress (derived).
+//! circle the second derivative of s_n is at least -2 Q, its slope at most Q; that of tau_a at
+//! least -4 M, its slope at most 2 M; that of half the strain range at least -(1 + nu)/E 2 D, its
+//! slope at most (1 + nu)/E D, D bounding Tresca's stress of the deviation of any instant from a
+//! constant stress (derived).
 
 use crate::circle::Circles;
 use crate::critical_plane::Peak;

@@ -13,8 +13,8 @@ use crate::tensor::{StressTensor, principal, principal_values, von_mises};
 /// Tresca's equivalent stress is at most this times von Mises'.
 const TRESCA_OVER_MISES: f64 = 1.154_700_538_379_251_5;
 
-/// Stress over time in blocks of instants, as multiples of a power of two so that the largest component
-/// is between 1 and 2; the last instant fills the last block.
+/// Stress over time in blocks of instants, as multiples of a power of two so that the largest
+/// component is between 1 and 2; the last instant fills the last block.
 #[derive(Clone, Debug)]
 pub(crate) struct Path {
     pub(crate) blocks: Vec<[Lanes; 6]>,

@@ -45,8 +45,8 @@ pub(crate) struct Known {
     pub(crate) values: [f64; 3],
 }
 
-/// Bounds on second derivatives of the parts along great circles, which are nowhere below -K, and on
-/// their slopes, up and down.
+/// Bounds on second derivatives of the parts along great circles, which are nowhere below -K, and
+/// on their slopes, up and down.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bend {
     pub(crate) parts: [f64; 2],

@@ -18,7 +18,8 @@ use crate::evaluate::over_points;
 use crate::invariants::{sphere, tensor};
 use crate::tensor::{StressTensor, tresca, von_mises};
 
-/// Load factors of a point: the loads times the factor just reach the limit; infinite without stress.
+/// Load factors of a point: the loads times the factor just reach the limit; infinite without
+/// stress.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Yield {
     /// To first yield by von Mises' condition, constant stresses not scaled.

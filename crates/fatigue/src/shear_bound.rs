@@ -1,13 +1,14 @@
 //! An upper bound of a criterion with the shear amplitude on triangles of normals near the best
 //! plane.
 //!
-//! Let C be a constant tensor and D = S - C. The smallest circle on a plane is no larger than that about
-//! the shear of C, and the shear of D on the plane of n no longer than (D - m) n for any number m, so
-//! that tau_a^2 is at most the largest n.(D - m)^2.n of all instants, with a number m for each (derived).
-//! C is the mean of the two stresses whose shear is a diameter of the circle on the best plane, m the normal
-//! component of D there. On that plane both sides are equal; turned about the axis across the shear, the
-//! normal stress of D is m + tau sin 2t and its shear tau cos 2t, and they stay so. Where three instants make the
-//! circle, its centre moves other than a constant tensor has it, and the bound is of no use.
+//! Let C be a constant tensor and D = S - C. The smallest circle on a plane is no larger than that
+//! about the shear of C, and the shear of D on the plane of n no longer than (D - m) n for any
+//! number m, so that tau_a^2 is at most the largest n.(D - m)^2.n of all instants, with a number m
+//! for each (derived). C is the mean of the two stresses whose shear is a diameter of the circle on
+//! the best plane, m the normal component of D there. On that plane both sides are equal; turned
+//! about the axis across the shear, the normal stress of D is m + tau sin 2t and its shear tau cos
+//! 2t, and they stay so. Where three instants make the circle, its centre moves other than a
+//! constant tensor has it, and the bound is of no use.
 //!
 //! For any s > 0 the amplitude is at most tau_a^2/(2 s) + s/2; s is that of the best plane.
 

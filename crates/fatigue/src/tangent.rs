@@ -1,8 +1,8 @@
 //! Linear bounds of a criterion in its two parts, exact at given parts.
 //!
-//! A product a h of a >= 0 and h = z + w b is at most the square of (r a + h/r)/2 for any r > 0 where
-//! h >= 0, and at most 0 elsewhere; both are equal where r^2 = h/a. The sum r a + h/r has a second
-//! derivative along great circles of at least -(r K_a + w K_b/r).
+//! A product a h of a >= 0 and h = z + w b is at most the square of (r a + h/r)/2 for any r > 0
+//! where h >= 0, and at most 0 elsewhere; both are equal where r^2 = h/a. The sum r a + h/r has a
+//! second derivative along great circles of at least -(r K_a + w K_b/r).
 
 /// x a + y b + z: the criterion is at most that, or at most the square of half of it.
 #[derive(Clone, Copy, Debug)]

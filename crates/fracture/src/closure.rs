@@ -1,9 +1,9 @@
 //! Faces that touch: which parts of a crack are open, without friction.
 //!
-//! With the jump g of the faces at the points (sums of the dislocations' contents from the tip on) the
-//! tractions are s = M g + t, t those of the body without the crack. The opening and the normal
-//! traction are complementary: g_n >= 0, s_nn <= 0, one of them zero at each point. Jumps are in
-//! Pa m; times 8 pi/E' they are displacements.
+//! With the jump g of the faces at the points (sums of the dislocations' contents from the tip on)
+//! the tractions are s = M g + t, t those of the body without the crack. The opening and the normal
+//! traction are complementary: g_n >= 0, s_nn <= 0, one of them zero at each point. Jumps are in Pa
+//! m; times 8 pi/E' they are displacements.
 
 use ndarray::{Array1, Array2, s};
 

@@ -13,7 +13,8 @@ use super::path::Path;
 use super::rule::{Rule, step};
 use super::stress::{PlaneStress, Point, Traction, tractions};
 
-/// K over the density's value at the tip of a leg of unit length: K = 2 pi sqrt(2 pi) lim D sqrt(r).
+/// K over the density's value at the tip of a leg of unit length: K = 2 pi sqrt(2 pi) lim D
+/// sqrt(r).
 pub(crate) fn k_of_density() -> f64 {
     2.0 * PI * (2.0 * PI).sqrt()
 }
@@ -74,8 +75,8 @@ impl Crack {
         Self::with_step(path, step)
     }
 
-    /// The same with a step of the quadrature of one's own: change of ln(distance) to mouth and kinks
-    /// from point to point, 0.08 and less at flat cracks and sharp kinks by default.
+    /// The same with a step of the quadrature of one's own: change of ln(distance) to mouth and
+    /// kinks from point to point, 0.08 and less at flat cracks and sharp kinks by default.
     pub fn with_step(path: Path, step: f64) -> Result<Self, Error> {
         path.check()?;
         if !(0.02..=1.0).contains(&step) {
@@ -133,8 +134,8 @@ impl Crack {
         self.system.rule.points.iter().map(at).collect()
     }
 
-    /// K under the stress at [`Crack::points`], with faces that may pass through each other: K_I < 0
-    /// says that they would. Linear in the stress.
+    /// K under the stress at [`Crack::points`], with faces that may pass through each other: K_I <
+    /// 0 says that they would. Linear in the stress.
     pub fn intensity(&self, stress: &[PlaneStress]) -> Result<Intensity, Error> {
         Ok(self.linear(&tractions(&self.points(), stress)?))
     }

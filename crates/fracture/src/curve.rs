@@ -27,7 +27,8 @@ impl Extremes {
     }
 }
 
-/// K over the length of a crack, from the lengths given; between them by cubics of K/sqrt(l) over ln l.
+/// K over the length of a crack, from the lengths given; between them by cubics of K/sqrt(l) over
+/// ln l.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     lengths: Vec<f64>,

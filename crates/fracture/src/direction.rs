@@ -7,16 +7,16 @@ use super::crack::Intensity;
 /// The criterion for the direction of growth over a cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
-    /// Largest range of the tangential stress ahead of the tip (F. Erdogan, G. C. Sih, J. Basic Eng.
-    /// 85 (1963) 519-525, taken to the range of a cycle).
+    /// Largest range of the tangential stress ahead of the tip (F. Erdogan, G. C. Sih, J. Basic
+    /// Eng. 85 (1963) 519-525, taken to the range of a cycle).
     #[default]
     TangentialStress,
     /// Largest range of K_I at the tip of a small kink.
     OpeningIntensity,
 }
 
-/// K_I and K_II at the tip of a small kink of the angle `turn` \[rad\], positive towards +x, as factors
-/// of the crack's own: \[\[F_11, F_12\], \[F_21, F_22\]\].
+/// K_I and K_II at the tip of a small kink of the angle `turn` \[rad\], positive towards +x, as
+/// factors of the crack's own: \[\[F_11, F_12\], \[F_21, F_22\]\].
 ///
 /// M. Amestoy, J. B. Leblond, Int. J. Solids Struct. 29 (1992) 465-501, series in turn/pi.
 pub fn kinked(turn: f64) -> [[f64; 2]; 2] {

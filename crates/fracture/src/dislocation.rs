@@ -1,7 +1,7 @@
 //! Stress of an edge dislocation below a free surface.
 //!
-//! With zeta = x + i z and Goursat's functions Phi, Psi a dislocation of strength B at zeta_0 in the
-//! infinite plane has
+//! With zeta = x + i z and Goursat's functions Phi, Psi a dislocation of strength B at zeta_0 in
+//! the infinite plane has
 //!
 //! ```text
 //! Phi_0 = B/(zeta - zeta_0),  Psi_0 = conj(B)/(zeta - zeta_0) + B conj(zeta_0)/(zeta - zeta_0)^2,
@@ -14,7 +14,8 @@
 //! line, D = D_n + i D_t; the jump of displacement is (8 pi/E') times the integral of D, E' =
 //! E/(1 - nu^2).
 //!
-//! D. A. Hills, P. A. Kelly, D. N. Dai, A. M. Korsunsky, Solution of Crack Problems (1996), ch. 2, 4.
+//! D. A. Hills, P. A. Kelly, D. N. Dai, A. M. Korsunsky, Solution of Crack Problems (1996), ch.
+//! 2, 4.
 
 use num_complex::Complex64;
 

@@ -1,19 +1,21 @@
 //! Channel cracks and partial cracks of a film on a dissimilar half-plane.
 //!
 //! A crack normal to the surface of the film, in depth z with the interface at z = 1. Along it an
-//! opening dislocation D at t has the normal stress 2 D/(z - t) in the infinite film; the free surface
-//! adds 2 D (1/S - 6 z/S^2 + 4 z^2/S^3), S = z + t. Tractions on planes z = const split into families
-//! that decay downwards and upwards, T = (Q, p) (amplitudes of shear and pressure of the wave number
-//! k), whose normal stress is -2 Q - p and 2 Q - p; over a phase thickness x they change by
-//! exp(-x) (1 + x \[-1 -1; 1 1\]) and exp(-x) (1 + x \[-1 1; -1 1\]). A dislocation sends (-2 D, 0) both
-//! ways; the surface turns T into -T, the interface into \[m n; n m\] T,
-//! m = -(alpha - beta^2)/(1 - beta^2), n = -beta (1 - alpha)/(1 - beta^2). The interface's first echo is
+//! opening dislocation D at t has the normal stress 2 D/(z - t) in the infinite film; the free
+//! surface adds 2 D (1/S - 6 z/S^2 + 4 z^2/S^3), S = z + t. Tractions on planes z = const split
+//! into families that decay downwards and upwards, T = (Q, p) (amplitudes of shear and pressure of
+//! the wave number k), whose normal stress is -2 Q - p and 2 Q - p; over a phase thickness x they
+//! change by exp(-x) (1 + x \[-1 -1; 1 1\]) and exp(-x) (1 + x \[-1 1; -1 1\]). A dislocation sends
+//! (-2 D, 0) both ways; the surface turns T into -T, the interface into \[m n; n m\] T, m =
+//! -(alpha - beta^2)/(1 - beta^2), n = -beta (1 - alpha)/(1 - beta^2). The interface's first echo
+//! is
 //!
 //! ```text
 //! -2 D ((2m - n)/S + 3 (n - m) r_0/S^2 + (n - m) r/S^2 + 4 (m - n) r r_0/S^3),
 //! ```
 //!
-//! r = 1 - z, r_0 = 1 - t, S = r + r_0; the later echoes decay like exp(-k) and are integrated over k.
+//! r = 1 - z, r_0 = 1 - t, S = r + r_0; the later echoes decay like exp(-k) and are integrated over
+//! k.
 
 use ndarray::{Array1, Array2};
 
@@ -25,8 +27,8 @@ use super::lu::Lu;
 const STEP: f64 = 0.2;
 /// Range of the logarithm of the distance to the surface, 4 exp(-20).
 const TO_SURFACE: f64 = 20.0;
-/// The same to a tip at the interface, where the density goes with the distance to the power of -s: it
-/// takes 1/(1 - s) times the range.
+/// The same to a tip at the interface, where the density goes with the distance to the power of -s:
+/// it takes 1/(1 - s) times the range.
 const TO_INTERFACE: f64 = 20.0;
 /// Largest Dundurs' alpha in size: beyond it s nears 1.
 const LARGEST_ALPHA: f64 = 0.99;
@@ -48,9 +50,9 @@ struct Place {
 }
 
 impl Film {
-    /// Dundurs' parameters, alpha = (E_1 - E_2)/(E_1 + E_2) of the plane moduli, positive for a film
-    /// stiffer than what it lies on, and beta = ((1 - 2 nu_2)/G_2 - (1 - 2 nu_1)/G_1)/
-    /// (2 (1 - nu_2)/G_2 + 2 (1 - nu_1)/G_1).
+    /// Dundurs' parameters, alpha = (E_1 - E_2)/(E_1 + E_2) of the plane moduli, positive for a
+    /// film stiffer than what it lies on, and beta = ((1 - 2 nu_2)/G_2 - (1 - 2 nu_1)/G_1)/ (2 (1 -
+    /// nu_2)/G_2 + 2 (1 - nu_1)/G_1).
     pub fn new(alpha: f64, beta: f64) -> Result<Self, Error> {
         if !(alpha.abs() <= LARGEST_ALPHA) {
             return Err(Error::invalid("alpha", alpha, "-0.99 to 0.99"));
@@ -81,8 +83,8 @@ impl Film {
     /// g of a channel crack through the film: it releases (pi/2) g sigma^2 h/E' per area, sigma the
     /// stress of the film, h its thickness, E' = E/(1 - nu^2) its plane modulus.
     ///
-    /// J. L. Beuth, Int. J. Solids Struct. 29 (1992) 1657-1675; J. W. Hutchinson, Z. Suo, Adv. Appl.
-    /// Mech. 29 (1992) 63-191, whose Z = (pi/2) g.
+    /// J. L. Beuth, Int. J. Solids Struct. 29 (1992) 1657-1675; J. W. Hutchinson, Z. Suo, Adv.
+    /// Appl. Mech. 29 (1992) 63-191, whose Z = (pi/2) g.
     pub fn channel(&self) -> Result<f64, Error> {
         // The stress at a tip at the interface is less singular than r^-(1+alpha)/2.
         let slow = 2.0 / (1.0 - self.alpha.max(0.0));
@@ -105,8 +107,8 @@ impl Film {
         Ok(8.0 * moment.sum::<f64>())
     }
 
-    /// F of a crack with its tip in the film: K_I = F sigma sqrt(pi l) at the depth l = `depth` times the
-    /// thickness of the film, in 0..1.
+    /// F of a crack with its tip in the film: K_I = F sigma sqrt(pi l) at the depth l = `depth`
+    /// times the thickness of the film, in 0..1.
     pub fn partial(&self, depth: f64) -> Result<f64, Error> {
         if !(depth > 0.0 && depth < 0.9999) {
             return Err(Error::invalid(

@@ -10,8 +10,9 @@ use super::stress::{PlaneStress, tractions};
 
 /// Passes between pressure and shear of the faces before the search gives up.
 const MOST_PASSES: usize = 200;
-/// Change of the pressure from pass to pass that ends the search, over its largest: a point between open and closed, or
-/// between stick and slip, that comes and goes changes it by some 1e-7; K is told to 1e-4.
+/// Change of the pressure from pass to pass that ends the search, over its largest: a point between
+/// open and closed, or between stick and slip, that comes and goes changes it by some 1e-7; K is
+/// told to 1e-4.
 const SETTLED: f64 = 1e-6;
 /// Values below this part of the largest of their kind count as zero.
 const ZERO: f64 = 1e-12;

@@ -80,8 +80,8 @@ pub struct Grown {
     pub closed: bool,
 }
 
-/// K over a cycle with faces that touch: `stress` are the stresses at the crack's points of one instant
-/// after the other.
+/// K over a cycle with faces that touch: `stress` are the stresses at the crack's points of one
+/// instant after the other.
 pub(crate) fn cycle(
     crack: &Crack,
     friction: f64,
@@ -96,8 +96,8 @@ pub(crate) fn cycle(
     Ok(cycle)
 }
 
-/// Grows a crack from `start` in the direction that its cycle asks for. `stress` gives the stress of the
-/// body without the crack at points, one instant of the cycle after the other.
+/// Grows a crack from `start` in the direction that its cycle asks for. `stress` gives the stress
+/// of the body without the crack at points, one instant of the cycle after the other.
 ///
 /// Pieces are curved so that at the end of each the crack has no reason to turn; their number is
 /// doubled until the tip moves less than the tolerance.

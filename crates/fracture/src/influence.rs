@@ -6,8 +6,8 @@ use num_complex::Complex64;
 use super::dislocation;
 use super::rule::Rule;
 
-/// The traction at every point per unit of the regular density at every dislocation: rows normal, then
-/// shear; columns opening, then slip.
+/// The traction at every point per unit of the regular density at every dislocation: rows normal,
+/// then shear; columns opening, then slip.
 pub(crate) fn influence(rule: &Rule) -> Array2<f64> {
     let n = rule.points.len();
     let mut matrix = Array2::zeros((2 * n, 2 * n));

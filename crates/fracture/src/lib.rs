@@ -4,13 +4,12 @@
 //! z > 0, x along the surface, z the depth; tension is positive, lengths are in m, stresses in Pa,
 //! stress intensities in Pa m^0.5.
 //!
-//! A [`Path`] says where a crack runs, a [`Crack`] is that path with the dislocations that a state of
-//! stress puts into it. The stress of the body *without* the crack is asked for at
+//! A [`Path`] says where a crack runs, a [`Crack`] is that path with the dislocations that a state
+//! of stress puts into it. The stress of the body *without* the crack is asked for at
 //! [`Crack::points`]; [`Crack::intensity`] gives K with the faces free to pass through each other,
 //! [`Faces`] follows a history with faces that touch, without or with friction. [`grow`] finds the
 //! path; [`Curve`] is the cycle's K over the length of a crack, from which [`Curve::arrest`] and
-//! [`Curve::life`] follow. [`ellipse_factor`] is an estimate for cracks
-//! with a curved front.
+//! [`Curve::life`] follow. [`ellipse_factor`] is an estimate for cracks with a curved front.
 //!
 //! The crack changes neither the loads nor where they act: K is linear in the stress.
 //!

@@ -81,8 +81,9 @@ const PARTS: usize = 4;
 impl Curve {
     /// Cycles from the length `from` to `to` \[m\], or to where the crack stops.
     ///
-    /// A crack that stops has finite cycles under [`Growth::Plain`], infinite ones where the rate goes
-    /// to zero with the distance to the threshold. Fails for a crack that does not grow at all.
+    /// A crack that stops has finite cycles under [`Growth::Plain`], infinite ones where the rate
+    /// goes to zero with the distance to the threshold. Fails for a crack that does not grow at
+    /// all.
     pub fn life(
         &self,
         threshold: &Threshold,

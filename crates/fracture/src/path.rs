@@ -90,8 +90,8 @@ pub struct Path {
 }
 
 impl Path {
-    /// A straight crack of the length `length` \[m\] from x = `mouth` \[m\] at `angle` \[rad\] from the
-    /// inward normal, positive towards +x.
+    /// A straight crack of the length `length` \[m\] from x = `mouth` \[m\] at `angle` \[rad\] from
+    /// the inward normal, positive towards +x.
     pub fn straight(mouth: f64, length: f64, angle: f64) -> Self {
         Self {
             mouth,

@@ -1,11 +1,12 @@
 //! Quadrature along a crack: dislocations and the points between them.
 //!
-//! The leg at the tip is mapped by s = L (1 - w^2), w = tanh(t/2), t from 0 at the tip on; the density
-//! D = f/w has its root singularity at the tip, and the even continuation of f over t < 0 makes the
-//! trapezoidal rule in t with the points halfway exponentially convergent in the step: a corner, a
-//! mouth or a load on the surface is an end in t, which geometric spacing resolves whatever power of
-//! the distance the stress goes with. Other legs have such an end at both sides: s = L/(1 + exp t).
-//! From the tip to the mouth dislocations and points take turns along the whole crack.
+//! The leg at the tip is mapped by s = L (1 - w^2), w = tanh(t/2), t from 0 at the tip on; the
+//! density D = f/w has its root singularity at the tip, and the even continuation of f over t < 0
+//! makes the trapezoidal rule in t with the points halfway exponentially convergent in the step: a
+//! corner, a mouth or a load on the surface is an end in t, which geometric spacing resolves
+//! whatever power of the distance the stress goes with. Other legs have such an end at both sides:
+//! s = L/(1 + exp t). From the tip to the mouth dislocations and points take turns along the whole
+//! crack.
 //!
 //! Every third dislocation and every third point make the same rule of three times the step; the
 //! difference of the two is the error that is told.
@@ -19,7 +20,8 @@ const TO_MOUTH: f64 = 20.0;
 /// Range of t to a kink, where D goes with a power of the distance above -1/2.
 const TO_KINK: f64 = 24.0;
 
-/// A dislocation or a point of the rule; places relative to the mouth, over the length of the crack.
+/// A dislocation or a point of the rule; places relative to the mouth, over the length of the
+/// crack.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Knot {
     /// Place x + i z.
@@ -45,8 +47,8 @@ pub(crate) struct Rule {
     pub(crate) tip_leg: f64,
 }
 
-/// Step of t that resolves a path: kernels and stresses are analytic in a strip whose half-width is the
-/// angle between crack and surface, or what a kink leaves of 180 degrees.
+/// Step of t that resolves a path: kernels and stresses are analytic in a strip whose half-width is
+/// the angle between crack and surface, or what a kink leaves of 180 degrees.
 pub(crate) fn step(path: &Path) -> f64 {
     let first = path.legs.first().map_or(0.0, |leg| leg.start);
     let to_surface = std::f64::consts::FRAC_PI_2 - first.abs();

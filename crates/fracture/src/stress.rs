@@ -5,8 +5,8 @@ use super::Error;
 /// Stress in the plane \[Pa\], tension positive: s_xx, s_zz, s_xz.
 pub type PlaneStress = [f64; 3];
 
-/// Traction on a line \[Pa\]: s_nn and s_tn, t along the line from the mouth to the tip, n = t turned
-/// by 90 degrees towards +x of a line along the depth.
+/// Traction on a line \[Pa\]: s_nn and s_tn, t along the line from the mouth to the tip, n = t
+/// turned by 90 degrees towards +x of a line along the depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Traction {
     /// Normal traction s_nn \[Pa\].

@@ -22,8 +22,8 @@ fn aluminium() -> Threshold {
     }
 }
 
-/// K over the length of a normal crack at the rim of a contact of half-width `a` \[m\] under bulk stress
-/// \[Pa\] in phase: p0 = 157 MPa, mu = 0.75, T/(mu W) = 0.6, fully reversed.
+/// K over the length of a normal crack at the rim of a contact of half-width `a` \[m\] under bulk
+/// stress \[Pa\] in phase: p0 = 157 MPa, mu = 0.75, T/(mu W) = 0.6, fully reversed.
 fn curve(a: f64, bulk: f64, lengths: &[f64]) -> Curve {
     let p0 = 157e6;
     let unit = Crack::new(Path::straight(-1.0, 1.0, 0.0)).unwrap();

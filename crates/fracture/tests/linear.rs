@@ -20,7 +20,8 @@ fn on_faces(point: &Point, normal: f64, shear: f64) -> PlaneStress {
     ]
 }
 
-/// Largest error of F over the larger component; asserts that it is within `bound` and the told error.
+/// Largest error of F over the larger component; asserts that it is within `bound` and the told
+/// error.
 fn agree(crack: &Crack, stress: &[PlaneStress], truth: &[f64], bound: f64, what: &str) {
     let k = crack.intensity(stress).unwrap();
     let l = crack.length();

@@ -158,8 +158,8 @@ fn increments(scene: &Scene) -> String {
 
 /// Increments of a branch where they are chosen, at least and at most as a rule.
 const CHOSEN: [usize; 2] = [12, 60];
-/// Convolutions of an increment, at least and at most as a rule: where pressure and shear act on one another, and
-/// where they do not.
+/// Convolutions of an increment, at least and at most as a rule: where pressure and shear act on
+/// one another, and where they do not.
 const COUPLED: [usize; 2] = [8, 60];
 const UNCOUPLED: [usize; 2] = [3, 12];
 

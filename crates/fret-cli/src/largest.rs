@@ -16,7 +16,8 @@ pub(crate) struct Largest<'a> {
 }
 
 impl Largest<'_> {
-    /// The largest value of a probe with its error, and where it is; `axes` are those that were looked along.
+    /// The largest value of a probe with its error, and where it is; `axes` are those that were
+    /// looked along.
     pub(crate) fn line(&self, probe: &Probe, m: &Extreme, axes: &[&str]) -> String {
         let Extreme {
             value,

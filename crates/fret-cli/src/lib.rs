@@ -103,9 +103,9 @@ enum Command {
     Cite(python::Cite),
 }
 
-/// Runs the command that the arguments name, the first of them the program's name, and gives the exit
-/// code: 0 done, 1 the run ended early, 2 bad scene or bad command line, 3 the output could not be
-/// written.
+/// Runs the command that the arguments name, the first of them the program's name, and gives the
+/// exit code: 0 done, 1 the run ended early, 2 bad scene or bad command line, 3 the output could
+/// not be written.
 pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let parsed = Cli::command()
         .color(colours())

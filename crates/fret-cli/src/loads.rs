@@ -17,8 +17,8 @@ pub(crate) struct Loads {
 }
 
 impl Loads {
-    /// Of the increment asked for, or of the last one kept, on a body 1 or 2, with its bulk stress or
-    /// without.
+    /// Of the increment asked for, or of the last one kept, on a body 1 or 2, with its bulk stress
+    /// or without.
     pub(crate) fn of(
         store: &Store,
         increment: Option<usize>,

@@ -1,9 +1,9 @@
 //! Commands that the Python package does: `fret study` is `python -m pyfret study`, and so on.
 //!
-//! Studies take functions of the user and clusters of Dask, reports and figures libraries of Python:
-//! there is one implementation, and this hands the command line over to it. The interpreter looks for
-//! modules where it is installed, never in the folder in which the command is given: a `numpy.py` that
-//! lies there is not run.
+//! Studies take functions of the user and clusters of Dask, reports and figures libraries of
+//! Python: there is one implementation, and this hands the command line over to it. The interpreter
+//! looks for modules where it is installed, never in the folder in which the command is given: a
+//! `numpy.py` that lies there is not run.
 
 use std::ffi::{OsStr, OsString};
 use std::io;
@@ -15,7 +15,8 @@ use contact_core::Error;
 
 use crate::Failure;
 
-/// Names the interpreter that has pyfret, if neither that beside `fret` nor the first one on PATH is it.
+/// Names the interpreter that has pyfret, if neither that beside `fret` nor the first one on PATH
+/// is it.
 const INTERPRETER: &str = "FRET_PYTHON";
 /// Runs the package, without the current folder among those in which modules are looked for.
 const PROGRAM: &str = "import sys
@@ -81,7 +82,8 @@ pub(crate) struct Cite {
     store: Option<PathBuf>,
 }
 
-/// Arguments in the form of Python's part: options with their values in one, what stands alone last.
+/// Arguments in the form of Python's part: options with their values in one, what stands alone
+/// last.
 #[derive(Default)]
 struct Words(Vec<OsString>);
 
@@ -130,8 +132,8 @@ impl Cite {
     }
 }
 
-/// Hands a command over to Python and ends as it ends. On Unix the interpreter takes the place of this
-/// process, so that signals reach it.
+/// Hands a command over to Python and ends as it ends. On Unix the interpreter takes the place of
+/// this process, so that signals reach it.
 pub(crate) fn run(command: &str, arguments: &[OsString]) -> Result<u8, Failure> {
     let interpreter = interpreter();
     let mut python = Command::new(&interpreter);

@@ -52,8 +52,8 @@ pub(crate) struct Options {
     /// Print one JSON object per measure, for programs
     #[arg(long)]
     json: bool,
-    /// Residual stress of each layer from the surface down, the substrate's last [Pa], tension positive;
-    /// write --residual=-1e9,0 if the first is negative
+    /// Residual stress of each layer from the surface down, the substrate's last [Pa], tension
+    /// positive; write --residual=-1e9,0 if the first is negative
     #[arg(
         long,
         value_name = "STRESSES",
@@ -64,13 +64,13 @@ pub(crate) struct Options {
     /// Leave out the bulk stress of the body
     #[arg(long)]
     no_bulk: bool,
-    /// Largest depth in metres; by default 2 a_H, or where there is no Hertz contact the width of the
-    /// contact
+    /// Largest depth in metres; by default 2 a_H, or where there is no Hertz contact the width of
+    /// the contact
     #[arg(long, value_name = "Z")]
     depth: Option<f64>,
-    /// Number of depths to write, evenly from the surface; by default those that the layers ask for,
-    /// both sides of every interface among them, and 256 in image data. Largest values are looked for at
-    /// these and at those that the layers ask for
+    /// Number of depths to write, evenly from the surface; by default those that the layers ask
+    /// for, both sides of every interface among them, and 256 in image data. Largest values are
+    /// looked for at these and at those that the layers ask for
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     depths: Option<u16>,
     /// What to give, such as von_mises,s_xx,tresca,s_1,hydrostatic,u_z
@@ -326,8 +326,8 @@ fn check_interfaces(body: &Body, probes: &[Probe]) -> Result<(), Error> {
     }
 }
 
-/// Says if the first interface is nearer to the surface than a cell is long: the tractions are known per
-/// cell.
+/// Says if the first interface is nearer to the surface than a cell is long: the tractions are
+/// known per cell.
 fn say_thin(scene: &Scene, body: &Body) {
     let cell = if scene.grid.plane_strain {
         scene.grid.dx

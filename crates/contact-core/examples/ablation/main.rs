@@ -1,9 +1,10 @@
 //! What each numerical method buys: it is switched off alone, on seven scenes.
 //!
-//! Writes a table in Markdown to standard output (`make ablation` writes `docs/ablation.md`). Errors are
-//! those against the same scene with many more increments and a tolerance of 1e-7, with all methods: of the
-//! shear in the L2 norm, over the largest of the path, and of radii in cells. Times are the least of three
-//! runs, as ratios to the least of three with all methods, run in turn with them; convolutions are counted.
+//! Writes a table in Markdown to standard output (`make ablation` writes `docs/ablation.md`).
+//! Errors are those against the same scene with many more increments and a tolerance of 1e-7, with
+//! all methods: of the shear in the L2 norm, over the largest of the path, and of radii in cells.
+//! Times are the least of three runs, as ratios to the least of three with all methods, run in turn
+//! with them; convolutions are counted.
 #![allow(clippy::print_stdout)]
 
 mod scenes;
@@ -181,8 +182,8 @@ impl Run {
         self.increments.iter().map(|i| i.work.convolutions).sum()
     }
 
-    /// Errors of the shear after the first branch and at the ends of the others, over the largest of the
-    /// path, and of the radii of contact and stick zone, in cells.
+    /// Errors of the shear after the first branch and at the ends of the others, over the largest
+    /// of the path, and of the radii of contact and stick zone, in cells.
     fn errors(&self, reference: &Self, cell: f64) -> [f64; 4] {
         let pairs = self.ends.iter().zip(&reference.ends);
         let off = pairs.map(|(a, b)| squares(&[0, 1, 2].map(|k| &a[k] - &b[k])).sqrt());

@@ -1,4 +1,5 @@
-//! The scenes that the methods are switched off on, and the finer path that each is measured against.
+//! The scenes that the methods are switched off on, and the finer path that each is measured
+//! against.
 
 use contact_core::Error;
 use contact_core::estimate::choose_increments;

@@ -26,8 +26,8 @@ pub struct ByCriterion {
 }
 
 impl ByCriterion {
-    /// The criterion of a name for the materials of the layers of a body. Strains follow from the stress by the E
-    /// and nu of the scene.
+    /// The criterion of a name for the materials of the layers of a body. Strains follow from the
+    /// stress by the E and nu of the scene.
     pub fn new(
         name: &str,
         body: &Body,
@@ -108,7 +108,8 @@ pub(super) fn of_criteria(error: fatigue::Error) -> Error {
     }
 }
 
-/// The material of every layer: those given from the surface down, or one, which is the substrate's.
+/// The material of every layer: those given from the surface down, or one, which is the
+/// substrate's.
 pub fn materials_of_layers(
     body: &Body,
     given: Vec<Option<Material>>,
@@ -133,8 +134,9 @@ pub fn materials_of_layers(
     Ok(each)
 }
 
-/// Angle from the surface normal, into the body, to the trace of a plane of this normal in a section \[rad\]: positive
-/// where the trace leans towards the end of the line with depth. NaN where the plane is the section.
+/// Angle from the surface normal, into the body, to the trace of a plane of this normal in a
+/// section \[rad\]: positive where the trace leans towards the end of the line with depth. NaN
+/// where the plane is the section.
 pub fn inclination(normal: [f64; 3], line: Line) -> f64 {
     let along = match line {
         Line::AlongX(_) => normal[0],

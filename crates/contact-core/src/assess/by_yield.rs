@@ -12,7 +12,8 @@ use crate::error::Error;
 /// Load factors for the yield stress of every layer. The stress judged is that of the loads alone.
 #[derive(Clone, Debug)]
 pub struct ByYield {
-    /// Yield stress of every layer from the surface down, the substrate's last \[Pa\]; none where it is not judged.
+    /// Yield stress of every layer from the surface down, the substrate's last \[Pa\]; none where
+    /// it is not judged.
     pub s_y: Vec<Option<f64>>,
     /// Residual stress of every layer \[Pa\], which does not grow with the load.
     pub residual: Vec<f64>,

@@ -1,7 +1,7 @@
 //! Stress intensity of cracks below a contact, over the states of a cycle.
 //!
-//! The stress of the body without the crack is asked for along the crack's line once for all lengths; the
-//! crate [`fracture`] does the rest. Plane strain in the plane y = 0 of the contact.
+//! The stress of the body without the crack is asked for along the crack's line once for all
+//! lengths; the crate [`fracture`] does the rest. Plane strain in the plane y = 0 of the contact.
 
 use fracture::{Crack, Faces, Intensity, Path, PlaneStress, Point};
 use rayon::prelude::*;
@@ -21,8 +21,8 @@ const POINTS: usize = 6;
 const SAMPLES: f64 = 2e-5;
 /// Step of the quadrature along the crack: K within 1e-4 in closed cracks.
 const QUADRATURE: f64 = 0.12;
-/// Change of K by a layer for each unit of Dundurs' alpha, tip at the interface: largest of the table of
-/// partial cracks in a film (|alpha| to 0.8), rounded up.
+/// Change of K by a layer for each unit of Dundurs' alpha, tip at the interface: largest of the
+/// table of partial cracks in a film (|alpha| to 0.8), rounded up.
 const LAYERED: f64 = 1.2;
 
 /// The corresponding error of the core.
@@ -124,8 +124,8 @@ pub fn over_cycle(
     cracks.lengths.par_iter().map(of).collect()
 }
 
-/// Relative error of K in the homogeneous half-plane where the materials of the layers differ: with the
-/// largest Dundurs' alpha of an interface and the depth of the tip over that of the interface.
+/// Relative error of K in the homogeneous half-plane where the materials of the layers differ: with
+/// the largest Dundurs' alpha of an interface and the depth of the tip over that of the interface.
 fn layered(body: &Body, depth: f64) -> f64 {
     let modulus = |m: crate::scene::Elastic| m.E / (1.0 - m.nu * m.nu);
     let below = body.coatings.iter().skip(1).map(|c| c.material);
@@ -209,7 +209,8 @@ impl Line {
         Ok(all.into_iter().map(of_state).collect())
     }
 
-    /// The stress of a state at points of a crack: polynomials in ln(s), constant towards the mouth.
+    /// The stress of a state at points of a crack: polynomials in ln(s), constant towards the
+    /// mouth.
     fn along(&self, state: &Sampled, points: &[Point]) -> Vec<PlaneStress> {
         let at = |point: &Point| {
             let holds = |part: &(Vec<f64>, usize)| point.s <= part.0[part.0.len() - 1];

@@ -20,8 +20,9 @@ pub struct StoredCycle<'a> {
 }
 
 impl<'a> StoredCycle<'a> {
-    /// A closed cycle of the load path, from 0 or from the end if negative; without one all increments that
-    /// were kept. Fails where there is no such cycle, or fewer than two of its increments were kept.
+    /// A closed cycle of the load path, from 0 or from the end if negative; without one all
+    /// increments that were kept. Fails where there is no such cycle, or fewer than two of its
+    /// increments were kept.
     pub fn of(store: &'a Store, cycle: Option<i64>, side: Side) -> Result<Self, Error> {
         let whole = |name: &str| -> Result<Vec<usize>, Error> {
             let column = store.column(name)?;

@@ -1,4 +1,5 @@
-//! Stage 7: FROM STRESS TO DECISION: does it crack, yield or shake down, over a closed cycle of a contact.
+//! Stage 7: FROM STRESS TO DECISION: does it crack, yield or shake down, over a closed cycle of a
+//! contact.
 //!
 //! A [`Judge`] judges the stress history of a point: [`ByCriterion`] by a fatigue criterion,
 //! [`ByYield`] by load factors of first yield and shakedown. [`judge`] applies it to a section, a

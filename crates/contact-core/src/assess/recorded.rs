@@ -14,7 +14,8 @@ pub struct Recorded {
 }
 
 impl Recorded {
-    /// Of the first to the last of these branches, from 0, such as [`crate::fields::cycles`] gives them.
+    /// Of the first to the last of these branches, from 0, such as [`crate::fields::cycles`] gives
+    /// them.
     pub fn new(side: Side, branches: (usize, usize)) -> Self {
         Self {
             side,

@@ -26,7 +26,8 @@ pub struct Site<'a> {
     pub side: Side,
     /// Grid of the contact.
     pub grid: &'a Grid,
-    /// Residual stress of every layer from the surface down, the substrate's last \[Pa\]; none if empty.
+    /// Residual stress of every layer from the surface down, the substrate's last \[Pa\]; none if
+    /// empty.
     pub residual: &'a [f64],
     /// The states over the cycle.
     pub cycle: &'a dyn OverCycle,
@@ -51,8 +52,8 @@ impl Site<'_> {
         }
     }
 
-    /// Hands the histories on a line to `f`, those of a few depths at a time, in order: the number of the first of
-    /// them and a history for each.
+    /// Hands the histories on a line to `f`, those of a few depths at a time, in order: the number
+    /// of the first of them and a history for each.
     pub fn on_line(
         &self,
         line: Line,

@@ -1,5 +1,5 @@
-//! The cells that are stored, half of the grid of a mirrored scene: their places, neighbours, and the borders
-//! of zones of them.
+//! The cells that are stored, half of the grid of a mirrored scene: their places, neighbours, and
+//! the borders of zones of them.
 
 use crate::plan::Mirror;
 use crate::scene::Grid;

@@ -1,7 +1,7 @@
 //! Fields on the cells of a contact: sweeps over them, packing, lever arms, neighbours.
 //!
-//! A field holds one value per cell that is solved for, in row-major (nx, ny) order; of a mirror-symmetric
-//! scene the half y > 0 ([`Mirror`](crate::plan::Mirror)).
+//! A field holds one value per cell that is solved for, in row-major (nx, ny) order; of a
+//! mirror-symmetric scene the half y > 0 ([`Mirror`](crate::plan::Mirror)).
 
 mod arms;
 mod lattice;

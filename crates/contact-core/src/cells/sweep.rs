@@ -135,8 +135,8 @@ impl<A: Fields, B: Fields> Fields for (A, B) {
     }
 }
 
-/// Sets every cell of the fields `to` to its `values(n, from, old)`, and returns the sums of K terms that
-/// these come with.
+/// Sets every cell of the fields `to` to its `values(n, from, old)`, and returns the sums of K
+/// terms that these come with.
 ///
 /// # Panics
 /// If the lengths differ.

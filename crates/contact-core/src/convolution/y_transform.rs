@@ -102,7 +102,8 @@ impl<T: Precision> YTransform<T> {
                 });
             }
             Mirror::Y => {
-                // Even cells forwards, odd ones backwards from the end; no second row counts as zero.
+                // Even cells forwards, odd ones backwards from the end; no second row counts as
+                // zero.
                 let (two, scale_2) = match rows[1] {
                     [] => (rows[0], 0.0),
                     two => (two, scale),

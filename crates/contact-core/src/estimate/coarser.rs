@@ -30,7 +30,8 @@ const FEWEST: usize = 8;
 /// Error estimates of a branch from the coarser grids.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Told {
-    /// Scale of the errors of the numbers: root of the mean square over the grids, each in its unit.
+    /// Scale of the errors of the numbers: root of the mean square over the grids, each in its
+    /// unit.
     pub(super) numbers: [f64; NUMBERS],
     /// Errors of pressure and shear (L2), over the largest of the path.
     pub(super) fields: [f64; 2],

@@ -15,8 +15,8 @@ use crate::scene::{Grid, SaveFields, Scene};
 
 /// Most increments of a branch.
 const INCREMENTS: usize = 24;
-/// Cells of the finer grid each way over those of the grid: the first with which it has no more cells
-/// than [`MOST`].
+/// Cells of the finer grid each way over those of the grid: the first with which it has no more
+/// cells than [`MOST`].
 const TIMES: [usize; 2] = [3, 2];
 const MOST: usize = 512 * 512;
 /// Least tolerance of the solver: the errors of the cells are larger.

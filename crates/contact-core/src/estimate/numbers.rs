@@ -2,7 +2,8 @@
 
 use crate::march::BranchSummary;
 
-/// Places of the numbers of a branch that have an error bar, in the order of [`ErrorBars`](super::ErrorBars).
+/// Places of the numbers of a branch that have an error bar, in the order of
+/// [`ErrorBars`](super::ErrorBars).
 pub(crate) const CONTACT_RADIUS: usize = 0;
 pub(crate) const STICK_RATIO: usize = 1;
 pub(crate) const P_MAX: usize = 2;

@@ -23,8 +23,8 @@ use crate::scene::Scene;
 
 /// The scene with the estimated error of the shear at the end of each branch.
 ///
-/// Compared with half of the increments, or with twice as many where a branch has only one. Ends when
-/// `stop` is raised.
+/// Compared with half of the increments, or with twice as many where a branch has only one. Ends
+/// when `stop` is raised.
 pub fn estimate_path_error(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene, Error> {
     let mut estimated = choose_increments(scene, stop)?;
     if scene.path.is_open() {

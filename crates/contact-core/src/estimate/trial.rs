@@ -17,7 +17,8 @@ use crate::scene::{Branch, Grid, LoadPath, Scene};
 /// that of turning slip (2); 1 where friction falls once a cell has slipped, one increment late.
 const ORDER: f64 = 1.5;
 const KINETIC_ORDER: f64 = 1.0;
-/// The same near full sliding: the shift of unlike bodies at 0.999 mu W in 161 and 400 increments differs by 8 %.
+/// The same near full sliding: the shift of unlike bodies at 0.999 mu W in 161 and 400 increments
+/// differs by 8 %.
 const SLIDING_ORDER: f64 = 1.0;
 /// Solver tolerance of these runs over the tolerance of the path: the errors of the increments add
 /// up.

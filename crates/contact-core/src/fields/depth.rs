@@ -95,7 +95,8 @@ pub(super) fn every_other(depths: &[Depth]) -> Vec<bool> {
     kept.collect()
 }
 
-/// The places in `depths` that lie on an interface: the same depth in two layers, one after the other.
+/// The places in `depths` that lie on an interface: the same depth in two layers, one after the
+/// other.
 pub(super) fn on_interfaces(depths: &[Depth]) -> Vec<bool> {
     let same = |a: usize, b: usize| {
         depths

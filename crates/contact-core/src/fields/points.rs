@@ -150,7 +150,8 @@ impl Points {
         Ok(all)
     }
 
-    /// The values of every state at the points of a group, which share their depth; `more` is added.
+    /// The values of every state at the points of a group, which share their depth; `more` is
+    /// added.
     fn at_depth<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
         &self,
         points: &[Point],

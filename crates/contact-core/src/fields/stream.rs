@@ -62,8 +62,8 @@ pub trait Accumulate: Sync {
     /// of each in order.
     fn add(&self, kept: &mut Self::Kept, moment: Moment, stress: &Array2<f64>);
 
-    /// Takes the stress on the surface where the line of the moment last added crosses the rim of the contact and the
-    /// border of the stick zone (default: leaves it).
+    /// Takes the stress on the surface where the line of the moment last added crosses the rim of
+    /// the contact and the border of the stick zone (default: leaves it).
     fn add_borders(&self, _kept: &mut Self::Kept, _borders: &[(Border, StressTensor)]) {}
 }
 
@@ -88,8 +88,8 @@ impl<A: Accumulate, B: Accumulate> Accumulate for (A, B) {
 /// A moment, its tractions q_x, q_y, p and the cells that stick.
 type Waiting = (Moment, [Array2<f64>; 3], Array2<bool>);
 
-/// The stresses below a line, or on whole planes, over a load path. As an [`Observer`] it takes every increment of a
-/// run; [`Self::push`] takes those of a store.
+/// The stresses below a line, or on whole planes, over a load path. As an [`Observer`] it takes
+/// every increment of a run; [`Self::push`] takes those of a store.
 pub struct Stream<A: Accumulate> {
     body: Body,
     side: Side,
@@ -154,7 +154,8 @@ impl<A: Accumulate> Stream<A> {
         self.stop = flag;
     }
 
-    /// Takes the tractions for those of contacts: [`States::stick`] (default: constant in each cell).
+    /// Takes the tractions for those of contacts: [`States::stick`] (default: constant in each
+    /// cell).
     #[must_use]
     pub fn rim(mut self, rim: bool) -> Self {
         self.rim = rim;
@@ -251,8 +252,8 @@ impl<A: Accumulate> Stream<A> {
     }
 }
 
-/// The stress of every state on the surface where the line crosses the rim of the contact and the border of its stick
-/// zone.
+/// The stress of every state on the surface where the line crosses the rim of the contact and the
+/// border of its stick zone.
 fn on_borders(
     body: &Body,
     side: Side,

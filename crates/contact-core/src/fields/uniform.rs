@@ -36,8 +36,8 @@ impl Uniform {
     }
 }
 
-/// Residual stress of every layer of a body from the surface down, the substrate's last \[Pa\]: those
-/// given, or zero where none is.
+/// Residual stress of every layer of a body from the surface down, the substrate's last \[Pa\]:
+/// those given, or zero where none is.
 ///
 /// It is biaxial, s_xx = s_yy, uniform in its layer, and has no effect on the contact. Fails for
 /// another number of layers, and where a stress is not finite.

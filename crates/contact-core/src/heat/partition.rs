@@ -1,14 +1,15 @@
 //! Which part of the heat each body takes: the surfaces agree in temperature wherever they touch.
 //!
-//! With q = q_1 + q_2 and T_1 + C_1 q_1 = T_2 + C_2 q_2 on the cells in contact, T_1 and T_2 being the
-//! temperatures far away,
+//! With q = q_1 + q_2 and T_1 + C_1 q_1 = T_2 + C_2 q_2 on the cells in contact, T_1 and T_2 being
+//! the temperatures far away,
 //!
 //! ```text
 //! (C_1 + C_2) q_1 = C_2 q + T_2 - T_1
 //! ```
 //!
-//! The matrix is complex and symmetric, so that conjugate gradients with products that do not conjugate solve it
-//! (H. A. van der Vorst, J. B. M. Melissen, IEEE Trans. Magnetics 26 (1990) 706-708).
+//! The matrix is complex and symmetric, so that conjugate gradients with products that do not
+//! conjugate solve it (H. A. van der Vorst, J. B. M. Melissen, IEEE Trans. Magnetics 26 (1990)
+//! 706-708).
 
 use super::conduction::Conduction;
 use crate::error::Error;
@@ -73,8 +74,8 @@ fn kept(field: &[Complex64], contact: &[bool]) -> Vec<Complex64> {
         .collect()
 }
 
-/// Conjugate gradients for a symmetric complex matrix on the cells in contact, until the residual is
-/// the tolerance of `scale`.
+/// Conjugate gradients for a symmetric complex matrix on the cells in contact, until the residual
+/// is the tolerance of `scale`.
 fn solve(
     matrix: &mut Conduction,
     (asked, scale): (&[Complex64], f64),

@@ -10,8 +10,9 @@
 //! Y = (1 + rho E)/(m (1 - rho E)),  E = exp(-2 s h)
 //! ```
 //!
-//! (Carslaw and Jaeger 1959, chapter III, composite slabs). Only decaying exponentials occur, and both
-//! 1 - rho E = (1 - E) + E 2 M/(m + M) and 1 + rho E = (1 - E) + E 2 m/(m + M) are without cancellation.
+//! (Carslaw and Jaeger 1959, chapter III, composite slabs). Only decaying exponentials occur, and
+//! both 1 - rho E = (1 - E) + E 2 M/(m + M) and 1 + rho E = (1 - E) + E 2 m/(m + M) are without
+//! cancellation.
 
 use super::conductor::{Conductor, Layers};
 use crate::kernels::Complex64;

@@ -6,7 +6,8 @@ use super::InfluenceCoefficients;
 use crate::plan::KernelSet;
 use crate::scene::{Body, Grid, KernelMethod, KernelSettings};
 
-/// Most memory of the cache, in numbers: 128 MiB, or the six coefficients of a 1024 x 1024 grid and more.
+/// Most memory of the cache, in numbers: 128 MiB, or the six coefficients of a 1024 x 1024 grid and
+/// more.
 const CAPACITY: usize = 1 << 24;
 
 /// All that the coefficients depend on; reals by their bits.

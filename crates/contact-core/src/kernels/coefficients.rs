@@ -37,8 +37,8 @@ pub struct InfluenceCoefficients {
     pub yz: Quadrant,
 }
 
-/// The norm of a kernel on the whole plane, root of the sum of squares, of which these are a quarter
-/// \[m/Pa\].
+/// The norm of a kernel on the whole plane, root of the sum of squares, of which these are a
+/// quarter \[m/Pa\].
 pub(crate) fn norm(quarter: &Quadrant) -> f64 {
     2.0 * quarter.iter().map(|k| k * k).sum::<f64>().sqrt()
 }
@@ -112,7 +112,8 @@ impl InfluenceCoefficients {
         }
     }
 
-    /// C_ij on all offsets, of all six coefficients, shape (3, 3, 2 nx - 1, 2 ny - 1) with the offset (0, 0) in the middle.
+    /// C_ij on all offsets, of all six coefficients, shape (3, 3, 2 nx - 1, 2 ny - 1) with the
+    /// offset (0, 0) in the middle.
     pub fn matrix(&self) -> Array4<f64> {
         let (nx, ny) = self.zz.dim();
         let mut matrix = Array4::zeros((3, 3, 2 * nx - 1, 2 * ny - 1));

@@ -17,8 +17,8 @@ use crate::gauss::gauss;
 use crate::memory::fits;
 use crate::scene::{Grid, MOST_ALIASES};
 
-/// The displacements u_x, u_y, u_z \[m/Pa\] (rows) under tractions exp(i(k_x x + k_y y)) q_x, q_y, p
-/// (columns).
+/// The displacements u_x, u_y, u_z \[m/Pa\] (rows) under tractions exp(i(k_x x + k_y y)) q_x, q_y,
+/// p (columns).
 pub type SurfaceFrf = [[Complex64; 3]; 3];
 
 /// Gauss nodes in angle and radius of the mean at zero frequency.

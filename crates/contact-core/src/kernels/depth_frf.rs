@@ -17,7 +17,8 @@ use super::matrix::Matrix2;
 use crate::error::Error;
 use crate::magnitude::{LARGEST, SMALLEST};
 
-/// Share of the stack's height by which a depth may miss its layer, for rounded sums of thicknesses.
+/// Share of the stack's height by which a depth may miss its layer, for rounded sums of
+/// thicknesses.
 const ROUNDING: f64 = 1e-12;
 
 /// Displacements and stresses under tractions exp(i(k_x x + k_y y)); columns q_x, q_y, p.

@@ -39,8 +39,8 @@ pub(crate) trait Quantity<const N: usize, const R: usize> {
     /// The radial functions over r^m of a half-space at the depth z > 0, s = r^2.
     fn radial(material: &HalfSpace, s: f64, z: f64) -> [f64; N];
 
-    /// The response of a half-space at (x, y, z) from one corner of a uniformly loaded rectangle; on the line of an
-    /// edge as if it were `edge` away along x and along y.
+    /// The response of a half-space at (x, y, z) from one corner of a uniformly loaded rectangle;
+    /// on the line of an edge as if it were `edge` away along x and along y.
     fn corner(material: &HalfSpace, at: (f64, f64, f64), edge: (f64, f64)) -> [[f64; 3]; R];
 
     /// Whether an entry changes its sign with x and with y.
@@ -63,7 +63,8 @@ pub(crate) struct DepthKernel<Q, const N: usize, const R: usize> {
     closed: Option<HalfSpace>,
     /// The tabulated part and its smallest scale \[m\].
     smooth: Option<(RadialTable<N>, f64)>,
-    /// Distance along x and along y that a point on the edge of a cell is taken to have from it \[m\].
+    /// Distance along x and along y that a point on the edge of a cell is taken to have from it
+    /// \[m\].
     edge: (f64, f64),
     quantity: PhantomData<Q>,
 }
@@ -71,11 +72,12 @@ pub(crate) struct DepthKernel<Q, const N: usize, const R: usize> {
 impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
     /// For offsets up to `r_max` \[m\] from loads on cells of the sides `d` \[m\].
     ///
-    /// A step of the traction at an edge between cells has infinite stress on the edge. Of a traction that changes
-    /// evenly from cell to cell the stress there is finite, and a 2 pi-th of a cell beside the edge that of the
-    /// steps is the same: with the distance e from it, steps g d at k d from the point make 1/s into
-    /// g d [ln(d/e) + 2 sum (k + 1/2) ln((k + 1)/k)] and the traction g s into g d [2 + 2 sum 1], equal for
-    /// ln(d/e) = 2 - 2 (1 - ln(2 pi)/2) = ln(2 pi) by Stirling's formula.
+    /// A step of the traction at an edge between cells has infinite stress on the edge. Of a
+    /// traction that changes evenly from cell to cell the stress there is finite, and a 2 pi-th of
+    /// a cell beside the edge that of the steps is the same: with the distance e from it, steps g d
+    /// at k d from the point make 1/s into g d [ln(d/e) + 2 sum (k + 1/2) ln((k + 1)/k)] and the
+    /// traction g s into g d [2 + 2 sum 1], equal for ln(d/e) = 2 - 2 (1 - ln(2 pi)/2) = ln(2 pi)
+    /// by Stirling's formula.
     pub(crate) fn new(
         stack: &Stack,
         place: Place,
@@ -148,8 +150,8 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
         self.under_cells(range.map(|i| (i, i as f64)), y, d, put);
     }
 
-    /// The responses to unit traction on cells of the sides `d` at an offset y and at offsets along x, in cells and a cell apart,
-    /// each with its index.
+    /// The responses to unit traction on cells of the sides `d` at an offset y and at offsets along
+    /// x, in cells and a cell apart, each with its index.
     pub(crate) fn under_cells(
         &self,
         cells: impl Iterator<Item = (usize, f64)>,
@@ -224,8 +226,8 @@ fn difference<const R: usize>(
 }
 
 /// The responses to unit traction on cells of the sides `d` at the offsets (i dx, j dy), i and j
-/// below `n`. Where cells are square, exchange of the axes gives one octant from the other. Ends when
-/// `stop` is raised.
+/// below `n`. Where cells are square, exchange of the axes gives one octant from the other. Ends
+/// when `stop` is raised.
 pub(crate) fn quadrants<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
     kernel: &DepthKernel<Q, N, R>,
     n: (usize, usize),

@@ -25,8 +25,9 @@ pub type StressResponse = [[f64; 3]; 6];
 
 /// The stress of one corner at (x, y, z) from it, all three in any one unit of length; z >= 0.
 ///
-/// On the line of an edge the stress that a step of the traction causes is infinite like the logarithm of the
-/// distance. There the distance is taken for `edge`, along x and along y in the same unit.
+/// On the line of an edge the stress that a step of the traction causes is infinite like the
+/// logarithm of the distance. There the distance is taken for `edge`, along x and along y in the
+/// same unit.
 pub(crate) fn corner(x: f64, y: f64, z: f64, edge: (f64, f64), nu: f64) -> StressResponse {
     let rho = x.hypot(y).hypot(z);
     let (xz2, yz2) = (x * x + z * z, y * y + z * z);

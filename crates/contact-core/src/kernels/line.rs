@@ -8,11 +8,11 @@
 //! u(x) = -1/pi integral of B(k)/k sin k x dk                     u_x(p)
 //! ```
 //!
-//! over k > 0. A line load leaves a constant open: displacements are relative to the points at the distance
-//! L, here the grid's length, of any stack of layers; of a homogeneous body the integral is -A/pi ln(|x|/L)
-//! (K. L. Johnson, Contact Mechanics (1985), eq. (2.19), (2.22)). As in three dimensions A is that of the
-//! outermost material, whose integral over a strip is closed, plus a remainder that decays like exp(-2 k h),
-//! whose integral over k a Gauss rule takes.
+//! over k > 0. A line load leaves a constant open: displacements are relative to the points at the
+//! distance L, here the grid's length, of any stack of layers; of a homogeneous body the integral
+//! is -A/pi ln(|x|/L) (K. L. Johnson, Contact Mechanics (1985), eq. (2.19), (2.22)). As in three
+//! dimensions A is that of the outermost material, whose integral over a strip is closed, plus a
+//! remainder that decays like exp(-2 k h), whose integral over k a Gauss rule takes.
 
 use std::f64::consts::PI;
 

@@ -1,8 +1,9 @@
 //! Stage 2: RESPONSE of a body to tractions on its surface.
 //!
-//! [`Stack`] knows the frequency response of any number of bonded layers. [`influence_coefficients`]
-//! turns it into the displacements that unit traction on one cell causes, by the method of the
-//! [`KernelSettings`]; [`stress_coefficients`] does so for the stress at any depth.
+//! [`Stack`] knows the frequency response of any number of bonded layers.
+//! [`influence_coefficients`] turns it into the displacements that unit traction on one cell
+//! causes, by the method of the [`KernelSettings`]; [`stress_coefficients`] does so for the stress
+//! at any depth.
 
 mod bessel;
 mod cache;
@@ -62,8 +63,8 @@ const NUMBERS: f64 = 18.0 * 8.0;
 /// substrate. Under [`KernelMethod::FrequencyDomain`], which convolves without coefficients, they
 /// are those of the default method.
 ///
-/// On a grid in plane strain they are those of strips without end along y: displacements relative to
-/// the points at the grid's length from the load, since a line load has no absolute ones.
+/// On a grid in plane strain they are those of strips without end along y: displacements relative
+/// to the points at the grid's length from the load, since a line load has no absolute ones.
 ///
 /// Ends when `stop` is raised, if there is one: [`Error::Interrupted`] after increment 0.
 pub fn influence_coefficients(
@@ -78,8 +79,8 @@ pub fn influence_coefficients(
     Ok(Arc::unwrap_or_clone(coefficients))
 }
 
-/// The coefficients of a pair of bodies, eq. (4) of the paper, those of a set; of bodies of the same
-/// layers they are computed once.
+/// The coefficients of a pair of bodies, eq. (4) of the paper, those of a set; of bodies of the
+/// same layers they are computed once.
 ///
 /// Ends when `stop` is raised, if there is one: [`Error::Interrupted`] after increment 0.
 pub fn pair_coefficients(

@@ -94,8 +94,8 @@ type Octave = (Vec<f64>, Vec<Vec<[f64; 4]>>);
 /// Most rules whose Bessel functions are kept, some megabyte each.
 const KEPT: usize = 16;
 
-/// Those computed before, by the number of nodes, which distinguishes rules from 0 to the window's end
-/// apart: kernels at many depths share them.
+/// Those computed before, by the number of nodes, which distinguishes rules from 0 to the window's
+/// end apart: kernels at many depths share them.
 static OCTAVES: Mutex<BTreeMap<usize, Arc<Octave>>> = Mutex::new(BTreeMap::new());
 
 fn octave(rule: &Rule) -> Arc<Octave> {

@@ -28,8 +28,8 @@ use crate::magnitude::LARGEST;
 use crate::memory::fits;
 use crate::scene::{Body, Grid};
 
-/// Memory that the stress coefficients of a body take per cell while they are made: eighteen quadrants,
-/// twice \[bytes\].
+/// Memory that the stress coefficients of a body take per cell while they are made: eighteen
+/// quadrants, twice \[bytes\].
 const NUMBERS: f64 = 36.0 * 8.0;
 
 /// The six stresses.

@@ -36,12 +36,14 @@ pub struct Fields {
     pub contact: Array2<bool>,
     /// Contact cells that do not slip in this increment.
     pub stick: Array2<bool>,
-    /// Those of them whose shear is at the limit of friction: they slip by less than an increment can tell.
+    /// Those of them whose shear is at the limit of friction: they slip by less than an increment
+    /// can tell.
     pub at_limit: Array2<bool>,
 }
 
 impl March {
-    /// The shear tractions q_x, q_y after the last increment on the whole grid \[Pa\], shape (nx, ny).
+    /// The shear tractions q_x, q_y after the last increment on the whole grid \[Pa\], shape (nx,
+    /// ny).
     pub fn shear(&self) -> [Array2<f64>; 2] {
         let q = &self.state.interface.q;
         let q_y = on_grid(&self.problem, &self.state, &q[1], Half::Odd)

@@ -44,8 +44,8 @@ impl Largest {
     }
 }
 
-/// What drives the motions of an increment: across the plane from the unloaded state, in it from the last
-/// increment.
+/// What drives the motions of an increment: across the plane from the unloaded state, in it from
+/// the last increment.
 #[derive(Clone, Copy)]
 pub(super) struct Drives {
     pub(super) normal: Drive,

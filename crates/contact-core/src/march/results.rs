@@ -45,8 +45,8 @@ pub enum Status {
     FullStick,
     /// Stick and slip cells.
     PartialSlip,
-    /// Every contact cell slips: friction carries its limit. Under given forces the shift is that of
-    /// incipient sliding.
+    /// Every contact cell slips: friction carries its limit. Under given forces the shift is that
+    /// of incipient sliding.
     GrossSlip,
 }
 
@@ -101,8 +101,8 @@ pub struct Residuals {
     pub penetration: f64,
     /// Largest |q| - mu p over mu p_max; zero or below if Coulomb's law holds everywhere.
     pub coulomb: f64,
-    /// Root-mean-square slip of stick cells, the residual slip of earlier increments included, over mu times
-    /// the Hertz approach.
+    /// Root-mean-square slip of stick cells, the residual slip of earlier increments included, over
+    /// mu times the Hertz approach.
     pub stick: f64,
     /// Root-mean-square part of the slip that is not opposite to q, over mu times the approach.
     pub direction: f64,
@@ -126,8 +126,8 @@ pub struct Work {
     pub normal_iterations: usize,
     /// Conjugate-gradient iterations of the tangential solver.
     pub tangential_iterations: usize,
-    /// Pieces that the increment was solved in: more than one where a contact grows by much, and if it did not converge
-    /// whole.
+    /// Pieces that the increment was solved in: more than one where a contact grows by much, and if
+    /// it did not converge whole.
     pub parts: usize,
 }
 
@@ -146,8 +146,8 @@ pub struct Increment {
     pub contact_area: f64,
     /// Area of the stick zone \[m^2\]; cells at its border count with the part inside.
     pub stick_area: f64,
-    /// Cells across the radius of the contact: the half width, the smaller semi-axis of an ellipse, of many
-    /// spots that of the one in the middle of their area; zero without a contact.
+    /// Cells across the radius of the contact: the half width, the smaller semi-axis of an ellipse,
+    /// of many spots that of the one in the middle of their area; zero without a contact.
     pub cells_per_radius: f64,
     /// Largest pressure \[Pa\].
     pub p_max: f64,

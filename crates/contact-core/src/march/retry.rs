@@ -1,4 +1,5 @@
-//! Increments that do not converge are retried, from the last tractions as they are, then in halves.
+//! Increments that do not converge are retried, from the last tractions as they are, then in
+//! halves.
 //!
 //! An extrapolated guess may lie outside the domain of convergence; without it the solution is the
 //! same. Half of the increment is an easier problem, since the last state is nearer to the

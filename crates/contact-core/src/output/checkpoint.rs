@@ -182,8 +182,8 @@ impl Checkpoints {
             .map_err(|e| folder.error(&format!("{FOLDER}: {e}")))
     }
 
-    /// Removes the checkpoints of a store that is done, which a process that died at its very end has
-    /// left, where that is allowed.
+    /// Removes the checkpoints of a store that is done, which a process that died at its very end
+    /// has left, where that is allowed.
     pub(super) fn clear(folder: &Folder) {
         if !Self::in_use(folder) {
             let _ = fs::remove_dir_all(folder.root().join(FOLDER));

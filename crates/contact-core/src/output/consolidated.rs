@@ -1,16 +1,16 @@
 //! The consolidated metadata of a store, `.zmetadata`: replacing it makes all new files valid at
 //! once.
 //!
-//! Beside the metadata documents of Zarr, which every Zarr library reads, it holds what tells a whole
-//! store from a damaged one:
+//! Beside the metadata documents of Zarr, which every Zarr library reads, it holds what tells a
+//! whole store from a damaged one:
 //!
 //! ```text
 //! checksums   per array the CRC-32 of the values of each chunk, in their order, little endian
 //! crc32       the CRC-32 of the file up to there
 //! ```
 //!
-//! Values are summed up, not files, and of the last chunk of a column those that count: a column that
-//! grows while it is read, or after a kill, stays the one that the metadata speak of.
+//! Values are summed up, not files, and of the last chunk of a column those that count: a column
+//! that grows while it is read, or after a kill, stays the one that the metadata speak of.
 
 use std::collections::BTreeMap;
 

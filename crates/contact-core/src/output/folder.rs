@@ -14,8 +14,8 @@ use zarrs::storage::{
 
 use crate::error::Error;
 
-/// Where a file or a folder is before or after it is in its place: beside it, under a name that no Zarr
-/// library looks at.
+/// Where a file or a folder is before or after it is in its place: beside it, under a name that no
+/// Zarr library looks at.
 pub(super) fn beside(path: &Path, why: &str) -> PathBuf {
     let mut name = OsString::from(".");
     name.push(path.file_name().unwrap_or_default());

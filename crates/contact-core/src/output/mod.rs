@@ -4,12 +4,12 @@
 //! have the dimension `increment`, fields `saved`, `x`, `y`; [`SCALARS`] and [`FIELDS`] say what
 //! each variable is. The attributes of the group hold the scene and how the run ended.
 //!
-//! [`StoreWriter`] appends during the run. Every file is replaced as a whole, the
-//! consolidated metadata last: whoever reads it, or is left with it after a crash, sees the store
-//! as it was at one moment. They hold a checksum of every chunk, too, so that what is read is what was
-//! written, or an error names the file ([`Store::verify`]). Beside the arrays it holds a checkpoint of the state, from which
-//! [`resume`] continues to the same result, bit by bit. Groups are laid out beside their place and take
-//! it at once: a path holds nothing, or a store.
+//! [`StoreWriter`] appends during the run. Every file is replaced as a whole, the consolidated
+//! metadata last: whoever reads it, or is left with it after a crash, sees the store as it was at
+//! one moment. They hold a checksum of every chunk, too, so that what is read is what was written,
+//! or an error names the file ([`Store::verify`]). Beside the arrays it holds a checkpoint of the
+//! state, from which [`resume`] continues to the same result, bit by bit. Groups are laid out
+//! beside their place and take it at once: a path holds nothing, or a store.
 //!
 //! [`Columns`] keeps the same in memory, for whoever wants no store.
 //!

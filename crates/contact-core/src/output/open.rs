@@ -106,8 +106,8 @@ impl Open {
         }
     }
 
-    /// Begins the store: lays out the group, without a variable, and the place of the checkpoints, and
-    /// puts it in its place, that of an old one if this is to be replaced.
+    /// Begins the store: lays out the group, without a variable, and the place of the checkpoints,
+    /// and puts it in its place, that of an old one if this is to be replaced.
     pub(super) fn begin(&mut self, replace: bool) -> Result<(), Error> {
         let unfinished = Unfinished::begin(self.folder.root())?;
         let place = std::mem::replace(&mut self.folder, unfinished.folder().clone());

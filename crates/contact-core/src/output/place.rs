@@ -5,10 +5,11 @@
 //! .NAME.replaced     what was at NAME
 //! ```
 //!
-//! With a store to be replaced the steps are: NAME becomes `.NAME.replaced`, `.NAME.unfinished` becomes
-//! NAME, `.NAME.replaced` goes. Whenever the process dies, NAME is nothing, the old store or the new one;
-//! between the first two steps, where it is nothing, whoever writes there next or resumes puts the
-//! old store back ([`mend`]). What else is left goes when the same place is written again.
+//! With a store to be replaced the steps are: NAME becomes `.NAME.replaced`, `.NAME.unfinished`
+//! becomes NAME, `.NAME.replaced` goes. Whenever the process dies, NAME is nothing, the old store
+//! or the new one; between the first two steps, where it is nothing, whoever writes there next or
+//! resumes puts the old store back ([`mend`]). What else is left goes when the same place is
+//! written again.
 
 use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
@@ -70,8 +71,8 @@ impl Unfinished {
         &self.folder
     }
 
-    /// Puts the folder in its place, where there must be nothing, or a store that nobody writes if it is
-    /// to be replaced.
+    /// Puts the folder in its place, where there must be nothing, or a store that nobody writes if
+    /// it is to be replaced.
     pub(super) fn finish(mut self, replace: bool) -> Result<Arc<Folder>, Error> {
         let failed = |e: io::Error| {
             self.folder
@@ -113,8 +114,8 @@ impl Drop for Unfinished {
     }
 }
 
-/// The place that a path leads to: links are followed, so that what is laid out beside a place and put
-/// there is on its file system, and so that a link stays one.
+/// The place that a path leads to: links are followed, so that what is laid out beside a place and
+/// put there is on its file system, and so that a link stays one.
 pub(super) fn place(path: &Path) -> Result<PathBuf, Error> {
     // A slash at the end says nothing.
     let path: PathBuf = path.components().collect();

@@ -24,8 +24,8 @@ pub struct Store {
 }
 
 impl Store {
-    /// Opens a store; fails if there is none, one of another layout, or one whose metadata are damaged.
-    /// What is read of it later is checked then; [`Self::verify`] checks all of it.
+    /// Opens a store; fails if there is none, one of another layout, or one whose metadata are
+    /// damaged. What is read of it later is checked then; [`Self::verify`] checks all of it.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let folder = Folder::new(path.as_ref());
         let consolidated = whole::consolidated(&folder)?;
@@ -59,7 +59,8 @@ impl Store {
         whole::verify(&self.folder, &self.consolidated)
     }
 
-    /// Opens a store and checks all of it; a store that is being written meanwhile is looked at again.
+    /// Opens a store and checks all of it; a store that is being written meanwhile is looked at
+    /// again.
     pub fn open_whole(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let mut store = Self::open(path)?;

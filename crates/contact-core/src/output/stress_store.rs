@@ -1,4 +1,5 @@
-//! Stress and displacement below the surface as a Zarr group, over (`depth`, `x`, `y`) or along a line.
+//! Stress and displacement below the surface as a Zarr group, over (`depth`, `x`, `y`) or along a
+//! line.
 
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};

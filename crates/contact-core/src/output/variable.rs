@@ -148,8 +148,9 @@ impl Variable {
         open_array(folder, self.name, self.zarray())
     }
 
-    /// Stores a chunk of real numbers, the first along all dimensions but the first, converted to the
-    /// variable's kind; a short one is filled up with zeros. Returns the checksum of the numbers.
+    /// Stores a chunk of real numbers, the first along all dimensions but the first, converted to
+    /// the variable's kind; a short one is filled up with zeros. Returns the checksum of the
+    /// numbers.
     pub(super) fn store(
         &self,
         folder: &Arc<Folder>,

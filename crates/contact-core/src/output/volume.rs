@@ -15,9 +15,9 @@ pub trait VolumeSink: Sync {
 }
 
 /// Computes the probes under the first state of `slices` at every depth of `written`, hands them to
-/// the sinks and gives the largest value of each, if a `search` is there to look between the samples; for that alone
-/// the planes at the depths `between` are looked at too. Only as many planes are in memory as there are
-/// threads.
+/// the sinks and gives the largest value of each, if a `search` is there to look between the
+/// samples; for that alone the planes at the depths `between` are looked at too. Only as many
+/// planes are in memory as there are threads.
 pub fn write_volume(
     slices: &Slices,
     written: &[Depth],

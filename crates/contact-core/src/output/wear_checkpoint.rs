@@ -1,4 +1,5 @@
-//! The state of a run of wear after its last jump: the file `checkpoint/wear` of its store, with a checksum.
+//! The state of a run of wear after its last jump: the file `checkpoint/wear` of its store, with a
+//! checksum.
 
 use std::sync::Arc;
 

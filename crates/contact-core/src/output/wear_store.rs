@@ -1,9 +1,9 @@
-//! A run of wear as a Zarr group: scalars over `jump`, fields over `block`, `x`, `y`, the friction loops
-//! of the blocks over `block`, `corner`.
+//! A run of wear as a Zarr group: scalars over `jump`, fields over `block`, `x`, `y`, the friction
+//! loops of the blocks over `block`, `corner`.
 //!
-//! Beside the arrays lies the state after the last jump ([`wear_checkpoint`](super::wear_checkpoint)), from
-//! which [`resume_wear`] goes on. Fields of later blocks that a killed process has left are written again
-//! with the same bytes.
+//! Beside the arrays lies the state after the last jump
+//! ([`wear_checkpoint`](super::wear_checkpoint)), from which [`resume_wear`] goes on. Fields of
+//! later blocks that a killed process has left are written again with the same bytes.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -181,8 +181,8 @@ fn locked(folder: &Arc<Folder>) -> Result<File, Error> {
     Ok(lock)
 }
 
-/// Removes the checkpoint of a run that is done, which a process that died at its very end has left. What cannot be
-/// removed is no reason to fail: the store is whole.
+/// Removes the checkpoint of a run that is done, which a process that died at its very end has
+/// left. What cannot be removed is no reason to fail: the store is whole.
 fn clear_checkpoint(folder: &Folder) {
     let _ = std::fs::remove_dir_all(folder.root().join("checkpoint"));
 }
@@ -312,8 +312,8 @@ fn attributes(run: &WearRun, status: &str) -> Value {
     })
 }
 
-/// Fails if there is no store of a run of wear at `path`, or if a file of it is missing or not as it was
-/// written; a store that is being written meanwhile is looked at again.
+/// Fails if there is no store of a run of wear at `path`, or if a file of it is missing or not as
+/// it was written; a store that is being written meanwhile is looked at again.
 pub fn verify_wear(path: impl AsRef<Path>) -> Result<(), Error> {
     let folder = Folder::new(path.as_ref());
     let mut consolidated = whole::consolidated(&folder)?;
@@ -333,8 +333,9 @@ pub fn verify_wear(path: impl AsRef<Path>) -> Result<(), Error> {
 }
 
 /// Takes up a run of wear where its store left it, to the same bytes; `None` if it is done. Fails
-/// if `path` holds no run of wear, one by a law of the user's own, or another one than that of a scene
-/// and its wear, where they are given, and if a file of it is missing or not as it was written.
+/// if `path` holds no run of wear, one by a law of the user's own, or another one than that of a
+/// scene and its wear, where they are given, and if a file of it is missing or not as it was
+/// written.
 pub fn resume_wear(
     path: impl AsRef<Path>,
     of: Option<(&Scene, &Wear)>,
@@ -347,8 +348,8 @@ pub fn resume_wear(
     take_up(path.as_ref(), settled.transpose()?, &own, stop)
 }
 
-/// The same for a run by laws of the user's own, which no store can hold: they are given again for the bodies that have
-/// them.
+/// The same for a run by laws of the user's own, which no store can hold: they are given again for
+/// the bodies that have them.
 pub fn resume_wear_by(
     path: impl AsRef<Path>,
     own: &[Option<BodyWear>; 2],

@@ -11,7 +11,8 @@ use super::schema::SCHEMA;
 use super::stored::Stored;
 use crate::error::Error;
 
-/// The consolidated metadata of a store; fails if there is none, one of another layout or damaged ones.
+/// The consolidated metadata of a store; fails if there is none, one of another layout or damaged
+/// ones.
 pub(super) fn consolidated(folder: &Folder) -> Result<Consolidated, Error> {
     let text = folder
         .read(FILE)

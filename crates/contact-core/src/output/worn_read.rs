@@ -16,8 +16,8 @@ use crate::wear::WornStart;
 /// Largest number of values that a field may have.
 const MOST_VALUES: u64 = 1 << 28;
 
-/// Reads the last block of a run of wear: what another run may begin on. Fails if a file of the store is missing or
-/// not as it was written.
+/// Reads the last block of a run of wear: what another run may begin on. Fails if a file of the
+/// store is missing or not as it was written.
 pub fn read_worn(path: impl AsRef<Path>) -> Result<WornStart, Error> {
     verify_wear(path.as_ref())?;
     let folder = Folder::new(path.as_ref());
@@ -44,7 +44,8 @@ pub fn read_worn(path: impl AsRef<Path>) -> Result<WornStart, Error> {
     })
 }
 
-/// The last entry along the first dimension of an array of real numbers, and the shape of the array.
+/// The last entry along the first dimension of an array of real numbers, and the shape of the
+/// array.
 fn last(folder: &Arc<Folder>, name: &str) -> Result<(Vec<u64>, Vec<f64>), Error> {
     let failed = |e: &dyn std::fmt::Display| folder.error(&format!("{name}: {e}"));
     let key = format!("{name}/.zarray");

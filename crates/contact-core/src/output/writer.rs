@@ -80,8 +80,8 @@ impl StoreWriter {
         self
     }
 
-    /// Increments that the store on the disk holds, from which [`super::resume`] goes on; 0 if there is
-    /// none.
+    /// Increments that the store on the disk holds, from which [`super::resume`] goes on; 0 if
+    /// there is none.
     pub fn kept(&self) -> usize {
         self.open.as_ref().map_or(0, |open| open.on_disk)
     }
@@ -118,8 +118,8 @@ impl Observer for StoreWriter {
     }
 
     /// Keeps the fields of the last increment (unless the run was stopped on a grid of two million
-    /// cells or more), says how the run ended and what is to be doubted of it; a run that ended early leaves a checkpoint to go on
-    /// from.
+    /// cells or more), says how the run ended and what is to be doubted of it; a run that ended
+    /// early leaves a checkpoint to go on from.
     fn on_end(&mut self, march: &March, failure: Option<&Error>) -> Result<(), Error> {
         let Some(open) = &mut self.open else {
             return Ok(());

@@ -16,8 +16,8 @@ const HALF_WAY: f64 = 6.0;
 /// Numbers per increment: its loads, its results, its line in the store.
 const INCREMENT: f64 = 200.0;
 
-/// Most that a window around the contact, 0.9 times as long and wide as the grid, adds to the operators
-/// of that.
+/// Most that a window around the contact, 0.9 times as long and wide as the grid, adds to the
+/// operators of that.
 const WINDOW: f64 = 1.8;
 
 const BYTES: f64 = 8.0;

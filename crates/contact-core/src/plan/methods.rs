@@ -22,11 +22,12 @@ pub struct Methods {
     pub preconditioner: bool,
     /// Reckon the slip of cells that come into contact from their entry (default: the setting).
     pub entry: bool,
-    /// Order the entry of the cells next to the contact one by one; without it their motion is summed from
-    /// cell to cell like that of cells farther off (default true).
+    /// Order the entry of the cells next to the contact one by one; without it their motion is
+    /// summed from cell to cell like that of cells farther off (default true).
     pub order_of_entry: bool,
-    /// Steps of equal root of the radius in which a contact of dissimilar bodies grows to the largest of the path, and
-    /// twice the steps of equal radius of similar ones that are sheared meanwhile (default 20; 1 for whole increments).
+    /// Steps of equal root of the radius in which a contact of dissimilar bodies grows to the
+    /// largest of the path, and twice the steps of equal radius of similar ones that are sheared
+    /// meanwhile (default 20; 1 for whole increments).
     pub growth_steps: usize,
     /// Let slip follow the turn of the shear within an increment (default: the setting).
     pub turning: bool,
@@ -38,15 +39,16 @@ pub struct Methods {
     pub first_contact: bool,
     /// End the inner loops early in a pass that others follow (default true).
     pub inexact: bool,
-    /// Let cells slip at once that the normal solver brings into contact, where friction does not hold them (default
-    /// true).
+    /// Let cells slip at once that the normal solver brings into contact, where friction does not
+    /// hold them (default true).
     pub new_cells_slip: bool,
     /// Accelerate an alternation that is slow (default true).
     pub anderson: bool,
-    /// Retry an increment that does not converge, without extrapolation and in halves (default true).
+    /// Retry an increment that does not converge, without extrapolation and in halves (default
+    /// true).
     pub retries: bool,
-    /// Continue zones to their borders within the cells: areas and radii; without it whole cells count
-    /// (default true).
+    /// Continue zones to their borders within the cells: areas and radii; without it whole cells
+    /// count (default true).
     pub partial_cells: bool,
     /// Keep the threads of the pool awake while an increment is solved (default true).
     pub busy_threads: bool,
@@ -56,7 +58,8 @@ pub struct Methods {
     pub single_precision: bool,
 }
 
-/// The largest error of a cell that an indentation of the paper's scene leaves is 1.8 to 2.5 % with them, 1.4 to 1.7 % with 24.
+/// The largest error of a cell that an indentation of the paper's scene leaves is 1.8 to 2.5 % with
+/// them, 1.4 to 1.7 % with 24.
 const GROWTH_STEPS: usize = 20;
 
 impl Methods {

@@ -72,8 +72,8 @@ impl Plan {
         }
     }
 
-    /// The increments that are solved: of a branch whose end does not depend on the way, the last, and a short
-    /// first one.
+    /// The increments that are solved: of a branch whose end does not depend on the way, the last,
+    /// and a short first one.
     pub fn points(&self, scene: &Scene) -> Vec<LoadPoint> {
         let mut points = scene.path.points();
         let mut before = None;

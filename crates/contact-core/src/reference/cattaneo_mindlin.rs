@@ -44,8 +44,8 @@ impl CattaneoMindlin {
         self.mu * self.hertz.W
     }
 
-    /// Stick radius over contact radius after the force changed by `T` \[N\] in one direction out of
-    /// a state whose friction allows the change `limit` \[N\].
+    /// Stick radius over contact radius after the force changed by `T` \[N\] in one direction out
+    /// of a state whose friction allows the change `limit` \[N\].
     fn stick(T: f64, limit: f64) -> f64 {
         (1.0 - T.abs() / limit).max(0.0).cbrt()
     }

@@ -44,7 +44,8 @@ pub struct CoatedIndentation {
     waves: Vec<(f64, f64)>,
 }
 
-/// The contact of an elastic or rigid sphere of radius `R` \[m\] with a coated body under `W` \[N\].
+/// The contact of an elastic or rigid sphere of radius `R` \[m\] with a coated body under `W`
+/// \[N\].
 ///
 /// The work grows like (a/h)^3: a second or so at h = a/100. Fails if the contact is more than 200
 /// times as wide as the coating is thick, where the closed forms of thin layers hold.

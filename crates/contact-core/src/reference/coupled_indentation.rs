@@ -42,9 +42,9 @@ struct Rates {
 /// solve a flat-punch problem with a stick circle of fixed c/a. As Abel transforms f, g (lengths
 /// over a, displacements over A, A = (1 - nu1)/G1 + (1 - nu2)/G2) the rates satisfy, f even, g odd,
 ///
-/// f(t) - (beta/pi) PV int_(-1)^1 g(s)/(s - t) ds = 1 (the sphere moves in),
-/// g(s) + (beta/pi) PV int_(-1)^1 f(t)/(t - s) dt = 0 for s < c (no change of strain),
-/// g(s) = mu \[f(s) + int_s^1 f(t) dG/dt dt\], G = (2 s/(pi t)) K(sqrt(1 - s^2/t^2)), for s > c (slip),
+/// f(t) - (beta/pi) PV int_(-1)^1 g(s)/(s - t) ds = 1 (the sphere moves in), g(s) + (beta/pi) PV
+/// int_(-1)^1 f(t)/(t - s) dt = 0 for s < c (no change of strain), g(s) = mu \[f(s) + int_s^1 f(t)
+/// dG/dt dt\], G = (2 s/(pi t)) K(sqrt(1 - s^2/t^2)), for s > c (slip),
 ///
 /// and c follows from g being continuous there. Collocation on 200 graded cells; p0, delta_z and W
 /// are within 1e-4, c/a within 5e-5 of the limit of fine cells.
@@ -185,8 +185,8 @@ mod tests {
     use super::*;
 
     /// Full stick has a closed form: f = A cos(eps L), g = A sin(eps L), L = ln\[(1 + t)/(1 - t)\],
-    /// tanh(pi eps) = beta; the rates give W's rate A pi eps/sinh(pi eps) and the central pressure's
-    /// A pi eps/beta (V. I. Mossakovskii's punch).
+    /// tanh(pi eps) = beta; the rates give W's rate A pi eps/sinh(pi eps) and the central
+    /// pressure's A pi eps/beta (V. I. Mossakovskii's punch).
     #[test]
     fn strong_friction_leads_to_full_stick() {
         for beta in [0.1, 2.0 / 7.0] {

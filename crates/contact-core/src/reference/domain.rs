@@ -1,7 +1,7 @@
 //! Where the closed forms hold: checks of their arguments, for those that come from outside.
 //!
-//! The functions and types beside this file compute whatever they are given; who cannot vouch for the
-//! arguments asks here first.
+//! The functions and types beside this file compute whatever they are given; who cannot vouch for
+//! the arguments asks here first.
 
 use crate::error::Error;
 use crate::magnitude::{LARGEST, SMALLEST};

@@ -23,12 +23,11 @@ pub fn goodman_stick_ratio(beta: f64, mu: f64) -> f64 {
     })
 }
 
-/// Rate function of the shear (derived), for c/a = `c` and lengths over a, tractions over the
-/// rate of the pressure's flat-punch form P/sqrt(1 - r^2):
-/// dq/da = -d/dr int_r^1 g(s)/sqrt(s^2 - r^2) ds, with
-/// g = (|beta|/pi) ln\[(1 + s)/(1 - s)\] in the stick circle, so that the surface strain does not
-/// change there, and g = (2 mu s/pi) K(sqrt(1 - s^2)) in the slip annulus, so that dq/da = mu dp/da.
-/// g is continuous at s = c: that is the equation of [`goodman_stick_ratio`].
+/// Rate function of the shear (derived), for c/a = `c` and lengths over a, tractions over the rate
+/// of the pressure's flat-punch form P/sqrt(1 - r^2): dq/da = -d/dr int_r^1 g(s)/sqrt(s^2 - r^2)
+/// ds, with g = (|beta|/pi) ln\[(1 + s)/(1 - s)\] in the stick circle, so that the surface strain
+/// does not change there, and g = (2 mu s/pi) K(sqrt(1 - s^2)) in the slip annulus, so that dq/da =
+/// mu dp/da. g is continuous at s = c: that is the equation of [`goodman_stick_ratio`].
 pub fn goodman_rate(s: f64, c: f64, beta: f64, mu: f64) -> f64 {
     if s < c {
         2.0 * beta.abs() / PI * s.atanh()

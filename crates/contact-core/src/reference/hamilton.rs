@@ -67,8 +67,8 @@ impl HertzStress {
         ]
     }
 
-    /// Stress \[Pa\] at (x, y, z) \[m\] under the peak pressure `p0` \[Pa\] of a sphere that drags the
-    /// surface along +x with q_x = `mu` p.
+    /// Stress \[Pa\] at (x, y, z) \[m\] under the peak pressure `p0` \[Pa\] of a sphere that drags
+    /// the surface along +x with q_x = `mu` p.
     pub fn sliding(&self, p0: f64, mu: f64, (x, y, z): (f64, f64, f64)) -> Stress {
         let (pressure, shear) = (self.pressure(x, y, z), self.shear(x, y, z));
         std::array::from_fn(|i| p0 * (pressure[i] + mu * shear[i]))

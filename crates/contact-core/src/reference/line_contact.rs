@@ -19,8 +19,8 @@ pub struct LineContact {
     pub p0: f64,
 }
 
-/// Hertz contact of cylinders of relative radius `R` \[m\] and contact modulus `E_star` \[Pa\] under
-/// `W` \[N/m\].
+/// Hertz contact of cylinders of relative radius `R` \[m\] and contact modulus `E_star` \[Pa\]
+/// under `W` \[N/m\].
 pub fn line_contact(R: f64, E_star: f64, W: f64) -> LineContact {
     let a = (4.0 * W * R / (PI * E_star)).sqrt();
     LineContact {
@@ -37,9 +37,9 @@ impl LineContact {
         self.a * self.a / (2.0 * R) * ((2.0 * far / self.a).ln() + 0.5)
     }
 
-    /// Middle \[m\] of the stick zone under `T` > 0 and the strain `eps_x` of body 2 along x, brought
-    /// up together with T: e = eps_x E* a/(2 mu p0). With similar bodies, plane strain and a bulk
-    /// stress sigma_B this is a sigma_B/(4 mu p0); it holds while e + c <= a.
+    /// Middle \[m\] of the stick zone under `T` > 0 and the strain `eps_x` of body 2 along x,
+    /// brought up together with T: e = eps_x E* a/(2 mu p0). With similar bodies, plane strain and
+    /// a bulk stress sigma_B this is a sigma_B/(4 mu p0); it holds while e + c <= a.
     ///
     /// D. Nowell, D. A. Hills, Int. J. Mech. Sci. 29 (1987) 355-365.
     pub fn stick_middle(&self, eps_x: f64, E_star: f64, mu: f64) -> f64 {
@@ -48,8 +48,8 @@ impl LineContact {
 
     /// Shear traction q_x(x) \[Pa\] under `T` \[N/m\] with the stick zone's middle at `e` \[m\]: mu
     /// times the pressure less the similar one on the stick zone. With e the stick zone's shift in
-    /// steady rolling, a - c towards the leading edge, it is Carter's (F. W. Carter, Proc. R. Soc. A
-    /// 112 (1926) 151-157).
+    /// steady rolling, a - c towards the leading edge, it is Carter's (F. W. Carter, Proc. R. Soc.
+    /// A 112 (1926) 151-157).
     pub fn q_shifted(&self, x: f64, e: f64, T: f64, mu: f64) -> f64 {
         let c = self.stick_half_width(T, mu);
         let stuck = (c * c - (x - e) * (x - e)).max(0.0).sqrt() / self.a;
@@ -75,8 +75,8 @@ impl LineContact {
         T.signum() * mu * (self.p(x) - self.p0 * stuck)
     }
 
-    /// Stress \[Pa\] at (x, z >= 0) \[m\] in partial slip under `T` \[N/m\] along +x on the body: the
-    /// pressure's field and the difference of two shears.
+    /// Stress \[Pa\] at (x, z >= 0) \[m\] in partial slip under `T` \[N/m\] along +x on the body:
+    /// the pressure's field and the difference of two shears.
     pub fn partial_slip_stress(&self, (x, z): (f64, f64), T: f64, mu: f64) -> PlaneStress {
         let c = self.stick_half_width(T, mu);
         let pressure = mcewen_pressure(self.p0, self.a, (x, z));

@@ -68,9 +68,9 @@ impl Lubkin {
         a * bisect(0.0, 1.0, |ratio| M_z - self.M_z(ratio * a))
     }
 
-    /// Circumferential traction q_theta(r) \[Pa\] at the stick radius `c` \[m\]: mu p for r >= c, and
-    /// (2 mu p0/pi) int E(sqrt(1 - r^2/(a sin t)^2)) dt over asin(r/a) < t < asin(r/c) for r < c
-    /// (derived).
+    /// Circumferential traction q_theta(r) \[Pa\] at the stick radius `c` \[m\]: mu p for r >= c,
+    /// and (2 mu p0/pi) int E(sqrt(1 - r^2/(a sin t)^2)) dt over asin(r/a) < t < asin(r/c) for r <
+    /// c (derived).
     pub fn q(&self, r: f64, c: f64) -> f64 {
         let (r, a) = (r.abs(), self.hertz.a);
         if r >= c {

@@ -10,8 +10,8 @@ use crate::material::Elastic;
 /// u_x = (pi q0/(32 G a)) \[4 (2 - nu) a^2 - (4 - 3 nu) x^2 - (4 - nu) y^2\],
 /// u_y = (pi q0/(32 G a)) 2 nu x y.
 ///
-/// R. D. Mindlin, J. Appl. Mech. 16 (1949) 259; K. L. Johnson, Contact Mechanics (1985), eq. (3.91).
-/// The displacement is relative to infinity and along q_x where q0 > 0.
+/// R. D. Mindlin, J. Appl. Mech. 16 (1949) 259; K. L. Johnson, Contact Mechanics (1985), eq.
+/// (3.91). The displacement is relative to infinity and along q_x where q0 > 0.
 pub fn mindlin_shear_displacement(
     material: Elastic,
     q0: f64,

@@ -14,8 +14,8 @@ pub(crate) fn integrate(n: usize, a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64
     gauss_legendre(n, a, b).iter().map(|&(x, w)| w * f(x)).sum()
 }
 
-/// The root of an `f` that rises through zero on (a, b), to round-off: bisection, which cannot fail.
-/// The bound of its side where `f` has only one sign.
+/// The root of an `f` that rises through zero on (a, b), to round-off: bisection, which cannot
+/// fail. The bound of its side where `f` has only one sign.
 pub(crate) fn bisect(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
     loop {
         let middle = f64::midpoint(a, b);

@@ -4,9 +4,9 @@ use super::{Hertz, tangential_modulus};
 use crate::material::Elastic;
 
 /// Independent springs that carry, for a sphere, exactly the force-displacement relations of the
-/// three-dimensional contact under any path (W, T): method of dimensionality reduction,
-/// V. L. Popov, M. Hess, Facta Univ. Mech. Eng. 12 (2014) 1. Springs of stiffness E* dx and
-/// G_t dx, G_t = 4 G*, under the profile x^2/R, each with Coulomb's law |f_x| <= mu f_z. Valid where
+/// three-dimensional contact under any path (W, T): method of dimensionality reduction, V. L.
+/// Popov, M. Hess, Facta Univ. Mech. Eng. 12 (2014) 1. Springs of stiffness E* dx and G_t dx, G_t =
+/// 4 G*, under the profile x^2/R, each with Coulomb's law |f_x| <= mu f_z. Valid where
 /// [`CattaneoMindlin`](super::CattaneoMindlin) is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Springs {

@@ -36,9 +36,10 @@ pub fn thin_compressible_layer(R: f64, layer: Elastic, h: f64, W: f64) -> ThinLa
 }
 
 /// Rigid frictionless sphere of radius `R` on an incompressible layer (nu -> 1/2) of shear modulus
-/// `G` \[Pa\] and thickness `h` \[m\] under `W` \[N\], for a >> h (derived): the material can only flow
-/// sideways, -(h^3/(3 G)) laplace(p) = delta_z - r^2/(2 R) with p and its slope zero at the edge,
-/// so p = p0 (1 - r^2/a^2)^2, p0 = 3 G a^4/(32 R h^3), W = pi G a^6/(32 R h^3), delta_z = a^2/(4 R).
+/// `G` \[Pa\] and thickness `h` \[m\] under `W` \[N\], for a >> h (derived): the material can only
+/// flow sideways, -(h^3/(3 G)) laplace(p) = delta_z - r^2/(2 R) with p and its slope zero at the
+/// edge, so p = p0 (1 - r^2/a^2)^2, p0 = 3 G a^4/(32 R h^3), W = pi G a^6/(32 R h^3), delta_z =
+/// a^2/(4 R).
 pub fn thin_incompressible_layer(R: f64, G: f64, h: f64, W: f64) -> ThinLayerContact {
     let a = (32.0 * R * h.powi(3) * W / (PI * G)).cbrt().sqrt();
     ThinLayerContact {

@@ -53,8 +53,9 @@ impl Body {
         self.coatings.iter().scan(0.0, bottom).collect()
     }
 
-    /// The elastic make-up: E, nu, thickness and bond of each layer from the surface down, 0 for the
-    /// substrate; with `shortcut` one of layers that all equal the substrate is the substrate alone.
+    /// The elastic make-up: E, nu, thickness and bond of each layer from the surface down, 0 for
+    /// the substrate; with `shortcut` one of layers that all equal the substrate is the substrate
+    /// alone.
     pub(crate) fn layers(&self, shortcut: bool) -> Vec<[f64; 5]> {
         let coatings = if shortcut && self.is_homogeneous() {
             &[][..]

@@ -1,7 +1,7 @@
 //! Implausible numbers of a scene: a wrong unit, a typing error.
 //!
-//! Everything is compared with something else of the scene, never with what is usual, so that a scene
-//! in units of its own is a scene like any other.
+//! Everything is compared with something else of the scene, never with what is usual, so that a
+//! scene in units of its own is a scene like any other.
 
 use super::shape::Shape;
 use super::{Body, Coating, Elastic, Grid, Prescribed, RigidMotion, Scene, SurfaceMap};
@@ -14,8 +14,8 @@ pub(crate) const LARGE_STRAIN: f64 = 0.1;
 const WIDE: f64 = 0.1;
 /// Young's modulus below that of any solid \[Pa\].
 const LIQUID: f64 = 1e3;
-/// Young's moduli below those of rubber, which in MPa are those of all solids \[Pa\]; and lengths that then are
-/// hardly in metres: of a grid, of a radius \[m\].
+/// Young's moduli below those of rubber, which in MPa are those of all solids \[Pa\]; and lengths
+/// that then are hardly in metres: of a grid, of a radius \[m\].
 const GEL: f64 = 2e6;
 const LONG: [f64; 2] = [0.05, 0.5];
 /// Radii above this are probably not in metres \[m\].
@@ -69,9 +69,9 @@ impl Scene {
         Ok(())
     }
 
-    /// Fails if the contact is certain to leave the grid, even if each body were of its stiffest material
-    /// alone, or to be too small for its cells, even if it were of its softest. A scene that passes may still
-    /// turn out so when it is solved.
+    /// Fails if the contact is certain to leave the grid, even if each body were of its stiffest
+    /// material alone, or to be too small for its cells, even if it were of its softest. A scene
+    /// that passes may still turn out so when it is solved.
     pub fn check_fit(&self) -> Result<(), Error> {
         let stiff = Self {
             body1: stiffest(&self.body1),
@@ -219,7 +219,8 @@ impl Scene {
         })
     }
 
-    /// That the outermost interface lies within a cell below the surface, if what is below it differs.
+    /// That the outermost interface lies within a cell below the surface, if what is below it
+    /// differs.
     fn doubt_of_thin_layers(&self, key: &str, body: &Body) -> Option<String> {
         let Grid { dx, dy, .. } = self.grid;
         let cell = if self.grid.plane_strain {
@@ -241,7 +242,8 @@ impl Scene {
         })
     }
 
-    /// The same of measured heights: points farther apart than cells, points that were not measured.
+    /// The same of measured heights: points farther apart than cells, points that were not
+    /// measured.
     fn doubts_of_map(&self, map: &SurfaceMap, key: &str) -> Vec<String> {
         let mut doubts = Vec::new();
         let (nx, ny) = map.values.dim();

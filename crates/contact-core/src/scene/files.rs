@@ -6,8 +6,8 @@ use std::path::{Component, Path, PathBuf};
 use crate::error::Error;
 use crate::memory::fits;
 
-/// Memory that reading a text takes, over the length of the file: a number may be two bytes of text,
-/// and a list that grows is copied.
+/// Memory that reading a text takes, over the length of the file: a number may be two bytes of
+/// text, and a list that grows is copied.
 const COPIES: f64 = 12.0;
 
 /// Fails where there is no file, but a folder, a pipe or a device, and if what is made of the file

@@ -8,8 +8,8 @@ use crate::error::Error;
 /// Coulomb's law, `|q| <= mu p`, with a coefficient that may depend on the direction, the place and
 /// the history of each cell.
 ///
-/// The coefficient of an increment is that of the history at its end, extrapolated from the last increment where the
-/// path goes on.
+/// The coefficient of an increment is that of the history at its end, extrapolated from the last
+/// increment where the path goes on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
     /// Coefficient mu >= 0, where it depends on the direction that along x; 0 for a frictionless
@@ -76,7 +76,8 @@ impl Friction {
         plain.then_some(if W > 0.0 { self.mu * W } else { 0.0 })
     }
 
-    /// Fails if a coefficient, map or history has no meaning, or, given a `grid`, does not cover it.
+    /// Fails if a coefficient, map or history has no meaning, or, given a `grid`, does not cover
+    /// it.
     pub fn check(&self, grid: Option<&Grid>) -> Result<(), Error> {
         let positive = |mu: f64| mu > 0.0 && mu.is_finite();
         if self.mu < 0.0 || self.mu.is_nan() {

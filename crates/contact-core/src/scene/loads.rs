@@ -21,7 +21,8 @@ pub struct Loads {
     pub M_y: f64,
     /// Torsional moment about z, the sum of (x q_y - y q_x) dA \[N m\].
     pub M_z: f64,
-    /// Bulk stress along x of body 2, away from the contact \[Pa\], tension positive: a fatigue load.
+    /// Bulk stress along x of body 2, away from the contact \[Pa\], tension positive: a fatigue
+    /// load.
     pub sigma_B: f64,
     /// The same of body 1.
     pub sigma_B1: f64,
@@ -72,7 +73,8 @@ impl Loads {
         }
     }
 
-    /// Prescribes a load, which frees its motion, or a motion, whose load has no value of its own then.
+    /// Prescribes a load, which frees its motion, or a motion, whose load has no value of its own
+    /// then.
     pub fn prescribe(&mut self, of: RigidMotion, prescribed: Prescribed) {
         let (mut forces, mut motions) = (self.forces(), self.given.motions());
         (forces[of.index()], motions[of.index()]) = match prescribed {

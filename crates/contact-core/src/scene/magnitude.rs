@@ -5,9 +5,9 @@ use super::{Body, Grid, RigidMotion, Scene, Shape};
 use crate::error::Error;
 use crate::magnitude::{LARGEST, SMALLEST};
 
-/// Largest factor of a coefficient of friction over the surface, in the other direction, in motion or
-/// over the history: six orders of magnitude are more than any surface has, and the equations of cells
-/// that differ by more can't be solved to six digits together.
+/// Largest factor of a coefficient of friction over the surface, in the other direction, in motion
+/// or over the history: six orders of magnitude are more than any surface has, and the equations of
+/// cells that differ by more can't be solved to six digits together.
 const FACTOR: f64 = 1e6;
 
 impl Body {

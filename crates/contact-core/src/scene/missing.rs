@@ -10,8 +10,8 @@ pub enum Missing {
     Refuse,
     /// Lines at the edges are left out until every point has a number; the middle moves with them.
     Crop,
-    /// Each has the mean of its neighbours, those next to numbers first; refused where the holes are
-    /// many or large, since nothing is known of what lies in them.
+    /// Each has the mean of its neighbours, those next to numbers first; refused where the holes
+    /// are many or large, since nothing is known of what lies in them.
     Fill,
 }
 

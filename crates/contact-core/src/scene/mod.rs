@@ -203,8 +203,8 @@ impl Scene {
         })
     }
 
-    /// The length that results of an increment of pressure `p`, shape (nx, ny) \[Pa\], are measured in
-    /// \[m\]: a_H, or where there is no Hertz contact half the longer side of the box around the
+    /// The length that results of an increment of pressure `p`, shape (nx, ny) \[Pa\], are measured
+    /// in \[m\]: a_H, or where there is no Hertz contact half the longer side of the box around the
     /// contact, or of the grid where nothing touches.
     pub fn length(&self, p: &ndarray::Array2<f64>) -> f64 {
         if let Some(hertz) = self.hertz() {
@@ -234,7 +234,8 @@ impl Scene {
 
     /// The length that approaches are compared with \[m\]: Hertz's approach, or where there is none
     /// the largest approach that is given or that the largest force would cause under a punch as
-    /// wide as the grid; between rigid substrates at most what it would press their layers together by.
+    /// wide as the grid; between rigid substrates at most what it would press their layers together
+    /// by.
     pub fn approach(&self) -> f64 {
         self.hertz().map_or_else(
             || self.path.delta_z_max().max(self.approach_of_a_punch()),
@@ -267,8 +268,9 @@ impl Scene {
         of_half_spaces.min(W / (length * width) * soft)
     }
 
-    /// Relative tolerance of the solution: that of the settings, or 1e-6, or where increments are chosen
-    /// 1/125 of the tolerance on the path (1/2500 of a path that only presses) if that is more.
+    /// Relative tolerance of the solution: that of the settings, or 1e-6, or where increments are
+    /// chosen 1/125 of the tolerance on the path (1/2500 of a path that only presses) if that is
+    /// more.
     pub fn tolerance(&self) -> f64 {
         let solver = &self.settings.solver;
         if let Some(tolerance) = solver.tolerance {
@@ -290,7 +292,8 @@ impl Scene {
         }
     }
 
-    /// The larger and the smaller principal curvature of the gap between the nominal shapes \[1/m\].
+    /// The larger and the smaller principal curvature of the gap between the nominal shapes
+    /// \[1/m\].
     pub(crate) fn principal_curvatures(&self) -> (f64, f64) {
         let (one, other) = (self.body1.shape.curvature(), self.body2.shape.curvature());
         let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| one[i] + other[i]);

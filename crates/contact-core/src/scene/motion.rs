@@ -1,7 +1,7 @@
 //! The six rigid motions of body 1 against body 2, each given or driven by its load.
 
-/// A rigid motion of body 1 against body 2; the first three lie across the contact plane, the others
-/// in it.
+/// A rigid motion of body 1 against body 2; the first three lie across the contact plane, the
+/// others in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RigidMotion {
     /// Approach `delta_z`, which the normal force W drives.
@@ -18,8 +18,8 @@ pub enum RigidMotion {
     PhiZ,
 }
 
-/// What is prescribed of a rigid motion: either the load that drives it, which leaves the motion free to
-/// balance that load, or the motion itself, whose load follows from the solution.
+/// What is prescribed of a rigid motion: either the load that drives it, which leaves the motion
+/// free to balance that load, or the motion itself, whose load follows from the solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Prescribed {
     /// A force \[N\] or moment \[N m\].
@@ -89,8 +89,8 @@ impl RigidMotion {
         })
     }
 
-    /// Whether it is a rotation \[rad\], driven by a moment \[N m\], and not a shift \[m\], driven by a
-    /// force \[N\].
+    /// Whether it is a rotation \[rad\], driven by a moment \[N m\], and not a shift \[m\], driven
+    /// by a force \[N\].
     pub const fn is_rotation(self) -> bool {
         matches!(self, Self::PhiX | Self::PhiY | Self::PhiZ)
     }

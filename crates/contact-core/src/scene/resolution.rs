@@ -1,7 +1,7 @@
 //! Whether the cells of a grid resolve the contact.
 //!
-//! With one cell across the radius of a contact pressure and energy are off by half and more, with two by some
-//! 10 %, with eight by some per cent.
+//! With one cell across the radius of a contact pressure and energy are off by half and more, with
+//! two by some 10 %, with eight by some per cent.
 
 use super::doubts::{UNITS, softest};
 use super::{Grid, Scene};
@@ -20,7 +20,8 @@ const ROUNDING: f64 = 1e-6;
 const FAR: f64 = 20.0;
 
 impl Scene {
-    /// Fails if even the contact of the softest material alone has fewer than [`FEWEST_CELLS`] across its radius.
+    /// Fails if even the contact of the softest material alone has fewer than [`FEWEST_CELLS`]
+    /// across its radius.
     pub(super) fn check_resolution(&self) -> Result<(), Error> {
         let Some(cells) = self.most_cells() else {
             return Ok(());
@@ -37,7 +38,8 @@ impl Scene {
         (CERTAIN * cells < FEW_CELLS).then(|| self.grid.coarse(cells))
     }
 
-    /// Most cells that a contact of two paraboloids can have across its radius under the largest load of the path.
+    /// Most cells that a contact of two paraboloids can have across its radius under the largest
+    /// load of the path.
     fn most_cells(&self) -> Option<f64> {
         let soft = Self {
             body1: softest(&self.body1),
@@ -53,7 +55,8 @@ impl Scene {
         if steep - shallow <= 1e-9 * steep {
             return Some(hertz.a / dx.max(dy));
         }
-        // The smaller semi-axis lies where the gap is steepest, the angle of that is free of the cells' shape.
+        // The smaller semi-axis lies where the gap is steepest, the angle of that is free of the
+        // cells' shape.
         let ellipse = hertz_ellipse(1.0 / steep, 1.0 / shallow, hertz.E_star, hertz.W);
         let [one, other] = self.steepest();
         Some(ellipse.a_x * (one / dx).hypot(other / dy))

@@ -17,9 +17,9 @@ pub struct Settings {
 
 /// Tolerance of the solution, and where the increments are chosen its part of the tolerance on the
 /// path, which is the larger error: of one that only presses the bodies together, where slip is
-/// about the rim alone, and of others: on the paper's scene with E1/E2 = 0.5, 2, 4 (256 x 256 cells)
-/// five eighths of it take 7 % more convolutions for shear at the ends of branches that is 0, 5 and
-/// 4 % better, five quarters 3 % fewer for 2 % worse, 1 % better and 8 % worse.
+/// about the rim alone, and of others: on the paper's scene with E1/E2 = 0.5, 2, 4 (256 x 256
+/// cells) five eighths of it take 7 % more convolutions for shear at the ends of branches that is
+/// 0, 5 and 4 % better, five quarters 3 % fewer for 2 % worse, 1 % better and 8 % worse.
 pub(super) const TOLERANCE: f64 = 1e-6;
 pub(super) const PATH_PART: [f64; 2] = [4e-4, 8e-3];
 
@@ -31,7 +31,8 @@ pub(crate) const MOST_ALIASES: usize = 32;
 pub struct KernelSettings {
     /// Method of conversion (default: [`KernelMethod::Hankel`]).
     pub method: KernelMethod,
-    /// Largest error allowed, over `C33(0,0)` (default 1e-10). Only the Hankel method can promise it.
+    /// Largest error allowed, over `C33(0,0)` (default 1e-10). Only the Hankel method can promise
+    /// it.
     pub tolerance: f64,
 }
 
@@ -72,16 +73,16 @@ pub struct SolverSettings {
     /// Which algorithms (default: [`Preset::Fast`]).
     pub preset: Preset,
     /// Relative tolerance of the solution (default: that of
-    /// [`Scene::tolerance`](super::Scene::tolerance)): root-mean-square gap error in the contact and
-    /// deepest overlap outside over the Hertz approach, tangential misfit over mu times the Hertz
-    /// approach.
+    /// [`Scene::tolerance`](super::Scene::tolerance)): root-mean-square gap error in the contact
+    /// and deepest overlap outside over the Hertz approach, tangential misfit over mu times the
+    /// Hertz approach.
     pub tolerance: Option<f64>,
     /// Reckon the slip of cells that come into contact from their entry (default true): one more
     /// solution in increments in which the contact grows, and far fewer increments. The preset
     /// [`Preset::Spinu2020`] does without.
     pub entering: bool,
-    /// Let slip follow the turn of the shear within an increment (default true): the path becomes of
-    /// second order. The preset [`Preset::Spinu2020`] does without.
+    /// Let slip follow the turn of the shear within an increment (default true): the path becomes
+    /// of second order. The preset [`Preset::Spinu2020`] does without.
     pub turning: bool,
     /// Largest error of the shear at the ends of branches that increments are chosen for where no
     /// number is given, over the largest shear of the path (L2, default 5e-3).
@@ -116,7 +117,8 @@ pub enum Preset {
     Spinu2020,
 }
 
-/// What may be skipped. Every rule leaves the answer as it is; each can be switched off to prove it.
+/// What may be skipped. Every rule leaves the answer as it is; each can be switched off to prove
+/// it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(clippy::struct_excessive_bools)] // one for each rule
 pub struct SkipSettings {

@@ -18,7 +18,8 @@ pub struct SurfaceMap {
     pub values: Arc<Array2<f64>>,
     /// Distance of the points along x and y \[m\].
     pub spacing: (f64, f64),
-    /// How many of the numbers are the mean of their neighbours, since those points were not measured.
+    /// How many of the numbers are the mean of their neighbours, since those points were not
+    /// measured.
     pub filled: usize,
 }
 
@@ -30,8 +31,9 @@ impl PartialEq for SurfaceMap {
 }
 
 impl SurfaceMap {
-    /// Reads numbers from a `.npy` array, or from text: a table, one line per x, points x, y and height in any
-    /// order, Gwyddion's export, an ESRI grid. What the file does not say of them, `told` says.
+    /// Reads numbers from a `.npy` array, or from text: a table, one line per x, points x, y and
+    /// height in any order, Gwyddion's export, an ESRI grid. What the file does not say of them,
+    /// `told` says.
     pub fn from_file(path: &Path, told: &FileOfNumbers) -> Result<Self, Error> {
         // Readers may say it in several lines; an error is one sentence.
         let failed = |message: String| Error::File {
@@ -49,7 +51,8 @@ impl SurfaceMap {
         Ok(map)
     }
 
-    /// Numbers on points with a `spacing` \[m\]; what becomes of those that are NaN, `missing` says.
+    /// Numbers on points with a `spacing` \[m\]; what becomes of those that are NaN, `missing`
+    /// says.
     pub fn new(values: Array2<f64>, spacing: (f64, f64), missing: Missing) -> Result<Self, Error> {
         let (values, filled) = completed(values, missing)
             .map_err(|holes| Error::invalid("map", holes, "a number at every point"))?;
@@ -73,7 +76,8 @@ impl SurfaceMap {
             + s * ((1.0 - t) * z[(k, j)] + t * z[(k, l)])
     }
 
-    /// Fails if it holds no number, one that is not finite, or has no spacing; `key` says where it stands.
+    /// Fails if it holds no number, one that is not finite, or has no spacing; `key` says where it
+    /// stands.
     pub fn check(&self, key: &str) -> Result<(), Error> {
         if self.values.is_empty() {
             return Err(Error::invalid(

@@ -24,7 +24,8 @@ pub(crate) struct Cycled {
     pub(crate) u_q: Vec<f64>,
     /// Mean normal force \[N\] and approach \[m\].
     pub(crate) mean: [f64; 2],
-    /// Shift delta_x \[m\], force T_x \[N\], shift delta_y, force T_y at the increments of the loop.
+    /// Shift delta_x \[m\], force T_x \[N\], shift delta_y, force T_y at the increments of the
+    /// loop.
     pub(crate) corners: Vec<[f64; 4]>,
     /// Area that sticks all through the cycle over that of the contact.
     pub(crate) stick_ratio: f64,

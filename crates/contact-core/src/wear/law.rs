@@ -8,7 +8,8 @@ use crate::error::Error;
 /// Loading of each cell of a surface in one cycle, in the coordinates of its own body.
 #[derive(Clone, Copy, Debug)]
 pub struct CellCycle<'a> {
-    /// Integral of the pressure over the way slipped, `int p |ds|` \[Pa m\] = \[J/m^2\] per unit of mu.
+    /// Integral of the pressure over the way slipped, `int p |ds|` \[Pa m\] = \[J/m^2\] per unit of
+    /// mu.
     pub pressed_way: &'a [f64],
     /// Way slipped in contact, `int |ds|` \[m\].
     pub way: &'a [f64],
@@ -26,8 +27,8 @@ pub struct CellCycle<'a> {
 
 /// A law of wear. The user's own is any type with this trait.
 pub trait Law: Debug + Send + Sync {
-    /// Writes the depth \[m\], >= 0, that one cycle takes from each cell. Where nothing is pressed or
-    /// nothing slips (`pressed_way` = 0) it is ignored: nothing wears there.
+    /// Writes the depth \[m\], >= 0, that one cycle takes from each cell. Where nothing is pressed
+    /// or nothing slips (`pressed_way` = 0) it is ignored: nothing wears there.
     fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error>;
 
     /// Fails with the key, the value and what is allowed if a parameter is out of its range.

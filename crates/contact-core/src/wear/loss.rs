@@ -68,9 +68,9 @@ impl Loss {
         self
     }
 
-    /// Extrapolates two halves by one whole jump to second order, `2 halves - whole`
-    /// (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I (1993), II.4),
-    /// and the depth that this moves, root mean square over that of the `worn` depth at the end.
+    /// Extrapolates two halves by one whole jump to second order, `2 halves - whole` (E. Hairer, S.
+    /// P. Norsett, G. Wanner, Solving Ordinary Differential Equations I (1993), II.4), and the
+    /// depth that this moves, root mean square over that of the `worn` depth at the end.
     ///
     /// Depths do not decrease: a negative extrapolated loss is set to zero and the others are
     /// scaled down, so that the volume is that of the extrapolation.

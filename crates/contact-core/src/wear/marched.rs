@@ -33,7 +33,8 @@ use crate::error::Error;
 use crate::march::{Increment, March, Reached, State};
 use crate::scene::{Branch, Friction, FrictionHistory, History, Scene};
 
-/// Change of the pressure between two corrections (root mean square, over the pressure) that ends them.
+/// Change of the pressure between two corrections (root mean square, over the pressure) that ends
+/// them.
 const AGREES: f64 = 0.02;
 /// Most corrections of a jump.
 const CORRECTIONS: usize = 3;

@@ -13,7 +13,8 @@ pub(crate) struct Passage<'a> {
 }
 
 impl Passage<'_> {
-    /// Where a body first reaches a depth \[m\] within the jump: the part of it that has passed, and the cell.
+    /// Where a body first reaches a depth \[m\] within the jump: the part of it that has passed,
+    /// and the cell.
     pub(crate) fn first(&self, b: usize, depth: f64) -> Option<(f64, usize)> {
         let cells = 0..self.whole[b].len();
         let reached = cells.filter_map(|c| {

@@ -61,8 +61,9 @@ pub struct Wear {
     pub bodies: [BodyWear; 2],
     /// Cycles, > 0.
     pub cycles: f64,
-    /// The first branch of the load path that belongs to the cycle, from 0 (default `None`: that of its last closed
-    /// cycle): what is before leads in and is run through once, the rest is the cycle and ends where it begins.
+    /// The first branch of the load path that belongs to the cycle, from 0 (default `None`: that of
+    /// its last closed cycle): what is before leads in and is run through once, the rest is the
+    /// cycle and ends where it begins.
     pub first_branch: Option<usize>,
     /// Cycles per second \[Hz\], for coefficients that are functions of a power (default none).
     pub frequency: Option<f64>,

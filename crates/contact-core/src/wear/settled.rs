@@ -16,7 +16,8 @@ const APART: f64 = 0.25;
 const UNDER_CHANGE: usize = 4;
 
 impl Wear {
-    /// The first branch of the cycle: the one that is given, or that of the last closed cycle of the load path.
+    /// The first branch of the cycle: the one that is given, or that of the last closed cycle of
+    /// the load path.
     pub fn first_branch(&self, scene: &Scene) -> Result<usize, Error> {
         if let Some(first) = self.first_branch {
             return Ok(first);

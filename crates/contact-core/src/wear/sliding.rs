@@ -39,7 +39,8 @@ use crate::error::Error;
 use crate::plan::Plan;
 use crate::scene::{FrictionHistory, Scene, Shape};
 
-/// Change of the pressures in a round (root mean square, over that of the pressures) that ends the rounds.
+/// Change of the pressures in a round (root mean square, over that of the pressures) that ends the
+/// rounds.
 const SETTLED: f64 = 1e-3;
 /// Times the tolerance of the scene to which the pressures of a round are solved.
 const ROUGH: f64 = 10.0;

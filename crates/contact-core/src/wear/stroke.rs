@@ -20,7 +20,8 @@ pub(crate) struct Place {
 /// The corners of the loop: shift of the rig \[m\], shift of the contact \[m\], force T_x \[N\].
 pub(crate) type Corner = [f64; 3];
 
-/// The places of the cycle, which begins with the branch `first_branch`, and the corners of its loop.
+/// The places of the cycle, which begins with the branch `first_branch`, and the corners of its
+/// loop.
 ///
 /// A rig of stiffness K \[N/m\] drives the contact through a spring (a Prandtl element): with u the
 /// shift of the rig and d that of the contact, each increment moves d by the least amount to

@@ -48,7 +48,8 @@ impl Wear {
         read(text, file, settings, Reach::Folder)
     }
 
-    /// Reads a scene and its wear back from a store, with the laws of the user's own for bodies that have them.
+    /// Reads a scene and its wear back from a store, with the laws of the user's own for bodies
+    /// that have them.
     pub(crate) fn from_store(
         text: &str,
         file: &str,

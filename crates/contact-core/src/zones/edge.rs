@@ -130,7 +130,8 @@ mod tests {
             // Within a cell the border is straight: its sagitta is d^2/(8 a).
             let d = 2.4 / n as f64;
             for axes in [(1.0, 1.0), (0.9, 0.5)] {
-                // Within seven cells the border bends too much, and whole cells count at some places.
+                // Within seven cells the border bends too much, and whole cells count at some
+                // places.
                 let part = d / axes.1;
                 let allowed = if part > 1.0 / 8.0 {
                     0.25 * part

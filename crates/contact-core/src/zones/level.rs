@@ -252,7 +252,8 @@ impl Lattice {
         })
     }
 
-    /// Central differences of the level from cell to cell; zero where a neighbour is not in the zone.
+    /// Central differences of the level from cell to cell; zero where a neighbour is not in the
+    /// zone.
     fn gradient(self, n: usize, zone: &[bool], level: impl Fn(usize) -> f64) -> [f64; 2] {
         let along = |d: [isize; 2]| {
             let [next, last] = [d, [-d[0], -d[1]]].map(|d| self.beside(n, d).filter(|&m| zone[m]));

@@ -1,4 +1,5 @@
-//! Zones of a sampled field: where their borders run, how large they are, tractions continued to them.
+//! Zones of a sampled field: where their borders run, how large they are, tractions continued to
+//! them.
 
 mod continued;
 mod edge;

@@ -8,8 +8,8 @@ use crate::cells::Lattice;
 use crate::plan::Mirror;
 use crate::scene::Grid;
 
-/// The pressure at the centres of the cells \[Pa\], shape (nx, ny), with that at the rim of the contact
-/// extrapolated from inside.
+/// The pressure at the centres of the cells \[Pa\], shape (nx, ny), with that at the rim of the
+/// contact extrapolated from inside.
 ///
 /// The solved pressure of cells at the rim differs by about a tenth from the pressure at their
 /// centres, since it balances the load; with the extrapolated values the error of p is of second

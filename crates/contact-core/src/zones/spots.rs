@@ -172,7 +172,8 @@ mod tests {
     #[test]
     fn a_disc_has_its_radius_and_an_ellipse_its_smaller_axis() {
         for mirror in [Mirror::None, Mirror::Y] {
-            // Within 1.5 lie four cells, whose radius is 1.15: fewer than two cells are told to a third.
+            // Within 1.5 lie four cells, whose radius is 1.15: fewer than two cells are told to a
+            // third.
             for r in [2.0, 3.3, 8.0, 20.0] {
                 let disc = radius(64, mirror, |x, y| x.hypot(y) < r);
                 assert!((disc - r).abs() < 0.06 * r + 0.05, "{r} {disc}");

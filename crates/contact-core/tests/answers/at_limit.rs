@@ -1,5 +1,5 @@
-//! Cells that come back to the limit of friction and do not slip: a cylinder on a flat that is pulled in
-//! phase with its shear.
+//! Cells that come back to the limit of friction and do not slip: a cylinder on a flat that is
+//! pulled in phase with its shear.
 
 use std::sync::Arc;
 
@@ -65,8 +65,9 @@ fn stick(scene: &Scene) -> Vec<[f64; 2]> {
     ratios
 }
 
-/// A cycle comes back to the shear that the one before has left: cells at the limit that do not slip count as
-/// sticking on every grid. The border lies within a cell or so; bare 0.6325 is that of an independent solution.
+/// A cycle comes back to the shear that the one before has left: cells at the limit that do not
+/// slip count as sticking on every grid. The border lies within a cell or so; bare 0.6325 is that
+/// of an independent solution.
 #[test]
 fn the_stick_ratio_of_a_steady_cycle_is_that_of_every_grid() {
     let tin = Elastic { E: 450e9, nu: 0.25 };

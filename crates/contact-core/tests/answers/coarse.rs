@@ -56,8 +56,8 @@ fn a_contact_of_less_than_eight_cells_is_doubted() {
     }
 }
 
-/// What grows, slides or leaves is judged where it is largest; an ellipse by its smaller axis, a strip by half of its
-/// width, asperities by theirs.
+/// What grows, slides or leaves is judged where it is largest; an ellipse by its smaller axis, a
+/// strip by half of its width, asperities by theirs.
 #[test]
 fn what_is_smallest_where_the_contact_is_largest_counts() {
     let mut growing = of_cells(8.5);

@@ -53,7 +53,8 @@ fn slips_of_the_pen_are_told_once() {
     });
 }
 
-/// Rubber, a train wheel on its rail and a soft coating of a cell of its own substrate are what they are.
+/// Rubber, a train wheel on its rail and a soft coating of a cell of its own substrate are what
+/// they are.
 #[test]
 fn what_is_meant_is_not_doubted() {
     let quiet = |change: fn(&mut Scene)| {

@@ -1,4 +1,5 @@
-//! Displacements of line contacts are relative to the points at the distance of the grid's length, whatever the layers.
+//! Displacements of line contacts are relative to the points at the distance of the grid's length,
+//! whatever the layers.
 
 use contact_core::kernels::influence_coefficients;
 use contact_core::scene::{Body, Coating, Elastic, Grid, KernelSettings, Shape};

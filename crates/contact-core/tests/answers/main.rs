@@ -1,5 +1,6 @@
-//! Answers that are right, or that say they are not: contacts of few cells, cells at the limit of friction,
-//! the onset of sliding, material that rolls in, rims that stick, coated lines, numbers that doubt themselves.
+//! Answers that are right, or that say they are not: contacts of few cells, cells at the limit of
+//! friction, the onset of sliding, material that rolls in, rims that stick, coated lines, numbers
+//! that doubt themselves.
 
 #![allow(clippy::print_stdout, reason = "numbers for people")]
 

@@ -44,7 +44,8 @@ fn rolling_does_not_depend_on_what_lies_beyond_the_contact() {
             let right = wide[c].slice(s![18..42, 18..42]).to_owned();
             let off = norm(&(&narrow[c] - &right)) / norm(&right);
             println!("{k} cells, component {c}: off by {off:.1e}");
-            // Where a cell enters is told by cells around it: of four beyond the contact less is known.
+            // Where a cell enters is told by cells around it: of four beyond the contact less is
+            // known.
             assert!(off < 2e-3, "{k} cells: off by {off:e}");
         }
     }

@@ -1,4 +1,5 @@
-//! Contact: complementarity of pressure and gap, the forces, and that more force makes more contact.
+//! Contact: complementarity of pressure and gap, the forces, and that more force makes more
+//! contact.
 
 use contact_core::march::Increment;
 use contact_core::scene::{Body, Loads, Shape};
@@ -8,8 +9,8 @@ use super::{Audit, End, Law, ROUNDING, Violations};
 
 impl Audit {
     /// p >= 0, no gap under pressure, no overlap without, as the tolerance says: the first in the
-    /// root mean square, the second everywhere. The increment has to report the same. The tractions carry
-    /// the forces.
+    /// root mean square, the second everywhere. The increment has to report the same. The tractions
+    /// carry the forces.
     pub(super) fn check_contact(&self, now: &End, increment: &Increment, found: &mut Violations) {
         found.raise(Law::Balance, self.unbalanced(now) / ROUNDING);
         let p = &now.fields.p;
@@ -39,9 +40,9 @@ impl Audit {
         }
     }
 
-    /// More force, more contact: where shear does not act on the pressure. A stiff coating bends as a plate does, and of
-    /// several spots one that is pressed may part another. A cell may leave whose pressure is within what the tolerance
-    /// allows.
+    /// More force, more contact: where shear does not act on the pressure. A stiff coating bends as
+    /// a plate does, and of several spots one that is pressed may part another. A cell may leave
+    /// whose pressure is within what the tolerance allows.
     pub(super) fn check_monotone(&self, now: &End, found: &mut Violations) {
         let coated = |body: &Body| !body.coatings.is_empty();
         let coated = coated(&self.scene.body1) || coated(&self.scene.body2);
@@ -57,8 +58,8 @@ impl Audit {
         }
     }
 
-    /// Largest part of the normal force, or of the tangential ones over what friction bears, that the tractions do not
-    /// carry.
+    /// Largest part of the normal force, or of the tangential ones over what friction bears, that
+    /// the tractions do not carry.
     fn unbalanced(&self, now: &End) -> f64 {
         let (scene, f) = (&self.scene, &now.fields);
         let Loads { W, T_x, T_y, .. } = now.loads;

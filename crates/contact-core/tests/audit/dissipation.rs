@@ -5,10 +5,10 @@ use contact_core::march::Increment;
 use super::{Audit, End, Law, ROUNDING, Violations, dot, held, shear, size};
 
 impl Audit {
-    /// Friction takes the mean bound of the increment times the slip against the shear from a cell that
-    /// slips; from one that leaves the contact the slip against half of the shear that it had, if that
-    /// is so directed; nothing from the others: by the tractions, displacements and shifts alone. All
-    /// of it is what the increment reports.
+    /// Friction takes the mean bound of the increment times the slip against the shear from a cell
+    /// that slips; from one that leaves the contact the slip against half of the shear that it had,
+    /// if that is so directed; nothing from the others: by the tractions, displacements and shifts
+    /// alone. All of it is what the increment reports.
     pub(super) fn check_dissipation(
         &self,
         now: &End,
@@ -42,8 +42,8 @@ impl Audit {
                 let q = shear(f, n);
                 -mean * dot(slip, q) / size(q)
             };
-            // The differences of displacements may cancel to a thousandth of the tolerance, and the shear
-            // is at its bound up to rounding.
+            // The differences of displacements may cancel to a thousandth of the tolerance, and the
+            // shear is at its bound up to rounding.
             let known = (1e-3 * self.misfit.slip + ROUNDING * size(slip)) * mean
                 + 1e-12 * f.dissipated[n].abs();
             let off = (gained - taken).abs();

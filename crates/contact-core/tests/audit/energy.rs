@@ -9,9 +9,9 @@ fn mean(a: f64, b: f64) -> f64 {
 }
 
 impl Audit {
-    /// Work of the loads = energy stored + work of shear on slip + work of pressure on gaps, all with
-    /// the mean of both ends of the increment: an identity for a symmetric C. The increment reports the
-    /// same.
+    /// Work of the loads = energy stored + work of shear on slip + work of pressure on gaps, all
+    /// with the mean of both ends of the increment: an identity for a symmetric C. The increment
+    /// reports the same.
     pub(super) fn check_energy(
         &mut self,
         now: &End,

@@ -1,4 +1,5 @@
-//! What physics asks of every increment, computed from the fields and the motions at its two ends alone.
+//! What physics asks of every increment, computed from the fields and the motions at its two ends
+//! alone.
 
 mod contact;
 mod coulomb;

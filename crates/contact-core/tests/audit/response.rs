@@ -51,8 +51,8 @@ impl Response {
 }
 
 impl Audit {
-    /// Across the plane within the tolerance of the gap in every cell; in it within that of the slip, root
-    /// mean square over the contact, which one cell anywhere may hold all of.
+    /// Across the plane within the tolerance of the gap in every cell; in it within that of the
+    /// slip, root mean square over the contact, which one cell anywhere may hold all of.
     pub(super) fn check_response(&mut self, now: &Fields, found: &mut Violations) {
         let [u_x, u_y, u_z] = self.response.of(now);
         let off = now

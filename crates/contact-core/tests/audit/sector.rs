@@ -1,9 +1,10 @@
 //! Where the shear of a cell points while the cell slips.
 //!
-//! A cell slips against a shear that turns from where slip begins to that at the end: what it moves lies
-//! between the opposites of both. In a cell that slips all the time slip begins with the shear at the start. In
-//! a cell that stuck then it begins on the way, with a shear at its bound that is nearer to the one at the end
-//! than the one at the start was. Of a cell that enters the contact the fields tell the end alone.
+//! A cell slips against a shear that turns from where slip begins to that at the end: what it moves
+//! lies between the opposites of both. In a cell that slips all the time slip begins with the shear
+//! at the start. In a cell that stuck then it begins on the way, with a shear at its bound that is
+//! nearer to the one at the end than the one at the start was. Of a cell that enters the contact
+//! the fields tell the end alone.
 
 use std::f64::consts::FRAC_PI_2;
 

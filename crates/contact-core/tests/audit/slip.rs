@@ -1,15 +1,15 @@
 //! Stick and slip, from displacements, shifts and tractions.
 //!
-//! An increment may leave each cell e from where it should be, less than the tolerance in the root mean
-//! square over the contact of N cells,
+//! An increment may leave each cell e from where it should be, less than the tolerance in the root
+//! mean square over the contact of N cells,
 //!
 //! ```text
 //! sum |e|^2 <= N tol^2,
 //! ```
 //!
-//! and the next one may begin with that or make it good. So a cell that has stuck since the end of increment
-//! j has moved by e - e_j in the end, however many increments ago that was; the cells that stick are those
-//! of some increments j, and by the triangle inequality
+//! and the next one may begin with that or make it good. So a cell that has stuck since the end of
+//! increment j has moved by e - e_j in the end, however many increments ago that was; the cells
+//! that stick are those of some increments j, and by the triangle inequality
 //!
 //! ```text
 //! (sum |moved|^2)^(1/2) <= tol [N^(1/2) + (sum_j N_j)^(1/2)].
@@ -62,8 +62,8 @@ impl Audit {
         let f = &now.fields;
         let contact = f.contact.iter().filter(|c| **c).count();
         self.rest.cells.push(contact as f64);
-        // In pieces, each has slips of its own; a body that slides has any shift beyond the incipient
-        // one, and its slip the direction of the force only in the end.
+        // In pieces, each has slips of its own; a body that slides has any shift beyond the
+        // incipient one, and its slip the direction of the force only in the end.
         let known = increment.status != Status::GrossSlip && increment.work.parts == 1;
         let shift = self.shift(now);
         let (mut stick, mut slip) = (0.0, 0.0);

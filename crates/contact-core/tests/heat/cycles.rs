@@ -23,8 +23,8 @@ fn pulsating(grid: &Grid, frequency: f64) -> (Vec<f64>, Vec<Array2<f64>>, Array2
     (ends.clone(), heat.collect(), contact)
 }
 
-/// Slow cycles are quasi-steady, twice the mean when the heat is twice its mean; fast ones add the swing
-/// of a plane wave, q/(K |s|).
+/// Slow cycles are quasi-steady, twice the mean when the heat is twice its mean; fast ones add the
+/// swing of a plane wave, q/(K |s|).
 #[test]
 fn slow_and_fast_cycles() {
     let grid = grid(12);

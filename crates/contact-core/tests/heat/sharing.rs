@@ -32,8 +32,8 @@ fn heat_goes_where_it_is_conducted() {
     }
 }
 
-/// A coated and a bare body, steady and swinging: what flows into both is the heat, and on every cell
-/// in contact they are as warm as each other.
+/// A coated and a bare body, steady and swinging: what flows into both is the heat, and on every
+/// cell in contact they are as warm as each other.
 #[test]
 fn temperatures_agree_where_bodies_touch() {
     let grid = grid(8);
@@ -66,8 +66,8 @@ fn temperatures_agree_where_bodies_touch() {
     }
 }
 
-/// Without friction heat flows from the warmer to the colder body through the constriction of a disc:
-/// Q = (T_2 - T_1)/(1/(4 K_1 a) + 1/(4 K_2 a)) (Carslaw and Jaeger 1959, section 8.2).
+/// Without friction heat flows from the warmer to the colder body through the constriction of a
+/// disc: Q = (T_2 - T_1)/(1/(4 K_1 a) + 1/(4 K_2 a)) (Carslaw and Jaeger 1959, section 8.2).
 #[test]
 fn a_disc_between_a_warm_and_a_cold_body() {
     let grid = grid(16);

@@ -23,7 +23,8 @@ fn a_disc_of_heat() {
     close(mean, 8.0 * unit / (3.0 * PI), 2e-3);
 }
 
-/// pi q_0 a/(4 K) in the middle and half of it at the rim: Hertz' displacement with 1/K for (1 - nu)/G.
+/// pi q_0 a/(4 K) in the middle and half of it at the rim: Hertz' displacement with 1/K for (1 -
+/// nu)/G.
 #[test]
 fn a_source_of_the_shape_of_hertz_pressure() {
     let grid = grid(32);
@@ -62,8 +63,9 @@ fn a_layer_answers_as_its_hyperbolic_functions_say() {
     }
 }
 
-/// Thick, a coating is a half-space but for what the images of its lower side add; thin, it adds
-/// h (1/K - K/K_s^2), its resistance less what it conducts sideways: the response to first order in k h.
+/// Thick, a coating is a half-space but for what the images of its lower side add; thin, it adds h
+/// (1/K - K/K_s^2), its resistance less what it conducts sideways: the response to first order in k
+/// h.
 #[test]
 fn thick_and_thin_coatings() {
     let grid = grid(16);

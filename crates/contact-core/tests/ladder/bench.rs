@@ -22,11 +22,12 @@ pub(crate) const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
 /// Without lateral contraction the shear kernel is isotropic.
 pub(crate) const CORK: Elastic = Elastic { E: 210e9, nu: 0.0 };
 
-/// Error of the radius of a contact or a stick zone, in cells: the pressure or the shear a few cells
-/// inside, which tells the rim, is off by as much as if the rim were off by a hundredth of a cell.
+/// Error of the radius of a contact or a stick zone, in cells: the pressure or the shear a few
+/// cells inside, which tells the rim, is off by as much as if the rim were off by a hundredth of a
+/// cell.
 pub(crate) const RIM: f64 = 0.05;
-/// The same where cells a few rows inside do not tell the rim (a stick zone that grows by cells, two borders
-/// within a few cells): the radius of whole cells scatters by this.
+/// The same where cells a few rows inside do not tell the rim (a stick zone that grows by cells,
+/// two borders within a few cells): the radius of whole cells scatters by this.
 pub(crate) const WHOLE_CELLS: f64 = 0.25;
 /// Error of a field in the L2 norm, relative, over the cell size in contact radii: 2.8 times the
 /// part of p0 sqrt(2 d/a), the pressure one cell inside, that the 2 pi a/d rim cells are off by, a
@@ -94,7 +95,8 @@ pub(crate) fn run(scene: &Scene, watch: impl FnMut(&March, &Increment)) -> Vec<I
     along(scene, March::new(scene).expect("a scene"), watch)
 }
 
-/// The same where a contact grows whole in each increment, for orders in the increments that are given.
+/// The same where a contact grows whole in each increment, for orders in the increments that are
+/// given.
 pub(crate) fn run_without_growth_steps(scene: &Scene) -> Vec<Increment> {
     let mut plan = Plan::new(scene);
     plan.methods.growth_steps = 1;

@@ -6,8 +6,8 @@ use ndarray::Array2;
 use crate::bench::{STEEL, W, norm, sphere_on_flat};
 use crate::invariants::{TWINS, assert_twins, end, loads_mapped, twin};
 
-/// The twins of a coupled scene with both bodies pulled: exchanged, what pulled one pulls the other;
-/// mirrored at x = 0, tension stays tension.
+/// The twins of a coupled scene with both bodies pulled: exchanged, what pulled one pulls the
+/// other; mirrored at x = 0, tension stays tension.
 #[test]
 fn pulled_bodies_have_twins() {
     let mut scene = twin();
@@ -54,8 +54,8 @@ fn pulled_bodies_have_twins() {
     assert_twins("mirrored", [&back[0], &back[1], &back[2]], same);
 }
 
-/// Like bodies that are pulled alike stay together; pulled one against the other, it does not matter
-/// which of the two is.
+/// Like bodies that are pulled alike stay together; pulled one against the other, it does not
+/// matter which of the two is.
 #[test]
 fn the_difference_of_the_strains_counts() {
     let mut scene = sphere_on_flat(STEEL, STEEL, 0.3, (2.6, 24), LoadPath::start());

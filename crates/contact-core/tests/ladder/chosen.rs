@@ -24,7 +24,8 @@ fn fretted(start: LoadPath) -> LoadPath {
     start.tangential(&[LOOP * MU * W, -LOOP * MU * W, LOOP * MU * W], None)
 }
 
-/// The secant stiffness of the first increment of every branch after the first, and its stick ratio.
+/// The secant stiffness of the first increment of every branch after the first, and its stick
+/// ratio.
 fn begins(increments: &[Increment]) -> Vec<(f64, f64)> {
     let pairs = increments.windows(2);
     pairs
@@ -37,7 +38,8 @@ fn begins(increments: &[Increment]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Mindlin and Deresiewicz: after a reversal all sticks, and the stiffness is that of the first touch.
+/// Mindlin and Deresiewicz: after a reversal all sticks, and the stiffness is that of the first
+/// touch.
 #[test]
 fn a_loop_has_its_stiffness_and_stick_zone_after_a_reversal() {
     let scene = sphere_on_flat(
@@ -137,8 +139,8 @@ fn an_ellipse_and_its_waypoints_meet_their_tolerance() {
     }
 }
 
-/// A contact that was pressed in one increment given by the user: what that leaves sticks, and no number of
-/// increments after it takes it away.
+/// A contact that was pressed in one increment given by the user: what that leaves sticks, and no
+/// number of increments after it takes it away.
 #[test]
 fn given_increments_do_not_drive_those_that_are_chosen() {
     let coated_with = |pressing: Option<usize>, E: f64| {

@@ -141,9 +141,9 @@ fn another_program_in_extended_precision_finds_the_same_contact() {
     }
 }
 
-/// A layer a thousand times thinner than the contact, on a rigid base: p = (M/h)(delta_z - r^2/(2 R)),
-/// W = pi M a^4/(4 h R), M = 2 G (1 - nu)/(1 - 2 nu) (K. L. Johnson, Contact Mechanics, sec. 5.8). The
-/// pressure ends like the distance from the rim, and the rim is known within its cell.
+/// A layer a thousand times thinner than the contact, on a rigid base: p = (M/h)(delta_z - r^2/(2
+/// R)), W = pi M a^4/(4 h R), M = 2 G (1 - nu)/(1 - 2 nu) (K. L. Johnson, Contact Mechanics, sec.
+/// 5.8). The pressure ends like the distance from the rim, and the rim is known within its cell.
 #[test]
 fn a_layer_thinner_than_the_cells() {
     let layer = Elastic { E: 1e9, nu: 0.3 };

@@ -8,8 +8,8 @@ use crate::bench::{
     run_audited, run_without_growth_steps, sphere_on_flat,
 };
 
-/// What is claimed of c/a and p(0) after 40 increments on 128 cells a side, relative. Both errors, of the cells
-/// and of the increments, are of second order.
+/// What is claimed of c/a and p(0) after 40 increments on 128 cells a side, relative. Both errors,
+/// of the cells and of the increments, are of second order.
 const CLAIM: f64 = 1e-3;
 /// What the truth is good to.
 const TRUTH: f64 = 1e-4;
@@ -30,12 +30,13 @@ fn stick_radius_pressure_and_approach_of_every_pair() {
         let all = run_audited(&scene, |_, _| ());
         for at in [increments / 2, increments - 1] {
             let increment = &all[at];
-            // Lengths grow with the contact radius, so a cell and an increment count for more at half of it.
+            // Lengths grow with the contact radius, so a cell and an increment count for more at
+            // half of it.
             let part = (at + 1) as f64 / increments as f64;
             let d = d / part;
             let claim = CLAIM / (part * part);
-            // Fewer than five cells in the slip ring do not tell its border, and thirty in a radius do so by
-            // where it lies in them: what is left are whole cells.
+            // Fewer than five cells in the slip ring do not tell its border, and thirty in a radius
+            // do so by where it lies in them: what is left are whole cells.
             let thin = 1.0 - truth.stick_ratio < 5.0 * d;
             let rim = if thin { WHOLE_CELLS } else { RIM } * d;
             let ring = if thin || part < 1.0 {
@@ -60,8 +61,8 @@ fn stick_radius_pressure_and_approach_of_every_pair() {
     }
 }
 
-/// Error of c/a, root mean square over grids whose cells differ: where the rim lies in its cells makes single
-/// ones go up and down.
+/// Error of c/a, root mean square over grids whose cells differ: where the rim lies in its cells
+/// makes single ones go up and down.
 fn error(increments: usize) -> f64 {
     let truth = coupled_indentation(0.5, 0.5).stick_ratio;
     let squares = [116, 122, 128].map(|n| {

@@ -4,9 +4,9 @@
 //! that open or close.
 //!
 //! A cell at the distance s inside the rim of slip, which an increment moved by w, has slipped by
-//! s^(3/2) and lacked s^(1/2) of its bound before (Cattaneo): the difference is of the order of w^3,
-//! and the sum over the path of w^2. On a grid, cells stop sticking one by one, and the sum over
-//! them scatters while an increment moves the rim by less than a cell.
+//! s^(3/2) and lacked s^(1/2) of its bound before (Cattaneo): the difference is of the order of
+//! w^3, and the sum over the path of w^2. On a grid, cells stop sticking one by one, and the sum
+//! over them scatters while an increment moves the rim by less than a cell.
 
 use contact_core::Scene;
 use contact_core::reference::CattaneoMindlin;

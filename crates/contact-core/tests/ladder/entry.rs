@@ -1,11 +1,13 @@
-//! Cells that enter the contact while it grows, against increments so short that it does not matter how.
+//! Cells that enter the contact while it grows, against increments so short that it does not matter
+//! how.
 //!
-//! A cell that the contact reaches within an increment has moved freely until then, and its slip is reckoned
-//! from there (`solver.entering`). What it moves as the edge of the contact comes nearer bends like a root of
-//! the distance to it. So what one increment of N that lead to the radius a tells of that way, from one edge to
-//! the next, is good to the 3/2 power of its length, 1/N; once an increment is as short as a cell, the cells
-//! are what is left. The truth are increments of half a cell, and slip reckoned from the start of the increment
-//! leads to the same limit, of first order in the increment.
+//! A cell that the contact reaches within an increment has moved freely until then, and its slip is
+//! reckoned from there (`solver.entering`). What it moves as the edge of the contact comes nearer
+//! bends like a root of the distance to it. So what one increment of N that lead to the radius a
+//! tells of that way, from one edge to the next, is good to the 3/2 power of its length, 1/N; once
+//! an increment is as short as a cell, the cells are what is left. The truth are increments of half
+//! a cell, and slip reckoned from the start of the increment leads to the same limit, of first
+//! order in the increment.
 
 use contact_core::scene::{Branch, Elastic, LoadPath, Loads, Scene, Spacing};
 use ndarray::Array2;
@@ -45,8 +47,8 @@ fn distance(one: &[Array2<f64>; 2], other: &[Array2<f64>; 2]) -> f64 {
     size([0, 1].map(|c| norm(&(&one[c] - &other[c])))) / size([0, 1].map(|c| norm(&other[c])))
 }
 
-/// Few increments come as near to the limit of short ones as their length says, and so do short ones that
-/// reckon slip from the start.
+/// Few increments come as near to the limit of short ones as their length says, and so do short
+/// ones that reckon slip from the start.
 #[track_caller]
 fn leads_to_the_limit_of_short_increments(of: impl Fn(usize) -> Scene) {
     let d = cell(&of(1));
@@ -102,7 +104,8 @@ fn forces_that_grow_in_proportion_lead_to_the_limit_of_short_increments() {
     }
 }
 
-/// Cells that enter last in an increment of a small contact would keep a ring of wrong shear, which sticks to the end.
+/// Cells that enter last in an increment of a small contact would keep a ring of wrong shear, which
+/// sticks to the end.
 #[test]
 fn no_ring_of_cells_keeps_what_an_increment_has_missed() {
     for part in [0.5, 2.0] {
@@ -120,7 +123,8 @@ fn no_ring_of_cells_keeps_what_an_increment_has_missed() {
             let squares = &q[0] * &q[0] + &q[1] * &q[1];
             squares.iter().copied().fold(0.0, f64::max).sqrt()
         };
-        // Of 12 increments of equal radius the last step is off by about 1.2/12^2 of the shear, before cells.
+        // Of 12 increments of equal radius the last step is off by about 1.2/12^2 of the shear,
+        // before cells.
         for (path, allowed) in [
             (indentation(12), 0.03),
             (LoadPath::start().normal(W, 100), 0.05),

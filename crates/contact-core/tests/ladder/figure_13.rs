@@ -1,6 +1,7 @@
 //! Where the coated body is stressed most: figure 13 of the paper.
 //!
-//! With E1/E2 = 2 two places compete, the middle of the coating and the trailing rim on the free surface.
+//! With E1/E2 = 2 two places compete, the middle of the coating and the trailing rim on the free
+//! surface.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 

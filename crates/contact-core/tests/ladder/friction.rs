@@ -129,8 +129,8 @@ fn friction_follows_the_slip_and_the_energy_of_each_cell() {
                     .and(&fields.p)
                     .fold(0.0, |sum, h, p| sum + factor(h) * p);
             if i.status == Status::GrossSlip {
-                // All slips along x: the sum of mu p, each coefficient that of the history by then, to 1e-3
-                // of itself at most.
+                // All slips along x: the sum of mu p, each coefficient that of the history by then,
+                // to 1e-3 of itself at most.
                 close("T_x", i.point.loads.T_x / expected, 1.0, 1e-3);
                 sliding += 1;
             }

@@ -114,7 +114,8 @@ fn a_given_approach_is_a_given_force() {
     }
     let by_motion = scene(path);
     let motions = run(&by_motion, |_, _| ());
-    // An approach or a shift that is off by the tolerance of both runs is off in force by some times that.
+    // An approach or a shift that is off by the tolerance of both runs is off in force by some
+    // times that.
     let known = 10.0 * by_motion.tolerance();
     for (f, m) in forces.iter().zip(&motions) {
         close("W", m.point.loads.W / f.point.loads.W, 1.0, known);
@@ -124,8 +125,9 @@ fn a_given_approach_is_a_given_force() {
             0.0,
             known,
         );
-        // The rim follows from the pressure a few cells inside, a tenth of the largest; in a contact of a few
-        // cells the stencil that it is extrapolated with depends on the last digits.
+        // The rim follows from the pressure a few cells inside, a tenth of the largest; in a
+        // contact of a few cells the stencil that it is extrapolated with depends on the last
+        // digits.
         if f.contact_radius() > 8.0 * by_force.grid.dx {
             close("area", m.contact_area / f.contact_area, 1.0, 10.0 * known);
         }

@@ -58,8 +58,8 @@ fn ends(scene: &Scene, mask: &Array2<bool>) -> (f64, f64) {
     )
 }
 
-/// Under little friction the stick zone is narrower than a cell. If no cell lies in the middle all but one slip, which
-/// takes up what the bounds leave of the force.
+/// Under little friction the stick zone is narrower than a cell. If no cell lies in the middle all
+/// but one slip, which takes up what the bounds leave of the force.
 #[test]
 fn a_stick_zone_narrower_than_a_cell_is_no_obstacle() {
     let aluminium = Elastic { E: 70e9, nu: 0.33 };

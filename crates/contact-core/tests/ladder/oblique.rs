@@ -1,6 +1,6 @@
 //! Normal and tangential load growing together from nothing, T = k W with k < mu: no cell slips,
-//! and the shear is k times the pressure (similar bodies without lateral contraction; R. D. Mindlin,
-//! H. Deresiewicz, J. Appl. Mech. 20 (1953) 327-344).
+//! and the shear is k times the pressure (similar bodies without lateral contraction; R. D.
+//! Mindlin, H. Deresiewicz, J. Appl. Mech. 20 (1953) 327-344).
 
 use contact_core::march::Status;
 use contact_core::scene::{LoadPath, Loads};

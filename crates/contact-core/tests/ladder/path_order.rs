@@ -95,7 +95,8 @@ fn second_order_along_a_path_that_turns() {
     assert!(error(24, false) > 0.1);
 }
 
-/// Indentation of a coated half-space, which sticks: what a cell has moved before it entered remains.
+/// Indentation of a coated half-space, which sticks: what a cell has moved before it entered
+/// remains.
 fn indented(increments: usize, entering: bool) -> Scene {
     let scene = sphere_on_flat(STEEL, STEEL, MU, (2.4, 96), indentation(increments));
     let a = hertz_of(&scene).a;

@@ -9,8 +9,8 @@ use crate::bench::{CORK, W, close, hertz_of, run, sphere_on_flat};
 /// Cells over 2.4 contact radii.
 const N: usize = 36;
 
-/// A sphere of `material` on a flat of the same that rolls over twelve contact radii, without slip: after
-/// four of them the forces are a twentieth short of the steady ones.
+/// A sphere of `material` on a flat of the same that rolls over twelve contact radii, without slip:
+/// after four of them the forces are a twentieth short of the steady ones.
 fn rolled(material: Elastic, change: impl Fn(&mut Loads, f64)) -> (Scene, Increment) {
     let mut scene = sphere_on_flat(material, material, 0.3, (2.4, N), LoadPath::start());
     scene.friction = Friction::coulomb(f64::INFINITY);
@@ -27,8 +27,8 @@ fn rolled(material: Elastic, change: impl Fn(&mut Loads, f64)) -> (Scene, Increm
     (scene, last)
 }
 
-/// Without slip the steady forces are linear in the creepages xi, eta and the spin phi (turn per way):
-/// T_x = C11 G a^2 xi, T_y = C22 G a^2 eta + C23 G a^3 phi, M_z = -C23 G a^3 eta + ...; the
+/// Without slip the steady forces are linear in the creepages xi, eta and the spin phi (turn per
+/// way): T_x = C11 G a^2 xi, T_y = C22 G a^2 eta + C23 G a^3 phi, M_z = -C23 G a^3 eta + ...; the
 /// coefficients are those of J. J. Kalker, Three-Dimensional Elastic Bodies in Rolling Contact
 /// (1990), table E.3, for a circle, to half a unit of their last digit.
 #[test]
@@ -48,7 +48,8 @@ fn creepage_and_spin_are_kalkers() {
             to.given.delta_y = Some(0.0);
             to.given.phi_z = Some(creepage / a * way);
         });
-        // The traction grows from the leading edge, where the cells enter: the grid leaves 3 per mille.
+        // The traction grows from the leading edge, where the cells enter: the grid leaves 3 per
+        // mille.
         let near = |what: &str, found: f64, truth: f64| {
             close(what, found / truth, 1.0, 0.003 + 0.005 / truth);
         };

@@ -1,5 +1,5 @@
-//! Largest stresses below solved contacts, by default, against independent solutions: how far off they are and whether
-//! their errors say so.
+//! Largest stresses below solved contacts, by default, against independent solutions: how far off
+//! they are and whether their errors say so.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, non_snake_case)]
 
@@ -42,7 +42,8 @@ fn tractions(fields: &Fields) -> Tractions<'_> {
     }
 }
 
-/// The largest value on y = 0 in body 2, in a layer or in all, as the command line and Python give it.
+/// The largest value on y = 0 in body 2, in a layer or in all, as the command line and Python give
+/// it.
 fn largest(scene: &Scene, fields: &Fields, of: &str, layer: Option<usize>) -> Extreme {
     in_layer(scene, fields, of, (scene.hertz().unwrap().a, layer))
 }
@@ -106,14 +107,15 @@ fn under_hertz_shear(x: f64, e: f64, a: f64) -> f64 {
     -2.0 * (s - s.signum() * beyond)
 }
 
-/// s_xx at both rims of a line contact, on first loading, after a reversal and with a bulk stress in phase, within half
-/// a per cent of p_H on 64 to 1024 cells.
+/// s_xx at both rims of a line contact, on first loading, after a reversal and with a bulk stress
+/// in phase, within half a per cent of p_H on 64 to 1024 cells.
 #[test]
 fn rims_of_line_contacts_are_right_on_every_grid() {
     let (mu, W) = (0.6, 1e5);
     for bulk in [0.0, 0.1] {
         for n in [64, 65, 100, 128, 256, 512, 1024] {
-            // The force and the bulk stress go up and back: the new slip zone is a tenth of the half-width at one rim.
+            // The force and the bulk stress go up and back: the new slip zone is a tenth of the
+            // half-width at one rim.
             let T = 0.6 * mu * W;
             let sigma = |line: &LineContact| bulk * 4.0 * mu * line.p0;
             let (bare, line) = cylinder(mu, n, LoadPath::start());
@@ -128,7 +130,8 @@ fn rims_of_line_contacts_are_right_on_every_grid() {
             let scene = Scene { path, ..bare };
             let ends = solved(&scene);
             let a = line.a;
-            // A stick zone of the half-width c about e takes mu p0 c/a sqrt(1 - (x - e)^2/c^2) off the shear mu p.
+            // A stick zone of the half-width c about e takes mu p0 c/a sqrt(1 - (x - e)^2/c^2) off
+            // the shear mu p.
             let (c, e) = (a * (1.0_f64 - 0.6).sqrt(), a * bulk);
             let (c_2, e_2) = (
                 a * (1.0_f64 - 0.6 * back / 2.0).sqrt(),
@@ -175,7 +178,8 @@ fn rims_of_line_contacts_are_right_on_every_grid() {
     }
 }
 
-/// A sphere on a coated flat without friction, against a dual integral equation and Hankel quadrature.
+/// A sphere on a coated flat without friction, against a dual integral equation and Hankel
+/// quadrature.
 #[test]
 fn coated_spheres_agree_with_hankel_quadrature() {
     let file: Value =

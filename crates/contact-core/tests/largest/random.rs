@@ -1,7 +1,8 @@
 //! Largest stresses of contacts drawn at random, against the same on much finer grids.
 //!
-//! `make largest` runs 60 of them on 128 cells against 512 and writes what came out into `docs/reliability.md`; the test
-//! runs a slice on fewer cells. `FRET_LARGEST` is the number of contacts, `FRET_LARGEST_FINER` how much finer the truth is.
+//! `make largest` runs 60 of them on 128 cells against 512 and writes what came out into
+//! `docs/reliability.md`; the test runs a slice on fewer cells. `FRET_LARGEST` is the number of
+//! contacts, `FRET_LARGEST_FINER` how much finer the truth is.
 
 use std::fmt::Write as _;
 use std::sync::Mutex;

@@ -8,8 +8,9 @@ use contact_core::reference::{
 
 use crate::quadrature::integrate;
 
-/// Displacement at (x, y, z) under a unit force on the origin of a half-space of unit shear modulus,
-/// along z (Boussinesq) or along x (Cerruti). K. L. Johnson, Contact Mechanics, eq. (3.18), (3.75).
+/// Displacement at (x, y, z) under a unit force on the origin of a half-space of unit shear
+/// modulus, along z (Boussinesq) or along x (Cerruti). K. L. Johnson, Contact Mechanics, eq.
+/// (3.18), (3.75).
 fn point_load(along_x: bool, nu: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let rho = (x * x + y * y + z * z).sqrt();
     let (far, loose) = (rho + z, 1.0 - 2.0 * nu);

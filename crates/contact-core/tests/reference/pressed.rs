@@ -16,7 +16,8 @@ fn the_ellipse_closes_the_gap_of_its_paraboloid() {
         let contact = hertz_ellipse(R_x, R_y, E_star, 500.0);
         let (a_x, a_y) = (contact.a_x, contact.a_y);
         // u_z = (1/(pi E*)) int int p/rho dA; along a chord p is a half circle over its length L:
-        // int p drho = p0 sqrt(C) pi L^2/8. Lines through the point fill the plane over half a turn.
+        // int p drho = p0 sqrt(C) pi L^2/8. Lines through the point fill the plane over half a
+        // turn.
         let u_z = |x: f64, y: f64| {
             let chord = |t: f64| {
                 let (s, c) = t.sin_cos();

@@ -167,7 +167,8 @@ fn springs_follow_mindlin_and_deresiewicz_when_both_forces_change() {
     let c = partial_slip(CORK);
     let depth = |load: f64| hertz(R, CORK, CORK, load).delta_z;
     let stiffness_ratio = c.hertz.E_star / (4.0 * c.G_star);
-    // Loading from nothing with dT/dW = k < mu: no slip, f_x = k f_z, so delta_x = k (E*/G_t) delta_z.
+    // Loading from nothing with dT/dW = k < mu: no slip, f_x = k f_z, so delta_x = k (E*/G_t)
+    // delta_z.
     let k = 0.2;
     let mut springs = Springs::new(c.hertz, R, CORK, CORK, MU, 1000);
     let shift = springs.load((0.0, 0.0), (W, k * W), 200);

@@ -35,8 +35,9 @@ pub(crate) enum Fate {
     /// Refused with the reason that it was drawn for: past friction, or off the grid; there, solved
     /// on the grid that the error asks for.
     Refused,
-    /// The documented limits: [`STRONG`] friction on coupled bodies, where alternating between pressure and shear may
-    /// find no solution, and the most work of an increment. Refused with the residual that is left.
+    /// The documented limits: [`STRONG`] friction on coupled bodies, where alternating between
+    /// pressure and shear may find no solution, and the most work of an increment. Refused with the
+    /// residual that is left.
     Unsolved(String),
     /// Did not end within its time.
     Stopped,
@@ -161,8 +162,9 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
     }
 }
 
-/// Whether what a scene is refused for is so: a contact as wide as the bodies are round, by Hertz's radius for a sphere
-/// of the mean curvature, to a tenth; or a gap that is narrowest at the border of the grid.
+/// Whether what a scene is refused for is so: a contact as wide as the bodies are round, by Hertz's
+/// radius for a sphere of the mean curvature, to a tenth; or a gap that is narrowest at the border
+/// of the grid.
 fn cannot_be(scene: &Scene, key: &str) -> bool {
     match key {
         "path" => {
@@ -187,7 +189,8 @@ fn cannot_be(scene: &Scene, key: &str) -> bool {
     }
 }
 
-/// What a wave of shear does to the gap over what one of pressure does, of the wave for which it is most.
+/// What a wave of shear does to the gap over what one of pressure does, of the wave for which it is
+/// most.
 fn coupling(scene: &Scene) -> f64 {
     let rigid = |body: &Body| body.substrate.is_rigid() && body.coatings.is_empty();
     let of = |body: &Body, k: f64| {

@@ -110,9 +110,10 @@ fn coating_much_thinner_than_a_cell() {
 }
 
 /// The nearer to sliding, the less stick and the more shift. The slip has a part across the force,
-/// since shear along x moves the surface along y too; while the bodies slide on, its share falls, and
-/// only in the limit do all cells pull alike: the shift that carries the last part of the force grows
-/// without bound, like the inverse root of that part. At the limit itself it is the incipient one.
+/// since shear along x moves the surface along y too; while the bodies slide on, its share falls,
+/// and only in the limit do all cells pull alike: the shift that carries the last part of the force
+/// grows without bound, like the inverse root of that part. At the limit itself it is the incipient
+/// one.
 #[test]
 fn force_at_the_verge_of_sliding() {
     for body2 in ["body2.E=210e9", "body2.E=70e9"] {

@@ -1,4 +1,5 @@
-//! Cells that are said to stick: full stick that has a solution or none, and displacements after sliding far.
+//! Cells that are said to stick: full stick that has a solution or none, and displacements after
+//! sliding far.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -55,8 +56,8 @@ fn a_contact_that_sticks_is_lifted_at_its_rim_alone() {
     assert!(lifted > 0, "nothing was lifted");
 }
 
-/// A problem without bounds is no harder on one grid than on another: pressing, in one step, and twisting a ball on a
-/// stiff coating takes 22 to 28 and 2 to 6 convolutions.
+/// A problem without bounds is no harder on one grid than on another: pressing, in one step, and
+/// twisting a ball on a stiff coating takes 22 to 28 and 2 to 6 convolutions.
 #[test]
 fn full_stick_takes_as_much_work_on_any_grid() {
     let bodies = r#"
@@ -78,7 +79,8 @@ body2 = { shape = "flat", E = 1e11, nu = 0.3, coatings = [{ E = 4.2e11, nu = 0.3
     assert!(work.iter().all(|w| *w < 1.5 * least), "{work:?}");
 }
 
-/// Shifted by ten approaches no contact that sticks everywhere is in equilibrium, and the error says so.
+/// Shifted by ten approaches no contact that sticks everywhere is in equilibrium, and the error
+/// says so.
 #[test]
 fn a_contact_that_cannot_stick_is_refused() {
     for (bodies, cell, cells, path) in [
@@ -110,8 +112,9 @@ fn a_contact_that_cannot_stick_is_refused() {
     }
 }
 
-/// Sliding by many times what shear alone can move a surface goes through large tractions on the way to the solution:
-/// displacements are those of the tractions all the same, and the cells that stick after it do not move.
+/// Sliding by many times what shear alone can move a surface goes through large tractions on the
+/// way to the solution: displacements are those of the tractions all the same, and the cells that
+/// stick after it do not move.
 #[test]
 fn displacements_are_exact_after_sliding_far() {
     let text = r"

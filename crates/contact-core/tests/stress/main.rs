@@ -108,17 +108,17 @@ fn random_scenes_are_solved_or_refused() {
     let count = |is: fn(&Fate) -> bool| outcomes.iter().filter(|o| is(&o.fate)).count();
     let failed = count(|fate| matches!(fate, Fate::Failed(_) | Fate::Stopped));
     assert_eq!(failed, 0, "errors without a right reason");
-    // Friction times coupling above 1 may leave an increment without a solution, and a coating that is as stiff as
-    // a plate one that takes more work than is allowed.
+    // Friction times coupling above 1 may leave an increment without a solution, and a coating that
+    // is as stiff as a plate one that takes more work than is allowed.
     let unsolved = count(|fate| matches!(fate, Fate::Unsolved(_)));
     assert!(200 * unsolved <= outcomes.len(), "{unsolved} unsolved");
 }
 
-/// Seeds of scenes that are hard to solve: slip in cells said to stick (192, 675, 833, 1192, 1544), coatings stiff as
-/// plates that the preconditioned normal solver did not settle (811, 821), minutes of work (932, 936),
-/// slip sets that went in circles for a thousand steps (401, 819, 1348), twins whose slip turned
-/// otherwise (2, 18), slip that turns back in a short increment after a long one (608, 1766), mirror images
-/// that all slip in balance (6544).
+/// Seeds of scenes that are hard to solve: slip in cells said to stick (192, 675, 833, 1192, 1544),
+/// coatings stiff as plates that the preconditioned normal solver did not settle (811, 821),
+/// minutes of work (932, 936), slip sets that went in circles for a thousand steps (401, 819,
+/// 1348), twins whose slip turned otherwise (2, 18), slip that turns back in a short increment
+/// after a long one (608, 1766), mirror images that all slip in balance (6544).
 #[test]
 fn scenes_that_are_hard_to_solve_are_solved() {
     let seeds = [

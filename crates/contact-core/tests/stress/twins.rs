@@ -27,8 +27,8 @@ const CLOSER: f64 = 0.01;
 
 /// The distances of the twins of a scene that take the same path: not those of which an increment
 /// is solved in more pieces. Where the turn of the slip cannot be followed to the end the solution
-/// depends on how far it was, and which of two cells enters first may be decided by less than the tolerance: a pair
-/// that differs is compared without the turn and to a hundredth of the tolerance.
+/// depends on how far it was, and which of two cells enters first may be decided by less than the
+/// tolerance: a pair that differs is compared without the turn and to a hundredth of the tolerance.
 pub(crate) fn compared(
     scene: &Scene,
     ours: &End,
@@ -155,8 +155,8 @@ impl Allowed {
         }
     }
 
-    /// Norm of the difference of the shears after `increments`, each of which hands its slip on to the
-    /// next; the bound mu p differs too \[Pa\].
+    /// Norm of the difference of the shears after `increments`, each of which hands its slip on to
+    /// the next; the bound mu p differs too \[Pa\].
     fn shear(&self, fields: &Fields, increments: usize) -> f64 {
         let misfit = &self.misfit;
         let own = 2.0 * misfit.slip * Misfit::root_of_cells(fields) / self.tangential;

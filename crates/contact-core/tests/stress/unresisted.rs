@@ -1,5 +1,5 @@
-//! Where nothing carries a load or a shear: surfaces that have parted, cells without friction, and cells at
-//! the rim of a contact that never slips.
+//! Where nothing carries a load or a shear: surfaces that have parted, cells without friction, and
+//! cells at the rim of a contact that never slips.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -33,7 +33,8 @@ fn solved(scene: &Scene) -> Result<Vec<(Increment, Fields)>, Error> {
     Ok(all)
 }
 
-/// Bodies that shear has stretched part: nothing is left on their surfaces, and they do not overlap.
+/// Bodies that shear has stretched part: nothing is left on their surfaces, and they do not
+/// overlap.
 #[test]
 fn parted_surfaces_carry_nothing() {
     let lifted = "path=[{delta_z=3e-6,increments=3},{delta_z=-1e-6,increments=1}]";
@@ -121,7 +122,8 @@ fn cells_without_friction_slip_freely() {
         format!("friction.map={{spacing=8e-5,z=[{}]}}", rows.join(","))
     };
     let path = "path=[{W=100.0,increments=2},{T_x=4.0,increments=2}]";
-    // With a lower coefficient in motion a cell at the border of stick decides by less than the tolerance.
+    // With a lower coefficient in motion a cell at the border of stick decides by less than the
+    // tolerance.
     for (more, steady) in [
         ("body2.nu=0.3", true),
         ("friction.kinetic=0.2", false),
@@ -195,8 +197,8 @@ fn surfaces_touch_where_they_lie() {
     }
 }
 
-/// Where a contact never slips, shear may lift cells at its rim: neither stuck nor parted have they a place.
-/// They slip; a shift of an approach is solved whole.
+/// Where a contact never slips, shear may lift cells at its rim: neither stuck nor parted have they
+/// a place. They slip; a shift of an approach is solved whole.
 #[test]
 fn shear_lifts_cells_of_a_contact_that_never_slips() {
     let bodies = [

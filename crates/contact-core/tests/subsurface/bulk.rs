@@ -15,8 +15,8 @@ use crate::{coated, states, tractions};
 
 const SIGMA: f64 = 0.7;
 
-/// Far below the contact there is the bulk stress alone: sigma_B along x in the substrate, in a layer
-/// what its own modulus makes of the same strains.
+/// Far below the contact there is the bulk stress alone: sigma_B along x in the substrate, in a
+/// layer what its own modulus makes of the same strains.
 #[test]
 fn far_below_the_contact_the_bulk_stress_is_left() {
     let body = coated();
@@ -95,9 +95,9 @@ fn it_is_added_in_every_layer_and_in_every_way() {
     }
 }
 
-/// Of each point on the line the damage of Findley's criterion, the largest of
-/// (half the range of the shear + K times the largest tension) over planes across x and z, with what
-/// it takes: along each plane the extremes of both. A fatigue criterion as anyone could write it.
+/// Of each point on the line the damage of Findley's criterion, the largest of (half the range of
+/// the shear + K times the largest tension) over planes across x and z, with what it takes: along
+/// each plane the extremes of both. A fatigue criterion as anyone could write it.
 struct Findley {
     normals: Vec<[f64; 2]>,
 }
@@ -237,8 +237,9 @@ fn a_fatigue_criterion_streams_with_the_bulk_stress() -> Result<(), Error> {
     Ok(())
 }
 
-/// A residual stress of each layer adds to s_xx and s_yy of that layer alone, below lines, on planes,
-/// at points and along a path; other numbers of layers and stresses that are none are refused.
+/// A residual stress of each layer adds to s_xx and s_yy of that layer alone, below lines, on
+/// planes, at points and along a path; other numbers of layers and stresses that are none are
+/// refused.
 #[test]
 fn residual_stress_is_added_in_its_layer_alone() {
     let body = coated();

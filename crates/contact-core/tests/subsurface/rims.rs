@@ -5,7 +5,8 @@ use contact_core::fields::{Border, Line, Zone, borders};
 use contact_core::scene::Grid;
 use ndarray::Array2;
 
-/// Cattaneo's tractions with a stick zone of the radius c, a = p_H = 1, mu = 0.5, and the cells that stick.
+/// Cattaneo's tractions with a stick zone of the radius c, a = p_H = 1, mu = 0.5, and the cells
+/// that stick.
 fn cattaneo(grid: &Grid, c: f64) -> ([Array2<f64>; 2], Array2<bool>) {
     let root = |x: f64, y: f64, a: f64| (a * a - x * x - y * y).max(0.0).sqrt();
     let p = grid.map(|x, y| root(x, y, 1.0));

@@ -113,9 +113,9 @@ fn errors_at(grid: (f64, usize), mu: f64, z: &[f64], rim: bool) -> Vec<(f64, f64
 }
 
 /// Surface and all: farther than four cells from the rim every sample is within half a per cent of
-/// p_H on 256 cells. Nearer, a dozen are not, all of them within a cell of the surface: the error is
-/// of first order at a given distance d and grows towards the rim like 1/sqrt(d), so that a given
-/// number of cells from the rim it falls with the root of the cell.
+/// p_H on 256 cells. Nearer, a dozen are not, all of them within a cell of the surface: the error
+/// is of first order at a given distance d and grows towards the rim like 1/sqrt(d), so that a
+/// given number of cells from the rim it falls with the root of the cell.
 #[test]
 fn samples_are_off_beside_the_rim_alone_by_the_root_of_the_cell() {
     // The rim falls on the same place within a cell on both grids.
@@ -172,7 +172,8 @@ fn with_the_rim_followed_every_sample_is_right() {
     assert!(fine < 5e-3 && fine < coarse, "{coarse} {fine}");
 }
 
-/// Tension at the trailing edge, which no sample reaches, on even and odd grids: its value at the rim is the largest.
+/// Tension at the trailing edge, which no sample reaches, on even and odd grids: its value at the
+/// rim is the largest.
 #[test]
 fn the_tension_at_the_trailing_edge_is_the_largest() {
     for (mu, tolerances) in [

@@ -62,8 +62,8 @@ fn solved(scene: &Scene) -> Vec<Fields> {
     ends
 }
 
-/// Errors of the worst component of every sample, the largest first: error, cell, depth. On the surface
-/// s_zz, s_xz, s_yz are the tractions.
+/// Errors of the worst component of every sample, the largest first: error, cell, depth. On the
+/// surface s_zz, s_xz, s_yz are the tractions.
 fn errors(
     found: &Array3<f64>,
     depths: &[Depth],
@@ -101,11 +101,12 @@ fn shallow(a: f64) -> Vec<f64> {
 
 #[test]
 fn a_solved_sphere_is_hertz_and_mindlin_everywhere() {
-    // Of 24 extents from 2.4 to 2.4345, three loads each, one or two samples within a few hundredths of
-    // a cell from the rim or the stick zone are off in 14 of 72 states, up to 1.43 % at 2.427, the
-    // worst, which is here. Without the rim 472 samples are off in 64 states, up to 4.4 %; at 2.403
-    // under W alone none (0.45 %) and two with it (0.56 %). A border told a fortieth of a cell off
-    // means a pressure of sqrt(2 d_x/(40 a)), 2.2 % of p_H, where there is none.
+    // Of 24 extents from 2.4 to 2.4345, three loads each, one or two samples within a few
+    // hundredths of a cell from the rim or the stick zone are off in 14 of 72 states, up to 1.43 %
+    // at 2.427, the worst, which is here. Without the rim 472 samples are off in 64 states, up to
+    // 4.4 %; at 2.403 under W alone none (0.45 %) and two with it (0.56 %). A border told a
+    // fortieth of a cell off means a pressure of sqrt(2 d_x/(40 a)), 2.2 % of p_H, where there is
+    // none.
     for (extent, most) in [(2.4, 5e-3), (2.409, 5e-3), (2.418, 5e-3), (2.427, 0.015)] {
         let (scene, h) = scene(Shape::Sphere { R }, CORK, (extent, 256));
         let c = CattaneoMindlin::new(h, CORK, CORK, MU).stick_radius(0.7 * MU * W) / h.a;
@@ -136,8 +137,8 @@ fn a_solved_sphere_is_hertz_and_mindlin_everywhere() {
     }
 }
 
-/// On the axis of a contact of 28 cells across the border of the stick zone is nine cells away, seven along and across:
-/// what is done there does not reach so far.
+/// On the axis of a contact of 28 cells across the border of the stick zone is nine cells away,
+/// seven along and across: what is done there does not reach so far.
 #[test]
 fn the_axis_of_a_coarse_contact_stays_right() {
     let (scene, h) = scene(Shape::Sphere { R }, CORK, (2.4, 33));
@@ -159,14 +160,16 @@ fn the_axis_of_a_coarse_contact_stays_right() {
             "axis, 33 cells: {:.1e} without the rim, {:.1e} with it",
             off[0], off[1]
         );
-        // Linear between the middles the pressure is up to a quarter of its bend over a cell, p_H (d_x/a)^2, too low.
+        // Linear between the middles the pressure is up to a quarter of its bend over a cell, p_H
+        // (d_x/a)^2, too low.
         let bend = (scene.grid.dx / h.a).powi(2);
         assert!(off[0] < 5e-4 && off[1] <= 0.25 * bend, "{off:?} {bend:e}");
     }
 }
 
 /// Root mean square over p_H of what samples near the surface differ from those on cells a third of
-/// the size, at the end of each branch: with the rim of the coarse contact not followed, and followed.
+/// the size, at the end of each branch: with the rim of the coarse contact not followed, and
+/// followed.
 fn against_finer(what: &str, make: impl Fn(usize) -> Scene, n: usize) -> Vec<[f64; 2]> {
     let [coarse, fine] = [n, 3 * n].map(&make);
     let z = [0.0, 0.3, 0.8, 1.5, 2.5, 4.0, 8.0].map(|z| z * coarse.grid.dx);
@@ -189,8 +192,8 @@ fn against_finer(what: &str, make: impl Fn(usize) -> Scene, n: usize) -> Vec<[f6
     .collect()
 }
 
-/// Over the ends of the branches: under the load alone slip may reach no farther than the outermost cell, whose shear does
-/// not follow from its pressure.
+/// Over the ends of the branches: under the load alone slip may reach no farther than the outermost
+/// cell, whose shear does not follow from its pressure.
 fn summed(ends: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|n| ends.iter().map(|both| both[n]).sum())
 }
@@ -258,8 +261,9 @@ fn other_contacts_get_no_worse() {
     }
 }
 
-/// Where tractions do not vanish like a root (a patch with a sharp edge, a single cell) their border is taken between two
-/// cells: the stress is finite there whatever the cells, and a few cells away that of the loads of the cells.
+/// Where tractions do not vanish like a root (a patch with a sharp edge, a single cell) their
+/// border is taken between two cells: the stress is finite there whatever the cells, and a few
+/// cells away that of the loads of the cells.
 #[test]
 fn other_tractions_keep_the_loads_of_their_cells() {
     let body = Body::homogeneous(STEEL, Shape::Flat);

@@ -1,5 +1,5 @@
-//! What every run of wear owes: volumes that balance, surfaces that do not grow, a contact that touches and
-//! does not overlap, finite numbers.
+//! What every run of wear owes: volumes that balance, surfaces that do not grow, a contact that
+//! touches and does not overlap, finite numbers.
 
 use std::sync::Arc;
 
@@ -70,8 +70,9 @@ impl<'a> Audit<'a> {
         Ok(jumps)
     }
 
-    /// Whether the pressure of a block and the gap at its place complement each other: in gross slip always; in a
-    /// march, whose pressure is a mean of the cycle, if shear does not act on it and the normal load stays.
+    /// Whether the pressure of a block and the gap at its place complement each other: in gross
+    /// slip always; in a march, whose pressure is a mean of the cycle, if shear does not act on it
+    /// and the normal load stays.
     fn complements(&self, wear: &Wear) -> bool {
         let of = |b: usize| {
             let to = self.scene.path.branches[b].to;
@@ -119,8 +120,8 @@ impl<'a> Audit<'a> {
         }
     }
 
-    /// No tension; the force is one of the cycle; no gap under pressure (root mean square) and no overlap, as the
-    /// tolerance of the scene says.
+    /// No tension; the force is one of the cycle; no gap under pressure (root mean square) and no
+    /// overlap, as the tolerance of the scene says.
     fn check_contact(&mut self, wear: &Wear, now: &Block) {
         let (name, scene) = (self.name, self.scene);
         assert!(
@@ -182,7 +183,8 @@ impl<'a> Audit<'a> {
     }
 }
 
-/// A field as it is found so many cells further along x, linear between the cells; zero beyond the grid.
+/// A field as it is found so many cells further along x, linear between the cells; zero beyond the
+/// grid.
 fn shifted(field: &Array2<f64>, by: f64) -> Array2<f64> {
     let (nx, ny) = field.dim();
     let at = |i: f64, j: usize| {

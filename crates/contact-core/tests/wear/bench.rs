@@ -77,8 +77,8 @@ pub(crate) fn run(scene: &Scene, wear: &Wear) -> (WearRun, Vec<Jump>) {
     (run, jumps)
 }
 
-/// The half-width at which a parabola of the profile along y = 0 ends, from where it is a twentieth of
-/// its depth.
+/// The half-width at which a parabola of the profile along y = 0 ends, from where it is a twentieth
+/// of its depth.
 pub(crate) fn half_width(worn: &Array2<f64>, grid: &Grid) -> f64 {
     let row = worn.column(grid.ny / 2);
     let part = 0.05 * row.iter().fold(0.0, |m: f64, w| m.max(*w));

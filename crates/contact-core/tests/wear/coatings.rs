@@ -38,7 +38,8 @@ fn a_run_ends_at_the_cycle_in_which_the_coating_is_through_or_goes_on_with_the_s
     );
     assert!(events[1].x.abs() <= grid.dx && events[0].cycles < events[1].cycles);
 
-    // With a substrate that wears ten times as fast the same cycles again wear more than the coating.
+    // With a substrate that wears ten times as fast the same cycles again wear more than the
+    // coating.
     (wear.worn_through, wear.cycles) = (WornThrough::GoOn, 2.0 * last.cycles);
     let (_, soft) = run(&scene, &wear);
     wear.bodies[1] = archard(1e-14);

@@ -1,5 +1,6 @@
-//! R. McColl, J. Ding, S. B. Leen, Wear 256 (2004) 1114-1127, at 185 N: a cylinder on a flat in gross slip,
-//! the stroke as long as the contact, both bodies wearing. The data are those of tests/data/wear.
+//! R. McColl, J. Ding, S. B. Leen, Wear 256 (2004) 1114-1127, at 185 N: a cylinder on a flat in
+//! gross slip, the stroke as long as the contact, both bodies wearing. The data are those of
+//! tests/data/wear.
 
 use std::f64::consts::PI;
 
@@ -8,10 +9,11 @@ use contact_core::wear::{Cycling, Jumps};
 
 use crate::bench::{STEEL, archard, cylinder, run, scene, to_and_fro, wear};
 
-/// Stiffness per length of two half-planes between the contact, of half-width b at first, and a depth d, where
-/// they are driven. Under a shear of the shape (b^2 - x^2)^(1/2) and the force Q per length a half-plane gives way by
-/// `Q (1 - nu^2)/(pi E) [2 ln(2 d/b) + 1 + 1/(1 - nu)]` between the middle of the contact and the point below it (as
-/// K. L. Johnson, Contact Mechanics (1985), section 5.6, has it of a pressure).
+/// Stiffness per length of two half-planes between the contact, of half-width b at first, and a
+/// depth d, where they are driven. Under a shear of the shape (b^2 - x^2)^(1/2) and the force Q per
+/// length a half-plane gives way by `Q (1 - nu^2)/(pi E) [2 ln(2 d/b) + 1 + 1/(1 - nu)]` between
+/// the middle of the contact and the point below it (as K. L. Johnson, Contact Mechanics (1985),
+/// section 5.6, has it of a pressure).
 fn series(d: f64, b: f64) -> f64 {
     let Elastic { E, nu } = STEEL;
     let gives = (1.0 - nu * nu) / (PI * E) * (2.0 * (2.0 * d / b).ln() + 1.0 + 1.0 / (1.0 - nu));

@@ -12,8 +12,8 @@ const K: f64 = 2e-13;
 /// A body that hardly wears.
 const K0: f64 = 1e-15;
 
-/// The gap has grown by what the segment or cap of half-width b of the radius R held, b^2/(2 R) deep: the bodies have
-/// lost that and the debris that fills the rest.
+/// The gap has grown by what the segment or cap of half-width b of the radius R held, b^2/(2 R)
+/// deep: the bodies have lost that and the debris that fills the rest.
 fn assert_worn_flat(name: &str, scene: &Scene, cycles: f64, (b, kept): (f64, f64), R: f64) {
     let mut wear = wear(
         [archard(0.5 * K), archard(0.5 * K)],

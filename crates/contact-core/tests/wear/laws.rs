@@ -171,7 +171,8 @@ fn every_layer_wears_by_its_own_law() {
         material: Elastic { E, nu: 0.25 },
         thickness: 20e-9,
     };
-    // Three layers of laws k, 0 and 5 k: wear ends at the bottom of the first, wherever there is contact.
+    // Three layers of laws k, 0 and 5 k: wear ends at the bottom of the first, wherever there is
+    // contact.
     scene.body2.coatings = vec![layer(300e9), layer(250e9)];
     let law = |k: f64| -> Arc<dyn Law> { Arc::new(Archard { k, threshold: 0.0 }) };
     let laws = vec![law(k), law(0.0), law(5.0 * k)];

@@ -1,4 +1,5 @@
-//! What changes over cycles: coefficients, friction; where a life ends; runs that begin on worn surfaces.
+//! What changes over cycles: coefficients, friction; where a life ends; runs that begin on worn
+//! surfaces.
 
 use std::sync::Arc;
 
@@ -61,7 +62,8 @@ fn a_coefficient_follows_cycles_pressure_and_power() {
         2.0 * per_cycle * 1000.0,
         1e-4,
     );
-    // A coefficient that goes as 1/p wears alike wherever there is contact: p is the mean of the way.
+    // A coefficient that goes as 1/p wears alike wherever there is contact: p is the mean of the
+    // way.
     let p0 = sliding().hertz().unwrap().p0;
     let table: Vec<(f64, f64)> = (1..400)
         .map(|n| 0.01 * f64::from(n) * p0)

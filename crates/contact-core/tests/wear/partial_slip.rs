@@ -1,7 +1,9 @@
-//! Partial slip worn until nothing changes any more: the contact has shrunk to the stick zone
-//! (V. L. Popov, Sci. Rep. 4 (2014) 3749). W and the amplitude of T are constant, the bodies alike with nu = 0.
+//! Partial slip worn until nothing changes any more: the contact has shrunk to the stick zone (V.
+//! L. Popov, Sci. Rep. 4 (2014) 3749). W and the amplitude of T are constant, the bodies alike with
+//! nu = 0.
 //!
-//! `FRET_WEAR_CELLS=256` takes so many cells along a side under the sphere and both amplitudes (`make wear`).
+//! `FRET_WEAR_CELLS=256` takes so many cells along a side under the sphere and both amplitudes
+//! (`make wear`).
 
 use std::f64::consts::PI;
 
@@ -111,8 +113,9 @@ fn a_sphere_wears_until_it_rests_on_its_stick_zone() {
         let (W, n) = (50.0, *cells.as_ref().unwrap_or(&96));
         let grid = |a: f64| Grid::centred(2.8 * a, n).unwrap();
         let scene = alike(Shape::Sphere { R }, W, q * MU * W, grid);
-        // The border of the stick zone lies within an eighth of a cell of where it should: by the closed form, what it
-        // is off in parts of a moves volume and depth by 6.4 and 10.6 times that.
+        // The border of the stick zone lies within an eighth of a cell of where it should: by the
+        // closed form, what it is off in parts of a moves volume and depth by 6.4 and 10.6 times
+        // that.
         let rim = 0.125 * 2.8 / n as f64;
         let bounds = if n < 256 {
             (6.4 * rim, 10.6 * rim)
@@ -124,14 +127,16 @@ fn a_sphere_wears_until_it_rests_on_its_stick_zone() {
     }
 }
 
-/// Under a pressure p0 (c^2 - x^2)^(1/2)/a and that of a flat punch of the width 2c that carries the rest of W, the
-/// gap of the unworn surfaces outside would be, its slope being ((x^2 - c^2)^(1/2) - (a^2 - c^2)/2/(x^2 - c^2)^(1/2))/R,
+/// Under a pressure p0 (c^2 - x^2)^(1/2)/a and that of a flat punch of the width 2c that carries
+/// the rest of W, the gap of the unworn surfaces outside would be, its slope being ((x^2 -
+/// c^2)^(1/2) - (a^2 - c^2)/2/(x^2 - c^2)^(1/2))/R,
 ///
 /// ```text
 /// g = [x (x^2 - c^2)^(1/2) - a^2 arcosh(x/c)]/(2 R) = -w < 0   for c < x < b.
 /// ```
 ///
-/// The worn depth is largest at x^2 = (a^2 + c^2)/2, and the area (b^2 - c^2)^(1/2) [b^2 - a^2 - (b^2 - c^2)/3]/R.
+/// The worn depth is largest at x^2 = (a^2 + c^2)/2, and the area (b^2 - c^2)^(1/2) [b^2 - a^2 -
+/// (b^2 - c^2)/3]/R.
 fn line(q: f64) -> Row {
     let c = (1.0 - q).sqrt();
     let w = |x: f64| 0.5 * ((x / c).acosh() - x * (x * x - c * c).sqrt());
@@ -150,7 +155,8 @@ fn line(q: f64) -> Row {
     }
 }
 
-/// Wherever the border of the stick zone lies in its cell, 256 cells do: the cell that it runs through wears in part.
+/// Wherever the border of the stick zone lies in its cell, 256 cells do: the cell that it runs
+/// through wears in part.
 #[test]
 fn a_cylinder_wears_until_it_rests_on_its_stick_zone() {
     let everywhere = (0..10).map(|k| (0.5, 256, 56.0 + 0.1 * f64::from(k)));

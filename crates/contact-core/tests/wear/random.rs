@@ -178,7 +178,8 @@ fn scene(draw: &mut Draw, sliding: bool, flat: bool) -> Scene {
     scene
 }
 
-/// To and fro under given shifts, under a load that may change within the cycle; a spring may drive it.
+/// To and fro under given shifts, under a load that may change within the cycle; a spring may drive
+/// it.
 fn slid(draw: &mut Draw, W: f64, a: f64) -> LoadPath {
     let stroke = a * draw.between(1e-3, 0.8);
     let places = 1 + (4.0 * draw.next()) as usize;

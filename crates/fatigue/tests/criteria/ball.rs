@@ -4,8 +4,8 @@ use fatigue::smallest_ball;
 
 use super::splitmix::Draw;
 
-/// The optimum of a convex problem: all points inside, and the centre within the hull of those on the
-/// border, told by no direction along which all of these come nearer.
+/// The optimum of a convex problem: all points inside, and the centre within the hull of those on
+/// the border, told by no direction along which all of these come nearer.
 fn check<const D: usize>(points: &[[f64; D]]) {
     let ball = smallest_ball(points);
     let from = |p: &[f64; D]| -> [f64; D] { std::array::from_fn(|d| p[d] - ball.centre[d]) };

@@ -29,8 +29,8 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Radius of the smallest circle round points of a plane in space: the largest of all circles of two
-/// or of acute three of them.
+/// Radius of the smallest circle round points of a plane in space: the largest of all circles of
+/// two or of acute three of them.
 fn radius(points: &[[f64; 3]]) -> f64 {
     let square = |a: [f64; 3], b: [f64; 3]| -> f64 { (0..3).map(|d| (a[d] - b[d]).powi(2)).sum() };
     let mut most = 0.0_f64;
@@ -163,7 +163,8 @@ fn a_thousand_histories_against_two_thousand_planes() {
     }
 }
 
-/// Where nearly all planes are in compression at all instants, the values are small against the stress.
+/// Where nearly all planes are in compression at all instants, the values are small against the
+/// stress.
 #[test]
 fn little_tension_beside_much_pressure() {
     let mut draw = Draw(31);

@@ -1,5 +1,5 @@
-//! Histories on which a search for a plane has nothing to go by: every criterion ends at once or within its
-//! planes, and what it may have missed is told.
+//! Histories on which a search for a plane has nothing to go by: every criterion ends at once or
+//! within its planes, and what it may have missed is told.
 
 use fatigue::{AtPoint, Criterion, Search};
 
@@ -65,8 +65,8 @@ fn nothing_in_tension_makes_no_product() {
     }
 }
 
-/// Pressure all round from 0 to -p and a constant stress: no plane is sheared, and the value is that of the
-/// normal stress.
+/// Pressure all round from 0 to -p and a constant stress: no plane is sheared, and the value is
+/// that of the normal stress.
 #[test]
 fn no_plane_is_sheared() {
     let (E, nu, p) = (210e9, 0.3, 3e8);
@@ -121,8 +121,8 @@ fn pressed_shut() {
     assert_eq!((found.value, found.planes), (0.0, 0));
 }
 
-/// The histories that contacts and their users make of nothing: in proportion, constant, one instant apart,
-/// nearly so, in all sizes.
+/// The histories that contacts and their users make of nothing: in proportion, constant, one
+/// instant apart, nearly so, in all sizes.
 #[test]
 fn random_histories_end_and_bound_the_planes() {
     let mut draw = Draw(11);

@@ -85,8 +85,8 @@ fn smooth(draw: &mut Draw, instants: usize) -> Vec<Tensor> {
         .collect()
 }
 
-/// A cycle of two harmonics beside a pressure in one direction that leaves little tension, on a ring of
-/// planes, as beside a contact \[Pa\].
+/// A cycle of two harmonics beside a pressure in one direction that leaves little tension, on a
+/// ring of planes, as beside a contact \[Pa\].
 fn pressed(draw: &mut Draw, instants: usize, share: f64) -> Vec<Tensor> {
     let axis: [f64; 3] = std::array::from_fn(|_| draw.next() - 0.5);
     let [x, y, z] = axis;

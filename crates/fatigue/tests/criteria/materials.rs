@@ -38,8 +38,8 @@ fn limits_are_those_of_the_tests() {
     }
 }
 
-/// Criteria with curves give the life of the uniaxial test that the curve is from, while the strain is
-/// nearly elastic.
+/// Criteria with curves give the life of the uniaxial test that the curve is from, while the strain
+/// is nearly elastic.
 #[test]
 fn lives_are_those_of_the_test() {
     let table = materials();

@@ -1,4 +1,5 @@
-//! What must not change a criterion: rotation in space, time reversed, the cycle doubled; and scale.
+//! What must not change a criterion: rotation in space, time reversed, the cycle doubled; and
+//! scale.
 
 use fatigue::AtPoint;
 
@@ -65,8 +66,8 @@ fn histories() -> Vec<Vec<Tensor>> {
     all
 }
 
-/// Of criteria on the plane of the largest shear amplitude this is the same to `digits`; the plane, and
-/// with it the normal stress on it, is found to 1e-9.
+/// Of criteria on the plane of the largest shear amplitude this is the same to `digits`; the plane,
+/// and with it the normal stress on it, is found to 1e-9.
 #[track_caller]
 fn same(name: &str, a: &[AtPoint], b: &[AtPoint], [scale, shear_scale]: [f64; 2], digits: f64) {
     let of_shear = ["matake", "mcdiarmid", "brown_miller"].contains(&name);

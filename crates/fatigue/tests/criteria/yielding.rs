@@ -23,8 +23,9 @@ fn below_a_sphere(z: f64, nu: f64) -> Tensor {
 }
 
 /// p_0 = 1.6128 Y at z = 0.4809 a for nu = 0.3: 1.5/(1 + z^2) - (1 + nu)(1 - z atan(1/z)), the
-/// difference of the principal stresses on the axis in p_0 (K. L. Johnson, Contact Mechanics (1985),
-/// eq. (3.45)), is largest there, 0.62004. Johnson's 1.60 Y at 0.48 a, eq. (4.49), is rounded.
+/// difference of the principal stresses on the axis in p_0 (K. L. Johnson, Contact Mechanics
+/// (1985), eq. (3.45)), is largest there, 0.62004. Johnson's 1.60 Y at 0.48 a, eq. (4.49), is
+/// rounded.
 #[test]
 fn first_yield_below_a_sphere() {
     let z: Vec<f64> = (1..400).map(|i| 0.005 * f64::from(i)).collect();
@@ -59,8 +60,9 @@ fn below_a_cylinder(x: f64, z: f64) -> Tensor {
     [xx, 0.3 * (xx + zz), zz, 0.0, xz, 0.0]
 }
 
-/// K. L. Johnson, Contact Mechanics (1985) section 9.2: rolling cylinders without friction shake down
-/// up to p_0 = 4.00 k, k = Y/sqrt 3, which the orthogonal shear of 0.25 p_0 at z = 0.5 a decides.
+/// K. L. Johnson, Contact Mechanics (1985) section 9.2: rolling cylinders without friction shake
+/// down up to p_0 = 4.00 k, k = Y/sqrt 3, which the orthogonal shear of 0.25 p_0 at z = 0.5 a
+/// decides.
 #[test]
 fn shakedown_of_a_rolling_cylinder() {
     let z: Vec<f64> = (4..40).map(|i| 0.025 * f64::from(i)).collect();

@@ -134,8 +134,8 @@ fn title(out: &Path) -> Option<String> {
     store.map(|store| store.scene().title.clone())
 }
 
-/// Killed as soon as something lies beside the place of the store, which is new every third time and
-/// replaces another one the others: the path holds nothing, the old store or the new one.
+/// Killed as soon as something lies beside the place of the store, which is new every third time
+/// and replaces another one the others: the path holds nothing, the old store or the new one.
 #[test]
 fn a_path_holds_a_store_or_nothing_while_one_is_laid_out() {
     let out = free("replaced.zarr");

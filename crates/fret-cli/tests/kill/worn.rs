@@ -1,4 +1,5 @@
-//! The same of runs of wear: killed at any moment and taken up by `fret resume`, they end in the same bytes.
+//! The same of runs of wear: killed at any moment and taken up by `fret resume`, they end in the
+//! same bytes.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -50,7 +51,8 @@ impl Victim {
         command.spawn().unwrap()
     }
 
-    /// Kills a run up to so many times, and lets it go to its end. How many jumps were kept at each kill.
+    /// Kills a run up to so many times, and lets it go to its end. How many jumps were kept at each
+    /// kill.
     fn kill(&self, times: usize, chance: &mut Chance) -> Vec<usize> {
         let out = free("worn_killed.zarr");
         let mut kept = Vec::new();
@@ -61,7 +63,8 @@ impl Victim {
                 self.begin(&out)
             };
             let before = jumps(&out);
-            // One in two once a further jump is there, then at any moment of the next; the others by time alone.
+            // One in two once a further jump is there, then at any moment of the next; the others
+            // by time alone.
             let then = if n % 2 == 0 {
                 while jumps(&out) <= before && run.try_wait().unwrap().is_none() {
                     sleep(LOOK);

@@ -224,7 +224,8 @@ impl<'a> Cells<'a> {
         })
     }
 
-    /// The border of the stick zone, within the `rim`, given the slip of a cell in the increment \[m\].
+    /// The border of the stick zone, within the `rim`, given the slip of a cell in the increment
+    /// \[m\].
     fn stick_border(
         &self,
         rim: &[(usize, Edge)],
@@ -255,7 +256,8 @@ impl<'a> Cells<'a> {
                 *edge = by_slip.other_side(self.stick[*n]);
             }
         }
-        // Where no cell slips the zone ends at the rim, unless a level shows a ring narrower than a cell.
+        // Where no cell slips the zone ends at the rim, unless a level shows a ring narrower than a
+        // cell.
         for (n, edge) in &mut border {
             if let Ok(at) = rim.binary_search_by_key(n, |(n, _)| *n)
                 && (edge.share() > rim[at].1.share()

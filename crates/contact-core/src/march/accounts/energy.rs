@@ -79,8 +79,8 @@ fn mean(a: f64, b: f64) -> f64 {
     0.5 * (a + b)
 }
 
-/// The slip of cell n in the increment, from where its material started or entered the contact, and how far
-/// it moved before it entered \[m\]; with the rigid motion there.
+/// The slip of cell n in the increment, from where its material started or entered the contact, and
+/// how far it moved before it entered \[m\]; with the rigid motion there.
 pub(super) fn slip_of(
     no_slip: &NoSlipTerms,
     now: &Interface,

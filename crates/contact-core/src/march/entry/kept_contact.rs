@@ -1,4 +1,5 @@
-//! The solution of an increment on the old contact: closing of gaps and motion of the cells outside.
+//! The solution of an increment on the old contact: closing of gaps and motion of the cells
+//! outside.
 
 use super::neighbours::Neighbours;
 use super::screened::Screened;
@@ -8,7 +9,8 @@ use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 use crate::solvers::no_slip::slip;
 
-/// Gaps, closings and motions of all cells outside the old contact, with the contact held as it was.
+/// Gaps, closings and motions of all cells outside the old contact, with the contact held as it
+/// was.
 pub(super) struct KeptContact {
     /// Gap at the start \[m\].
     pub(super) gap: Vec<f64>,

@@ -1,4 +1,5 @@
-//! The motion of cells outside the contact before they enter it, from the solution on the old contact.
+//! The motion of cells outside the contact before they enter it, from the solution on the old
+//! contact.
 //!
 //! On the old contact (eq. (5)-(8) solved with p = q = 0 in all other cells) the gap of a cell
 //! outside closes by c in the increment, and the cell moves by m relative to the rigid shift. The
@@ -10,10 +11,10 @@
 //! M = int_0^g (m/c) dg
 //! ```
 //!
-//! Near the contact, where the edge moves in steps of cells, this is the sum over the entries of the cells
-//! between ([`order`](super::order)); farther off it is integrated outwards from cell to cell. Where gap
-//! and motion are proportional (similar bodies of nu = 0 under proportional loads) m/c is uniform, and M exact
-//! in increments of any size.
+//! Near the contact, where the edge moves in steps of cells, this is the sum over the entries of
+//! the cells between ([`order`](super::order)); farther off it is integrated outwards from cell to
+//! cell. Where gap and motion are proportional (similar bodies of nu = 0 under proportional loads)
+//! m/c is uniform, and M exact in increments of any size.
 
 use rayon::prelude::*;
 
@@ -23,8 +24,8 @@ use super::order;
 use super::view::View;
 
 impl KeptContact {
-    /// The motion of each cell outside before its entry \[m\]; of one that does not enter, that of the
-    /// whole increment.
+    /// The motion of each cell outside before its entry \[m\]; of one that does not enter, that of
+    /// the whole increment.
     pub(super) fn motion_before_entry(
         &self,
         outside: impl Fn(usize) -> bool + Sync,
@@ -114,8 +115,8 @@ mod tests {
     /// Closes the gaps up to this distance in one increment.
     const CLOSING: f64 = 10.0;
 
-    /// A round contact in the middle of a grid, or its half y > 0: gap d^(3/2), closing d^(1/2), and
-    /// radial motion that is `ratio(d^(1/2))` times the closing.
+    /// A round contact in the middle of a grid, or its half y > 0: gap d^(3/2), closing d^(1/2),
+    /// and radial motion that is `ratio(d^(1/2))` times the closing.
     fn round(ratio: impl Fn(f64) -> f64, mirror: Mirror) -> (KeptContact, Vec<[f64; 2]>) {
         let n = 64;
         let rows = mirror.rows(n);

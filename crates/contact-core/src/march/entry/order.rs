@@ -1,25 +1,27 @@
 //! The order in which cells near the contact enter it within an increment.
 //!
-//! The solution on the old contact gives the rates of all cells outside over the increment: the gap of cell n
-//! closes by c_n, the cell moves by m_n. These rates hold until the first cell enters. From then on the
-//! pressure on that cell keeps its gap closed, and reduces the closing rate of every other cell,
+//! The solution on the old contact gives the rates of all cells outside over the increment: the gap
+//! of cell n closes by c_n, the cell moves by m_n. These rates hold until the first cell enters.
+//! From then on the pressure on that cell keeps its gap closed, and reduces the closing rate of
+//! every other cell,
 //!
 //! ```text
 //! c_m -> c_m - (S_mn/S_nn) c_n,
 //! ```
 //!
-//! S the response of cells outside while the contact is held ([`Screened`]). The motion per closing is taken
-//! as a function of the distance d to the contact ([`View`]), with e the direction towards it,
+//! S the response of cells outside while the contact is held ([`Screened`]). The motion per closing
+//! is taken as a function of the distance d to the contact ([`View`]), with e the direction towards
+//! it,
 //!
 //! ```text
 //! m/c = A + B/s + C s + D s^2 + E e/s,   s = d^(1/2),
 //! ```
 //!
-//! fitted by least squares to the cells around (a further term, linear along the edge, is fitted and left
-//! out). Each entry brings the contact nearer to the cells beyond, which changes their m/c. A cell enters when
-//! its gap has closed; its motion before entry is the sum over the stages. The result is close to that of a
-//! path with one increment per entering cell. Where gap and motion are proportional, m/c = A everywhere and
-//! the motion is exact.
+//! fitted by least squares to the cells around (a further term, linear along the edge, is fitted
+//! and left out). Each entry brings the contact nearer to the cells beyond, which changes their
+//! m/c. A cell enters when its gap has closed; its motion before entry is the sum over the stages.
+//! The result is close to that of a path with one increment per entering cell. Where gap and motion
+//! are proportional, m/c = A everywhere and the motion is exact.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -166,8 +168,8 @@ pub(super) fn moved(
 /// The cells that are yet to enter, ordered by time of entry.
 struct Queue {
     cells: BinaryHeap<Reverse<(u64, usize)>>,
-    /// Earliest queued time of each cell, 0 once it has entered. Times are not negative, so that their bits
-    /// have their order.
+    /// Earliest queued time of each cell, 0 once it has entered. Times are not negative, so that
+    /// their bits have their order.
     due: Vec<u64>,
 }
 
@@ -214,8 +216,8 @@ impl Queue {
     }
 }
 
-/// The reductions of the closing rates around cells that enter `together`. The pressures on these are taken
-/// proportional to their closing rates, and so large that the rates vanish.
+/// The reductions of the closing rates around cells that enter `together`. The pressures on these
+/// are taken proportional to their closing rates, and so large that the rates vanish.
 fn hold_back(
     contact: &KeptContact,
     entering: &[Entering],
@@ -238,8 +240,8 @@ fn hold_back(
             })
         };
         let with = around(Stage::Enters).map(|(k, _, response)| response * entering[k].closing);
-        // Pressure lifts neighbours on a thin soft layer: their (negative) response counts for at most half of
-        // the cell's own.
+        // Pressure lifts neighbours on a thin soft layer: their (negative) response counts for at
+        // most half of the cell's own.
         let closing = with.sum::<f64>().max(0.5 * own * next.closing);
         let pressure = next.closing * next.closing / closing;
         held_back.extend(

@@ -109,7 +109,8 @@ pub(super) mod tests {
         })
     }
 
-    /// The first cells are held: what elimination leaves of the response of the others, up to two away.
+    /// The first cells are held: what elimination leaves of the response of the others, up to two
+    /// away.
     fn off_from_elimination(grid: &Grid, held: usize) -> f64 {
         let kernel = half_space(grid);
         let all = of_all(grid, &kernel);
@@ -149,7 +150,8 @@ pub(super) mod tests {
         assert!(off < 0.08, "off by {off:e}");
     }
 
-    /// The edge has a step where the last held column ends. Cells make less of a continuum's edge than strips.
+    /// The edge has a step where the last held column ends. Cells make less of a continuum's edge
+    /// than strips.
     #[test]
     fn cells_beside_a_contact_respond_as_elimination_says() {
         let off = off_from_elimination(&Grid::centred(1.0, 22).unwrap(), 18 * 22 + 11);

@@ -77,7 +77,8 @@ pub(crate) fn text_of(path: &Path) -> Result<(String, String), Error> {
     }
 }
 
-/// Reads and checks a scene, and what else its file says of it: `more` gets the file's root and the scene.
+/// Reads and checks a scene, and what else its file says of it: `more` gets the file's root and the
+/// scene.
 pub(crate) fn read_with<T>(
     text: &str,
     file: &str,

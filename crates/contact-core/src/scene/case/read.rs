@@ -137,8 +137,8 @@ fn plane_strain(root: &Section<'_>) -> Result<bool, Fault> {
     section.flag_or("plane_strain", false)
 }
 
-/// The length along y of the row of cells in plane strain \[m\], on which a_H depends: 1 m, so that forces are
-/// those per metre, or the second of two lengths.
+/// The length along y of the row of cells in plane strain \[m\], on which a_H depends: 1 m, so that
+/// forces are those per metre, or the second of two lengths.
 fn row(root: &Section<'_>) -> Result<f64, Fault> {
     let section = root.need_section("grid", &GRID)?;
     let two =

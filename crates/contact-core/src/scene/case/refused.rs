@@ -67,7 +67,8 @@ fn unknown_keys_name_the_nearest() {
     );
 }
 
-/// What the good scene says; what it is changed to; the line; the key and value named; what is allowed.
+/// What the good scene says; what it is changed to; the line; the key and value named; what is
+/// allowed.
 const WITHOUT_MEANING: &str = r#"
 E = 210e9;  E = -210e9;  6;  body1.E = -210000000000;  a positive modulus in Pa
 E = 210e9;  E = nan;  6;  body1.E = nan;  a number

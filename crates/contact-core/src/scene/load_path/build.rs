@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::{Branch, LoadPath};
 use crate::scene::{Loads, Prescribed, RigidMotion};
 
-/// Branches of the turn of an ellipse whose increments are yet to be chosen: the middle of a chord lies within
-/// the ellipse by less than 0.13 % of its radius.
+/// Branches of the turn of an ellipse whose increments are yet to be chosen: the middle of a chord
+/// lies within the ellipse by less than 0.13 % of its radius.
 pub(super) const CHORDS: usize = 64;
 
 impl LoadPath {
@@ -38,7 +38,8 @@ impl LoadPath {
         self.branch(Branch::new(to, increments, t + 1.0))
     }
 
-    /// Goes to the normal force `W` \[N\], the tangential forces unchanged, in one unit of path time.
+    /// Goes to the normal force `W` \[N\], the tangential forces unchanged, in one unit of path
+    /// time.
     #[must_use]
     pub fn normal(self, W: f64, increments: impl Into<Option<usize>>) -> Self {
         let press = |to: &mut Loads| to.prescribe(RigidMotion::DeltaZ, Prescribed::Load(W));
@@ -93,9 +94,9 @@ impl LoadPath {
     }
 
     /// Turns the tangential force around an ellipse of the semi-axes `T_x`, `T_y` \[N\] about its
-    /// present value, from (T_x, 0) on towards (0, T_y), `turns` times. It goes there in `increments`
-    /// and takes as many for a turn, each a branch of its own, since the path bends at each. Where they are
-    /// yet to be chosen a turn has 64 branches.
+    /// present value, from (T_x, 0) on towards (0, T_y), `turns` times. It goes there in
+    /// `increments` and takes as many for a turn, each a branch of its own, since the path bends at
+    /// each. Where they are yet to be chosen a turn has 64 branches.
     #[must_use]
     pub fn ellipse(
         mut self,

@@ -30,8 +30,8 @@ impl LoadPath {
         Self::start().normal(0.0, all).check_length()
     }
 
-    /// Fails at a load, motion or time that no scene can have: one that is not finite, bodies pulled apart by W, or
-    /// a time that does not grow.
+    /// Fails at a load, motion or time that no scene can have: one that is not finite, bodies
+    /// pulled apart by W, or a time that does not grow.
     pub fn check_values(&self) -> Result<(), Error> {
         let mut t = 0.0;
         for (i, b) in self.branches.iter().enumerate() {
@@ -88,8 +88,8 @@ impl LoadPath {
         Ok(())
     }
 
-    /// Fails if the grid cannot follow: the contact rolls whole cells in an increment, along x and so
-    /// about y, and a strip neither twists nor tilts about its length.
+    /// Fails if the grid cannot follow: the contact rolls whole cells in an increment, along x and
+    /// so about y, and a strip neither twists nor tilts about its length.
     pub(crate) fn check_on(&self, grid: &Grid) -> Result<(), Error> {
         let mut rolled = 0.0;
         for (i, b) in self.branches.iter().enumerate() {

@@ -94,9 +94,9 @@ impl History {
 }
 
 impl LoadPath {
-    /// A measured history: a table of text whose titles are the names of [`Self::waypoints`], with or
-    /// without units, `T_x [kN]` or a row of them. Of a motion and its load, which both stand in the table
-    /// of every measured loop, `drive` names the one that drives; the other is left out.
+    /// A measured history: a table of text whose titles are the names of [`Self::waypoints`], with
+    /// or without units, `T_x [kN]` or a row of them. Of a motion and its load, which both stand in
+    /// the table of every measured loop, `drive` names the one that drives; the other is left out.
     pub fn from_csv(path: &Path, increments: Increments, drive: &[&str]) -> Result<Self, Error> {
         let failed = |message: String| Error::File {
             path: path.display().to_string(),

@@ -25,8 +25,9 @@ pub enum Spacing {
     ShortFirst,
 }
 
-/// Part of a branch that a short first increment covers. Right after a reversal by 2 mu W the secant stiffness of
-/// a Cattaneo-Mindlin contact is low by a sixth of that part, its stick ratio by two thirds.
+/// Part of a branch that a short first increment covers. Right after a reversal by 2 mu W the
+/// secant stiffness of a Cattaneo-Mindlin contact is low by a sixth of that part, its stick ratio
+/// by two thirds.
 const SHORT: f64 = 1.0 / 64.0;
 
 impl Spacing {
@@ -70,8 +71,8 @@ pub struct Branch {
     pub spacing: Spacing,
     /// Path time at the end of the branch; only a label, the contact is quasi-static.
     pub t_end: f64,
-    /// Estimated error of the shear at the end of the branch that its increments leave: relative to the
-    /// largest shear of the path (L2). `None` without an estimate.
+    /// Estimated error of the shear at the end of the branch that its increments leave: relative to
+    /// the largest shear of the path (L2). `None` without an estimate.
     pub path_error: Option<f64>,
 }
 
@@ -117,14 +118,15 @@ impl Branch {
 pub struct LoadPath {
     /// Branches in the order they are run through.
     pub branches: Vec<Branch>,
-    /// Stiffness along x of a rig, a spring in series with the contact through which the shift delta_x is
-    /// given or read \[N/m\]; `None`: the bodies themselves are moved. With the spring's end at u the
-    /// contact's own shift is u - T_x/K.
+    /// Stiffness along x of a rig, a spring in series with the contact through which the shift
+    /// delta_x is given or read \[N/m\]; `None`: the bodies themselves are moved. With the spring's
+    /// end at u the contact's own shift is u - T_x/K.
     pub rig_stiffness: Option<f64>,
 }
 
 impl LoadPath {
-    /// Number of increments of the whole path; a branch whose number is yet to be chosen counts as one.
+    /// Number of increments of the whole path; a branch whose number is yet to be chosen counts as
+    /// one.
     pub fn increments(&self) -> usize {
         let counts = self.branches.iter().map(Branch::count);
         counts.fold(0, usize::saturating_add)

@@ -18,8 +18,8 @@ pub enum Increments {
 }
 
 impl Increments {
-    /// The increments of each of the steps, whose changes are given by load or motion; none where they are
-    /// yet to be chosen.
+    /// The increments of each of the steps, whose changes are given by load or motion; none where
+    /// they are yet to be chosen.
     fn of(self, steps: &[Vec<f64>], ranges: &[f64]) -> Vec<Option<usize>> {
         let per_range = match self {
             Self::Each(n) => return vec![Some(n); steps.len()],
@@ -85,7 +85,8 @@ impl Column {
         }
     }
 
-    /// The value of the column at a waypoint; zero where a motion is not prescribed, and of path time.
+    /// The value of the column at a waypoint; zero where a motion is not prescribed, and of path
+    /// time.
     fn value(self, mut loads: Loads) -> f64 {
         match self {
             Self::Time => 0.0,
@@ -108,8 +109,8 @@ pub(super) fn drives(name: &str) -> (Option<usize>, &str) {
 
 impl LoadPath {
     /// Goes straight from waypoint to waypoint, a branch for each. `names` are those of loads and
-    /// motions, `sigma_B`, `sigma_B1`, `rolled` and the path time `t`, which grows from row to row; each row
-    /// has a value for each. What has no column stays as it is.
+    /// motions, `sigma_B`, `sigma_B1`, `rolled` and the path time `t`, which grows from row to row;
+    /// each row has a value for each. What has no column stays as it is.
     pub fn waypoints(
         mut self,
         names: &[&str],

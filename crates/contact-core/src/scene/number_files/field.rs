@@ -15,8 +15,8 @@ pub(super) enum Parting {
 const SAMPLE: usize = 100;
 
 impl Parting {
-    /// What parts most of the lines into numbers, two or more in each. Blanks come before commas, which
-    /// between digits may be decimal ones.
+    /// What parts most of the lines into numbers, two or more in each. Blanks come before commas,
+    /// which between digits may be decimal ones.
     pub(super) fn of(lines: &[(usize, &str)]) -> Self {
         let order = [
             Self::Mark(';'),

@@ -10,8 +10,8 @@ pub(super) fn is_npy(bytes: &[u8]) -> bool {
     bytes.starts_with(b"\x93NUMPY")
 }
 
-/// A NumPy array of real or whole numbers of any size and byte order. What its header says of its length
-/// need not be true.
+/// A NumPy array of real or whole numbers of any size and byte order. What its header says of its
+/// length need not be true.
 pub(super) fn read(file: Vec<u8>) -> Result<Array2<f64>, String> {
     // The numbers, which begin at a multiple of 16 bytes of the file, have to be in line.
     let length = file.len();

@@ -10,8 +10,8 @@ struct Line {
     n: usize,
 }
 
-/// Part of the distance of two points by which a coordinate may be off the lattice: what rounding leaves
-/// of few digits.
+/// Part of the distance of two points by which a coordinate may be off the lattice: what rounding
+/// leaves of few digits.
 const OFF: f64 = 0.1;
 /// Part of the range below which two coordinates are one.
 const SAME: f64 = 1e-6;
@@ -73,8 +73,8 @@ impl Lattice {
         (self.x.pitch, self.y.pitch)
     }
 
-    /// The values on the lattice, NaN where there is no point; a place that two points share fails with
-    /// their numbers.
+    /// The values on the lattice, NaN where there is no point; a place that two points share fails
+    /// with their numbers.
     pub(super) fn lay_out(
         &self,
         points: impl Iterator<Item = [f64; 3]>,

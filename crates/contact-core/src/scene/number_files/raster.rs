@@ -1,5 +1,5 @@
-//! Text with a header of its own: Gwyddion's export and ESRI's ASCII grid. Their lines run along x, from
-//! the top of the picture, where y is smallest: z points into the picture.
+//! Text with a header of its own: Gwyddion's export and ESRI's ASCII grid. Their lines run along x,
+//! from the top of the picture, where y is smallest: z points into the picture.
 
 use ndarray::Array2;
 

@@ -94,8 +94,8 @@ impl Table {
         Ok(table)
     }
 
-    /// Lines of titles; where there are none the last comment, if it has a word for each column: NumPy
-    /// writes them so.
+    /// Lines of titles; where there are none the last comment, if it has a word for each column:
+    /// NumPy writes them so.
     pub(in crate::scene) fn titles(&self) -> Vec<Vec<String>> {
         if !self.titles.is_empty() {
             return self.titles.clone();

@@ -30,8 +30,8 @@ pub(in crate::scene) fn strict(bytes: Vec<u8>) -> Result<String, String> {
     unicode(bytes).map_err(|(wrong, _)| format!("{wrong}: save it as UTF-8"))
 }
 
-/// Unicode by its first two bytes, or by the zeros between the letters of UTF-16 without them; what is
-/// wrong, and the bytes, if it is none.
+/// Unicode by its first two bytes, or by the zeros between the letters of UTF-16 without them; what
+/// is wrong, and the bytes, if it is none.
 fn unicode(bytes: Vec<u8>) -> Result<String, (String, Vec<u8>)> {
     let start = &bytes[..bytes.len().min(64)];
     let zeros = |odd: usize| {

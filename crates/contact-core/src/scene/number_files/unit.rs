@@ -11,7 +11,8 @@ pub(in crate::scene) enum Kind {
     Time,
 }
 
-/// A unit: what it measures, and its size in SI units. Forces and moments of line contacts are per metre.
+/// A unit: what it measures, and its size in SI units. Forces and moments of line contacts are per
+/// metre.
 pub(in crate::scene) type Unit = (Kind, f64);
 
 const UNITS: [(&str, Kind, f64); 50] = {
@@ -90,8 +91,8 @@ pub(in crate::scene) fn names(kind: Kind) -> String {
     names.map(|(name, ..)| *name).collect::<Vec<_>>().join(", ")
 }
 
-/// The name and the unit of a title such as `T_x [N]`, `height (um)`, `X_(microns)`; without brackets all
-/// is name.
+/// The name and the unit of a title such as `T_x [N]`, `height (um)`, `X_(microns)`; without
+/// brackets all is name.
 pub(in crate::scene) fn of_title(title: &str) -> (&str, Option<&str>) {
     let title = title.trim();
     for (open, close) in [('[', ']'), ('(', ')')] {
@@ -118,8 +119,8 @@ fn is_none(unit: &str) -> bool {
     matches!(unit.trim(), "" | "-" | "1")
 }
 
-/// The names of the columns and the words for their units, from lines of titles of which the last may be
-/// one of units alone.
+/// The names of the columns and the words for their units, from lines of titles of which the last
+/// may be one of units alone.
 pub(in crate::scene) fn of_titles(
     titles: &[Vec<String>],
     columns: usize,

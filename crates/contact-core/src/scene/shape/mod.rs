@@ -150,8 +150,8 @@ impl Shape {
         }
     }
 
-    /// Second derivatives (xx, xy, yy) of the fall at the origin \[1/m\] of the nominal shape: waves,
-    /// roughness and measured heights are left out, edges and flats have none.
+    /// Second derivatives (xx, xy, yy) of the fall at the origin \[1/m\] of the nominal shape:
+    /// waves, roughness and measured heights are left out, edges and flats have none.
     pub fn curvature(&self) -> [f64; 3] {
         let principal = |k_x: f64, k_y: f64, angle: f64| {
             let (s, c) = angle.sin_cos();

@@ -225,8 +225,8 @@ impl NewtonSystem {
         max_passes
     }
 
-    /// z = Pi (S P S + A) r up to a rigid motion, which is returned, and r.z. With that motion taken out
-    /// r.z is the same, since B^T w r = 0.
+    /// z = Pi (S P S + A) r up to a rigid motion, which is returned, and r.z. With that motion
+    /// taken out r.z is the same, since B^T w r = 0.
     fn precondition(
         &mut self,
         response: &mut Response<'_>,
@@ -260,8 +260,8 @@ impl NewtonSystem {
         });
     }
 
-    /// z = Pi (C + D) d up to a rigid motion, which is returned, and d.z. With that motion taken out d.z
-    /// is the same, since B^T d = 0.
+    /// z = Pi (C + D) d up to a rigid motion, which is returned, and d.z. With that motion taken
+    /// out d.z is the same, since B^T d = 0.
     fn curve(&mut self, contact: &ContactCells) -> ([f64; 3], f64) {
         contact.pack_pair(&self.displacement, &mut self.z);
         let [d_x, d_y] = &self.direction;

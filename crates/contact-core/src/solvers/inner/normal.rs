@@ -375,8 +375,8 @@ pub(crate) fn assess(problem: &NormalProblem<'_>, p: &[f64], u_z: &[f64]) -> Nor
     }
 }
 
-/// Slope and curvature of the energy along the direction, and the sum of its squares; its response goes to the
-/// workspace.
+/// Slope and curvature of the energy along the direction, and the sum of its squares; its response
+/// goes to the workspace.
 fn line(response: &mut Response<'_>, ws: &mut NormalWorkspace) -> [f64; 3] {
     response.normal(&ws.direction, &mut ws.response);
     let fields = [&ws.residual[..], &ws.direction, &ws.response];

@@ -100,8 +100,9 @@ pub(crate) fn shear_gradient(
 }
 
 impl GradientBuffers {
-    /// Next search direction on the stick cells (Polak-Ribiere: the last one is forgotten as far as the sets have
-    /// changed); `last_product` is the sum of squares of the last residual, zero to begin anew.
+    /// Next search direction on the stick cells (Polak-Ribiere: the last one is forgotten as far as
+    /// the sets have changed); `last_product` is the sum of squares of the last residual, zero to
+    /// begin anew.
     fn turn_direction(
         &mut self,
         problem: &TangentialProblem<'_>,
@@ -132,7 +133,8 @@ impl GradientBuffers {
         }
     }
 
-    /// The length of the step to the least energy along the direction, in parts of it; zero where there is none.
+    /// The length of the step to the least energy along the direction, in parts of it; zero where
+    /// there is none.
     fn step_along_direction(&mut self, response: &mut Response<'_>) -> f64 {
         let ([d_x, d_y], [r_x, r_y]) = (&self.direction, &mut self.response);
         response.tangential([d_x, d_y], [r_x, r_y]);
@@ -146,8 +148,8 @@ impl GradientBuffers {
         }
     }
 
-    /// Steps of the slip cells against their slip and of the others along the direction; then the shear is
-    /// made admissible, and `change` is what it has changed by \[Pa\].
+    /// Steps of the slip cells against their slip and of the others along the direction; then the
+    /// shear is made admissible, and `change` is what it has changed by \[Pa\].
     fn advance(
         &mut self,
         problem: &TangentialProblem<'_>,

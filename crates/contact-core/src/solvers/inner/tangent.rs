@@ -14,7 +14,8 @@ pub(super) type Pair = [Vec<f64>; 2];
 /// products t.v do not change.
 #[derive(Debug)]
 pub(super) struct Tangent {
-    /// Direction across the shear of slip cells, along which alone it may change; zero in stick cells.
+    /// Direction across the shear of slip cells, along which alone it may change; zero in stick
+    /// cells.
     pub(super) across: Pair,
     /// Lever arms of the contact cells; empty where the rotation is not free.
     pub(super) arms: Pair,

@@ -7,8 +7,8 @@
 //! least, plus that misfit times a damping factor (D. G. Anderson, J. ACM 12 (1965) 547-560; H. F.
 //! Walker, P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715-1735).
 //!
-//! Steel scenes never need it; a rigid sphere on a body with nu = 0 and mu = 2, pressed and sheared on 64 x 64
-//! cells, takes 2800 convolutions with it and 12 700 without.
+//! Steel scenes never need it; a rigid sphere on a body with nu = 0 and mu = 2, pressed and sheared
+//! on 64 x 64 cells, takes 2800 convolutions with it and 12 700 without.
 
 use std::collections::VecDeque;
 

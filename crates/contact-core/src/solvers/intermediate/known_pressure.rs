@@ -1,4 +1,5 @@
-//! Shear for known pressure: the bound mu p, the sliding that the loads may drive, the tangential solver.
+//! Shear for known pressure: the bound mu p, the sliding that the loads may drive, the tangential
+//! solver.
 
 use super::problem::{AlternationInfo, AlternationParams, AlternationWorkspace, IncrementProblem};
 use crate::cells::{add, set, set_cells, size};

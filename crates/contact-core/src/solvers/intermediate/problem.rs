@@ -14,7 +14,8 @@ use crate::solvers::inner::{
 pub struct IncrementProblem<'a> {
     /// Gap between the undeformed surfaces h_init \[m\].
     pub h_init: &'a [f64],
-    /// Whether there is friction anywhere on the load path; without it only the normal problem is solved.
+    /// Whether there is friction anywhere on the load path; without it only the normal problem is
+    /// solved.
     pub friction: bool,
     /// Friction coefficient of each cell.
     pub mu: &'a [f64],
@@ -38,7 +39,8 @@ impl<'a> IncrementProblem<'a> {
         }
     }
 
-    /// The tangential problem under a friction bound \[Pa\], with the displacement that means no slip \[m\].
+    /// The tangential problem under a friction bound \[Pa\], with the displacement that means no
+    /// slip \[m\].
     pub(super) fn tangential_problem<'b>(
         &'b self,
         bound: &'b [f64],
@@ -56,7 +58,8 @@ impl<'a> IncrementProblem<'a> {
 /// Settings of the intermediate loop.
 #[derive(Clone, Copy, Debug)]
 pub struct AlternationParams {
-    /// Largest root-mean-square gap in the contact and deepest penetration outside at the end \[m\].
+    /// Largest root-mean-square gap in the contact and deepest penetration outside at the end
+    /// \[m\].
     pub tolerance: f64,
     /// Settings of the normal solver.
     pub normal: NormalParams,

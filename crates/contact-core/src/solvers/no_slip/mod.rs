@@ -6,12 +6,13 @@
 //!
 //! with terms in metres, each a field:
 //!
-//! - u_start: the displacement of the material of the cell at the start of the increment, rolled and
-//!   stretched with it;
+//! - u_start: the displacement of the material of the cell at the start of the increment, rolled
+//!   and stretched with it;
 //! - r, the residual slip: what the last increment left of slip that should be zero (all of it in
 //!   stick cells, in slip cells the part that does not oppose the shear), within the tolerance.
 //!   Taken off here it does not add up along the path (defect correction);
-//! - m, the entry motion of cells outside the last contact: how far they move freely before they touch;
+//! - m, the entry motion of cells outside the last contact: how far they move freely before they
+//!   touch;
 //! - t, the turn of cells in the last contact: eq. (8) makes the slip opposite to the shear at the
 //!   end of the increment, but the shear rotated while the cell slipped.
 //!

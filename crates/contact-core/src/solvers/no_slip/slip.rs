@@ -2,8 +2,8 @@
 
 use crate::cells::size;
 
-/// The slip increment of a cell \[m\], eq. (7), of the displacement u, with the displacement that means
-/// no slip u_0 and the rigid motion B d(delta).
+/// The slip increment of a cell \[m\], eq. (7), of the displacement u, with the displacement that
+/// means no slip u_0 and the rigid motion B d(delta).
 pub fn slip(u: [f64; 2], u_0: [f64; 2], rigid: [f64; 2]) -> [f64; 2] {
     [u[0] - u_0[0] - rigid[0], u[1] - u_0[1] - rigid[1]]
 }

@@ -1,4 +1,5 @@
-//! Slip whose direction turns within the increment: a mean direction makes the path of second order.
+//! Slip whose direction turns within the increment: a mean direction makes the path of second
+//! order.
 //!
 //! ```text
 //! ds = -lambda m,   m = (e_1 + a e_0 + b e_-1)/|e_1 + a e_0 + b e_-1|
@@ -10,7 +11,8 @@
 //! It is updated with the solution until both agree. With w e = a e_0 + b e_-1, |e| = 1, a small
 //! rotation of e_1 rotates m by 1/(1 + w) of it; the Newton steps contain that derivative.
 //!
-//! **A cell that slips all the time.** A direction that turns evenly has its mean in the middle of the increment,
+//! **A cell that slips all the time.** A direction that turns evenly has its mean in the middle of
+//! the increment,
 //!
 //! ```text
 //! (1 + a + b)/2 = 1 - b/r,
@@ -160,7 +162,8 @@ fn goes_on(
     (e, w, 1.0)
 }
 
-/// Where a shear extrapolated from `before` through `last` meets the circle of radius `bound` \[Pa\].
+/// Where a shear extrapolated from `before` through `last` meets the circle of radius `bound`
+/// \[Pa\].
 fn meets(before: [f64; 2], last: [f64; 2], bound: f64) -> Option<[f64; 2]> {
     let step = [last[0] - before[0], last[1] - before[1]];
     let inside = bound * bound - dot(last, last);
