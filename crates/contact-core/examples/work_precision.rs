@@ -5,7 +5,8 @@
 //! (`grid.n=128`), and after each `--` the settings of one run; the last is the reference:
 //!
 //! ```text
-//! work_precision scenes/coated_fretting.toml grid.n=128 -- solver.tolerance=1e-5 -- solver.tolerance=1e-7
+//! work_precision scenes/coated_fretting.toml grid.n=128 -- solver.tolerance=1e-5 \
+//!     -- solver.tolerance=1e-7
 //! ```
 #![allow(clippy::print_stdout)]
 

@@ -222,8 +222,8 @@ fn increments_whose_way_counts() {
     }
 }
 
-/// Down to the tolerance at which single precision serves, the answer is as near to that of a far finer
-/// tolerance as the one in double precision.
+/// Down to the tolerance at which single precision serves, the answer is as near to that of a far
+/// finer tolerance as the one in double precision.
 #[test]
 fn digits_that_the_tolerance_does_not_need() {
     let coated = "body2.coatings=[{ E = 4e11, nu = 0.25, thickness = { a_H = 0.5 } }]";

@@ -1,10 +1,10 @@
-//! Processes that are copies of another one: `os.fork`, and with it `multiprocessing` where that is how
-//! it starts its processes.
+//! Processes that are copies of another one: `os.fork`, and with it `multiprocessing` where that is
+//! how it starts its processes.
 //!
-//! A copy has none of the threads of the process that it was copied from. The pool of threads that all
-//! work is shared out to is one without a thread there: whoever handed it anything would wait forever.
-//! A copy gets a pool of its own. What cannot be helped is a copy made while another thread was at
-//! work, which has left its locks behind; it is refused at once.
+//! A copy has none of the threads of the process that it was copied from. The pool of threads that
+//! all work is shared out to is one without a thread there: whoever handed it anything would wait
+//! forever. A copy gets a pool of its own. What cannot be helped is a copy made while another
+//! thread was at work, which has left its locks behind; it is refused at once.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,4 +1,5 @@
-//! A run from its scene, or from what an earlier one left, to memory or its store, watched from Python.
+//! A run from its scene, or from what an earlier one left, to memory or its store, watched from
+//! Python.
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -6,7 +6,8 @@
 //! product of the difference and the misfit,
 //!
 //! ```text
-//! (p - p').C (p - p') <= (p - p').(g - g'),  hence  |p - p'| <= |g - g'| / C_min <= 2 tol N^(1/2) / C_min,
+//! (p - p').C (p - p') <= (p - p').(g - g'),  hence
+//! |p - p'| <= |g - g'| / C_min <= 2 tol N^(1/2) / C_min,
 //! ```
 //!
 //! N the contact cells, C_min the response to the wave on the grid that the bodies resist most.
