@@ -236,22 +236,27 @@ fn report(scenes: usize, lines: &[String]) -> std::io::Result<()> {
         return Ok(());
     };
     let text = format!(
-        "# Error bars against true errors\n\n\
-         Written by `make error-bars`: {scenes} random scenes with default settings (either body coated or not, smooth,\n\
-         rough or off the middle of the grid, fretted, twisted, loaded obliquely or only pressed; seeds from \
-         {FIRST_SEED})\non {CELLS} x {CELLS} cells with the increments that are chosen, each against {FINE} x {FINE} \
-         cells and {FINER} times the increments.\nRatios are true error over estimated error, all parts together; of the \
-         fields the largest over the branches of a\nscene, of the numbers those of every branch.\n\n\
-         ```text\n{}\n```\n\n\
-         Where the rim and the border of the stick zone lie within the cells puts numbers off to either side, from\n\
-         grid to grid by chance. Coarser grids tell the scale of such errors; of an error of exactly known scale, were\n\
-         it normally distributed, three in four would lie between 0.2 and 1.5. So the path is solved in at most 24\n\
-         increments a branch on the grid and on one of three times its cells each way (twice from 171 cells on, none\n\
-         beyond 256, where such numbers have the scale only): there the rim lies where it lies in the run, and the\n\
-         error has its sign. Where cells and increments are off to the same side their errors add up; where they are off\n\
-         to opposite sides they are not taken to cancel, since neither is known so well: such a bar may be too large. A\n\
-         slip ring narrower than half a cell may be missed as a whole, and so may one that the cells show and that is\n\
-         none: so may be the energy that it dissipates while dissimilar bodies are pressed together.\n",
+        "# Error bars against true errors\n\nHow large is a true error where a run says `+- 1 \
+         %`? Measured by `make error-bars` on {scenes} random scenes with default\nsettings: \
+         either body coated or not, smooth, rough or off the middle of the grid, fretted, \
+         twisted, loaded obliquely or\nonly pressed, on {CELLS} x {CELLS} cells with the chosen \
+         increments. The truth is the same scene on {FINE} x {FINE} cells with {FINER} times \
+         the\nincrements. A ratio is true error over error bar (`total`): for fields the largest \
+         over the branches of a scene, for numbers\none of every \
+         branch.\n\n```text\n{}\n```\n\n**Why ratios scatter.** The position of the rim and of \
+         the border of the stick zone within the cells makes errors of random\nsign, different \
+         on every grid. Coarser grids give their scale only: of a normally distributed error \
+         whose scale is known\nexactly, three in four have a ratio between 0.2 and 1.5. For the \
+         sign, the path is solved in at most 24 increments a branch\non the grid itself and on \
+         one of three times its cells each way (twice from 171 cells on, none beyond 256, where \
+         numbers\nhave the scale only). On the grid itself the rim lies where it lies in the \
+         run, so that the difference is its error.\n\n**Why bars may be too large.** Errors of \
+         cells and of increments add up where they have the same sign. Where the signs \
+         are\nopposite they are not taken to cancel, since neither is known well \
+         enough.\n\n**Where bars may be too small.** A slip ring narrower than half a cell may \
+         be missed as a whole, or found where there is\nnone. In the indentation of dissimilar \
+         bodies, whose only dissipation is in that ring, the dissipated energy may then \
+         be\nmissed, too.\n",
         lines.join("\n")
     );
     std::fs::write(path, text)

@@ -102,7 +102,7 @@ pub(super) fn single_precision(scene: &Scene) -> Result<&'static str, &'static s
     if !scene.settings.skip.digits {
         Err("skip.digits is off")
     } else if scene.settings.solver.preset != Preset::Fast {
-        Err("the preset is plain")
+        Err("solver.preset is spinu2020")
     } else if in_frequency_domain(scene) {
         Err("the frequency-domain operator has double precision alone")
     } else if scene.tolerance() < SINGLE {
@@ -118,7 +118,7 @@ pub(super) fn window(scene: &Scene) -> Result<&'static str, &'static str> {
         return Err("skip.far is off");
     }
     if scene.settings.solver.preset != Preset::Fast {
-        return Err("the preset is plain");
+        return Err("solver.preset is spinu2020");
     }
     if in_frequency_domain(scene) {
         return Err("the frequency-domain operator works on the whole grid");
