@@ -206,3 +206,73 @@ def test_the_largest_stress_keeps_off_the_frame() -> None:
     result = fret.solve(SCENES["shift"], progress=False)
     ax = fret.plot.stress_history(result.envelope(y=0.0))
     assert ax.lines[0].get_ydata().max() < 0.95 * ax.get_ylim()[1]
+
+
+def test_six_panels_in_one_figure(result: fret.Result) -> None:
+    figure = result.plot()
+    figure.canvas.draw()
+    panels = [ax for ax in figure.axes if ax.get_subplotspec() is not None]
+    assert len(panels) == 6
+    assert all(ax.has_data() or ax.texts for ax in panels)
+
+
+def test_line_contacts_are_drawn_along_x_in_units_per_metre() -> None:
+    result = fret.solve(SCENES["line"], progress=False)
+    assert fret.plot.fretting_loop(result).get_ylabel() == "$T_x$ [N/m]"
+    for draw in (fret.plot.stick_slip, fret.plot.pressure_map, fret.plot.slip_map):
+        ax = draw(result)
+        assert not ax.images
+        assert ax.get_ylabel()
+        # The contact alone is in sight, of a strip three times as wide.
+        assert ax.get_xlim()[1] < 1.6
+    with pytest.raises(ValueError, match="has no approach"):
+        fret.plot.fretting_loop(result, units="dimensionless")
+
+
+def test_forces_of_a_line_contact_are_per_metre() -> None:
+    result = fret.solve(SCENES["line"], progress=False)
+    d, last = result.dataset, result.at(-1)
+    units = {name: d[name].attrs["units"] for name in ("W", "dissipated", "M_z", "contact_area")}
+    assert units == {"W": "N/m", "dissipated": "J/m", "M_z": "N m/m", "contact_area": "m^2/m"}
+    assert result.loops().stiffness.attrs["units"] == "N/m per m"
+    assert result.dissipated_energy.attrs["units"] == "J/m"
+    assert "R" not in d.attrs
+    touched = int(last.contact.sum()) * result.scene.grid.dx
+    np.testing.assert_allclose(last.half_width, touched / 2, rtol=0.1)
+    with pytest.raises(AttributeError, match="half_width"):
+        _ = last.contact_radius
+    assert "W [N/m]" in result.summary()
+    assert "[mJ/m]" in result.summary()
+    assert "half width" in result._repr_html_()
+    marched = list(fret.march(SCENES["line"]))[-1]
+    assert marched.dataset.W.attrs["units"] == "N/m"
+
+
+def test_forces_on_a_strip_of_another_width_are_those_on_it() -> None:
+    line = SCENES["line"]
+    grid = fret.Grid.strip(extent=2.6 * A, n=32, width=0.01)
+    path = fret.LoadPath.start().normal(0.01 * LINE_LOAD, increments=1)
+    narrow = fret.solve(line.replace(grid=grid), path, progress=False)
+    wide = fret.solve(line, fret.LoadPath.start().normal(LINE_LOAD, increments=1), progress=False)
+    assert narrow.W.attrs["units"] == "N"
+    np.testing.assert_allclose(narrow.half_width, wide.half_width, rtol=1e-9)
+
+
+def test_the_load_path_alone_is_over_the_normal_force() -> None:
+    path = SCENES["coated ball"].path
+    labels = [t.get_text() for t in fret.plot.load_path(path).get_legend().get_texts()]
+    assert "$T_x/W_\\mathrm{max}$" in labels
+    labels = [t.get_text() for t in fret.plot.load_path(path, mu=MU).get_legend().get_texts()]
+    assert r"$T_x/(\mu\, W_\mathrm{max})$" in labels
+
+
+def test_many_increments_are_a_scale_of_colours_not_a_legend() -> None:
+    many = fret.solve(
+        SCENES["coated ball"],
+        PRESSED.cycles(1, T_x=100.0, increments=24),
+        save="all",
+        progress=False,
+    )
+    ax = fret.plot.shear_profiles(many)
+    assert ax.get_legend() is None
+    assert len(ax.get_figure().axes) == 2

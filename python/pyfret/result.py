@@ -41,10 +41,19 @@ __all__ = ["Result", "Snapshot", "open"]
 
 
 class Figures:
-    """The figures of :mod:`pyfret.plot` of one thing, such as ``result.plot.fretting_loop()``."""
+    """The figures of :mod:`pyfret.plot` of one thing, such as ``result.plot.fretting_loop()``.
+
+    Called itself, six of them in one: ``result.plot()``.
+    """
 
     def __init__(self, shown: Run | State) -> None:
         self._shown = shown
+
+    def __call__(self, *, units: Literal["auto", "dimensionless", "SI"] = "auto") -> Figure:
+        """Draw six panels in one figure: :func:`pyfret.plot.overview`."""
+        from pyfret import plot
+
+        return plot.overview(self._shown, units=units)
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
         """Give the figure of that name, drawn of the thing."""
@@ -80,7 +89,7 @@ class Snapshot(State):
 
     @property
     def plot(self) -> Figures:
-        """The figures that show an increment: ``snapshot.plot.stick_slip()``."""
+        """The figures that show an increment: ``snapshot.plot()``, ``.plot.stick_slip()``."""
         return Figures(self)
 
     def _repr_html_(self) -> str:
@@ -201,7 +210,7 @@ class Result(Run):
 
     @property
     def plot(self) -> Figures:
-        """The figures that show a run: ``result.plot.fretting_loop()``."""
+        """The figures that show a run: ``result.plot()``, ``result.plot.fretting_loop()``."""
         return Figures(self)
 
     def at(self, which: float) -> Snapshot:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pyfret._util.lazy import xr
+from pyfret._util.units import unit_on
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -57,13 +59,14 @@ def hysteresis(result: Run, *, direction: Literal["x", "y", "torsion"] = "x") ->
     secant = np.divide(T, delta, out=np.full_like(T, stiffness[0]), where=delta > 0.0)
     energy = _masing(delta, T)
     lengths, forces = ("rad", "N m") if torsion else ("m", "N")
-    stiffnesses = f"{forces}/{lengths}"
+    per = partial(unit_on, result.scene.grid)
+    stiffnesses, forces = per(f"{forces}/{lengths}"), per(forces)
     columns = {
         "delta": (delta, lengths, "half range of the shift"),
         "T": (T, forces, "half range of the force"),
         "stiffness": (stiffness, stiffnesses, "tangent of the backbone"),
         "secant_stiffness": (secant, stiffnesses, "force over shift"),
-        "dissipated": (energy, "J", "energy dissipated in a loop, by Masing's rule"),
+        "dissipated": (energy, per("J"), "energy dissipated in a loop, by Masing's rule"),
     }
     table = xr.Dataset(
         {

@@ -19,6 +19,7 @@ from pyfret.plot.life import (
     load_factor_map,
 )
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
+from pyfret.plot.overview import overview
 from pyfret.plot.paper import paper_figures
 from pyfret.plot.profiles import pressure_profile, shear_profile, shear_profiles
 from pyfret.plot.stresses import (
@@ -49,6 +50,7 @@ __all__ = [
     "load_factor_map",
     "load_path",
     "loop_evolution",
+    "overview",
     "paper_figures",
     "pressure_map",
     "pressure_profile",

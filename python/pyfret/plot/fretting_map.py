@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 CONDITIONS = {0: ("no contact", "#ffffff"), 1: ("full stick", "#9ecae1")}
 CONDITIONS |= {2: ("partial slip", "#deebf7"), 3: ("gross slip", "#fdd0a2")}
 #: Axes of the map: factor and label.
-AXES = {"T": (1.0, r"$T$ [N]"), "delta": (1e6, r"$\delta$ [µm]")}
+AXES = {"T": (1.0, r"$T$"), "delta": (1e6, r"$\delta$ [µm]")}
 #: Lives whose contours are drawn [cycles], and the levels of safety factors.
 LIVES = 10.0 ** np.arange(3, 10)
 FACTORS = np.array([0.3, 0.5, 1.0, 2.0, 4.0])
@@ -62,11 +62,16 @@ def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
         if name in table:
             meaning = {"safety_factor": "safety factor", "life": "life [cycles]"}[name]
             entries += lines(ax, W, amplitude, table[name].values, levels, CRACK, "solid", meaning)
-    ax.set_xlabel(r"$W$ [N]")
-    ax.set_ylabel(label)
+    ax.set_xlabel(f"$W$ [{force_unit(table)}]")
+    ax.set_ylabel(label if driven == "delta" else f"{label} [{force_unit(table)}]")
     ax.grid(visible=False)
     ax.legend(handles=entries, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     return ax
+
+
+def force_unit(table: xr.Dataset) -> str:
+    """The unit of the forces of a map."""
+    return str(table.W.attrs.get("units", "N"))
 
 
 def lines(
@@ -122,7 +127,7 @@ def running_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
         ax.plot(ends, table.attrs["mu"] * ends, color="0.2", linestyle="--", linewidth=0.9)
     ax.set_xlim(*limits[0])
     ax.set_ylim(*limits[1])
-    ax.set_xlabel(r"$W$ [N]")
-    ax.set_ylabel(label)
+    ax.set_xlabel(f"$W$ [{force_unit(table)}]")
+    ax.set_ylabel(label if driven == "delta" else f"{label} [{force_unit(table)}]")
     ax.grid(visible=False)
     return ax

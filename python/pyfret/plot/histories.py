@@ -60,7 +60,8 @@ def fretting_loop(
     direction : "x", "y" or "torsion", optional
         The motion (default: the first that the path drives).
     units : "auto", "dimensionless" or "SI"
-        Dimensionless (default where there is a Hertz contact) or in N and um.
+        Dimensionless (default where there is a Hertz contact) or in N and um; line contacts, whose
+        approach is no yardstick, in N/m and um.
     ax : matplotlib Axes, optional
         Where to draw.
     **line
@@ -98,10 +99,15 @@ def loop_point(result: Run, at: State) -> tuple[list[float], list[float]]:
 def loop_scales(result: Run, units: Units, *, torsion: bool) -> tuple[Scale, Scale]:
     """Scales of the force, or moment, and of the shift, or rotation."""
     W, mu = result.W_max, result.mu
-    if not (scales(result.dataset.attrs, units).dimensionless and bears(mu) and W > 0.0):
-        if torsion:
-            return Scale(1.0, "N m", is_unit=True), Scale(1e-6, "µrad", is_unit=True)
-        return Scale(1.0, "N", is_unit=True), MICRO
+    force = str(result.dataset["M_z" if torsion else "T_x"].attrs["units"])
+    # The approach of a line contact, the yardstick of shifts, depends on where it is read.
+    flat = result.scene.grid.plane_strain
+    if flat and units == "dimensionless":
+        raise ValueError('units = "dimensionless": a line contact has no approach; give "SI"')
+    dimensionless = scales(result.dataset.attrs, units).dimensionless and not flat
+    if not (dimensionless and bears(mu) and W > 0.0):
+        shift = Scale(1e-6, "µrad", is_unit=True) if torsion else MICRO
+        return Scale(1.0, force, is_unit=True), shift
     approach, a = mu * result.delta_H, result.a_H
     if torsion:
         return (
@@ -148,24 +154,30 @@ DRIVEN = {
 
 
 @styled
-def load_path(path: LoadPath | Run, *, mu: float = 1.0, ax: Axes | None = None) -> Axes:
+def load_path(path: LoadPath | Run, *, mu: float | None = None, ax: Axes | None = None) -> Axes:
     r"""Loads and motions that a path drives over :math:`t/\tau`, the end of which is 1.
 
-    Normal forces are over their largest value, tangential ones over `mu` times that of the normal
-    force where that is given; everything else over its own largest value, which the legend gives.
+    Normal forces are over their largest value, tangential ones over that of the normal force, times
+    `mu` where that is given; everything else over its own largest value, which the legend gives.
     Of a result every increment is drawn, of a path the ends of its branches.
     """
     ax = axes(ax)
     t, columns = histories(path)
-    mu = getattr(path, "mu", mu)
+    given = getattr(path, "mu", mu)
+    # Without friction the normal force itself is the yardstick.
+    mu, times = (1.0, "") if given is None else (given, r"\mu\, ")
     W_max = np.nanmax(np.abs(columns["W"])) if "W" in columns else 0.0
     for name, values in columns.items():
         symbol, unit = DRIVEN[name]
+        force = unit == "N"
+        if not isinstance(path, LoadPath):
+            unit = str(path.dataset[name].attrs["units"])
         largest = float(np.nanmax(np.abs(values)))
         if name == "W":
             label = r"$W/W_\mathrm{max}$"
-        elif unit == "N" and W_max > 0.0 and bears(mu):
-            largest, label = mu * W_max, rf"${symbol}/(\mu\, W_\mathrm{{max}})$"
+        elif force and W_max > 0.0 and bears(mu):
+            largest, label = mu * W_max, rf"${symbol}/({times}W_\mathrm{{max}})$"
+            label = label if times else rf"${symbol}/W_\mathrm{{max}}$"
         else:
             label = f"${symbol}$ / {EngFormatter(unit)(float(f'{largest:.3g}'))}"
         ax.plot(t / t[-1], values / largest, label=label)

@@ -6,17 +6,19 @@ from typing import TYPE_CHECKING
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from pyfret import _core, fatigue
 from pyfret.plot.depth_axis import interfaces, thin
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import scales
-from pyfret.plot.stresses import COLOURS, FLAT, MARK
-from pyfret.plot.style import axes, styled
+from pyfret.plot.stresses import COLOURS, FLAT
+from pyfret.plot.style import MARK, axes, inside_legend, mark, styled
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.contour import ContourSet
     from numpy.typing import ArrayLike, NDArray
@@ -28,6 +30,8 @@ if TYPE_CHECKING:
 
 #: How criteria are written in figures.
 NAMES = dict(_core.criteria())
+#: Colour of what is not judged.
+UNJUDGED = "0.9"
 #: Lives beyond this are drawn as endless [cycles].
 ENDLESS = 1e9
 
@@ -38,10 +42,8 @@ def _shown(life: Life) -> tuple[NDArray[np.float64], str]:
     margin = life.margin.values
     if life.margin.name == "safety_factor":
         return 1.0 / margin, f"{name}: value over limit"
-    with np.errstate(invalid="ignore"):
-        return np.log10(
-            np.where(margin > ENDLESS, np.nan, margin)
-        ), rf"{name}: $\log_{{10}}$ cycles"
+    # A decade beyond the last contour, so that its line runs between the points.
+    return np.log10(np.minimum(margin, 10 * ENDLESS)), rf"{name}: $\log_{{10}}$ cycles"
 
 
 @styled
@@ -78,7 +80,8 @@ def criterion_map(
     field, label = _shown(life)
     shown = life.dataset.value.copy(data=field).assign_attrs(life.dataset.attrs)
     ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0 if safety else None)
-    _mark(ax, (getattr(worst, str(shown.dims[1])), worst.z), margin, shown, units)
+    at = (getattr(worst, str(shown.dims[1])), worst.z)
+    _mark(ax, at, f"worst point: {margin}", shown, units, lives=not safety)
     return ax
 
 
@@ -111,7 +114,7 @@ def load_factor_map(
     label = f"{name.get(of, 'Shakedown')}: load over limit"
     ax = _contours(shown, label, units, levels, ax, stretch=stretch, limit=1.0)
     at = (getattr(least, str(shown.dims[1])), least.z)
-    _mark(ax, at, f"factor {least.factor:.3g}", shown, units)
+    _mark(ax, at, f"least factor {least.factor:.3g}", shown, units)
     return ax
 
 
@@ -141,7 +144,7 @@ def _contours(
     stretch = thin(borders) if stretch is None else stretch
     if stretch and borders.size > 2:
         stretch_axis(ax, borders, "y")
-    ax.set_facecolor("0.93")
+    ax.set_facecolor(UNJUDGED)
     image = _filled(ax, x, z, shown, levels, limit)
     for depth in inner:
         ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
@@ -173,7 +176,14 @@ def _filled(
         return None
     image = None
     colours = COLOURS.reversed() if limit is None else COLOURS
-    steps = np.asarray(MaxNLocator(levels).tick_values(np.nanmin(field), np.nanmax(field)))
+    most = np.nanmax(field)
+    if limit is None:
+        most = min(most, np.log10(ENDLESS))
+    steps = np.asarray(MaxNLocator(levels).tick_values(np.nanmin(field), most))
+    if limit is None and np.nanmax(field) > most:
+        steps = np.append(steps[steps < most], most)
+        if steps.size < 2:
+            return None
     for part in np.unique(layers):
         here = layers == part
         if np.count_nonzero(here) < 2 or not np.isfinite(field[here]).any():
@@ -187,25 +197,24 @@ def _filled(
 
 
 def _mark(
-    ax: Axes, place: tuple[float, float], text: str, shown: xr.DataArray, units: Units
+    ax: Axes,
+    place: tuple[float, float],
+    text: str,
+    shown: xr.DataArray,
+    units: Units,
+    *,
+    lives: bool = False,
 ) -> None:
-    """A cross at the worst point with a word beside it."""
+    """A cross at the worst point; the legend says it, and what is grey."""
     length = scales(shown.attrs, units).length.value
-    at = (place[0] / length, place[1] / length)
-    ax.plot(*at, "x", color=MARK, ms=7, mew=1.6, clip_on=False, zorder=4)
-    left, right = ax.get_xlim()
-    on_the_right = at[0] > (left + right) / 2
-    ax.annotate(
-        text,
-        at,
-        xytext=(-7 if on_the_right else 7, -14),
-        textcoords="offset points",
-        ha="right" if on_the_right else "left",
-        color=MARK,
-        fontsize=8,
-        bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
-        zorder=5,
-    )
+    mark(ax, (place[0] / length, place[1] / length), text)
+    handles: list[Artist] = list(ax.get_legend_handles_labels()[0])
+    field = shown.values
+    if lives and (field > np.log10(ENDLESS)).any():
+        handles.append(Patch(color=UNJUDGED, label=f"beyond {ENDLESS:.0e} cycles"))
+    if np.isnan(field).any():
+        handles.append(Patch(color=UNJUDGED, label="no material given"))
+    inside_legend(ax, handles=handles)
 
 
 @styled

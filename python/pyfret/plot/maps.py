@@ -6,9 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.colors import ListedColormap
-from matplotlib.patches import Circle, Patch
+from matplotlib.patches import Circle
 
 from pyfret._core import Flat, Sphere
+from pyfret.plot.along import (
+    field_along,
+    legend_of_zones,
+    shear_along,
+    touched,
+    zones_along,
+)
 from pyfret.plot.scales import MICRO, Scale, Units, last_of, of_snapshot
 from pyfret.plot.style import SLIP, STICK, axes, styled
 
@@ -21,8 +28,6 @@ if TYPE_CHECKING:
 
     from pyfret.run import Run, State
 
-#: Room around a contact, over half its length.
-MARGIN = 0.3
 #: Part of the cells of a contact whose slip a scale of colours covers.
 INNER = 0.97
 
@@ -36,34 +41,17 @@ def frame(ax: Axes, snapshot: State, length: Scale) -> tuple[float, float, float
         a_H = snapshot.a_H / length.value
         ax.add_patch(Circle((0, 0), a_H, fill=False, ls=(0, (4, 3)), lw=0.7, ec="0.35", zorder=3))
     ax.set_xlabel(length.label("x"))
-    if grid.plane_strain:
-        # One row of cells without end along y.
-        ax.set_aspect("auto")
-        ax.set_yticks([])
-        dy = 0.5 * (x[-1] - x[0])
-    else:
-        ax.set_ylabel(length.label("y"))
+    ax.set_ylabel(length.label("y"))
     return x[0] - dx / 2, x[-1] + dx / 2, y[0] - dy / 2, y[-1] + dy / 2
 
 
 def look_at_contact(ax: Axes, snapshot: State, length: Scale) -> None:
     """Leave cells far from the contact out of the picture."""
-    contact = snapshot.dataset.contact.values.astype(bool)
-    grid = snapshot.scene.grid
-    if not contact.any():
+    along_x, along_y = (touched(snapshot, axis, length) for axis in (0, 1))
+    if along_x is None or along_y is None:
         return
-
-    def near(name: str, axis: int, cell: float) -> tuple[float, float]:
-        places = snapshot.dataset[name].values[contact.any(axis=axis)]
-        low, high = places.min() - cell / 2, places.max() + cell / 2
-        margin = MARGIN * (high - low) / 2
-        return (low - margin) / length.value, (high + margin) / length.value
-
-    low, high = near("x", 1, grid.dx)
-    ax.set_xlim(max(low, ax.get_xlim()[0]), min(high, ax.get_xlim()[1]))
-    if not grid.plane_strain:
-        low, high = near("y", 0, grid.dy)
-        ax.set_ylim(max(low, ax.get_ylim()[0]), min(high, ax.get_ylim()[1]))
+    ax.set_xlim(max(along_x[0], ax.get_xlim()[0]), min(along_x[1], ax.get_xlim()[1]))
+    ax.set_ylim(max(along_y[0], ax.get_ylim()[0]), min(along_y[1], ax.get_ylim()[1]))
 
 
 def is_round(snapshot: State) -> bool:
@@ -77,6 +65,8 @@ def is_round(snapshot: State) -> bool:
 def stick_slip(shown: State | Run, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
     """Where the contact sticks and where it slips; dashed, the Hertz circle of spheres.
 
+    Of a line contact the pressure along x, coloured by the zones.
+
     Parameters
     ----------
     shown : Snapshot or Result
@@ -87,10 +77,12 @@ def stick_slip(shown: State | Run, *, units: Units = "auto", ax: Axes | None = N
         Where to draw.
     """
     snapshot = last_of(shown)
-    ax = axes(ax, square=True)
-    extent = frame(ax, snapshot, of_snapshot(snapshot, units).length)
     contact, stick = (snapshot.dataset[k].values.astype(bool) for k in ("contact", "stick"))
     zone = np.where(contact, np.where(stick, 2, 1), 0)
+    if snapshot.scene.grid.plane_strain:
+        return zones_along(ax, snapshot, of_snapshot(snapshot, units), zone)
+    ax = axes(ax, square=True)
+    extent = frame(ax, snapshot, of_snapshot(snapshot, units).length)
     ax.imshow(
         zone.T,
         origin="lower",
@@ -102,17 +94,7 @@ def stick_slip(shown: State | Run, *, units: Units = "auto", ax: Axes | None = N
         aspect=ax.get_aspect(),
     )
     look_at_contact(ax, snapshot, of_snapshot(snapshot, units).length)
-    zones = ((2, STICK, "stick"), (1, SLIP, "slip"))
-    handles = [Patch(color=color, label=label) for n, color, label in zones if (zone == n).any()]
-    if handles:
-        ax.legend(
-            handles=handles,
-            loc="lower right",
-            bbox_to_anchor=(1.0, 1.0),
-            ncols=len(handles),
-            handlelength=1.0,
-            borderpad=0.1,
-        )
+    legend_of_zones(ax, zone)
     return ax
 
 
@@ -149,7 +131,7 @@ def pressure_map(
     colorbar: bool = True,
     **image: Any,
 ) -> Axes:
-    """Pressure over the contact plane, over p_H or in MPa.
+    """Pressure over the contact plane, over p_H or in MPa; of a line contact along x.
 
     Parameters
     ----------
@@ -163,6 +145,9 @@ def pressure_map(
     snapshot = last_of(shown)
     by = of_snapshot(snapshot, units)
     values = snapshot.dataset.p.values
+    if snapshot.scene.grid.plane_strain:
+        shown_p = values / by.stress.value
+        return field_along(ax, snapshot, shown_p, by.stress.label("p"), by.length)
     ax, drawn = field_map(ax, snapshot, values, by.stress, by.length, **{"vmin": 0, **image})
     if colorbar:
         label_scale(ax.get_figure(), drawn, ax, by.stress.label("p"))
@@ -180,6 +165,8 @@ def slip_map(
 ) -> Axes:
     """Size of the slip added up over the path, in um; parameters as in :func:`pressure_map`.
 
+    Of a line contact along x.
+
     The scale of colours ends above all cells but a few: those that come and go with the rim slip
     farther than the others.
     """
@@ -188,6 +175,9 @@ def slip_map(
     slip = np.hypot(snapshot.dataset.slip_x.values, snapshot.dataset.slip_y.values)
     contact = snapshot.dataset.contact.values.astype(bool)
     largest = np.quantile(slip[contact], INNER) / MICRO.value if contact.any() else None
+    if snapshot.scene.grid.plane_strain:
+        shown_s = slip / MICRO.value
+        return field_along(ax, snapshot, shown_s, MICRO.label("|s|"), by.length)
     look = {"vmin": 0, "vmax": largest or None, **image}
     ax, drawn = field_map(ax, snapshot, slip, MICRO, by.length, **look)
     if colorbar:
@@ -207,7 +197,7 @@ def shear_streamlines(
     r"""Streamlines of the shear vectors on body 2 over their size :math:`|q|/(\mu p_H)`.
 
     Blue line: edge of the stick zone; dashed: the Hertz circle of spheres. A line contact has no
-    streamlines: the size alone is drawn.
+    streamlines: its shear is drawn along x, with the bounds of friction.
 
     Parameters
     ----------
@@ -225,6 +215,8 @@ def shear_streamlines(
     snapshot = last_of(shown)
     by = of_snapshot(snapshot, units)
     d = snapshot.dataset
+    if snapshot.scene.grid.plane_strain:
+        return shear_along(ax, snapshot, by)
     contact = d.contact.values.astype(bool)
     q_x, q_y = (np.where(contact, d[k].values, np.nan) for k in ("q_x", "q_y"))
     size = np.hypot(q_x, q_y)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import colormaps
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import ListedColormap
 
+from pyfret.plot.along import look_along
 from pyfret.plot.histories import NAMES, driven
 from pyfret.plot.scales import Units, last_of, of_snapshot, run_of
-from pyfret.plot.style import axes, styled
+from pyfret.plot.style import REFERENCE, axes, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,8 +40,9 @@ def pressure_profile(
     """
     snapshot = last_of(shown)
     ax, by = axes(ax), of_snapshot(snapshot, units)
-    cut = snapshot.along_x()
+    cut, fresh = snapshot.along_x(), not ax.lines
     ax.plot(cut.x / by.length.value, cut.p / by.stress.value, **line)
+    look_along(ax, snapshot, by.length, fresh=fresh)
     ax.set_xlabel(by.length.label("x"))
     ax.set_ylabel(by.stress.label("p"))
     return ax
@@ -48,6 +53,7 @@ def shear_profile(
     shown: State | Run,
     *,
     of: Literal["q_x", "q_y"] | None = None,
+    bound: bool = False,
     units: Units = "auto",
     ax: Axes | None = None,
     **line: Any,
@@ -60,12 +66,19 @@ def shear_profile(
         As in :func:`pressure_profile`.
     of : "q_x" or "q_y", optional
         Which component (default: the larger one on the line, as q_y in torsion).
+    bound : bool
+        Whether to draw the bounds of friction, plus and minus mu p, in grey.
     """
     snapshot = last_of(shown)
     ax, by = axes(ax), of_snapshot(snapshot, units)
-    cut = snapshot.along_x()
+    cut, fresh = snapshot.along_x(), not ax.lines
     name: str = of or max(("q_x", "q_y"), key=lambda component: float(abs(cut[component]).max()))
     ax.plot(cut.x / by.length.value, cut[name] / by.shear.value, **line)
+    if bound and np.isfinite(snapshot.mu):
+        for sign in (1, -1):
+            most = sign * snapshot.mu * cut.p / by.shear.value
+            ax.plot(cut.x / by.length.value, most, color=REFERENCE, linestyle=":", linewidth=1.0)
+    look_along(ax, snapshot, by.length, fresh=fresh)
     ax.set_xlabel(by.length.label("x"))
     ax.set_ylabel(by.shear.label(name))
     return ax
@@ -75,6 +88,8 @@ def shear_profile(
 def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None) -> Axes:
     """Shear traction along y = 0 for every increment whose fields were kept.
 
+    Of more than twelve load states a scale of colours tells the time, not a legend.
+
     A load state that was visited before is drawn as markers in the colour of its first visit:
     markers on a line show that the cycle has settled.
     """
@@ -83,12 +98,16 @@ def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None
     name: Literal["q_x", "q_y"] = "q_x" if abs(last.q_x).max() >= abs(last.q_y).max() else "q_y"
     tau = float(result.dataset.t[-1])
     visits = load_states(result)
-    colours = colormaps["viridis"](np.linspace(0.0, 0.88, 1 + max(state for state, _ in visits)))
+    states = 1 + max(state for state, _ in visits)
+    colours = colormaps["viridis"](np.linspace(0.0, 0.88, states))
+    few = len(visits) <= NAMED
     kept = result.dataset.saved_increment.values
     times = result.dataset.saved_t.values
     for number, t, (state, visit) in zip(kept, times, visits, strict=True):
         line: dict[str, Any] = {"color": colours[state], "label": f"{round(float(t / tau), 3)}"}
-        if visit > 0:
+        if not few:
+            line |= {"color": colormaps["viridis"](0.88 * t / tau), "linewidth": 0.7}
+        elif visit > 0:
             n = result.dataset.sizes["x"]
             every = max(1, n // 28)
             line |= {
@@ -99,10 +118,19 @@ def shear_profiles(result: Run, *, units: Units = "auto", ax: Axes | None = None
                 "markevery": (((visit - 1) * every // 2) % every, every),
             }
         shear_profile(result.at(int(number)), of=name, units=units, ax=ax, **line)
-    ax.legend(title=r"$t/\tau$", loc="center left", bbox_to_anchor=(1.0, 0.5), alignment="left")
+    if few:
+        place = (1.0, 0.5)
+        ax.legend(title=r"$t/\tau$", loc="center left", bbox_to_anchor=place, alignment="left")
+    else:
+        shades = ListedColormap(colormaps["viridis"](np.linspace(0.0, 0.88, 256)))
+        bar = plt.colorbar(ScalarMappable(cmap=shades), ax=ax, pad=0.02)
+        bar.set_label(r"$t/\tau$")
+        bar.outline.set_visible(False)
     return ax
 
 
+#: Most lines that a legend names.
+NAMED = 12
 #: Markers of the second, third, ... visit of a load state.
 MARKERS = ("o", "x", "s", "^")
 

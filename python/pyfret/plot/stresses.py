@@ -10,10 +10,11 @@ from matplotlib import colormaps
 from matplotlib.colors import ListedColormap
 from matplotlib.ticker import MaxNLocator
 
+from pyfret._util.numbers import in_words
 from pyfret.plot.depth_axis import interfaces, thin
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import Scales, Units, scales
-from pyfret.plot.style import axes, styled
+from pyfret.plot.style import axes, mark, styled
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.tensor import Stress
 
@@ -53,29 +54,16 @@ def _scales(attrs: Mapping[Any, Any], units: Units, a_H: float | None, p_H: floa
 
 
 def _mark(ax: Axes, largest: Extreme, along: str, by: Scales, *, marker: str = "x") -> None:
-    """Mark a value at its place along the section and its depth; one on the surface from above."""
+    """Mark a value at its place along the section and its depth, and say it in the legend."""
     at = ((largest.x if along == "x" else largest.y) / by.length.value, largest.z / by.length.value)
-    ax.plot(*at, marker, color=MARK, mfc="none", ms=7, mew=1.6, clip_on=False, zorder=4)
-    # Away from the border of the section, so that the number stays on it.
-    left, right = ax.get_xlim()
-    on_the_right = at[0] > (left + right) / 2
-    ax.annotate(
-        f"{largest.value / by.stress.value:.4g}",
-        at,
-        xytext=(0, 5) if at[1] == 0.0 else (-7 if on_the_right else 7, -11),
-        textcoords="offset points",
-        ha="center" if at[1] == 0.0 else "right" if on_the_right else "left",
-        color=MARK,
-        fontsize=8,
-        bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
-        zorder=5,
-    )
+    where = "largest" if marker == "x" else "on the surface"
+    said = in_words(largest.value / by.stress.value)
+    said += f" {by.stress.name}" if by.stress.is_unit else ""
+    mark(ax, at, f"{where} {said}", marker=marker)
 
 
 #: Length over depth of a section beyond which equal lengths leave it too low to be read.
 FLAT = 3.0
-#: Colour of largest values.
-MARK = "#D55E00"
 #: Light enough for black labels.
 COLOURS = ListedColormap(colormaps["YlGnBu"](np.linspace(0.0, 0.62, 256)))
 

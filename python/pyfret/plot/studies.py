@@ -2,20 +2,32 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+import json
+import sys
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
+from pyfret.plot.parameters import parameter_label
 from pyfret.plot.style import REFERENCE, axes, styled
 
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable
 
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.text import Text
 
 
+#: Labels of parameters and the sizes of their units, by their names.
+Words: TypeAlias = Mapping[str, tuple[str, float]]
 #: Values along both parameters from which on contours are drawn.
 CONTOURED = 4
 COLOURS = "YlGnBu"
@@ -45,6 +57,7 @@ def study_map(
     at: Mapping[str, float] | None = None,
     kind: Literal["auto", "contour", "cells"] = "auto",
     levels: int = 10,
+    labels: Mapping[str, str] | None = None,
     colorbar: bool = True,
     ax: Axes | None = None,
 ) -> Axes:
@@ -65,12 +78,22 @@ def study_map(
         Contours or a cell for each point (default: contours from four values along both on).
     levels : int
         Number of contours, about.
+    labels : mapping of str to str, optional
+        What parameters and measures are called in the figure, by their names, such as
+        ``{"body2.coatings.0.E": "modulus of the coating [Pa]"}`` (default: their meaning and unit
+        where they are keys of a scene file).
     colorbar : bool
         Whether to draw the scale beside the map.
     ax : matplotlib Axes, optional
         Where to draw.
     """
     d = study.dataset
+    labels = dict(labels or {})
+    flat = of_line_contacts(d)
+    words = {
+        name: (labels[name], 1.0) if name in labels else parameter_label(name, per_metre=flat)
+        for name in study.parameters
+    }
     if at:
         d = d.sel(dict(at), method="nearest")
     names = study.measures
@@ -83,19 +106,20 @@ def study_map(
         raise ValueError(f"{chosen} is a field over {', '.join(map(str, extra))}: draw one point")
     ax = axes(ax)
     values, label = in_figures(values)
+    label = labels.get(chosen, label)
     if "point" in values.dims:
-        scattered(ax, study.parameters, values, label)
+        scattered(ax, study.parameters, values, label, words)
     elif values.ndim == 1:
-        line(ax, values, label)
+        line(ax, values, label, words)
     elif values.ndim == 2:
-        plane(ax, values, kind, levels, label if colorbar else None)
+        plane(ax, values, kind, levels, label if colorbar else None, words)
     else:
         raise ValueError(
             f"{values.ndim} parameters: give the values of {values.ndim - 2} of "
             f"{', '.join(map(str, values.dims))} as at={{name: value}}"
         )
     if "point" not in values.dims:
-        crosses(ax, d["status"])
+        crosses(ax, d["status"], words)
     return ax
 
 
@@ -107,20 +131,12 @@ def in_figures(values: xr.DataArray) -> tuple[xr.DataArray, str]:
     """A measure in a unit that its numbers are short in, and its meaning with that unit."""
     unit = str(values.attrs.get("units", "1"))
     name = str(values.attrs.get("long_name", values.name))
-    if unit not in ("J", "Pa", "m", "N", "N/m"):
+    if unit not in ("J", "Pa", "m", "N", "N/m", "J/m", "N/m per m"):
         return values, name if unit == "1" else f"{name} [{unit}]"
     largest = float(np.abs(values).max())
     power = 3 * int(np.floor(np.log10(largest) / 3 + 1e-12)) if largest > 0 else 0
     power = min(max(power, min(PREFIXES)), max(PREFIXES))
     return values / 10.0**power, f"{name} [{PREFIXES[power]}{unit}]"
-
-
-def parameter_label(name: str) -> str:
-    """The key of a parameter, broken at a point if it is long."""
-    if len(name) <= 32:
-        return name
-    middle = name.index(".", len(name) // 2) if "." in name[len(name) // 2 :] else len(name)
-    return f"{name[:middle]}\n{name[middle:]}"
 
 
 def geometric(values: np.ndarray) -> bool:
@@ -131,10 +147,30 @@ def geometric(values: np.ndarray) -> bool:
     return bool(np.ptp(ratios) / abs(ratios.mean()) < np.ptp(steps) / abs(steps.mean()))
 
 
-def scale_axis(ax: Axes, which: Literal["x", "y"], coordinate: xr.DataArray) -> np.ndarray:
-    """Label an axis, and give where the values of a parameter lie on it."""
+def of_line_contacts(d: xr.Dataset) -> bool:
+    """Whether a study is of line contacts on one metre, as far as its scene is stored."""
+    try:
+        grid = tomllib.loads(json.loads(d.attrs["study"])["scene"])["grid"]
+    except (KeyError, ValueError):
+        # A function makes its scenes, or it was put together by hand.
+        return False
+    spacing = grid.get("spacing")
+    width = spacing[-1] if isinstance(spacing, list) else grid.get("width", 1.0)
+    return bool(grid.get("plane_strain")) and width == 1.0
+
+
+def on_axis(coordinate: xr.DataArray, words: Words) -> tuple[np.ndarray, str]:
+    """The values of a parameter in the unit of its label, and the label."""
     values = np.asarray(coordinate.values)
-    label = parameter_label(str(coordinate.name))
+    label, factor = words[str(coordinate.name)]
+    return (values / factor if values.dtype.kind in "if" else values), label
+
+
+def scale_axis(
+    ax: Axes, which: Literal["x", "y"], coordinate: xr.DataArray, words: Words
+) -> np.ndarray:
+    """Label an axis, and give where the values of a parameter lie on it."""
+    values, label = on_axis(coordinate, words)
     ax.set_xlabel(label) if which == "x" else ax.set_ylabel(label)
     if values.dtype.kind not in "ifb":
         places = np.arange(values.size, dtype=float)
@@ -147,20 +183,44 @@ def scale_axis(ax: Axes, which: Literal["x", "y"], coordinate: xr.DataArray) -> 
         axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
         axis.set_minor_formatter(NullFormatter())
+    elif values.dtype.kind in "if":
+        # Small numbers as they are, none of them over a power at the end of the axis.
+        axis = ax.xaxis if which == "x" else ax.yaxis
+        axis.set_major_formatter(FuncFormatter(lambda v, _: f"{float(f'{v:.6g}'):g}"))
     return values.astype(float)
 
 
-def line(ax: Axes, values: xr.DataArray, label: str) -> None:
+def edges(places: np.ndarray, *, logarithmic: bool) -> np.ndarray:
+    """Borders of cells around the values of a parameter, half way on its axis."""
+    of = np.log(places) if logarithmic else places
+    if of.size == 1:
+        step = 0.5 * abs(of[0]) or 0.5
+        borders = np.array([of[0] - step, of[0] + step])
+    else:
+        middles = (of[:-1] + of[1:]) / 2
+        borders = np.r_[1.5 * of[0] - 0.5 * of[1], middles, 1.5 * of[-1] - 0.5 * of[-2]]
+    return np.asarray(np.exp(borders) if logarithmic else borders)
+
+
+def line(ax: Axes, values: xr.DataArray, label: str, words: Words) -> None:
     """A measure over one parameter."""
-    places = scale_axis(ax, "x", values[str(values.dims[0])])
+    places = scale_axis(ax, "x", values[str(values.dims[0])], words)
     ax.plot(places, values.values, "o-", markersize=4)
     ax.set_ylabel(label)
 
 
-def plane(ax: Axes, values: xr.DataArray, kind: str, levels: int, label: str | None) -> None:
+def plane(
+    ax: Axes,
+    values: xr.DataArray,
+    kind: str,
+    levels: int,
+    label: str | None,
+    words: Words,
+) -> None:
     """A measure over two parameters."""
     first, second = (str(name) for name in values.dims)
-    x, y = scale_axis(ax, "x", values[first]), scale_axis(ax, "y", values[second])
+    x = scale_axis(ax, "x", values[first], words)
+    y = scale_axis(ax, "y", values[second], words)
     field = np.ma.masked_invalid(values.values.T)
     fine = min(field.shape) >= CONTOURED
     drawn: Any
@@ -170,9 +230,13 @@ def plane(ax: Axes, values: xr.DataArray, kind: str, levels: int, label: str | N
         darkest = steps[-1] + 0.4 * (steps[-1] - steps[0])
         drawn = ax.contourf(x, y, field, levels=steps, cmap=COLOURS, vmin=steps[0], vmax=darkest)
         lines = ax.contour(x, y, field, levels=steps, colors="0.25", linewidths=0.5)
-        ax.clabel(lines, fontsize=7, fmt="%g")
+        whole_labels(ax, ax.clabel(lines, fontsize=7, fmt="%g"))
     else:
-        drawn = ax.pcolormesh(x, y, field, cmap=COLOURS, shading="nearest")
+        borders = [
+            edges(places, logarithmic=scale == "log")
+            for places, scale in ((x, ax.get_xscale()), (y, ax.get_yscale()))
+        ]
+        drawn = ax.pcolormesh(*borders, field, cmap=COLOURS, shading="flat")
     ax.grid(visible=False)
     if label is not None:
         bar = ax.get_figure().colorbar(drawn, ax=ax)  # type: ignore[union-attr]
@@ -180,18 +244,38 @@ def plane(ax: Axes, values: xr.DataArray, kind: str, levels: int, label: str | N
         bar.outline.set_visible(False)
 
 
-def scattered(ax: Axes, parameters: list[str], values: xr.DataArray, label: str) -> None:
+#: Part of the axes beside a border in which a label of a contour would be cut.
+BORDER = 0.05
+
+
+def whole_labels(ax: Axes, labels: Iterable[Text]) -> None:
+    """Take off labels of contours that the border of the axes would cut."""
+    onto_axes = ax.transData + ax.transAxes.inverted()
+    for label in list(labels):
+        place = onto_axes.transform(label.get_position())
+        if place.min() < BORDER or place.max() > 1.0 - BORDER:
+            label.set_visible(False)
+
+
+def scattered(
+    ax: Axes,
+    parameters: list[str],
+    values: xr.DataArray,
+    label: str,
+    words: Words,
+) -> None:
     """A measure at samples: over the only parameter, or by colour over the first two."""
-    x = values[parameters[0]].values
-    ax.set_xlabel(parameter_label(parameters[0]))
+    x, text = on_axis(values[parameters[0]], words)
+    ax.set_xlabel(text)
     if len(parameters) == 1:
         ax.plot(x, values.values, "o", markersize=4)
         ax.set_ylabel(label)
         return
-    ax.set_ylabel(parameter_label(parameters[1]))
+    y, text = on_axis(values[parameters[1]], words)
+    ax.set_ylabel(text)
     drawn = ax.scatter(
         x,
-        values[parameters[1]].values,
+        y,
         c=values.values,
         cmap=COLOURS,
         s=26,
@@ -203,12 +287,12 @@ def scattered(ax: Axes, parameters: list[str], values: xr.DataArray, label: str)
     bar.outline.set_visible(False)
 
 
-def crosses(ax: Axes, status: xr.DataArray) -> None:
+def crosses(ax: Axes, status: xr.DataArray, words: Words) -> None:
     """Mark the points that failed."""
     lost = np.argwhere(status.values == 2)
     if not lost.size:
         return
-    coordinates = [np.asarray(status[str(name)].values) for name in status.dims]
+    coordinates = [on_axis(status[str(name)], words)[0] for name in status.dims]
     places = [
         (c if c.dtype.kind in "ifb" else np.arange(c.size))[lost[:, k]]
         for k, c in enumerate(coordinates)

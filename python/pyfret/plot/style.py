@@ -9,8 +9,11 @@ from pathlib import Path
 from typing import ParamSpec, TypeVar
 
 import matplotlib.pyplot as plt
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
+#: Colour of marks of largest values.
+MARK = "#D55E00"
 #: Colours with a meaning, of the Okabe-Ito palette.
 STICK = "#0072B2"
 SLIP = "#F2C9A9"
@@ -45,6 +48,37 @@ def axes(ax: Axes | None, *, square: bool = False) -> Axes:
         ax.set_aspect("equal")
         ax.grid(visible=False)
     return ax
+
+
+def mark(ax: Axes, at: tuple[float, float], text: str, *, marker: str = "x") -> None:
+    """Mark a place of a section and say what it is in a legend inside the axes."""
+    ax.plot(
+        *at,
+        marker,
+        color=MARK,
+        mfc="none",
+        ms=7,
+        mew=1.6,
+        clip_on=False,
+        zorder=4,
+        label=text,
+        linestyle="none",
+    )
+    inside_legend(ax)
+
+
+def inside_legend(ax: Axes, *, handles: list[Artist] | None = None) -> None:
+    """A legend on the section, deep below the contact, legible on its colours."""
+    given = {} if handles is None else {"handles": handles}
+    ax.legend(
+        loc="lower right",
+        frameon=True,
+        framealpha=0.85,
+        edgecolor="none",
+        handlelength=1.0,
+        borderpad=0.3,
+        **given,
+    ).set_zorder(5)
 
 
 def note(ax: Axes, text: str) -> None:

@@ -49,7 +49,7 @@ def wear_profiles(
         reach = 1.25e3 * np.abs(np.asarray(d.x)[worn]).max()
         ax.set_xlim(-reach, reach)
     ax.set_xlabel("$x$ [mm]")
-    ax.set_ylabel("worn depth [um]")
+    ax.set_ylabel("worn depth [µm]")
     ax.legend(title="cycles", fontsize="small")
     return ax
 
@@ -65,7 +65,7 @@ def depth_map(
     drawn = ax.pcolormesh(
         1e3 * d.x, 1e3 * d.y, depth, cmap="viridis", shading="nearest", rasterized=True
     )
-    ax.figure.colorbar(drawn, ax=ax, label="worn depth [um]", shrink=0.8)
+    ax.figure.colorbar(drawn, ax=ax, label="worn depth [µm]", shrink=0.8)
     ax.set_xlabel("$x$ [mm]")
     ax.set_ylabel("$y$ [mm]")
     return ax
@@ -96,7 +96,7 @@ def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
             label = f"coating {event['coating']} of body {event['body']} is worn through"
             ax.axvline(event["cycles"], color="0.5", linestyle="--", linewidth=1, label=label)
     ax.set_xlabel("cycles")
-    ax.set_ylabel("deepest worn depth [um]")
+    ax.set_ylabel("deepest worn depth [µm]")
     ax.set_ylim(bottom=0)
     ax.legend(loc="upper left", fontsize="small")
     return ax
@@ -111,7 +111,7 @@ def wear_loops(result: WearResult, *, ax: Axes | None = None) -> Axes:
         shift, force = (np.asarray(d[name][block]) for name in ("loop_delta_x", "loop_T_x"))
         cycles = f"after {float(d.block_cycles[block]):,.0f} cycles".replace(",", " ")
         ax.plot(1e6 * np.r_[shift[-1], shift], np.r_[force[-1], force], ".-", label=cycles)
-    ax.set_xlabel(r"$\delta_x$ [um]")
-    ax.set_ylabel("$T_x$ [N]")
+    ax.set_xlabel(r"$\delta_x$ [µm]")
+    ax.set_ylabel(f"$T_x$ [{d.loop_T_x.attrs['units']}]")
     ax.legend()
     return ax

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._util.numbers import in_words
 from pyfret.run.summary import directions
 from pyfret.subsurface.contact import stress_below
 
@@ -25,9 +26,9 @@ KEPT = 60
 ALONG, DOWN = 160, 120
 #: Force and shift of the loop, and what they are shown in.
 LOOPS = {
-    "x": ("T_x", "delta_x", "T<sub>x</sub> [N]", "δ<sub>x</sub> [µm]"),
-    "y": ("T_y", "delta_y", "T<sub>y</sub> [N]", "δ<sub>y</sub> [µm]"),
-    "torsion": ("M_z", "phi_z", "M<sub>z</sub> [N m]", "φ<sub>z</sub> [µrad]"),
+    "x": ("T_x", "delta_x", "T<sub>x</sub>", "δ<sub>x</sub> [µm]"),
+    "y": ("T_y", "delta_y", "T<sub>y</sub>", "δ<sub>y</sub> [µm]"),
+    "torsion": ("M_z", "phi_z", "M<sub>z</sub>", "φ<sub>z</sub> [µrad]"),
 }
 
 
@@ -66,6 +67,7 @@ def increments(result: Run) -> dict[str, Any]:
     numbers = result.dataset.saved_increment.values
     snapshots = [result.at(int(numbers[k])) for k in chosen(numbers.size, KEPT)]
     columns, rows = frame(result, snapshots)
+    force = result.dataset.W.attrs["units"]
     shown = []
     for at in snapshots:
         d = at.dataset
@@ -79,7 +81,8 @@ def increments(result: Run) -> dict[str, Any]:
         shown.append(
             {
                 "increment": int(d.increment),
-                "says": f"W = {float(d.W):.4g} N, T\u2093 = {float(d.T_x):.4g} N, "
+                "says": f"W = {in_words(float(d.W))} {force}, "
+                f"T\u2093 = {in_words(float(d.T_x))} {force}, "
                 f"stick ratio {float(d.stick_ratio):.3f}",
                 **{
                     name: short(field[pick].T, 3)
@@ -116,7 +119,7 @@ def loop(result: Run) -> dict[str, Any]:
         "x": short(moved[started:], 5),
         "y": short(d[force].values[started:], 5),
         "increment": d.increment.values[started:].astype(int).tolist(),
-        "labels": [x, y],
+        "labels": [x, f"{y} [{d[force].attrs['units']}]"],
     }
 
 

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Literal
 
 from pyfret import _core
 from pyfret._util.lazy import xr
+from pyfret._util.units import unit_on
 
 if TYPE_CHECKING:
-    from pyfret._core import LoadPath
+    from pyfret._core import Scene
 
 __all__ = ["of_cycles"]
 
@@ -29,7 +30,7 @@ LOOP = {
 
 
 def of_cycles(
-    dataset: xr.Dataset, path: LoadPath, direction: Literal["x", "y", "torsion"]
+    dataset: xr.Dataset, scene: Scene, direction: Literal["x", "y", "torsion"]
 ) -> xr.Dataset:
     """Give the loops of every closed cycle; parameters as of :meth:`pyfret.Result.loops`."""
     if direction not in ("x", "y", "torsion"):
@@ -37,7 +38,7 @@ def of_cycles(
     torsion = direction == "torsion"
     force, shift = ("M_z", "phi_z") if torsion else (f"T_{direction}", f"delta_{direction}")
     found = _core.loops(
-        path,
+        scene.path,
         branch=dataset.branch_of_increment.values.tolist(),
         T=dataset[force].values.tolist(),
         delta=dataset[shift].values.tolist(),
@@ -45,12 +46,13 @@ def of_cycles(
         status=dataset.status.values.tolist(),
     )
     units = {"N": "N m", "m": "rad", "N/m": "N m/rad"} if torsion else {}
+    grid = scene.grid
     return xr.Dataset(
         {
             name: (
                 "cycle",
                 [cycle[name] for cycle in found],
-                {"units": units.get(unit, unit), "long_name": of},
+                {"units": unit_on(grid, units.get(unit, unit)), "long_name": of},
             )
             for name, (unit, of) in LOOP.items()
         },

@@ -56,6 +56,8 @@ class Run(OfRun):
             for k, v in self.dataset.variables.items()
             if "x" in v.dims
         }
+        if name == "contact_radius":
+            fields[name] = "of a line contact it is half_width"
         public = (member for member in dir(type(self)) if not member.startswith("_"))
         raise no_attribute("result", name, [*scalars, *public], fields)
 
@@ -75,12 +77,17 @@ class Run(OfRun):
 
     @property
     def delta_H(self) -> float:
-        """Hertz approach of the uncoated pair at the largest load [m], a_H^2/R."""
+        """Hertz approach of the uncoated pair at the largest load [m], a_H^2/R.
+
+        Line contacts have none: it depends on how far away it is read.
+        """
+        if self.scene.grid.plane_strain:
+            raise ValueError("delta_H: a line contact has none, it depends on where it is read")
         return self.a_H**2 / self._yardstick("R")
 
     @property
     def W_max(self) -> float:
-        """Largest normal force of the path [N]."""
+        """Largest normal force of the path [N]; of a line contact per metre [N/m]."""
         return float(self.dataset.W.max())
 
     @property
@@ -95,9 +102,15 @@ class Run(OfRun):
 
     @property
     def dissipated_energy(self) -> xr.DataArray:
-        """Energy dissipated by friction since the start of the path [J], every increment."""
-        total = self.dataset["dissipated"].cumsum("increment")
-        return total.assign_attrs(units="J", long_name="energy dissipated since the start")
+        """Energy dissipated by friction since the start of the path, every increment.
+
+        In J, of a line contact in J/m.
+        """
+        of = self.dataset["dissipated"]
+        total = of.cumsum("increment")
+        return total.assign_attrs(
+            units=of.attrs["units"], long_name="energy dissipated since the start"
+        )
 
     def at(self, which: float) -> State:
         """Give the contact at the end of one increment whose fields were kept.
@@ -159,8 +172,12 @@ class Run(OfRun):
         table = xr.Dataset(coords={"branch": [bar["branch"] for bar in bars], "part": parts})
         for name in (name for name in bars[0] if name != "branch"):
             of_field = name in ("p", "q")
+            values = np.array([[bar[name][part] for part in parts] for bar in bars], dtype=float)
+            if name == "contact_radius" and "half_width" in self.dataset:
+                # From the circle of radius r of the same area, 2 a dy = pi r^2.
+                half, dy = self.branches().half_width.values, self.scene.grid.dy
+                name, values = "half_width", np.sqrt(2 * np.pi * half / dy)[:, None] * values
             attrs = {"units": "1"} if of_field else self.dataset[name].attrs
-            values = [[bar[name][part] for part in parts] for bar in bars]
             table[name] = (("branch", "part"), values, attrs)
         return table
 
@@ -192,9 +209,9 @@ class Run(OfRun):
             Over ``cycle``: ``dissipated`` [J], half ranges ``T`` [N] and ``delta`` [m],
             ``stiffness`` right after the reversals and ``secant_stiffness`` [N/m], half the
             ``opening`` of the loop [m], ``energy_ratio``, ``sliding_ratio``, ``status``, and the
-            branches it spans.
+            branches it spans. Of a line contact energies, forces and stiffness are per metre.
         """
-        return of_cycles(self.dataset, self.scene.path, direction)
+        return of_cycles(self.dataset, self.scene, direction)
 
     def __repr__(self) -> str:
         """Give the title and the size of the result."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._util.guesses import no_attribute
+from pyfret._util.numbers import in_words
 from pyfret.run.attributes import OfRun
 
 if TYPE_CHECKING:
@@ -51,6 +52,7 @@ class State(OfRun):
     stick_area: xr.DataArray
     stick_ratio: xr.DataArray
     contact_radius: xr.DataArray
+    half_width: xr.DataArray
     cells_per_radius: xr.DataArray
     p_max: xr.DataArray
     q_max: xr.DataArray
@@ -103,6 +105,8 @@ class State(OfRun):
     def _elsewhere(self, name: str) -> dict[str, str]:
         """Names that this has not, and how what they mean is got from it."""
         found = {}
+        if name == "contact_radius":
+            found[name] = "of a line contact it is half_width"
         for known, variable in self.dataset.variables.items():
             meaning = str(variable.attrs.get("long_name", ""))
             if meaning.split(",")[0] == name:
@@ -162,7 +166,8 @@ class State(OfRun):
     def __repr__(self) -> str:
         """Say which increment this is and under which loads."""
         d = self.dataset
+        force = d.W.attrs["units"]
         return (
-            f"{type(self).__name__}(increment {int(d.increment)}, t = {float(d.t):.4g}, "
-            f"W = {float(d.W):.4g} N, T_x = {float(d.T_x):.4g} N)"
+            f"{type(self).__name__}(increment {int(d.increment)}, t = {in_words(float(d.t))}, "
+            f"W = {in_words(float(d.W))} {force}, T_x = {in_words(float(d.T_x))} {force})"
         )

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from pyfret._util.numbers import in_words
+
 if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
@@ -20,36 +22,58 @@ IN_PLANE = (("delta_x", "T_x"), ("delta_y", "T_y"), ("phi_z", "M_z"))
 STATUS = ("no contact", "full stick", "partial slip", "gross slip")
 
 
+def half_length(ends: xr.Dataset) -> str:
+    """Name of the radius of the contact, of a line contact half its width."""
+    return "half_width" if "half_width" in ends else "contact_radius"
+
+
+def energy_scale(unit: str) -> tuple[float, str]:
+    """What energies are told in: microjoules, of line contacts millijoules per metre."""
+    return (1e3, "mJ/m") if unit == "J/m" else (1e6, "uJ")
+
+
 def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
     """Columns of the summary: a title, then a cell per branch."""
     hertz = "a_H" in result.dataset.attrs
     radius = ("a/a_H", 1 / result.a_H) if hertz else ("a [um]", 1e6)
-    grid = result.scene.grid
-    if grid.plane_strain:
-        # Half the width of the strips that touch.
-        ends["contact_radius"] = ends.contact_area / (2 * grid.dy)
     pressure = ("p_max/p_H", 1 / result.p_H) if hertz else ("p_max [MPa]", 1e-6)
+    energy, joules = energy_scale(ends.dissipated.attrs["units"])
+    force, moment = (ends[name].attrs["units"] for name in ("W", "M_z"))
     numbers = [
         ("t", "t", 1.0),
-        ("W [N]", "W", 1.0),
-        ("T_x [N]", "T_x", 1.0),
-        (radius[0], "contact_radius", radius[1]),
+        (f"W [{force}]", "W", 1.0),
+        (f"T_x [{force}]", "T_x", 1.0),
+        (radius[0], half_length(ends), radius[1]),
         ("stick ratio", "stick_ratio", 1.0),
         (pressure[0], "p_max", pressure[1]),
         ("delta_z [um]", "delta_z", 1e6),
         ("delta_x [um]", "delta_x", 1e6),
-        ("dissipated [uJ]", "dissipated", 1e6),
+        (f"dissipated [{joules}]", "dissipated", energy),
     ]
-    others = [("T_y [N]", "T_y", 1.0), ("delta_y [um]", "delta_y", 1e6)]
-    torsion = [("M_z [N m]", "M_z", 1.0), ("phi_z [urad]", "phi_z", 1e6)]
+    others = [(f"T_y [{force}]", "T_y", 1.0), ("delta_y [um]", "delta_y", 1e6)]
+    torsion = [(f"M_z [{moment}]", "M_z", 1.0), ("phi_z [urad]", "phi_z", 1e6)]
     for pair in (others, torsion):
         if any(drives(result, name) for _, name, _ in pair):
             numbers[3:3] = pair
-    table = [
-        [title, *(f"{value:.5g}" for value in scale * told(result, ends, name))]
-        for title, name, scale in numbers
-    ]
+    bars = result.error_bars().sel(part="total") if result.dataset.attrs.get("error_bars") else None
+    table = []
+    for title, name, scale in numbers:
+        values = scale * told(result, ends, name)
+        if bars is not None and name in bars:
+            errors = scale * bars[name].values
+            cells = [with_error(v, e) for v, e in zip(values, errors, strict=True)]
+        else:
+            cells = [in_words(value) for value in values]
+        table.append([title, *cells])
     return [*table, ["state", *(STATUS[int(code)] for code in ends.status)]]
+
+
+def with_error(value: float, error: float) -> str:
+    """A number and its error, in as many decimals as the error has a say in."""
+    if not (np.isfinite(error) and error > 0.0):
+        return in_words(value)
+    decimals = int(np.clip(1.0 - np.floor(np.log10(error)), 0, 9))
+    return f"{value:.{decimals}f} +- {error:.{decimals}f}"
 
 
 def told(result: Run, ends: xr.Dataset, name: str) -> NDArray[np.float64]:
@@ -63,7 +87,7 @@ def told(result: Run, ends: xr.Dataset, name: str) -> NDArray[np.float64]:
     branches = result.scene.path.branches
     part = (result.scene.settings.tolerance or 0.0) * min(result.scene.mu, 1.0)
     for motion, load in IN_PLANE:
-        arm = ends.contact_radius.values if motion == "phi_z" else 1.0
+        arm = ends[half_length(ends)].values if motion == "phi_z" else 1.0
         if name == motion:
             small = arm * np.abs(values) < part * np.abs(ends.delta_z.values)
         elif name == load:
@@ -84,7 +108,8 @@ def summary(result: Run) -> str:
     """Tabulate what the run ended with: a line per branch, one per cycle, what is to be doubted.
 
     Lengths are over a_H and pressures over p_H where there is a Hertz contact, else in um and
-    MPa; in plane strain a is half the width of the contact.
+    MPa. Of a line contact a is half its width, and forces and energies are per metre. Errors that
+    the run has told stand behind ``+-``.
     """
     table = columns(result, result.branches())
     widths = [max(len(cell) for cell in column) for column in table]
@@ -104,10 +129,11 @@ def cycle_lines(result: Run) -> list[str]:
         loops = result.loops(direction=direction)
         for n in range(loops.sizes["cycle"]):
             of = loops.isel(cycle=n)
+            scale, joules = energy_scale(of.dissipated.attrs["units"])
             lines.append(
                 f"cycle {n + 1} ({direction}): {STATUS[int(of.status)]}, "
-                f"{1e6 * float(of.dissipated):.4g} uJ dissipated, "
-                f"energy ratio {float(of.energy_ratio):.3g}, "
+                f"{in_words(scale * float(of.dissipated))} {joules} dissipated, "
+                f"energy ratio {in_words(float(of.energy_ratio), 3)}, "
                 f"stiffness {float(of.stiffness):.4g} {of.stiffness.attrs['units']}"
             )
     return lines

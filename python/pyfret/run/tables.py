@@ -11,44 +11,62 @@ from pyfret.run.summary import STATUS, told
 from pyfret.scene.tables import number, table
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from pyfret.run.run import Run
     from pyfret.run.state import State
 
 __all__ = ["cycles_table", "ends_table", "run_html", "state_html"]
 
-#: Scalars at the ends of the branches: heading, name, factor of the unit.
-ENDS = (
-    ("W [N]", "W", 1.0),
-    ("T<sub>x</sub> [N]", "T_x", 1.0),
-    ("T<sub>y</sub> [N]", "T_y", 1.0),
-    ("M<sub>z</sub> [N m]", "M_z", 1.0),
-    ("&delta;<sub>z</sub> [µm]", "delta_z", 1e6),
-    ("&delta;<sub>x</sub> [µm]", "delta_x", 1e6),
-    ("&delta;<sub>y</sub> [µm]", "delta_y", 1e6),
-    ("&phi;<sub>z</sub> [µrad]", "phi_z", 1e6),
-    ("contact radius [µm]", "contact_radius", 1e6),
-    ("p<sub>max</sub> [MPa]", "p_max", 1e-6),
-    ("stick ratio", "stick_ratio", 1.0),
-    ("dissipated [µJ]", "dissipated", 1e6),
-)
+#: Scalars at the ends of the branches: what they are called, and their names.
+ENDS = {
+    "W": "W",
+    "T_x": "T<sub>x</sub>",
+    "T_y": "T<sub>y</sub>",
+    "M_z": "M<sub>z</sub>",
+    "delta_z": "&delta;<sub>z</sub>",
+    "delta_x": "&delta;<sub>x</sub>",
+    "delta_y": "&delta;<sub>y</sub>",
+    "phi_z": "&phi;<sub>z</sub>",
+    "contact_radius": "contact radius",
+    "half_width": "half width",
+    "p_max": "p<sub>max</sub>",
+    "stick_ratio": "stick ratio",
+    "dissipated": "dissipated",
+}
+#: Units that people read numbers in, with their factors, by those of the numbers.
+SHOWN_IN = {
+    "m": (1e6, "µm"),
+    "rad": (1e6, "µrad"),
+    "Pa": (1e-6, "MPa"),
+    "J": (1e6, "µJ"),
+    "J/m": (1e3, "mJ/m"),
+}
+
+
+def heading(d: xr.Dataset, name: str) -> tuple[float, str]:
+    """The factor of a scalar, and its heading with the unit."""
+    unit = str(d[name].attrs["units"])
+    factor, shown = SHOWN_IN.get(unit, (1.0, unit))
+    return factor, ENDS[name] if unit == "1" else f"{ENDS[name]} [{shown}]"
 
 
 def ends_table(result: Run) -> str:
     """Numbers at the end of every branch, with their error bars where there are any."""
     ends = result.branches()
     bars = result.error_bars().sel(part="total") if result.dataset.attrs.get("error_bars") else None
-    values = {name: told(result, ends, name) for _, name, _ in ENDS}
-    shown = [of for of in ENDS if of[1] == "W" or np.any(values[of[1]])]
+    values = {name: told(result, ends, name) for name in ENDS if name in ends}
+    shown = {name: heading(ends, name) for name, of in values.items() if name == "W" or np.any(of)}
     rows = []
     for n in range(ends.sizes["branch"]):
         cells = [str(int(ends.branch[n]))]
-        for _, name, factor in shown:
+        for name, (factor, _) in shown.items():
             cell = number(factor * float(values[name][n]))
             if bars is not None and name in bars:
                 cell += f" &plusmn; {factor * float(bars[name][n]):.1g}"
             cells.append(cell)
         rows.append([*cells, STATUS[int(ends.status[n])]])
-    return table(["branch", *(heading for heading, _, _ in shown), "state"], rows)
+    return table(["branch", *(title for _, title in shown.values()), "state"], rows)
 
 
 def cycles_table(result: Run, direction: Any) -> str:
@@ -56,19 +74,21 @@ def cycles_table(result: Run, direction: Any) -> str:
     loops = result.loops(direction=direction)
     if not loops.sizes["cycle"]:
         return ""
-    heading = ["cycle", "dissipated [µJ]", "energy ratio", "sliding ratio", "stiffness", "state"]
+    factor, joules = SHOWN_IN[loops.dissipated.attrs["units"]]
+    stiff = f"stiffness [{loops.stiffness.attrs['units']}]"
+    titles = ["cycle", f"dissipated [{joules}]", "energy ratio", "sliding ratio", stiff, "state"]
     rows = [
         [
             str(n + 1),
-            number(1e6 * float(of.dissipated)),
+            number(factor * float(of.dissipated)),
             number(float(of.energy_ratio)),
             number(float(of.sliding_ratio)),
-            f"{number(float(of.stiffness))} {of.stiffness.attrs['units']}",
+            number(float(of.stiffness)),
             STATUS[int(of.status)],
         ]
         for n, of in ((n, loops.isel(cycle=n)) for n in range(loops.sizes["cycle"]))
     ]
-    return table(heading, rows)
+    return table(titles, rows)
 
 
 def run_html(result: Run) -> str:
@@ -80,12 +100,11 @@ def run_html(result: Run) -> str:
 def state_html(state: State) -> str:
     """An increment as a table: its loads and what they do."""
     d = state.dataset
-    numbers = [
-        (heading, factor * float(d[name]))
-        for heading, name, factor in ENDS
-        if name in d and (name == "W" or float(d[name]))
-    ]
-    rows = [[heading, number(value)] for heading, value in numbers]
+    rows = []
+    for name in ENDS:
+        if name in d and (name == "W" or float(d[name])):
+            factor, title = heading(d, name)
+            rows.append([title, number(factor * float(d[name]))])
     rows.append(["state", STATUS[int(d.status)]])
     title = f"<p><b>increment {int(d.increment)}</b>, t = {number(float(d.t))}</p>"
     return title + table(["", ""], rows)

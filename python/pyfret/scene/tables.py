@@ -8,32 +8,38 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._core import LoadPath, Scene
+from pyfret._util.numbers import in_words, length
+from pyfret._util.units import unit_on
+from pyfret.scene.words import friction_in_words, shape_in_words
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from pyfret._core import Body, Branch
+    from pyfret._core import Body, Branch, Grid
 
 __all__ = ["number", "path_html", "scene_html", "show_in_notebooks", "table"]
 
-#: Loads and motions of a branch, with their units.
-GIVEN = (
-    ("W", "N"),
-    ("T_x", "N"),
-    ("T_y", "N"),
-    ("M_x", "N m"),
-    ("M_y", "N m"),
-    ("M_z", "N m"),
-    ("delta_z", "m"),
-    ("delta_x", "m"),
-    ("delta_y", "m"),
-    ("phi_x", "rad"),
-    ("phi_y", "rad"),
-    ("phi_z", "rad"),
-    ("sigma_B", "Pa"),
-    ("sigma_B1", "Pa"),
-    ("rolled", "m"),
-)
+#: Loads and motions of a branch: what they are called, and their units; those whose unit is empty
+#: are lengths.
+GIVEN = {
+    "W": ("W", "N"),
+    "T_x": ("T<sub>x</sub>", "N"),
+    "T_y": ("T<sub>y</sub>", "N"),
+    "M_x": ("M<sub>x</sub>", "N m"),
+    "M_y": ("M<sub>y</sub>", "N m"),
+    "M_z": ("M<sub>z</sub>", "N m"),
+    "delta_z": ("&delta;<sub>z</sub>", ""),
+    "delta_x": ("&delta;<sub>x</sub>", ""),
+    "delta_y": ("&delta;<sub>y</sub>", ""),
+    "phi_x": ("&phi;<sub>x</sub>", "rad"),
+    "phi_y": ("&phi;<sub>y</sub>", "rad"),
+    "phi_z": ("&phi;<sub>z</sub>", "rad"),
+    "sigma_B": ("&sigma;<sub>B</sub>", "MPa"),
+    "sigma_B1": ("&sigma;<sub>B1</sub>", "MPa"),
+    "rolled": ("rolled", ""),
+}
+#: What units are of those of the numbers.
+FACTORS = {"MPa": 1e6}
 
 
 def table(heading: Sequence[str], rows: Iterable[Sequence[str]], *, words: bool = False) -> str:
@@ -48,8 +54,8 @@ def table(heading: Sequence[str], rows: Iterable[Sequence[str]], *, words: bool 
 
 
 def number(value: float) -> str:
-    """A number in four digits."""
-    return f"{value:.4g}"
+    """A number in four digits, for people."""
+    return in_words(value)
 
 
 def material(of: Any) -> str:
@@ -61,9 +67,9 @@ def material(of: Any) -> str:
 
 def body_rows(name: str, body: Body) -> list[list[str]]:
     """What a body is: its shape, its coatings from the outermost on, its substrate."""
-    rows = [[name, "surface", escape(repr(body.shape))]]
+    rows = [[name, "surface", shape_in_words(body.shape)]]
     for n, coating in enumerate(body.coatings):
-        thick = f"{number(1e6 * coating.thickness)} µm"
+        thick = length(coating.thickness)
         rows.append(["", f"coating {n + 1}", f"{thick}, {material(coating.material)}"])
     return [*rows, ["", "substrate", material(body.substrate)]]
 
@@ -71,39 +77,52 @@ def body_rows(name: str, body: Body) -> list[list[str]]:
 def scene_html(scene: Scene) -> str:
     """A scene as a table, and its load path as another."""
     grid, hertz = scene.grid, scene.hertz
-    cells = f"{grid.nx} &times; {grid.ny} cells of {number(1e6 * grid.dx)} µm"
+    cells = f"{grid.nx} cells of {length(grid.dx)}"
     if not grid.plane_strain:
-        cells += f" &times; {number(1e6 * grid.dy)} µm"
+        cells = f"{grid.nx} &times; {grid.ny} cells of {length(grid.dx)} &times; {length(grid.dy)}"
     rows = [
         *body_rows("upper body", scene.body1),
         *body_rows("lower body", scene.body2),
-        ["friction", "", escape(repr(scene.friction))],
-        ["grid", "", cells + (", plane strain" if grid.plane_strain else "")],
+        ["friction", "", friction_in_words(scene)],
+        ["grid", "", cells + plane_strain(grid)],
     ]
     if hertz is not None:
         size = f"a<sub>H</sub> = {number(1e6 * hertz.a)} µm, p<sub>H</sub> = "
         rows.append(["uncoated", "Hertz contact", f"{size}{number(1e-6 * hertz.p0)} MPa"])
     title = f"<p><b>{escape(scene.title)}</b></p>" if scene.title else ""
-    return title + table(["", "", ""], rows, words=True) + path_html(scene.path)
+    return title + table(["", "", ""], rows, words=True) + path_html(scene.path, grid)
 
 
-def given(branch: Branch) -> str:
+def plane_strain(grid: Grid) -> str:
+    """What is left to say of a grid of a line contact."""
+    if not grid.plane_strain:
+        return ""
+    return ", plane strain" + ("" if grid.dy == 1.0 else f", forces on {length(grid.dy)}")
+
+
+def given(branch: Branch, grid: Grid | None = None) -> str:
     """Loads and motions that a branch leads to."""
-    parts = [
-        f"{name} = {number(value)} {unit}"
-        for name, unit in GIVEN
-        if (value := getattr(branch, name)) or (name == "W" and value is not None)
-    ]
+    parts = []
+    for name, (symbol, unit) in GIVEN.items():
+        value = getattr(branch, name)
+        if not value and (name != "W" or value is None):
+            continue
+        if unit in ("N", "N m") and grid is not None:
+            unit = unit_on(grid, unit)
+        shown = length(value) if not unit else f"{number(value / FACTORS.get(unit, 1.0))} {unit}"
+        parts.append(f"{symbol} = {shown}")
     return ", ".join(parts) or "nothing"
 
 
-def path_html(path: LoadPath) -> str:
+def path_html(path: LoadPath, grid: Grid | None = None) -> str:
     """A load path as a table: a row for each branch."""
+    if not path.branches:
+        return "<p>No load path: give it to <code>solve(scene, path)</code>.</p>"
     rows = [
         [
             str(n),
             number(branch.t),
-            given(branch),
+            given(branch, grid),
             "chosen" if branch.increments is None else str(branch.increments),
         ]
         for n, branch in enumerate(path.branches)

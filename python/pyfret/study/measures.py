@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from pyfret._util.lazy import xr
+from pyfret._util.units import unit_on
 from pyfret.run.summary import directions
 from pyfret.subsurface.tensor import LABELS
 from pyfret.wear.runs import solve
@@ -55,6 +56,12 @@ def largest(name: str) -> Callable[[Result], float]:
     return measure
 
 
+def half_length(result: Result) -> float:
+    """The contact radius at the end, of a line contact half its width."""
+    d = result.dataset
+    return float(d["half_width" if "half_width" in d else "contact_radius"][-1])
+
+
 #: Ready measures: unit, meaning, function of the result.
 MEASURES: dict[str, tuple[str, str, Callable[[Result], float]]] = {
     "loop_energy": ("J", "energy dissipated in the last cycle", of_last_cycle("dissipated")),
@@ -80,8 +87,13 @@ MEASURES: dict[str, tuple[str, str, Callable[[Result], float]]] = {
     ),
     "contact_radius": (
         "m",
-        "contact radius at the end",
-        of_path("contact_radius", lambda v: v[-1]),
+        "contact radius, of a line contact half the width, at the end",
+        half_length,
+    ),
+    "half_width": (
+        "m",
+        "half the width of a line contact, else the contact radius, at the end",
+        half_length,
     ),
     "dissipated": (
         "J",
@@ -223,6 +235,7 @@ def measured(result: Result, measures: Sequence[Measure]) -> dict[str, xr.Variab
     for one in measures:
         if isinstance(one, str):
             units, meaning, of = MEASURES[one]
+            units = unit_on(result.scene.grid, units)
             found[one] = xr.Variable((), of(result), {"units": units, "long_name": meaning})
         else:
             found |= variables(one(result), name_of(one))

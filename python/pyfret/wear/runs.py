@@ -17,6 +17,7 @@ from pyfret._core import Scene, StoreError
 from pyfret._util import files
 from pyfret._util.labelled import Labelled
 from pyfret._util.progress import Progress
+from pyfret._util.units import line_contact
 from pyfret.scene.tables import table
 
 if sys.version_info >= (3, 11):
@@ -49,6 +50,12 @@ class WearResult(Labelled):
     ``p``, ``stick`` over ``block``, ``x``, ``y`` (coordinate ``block_cycles``), and the friction
     loops ``loop_delta_x``, ``loop_T_x``, ... over ``block``, ``corner``.
     """
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        if dataset.sizes.get("y") == 1:
+            grid = Scene.from_toml(dataset.attrs["scene"]).grid
+            dataset = line_contact(dataset, grid) if grid.plane_strain else dataset
+        super().__init__(dataset)
 
     def __getattr__(self, name: str) -> Any:
         """Give a variable or an attribute of the dataset."""
@@ -126,9 +133,8 @@ class WearResult(Labelled):
     def summary(self) -> str:
         """Depths, volumes, energy, jumps, laws and what happened to the coatings, as text."""
         d = self.dataset
-        flat = d.sizes["y"] == 1
         last = {name: float(d[name][-1]) for name in d.data_vars if d[name].dims == ("jump",)}
-        volume, energy = ("m^2 x width", "J on the width") if flat else ("m^3", "J")
+        volume, energy = (d[name].attrs["units"] for name in ("volume1", "dissipated"))
         lines = [
             str(d.attrs.get("title") or "wear"),
             f"{float(d.cycles[-1]):.6g} cycles in {d.sizes['jump']} jumps, status: "

@@ -1,0 +1,39 @@
+"""Numbers as people read them."""
+
+from __future__ import annotations
+
+import math
+
+__all__ = ["in_words", "length"]
+
+#: Units of lengths, the largest first [m].
+LENGTHS = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
+
+
+def in_words(value: float, digits: int = 4) -> str:
+    """A few digits, no zeros that say nothing, no power of ten where none is needed.
+
+    Examples
+    --------
+    >>> in_words(10.000000000000004), in_words(400000.0), in_words(1.23456e-7)
+    ('10', '400000', '1.235e-07')
+    """
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value + 0.0:g}"
+    size = math.floor(math.log10(abs(value)))
+    if not -4 <= size <= 6:
+        return f"{value:.{digits}g}"
+    text = f"{value:.{max(digits - 1 - size, 0)}f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def length(value: float) -> str:
+    """A length [m] in the unit that its number is short in.
+
+    Examples
+    --------
+    >>> length(0.005), length(2e-6), length(0.0)
+    ('5 mm', '2 µm', '0 m')
+    """
+    size, unit = next((of for of in LENGTHS if abs(value) >= of[0] * (1 - 1e-9)), LENGTHS[-1])
+    return f"{in_words(value / size)} {unit}" if value else "0 m"

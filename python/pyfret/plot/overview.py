@@ -1,0 +1,99 @@
+"""What a run came to, in one figure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from pyfret.plot.along import look_along
+from pyfret.plot.histories import driven, fretting_loop, load_path, stick_ratio
+from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
+from pyfret.plot.scales import Scales, Units, last_of, of_snapshot
+from pyfret.plot.stresses import stress_map
+from pyfret.plot.style import REFERENCE, note, styled
+from pyfret.run import Run, State
+from pyfret.subsurface.contact import stress_below
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["overview"]
+
+
+@styled
+def overview(shown: Run | State, *, units: Units = "auto") -> Figure:
+    """Six panels, those of the report: the loop, tractions, zones and the stress below.
+
+    Of a path without a cycle the loads over the path stand in place of the loop. Of a line contact
+    slip and the stick ratio stand in place of maps. ``result.plot()`` is the same.
+
+    Parameters
+    ----------
+    shown : Result or Snapshot
+        The run, whose last increment with fields is shown, or an increment, without its loop.
+    units : "auto", "dimensionless" or "SI"
+        Over a_H and p_H (default where there is a Hertz contact), or in um and MPa.
+    """
+    at = last_of(shown)
+    by = of_snapshot(at, units)
+    figure, grid = plt.subplots(2, 3, figsize=(11.8, 7.0))
+    # Room between the scale of a map and the axis of the next panel.
+    figure.set_layout_engine("constrained", w_pad=0.1, h_pad=0.06)
+    first, second, third, fourth, fifth, sixth = grid.ravel()
+    _history(shown, first, units)
+    _tractions(second, at, by)
+    if at.scene.grid.plane_strain:
+        stick_slip(at, units=units, ax=third)
+        slip_map(at, units=units, ax=fourth)
+        if isinstance(shown, Run):
+            stick_ratio(shown, ax=fifth)
+        else:
+            shear_streamlines(at, units=units, ax=fifth)
+    else:
+        pressure_map(at, units=units, ax=third)
+        shear_streamlines(at, units=units, ax=fourth)
+        stick_slip(at, units=units, ax=fifth)
+    if bool(at.contact.any()) and np.isfinite(at.scene.body2.substrate.E):
+        stress_map(stress_below(at), units=units, ax=sixth)
+    else:
+        sixth.set_axis_off()
+        note(sixth, "the lower body is rigid" if at.contact.any() else "no contact")
+    title = str(at.dataset.attrs["title"])
+    when = f"increment {int(at.dataset.increment)}, t = {float(at.dataset.t):.4g}"
+    figure.suptitle(f"{title}: {when}" if title else when, x=0.01, ha="left", fontsize=9)
+    return figure
+
+
+def _history(shown: Run | State, ax: Axes, units: Units) -> None:
+    """The loop of a run; its loads, where it only presses; the slip of an increment."""
+    if not isinstance(shown, Run):
+        if shown.scene.grid.plane_strain:
+            shear_streamlines(shown, units=units, ax=ax)
+        else:
+            slip_map(shown, units=units, ax=ax)
+        return
+    force = {"x": "T_x", "y": "T_y", "torsion": "M_z"}[driven(shown.scene.path)]
+    if np.any(shown.dataset[force].values):
+        fretting_loop(shown, units=units, ax=ax)
+    else:
+        load_path(shown, ax=ax)
+
+
+def _tractions(ax: Axes, at: State, by: Scales) -> None:
+    """Pressure and shear along y = 0 on one scale, with the bounds of friction."""
+    cut = at.along_x(y=0.0 if at.dataset.y.size > 1 else float(at.dataset.y[0]))
+    x = cut.x / by.length.value
+    ax.plot(x, cut.p / by.stress.value, label="$p$")
+    q = max(("q_x", "q_y"), key=lambda name: float(abs(cut[name]).max()))
+    ax.plot(x, cut[q] / by.stress.value, label=f"${q}$")
+    if np.isfinite(at.mu):
+        for sign, label in ((1, r"$\pm\mu p$"), (-1, None)):
+            bound = sign * at.mu * cut.p / by.stress.value
+            ax.plot(x, bound, color=REFERENCE, linestyle=":", linewidth=1.0, label=label)
+    look_along(ax, at, by.length, fresh=True)
+    ax.set_xlabel(by.length.label("x"))
+    ax.set_ylabel(f"traction [{by.stress.name}]" if by.stress.is_unit else r"traction over $p_H$")
+    ax.legend(loc="upper right", ncols=3, bbox_to_anchor=(1.0, 1.12), borderpad=0.1)

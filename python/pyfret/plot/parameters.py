@@ -1,0 +1,87 @@
+"""What parameters of studies are called in figures: keys of scene files in words, with units."""
+
+from __future__ import annotations
+
+import re
+
+from pyfret._util.units import PER_METRE
+
+__all__ = ["parameter_label"]
+
+#: The last part of a key: words, unit, and how many of its SI unit that is.
+MEANINGS: dict[str, tuple[str, str, float]] = {
+    "E": ("modulus", "GPa", 1e9),
+    "nu": ("Poisson's ratio", "", 1.0),
+    "thickness": ("thickness", "µm", 1e-6),
+    "mu": (r"$\mu$", "", 1.0),
+    "R": ("radius", "mm", 1e-3),
+    "W": ("$W$", "N", 1.0),
+    "T_x": ("$T_x$", "N", 1.0),
+    "T_y": ("$T_y$", "N", 1.0),
+    "M_z": ("$M_z$", "N m", 1.0),
+    "delta_x": (r"$\delta_x$", "µm", 1e-6),
+    "delta_y": (r"$\delta_y$", "µm", 1e-6),
+    "delta_z": (r"$\delta_z$", "µm", 1e-6),
+    "phi_z": (r"$\varphi_z$", "µrad", 1e-6),
+    "sigma_B": (r"$\sigma_B$", "MPa", 1e6),
+    "sigma_B1": (r"$\sigma_{B1}$", "MPa", 1e6),
+    "extent": ("side of the grid", "mm", 1e-3),
+    "n": ("cells along a side", "", 1.0),
+    "rms": ("rms roughness", "µm", 1e-6),
+}
+#: Letters of a label from which on it takes two lines.
+LONG = 36
+#: Numbers that are given over another one: what that is called.
+OVER = {
+    "E_substrate": "that of the substrate",
+    "a_H": "$a_H$",
+    "mu_W": r"$\mu W$",
+}
+#: What the number belongs to, by the rest of the key; ``{n}`` is a number counted from 1.
+PLACES = (
+    (r"body(\d)\.coatings\.(\d+)", "coating {n} of body {body}"),
+    (r"body(\d)\.substrate", "substrate of body {body}"),
+    (r"body(\d)(?:\.(?:shape|surface)(?:\.\w+)*)?", "body {body}"),
+    (r"path\.(\d+)", "branch {branch}"),
+)
+
+
+def place_in_words(whole: str) -> str | None:
+    """What a number belongs to; nothing for the whole scene, None if that is not known."""
+    if whole in ("", "friction", "grid"):
+        return ""
+    for form, words in PLACES:
+        if found := re.fullmatch(form, whole):
+            first, last = found[1], int(found[found.lastindex or 1])
+            return words.format(body=first, branch=first, n=last + 1)
+    return None
+
+
+def parameter_label(key: str, *, per_metre: bool = False) -> tuple[str, float]:
+    """What a parameter is called, with its unit, and the size of that unit in SI units.
+
+    What is no key of a scene file stays as it is. Forces of line contacts are `per_metre`.
+
+    Examples
+    --------
+    >>> parameter_label("body2.coatings.0.thickness")
+    ('thickness, coating 1 of body 2 [µm]', 1e-06)
+    >>> parameter_label("speed")
+    ('speed', 1.0)
+    """
+    whole, _, last = key.rpartition(".")
+    over = OVER.get(last)
+    if over is not None:
+        whole, _, last = whole.rpartition(".")
+    place = place_in_words(whole)
+    # A name without a point is that of the user's own function, whatever its unit is.
+    if last not in MEANINGS or place is None or not (whole or last == "mu"):
+        return key, 1.0
+    words, unit, size = MEANINGS[last]
+    if over is not None:
+        words, unit, size = f"{words} over {over}", "", 1.0
+    unit = PER_METRE.get(unit, unit) if per_metre else unit
+    label = f"{words}, {place}" if place else words
+    label = f"{label} [{unit}]" if unit else label
+    # As long as an axis is.
+    return (label.replace(", ", ",\n", 1) if len(label) > LONG else label), size
