@@ -38,7 +38,6 @@ def test_variables_are_found_as_in_xarray(result: fret.Result) -> None:
         (lambda r: r.at("last"), TypeError, r"-1 for the last"),
         (lambda r: r.at(-1).von_mises, AttributeError, r"snapshot.stress\(\).von_mises"),
         (lambda r: r.at(-1).pressure, AttributeError, r"it is called p"),
-        (lambda r: r.at(-1).plot(), TypeError, r"not callable"),
         (lambda r: r.at(-1).stress().max, AttributeError, r"maximum|stress.dataset.max"),
         (lambda r: fret.plot.fretting_loop(r.at(-1)), TypeError, r"must be the result of a run"),
         (lambda r: fret.plot.stick_ratio(r.dataset), TypeError, r"must be the result of a run"),

@@ -58,6 +58,8 @@ from pyfret._core import (
 )
 from pyfret._util.names import MODULES, MOVED, OTHER_NAMES, listing, moved
 from pyfret.citation import cite
+from pyfret.grids import offer as offer_grids
+from pyfret.materials import material
 from pyfret.result import Result, Snapshot, open
 from pyfret.scene.surfaces import read_surface
 from pyfret.scene.tables import show_in_notebooks
@@ -101,6 +103,7 @@ __all__ = [
     "heat",
     "kernels",
     "march",
+    "material",
     "open",
     "plot",
     "read_surface",
@@ -117,6 +120,7 @@ __all__ = [
 __dir__ = listing(__all__)
 
 show_in_notebooks()
+offer_grids()
 
 
 def __getattr__(name: str) -> Any:

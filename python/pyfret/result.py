@@ -19,6 +19,7 @@ from pyfret.run.summary import summary
 from pyfret.run.tables import run_html, state_html
 from pyfret.subsurface import contact, fields
 from pyfret.subsurface.tensor import LABELS
+from pyfret.subsurface.zones import Zone, zone
 
 if TYPE_CHECKING:
     import os
@@ -159,6 +160,18 @@ class Snapshot(State):
     ) -> xr.Dataset:
         """Displacements u_x, u_y, u_z of a body below the contact [m], as in :meth:`stress`."""
         return contact.displacement_below(self, z, x=x, y=y, body_number=body_number)
+
+    def stick_zone(self, *, y: float = 0.0) -> Zone:
+        """Where the stick zone begins and ends along a line of constant `y` [m], within the cells.
+
+        Its ``left`` and ``right`` border and its ``middle``, the offset that a bulk stress gives
+        it, in m; NaN where nothing sticks.
+        """
+        return zone(self, "stick", y)
+
+    def contact_zone(self, *, y: float = 0.0) -> Zone:
+        """Where the contact begins and ends along a line of constant `y`, as :meth:`stick_zone`."""
+        return zone(self, "contact", y)
 
     def write_volume(
         self,

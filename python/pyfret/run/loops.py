@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 __all__ = ["of_cycles"]
 
+#: What the codes of ``status`` mean.
+STATUS = ("no contact", "full stick", "partial slip", "gross slip")
 #: What :meth:`pyfret.Result.loops` gives: unit and meaning.
 LOOP = {
     "first_branch": ("1", "first branch of the cycle, from 0"),

@@ -10,7 +10,7 @@ import numpy as np
 from pyfret._util.guesses import no_attribute
 from pyfret._util.lazy import xr
 from pyfret.run.attributes import OfRun
-from pyfret.run.loops import of_cycles
+from pyfret.run.loops import STATUS, of_cycles
 from pyfret.run.state import State
 
 if TYPE_CHECKING:
@@ -212,6 +212,15 @@ class Run(OfRun):
             branches it spans. Of a line contact energies, forces and stiffness are per metre.
         """
         return of_cycles(self.dataset, self.scene, direction)
+
+    def regimes(self, *, direction: Literal["x", "y", "torsion"] = "x") -> list[str]:
+        """What each closed cycle was: "no contact", "full stick", "partial slip", "gross slip".
+
+        Gross slip where all of the contact slipped at some time of the cycle. Cycles of different
+        regimes are what is called the mixed regime.
+        """
+        codes = self.loops(direction=direction).status.values
+        return [STATUS[int(code)] for code in codes]
 
     def __repr__(self) -> str:
         """Give the title and the size of the result."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret._util.numbers import in_words
+from pyfret.run.loops import STATUS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,8 +19,6 @@ __all__ = ["summary"]
 
 #: Motions in the plane, and the loads that drive them.
 IN_PLANE = (("delta_x", "T_x"), ("delta_y", "T_y"), ("phi_z", "M_z"))
-#: What the codes of ``status`` mean.
-STATUS = ("no contact", "full stick", "partial slip", "gross slip")
 
 
 def half_length(ends: xr.Dataset) -> str:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pyfret.run.summary import STATUS, told
+from pyfret.run.loops import STATUS
+from pyfret.run.summary import told
 from pyfret.scene.tables import number, table
 
 if TYPE_CHECKING:

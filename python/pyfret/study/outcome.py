@@ -15,6 +15,7 @@ from pyfret.study.store import read
 if TYPE_CHECKING:
     import os
 
+    import pandas as pd
     from matplotlib.axes import Axes
 
 __all__ = ["Study", "open"]
@@ -57,6 +58,17 @@ class Study(Labelled):
             values = {name: point[name].item() for name in self.parameters}
             found.append((values, str(point["reason"].item())))
         return found
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Give a row for every point: its parameters, its measures and what became of it.
+
+        Measures that are fields are left out. ``study.to_dataframe().to_csv("points.csv")`` writes
+        a table, ``to_excel`` and ``groupby`` are those of pandas.
+        """
+        d = self.dataset
+        dims = set(d["status"].dims)
+        scalars = d[[name for name, of in d.data_vars.items() if set(of.dims) <= dims]]
+        return scalars.to_dataframe().reset_index()
 
     def map(self, of: str | None = None, *, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw a measure over the parameters: :func:`pyfret.plot.study_map`."""

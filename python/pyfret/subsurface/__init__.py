@@ -9,11 +9,13 @@ from pyfret._util.names import listing
 from pyfret.subsurface.fields import displacement, envelope, stress, write_volume
 from pyfret.subsurface.residual import thermal_stress
 from pyfret.subsurface.tensor import Errors, Extreme, Stress
+from pyfret.subsurface.zones import Zone
 
 __all__ = [
     "Errors",
     "Extreme",
     "Stress",
+    "Zone",
     "displacement",
     "envelope",
     "stress",

@@ -1,0 +1,195 @@
+"""A grid for a contact: as long as the contact that comes out, as fine as an error asks for."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pyfret._core import Grid, InvalidSceneError, LoadPath, OffGridError, Rough, Scene, Sum
+from pyfret.solution import solve
+
+if TYPE_CHECKING:
+    from pyfret._core import Body
+
+__all__ = ["for_contact", "offer"]
+
+#: Cells along a side of the grid that the size of the contact is found on.
+COARSE = 32
+#: How much longer roughness makes a contact.
+ROUGH = 1.15
+#: How often the extent is tried anew: from a kilometre to a nanometre by fours.
+TRIES = 24
+#: Cells across the contact times the error of its pressure (L2), from docs/validation/hertz.md.
+CELLS_TIMES_ERROR = 0.31
+#: Cells in the shortest wave of a rough or a wavy surface.
+IN_A_WAVE = 8
+#: Fewest and most cells along a side.
+FEWEST, MOST = 24, 4096
+
+
+def for_contact(
+    body1: Body,
+    body2: Body,
+    path: LoadPath,
+    *,
+    error: float = 0.005,
+    room: float = 1.2,
+    start: float | None = None,
+    plane_strain: bool = False,
+) -> Grid:
+    """Choose a grid for the contact that comes out of two bodies and a load path.
+
+    The contact under the largest normal load of the path, coatings and all, is solved without
+    friction on 32 cells a side, roughness left out; the grid is `room` times as long, on rough
+    surfaces 15 % longer. It has as many cells as a smooth contact takes for `error`, and
+    eight in the shortest wave of a rough or wavy surface.
+
+    Parameters
+    ----------
+    body1, body2 : Body
+        The upper and the lower body.
+    path : LoadPath
+        The loads.
+    error : float
+        Error of the pressure that is wanted, root mean square over that of the pressure; that
+        of radius and approach is a tenth of it. Error bars tell what it came to.
+    room : float
+        Side of the grid over the length of the contact: 1.2 (default), 2 or more where wear or
+        rolling makes the contact longer.
+    start : float, optional
+        Side to begin with [m] (default: that of the Hertz contact, else a millimetre).
+    plane_strain : bool
+        Whether it is a line contact: a strip one metre wide.
+
+    Raises
+    ------
+    ValueError
+        Nothing is pressed together, or no size was found that fits, as of two flats.
+
+    Examples
+    --------
+    >>> steel = Elastic(E=210e9, nu=0.3)  # doctest: +SKIP
+    >>> ball, flat = Body(steel, shape=Sphere(R=5e-3)), Body(steel)  # doctest: +SKIP
+    >>> path = LoadPath.start().normal(10.0).cycles(1, T_x=1.0)  # doctest: +SKIP
+    >>> grid = Grid.for_contact(ball, flat, path)  # doctest: +SKIP
+    """
+    if not 0.0 < error < 1.0:
+        raise ValueError(f"error = {error}: must be a part of the pressure, such as 0.005")
+    if not room >= 1.1:
+        raise ValueError(f"room = {room}: must be 1.1 or more, or the contact reaches its border")
+    pressed = _pressed(path)
+    smooth1, smooth2 = (body.replace(shape=_smooth(body.shape)) for body in (body1, body2))
+    lengths = _lengths(smooth1, smooth2, pressed, start, plane_strain=plane_strain)
+    rough = smooth1 != body1 or smooth2 != body2
+    sides = [(ROUGH if rough else 1.0) * room * of for of in lengths]
+    cells = CELLS_TIMES_ERROR / error * room
+    wave = min((_shortest(body.shape) for body in (body1, body2)), default=math.inf)
+    shortest = min(sides)
+    # Square cells, as many as the shorter side of the contact takes.
+    size = min(shortest / max(cells, FEWEST), wave / IN_A_WAVE)
+    n = [2 * math.ceil(side / size / 2) for side in sides]
+    if max(n) > MOST:
+        raise ValueError(
+            f"{max(n)} cells along a side: the contact is {lengths[0]:.3g} m long; a larger error "
+            f"than {error:g}, or roughness of longer waves, takes fewer"
+        )
+    if plane_strain:
+        return Grid.strip(extent=sides[0], n=n[0])
+    return Grid.from_spacing((n[0], n[1]), (sides[0] / n[0], sides[1] / n[1]))
+
+
+def _pressed(path: LoadPath) -> LoadPath:
+    """A path to the largest normal load of another, or to its largest approach."""
+    loads = [b.W for b in path.branches if b.W]
+    shifts = [b.delta_z for b in path.branches if b.delta_z]
+    if loads:
+        return LoadPath.start().normal(max(loads), increments=1)
+    if shifts:
+        return LoadPath.start().displace(delta_z=max(shifts), increments=1)
+    raise ValueError("the path presses nothing: it must give W or delta_z")
+
+
+def _scene(body1: Body, body2: Body, path: LoadPath, extent: float, *, plane_strain: bool) -> Scene:
+    """The contact without friction on a coarse grid."""
+    strip = Grid.strip(extent=extent, n=4 * COARSE) if plane_strain else None
+    grid = strip or Grid.centred(extent=extent, n=COARSE)
+    return Scene(body1=body1, body2=body2, mu=0.0, grid=grid, path=path)
+
+
+def _lengths(
+    body1: Body, body2: Body, path: LoadPath, start: float | None, *, plane_strain: bool
+) -> tuple[float, float]:
+    """Lengths of the box around the contact along x and y [m], centred on the grid."""
+    guess = _scene(body1, body2, path, 1e-3, plane_strain=plane_strain)
+    hertz = guess.hertz
+    extent = start or (2.4 * hertz.a if hertz is not None else 1e-3)
+    too_long, too_short = math.inf, 0.0
+    for _ in range(TRIES):
+        scene = _scene(body1, body2, path, extent, plane_strain=plane_strain)
+        lengths = _box(scene)
+        if lengths is None or max(lengths) > 0.97 * extent:
+            too_short = extent
+            extent = 2 * extent if too_long == math.inf else math.sqrt(extent * too_long)
+        elif max(lengths) < 0.4 * extent:
+            too_long = extent
+            # A contact of no cell says only that it is smaller.
+            wanted = 1.5 * max(lengths) if max(lengths) > 0.0 else extent / 4
+            extent = wanted if wanted > too_short else math.sqrt(extent * too_short)
+        else:
+            return lengths
+        if too_short and too_long < 1.05 * too_short:
+            return lengths or (extent, extent)
+    raise ValueError(
+        "found no grid that the contact fits: flat surfaces touch all over; give start= of about "
+        "its length, or make the grid yourself"
+    )
+
+
+def _box(scene: Scene) -> tuple[float, float] | None:
+    """Twice the reach of the contact from the middle of the grid; none if it reaches the border."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            at = solve(scene, progress=False).at(-1)
+    except OffGridError:
+        return None
+    except InvalidSceneError as error:
+        if "wide" in str(error) or "border" in str(error):
+            return None
+        if "cells across" in str(error):
+            return 0.0, 0.0
+        raise
+    contact = at.contact.values.astype(bool)
+    if not contact.any():
+        return 0.0, 0.0
+    grid = scene.grid
+    reach = []
+    for name, axis, cell in (("x", 1, grid.dx), ("y", 0, grid.dy)):
+        places = np.abs(at.dataset[name].values[contact.any(axis=axis)])
+        reach.append(2 * float(places.max()) + cell)
+    return reach[0], reach[0] if grid.plane_strain else reach[1]
+
+
+def _smooth(shape: Any) -> Any:
+    """A surface without its roughness."""
+    if not isinstance(shape, Sum):
+        return shape
+    kept = [part for part in shape.parts if not isinstance(part, Rough)]
+    return Sum(kept) if len(kept) > 1 else kept[0] if kept else shape
+
+
+def _shortest(shape: object) -> float:
+    """The shortest wave of a surface [m]; infinite for a smooth one."""
+    parts = getattr(shape, "parts", None) or [shape]
+    return min(
+        float(getattr(part, "shortest", None) or getattr(part, "wavelength", None) or math.inf)
+        for part in parts
+    )
+
+
+def offer() -> None:
+    """Let the grid have it: ``Grid.for_contact(...)``."""
+    setattr(Grid, "for_contact", staticmethod(for_contact))  # noqa: B010

@@ -1,0 +1,66 @@
+"""Elastic materials by their names."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING
+
+from pyfret._core import Elastic
+from pyfret.fatigue import Materials
+from pyfret.scene.warnings import SceneWarning
+
+if TYPE_CHECKING:
+    import os
+
+__all__ = ["material"]
+
+#: Poisson's ratio of what none is known of: hard nitrides and carbon films have 0.2 to 0.3, which
+#: moves E/(1 - nu^2) by 3 % to either side.
+NU = 0.25
+
+
+def material(
+    name: str, file: str | os.PathLike[str] | None = None, *, nu: float | None = None
+) -> Elastic:
+    """Give a material of the table that comes with the package by its name, for bodies and layers.
+
+    Its modulus and its Poisson's ratio with their sources, and what else is known of it, are in
+    :class:`pyfret.fatigue.Materials`. Moduli of coatings depend on how they were made: take your
+    own where there are any.
+
+    Parameters
+    ----------
+    name : str
+        Key of the material, such as ``"TiN"``, ``"steel_42CrMo4"``.
+    file : path, optional
+        A table of your own (TOML), over that of the package.
+    nu : float, optional
+        Poisson's ratio in place of that of the table.
+
+    Raises
+    ------
+    KeyError
+        There is no such material; the message lists those that there are.
+    ValueError
+        The table has no modulus of it.
+
+    Warns
+    -----
+    SceneWarning
+        The table has no Poisson's ratio of the material, as of most coatings: 0.25 is taken.
+
+    Examples
+    --------
+    >>> material("titanium_6Al4V").E > 1e11
+    True
+    """
+    found = Materials(file)[name]
+    known = {key for key, _, _ in found.numbers()}
+    if nu is None and "nu" not in known:
+        warnings.warn(
+            f"{name}: the table has no Poisson's ratio of it, {NU:g} is taken; give nu=",
+            SceneWarning,
+            stacklevel=2,
+        )
+        nu = NU
+    return Elastic(E=found.number("E"), nu=found.number("nu") if nu is None else nu)
