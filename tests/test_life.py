@@ -88,6 +88,17 @@ def test_a_volume_is_its_sections(cycled: fret.Result) -> None:
         cycled.life(BOTH, "crossland", cycle=7)
 
 
+def test_several_criteria_by_the_same_stress(cycled: fret.Result) -> None:
+    criteria: list[fatigue.CriterionName] = ["findley", "crossland"]
+    found = fatigue.lives(cycled, [STEEL, STEEL], criteria, y=[0.0, 2e-5])
+    assert list(found) == criteria
+    for name, of in found.items():
+        assert of == cycled.life([STEEL, STEEL], name, y=[0.0, 2e-5])
+        assert of.worst == cycled.life([STEEL, STEEL], name, y=[0.0, 2e-5]).worst
+    with pytest.raises(ValueError, match="one or more"):
+        fatigue.lives(cycled, STEEL, [])
+
+
 def test_keywords_are_the_fields_of_a_section() -> None:
     assert set(SectionOptions.__annotations__) == {f.name for f in fields(Section)}
 

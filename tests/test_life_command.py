@@ -40,6 +40,17 @@ def life(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
 
 
+def test_several_criteria_are_those_one_by_one(store: Path, tmp_path: Path) -> None:
+    steel = ("--material", "steel_42CrMo4", "--json")
+    together = life(store, *steel, "--criterion", "findley,crossland")
+    assert together.returncode == 0, together.stderr
+    each = [life(store, *steel, "--criterion", name).stdout for name in ("findley", "crossland")]
+    assert together.stdout == "".join(each)
+    refused = life(store, *steel, "--criterion", "findley,crossland", "-o", tmp_path / "a.csv")
+    assert refused.returncode == 2
+    assert "one criterion" in refused.stderr
+
+
 def test_rows_are_what_python_finds(store: Path, tmp_path: Path) -> None:
     fields = tmp_path / "life.csv"
     common = ("--criterion", "findley", "--along-y=1e-4", "--residual=-1e8,5e7")

@@ -2717,16 +2717,16 @@ class CycleSection:
     ) -> CycleSection: ...
     def unsettled(self) -> float | None:
         """Part of the largest traction by which the cycle ends off its start, if that was kept."""
-    def by_criterion(
+    def by_criteria(
         self,
         z: Sequence[float],
         layer: Sequence[int],
         materials: Sequence[Material | None],
-        criterion: str,
+        criteria: Sequence[str],
         *,
         tolerance: float,
-    ) -> CriterionBelow:
-        """Judge the section by a criterion for the materials of the layers."""
+    ) -> list[CriterionBelow]:
+        """Judge the section by criteria for the materials of the layers, all by the same stress."""
     def by_yield(
         self, z: Sequence[float], layer: Sequence[int], s_y: Sequence[float | None]
     ) -> YieldBelow:

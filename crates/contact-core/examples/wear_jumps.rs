@@ -67,7 +67,7 @@ struct Done {
     worn: Array2<f64>,
     /// Pressure at the end \[Pa\].
     p: Array2<f64>,
-    work: usize,
+    work: f64,
     seconds: f64,
 }
 
@@ -124,7 +124,7 @@ fn lines((title, scene, settings): Case) -> Result<Vec<String>, Error> {
             || format!("more than {most} | | | | "),
             |(_, other)| {
                 let jumps = other.jumps as f64 / done.jumps as f64;
-                let work = other.work as f64 / done.work as f64;
+                let work = other.work / done.work;
                 format!("{} | {jumps:.1} | {work:.1}", other.numbers())
             },
         );
@@ -145,7 +145,7 @@ fn as_small(error: [f64; 2], other: [f64; 2]) -> bool {
 
 impl Done {
     fn numbers(&self) -> String {
-        format!("{} | {} | {:.1} s", self.jumps, self.work, self.seconds)
+        format!("{} | {:.0} | {:.1} s", self.jumps, self.work, self.seconds)
     }
 
     /// Errors of the worn profile and of the pressure of another run, not below [`LEAST`].
@@ -168,12 +168,16 @@ fn run(scene: &contact_core::Scene, wear: &Wear) -> Result<Done, Error> {
         jump?;
     }
     let block = run.block();
-    let (transforms, cycles) = run.work();
+    let (convolutions, cycles) = run.work();
     Ok(Done {
         jumps: run.history().len(),
         worn: block.worn1 + block.worn2,
         p: block.p,
-        work: if cycles > 0 { cycles } else { transforms },
+        work: if cycles > 0 {
+            cycles as f64
+        } else {
+            convolutions.count()
+        },
         seconds: processor_seconds() - begun,
     })
 }

@@ -2,9 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use contact_core::convolution::{DcFft, Displacements, SurfaceOperator as _, Tractions};
-use contact_core::kernels::influence_coefficients;
-use contact_core::plan::Mirror;
+use contact_core::convolution::{self, Displacements, Tractions};
 use ndarray::{Array3, ArrayViewMut2, Axis};
 use numpy::{PyArray3, ToPyArray};
 use pyo3::exceptions::PyValueError;
@@ -41,7 +39,7 @@ pub(crate) struct SurfaceOperator {
     /// Those of the kernels are used.
     #[pyo3(get)]
     settings: Settings,
-    inner: Mutex<DcFft>,
+    inner: Mutex<Box<dyn convolution::SurfaceOperator>>,
 }
 
 made!(SurfaceOperator by "SurfaceOperator": body1, body2, grid, settings);
@@ -60,14 +58,10 @@ impl SurfaceOperator {
         settings: Option<Settings>,
     ) -> PyResult<Self> {
         let given = settings.unwrap_or_default();
-        let settings = &given.0;
-        let (shortcut, stop) = (settings.skip.equal_layers, Arc::default());
-        let of = |body: &Body| {
-            influence_coefficients(&body.0, &grid.0, &settings.kernel, shortcut, Some(&stop))
-        };
+        let stop = Arc::default();
+        let bodies = (&body1.0, &body2.0);
         let operator = interruptible(py, &stop, || {
-            let pair = of(&body2)?.pair(&of(&body1)?);
-            DcFft::until(&pair, Mirror::None, true, false, &stop)
+            convolution::of_bodies(bodies, &grid.0, &given.0, &stop)
         })?;
         Ok(Self {
             shape: (grid.0.nx, grid.0.ny),

@@ -33,7 +33,8 @@ from pyfret.fatigue.criteria import (
 )
 from pyfret.fatigue.cycles import cycle_increments, history
 from pyfret.fatigue.factors import Least, LoadFactors, load_factors
-from pyfret.fatigue.lives import Errors, Life, Worst, life, ruiz
+from pyfret.fatigue.frictional_work import ruiz
+from pyfret.fatigue.lives import Errors, Life, Worst, life, lives
 from pyfret.fatigue.section import Section
 
 __all__ = [
@@ -58,6 +59,7 @@ __all__ = [
     "first_yield",
     "history",
     "life",
+    "lives",
     "load_factors",
     "mean_stress_slope",
     "moving_load",

@@ -27,7 +27,6 @@ from pyfret.fatigue.cycle_section import (
     over_cycle,
     side_by_side,
 )
-from pyfret.fatigue.cycles import cycle_increments, history
 from pyfret.fatigue.section import Section, for_each_layer
 from pyfret.scene.tables import table
 
@@ -40,7 +39,7 @@ if TYPE_CHECKING:
     from pyfret.fatigue.section import SectionOptions
     from pyfret.run import Run
 
-__all__ = ["Errors", "Life", "Materials", "Worst", "life", "ruiz"]
+__all__ = ["Errors", "Life", "Materials", "Worst", "life", "lives"]
 
 #: Part of the largest traction by which the ends of a cycle may differ before that is told.
 UNSETTLED = 0.02
@@ -308,17 +307,54 @@ def life(
         There is no closed cycle, too few of its increments were kept, a material lacks a number
         that the criterion needs, or no depth lies in a layer that has one.
     """
+    return lives(result, materials, [criterion], z, tolerance=tolerance, **section)[criterion]
+
+
+def lives(
+    result: Run,
+    materials: Materials,
+    criteria: Sequence[CriterionName],
+    z: ArrayLike | None = None,
+    *,
+    tolerance: float = 1e-3,
+    **section: Unpack[SectionOptions],
+) -> dict[CriterionName, Life]:
+    """Judge a section as :func:`life` does by several criteria, all by the same stress.
+
+    Parameters
+    ----------
+    criteria : sequence of str
+        Of :data:`pyfret.fatigue.CRITERIA`, each once.
+    result, materials, z, tolerance, **section
+        As in :func:`life`.
+
+    Returns
+    -------
+    dict of str to Life
+        By criterion, in the order given.
+
+    Raises
+    ------
+    ValueError
+        As in :func:`life`, or no criterion is given.
+    """
+    names = list(dict.fromkeys(criteria))
+    if not names:
+        raise ValueError("criteria = []: must be one or more of fatigue.CRITERIA")
     where = Section(**section)
     layers = len(body_of(result, where).coatings) + 1
     each = for_each_layer(materials, layers, "material", "materials")
     depths = depths_of(result, where, z, each, "material")
-    found: list[CriterionBelow] = []
-    shown, notes = [], list[str]()
+    found: dict[CriterionName, list[CriterionBelow]] = {name: [] for name in names}
+    shown: dict[CriterionName, list[xr.Dataset]] = {name: [] for name in names}
+    notes: list[str] = []
     for one in where.each():
         below = over_cycle(result, one)
-        judged = below.by_criterion(*depths, each, criterion, tolerance=tolerance)
-        found.append(judged)
-        shown.append(labelled(result, one, depths, described(judged.fields(), judged.assessments)))
+        judged = below.by_criteria(*depths, each, names, tolerance=tolerance)
+        for name, by in zip(names, judged, strict=True):
+            found[name].append(by)
+            of = described(by.fields(), by.assessments)
+            shown[name].append(labelled(result, one, depths, of))
         if not notes and where.cycle is not None:
             much = below.unsettled()
             if much is not None and much > UNSETTLED:
@@ -326,61 +362,9 @@ def life(
                     f"the cycle is not settled: its tractions end {100 * much:.0f} % of the "
                     "largest one off from where they began; go through it more often"
                 )
-    whole = side_by_side(result, where, shown).assign_attrs(criterion=criterion)
-    return Life(whole, found, [*found[0].notes, *notes])
 
+    def of(name: CriterionName) -> Life:
+        whole = side_by_side(result, where, shown[name]).assign_attrs(criterion=name)
+        return Life(whole, found[name], [*found[name][0].notes, *notes])
 
-def _work_until(result: Run, increment: int, y: float) -> xr.DataArray:
-    """Frictional work per area along a line from the start to the end of an increment [J/m^2]."""
-    if increment not in result.dataset.saved_increment.values:
-        raise ValueError(
-            f"increment {increment} was not kept: the work of a cycle needs the fields at both of "
-            "its ends; solve with save='all' or save='branches'"
-        )
-    work: xr.DataArray = result.at(increment).along_x(y=y).dissipated_density
-    return work.drop_vars(set(work.coords) - {"x"})
-
-
-def ruiz(result: Run, **section: Unpack[SectionOptions]) -> xr.Dataset:
-    """Give Ruiz' two parameters along a line of the surface over a closed cycle.
-
-    F1 is the frictional work per area and cycle, F2 its product with the largest s_xx at the
-    surface: C. Ruiz, P. H. B. Boddington, K. C. Chen, Exp. Mech. 24 (1984) 208-217, in whose form
-    F1 is the largest shear times the slip amplitude.
-
-    Parameters
-    ----------
-    result : Result
-        As in :func:`life`; the last increments before and of the cycle must be kept.
-    **section
-        ``y``, ``body_number``, ``cycle``, ``residual``, as in :func:`life`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over x: ``F1`` [J/m^2] and ``F2`` [J Pa/m^2]; F2 is 0 where the surface is never in tension.
-    """
-    where = Section(**section)
-    if where.along != "x":
-        raise ValueError("x is given: Ruiz' parameters are those along x, at a y")
-    y = where.place
-    kept = cycle_increments(result, where.cycle)
-    branch = result.dataset.branch_of_increment
-    cycle_branches = branch.sel(increment=kept).values
-    inside = (branch >= cycle_branches.min()) & (branch <= cycle_branches.max())
-    whole = result.dataset.increment.values[inside.values]
-    # The field adds up over the path: the work of the cycle is the difference of its ends.
-    work = _work_until(result, int(whole[-1]), y) - _work_until(result, int(whole[0]) - 1, y)
-    stress = history(
-        result,
-        [0.0],
-        y=y,
-        body_number=where.body_number,
-        cycle=where.cycle,
-        residual=where.residual,
-    )
-    tension = np.maximum(stress.values[:, 0, :, 0].max(axis=0), 0.0)
-    F1 = work.drop_vars(set(work.coords) - {"x"})
-    F1 = F1.assign_attrs(units="J/m^2", long_name="frictional work per area and cycle")
-    F2 = (F1 * tension).assign_attrs(units="J Pa/m^2", long_name="F1 times the largest s_xx")
-    return xr.Dataset({"F1": F1, "F2": F2})
+    return {name: of(name) for name in names}

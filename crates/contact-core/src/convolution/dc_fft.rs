@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use super::good_size::good_size;
-use super::{Displacements, Spectra, SpectralProduct, SurfaceOperator, Tractions};
+use super::{Convolutions, Displacements, Spectra, SpectralProduct, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, norm};
 use crate::plan::Mirror;
@@ -99,8 +99,9 @@ impl SurfaceOperator for DcFft {
         self.rounding
     }
 
-    fn transforms(&self) -> usize {
-        self.product.transforms + self.single.as_ref().map_or(0, |single| single.transforms)
+    fn work(&self) -> Convolutions {
+        let single = self.single.as_ref().map_or(0, |single| single.transforms);
+        Convolutions::of_components(self.product.transforms + single)
     }
 
     fn is_coupled(&self) -> bool {

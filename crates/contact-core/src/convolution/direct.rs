@@ -2,13 +2,13 @@
 
 use ndarray::Array2;
 
-use super::{Displacements, SurfaceOperator, Tractions};
+use super::{Convolutions, Displacements, SurfaceOperator, Tractions};
 use crate::kernels::{InfluenceCoefficients, Quadrant};
 
 /// Cell-by-cell summation, eq. (2) of the paper, on the whole grid.
 pub struct Direct {
     coefficients: InfluenceCoefficients,
-    transforms: usize,
+    components: usize,
 }
 
 impl Direct {
@@ -16,7 +16,7 @@ impl Direct {
     pub fn new(coefficients: InfluenceCoefficients) -> Self {
         Self {
             coefficients,
-            transforms: 0,
+            components: 0,
         }
     }
 
@@ -66,7 +66,7 @@ impl SurfaceOperator for Direct {
         ];
         let causes = [tractions.q_x, tractions.q_y, tractions.p];
         let effects = [displacements.u_x, displacements.u_y, displacements.u_z];
-        self.transforms += causes.iter().flatten().count() + effects.iter().flatten().count();
+        self.components += causes.iter().flatten().count() + effects.iter().flatten().count();
         for (u, row) in effects.into_iter().zip(table) {
             let Some(u) = u else { continue };
             u.fill(0.0);
@@ -78,8 +78,8 @@ impl SurfaceOperator for Direct {
         }
     }
 
-    fn transforms(&self) -> usize {
-        self.transforms
+    fn work(&self) -> Convolutions {
+        Convolutions::of_components(self.components)
     }
 
     fn is_coupled(&self) -> bool {

@@ -9,7 +9,7 @@ use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-use super::{Displacements, Spectra, SpectralProduct, SurfaceOperator, Tractions};
+use super::{Convolutions, Displacements, Spectra, SpectralProduct, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, SampledFrf, Stack};
 use crate::plan::Mirror;
@@ -120,8 +120,8 @@ impl SurfaceOperator for FrequencyDomain {
         self.product.apply(tractions, displacements);
     }
 
-    fn transforms(&self) -> usize {
-        self.product.transforms
+    fn work(&self) -> Convolutions {
+        Convolutions::of_components(self.product.transforms)
     }
 
     fn is_coupled(&self) -> bool {

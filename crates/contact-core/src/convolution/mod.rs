@@ -16,16 +16,21 @@ mod precision;
 mod preconditioner;
 mod spectra;
 mod spectral_product;
+mod work;
 mod y_transform;
 
 pub use dc_fft::DcFft;
 pub use direct::Direct;
 pub use frequency_domain::FrequencyDomain;
 pub(crate) use good_size::good_size;
-pub(crate) use operator::{approximate_inverse, surface_operator};
+pub use operator::of_bodies;
+pub(crate) use operator::{
+    approximate_inverse, normal_operator, scalar_operator, surface_operator,
+};
 pub use preconditioner::CirculantInverse;
 pub(crate) use spectra::Spectra;
 pub(crate) use spectral_product::{PARALLEL_FROM, SpectralProduct};
+pub use work::Convolutions;
 
 /// The tractions that act, each a field \[Pa\] in row-major (nx, ny) order; those left out are zero.
 #[derive(Clone, Copy, Debug, Default)]
@@ -75,8 +80,8 @@ pub trait SurfaceOperator: Send + Sync {
         0.0
     }
 
-    /// Two-dimensional transforms done so far; a three-component convolution takes six.
-    fn transforms(&self) -> usize;
+    /// Work done so far.
+    fn work(&self) -> Convolutions;
 
     /// Whether pressure moves the surfaces tangentially and shear moves them apart.
     fn is_coupled(&self) -> bool;

@@ -4,10 +4,9 @@ use ndarray::Array2;
 
 use super::coefficients::coefficients;
 use super::conductor::Layers;
-use crate::convolution::{DcFft, Displacements, SurfaceOperator, Tractions};
+use crate::convolution::{Displacements, SurfaceOperator, Tractions, scalar_operator};
 use crate::error::Error;
-use crate::kernels::{Complex64, InfluenceCoefficients};
-use crate::plan::Mirror;
+use crate::kernels::Complex64;
 use crate::scene::Grid;
 
 /// The response of a surface, or the sum of two, to a flux that goes on at one angular frequency.
@@ -17,8 +16,8 @@ use crate::scene::Grid;
 pub struct Conduction {
     coefficients: Array2<Complex64>,
     /// Real part of the coefficients, and the imaginary one where there is any.
-    re: DcFft,
-    im: Option<DcFft>,
+    re: Box<dyn SurfaceOperator>,
+    im: Option<Box<dyn SurfaceOperator>>,
 }
 
 impl Conduction {
@@ -43,11 +42,7 @@ impl Conduction {
     fn of(coefficients: Array2<Complex64>) -> Self {
         let scalar = |part: fn(&Complex64) -> f64| {
             let zz = coefficients.map(part);
-            let one = InfluenceCoefficients {
-                zz,
-                ..InfluenceCoefficients::default()
-            };
-            DcFft::new(&one, Mirror::None, false)
+            scalar_operator(zz)
         };
         let swings = coefficients.iter().any(|c| c.im != 0.0);
         Self {
@@ -74,13 +69,13 @@ impl Conduction {
     pub fn temperature(&mut self, flux: &[Complex64]) -> Vec<Complex64> {
         let (q_re, q_im): (Vec<f64>, Vec<f64>) = flux.iter().map(|q| (q.re, q.im)).unzip();
         let re = [
-            convolved(&mut self.re, &q_re),
-            convolved(&mut self.re, &q_im),
+            convolved(&mut *self.re, &q_re),
+            convolved(&mut *self.re, &q_im),
         ];
         let im = self
             .im
             .as_mut()
-            .map(|im| [convolved(im, &q_re), convolved(im, &q_im)]);
+            .map(|im| [convolved(&mut **im, &q_re), convolved(&mut **im, &q_im)]);
         let at = |n: usize| {
             let [crossed_re, crossed_im] = im.as_ref().map_or([0.0; 2], |[a, b]| [a[n], b[n]]);
             Complex64::new(re[0][n] - crossed_im, re[1][n] + crossed_re)
@@ -90,7 +85,7 @@ impl Conduction {
 }
 
 /// One real convolution; none where the field is zero.
-fn convolved(operator: &mut DcFft, field: &[f64]) -> Vec<f64> {
+fn convolved(operator: &mut dyn SurfaceOperator, field: &[f64]) -> Vec<f64> {
     let mut result = vec![0.0; field.len()];
     if field.iter().any(|value| *value != 0.0) {
         let tractions = Tractions {

@@ -43,11 +43,11 @@ pub(super) fn increment(
     };
     let mu = [&mut ws.mu[..], &mut ws.mu_before[..]];
     friction::update(&given, friction::expected(&given), mu);
-    let last_transform = domain.last_transform();
+    let most_work = domain.most_work();
     let response = Response {
         inverse: domain.window.inverse.as_deref_mut().map(|of| of as _),
         stop: Some(&problem.stop),
-        last_transform,
+        most_work,
         ..Response::plain(&mut *domain.window.op)
     };
     let (now, info) = with_its_friction(&given, response, ws, extrapolates)?;

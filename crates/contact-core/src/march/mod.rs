@@ -46,7 +46,7 @@ use self::problem::{Largest, Problem};
 use self::retry::{CONVOLUTIONS, reach};
 use self::setup::{Failure, Workspace};
 use self::threads::with_busy_threads;
-use crate::convolution::PARALLEL_FROM;
+use crate::convolution::{Convolutions, PARALLEL_FROM};
 use crate::error::Error;
 use crate::plan::Plan;
 use crate::scene::{LoadPath, LoadPoint, Scene};
@@ -173,16 +173,15 @@ impl March {
         let end = &self.problem.scene.path.branches[point.branch].to;
         let (forces, motions) = (self.state.loads.forces(), self.state.motion.motions());
         let point = point.resolved(end, forces, motions);
-        let transforms = self.domain.transforms();
-        self.domain.allow(6 * CONVOLUTIONS);
+        let before = self.domain.work();
+        self.domain.allow(Convolutions::whole(CONVOLUTIONS));
         // The state in the window that it was found in, once that has changed.
         let mut found = None;
         let mut ended = self.in_a_window(&point, &mut found);
         match &mut ended {
             // What was tried in vain was work too.
             Ok(increment) => {
-                let transforms = self.domain.transforms() - transforms;
-                increment.work.convolutions = transforms as f64 / 6.0;
+                increment.work.convolutions = (self.domain.work() - before).count();
             }
             Err(error) => {
                 if let Some(found) = found {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::{Increment, March, State};
-use crate::convolution::{Displacements, SurfaceOperator, Tractions};
+use crate::convolution::{Convolutions, Displacements, SurfaceOperator, Tractions};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::solvers::Response;
@@ -75,8 +75,8 @@ impl SurfaceOperator for Clocked {
         self.op.rounding()
     }
 
-    fn transforms(&self) -> usize {
-        self.op.transforms()
+    fn work(&self) -> Convolutions {
+        self.op.work()
     }
 
     fn is_coupled(&self) -> bool {

@@ -3,7 +3,9 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::cells::{dot, set};
-use crate::convolution::{ApproximateInverse, Displacements, SurfaceOperator, Tractions};
+use crate::convolution::{
+    ApproximateInverse, Convolutions, Displacements, SurfaceOperator, Tractions,
+};
 
 /// The surface operator and, where there is one, its approximate inverse.
 pub struct Response<'a> {
@@ -13,8 +15,8 @@ pub struct Response<'a> {
     pub inverse: Option<&'a mut dyn ApproximateInverse>,
     /// Raised from outside to end the iterations.
     pub stop: Option<&'a AtomicBool>,
-    /// Transforms of the operator after which the iterations end.
-    pub last_transform: usize,
+    /// Work of the operator after which the iterations end.
+    pub most_work: Convolutions,
     /// Whether responses to changes of the tractions are computed in double precision too.
     pub exact: bool,
     /// Sum of the squares of the changes whose responses have been added since the last full
@@ -29,7 +31,7 @@ impl<'a> Response<'a> {
             op,
             inverse: None,
             stop: None,
-            last_transform: usize::MAX,
+            most_work: Convolutions::MAX,
             exact: false,
             squares: 0.0,
         }
@@ -38,7 +40,7 @@ impl<'a> Response<'a> {
     /// Whether the iterations are to end, converged or not.
     pub(crate) fn stopped(&self) -> bool {
         let raised = self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed));
-        raised || self.op.transforms() >= self.last_transform
+        raised || self.op.work() >= self.most_work
     }
 
     /// Estimated rounding error of the displacements \[m\]: `rounding` times the root of the sum of

@@ -4,6 +4,7 @@ use ndarray::Array2;
 
 use super::WearRun;
 use super::worn_start::WornStart;
+use crate::convolution::Convolutions;
 use crate::plan::Half;
 
 /// Worn surfaces and the contact on them after so many cycles, each field of shape (nx, ny).
@@ -21,8 +22,8 @@ pub struct Block {
     pub energy2: Array2<f64>,
     /// Way slipped in contact so far \[m\].
     pub slid: Array2<f64>,
-    /// Pressure \[Pa\]: of a march the mean of the cycle, each increment weighted with what it
-    /// dissipates; in gross slip that in the middle of the stroke.
+    /// Pressure \[Pa\]: in a march the mean of the cycle, weighted with the energy dissipated in
+    /// each increment; in gross slip that in the middle of the stroke.
     pub p: Array2<f64>,
     /// Shift of body 1 against body 2 along x at which p acts and the two worn surfaces lie \[m\]; zero in
     /// a march.
@@ -35,7 +36,7 @@ pub struct Block {
 }
 
 impl Block {
-    /// What another run begins on, given the energy dissipated so far \[J\].
+    /// The start of another run on these surfaces, given the energy dissipated so far \[J\].
     pub fn start(&self, dissipated: f64) -> WornStart {
         WornStart {
             cycles: self.cycles,
@@ -77,8 +78,8 @@ impl WearRun {
         }
     }
 
-    /// Two-dimensional transforms and cycles solved so far: work that does not jitter as times do.
-    pub fn work(&self) -> (usize, usize) {
+    /// Work of the normal problems and cycles solved so far.
+    pub fn work(&self) -> (Convolutions, usize) {
         self.model.work()
     }
 }

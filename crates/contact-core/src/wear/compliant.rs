@@ -5,7 +5,7 @@
 //! better conditioned, whatever the length of the jump.
 
 use crate::convolution::{
-    ApproximateInverse, CirculantInverse, Displacements, SurfaceOperator, Tractions,
+    ApproximateInverse, CirculantInverse, Convolutions, Displacements, SurfaceOperator, Tractions,
 };
 use crate::kernels::InfluenceCoefficients;
 use crate::plan::Mirror;
@@ -43,8 +43,8 @@ impl SurfaceOperator for Compliant<'_> {
         self.add(tractions, displacements.u_z);
     }
 
-    fn transforms(&self) -> usize {
-        self.op.transforms()
+    fn work(&self) -> Convolutions {
+        self.op.work()
     }
 
     fn is_coupled(&self) -> bool {
@@ -62,8 +62,8 @@ impl SurfaceOperator for Compliant<'_> {
 /// s_i^2 = (c + D_0)/(c + D_i),   1/(c + D_0) = mean of 1/(c + D_i) over the contact,
 /// ```
 ///
-/// c being the response to the shortest waves: the inverse itself where D is the same everywhere, and
-/// right for cells that are far more compliant than the half-space beside cells that do not wear at all.
+/// c being the response to the shortest waves. It is exact where D is uniform, and correct in the
+/// limit of cells far more compliant than the half-space beside cells that do not wear.
 pub(crate) struct CompliantInverse {
     inverse: CirculantInverse,
     /// D_0 \[m/Pa\].
@@ -72,11 +72,12 @@ pub(crate) struct CompliantInverse {
     scaled: Vec<f64>,
 }
 
-/// The inverse with one D_0 serves as long as that of another problem is off by no more than this part.
+/// An inverse is used again as long as D_0 differs by no more than this part.
 const ALIKE: f64 = 0.2;
 
 impl CompliantInverse {
-    /// For the compliances of cells of which some are in contact, from the one before if that will do.
+    /// For the compliances of the cells and their contact, `touches` > 0; the one `before` if its
+    /// D_0 is near enough.
     pub(crate) fn from(
         before: Option<Self>,
         kernel: &InfluenceCoefficients,
@@ -120,7 +121,7 @@ impl ApproximateInverse for CompliantInverse {
     }
 }
 
-/// The response to waves of two cells, about \[m/Pa\].
+/// Estimate of the response to waves two cells long: C(0) - C(1) \[m/Pa\].
 pub(crate) fn shortest_waves(kernel: &InfluenceCoefficients) -> f64 {
     let zz = &kernel.zz;
     let beside = zz.get((1, 0)).or_else(|| zz.get((0, 1)));

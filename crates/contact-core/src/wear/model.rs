@@ -1,4 +1,4 @@
-//! The two ways to solve a cycle, as the run sees them.
+//! The two ways to solve a cycle, behind one interface.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -10,6 +10,7 @@ use super::marched::{Marched, MarchedState};
 use super::pressing::Pressing;
 use super::settings::{Cycling, Wear};
 use super::sliding::Sliding;
+use crate::convolution::Convolutions;
 use crate::error::Error;
 use crate::scene::Scene;
 
@@ -19,7 +20,7 @@ pub(crate) enum Model {
     Marched(Box<Marched>),
 }
 
-/// What a model needs to go on.
+/// The state of a model between jumps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum ModelState {
     /// Pressures at the places of the stroke \[Pa\].
@@ -47,11 +48,11 @@ impl ModelState {
     }
 }
 
-/// What is to be seen of the last cycle.
+/// The results of the last cycle.
 pub(crate) struct Seen<'a> {
     /// Pressure in the middle of the stroke, or the mean one of the cycle \[Pa\].
     pub(crate) p: &'a [f64],
-    /// Shift at which it acts \[m\].
+    /// Shift of the bodies at that pressure \[m\].
     pub(crate) shift: f64,
     pub(crate) stick: Option<&'a [bool]>,
     pub(crate) stick_ratio: f64,
@@ -61,7 +62,7 @@ pub(crate) struct Seen<'a> {
 }
 
 impl Model {
-    /// Solves the first cycle on surfaces worn so far, or goes on from a state.
+    /// Solves the first cycle on surfaces worn so far, or continues from a state.
     pub(crate) fn new(
         scene: &Scene,
         wear: &Wear,
@@ -131,11 +132,11 @@ impl Model {
         }
     }
 
-    /// Transforms of the normal problems, cycles solved.
-    pub(crate) fn work(&self) -> (usize, usize) {
+    /// Work of the normal problems, cycles solved.
+    pub(crate) fn work(&self) -> (Convolutions, usize) {
         match self {
-            Self::Sliding(s) => (s.pressing.transforms(), 0),
-            Self::Marched(m) => (m.pressing.transforms(), m.cycles_solved),
+            Self::Sliding(s) => (s.pressing.work(), 0),
+            Self::Marched(m) => (m.pressing.work(), m.cycles_solved),
         }
     }
 

@@ -5,7 +5,9 @@ use std::sync::atomic::AtomicBool;
 
 use super::compliant::{Compliant, CompliantInverse, shortest_waves};
 use crate::cells::{Arms, Drive};
-use crate::convolution::{DcFft, Displacements, SurfaceOperator, Tractions};
+use crate::convolution::{
+    Convolutions, Displacements, SurfaceOperator, Tractions, normal_operator,
+};
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, pair_coefficients};
 use crate::plan::{KernelSet, Mirror, Plan};
@@ -18,7 +20,7 @@ pub(crate) struct Pressing {
     pub(crate) grid: Grid,
     pub(crate) mirror: Mirror,
     kernel: InfluenceCoefficients,
-    op: DcFft,
+    op: Box<dyn SurfaceOperator>,
     arms: Arms,
     params: NormalParams,
     workspace: NormalWorkspace,
@@ -57,7 +59,7 @@ impl Pressing {
         Ok(Self {
             grid,
             mirror,
-            op: DcFft::until(&kernel, mirror, false, false, stop)?,
+            op: normal_operator(&kernel, mirror, stop)?,
             kernel,
             arms,
             params: NormalParams {
@@ -76,8 +78,8 @@ impl Pressing {
         self.u_z.len()
     }
 
-    /// Begins a jump: what the solutions of one share is nothing of the one before, so that a run that
-    /// is resumed is the same run.
+    /// Begins a jump: drops the inverse, which the solutions of a jump share, so that a resumed run
+    /// has the same bits.
     pub(crate) fn begin(&mut self) {
         self.inverse = None;
     }
@@ -98,7 +100,7 @@ impl Pressing {
         u_z
     }
 
-    /// Difference of the responses of a cell and of the one beside it \[m/Pa\].
+    /// C(0) - C(1), the difference of the responses of a cell and its neighbour \[m/Pa\].
     pub(crate) fn shortest_waves(&self) -> f64 {
         shortest_waves(&self.kernel)
     }
@@ -113,7 +115,7 @@ impl Pressing {
         self.grid.cell_area() * self.mirror.multiplicity()
     }
 
-    /// What presses the bodies together with a force W \[N\], without tilting.
+    /// The drive of a normal force W \[N\], without tilting.
     pub(crate) fn under(&self, W: f64) -> Drive {
         Drive {
             free: [true, false, false],
@@ -122,9 +124,9 @@ impl Pressing {
         }
     }
 
-    /// Two-dimensional transforms done so far.
-    pub(crate) fn transforms(&self) -> usize {
-        self.op.transforms()
+    /// Work done so far.
+    pub(crate) fn work(&self) -> Convolutions {
+        self.op.work()
     }
 
     /// Solves `p >= 0, g = h + C p + D p - delta_z >= 0, p g = 0` for p from a guess, D being the
@@ -145,7 +147,7 @@ impl Pressing {
         );
         let inverse = self.inverse.insert(inverse);
         let mut op = Compliant {
-            op: &mut self.op,
+            op: &mut *self.op,
             compliance,
         };
         op.apply(
@@ -162,7 +164,7 @@ impl Pressing {
             op: &mut op,
             inverse: Some(inverse),
             stop: Some(&self.stop),
-            last_transform: usize::MAX,
+            most_work: Convolutions::MAX,
             exact: true,
             squares: 0.0,
         };

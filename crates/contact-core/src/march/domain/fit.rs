@@ -145,7 +145,7 @@ impl Domain {
             if last.geometry.grid == problem.scene.grid {
                 *(self.whole.get_mut()).unwrap_or_else(PoisonError::into_inner) = Some(last);
             } else {
-                self.transforms += last.op.transforms();
+                self.replaced += last.op.work();
             }
         }
         Ok(self.embed(problem, state))

@@ -21,7 +21,7 @@ use super::State;
 use super::problem::Problem;
 use crate::cells::Arms;
 use crate::convolution::{
-    ApproximateInverse, SurfaceOperator, approximate_inverse, surface_operator,
+    ApproximateInverse, Convolutions, SurfaceOperator, approximate_inverse, surface_operator,
 };
 use crate::error::Error;
 use crate::kernels::{InfluenceCoefficients, norm, pair_coefficients};
@@ -66,10 +66,10 @@ pub(super) struct Domain {
     pub(super) window: Window,
     /// The whole grid, once it has been needed.
     pub(super) whole: Mutex<Option<Window>>,
-    /// Transforms done in windows that have been replaced.
-    transforms: usize,
-    /// Transforms after which an increment has failed.
-    limit: usize,
+    /// Work done in windows that have been replaced.
+    replaced: Convolutions,
+    /// Work after which an increment has failed.
+    limit: Convolutions,
 }
 
 impl Domain {
@@ -100,8 +100,8 @@ impl Domain {
             kernels,
             window,
             whole: Mutex::default(),
-            transforms: 0,
-            limit: usize::MAX,
+            replaced: Convolutions::default(),
+            limit: Convolutions::MAX,
         })
     }
 
@@ -115,27 +115,28 @@ impl Domain {
         self.window.geometry.h_init.len()
     }
 
-    /// Two-dimensional transforms done so far.
-    pub(super) fn transforms(&self) -> usize {
+    /// Work done so far.
+    pub(super) fn work(&self) -> Convolutions {
         let whole = (self.whole.lock()).unwrap_or_else(PoisonError::into_inner);
-        let whole = whole.as_ref().map_or(0, |grid| grid.op.transforms());
-        self.transforms + self.window.op.transforms() + whole
+        let whole = whole
+            .as_ref()
+            .map_or_else(Convolutions::default, |grid| grid.op.work());
+        self.replaced + self.window.op.work() + whole
     }
 
-    /// Allows so many transforms from now on.
-    pub(super) fn allow(&mut self, transforms: usize) {
-        self.limit = self.transforms() + transforms;
+    /// Allows so much work from now on.
+    pub(super) fn allow(&mut self, more: Convolutions) {
+        self.limit = self.work() + more;
     }
 
-    /// Whether the allowed transforms are used up.
+    /// Whether the allowed work is used up.
     pub(super) fn is_spent(&self) -> bool {
-        self.transforms() >= self.limit
+        self.work() >= self.limit
     }
 
-    /// The count of the window's operator at which the allowed transforms are used up.
-    pub(super) fn last_transform(&self) -> usize {
-        let elsewhere = self.transforms() - self.window.op.transforms();
-        self.limit.saturating_sub(elsewhere)
+    /// The work of the window's operator at which what is allowed is used up.
+    pub(super) fn most_work(&self) -> Convolutions {
+        self.limit.left_after(self.work() - self.window.op.work())
     }
 
     /// A window of that shape; fails where the run is stopped meanwhile.

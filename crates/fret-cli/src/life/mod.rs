@@ -1,0 +1,218 @@
+//! `fret life`.
+
+mod rows;
+mod table;
+
+use std::path::PathBuf;
+
+use clap::Args;
+use contact_core::Error;
+use contact_core::assess::{
+    Averaging, ByCriterion, OverCycle, Site, StoredCycle, judge, materials_of_layers, unsettled,
+};
+use contact_core::fatigue::{CRITERIA, Material, Search, materials, materials_from};
+use contact_core::fields::{Line, Side, chosen_depths, depths, residual_of_layers};
+use contact_core::output::Store;
+use serde_json::json;
+
+use self::rows::{Row, mean, points};
+
+use crate::failure::Failure;
+use crate::printed::print;
+use crate::stress::stop_on_interrupt;
+use crate::terminal::say;
+
+/// Difference of the ends of a cycle over the largest traction, above which a note is printed.
+const UNSETTLED: f64 = 0.02;
+
+/// Options of `fret life`.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Result store of `fret run`, the increments of its cycle kept
+    store: PathBuf,
+    /// Name of the material, or one for each layer from the surface down, with commas; 'none'
+    /// leaves a layer out. One alone is that of the substrate (default: the only one of
+    /// --materials)
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    material: Vec<String>,
+    /// Table of materials (TOML)
+    #[arg(long, value_name = "FILE")]
+    materials: Option<PathBuf>,
+    /// Criterion, or several with commas, judged by the same stress
+    #[arg(long, required = true, value_delimiter = ',', value_name = "CRITERIA",
+          value_parser = CRITERIA.iter().map(|c| c.name).collect::<Vec<_>>())]
+    criterion: Vec<String>,
+    /// Body below (2) or above (1) the contact plane
+    #[arg(long, default_value = "2", value_parser = clap::value_parser!(u8).range(1..=2))]
+    body: u8,
+    /// Section along x at this y, in metres (default: 0)
+    #[arg(
+        long,
+        value_name = "Y",
+        allow_hyphen_values = true,
+        conflicts_with = "along_y"
+    )]
+    along_x: Option<f64>,
+    /// Section along y at this x, in metres
+    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    along_y: Option<f64>,
+    /// Depths in metres (default: as the layers ask)
+    #[arg(long, value_name = "Z", value_delimiter = ',')]
+    depths: Vec<f64>,
+    /// Which closed cycle of the load path, from 0; negative from the end
+    #[arg(long, default_value = "-1", allow_hyphen_values = true)]
+    cycle: i64,
+    /// Residual stress of each layer from the surface down, the substrate's last [Pa], tension
+    /// positive; write --residual=-1e9,0 if the first is negative
+    #[arg(
+        long,
+        value_name = "STRESSES",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    residual: Vec<f64>,
+    /// Judge the mean stress over this critical distance, in metres, from the top of a layer
+    #[arg(long, value_name = "L")]
+    distance: Option<f64>,
+    /// What is averaged over: the stress at the depth L/2, its mean down to 2 L, over the half disc
+    /// or the half ball of radius L
+    #[arg(long, default_value = "line", requires = "distance",
+          value_parser = Averaging::ALL.map(|(name, _)| name).to_vec())]
+    method: String,
+    /// Layer that the distance lies in, from the surface down (default: the outermost with a
+    /// material)
+    #[arg(long, value_name = "N", requires = "distance")]
+    layer: Option<usize>,
+    /// Print one JSON object per layer, for programs; an endless life is null
+    #[arg(long)]
+    json: bool,
+    /// Table of the section to write (.csv)
+    #[arg(short, long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+/// Judges a result and prints the judgement.
+pub(crate) fn life(options: &Options) -> Result<(), Failure> {
+    let lines = judged(options).map_err(|error| match error {
+        Error::Interrupted { .. } => Failure::Stopped,
+        error => Failure::BadInput(error),
+    })?;
+    lines.iter().try_for_each(|line| print(line))
+}
+
+/// The text to print; notes go to the standard error.
+fn judged(options: &Options) -> Result<Vec<String>, Error> {
+    table::check(options)?;
+    let store = Store::open(&options.store)?;
+    let scene = store.scene();
+    let (side, body) = if options.body == 1 {
+        (Side::Body1, &scene.body1)
+    } else {
+        (Side::Body2, &scene.body2)
+    };
+    let given = given_materials(options)?;
+    for doubt in given.iter().flatten().flat_map(Material::doubts) {
+        say(&format!("fret: warning: {doubt}"));
+    }
+    let of_layers = materials_of_layers(body, given)?;
+    let named = |name: &String| ByCriterion::new(name, body, &of_layers, Search::default());
+    let of: Vec<_> = options
+        .criterion
+        .iter()
+        .map(named)
+        .collect::<Result<_, _>>()?;
+    let cycle = StoredCycle::of(&store, Some(options.cycle), side)?;
+    let residual = residual_of_layers(body, &options.residual)?;
+    let site = Site {
+        body,
+        side,
+        grid: &scene.grid,
+        residual: &residual,
+        cycle: &cycle,
+        stop: stop_on_interrupt(),
+    };
+    let line = match options.along_y {
+        Some(x) => Line::AlongY(x),
+        None => Line::AlongX(options.along_x.unwrap_or(0.0)),
+    };
+    let mut notes = of[0].notes.clone();
+    if let Some(much) = unsettled(&cycle)?.filter(|much| *much > UNSETTLED) {
+        notes.push(format!(
+            "the cycle is not settled: its tractions end {:.0} % of the largest one off from where they began; go \
+             through it more often",
+            100.0 * much
+        ));
+    }
+    let found: Vec<Row> = if let Some(length) = options.distance {
+        let of_each = of.iter().map(|of| mean(options, &site, line, length, of));
+        of_each.collect::<Result<_, _>>()?
+    } else {
+        let last = cycle.moments(&[cycle.count() - 1])?;
+        let length = scene.length(&last.tractions[0][2]);
+        let asked = if options.depths.is_empty() {
+            chosen_depths(body, length, 2.0 * length, 1.0)?
+        } else {
+            depths(body, &options.depths)?
+        };
+        let judged = judge(&site, line, &asked, &of)?;
+        if let Some(out) = &options.out {
+            table::write(out, &judged[0], &of[0])?;
+        }
+        let each = judged.iter().zip(&of);
+        let rows = each.map(|(judged, of)| points(&site, judged, of, body));
+        rows.collect::<Result<Vec<_>, _>>()?.concat()
+    };
+    if found.iter().any(|row| row.at_rim) {
+        notes.push(
+            "the worst point is at the rim of the contact: a point value depends on the grid, use a critical distance \
+             (--distance)"
+                .into(),
+        );
+    }
+    let line = |row: &Row| {
+        let mut json = row.json.clone();
+        json["notes"] = json!(notes);
+        if options.json {
+            json.to_string()
+        } else {
+            row.line.clone()
+        }
+    };
+    if !options.json {
+        for note in &notes {
+            say(&format!("fret: {note}"));
+        }
+    }
+    Ok(found.iter().map(line).collect())
+}
+
+/// The materials named, from the surface down.
+fn given_materials(options: &Options) -> Result<Vec<Option<Material>>, Error> {
+    let mut table = materials();
+    let mut names = options.material.clone();
+    if let Some(file) = &options.materials {
+        let own = materials_from(file).map_err(Error::Criterion)?;
+        if names.is_empty() && own.len() == 1 {
+            names = own.keys().cloned().collect();
+        }
+        table.extend(own);
+    }
+    let known = || table.keys().cloned().collect::<Vec<_>>().join(", ");
+    if names.is_empty() {
+        return Err(Error::invalid(
+            "--material",
+            "nothing",
+            format!("one of {}", known()),
+        ));
+    }
+    let named = |name: String| {
+        if name == "none" {
+            return Ok(None);
+        }
+        let found = table.get(&name).cloned().map(Some);
+        found.ok_or_else(|| {
+            Error::invalid("--material", &name, format!("one of {}, or none", known()))
+        })
+    };
+    names.into_iter().map(named).collect()
+}

@@ -1,0 +1,160 @@
+//! The lines of `fret life`: a worst point of each layer, or a mean.
+
+use std::fmt::Write as _;
+
+use contact_core::Error;
+use contact_core::assess::{
+    Averaging, ByCriterion, Distance, Judged, Site, Worst, average, inclination, worst,
+};
+use contact_core::fatigue::{Assessment, AtPoint};
+use contact_core::fields::{Line, Zone};
+use contact_core::scene::Body;
+use serde_json::json;
+
+use super::Options;
+
+/// The lines of a layer.
+#[derive(Clone)]
+pub(super) struct Row {
+    pub(super) line: String,
+    pub(super) json: serde_json::Value,
+    pub(super) at_rim: bool,
+}
+
+/// The worst point of every layer that is judged, the one that decides marked.
+pub(super) fn points(
+    site: &Site<'_>,
+    judged: &Judged<AtPoint>,
+    of: &ByCriterion,
+    body: &Body,
+) -> Result<Vec<Row>, Error> {
+    let mut all: Vec<(Worst<AtPoint>, &Assessment)> = Vec::new();
+    for layer in 0..=body.coatings.len() {
+        if let Some(assessment) = of.of(layer) {
+            all.extend(worst(site, judged, of, layer)?.map(|worst| (worst, assessment)));
+        }
+    }
+    let margin = |(w, a): &(Worst<AtPoint>, &Assessment)| a.margin(w.extreme.value);
+    let least =
+        all.iter().map(margin).fold(
+            f64::INFINITY,
+            |least, margin| if margin < least { margin } else { least },
+        );
+    let rows = all.iter().map(|one| {
+        let (w, a) = one;
+        let margin = margin(one);
+        let decides = !(margin > least);
+        let name = if a.gives_lives() { "life" } else { "safety_factor" };
+        let (criterion, unit) = (a.criterion.name(), a.criterion.unit());
+        let normal = a.criterion.has_plane().then_some(w.found.normal);
+        let angle = normal.map(|n| inclination(n, judged.line).to_degrees());
+        let at = w.extreme.at.map(|zone| match zone {
+            Zone::Contact => "rim of the contact",
+            Zone::Stick => "border of the stick zone",
+        });
+        let error = w.extreme.error.sum();
+        let json = json!({
+            "criterion": criterion, name: margin, "value": w.extreme.value, "unit": unit, "error": error,
+            "error_x": w.extreme.error.x, "error_y": w.extreme.error.y, "error_z": w.extreme.error.z,
+            "error_tractions": w.extreme.error.tractions, "x": w.extreme.x, "y": w.extreme.y, "z": w.extreme.depth.z,
+            "layer": w.extreme.depth.layer, "at": at, "normal": normal, "inclination": angle,
+            "decides": decides,
+        });
+        let mut line = format!(
+            "layer {}: {}, {criterion} {:.5e} {unit} +- {error:.2e} at x = {:.4e} m, y = {:.4e} m, z = {:.4e} m",
+            w.extreme.depth.layer,
+            said(margin, a),
+            w.extreme.value,
+            w.extreme.x,
+            w.extreme.y,
+            w.extreme.depth.z
+        );
+        if let Some(angle) = angle.filter(|angle| angle.is_finite()) {
+            let _ = write!(line, ", plane {angle:.1} degrees from the surface normal");
+        }
+        if let Some(at) = at {
+            let _ = write!(line, ", at the {at}");
+        }
+        if decides {
+            line.push_str(", decides");
+        }
+        let at_rim = w.extreme.at == Some(Zone::Contact);
+        Row { line, json, at_rim }
+    });
+    Ok(rows.collect())
+}
+
+/// The worst place of a mean over a critical distance.
+pub(super) fn mean(
+    options: &Options,
+    site: &Site<'_>,
+    line: Line,
+    length: f64,
+    of: &ByCriterion,
+) -> Result<Row, Error> {
+    let outermost = of
+        .assessments
+        .iter()
+        .position(Option::is_some)
+        .unwrap_or_default();
+    let layer = options.layer.unwrap_or(outermost);
+    let Some(assessment) = of.of(layer) else {
+        let allowed = "a layer that has a material";
+        return Err(Error::invalid("--layer", layer, allowed));
+    };
+    let named = Averaging::ALL
+        .iter()
+        .find(|(name, _)| *name == options.method);
+    let method = named.map_or(Averaging::Line, |(_, method)| *method);
+    let distance = Distance {
+        method,
+        length,
+        layer,
+    };
+    let found = average(site, line, &distance, of)?;
+    let along = site.along(line);
+    let judged = found
+        .iter()
+        .zip(&along)
+        .filter_map(|(f, s)| Some((f.as_ref()?, *s)));
+    let most = judged.max_by(|a, b| a.0.value.total_cmp(&b.0.value));
+    let Some((most, place)) = most else {
+        let allowed = "so short that the mean stays above the grid";
+        return Err(Error::invalid("--distance", length, allowed));
+    };
+    let margin = assessment.margin(most.value);
+    let name = if assessment.gives_lives() {
+        "life"
+    } else {
+        "safety_factor"
+    };
+    let axis = if matches!(line, Line::AlongX(_)) {
+        "x"
+    } else {
+        "y"
+    };
+    let (criterion, unit) = (assessment.criterion.name(), assessment.criterion.unit());
+    let json = json!({
+        "criterion": criterion, name: margin, "value": most.value, "unit": unit, "L": length,
+        "method": options.method, axis: place, "layer": layer,
+    });
+    let line = format!(
+        "layer {layer}: {}, {criterion} {:.5e} {unit} at {axis} = {place:.4e} m, {} method with L = {length:.3e} m",
+        said(margin, assessment),
+        most.value,
+        options.method
+    );
+    Ok(Row {
+        line,
+        json,
+        at_rim: false,
+    })
+}
+
+fn said(margin: f64, of: &Assessment) -> String {
+    match (of.gives_lives(), margin.is_finite()) {
+        (true, true) => format!("{margin:.4e} cycles"),
+        (true, false) => "endless life".into(),
+        (false, _) => format!("safety factor {margin:.4}"),
+    }
+}

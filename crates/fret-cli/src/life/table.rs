@@ -1,0 +1,71 @@
+//! The table of `fret life`: a line of each point.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use contact_core::Error;
+use contact_core::assess::{ByCriterion, Judged};
+use contact_core::fatigue::AtPoint;
+use contact_core::fields::Line;
+
+use super::Options;
+
+pub(super) fn check(options: &Options) -> Result<(), Error> {
+    let Some(out) = &options.out else {
+        return Ok(());
+    };
+    if options.criterion.len() > 1 {
+        let allowed = "one criterion, whose table it is";
+        return Err(Error::invalid(
+            "--criterion",
+            options.criterion.join(","),
+            allowed,
+        ));
+    }
+    let ending = out.extension().map(|e| e.to_string_lossy().to_lowercase());
+    if options.distance.is_some() || ending.as_deref() != Some("csv") {
+        return Err(Error::invalid(
+            "--out",
+            out.display(),
+            "a table (.csv) of points; figures are drawn by pyfret.plot.criterion_map in Python, and the fields are \
+             those of result.life(..).dataset",
+        ));
+    }
+    Ok(())
+}
+
+/// Writes value, margin and plane of every point.
+pub(super) fn write(out: &Path, judged: &Judged<AtPoint>, of: &ByCriterion) -> Result<(), Error> {
+    let (axis, across, place) = match judged.line {
+        Line::AlongX(y) => ("x", "y", y),
+        Line::AlongY(x) => ("y", "x", x),
+    };
+    let mut text = format!(
+        "{axis} [m],{across} [m],z [m],layer,value,missed,margin,n_x,n_y,n_z,shear_amplitude [Pa],normal_max [Pa],\
+         normal_min [Pa]\n"
+    );
+    for (depth, found) in judged.depths.iter().zip(&judged.found) {
+        let (Some(found), Some(assessment)) = (found, of.of(depth.layer)) else {
+            continue;
+        };
+        for (s, f) in judged.along.iter().zip(found) {
+            let [n_x, n_y, n_z] = f.normal;
+            let margin = assessment.margin(f.value);
+            let _ = writeln!(
+                text,
+                "{s:e},{place:e},{:e},{},{:e},{:e},{margin:e},{n_x},{n_y},{n_z},{:e},{:e},{:e}",
+                depth.z,
+                depth.layer,
+                f.value,
+                f.missed,
+                f.shear_amplitude,
+                f.normal_max,
+                f.normal_min
+            );
+        }
+    }
+    std::fs::write(out, text).map_err(|e| Error::File {
+        path: out.display().to_string(),
+        message: e.to_string(),
+    })
+}

@@ -1,0 +1,251 @@
+//! From stress to decision: judgement of a section below a contact over a closed cycle.
+
+mod criterion;
+mod given;
+mod yielding;
+
+use std::sync::{Arc, Mutex};
+
+use contact_core::assess::{self as core, Averaging, ByCriterion, ByYield, Distance, Judged, Site};
+use contact_core::fatigue::{AtPoint, Search};
+use contact_core::fields::{Depth, Line, Side, Zone, residual_of_layers};
+use contact_core::{Error, scene};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+pub(crate) use self::criterion::CriterionBelow;
+use self::criterion::arrays;
+use self::given::Given;
+pub(crate) use self::yielding::YieldBelow;
+use crate::argument::to_python;
+use crate::arguments::{List, side};
+use crate::fatigue::Material;
+use crate::interruptible::interruptible;
+use crate::scene::{Body, Grid};
+use crate::subsurface::{Subsurface, line};
+
+/// A section of a body below a contact over a cycle.
+///
+/// `moments` is called with a list of numbers from 0 to `count` - 1, or with None for the moment
+/// before the cycle: lists of q_x, q_y, p [Pa] and stick, of shape (nx, ny) each, and of the bulk
+/// stress [Pa]; or None.
+#[pyclass(frozen, module = "pyfret.fatigue")]
+pub(crate) struct CycleSection {
+    below: Arc<Below>,
+}
+
+pub(super) struct Below {
+    body: scene::Body,
+    grid: scene::Grid,
+    side: Side,
+    pub(super) line: Line,
+    residual: Vec<f64>,
+    given: Given,
+}
+
+impl Below {
+    /// Does `work` at the site while signals are heard; without residual stress if the judge has it.
+    pub(super) fn at<T: Send>(
+        &self,
+        py: Python<'_>,
+        residual: bool,
+        work: impl FnOnce(&Site<'_>) -> Result<T, Error> + Send,
+    ) -> PyResult<T> {
+        let stop = Arc::default();
+        let found = interruptible(py, &stop, || {
+            work(&Site {
+                body: &self.body,
+                side: self.side,
+                grid: &self.grid,
+                residual: if residual { &self.residual } else { &[] },
+                cycle: &self.given,
+                stop: stop.clone(),
+            })
+        })?;
+        let raised = self
+            .given
+            .raised
+            .lock()
+            .ok()
+            .and_then(|mut raised| raised.take());
+        raised.map_or_else(|| found.map_err(to_python), Err)
+    }
+}
+
+#[pymethods]
+impl CycleSection {
+    #[new]
+    #[pyo3(signature = (body, grid, moments, count, *, x = None, y = None, body_number = 2, residual = None))]
+    fn new(
+        body: Body,
+        grid: Grid,
+        moments: Py<PyAny>,
+        count: usize,
+        x: Option<f64>,
+        y: Option<f64>,
+        body_number: u8,
+        residual: Option<List<f64>>,
+    ) -> PyResult<Self> {
+        let residual = residual_of_layers(&body.0, &residual.unwrap_or_default());
+        let below = Below {
+            side: side(body_number)?,
+            line: line(x, y)?,
+            residual: residual.map_err(to_python)?,
+            given: Given {
+                give: moments,
+                count,
+                shape: (grid.0.nx, grid.0.ny),
+                raised: Mutex::new(None),
+            },
+            body: body.0,
+            grid: grid.0,
+        };
+        Ok(Self {
+            below: Arc::new(below),
+        })
+    }
+
+    /// Part of the largest traction by which the cycle ends off its start, if that was kept.
+    fn unsettled(&self, py: Python<'_>) -> PyResult<Option<f64>> {
+        self.below.at(py, true, |site| core::unsettled(site.cycle))
+    }
+
+    /// Judge the section by criteria for the materials of the layers, all by the same stress.
+    #[pyo3(signature = (z, layer, materials, criteria, *, tolerance))]
+    fn by_criteria(
+        &self,
+        py: Python<'_>,
+        z: List<f64>,
+        layer: List<usize>,
+        materials: List<Option<Material>>,
+        criteria: List<String>,
+        tolerance: f64,
+    ) -> PyResult<Vec<CriterionBelow>> {
+        let depths = Subsurface::depths(&z, &layer)?;
+        let named = |name: &String| criterion_of(&self.below, &materials, name, tolerance);
+        let of = criteria.iter().map(named).collect::<PyResult<Vec<_>>>()?;
+        let judged = self.below.at(py, true, |site| {
+            core::judge(site, self.below.line, &depths, &of)
+        })?;
+        let below = |(judged, of)| CriterionBelow {
+            below: self.below.clone(),
+            judged,
+            of,
+        };
+        Ok(judged.into_iter().zip(of).map(below).collect())
+    }
+
+    /// Judge the section by yield stresses of the layers from the surface down [Pa].
+    fn by_yield(
+        &self,
+        py: Python<'_>,
+        z: List<f64>,
+        layer: List<usize>,
+        s_y: List<Option<f64>>,
+    ) -> PyResult<YieldBelow> {
+        let depths = Subsurface::depths(&z, &layer)?;
+        let of = ByYield {
+            s_y: s_y.0,
+            residual: self.below.residual.clone(),
+            of: |found| found.von_mises,
+        };
+        let judged = self.below.at(py, false, |site| {
+            core::judge(site, self.below.line, &depths, std::slice::from_ref(&of))
+        })?;
+        Ok(YieldBelow {
+            below: self.below.clone(),
+            judged: only(judged)?,
+            of,
+        })
+    }
+
+    /// Judge the mean over a critical distance L [m] in a layer: arrays over the places.
+    #[pyo3(signature = (L, method, layer, materials, criterion, *, tolerance))]
+    fn mean<'py>(
+        &self,
+        py: Python<'py>,
+        L: f64,
+        method: &str,
+        layer: usize,
+        materials: List<Option<Material>>,
+        criterion: &str,
+        tolerance: f64,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let named = Averaging::ALL.iter().find(|(name, _)| *name == method);
+        let Some((_, method)) = named else {
+            let names = Averaging::ALL.map(|(name, _)| name).join(", ");
+            let message = format!("method = {method:?}: must be one of {names}");
+            return Err(PyValueError::new_err(message));
+        };
+        let of = criterion_of(&self.below, &materials, criterion, tolerance)?;
+        let Some(assessment) = of.of(layer).copied() else {
+            let message = format!("layer = {layer}: has no material");
+            return Err(PyValueError::new_err(message));
+        };
+        let distance = Distance {
+            method: *method,
+            length: L,
+            layer,
+        };
+        let found = self.below.at(py, true, |site| {
+            core::average(site, self.below.line, &distance, &of)
+        })?;
+        let rows = [found];
+        let view: Vec<Option<Vec<Option<AtPoint>>>> = rows.into_iter().map(Some).collect();
+        arrays(py, &view, |_| Some(&assessment))
+    }
+}
+
+fn criterion_of(
+    below: &Below,
+    materials: &[Option<Material>],
+    criterion: &str,
+    tolerance: f64,
+) -> PyResult<ByCriterion> {
+    let search = Search {
+        tolerance,
+        ..Search::default()
+    };
+    let given = materials
+        .iter()
+        .map(|m| m.as_ref().map(|m| m.0.clone()))
+        .collect();
+    let of_layers = core::materials_of_layers(&below.body, given).map_err(to_python)?;
+    ByCriterion::new(criterion, &below.body, &of_layers, search).map_err(to_python)
+}
+
+fn only<F>(judged: Vec<Judged<F>>) -> PyResult<Judged<F>> {
+    let mut judged = judged.into_iter();
+    judged
+        .next()
+        .ok_or_else(|| PyValueError::new_err("nothing was judged"))
+}
+
+/// Place and errors of a worst point.
+fn place<'py, F>(py: Python<'py>, worst: &core::Worst<F>) -> PyResult<Bound<'py, PyDict>> {
+    let found = PyDict::new(py);
+    let (depth, error) = (worst.extreme.depth, worst.extreme.error);
+    found.set_item("score", worst.extreme.value)?;
+    for (name, value) in [
+        ("x", worst.extreme.x),
+        ("y", worst.extreme.y),
+        ("z", depth.z),
+    ] {
+        found.set_item(name, value)?;
+    }
+    found.set_item("layer", depth.layer)?;
+    found.set_item("errors", (error.x, error.y, error.z, error.tractions))?;
+    found.set_item(
+        "at",
+        worst.extreme.at.map(|zone| match zone {
+            Zone::Contact => "contact",
+            Zone::Stick => "stick",
+        }),
+    )?;
+    Ok(found)
+}
+
+fn depths_of<F>(judged: &Judged<F>) -> (Vec<f64>, Vec<usize>) {
+    judged.depths.iter().map(|d: &Depth| (d.z, d.layer)).unzip()
+}

@@ -1,0 +1,81 @@
+//! Load factors on a section.
+
+use std::sync::Arc;
+
+use contact_core::assess::{self as core, ByYield, Judge as _, Judged};
+use contact_core::fatigue::Yield;
+use ndarray::Array2;
+use numpy::IntoPyArray;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::{Below, depths_of, place};
+
+/// A load factor of several.
+type Factor = fn(&Yield) -> f64;
+
+/// Load factors on a section.
+#[pyclass(frozen, module = "pyfret.fatigue")]
+pub(crate) struct YieldBelow {
+    pub(super) below: Arc<Below>,
+    pub(super) judged: Judged<Yield>,
+    pub(super) of: ByYield,
+}
+
+/// The factors by their names.
+const FACTORS: [(&str, Factor); 3] = [
+    ("von_mises", |f| f.von_mises),
+    ("tresca", |f| f.tresca),
+    ("shakedown", |f| f.shakedown),
+];
+
+#[pymethods]
+impl YieldBelow {
+    /// Depths [m] and their layers.
+    #[getter]
+    fn depths(&self) -> (Vec<f64>, Vec<usize>) {
+        depths_of(&self.judged)
+    }
+
+    /// Load factors over (depth, place), NaN where not judged.
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let shape = (self.judged.found.len(), self.judged.along.len());
+        let found = PyDict::new(py);
+        for (name, of) in FACTORS {
+            let values = Array2::from_shape_fn(shape, |(row, place)| {
+                self.judged.found[row]
+                    .as_ref()
+                    .map_or(f64::NAN, |row| of(&row[place]))
+            });
+            found.set_item(name, values.into_pyarray(py))?;
+        }
+        Ok(found)
+    }
+
+    /// Where a load factor of a layer is least; `score` is its inverse.
+    fn least<'py>(
+        &self,
+        py: Python<'py>,
+        layer: usize,
+        factor: &str,
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let named = FACTORS.iter().find(|(name, _)| *name == factor);
+        let Some((_, factor)) = named else {
+            let names = FACTORS.map(|(name, _)| name).join(", ");
+            let message = format!("{factor:?}: must be one of {names}");
+            return Err(PyValueError::new_err(message));
+        };
+        let of = ByYield {
+            of: *factor,
+            ..self.of.clone()
+        };
+        if !of.judges(layer) {
+            return Ok(None);
+        }
+        let least = self.below.at(py, false, |site| {
+            core::worst(site, &self.judged, &of, layer)
+        })?;
+        least.map(|least| place(py, &least)).transpose()
+    }
+}
