@@ -353,8 +353,8 @@ def lives(
         judged = below.by_criteria(*depths, each, names, tolerance=tolerance)
         for name, by in zip(names, judged, strict=True):
             found[name].append(by)
-            of = described(by.fields(), by.assessments)
-            shown[name].append(labelled(result, one, depths, of))
+            fields = described(by.fields(), by.assessments)
+            shown[name].append(labelled(result, one, depths, fields))
         if not notes and where.cycle is not None:
             much = below.unsettled()
             if much is not None and much > UNSETTLED:
