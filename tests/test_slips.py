@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import io
 import math
+import sys
 import warnings
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -244,6 +247,57 @@ def test_the_bar_of_a_run_never_runs_over() -> None:
     bar.update(91, 90)
     assert len(bar.line(1.0)) < 60
     assert "91/91 1 s, 0 s left" in bar.line(1.0)
+
+
+class Terminal(io.StringIO):
+    """A stream on which people watch."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def test_a_bar_takes_itself_off_the_screen(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setenv("TERM", "xterm")
+    with Progress(title="run", shown=True) as bar:
+        bar.update(2, 2)
+        assert "2/2" in terminal.getvalue()
+    *_, last = terminal.getvalue().rstrip("\r").rsplit("\r", 1)
+    assert last.strip() == ""
+    assert len(last) >= len(bar.line(0.0)) - 3
+    assert terminal.getvalue().endswith("\r")
+    assert "\n" not in terminal.getvalue()
+
+
+def test_a_notebook_has_the_bar_in_an_output_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown: list[str] = []
+
+    class Handle:
+        def update(self, data: dict[str, str], *, raw: bool) -> None:
+            assert raw
+            shown.append(data["text/plain"])
+
+    def display(data: dict[str, str], *, raw: bool, display_id: bool) -> Handle:
+        assert raw
+        assert display_id
+        shown.append(data["text/plain"])
+        return Handle()
+
+    notebook = ModuleType("IPython.display")
+    notebook.display = display  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "IPython", ModuleType("IPython"))
+    monkeypatch.setitem(sys.modules, "IPython.display", notebook)
+    monkeypatch.setitem(sys.modules, "ipykernel", ModuleType("ipykernel"))
+    red = io.StringIO()
+    monkeypatch.setattr(sys, "stderr", red)
+    with Progress(title="run", shown=True) as bar:
+        bar.update(1, 2)
+        bar.update(2, 2)
+    assert "2/2" in shown[-2]
+    assert shown[-1] == ""
+    # Nothing in the box of errors.
+    assert red.getvalue() == ""
 
 
 def test_a_run_with_chosen_increments_knows_how_many_there_are(tmp_path: Path) -> None:

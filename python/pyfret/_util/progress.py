@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import time
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -23,7 +24,21 @@ def watched(stream: Any) -> bool:
     except (AttributeError, OSError, ValueError):
         # There is none, as under pythonw, or it is closed, or no file.
         return False
-    return terminal or "ipykernel" in sys.modules
+    return terminal or in_notebook()
+
+
+def in_notebook() -> bool:
+    """Whether a notebook runs this."""
+    return "ipykernel" in sys.modules
+
+
+def notebook_view() -> Any:
+    """An output of the cell that runs which can be changed later; none where there is no cell."""
+    try:
+        display = import_module("IPython.display").display
+    except ImportError:
+        return None
+    return display({"text/plain": ""}, raw=True, display_id=True)
 
 
 class Progress:
@@ -41,7 +56,9 @@ class Progress:
         self.title = title
         self.shown = shown and watched(sys.stderr)
         self.started = self.drawn = time.monotonic()
-        self.done = self.total = 0
+        self.done = self.total = self.drawn_letters = 0
+        #: The output of a notebook that the bar is in.
+        self.view: Any = None
 
     def __enter__(self) -> Progress:
         """Start counting time."""
@@ -53,7 +70,17 @@ class Progress:
         now = time.monotonic()
         if self.shown and (now - self.drawn > INTERVAL or done == total):
             self.drawn = now
-            self.draw("\r" + self.line(now - self.started))
+            self.show(self.line(now - self.started))
+
+    def show(self, line: str) -> None:
+        """Draw a line in place of the last, in a notebook as an output of its own."""
+        if self.view is None and in_notebook():
+            self.view = notebook_view()
+        if self.view is not None:
+            self.view.update({"text/plain": line}, raw=True)
+            return
+        self.draw("\r" + line.ljust(self.drawn_letters))
+        self.drawn_letters = len(line)
 
     def draw(self, text: str) -> None:
         """Write to standard error, what it cannot show replaced; a bar that fails ends there."""
@@ -79,6 +106,8 @@ class Progress:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Leave the last state of the bar on the screen."""
-        if self.shown and self.done:
-            self.draw("\r" + self.line(time.monotonic() - self.started) + "\n")
+        """Take the bar off the screen: what it told is over."""
+        if self.view is not None:
+            self.view.update({"text/plain": ""}, raw=True)
+        elif self.shown and self.drawn_letters:
+            self.draw("\r" + " " * self.drawn_letters + "\r")
