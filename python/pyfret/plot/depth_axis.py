@@ -7,37 +7,11 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator, NullLocator
 
+from pyfret._util.depths import stretched
+
 if TYPE_CHECKING:
-    import xarray as xr
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
-
-#: Part of the axis that a layer gets at least where the axis is stretched.
-LEAST = 0.16
-#: Part of the depth shown below which a layer cannot be seen.
-INVISIBLE = 0.06
-
-
-def interfaces(z: xr.DataArray, layer: xr.DataArray) -> list[float]:
-    """Depths at which the layer changes."""
-    changes = np.flatnonzero(np.diff(layer.values))
-    return [float(z[n] + z[n + 1]) / 2 for n in changes]
-
-
-def stretched(borders: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Places of the borders of layers on an axis from 0 to 1 that gives each layer room."""
-    shares = np.diff(borders) / (borders[-1] - borders[0])
-    least = min(LEAST, 0.8 / shares.size)
-    thin = shares < least
-    rest = 1.0 - least * np.count_nonzero(thin)
-    shares = np.where(thin, least, rest * shares / max(shares[~thin].sum(), 1e-300))
-    return np.concatenate(([0.0], np.cumsum(shares)))
-
-
-def thin(borders: NDArray[np.float64]) -> bool:
-    """Whether a layer is too thin to be seen on an even axis."""
-    steps = np.diff(borders)
-    return steps.size > 1 and bool(steps.min() < INVISIBLE * (borders[-1] - borders[0]))
 
 
 def stretch(ax: Axes, borders: NDArray[np.float64], which: Literal["x", "y"]) -> None:

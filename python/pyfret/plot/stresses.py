@@ -10,8 +10,8 @@ from matplotlib import colormaps
 from matplotlib.colors import ListedColormap
 from matplotlib.ticker import MaxNLocator
 
+from pyfret._util.depths import interfaces, thin
 from pyfret._util.numbers import in_words
-from pyfret.plot.depth_axis import interfaces, thin
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import Scales, Units, scales
 from pyfret.plot.style import axes, mark, styled

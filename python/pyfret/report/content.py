@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._util.depths import stretched, thin
 from pyfret._util.numbers import in_words
 from pyfret.run.summary import directions
 from pyfret.subsurface.contact import stress_below
@@ -24,6 +25,10 @@ SIDE = 128
 KEPT = 60
 #: Most points along a section of stress.
 ALONG, DOWN = 160, 120
+#: Part of the contact's length, or of the depth, that is shown beside it below the surface.
+SIDEWAYS = 0.3
+#: Length over depth of a section beyond which equal lengths leave it too low to be read.
+FLAT = 3.0
 #: Force and shift of the loop, and what they are shown in.
 LOOPS = {
     "x": ("T_x", "delta_x", "T<sub>x</sub>", "δ<sub>x</sub> [µm]"),
@@ -132,13 +137,32 @@ def stress(result: Run) -> dict[str, Any] | None:
     largest = below.maximum()
     values = 1e-6 * below.von_mises.values
     z, x = below.von_mises.z.values, below.von_mises.x.values
-    depths, along = chosen(z.size, DOWN), chosen(x.size, ALONG)
+    near = np.arange(x.size)
+    touched = x[np.isin(x, at.x.values[at.contact.values.any(axis=1)])]
+    if touched.size:
+        room = SIDEWAYS * max(np.ptp(touched), z[-1])
+        near = np.flatnonzero((x >= touched[0] - room) & (x <= touched[-1] + room))
+    depths, along = chosen(z.size, DOWN), near[chosen(near.size, ALONG)]
+    borders = 1e6 * np.array([z[0], *result.scene.interfaces(), z[-1]])
+    flat = np.ptp(x[along]) > FLAT * np.ptp(z)
+    stretch = thin(borders)
+
+    def place(depth: NDArray[np.float64]) -> list[float]:
+        """Where a depth [um] is drawn, thin layers with room."""
+        drawn = np.interp(depth, borders, stretched(borders)) if stretch else depth
+        return [float(of) for of in np.atleast_1d(drawn)]
+
+    ticks = [*borders[:-1], (borders[-2] + borders[-1]) / 2, borders[-1]]
     return {
         "x": short(1e6 * x[along]),
         "z": short(1e6 * z[depths]),
+        "place": place(1e6 * z[depths]),
+        "ticks": [place(np.array(ticks)), [in_words(of, 3) for of in ticks]] if stretch else None,
+        "equal": not (stretch or flat),
         "values": short(values[np.ix_(depths, along)], 3),
-        "interfaces": short(1e6 * np.asarray(result.scene.interfaces())),
+        "interfaces": place(borders[1:-1]),
         "largest": [1e6 * largest.x, 1e6 * largest.z, 1e-6 * largest.value],
+        "mark": [1e6 * largest.x, *place(np.array([1e6 * largest.z]))],
         "error": 1e-6 * largest.error,
     }
 

@@ -23,27 +23,48 @@
     ...more,
   });
   const square = () => {
-    const plane = layout("x [µm]", fields.flat ? "" : "y [µm]");
-    if (fields.flat) plane.yaxis.visible = false;
-    else plane.yaxis = { ...plane.yaxis, scaleanchor: "x", constrain: "domain" };
+    const plane = layout("x [µm]", "y [µm]");
+    plane.yaxis = { ...plane.yaxis, scaleanchor: "x", constrain: "domain" };
     plane.xaxis.constrain = "domain";
     return plane;
   };
   const map = (id, values, more) =>
     Plotly.react(id, [{ type: "heatmap", x: fields.x, y: fields.y, z: values, ...more }], square(), options);
 
+  // A line contact has no map: pressure, size of the shear and zones along x.
+  const alongX = (at) => {
+    const profile = (id, y, label, largest) => {
+      const axes = layout("x [µm]", label);
+      axes.yaxis.range = [0, 1.05 * largest];
+      Plotly.react(id, [{ x: fields.x, y, line: { color: colours.first }, showlegend: false }], axes, options);
+    };
+    profile("p", at.p[0], "p [MPa]", fields.largest.p);
+    profile("q", at.q[0], "|q| [MPa]", fields.largest.q || 1);
+    const bars = [["stick", 2], ["slip", 1]].map(([name, code]) => ({
+      type: "bar", x: fields.x, name, marker: { color: colours[name], line: { width: 0 } },
+      y: at.p[0].map((p, k) => (at.zone[0][k] === code ? p : null)),
+    }));
+    const zones = layout("x [µm]", "p [MPa]", { barmode: "overlay", bargap: 0 });
+    zones.yaxis.range = [0, 1.05 * fields.largest.p];
+    Plotly.react("zone", bars, zones, options);
+  };
+
   const show = (n) => {
     const at = fields.shown[n];
     document.getElementById("number").textContent = at.increment;
     document.getElementById("says").textContent = at.says;
     const bar = (title) => ({ title: { text: title, side: "right" }, thickness: 12 });
-    map("p", at.p, { zmin: 0, zmax: fields.largest.p, colorscale: "YlGnBu", reversescale: true, colorbar: bar("p [MPa]") });
-    map("q", at.q, { zmin: 0, zmax: fields.largest.q || 1, colorscale: "YlGnBu", reversescale: true, colorbar: bar("|q| [MPa]") });
-    map("zone", at.zone, {
-      zmin: 1, zmax: 2, showscale: false,
-      colorscale: [[0, colours.slip], [0.5, colours.slip], [0.5, colours.stick], [1, colours.stick]],
-      hovertemplate: "x %{x}, y %{y}<extra></extra>",
-    });
+    if (fields.flat) {
+      alongX(at);
+    } else {
+      map("p", at.p, { zmin: 0, zmax: fields.largest.p, colorscale: "YlGnBu", reversescale: true, colorbar: bar("p [MPa]") });
+      map("q", at.q, { zmin: 0, zmax: fields.largest.q || 1, colorscale: "YlGnBu", reversescale: true, colorbar: bar("|q| [MPa]") });
+      map("zone", at.zone, {
+        zmin: 1, zmax: 2, showscale: false,
+        colorscale: [[0, colours.slip], [0.5, colours.slip], [0.5, colours.stick], [1, colours.stick]],
+        hovertemplate: "x %{x}, y %{y}<extra></extra>",
+      });
+    }
     const line = at.line;
     const lines = [
       { x: fields.x, y: line.p, name: "p", line: { color: colours.first } },
@@ -74,13 +95,22 @@
   if (stress) {
     const section = layout("x [µm]", "z [µm]");
     section.yaxis.autorange = "reversed";
+    if (stress.ticks) {
+      // Thin layers have room, each on a scale of its own.
+      section.yaxis.tickvals = stress.ticks[0];
+      section.yaxis.ticktext = stress.ticks[1];
+    }
+    if (stress.equal) {
+      section.yaxis = { ...section.yaxis, scaleanchor: "x", constrain: "domain" };
+      section.xaxis.constrain = "domain";
+    }
     section.shapes = stress.interfaces.map((z) => ({
       type: "line", xref: "paper", x0: 0, x1: 1, y0: z, y1: z, line: { dash: "dash", width: 1 },
     }));
     const [x, z, value] = stress.largest;
     Plotly.newPlot("stress", [
-      { type: "heatmap", x: stress.x, y: stress.z, z: stress.values, colorscale: "YlGnBu", reversescale: true, colorbar: { title: { text: "[MPa]", side: "right" }, thickness: 12 } },
-      { x: [x], y: [z], mode: "markers", marker: { symbol: "x-thin", size: 10, line: { width: 2, color: "black" } }, hoverinfo: "skip" },
+      { type: "heatmap", x: stress.x, y: stress.place, z: stress.values, customdata: stress.z.map((z) => stress.x.map(() => z)), hovertemplate: "x %{x} µm, z %{customdata} µm: %{z} MPa<extra></extra>", colorscale: "YlGnBu", reversescale: true, colorbar: { title: { text: "[MPa]", side: "right" }, thickness: 12 } },
+      { x: [stress.mark[0]], y: [stress.mark[1]], mode: "markers", marker: { symbol: "x-thin", size: 10, line: { width: 2, color: "black" } }, hoverinfo: "skip" },
     ], section, options);
     document.getElementById("largest").textContent =
       `the cross marks the largest, ${value.toPrecision(4)} MPa at x = ${x.toPrecision(3)} µm, z = ${z.toPrecision(3)} µm.`;

@@ -72,7 +72,7 @@ def report(
         title=escape(str(result.dataset.attrs["title"]) or "Fretting contact"),
         version=escape(str(result.dataset.attrs.get("version", __version__))),
         status=escape(result.status),
-        doubts="".join(f"<p>Doubted: {escape(doubt)}.</p>" for doubt in result.doubts),
+        doubts="".join(f"<p>Doubted: {escape(doubt)}.</p>" for doubt in doubted(result)),
         scene=scene_html(result.scene),
         ends=ends_table(result),
         bars=bars(result),
@@ -89,6 +89,11 @@ def report(
     )
     with beside(place) as unfinished:
         unfinished.write_text(page, encoding="utf-8")
+
+
+def doubted(result: Run) -> list[str]:
+    """What is hardly meant of the scene, and what the run came to, each once."""
+    return list(dict.fromkeys([*result.scene.doubts(), *result.doubts]))
 
 
 def drawing() -> str:
