@@ -27,6 +27,15 @@ def test_the_scar_of_ti64_has_its_width_with_the_debris_that_stays() -> None:
     assert half == pytest.approx(test.row["derived_scar_half_width_m"], rel=0.15)
 
 
+def test_without_debris_the_scar_is_wider_and_stays_on_its_grid() -> None:
+    kept, free = (
+        experiments.arnaud2021(debris_kept=part).wear(tolerance=0.1).dataset for part in (0.85, 0.0)
+    )
+    # Worn surfaces that fit: the width goes with the cube root of the part that leaves.
+    ratio = float(free.contact_area[-1] / kept.contact_area[-1])
+    assert ratio == pytest.approx(0.15 ** (-1 / 3), rel=0.12)
+
+
 def test_the_depth_of_tic_follows_its_energy() -> None:
     worn = experiments.fouvry2007("TiC").wear(jumps=6)
     d = worn.dataset

@@ -172,11 +172,19 @@ def fouvry2007(coating: str = "TiC", *, slip: float = 75e-6, mu: float = 0.45) -
     )
 
 
-def fouvry2017(test: str) -> Experiment:
+def fouvry2017(test: str, *, debris_kept: float = KEPT) -> Experiment:
     """Ti-6Al-4V cylinder on flat, gross slip of 75 um: a row of S. Fouvry and others' appendix A.
 
     The coefficient of friction is that of the row's energy, E = 4 mu W slip N; both bodies share
-    its V/E equally, and 0.85 of the debris stays.
+    its V/E equally.
+
+    Parameters
+    ----------
+    test : str
+        A row of the table ``fouvry2017_ti64``.
+    debris_kept : float
+        Part of the debris that stays in the contact, 0 to 1; the grid is as long as the scar
+        that follows needs.
     """
     row = row_of("fouvry2017_ti64", "test", test)
     slip, W, cycles, length = 75e-6, row["W_max_N_per_m"], row["cycles"], row["L_m"]
@@ -185,7 +193,7 @@ def fouvry2017(test: str) -> Experiment:
     mean = 0.5 * (1 + swing) * W
     mu = energy / (4 * mean * slip * cycles * length)
     alpha = volume / energy
-    wide = max((1.5 * row["R_m"] * (1 - KEPT) * volume / length) ** (1 / 3), 3e-4)
+    wide = max((1.5 * row["R_m"] * (1 - debris_kept) * volume / length) ** (1 / 3), 3e-4)
     hertz = row["p_H_Pa"] * 2 * row["R_m"] * 2 * (1 - 0.29**2) / 119e9
     scene = line(row["R_m"], W, slip, mu, 1.25 * max(wide, hertz))
     if swing < 1:
@@ -203,7 +211,7 @@ def fouvry2017(test: str) -> Experiment:
             "body2": law,
             "share1": 0.5,
             "share2": 0.5,
-            "debris_kept": KEPT,
+            "debris_kept": debris_kept,
             "frequency": row["frequency_Hz"],
         },
         (
@@ -215,13 +223,13 @@ def fouvry2017(test: str) -> Experiment:
     )
 
 
-def arnaud2021() -> Experiment:
+def arnaud2021(*, debris_kept: float = KEPT) -> Experiment:
     """Worn profile of Ti-6Al-4V, U-shaped: P. Arnaud, S. Baydoun, S. Fouvry.
 
-    It is the test RP_f_20 of :func:`fouvry2017`; ``row`` has ``x`` and ``depth`` [m], what both
-    bodies together have lost.
+    It is the test RP_f_20 of :func:`fouvry2017`; ``row`` has ``x`` and ``depth`` [m], the depth
+    that both bodies together have lost.
     """
-    test = fouvry2017("RP_f_20")
+    test = fouvry2017("RP_f_20", debris_kept=debris_kept)
     rows = [r for r in table("arnaud2021_profiles") if r["profile"] == "U_0.1Hz_measured"]
     row = {
         **test.row,
