@@ -1,10 +1,11 @@
 //! What jumps over cycles cost: implicit ones against the explicit ones that are no less exact.
 //!
-//! `wear_jumps [DOCUMENT]` writes a table in Markdown to the standard output, and between the marks of a document
-//! (`make wear-jumps`: docs/wear.md). Errors are those of the worn profile of both bodies (root mean
-//! square over the deepest depth) and of the pressure at the end (over its own root mean square) against a run of the shortest
-//! implicit jumps. Explicit jumps are halved until neither error is larger than that of the implicit ones. Work that does not
-//! jitter: cycles solved, or in gross slip two-dimensional transforms; times are those of the processor.
+//! `wear_jumps [DOCUMENT]` writes a table in Markdown to the standard output, and between the marks
+//! of a document (`make wear-jumps`: docs/wear.md). Errors are those of the worn profile of both
+//! bodies (root mean square over the deepest depth) and of the pressure at the end (over its own
+//! root mean square) against a run of the shortest implicit jumps. Explicit jumps are halved until
+//! neither error is larger than that of the implicit ones. Work that does not jitter: cycles
+//! solved, or in gross slip two-dimensional transforms; times are those of the processor.
 #![allow(clippy::print_stdout, clippy::unwrap_used)] // a command of developers: a document that is not there ends it
 
 #[path = "../tests/document/mod.rs"]

@@ -21,9 +21,9 @@ pub struct DcFft {
     self_coefficients: (f64, f64),
 }
 
-/// What single precision misses at most of a displacement, over the norms (roots of the sums of squares)
-/// of the tractions and of a kernel: transforms spread an error of each number over all of them, so that
-/// where tractions cancel it does not.
+/// What single precision misses at most of a displacement, over the norms (roots of the sums of
+/// squares) of the tractions and of a kernel: transforms spread an error of each number over all of
+/// them, so that where tractions cancel it does not.
 const ROUNDING: f64 = 1e-7;
 
 impl DcFft {
@@ -45,7 +45,8 @@ impl DcFft {
         Self::until(coefficients, mirror, coupling, single, &stop).expect(NOBODY)
     }
 
-    /// As [`Self::with_single`]; ends when `stop` is raised: [`Error::Interrupted`] after increment 0.
+    /// As [`Self::with_single`]; ends when `stop` is raised: [`Error::Interrupted`] after
+    /// increment 0.
     pub fn until(
         coefficients: &InfluenceCoefficients,
         mirror: Mirror,

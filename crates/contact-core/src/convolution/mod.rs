@@ -32,7 +32,8 @@ pub(crate) use spectra::Spectra;
 pub(crate) use spectral_product::{PARALLEL_FROM, SpectralProduct};
 pub use work::Convolutions;
 
-/// The tractions that act, each a field \[Pa\] in row-major (nx, ny) order; those left out are zero.
+/// The tractions that act, each a field \[Pa\] in row-major (nx, ny) order; those left out are
+/// zero.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tractions<'a> {
     /// Shear traction on body 2 along x.
@@ -65,8 +66,8 @@ pub trait SurfaceOperator: Send + Sync {
     /// If a field does not have nx ny entries.
     fn apply(&mut self, tractions: Tractions<'_>, displacements: Displacements<'_>);
 
-    /// As [`Self::apply`] for a change of the tractions, of which some digits are enough: an operator
-    /// that has single precision at hand errs by about 1e-7 of the largest displacement.
+    /// As [`Self::apply`] for a change of the tractions, of which some digits are enough: an
+    /// operator that has single precision at hand errs by about 1e-7 of the largest displacement.
     ///
     /// # Panics
     /// If a field does not have nx ny entries.
@@ -74,8 +75,8 @@ pub trait SurfaceOperator: Send + Sync {
         self.apply(tractions, displacements);
     }
 
-    /// What [`Self::respond`] may miss of a displacement, over the root of the sum of squares of the
-    /// tractions \[m/Pa\]; zero where it has all digits.
+    /// What [`Self::respond`] may miss of a displacement, over the root of the sum of squares of
+    /// the tractions \[m/Pa\]; zero where it has all digits.
     fn rounding(&self) -> f64 {
         0.0
     }
@@ -90,7 +91,8 @@ pub trait SurfaceOperator: Send + Sync {
     fn self_coefficients(&self) -> (f64, f64);
 }
 
-/// An approximate inverse of the normal and of the tangential part of an operator: a preconditioner.
+/// An approximate inverse of the normal and of the tangential part of an operator: a
+/// preconditioner.
 pub trait ApproximateInverse: Send + Sync {
     /// z ~ C_zz^-1 r.
     fn normal(&mut self, r: &[f64], z: &mut [f64]);

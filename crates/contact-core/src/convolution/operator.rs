@@ -1,4 +1,5 @@
-//! Where operators are made: those of a scene as its plan asks for them, of a pair of bodies, of pressure alone.
+//! Where operators are made: those of a scene as its plan asks for them, of a pair of bodies, of
+//! pressure alone.
 
 use std::sync::atomic::AtomicBool;
 

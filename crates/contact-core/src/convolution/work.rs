@@ -4,7 +4,8 @@ use std::ops::{Add, AddAssign, Sub};
 
 /// Work in convolutions of three tractions to three displacements.
 ///
-/// A component of either counts as a sixth, and sixths are added as whole numbers: sums and differences are exact.
+/// A component of either counts as a sixth, and sixths are added as whole numbers: sums and
+/// differences are exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Convolutions(usize);
 

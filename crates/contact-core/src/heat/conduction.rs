@@ -11,8 +11,8 @@ use crate::scene::Grid;
 
 /// The response of a surface, or the sum of two, to a flux that goes on at one angular frequency.
 ///
-/// Fields are amplitudes: the flux is Re q exp(i w t) into the body \[W/m^2\], the temperature Re T exp(i w t)
-/// above that far away \[K\], one number per cell in row-major (nx, ny) order.
+/// Fields are amplitudes: the flux is Re q exp(i w t) into the body \[W/m^2\], the temperature Re T
+/// exp(i w t) above that far away \[K\], one number per cell in row-major (nx, ny) order.
 pub struct Conduction {
     coefficients: Array2<Complex64>,
     /// Real part of the coefficients, and the imaginary one where there is any.
@@ -23,8 +23,8 @@ pub struct Conduction {
 impl Conduction {
     /// Of a body on a grid at the angular frequency w >= 0 \[1/s\]; w = 0 is the steady state.
     ///
-    /// Fails in plane strain, where the steady temperature has no bound, for w that is negative or no
-    /// number, and if the coefficients of a coated body are not accurate.
+    /// Fails in plane strain, where the steady temperature has no bound, for w that is negative or
+    /// no number, and if the coefficients of a coated body are not accurate.
     pub fn new(body: &Layers, grid: &Grid, w: f64) -> Result<Self, Error> {
         grid.check_alone()?;
         if grid.plane_strain {

@@ -10,7 +10,8 @@ use crate::error::Error;
 use crate::scene::{History, LoadPoint};
 use crate::solvers::Response;
 
-/// Computes the increment to a point and makes it the present state, which after a failure is as before.
+/// Computes the increment to a point and makes it the present state, which after a failure is as
+/// before.
 pub(super) fn increment(
     problem: &Problem,
     domain: &mut Domain,

@@ -61,8 +61,8 @@ pub struct March {
 }
 
 impl March {
-    /// Checks the scene, plans, and computes the kernels. Fails where a branch has no number of increments:
-    /// [`choose_increments`](crate::estimate::choose_increments) chooses it.
+    /// Checks the scene, plans, and computes the kernels. Fails where a branch has no number of
+    /// increments: [`choose_increments`](crate::estimate::choose_increments) chooses it.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         Self::until(scene, &Arc::default())
     }
@@ -139,7 +139,8 @@ impl March {
         self.state = state.unwrap_or_else(unloaded);
     }
 
-    /// Grows contacts in so many steps to the largest of the path ([`Methods`](crate::plan::Methods)).
+    /// Grows contacts in so many steps to the largest of the path
+    /// ([`Methods`](crate::plan::Methods)).
     pub(crate) fn grow_in(&mut self, steps: usize) {
         self.problem.plan.methods.growth_steps = steps;
     }
@@ -195,8 +196,8 @@ impl March {
         Some(ended)
     }
 
-    /// Computes an increment in a window that is wide enough for it. The window changes here, between
-    /// increments, and nowhere else.
+    /// Computes an increment in a window that is wide enough for it. The window changes here,
+    /// between increments, and nowhere else.
     fn in_a_window(
         &mut self,
         point: &LoadPoint,

@@ -1,5 +1,5 @@
-//! A flag that is raised at any moment of an increment: how much is still computed. What is known of
-//! the cells beyond the window without a check. Displacements and tractions.
+//! A flag that is raised at any moment of an increment: how much is still computed. What is known
+//! of the cells beyond the window without a check. Displacements and tractions.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -29,8 +29,8 @@ nu = 0.3
 coatings = [{ E = { E_substrate = 4.0 }, nu = 0.3, thickness = { a_H = 1.0 } }]
 "#;
 
-/// Convolutions that may follow the raising of the flag: one that ends what the solver of the pressure
-/// was at, and one each that takes the shear and its change along.
+/// Convolutions that may follow the raising of the flag: one that ends what the solver of the
+/// pressure was at, and one each that takes the shear and its change along.
 const LATE: usize = 3;
 /// Moments tried in an increment.
 const TRIALS: usize = 30;
@@ -199,7 +199,8 @@ fn a_raised_flag_lays_out_no_window() {
     }
 }
 
-/// The gap beyond the window is never smaller than what is known of it, and mostly it is not looked at.
+/// The gap beyond the window is never smaller than what is known of it, and mostly it is not looked
+/// at.
 #[test]
 fn cells_beyond_the_window_are_as_far_as_they_are_known_to_be() {
     let more = ["grid.n=96", "grid.extent.a_H=5.0", "path.0.increments=8"];
@@ -240,7 +241,8 @@ fn displacements_are_those_of_the_tractions() {
     let settings: Vec<String> = more.map(str::to_owned).collect();
     let scene = Scene::from_toml_str(COATED, "coated", &settings).unwrap();
     let mut march = March::new(&scene).unwrap();
-    // A tenth of the tolerance may be rounded, and in a pass a tenth of that of the slip is negligible.
+    // A tenth of the tolerance may be rounded, and in a pass a tenth of that of the slip is
+    // negligible.
     let allowed = 0.2 * scene.tolerance() * march.problem.approach;
     while let Some(increment) = march.advance() {
         increment.unwrap();

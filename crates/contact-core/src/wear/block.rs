@@ -25,13 +25,13 @@ pub struct Block {
     /// Pressure \[Pa\]: in a march the mean of the cycle, weighted with the energy dissipated in
     /// each increment; in gross slip that in the middle of the stroke.
     pub p: Array2<f64>,
-    /// Shift of body 1 against body 2 along x at which p acts and the two worn surfaces lie \[m\]; zero in
-    /// a march.
+    /// Shift of body 1 against body 2 along x at which p acts and the two worn surfaces lie \[m\];
+    /// zero in a march.
     pub shift: f64,
     /// Contact cells that slip nowhere in the cycle; none in gross slip.
     pub stick: Array2<bool>,
-    /// Friction loop of one cycle: shift delta_x \[m\], force T_x \[N\], shift delta_y, force T_y, at the
-    /// ends of its increments. The shifts are those of the rig.
+    /// Friction loop of one cycle: shift delta_x \[m\], force T_x \[N\], shift delta_y, force T_y,
+    /// at the ends of its increments. The shifts are those of the rig.
     pub friction_loop: Vec<[f64; 4]>,
 }
 

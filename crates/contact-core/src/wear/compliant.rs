@@ -1,8 +1,8 @@
 //! The surface operator with a compliance of its own in each cell: u_z = C p + D p.
 //!
-//! A jump of n cycles wears `n k s p` off a cell, p being the pressure at its end: as if a spring of
-//! the compliance `D = n k s` stood in series with the half-space there. D >= 0 makes the normal problem
-//! better conditioned, whatever the length of the jump.
+//! A jump of n cycles wears `n k s p` off a cell, p being the pressure at its end: as if a spring
+//! of the compliance `D = n k s` stood in series with the half-space there. D >= 0 makes the normal
+//! problem better conditioned, whatever the length of the jump.
 
 use crate::convolution::{
     ApproximateInverse, CirculantInverse, Convolutions, Displacements, SurfaceOperator, Tractions,
@@ -56,7 +56,8 @@ impl SurfaceOperator for Compliant<'_> {
     }
 }
 
-/// The approximate inverse of C + D. With P that of C with the same D_0 added to every cell it is S P S,
+/// The approximate inverse of C + D. With P that of C with the same D_0 added to every cell it is S
+/// P S,
 ///
 /// ```text
 /// s_i^2 = (c + D_0)/(c + D_i),   1/(c + D_0) = mean of 1/(c + D_i) over the contact,
@@ -128,7 +129,8 @@ pub(crate) fn shortest_waves(kernel: &InfluenceCoefficients) -> f64 {
     zz[(0, 0)] - beside.copied().unwrap_or(0.0)
 }
 
-/// The circulant inverse of the kernel of u_z under p with D_0 added to every cell: to the self coefficient.
+/// The circulant inverse of the kernel of u_z under p with D_0 added to every cell: to the self
+/// coefficient.
 fn with_diagonal(kernel: &InfluenceCoefficients, mirror: Mirror, at: f64) -> CirculantInverse {
     let mut with = kernel.clone();
     with.zz[(0, 0)] += at;

@@ -206,8 +206,8 @@ fn growth(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
     [grows(steps[0], steps[1]), grows(steps[1], steps[2])]
 }
 
-/// Cells along x and along y from the middle of a grid to the far side of the outermost that touches; the
-/// pressure is that of the kept rows.
+/// Cells along x and along y from the middle of a grid to the far side of the outermost that
+/// touches; the pressure is that of the kept rows.
 pub(in crate::march) fn half_lengths(
     p: &[f64],
     rows: usize,

@@ -1,9 +1,10 @@
 //! The cells that are solved for: a window around the contact.
 //!
-//! Tractions act in the contact alone, and displacements of other cells matter only where these might
-//! touch. So an increment is solved in a window around the contact, with a margin between the two, and
-//! ends with a check of the gap beyond. The window changes between increments only ([`Domain::fit`],
-//! [`Domain::widen`]): an increment that finds its window too small is begun again in a wider one.
+//! Tractions act in the contact alone, and displacements of other cells matter only where these
+//! might touch. So an increment is solved in a window around the contact, with a margin between the
+//! two, and ends with a check of the gap beyond. The window changes between increments only
+//! ([`Domain::fit`], [`Domain::widen`]): an increment that finds its window too small is begun
+//! again in a wider one.
 
 mod beyond;
 mod embed;
@@ -254,8 +255,8 @@ impl Geometry {
         }
     }
 
-    /// The approach at which the undeformed surfaces just touch anywhere on the grid of the scene, tilted by
-    /// the motion across the plane \[m\].
+    /// The approach at which the undeformed surfaces just touch anywhere on the grid of the scene,
+    /// tilted by the motion across the plane \[m\].
     pub(super) fn touching(&self, scene: &Scene, [_, of_x, of_y]: [f64; 3]) -> f64 {
         let least = |least: f64, h: f64| least.min(h);
         if self.grid == scene.grid {
