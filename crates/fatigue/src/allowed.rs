@@ -1,6 +1,6 @@
-//! What a number may be.
+//! The range of a number.
 
-/// What a number may be.
+/// The range of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Allowed {
     /// A stress \[Pa\], positive.

@@ -1,6 +1,6 @@
-//! What a criterion says about a point.
+//! The value of a criterion at a point, with its plane.
 
-/// What a criterion says about a point.
+/// The value of a criterion at a point, with its plane.
 ///
 /// For Crossland's and Dang Van's, which have no plane, the normal and `normal_min` are NaN;
 /// `shear_amplitude` is then sqrt(J2,a), or tau at the instant that decides, and `normal_max` the

@@ -16,7 +16,7 @@ pub struct Quantity {
     pub name: &'static str,
     /// Unit.
     pub unit: &'static str,
-    /// What it is.
+    /// Description.
     pub long_name: &'static str,
     /// Its values.
     pub allowed: Allowed,
@@ -111,7 +111,7 @@ impl Sourced {
 pub struct Material {
     /// Name in the table.
     pub name: String,
-    /// What it is.
+    /// Description.
     pub title: String,
     /// Its numbers by the names of [`QUANTITIES`].
     pub numbers: BTreeMap<&'static str, Sourced>,

@@ -18,7 +18,7 @@ const TRESCA_OVER_MISES: f64 = 1.154_700_538_379_251_5;
 #[derive(Clone, Debug)]
 pub(crate) struct Path {
     pub(crate) blocks: Vec<[Lanes; 6]>,
-    /// What a stress of 1 is \[Pa\].
+    /// The unit of stress \[Pa\].
     unit: f64,
     /// Sums of the normal stresses.
     traces: Vec<Lanes>,
@@ -98,7 +98,7 @@ impl Path {
         self.traces.extend(self.blocks.iter().map(trace));
     }
 
-    /// What a stress of 1 is \[Pa\].
+    /// The unit of stress \[Pa\].
     pub(crate) fn unit(&self) -> f64 {
         self.unit
     }

@@ -72,8 +72,8 @@ impl ContactCells {
         }
     }
 
-    /// [`Self::pack`] for many fields, which take the length of the contact; what is empty stays
-    /// so.
+    /// [`Self::pack`] for many fields, which take the length of the contact; empty fields stay
+    /// empty.
     pub(crate) fn pack_all<const N: usize>(&self, fields: [(&[f64], &mut Vec<f64>); N]) {
         let pack = |(field, packed): (&[f64], &mut Vec<f64>)| {
             packed.resize(if field.is_empty() { 0 } else { self.count }, 0.0);

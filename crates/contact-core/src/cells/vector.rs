@@ -48,7 +48,7 @@ pub(crate) fn size(v: [f64; 2]) -> f64 {
 /// Cells that one thread sums or changes in one go.
 pub(crate) const CHUNK: usize = PARALLEL_FROM;
 
-/// Does two things to so many cells, in parallel where there are enough of them.
+/// Runs two functions, in parallel if there are enough `cells`.
 pub(crate) fn both<A: Send, B: Send>(
     cells: usize,
     one: impl FnOnce() -> A + Send,

@@ -49,8 +49,8 @@ const ROUNDS: usize = 8;
 const MOST: usize = 20_000;
 const MOST_OF_BRANCH: usize = 1000;
 
-/// The scene with a number of increments for each branch that has none, so many that the error of
-/// the shear stays within `solver.path_tolerance`, and with the estimated error of each branch.
+/// The scene with increments chosen for each branch that has none, for an error of the shear within
+/// `solver.path_tolerance`, and with the estimated error of each branch.
 ///
 /// A scene whose increments are given is returned as it is. Ends when `stop` is raised:
 /// [`Error::Interrupted`] after increment 0.
@@ -118,8 +118,8 @@ impl Choice {
             let errors = trial.errors(&part, |k| self.open[k])?;
             until = match self.refine(&errors) {
                 None if until == last => return Ok(true),
-                // The branches after a growth of contact depend on it: they are looked at once it
-                // is refined.
+                // The branches after a growth of contact depend on it: they are judged once it is
+                // refined.
                 Some(k) if self.path.branches[k].spacing == Spacing::EqualRadius => k,
                 _ => last,
             };

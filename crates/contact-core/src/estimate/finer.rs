@@ -83,7 +83,7 @@ pub fn finest(scene: &Scene) -> Option<Scene> {
     Some(fine)
 }
 
-/// The grid of so many times the cells each way; a strip keeps its one row.
+/// The grid of `times` the cells each way; a strip keeps its one row.
 fn refined(grid: &Grid, times: usize) -> Grid {
     let part = 1.0 / times as f64;
     let (ny, dy) = if grid.plane_strain {

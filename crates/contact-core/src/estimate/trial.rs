@@ -23,7 +23,7 @@ const SLIDING_ORDER: f64 = 1.0;
 /// Solver tolerance of these runs over the tolerance of the path: the errors of the increments add
 /// up.
 const SOLVED: f64 = 4e-3;
-/// Grids of fewer than four times so many cells are not coarsened.
+/// A grid is not halved below CELLS cells.
 const CELLS: usize = 32 * 32;
 /// Error of the increments on a grid of ENOUGH cells or more, over that on coarser ones: coarser
 /// grids underestimate it by 20 to 30 % on the paper's scene, since the ring of the last cells is

@@ -137,7 +137,7 @@ mod tests {
         assert!(depths[0].z == 0.0 && depths.last().is_some_and(|d| d.z == deepest));
         assert!(depths.windows(2).all(|d| d[0].z <= d[1].z) && depths.len() < 80);
         assert_eq!(on_interfaces(&depths).iter().filter(|on| **on).count(), 6);
-        // Interfaces below the deepest are not looked at.
+        // Interfaces below the deepest depth are left out.
         let shallow = chosen_depths(&body, a, 1e-6, 1.0).expect("depths");
         assert!(shallow.iter().all(|d| d.layer == 0));
         assert!(chosen_depths(&body, a, 0.0, 1.0).is_err());

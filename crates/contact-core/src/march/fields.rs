@@ -36,8 +36,8 @@ pub struct Fields {
     pub contact: Array2<bool>,
     /// Contact cells that do not slip in this increment.
     pub stick: Array2<bool>,
-    /// Those of them whose shear is at the limit of friction: they slip by less than an increment
-    /// can tell.
+    /// Those of them whose shear is at the limit of friction; their slip is within the solver's
+    /// tolerance.
     pub at_limit: Array2<bool>,
 }
 

@@ -150,7 +150,7 @@ impl March {
         &self.problem.scene
     }
 
-    /// What is skipped and why.
+    /// The rules of the plan: computations that are skipped, and why.
     pub fn plan(&self) -> &Plan {
         &self.problem.plan
     }
@@ -180,7 +180,7 @@ impl March {
         let mut found = None;
         let mut ended = self.in_a_window(&point, &mut found);
         match &mut ended {
-            // What was tried in vain was work too.
+            // Failed attempts count as work, too.
             Ok(increment) => {
                 increment.work.convolutions = (self.domain.work() - before).count();
             }

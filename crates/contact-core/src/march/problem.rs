@@ -16,7 +16,7 @@ use crate::solvers::intermediate::AlternationParams;
 pub(super) struct Problem {
     /// The scene, with the tolerance that it is solved with.
     pub(super) scene: Scene,
-    /// What is skipped, and the numerical methods.
+    /// The computations to skip, and the numerical methods.
     pub(super) plan: Plan,
     /// Largest normal force \[N\] and largest approach \[m\] that the path gives.
     pub(super) largest: Largest,
@@ -44,7 +44,7 @@ impl Largest {
     }
 }
 
-/// What drives the motions of an increment: across the plane from the unloaded state, in it from
+/// The drives of the motions of an increment: across the plane from the unloaded state, in it from
 /// the last increment.
 #[derive(Clone, Copy)]
 pub(super) struct Drives {
@@ -101,7 +101,7 @@ const NEGLIGIBLE_SHARE: f64 = 0.1;
 const FORCING: f64 = 0.1;
 
 impl Problem {
-    /// Fails once the flag is raised: [`Error::Interrupted`] after so many increments.
+    /// Fails once the flag is raised: [`Error::Interrupted`] after this `increment`.
     pub(super) fn unless_stopped(&self, increment: usize) -> Result<(), Error> {
         if self.stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted { increment });

@@ -2,8 +2,7 @@
 //!
 //! - [`inner::normal`]: the pressure for known shear, eq. (5)-(6);
 //! - [`inner::tangential`]: the shear for known pressure, eq. (7)-(8);
-//! - [`intermediate::alternation`]: one after the other until neither changes what the other was
-//!   solved for;
+//! - [`intermediate::alternation`]: one after the other until neither changes the other;
 //! - [`no_slip`]: the displacement that means no slip, eq. (7).
 //!
 //! The solvers know no elasticity, only a [`SurfaceOperator`](crate::convolution::SurfaceOperator).

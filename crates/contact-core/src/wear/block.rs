@@ -7,7 +7,7 @@ use super::worn_start::WornStart;
 use crate::convolution::Convolutions;
 use crate::plan::Half;
 
-/// Worn surfaces and the contact on them after so many cycles, each field of shape (nx, ny).
+/// Worn surfaces and the contact on them after a number of cycles, each field of shape (nx, ny).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
     /// Cycles done.

@@ -8,7 +8,7 @@ use super::settings::{Wear, thicknesses};
 use crate::plan::Plan;
 use crate::scene::Scene;
 
-/// What happened to a coating.
+/// Kind of an event of a coating.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum EventKind {
     /// The worn depth reaches a stated part of the coatings' thickness; the elastic response, that

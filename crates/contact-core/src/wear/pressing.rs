@@ -130,7 +130,7 @@ impl Pressing {
     }
 
     /// Solves `p >= 0, g = h + C p + D p - delta_z >= 0, p g = 0` for p from a guess, D being the
-    /// `compliance` of each cell \[m/Pa\], to so many `times` the tolerance of the scene.
+    /// `compliance` of each cell \[m/Pa\], to `times` the tolerance of the scene.
     pub(crate) fn solve(
         &mut self,
         h: &[f64],

@@ -43,7 +43,7 @@ impl Default for Jumps {
     }
 }
 
-/// What a run does when a coating is worn through somewhere.
+/// Action when a coating is worn through somewhere.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum WornThrough {
     /// It ends there (default).
@@ -74,7 +74,7 @@ pub struct Wear {
     pub rig_stiffness: f64,
     /// How long the jumps are.
     pub jumps: Jumps,
-    /// What happens when a coating is worn through.
+    /// Action when a coating is worn through.
     pub worn_through: WornThrough,
     /// Part of the worn volume of both bodies that stays in the contact as debris, 0 to 1 (default
     /// 0): the gap grows by the rest. Debris lies where it was worn off and is as stiff as the

@@ -125,7 +125,7 @@ impl Domain {
         self.replaced + self.window.op.work() + whole
     }
 
-    /// Allows so much work from now on.
+    /// Sets the work allowed from now on.
     pub(super) fn allow(&mut self, more: Convolutions) {
         self.limit = self.work() + more;
     }

@@ -237,7 +237,7 @@ fn excess(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], shift: [f64; 3])
         let v = cut_from(problem, [q_x, q_y], shift, n);
         let length = size(v);
         let cut = cut(length, g);
-        // Cells beyond the circle give way only across their direction.
+        // The derivative of a cell on the circle acts only across its direction.
         let e = if length > g {
             [v[0] / length, v[1] / length]
         } else {

@@ -45,7 +45,7 @@ impl ContactShear {
         cells.pack(shear.slip, &mut self.slip);
     }
 
-    /// The problem and the shear as the solver sees them.
+    /// The problem and the shear in the solver's form.
     pub(crate) fn parts(&mut self, drive: Drive) -> (TangentialProblem<'_>, Shear<'_>) {
         let problem = TangentialProblem {
             bound: &self.bound,

@@ -1,4 +1,4 @@
-//! What friction can carry at most, and how the contact slides there.
+//! The limit of friction, and the sliding motion at the limit.
 //!
 //! Under full sliding with the motion m, cell n carries the shear g along B m. Loads F are within
 //! the limit if F . m <= sum g |B m| for every m (the limit surface of S. Goyal, A. Ruina,

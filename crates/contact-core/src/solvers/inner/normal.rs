@@ -19,7 +19,7 @@ use crate::cells::{add_scaled, copy};
 use crate::cells::{largest, set, sums, survey, sweep};
 use crate::solvers::{Response, SolverError};
 
-/// What is given: the gap and what drives the approach and the tilts.
+/// Data: the gap, and the drive of approach and tilts.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalProblem<'a> {
     /// Gap between the undeformed surfaces h_init \[m\].
@@ -42,7 +42,7 @@ pub struct NormalParams {
     pub max_iterations: usize,
 }
 
-/// What the normal solver ended with.
+/// Result of the normal solver.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NormalInfo {
     /// Approach, and the tilts phi_x, phi_y times the length \[m\].
@@ -151,7 +151,7 @@ pub fn normal(
     }
 }
 
-/// The conjugate gradients: what one step hands to the next.
+/// The conjugate gradients: data passed from one step to the next.
 struct Descent {
     /// Smallest misfit \[m\], and the steps since.
     best: f64,

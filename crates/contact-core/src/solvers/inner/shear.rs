@@ -5,7 +5,7 @@ use crate::plan::TangentialMethod;
 use crate::solvers::Shear;
 use crate::solvers::no_slip::slip;
 
-/// What is given: the friction bound, the reference of the slip, what drives the shift.
+/// Data: the friction bound, the reference of the slip, the drive of the shift.
 #[derive(Clone, Copy, Debug)]
 pub struct TangentialProblem<'a> {
     /// Largest shear g = mu p in each cell \[Pa\], zero outside the contact.
@@ -47,7 +47,7 @@ pub struct TangentialParams {
     pub max_passes: usize,
 }
 
-/// What the tangential solver ended with.
+/// Result of the tangential solver.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TangentialInfo {
     /// Rigid motion of this increment: delta_x, delta_y, phi_z times the length \[m\].

@@ -149,7 +149,7 @@ impl GradientBuffers {
     }
 
     /// Steps of the slip cells against their slip and of the others along the direction; then the
-    /// shear is made admissible, and `change` is what it has changed by \[Pa\].
+    /// shear is made admissible; `change` is its change \[Pa\].
     fn advance(
         &mut self,
         problem: &TangentialProblem<'_>,

@@ -9,7 +9,7 @@ use crate::solvers::inner::{
     TangentialWorkspace, exceeds, is_full,
 };
 
-/// What is given in one increment.
+/// Data of one increment.
 #[derive(Clone, Copy, Debug)]
 pub struct IncrementProblem<'a> {
     /// Gap between the undeformed surfaces h_init \[m\].
@@ -24,9 +24,9 @@ pub struct IncrementProblem<'a> {
     /// Whether cells may enter because the contact grows or rolls, or are kept out (a solution on
     /// the old contact).
     pub enters: bool,
-    /// What drives approach and tilts, from the unloaded state.
+    /// Drive of approach and tilts, from the unloaded state.
     pub normal: Drive,
-    /// What drives shifts and torsion in this increment.
+    /// Drive of shifts and torsion in this increment.
     pub tangential: Drive,
 }
 
@@ -93,7 +93,7 @@ impl AlternationParams {
     }
 }
 
-/// What the intermediate loop ended with.
+/// Result of the intermediate loop.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AlternationInfo {
     /// Approach, and the tilts phi_x, phi_y times the length \[m\].

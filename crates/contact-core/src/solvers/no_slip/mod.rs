@@ -62,7 +62,7 @@ impl NoSlipTerms {
     }
 }
 
-/// What the increment starts from.
+/// The start of the increment.
 #[derive(Clone, Copy)]
 pub struct Start<'a> {
     /// Tractions and displacements of the material that is now in each cell.
