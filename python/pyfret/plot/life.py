@@ -14,7 +14,7 @@ from pyfret._util.depths import interfaces, thin
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import scales
 from pyfret.plot.stresses import COLOURS, FLAT
-from pyfret.plot.style import MARK, axes, inside_legend, mark, styled
+from pyfret.plot.style import MARK, axes, inside_legend, mark, note, styled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 #: How criteria are written in figures.
 NAMES = dict(_core.criteria())
+#: Part of a limit below which a number is one of rounding.
+NOTHING = 1e-9
 #: Colour of what is not judged.
 UNJUDGED = "0.9"
 #: Lives beyond this are drawn as endless [cycles].
@@ -176,6 +178,9 @@ def _filled(
         return None
     image = None
     colours = COLOURS.reversed() if limit is None else COLOURS
+    if limit is not None and np.nanmax(np.abs(field)) < NOTHING:
+        note(ax, "nothing of the limit is used")
+        return None
     most = np.nanmax(field)
     if limit is None:
         most = min(most, np.log10(ENDLESS))

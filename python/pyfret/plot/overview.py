@@ -12,7 +12,7 @@ from pyfret.plot.histories import driven, fretting_loop, load_path, stick_ratio
 from pyfret.plot.maps import pressure_map, shear_streamlines, slip_map, stick_slip
 from pyfret.plot.scales import Scales, Units, last_of, of_snapshot
 from pyfret.plot.stresses import stress_map
-from pyfret.plot.style import REFERENCE, note, styled
+from pyfret.plot.style import REFERENCE, apart, note, styled
 from pyfret.run import Run, State
 from pyfret.subsurface.contact import stress_below
 
@@ -40,8 +40,7 @@ def overview(shown: Run | State, *, units: Units = "auto") -> Figure:
     at = last_of(shown)
     by = of_snapshot(at, units)
     figure, grid = plt.subplots(2, 3, figsize=(11.8, 7.0))
-    # Room between the scale of a map and the axis of the next panel.
-    figure.set_layout_engine("constrained", w_pad=0.1, h_pad=0.06)
+    apart(figure)
     first, second, third, fourth, fifth, sixth = grid.ravel()
     _history(shown, first, units)
     _tractions(second, at, by)

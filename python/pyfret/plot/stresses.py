@@ -14,7 +14,7 @@ from pyfret._util.depths import interfaces, thin
 from pyfret._util.numbers import in_words
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import Scales, Units, scales
-from pyfret.plot.style import axes, mark, styled
+from pyfret.plot.style import apart, axes, mark, styled
 from pyfret.subsurface.contact import stress_below
 from pyfret.subsurface.tensor import Stress
 
@@ -256,6 +256,7 @@ def envelope_maps(
     figure, row = plt.subplots(
         1, len(shown), figsize=(0.4 + 3.9 * len(shown), 3.7), squeeze=False, layout="constrained"
     )
+    apart(figure)
     for ax, (values, symbol) in zip(row[0], shown, strict=True):
         field = values.assign_attrs(envelope.attrs)
         section_map(field, a_H=a_H, p_H=p_H, units=units, symbol=symbol, ax=ax)
@@ -326,6 +327,7 @@ def stress_maps(
     figure, row = plt.subplots(
         1, n, figsize=(0.4 + 3.7 * n, 3.7), squeeze=False, layout="constrained"
     )
+    apart(figure)
     for ax, letter, (ratio, result) in zip(row[0], "abcdef", sorted(results.items()), strict=False):
         z = np.union1d(np.linspace(0.0, depth * result.a_H, layers), result.scene.interfaces())
         stress_map(stress_below(result.at(-1), z, y=0.0), of=of, ax=ax)

@@ -11,6 +11,7 @@ from typing import ParamSpec, TypeVar
 import matplotlib.pyplot as plt
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 #: Colour of marks of largest values.
 MARK = "#D55E00"
@@ -79,6 +80,11 @@ def inside_legend(ax: Axes, *, handles: list[Artist] | None = None) -> None:
         borderpad=0.3,
         **given,
     ).set_zorder(5)
+
+
+def apart(figure: Figure) -> None:
+    """Leave room between the scale of a map and the axis of the next panel."""
+    figure.set_layout_engine("constrained", w_pad=0.1, h_pad=0.06)
 
 
 def note(ax: Axes, text: str) -> None:
