@@ -216,6 +216,34 @@ def test_six_panels_in_one_figure(result: fret.Result) -> None:
     assert all(ax.has_data() or ax.texts for ax in panels)
 
 
+@pytest.mark.parametrize("name", ["crowned roller along a moment", "thin layers", "line"])
+@pytest.mark.parametrize("units", ["auto", "SI"])
+def test_no_label_is_cut(name: str, units: fret.plot.Units) -> None:
+    result = fret.solve(SCENES[name], progress=False)
+    below = result.at(-1).stress()
+    envelope = result.envelope(below.dataset.z.values, y=0.0)
+    drawn = [
+        fret.plot.stress_map(below, units=units).get_figure(),
+        fret.plot.stress_map(below, of="s_xx", units=units).get_figure(),
+        fret.plot.envelope_maps(envelope, units=units),
+        fret.plot.pressure_map(result, units=units).get_figure(),
+        fret.plot.slip_map(result, units=units).get_figure(),
+        fret.plot.load_factor_map(
+            result.load_factors([650e6] * (1 + len(result.scene.body2.coatings)), y=0.0),
+            units=units,
+        ).get_figure(),
+        fret.plot.shear_profiles(result, units=units).get_figure(),
+        result.plot(units=units),
+    ]
+    for figure in drawn:
+        figure.canvas.draw()
+        box, (wide, high) = figure.get_tightbbox(), figure.get_size_inches()
+        # All of it is on the page, to a hundredth of an inch.
+        assert min(box.x0, box.y0) > -0.01
+        assert box.x1 < wide + 0.01
+        assert box.y1 < high + 0.01
+
+
 def test_line_contacts_are_drawn_along_x_in_units_per_metre() -> None:
     result = fret.solve(SCENES["line"], progress=False)
     assert fret.plot.fretting_loop(result).get_ylabel() == "$T_x$ [N/m]"

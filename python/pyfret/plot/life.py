@@ -13,7 +13,7 @@ from pyfret import _core, fatigue
 from pyfret._util.depths import interfaces, thin
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import scales
-from pyfret.plot.stresses import COLOURS, FLAT
+from pyfret.plot.stresses import COLOURS, FLAT, section_size
 from pyfret.plot.style import MARK, axes, inside_legend, mark, note, styled
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ def _contours(
     if shown.ndim != 2:
         raise ValueError("the figure shows one section: section(place) gives one of several")
     if ax is None:
-        ax = plt.figure(figsize=(5.4, 3.8)).add_subplot()
+        ax = plt.figure(figsize=section_size(shown, 5.4)).add_subplot()
     length = scales(shown.attrs, units).length
     along = str(shown.dims[1])
     x, z = shown[along].values / length.value, shown.z.values / length.value

@@ -62,6 +62,17 @@ def _mark(ax: Axes, largest: Extreme, along: str, by: Scales, *, marker: str = "
     mark(ax, at, f"{where} {said}", marker=marker)
 
 
+def section_size(values: xr.DataArray, width: float = 4.8) -> tuple[float, float]:
+    """Size of a figure of a section [inch] that equal lengths fill, with labels and a scale."""
+    along, z = values[str(values.dims[1])].values, values.z.values
+    inner = interfaces(values.z, values.layer)
+    ratio = np.ptp(along) / max(np.ptp(z), 1e-300)
+    if ratio > FLAT or thin(np.array([z[0], *inner, z[-1]])):
+        return width, 0.8 * width
+    # Labels, ticks and the scale take an inch and a half beside the section, 0.7 below it.
+    return width, float(np.clip((width - 1.5) / ratio + 0.7, 0.5 * width, 1.3 * width))
+
+
 #: Length over depth of a section beyond which equal lengths leave it too low to be read.
 FLAT = 3.0
 #: Light enough for black labels.
@@ -110,11 +121,11 @@ def section_map(
     ax : matplotlib Axes, optional
         Where to draw.
     """
-    if ax is None:
-        ax = plt.figure(figsize=(4.8, 3.8)).add_subplot()
     by = _scales(values.attrs, units, a_H, p_H)
     along = str(values.dims[1])
     x, z = values[along].values / by.length.value, values.z.values / by.length.value
+    if ax is None:
+        ax = plt.figure(figsize=section_size(values)).add_subplot()
     field = values.values / by.stress.value
     layer = values.layer.values
     inner = [depth / by.length.value for depth in interfaces(values.z, values.layer)]
@@ -253,8 +264,9 @@ def envelope_maps(
     if envelope.sizes.get("cycle", 0) > 0:
         shown.append((envelope[f"{of}_amplitude"].isel(cycle=cycle), rf"\Delta {name}/2"))
         shown.append((envelope[f"{of}_mean"].isel(cycle=cycle), rf"\overline{{{name}}}"))
+    _, high = section_size(shown[0][0], 4.1)
     figure, row = plt.subplots(
-        1, len(shown), figsize=(0.4 + 3.9 * len(shown), 3.7), squeeze=False, layout="constrained"
+        1, len(shown), figsize=(0.4 + 4.1 * len(shown), high), squeeze=False, layout="constrained"
     )
     apart(figure)
     for ax, (values, symbol) in zip(row[0], shown, strict=True):

@@ -13,6 +13,8 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+#: Layouts after which labels keep their places to a hundredth of an inch, with the one of drawing.
+LAYOUTS = 3
 #: Colour of marks of largest values.
 MARK = "#D55E00"
 #: Colours with a meaning, of the Okabe-Ito palette.
@@ -36,9 +38,26 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
     @wraps(draw)
     def inside(*args: P.args, **kwargs: P.kwargs) -> T:
         with style():
-            return draw(*args, **kwargs)
+            drawn = draw(*args, **kwargs)
+            if kwargs.get("ax") is None:
+                settle(drawn)
+            return drawn
 
     return inside
+
+
+def settle(drawn: object) -> None:
+    """Lay out a new figure until the labels of axes of equal lengths are all inside.
+
+    Such axes are narrower than their place, by how much depends on the layout, and a single layout
+    leaves room for the labels of axes as wide as their place.
+    """
+    figure = drawn.get_figure() if isinstance(drawn, Axes) else drawn
+    if not isinstance(figure, Figure) or all(ax.get_aspect() == "auto" for ax in figure.axes):
+        return
+    engine = figure.get_layout_engine()
+    for _ in range(LAYOUTS if engine is not None else 0):
+        engine.execute(figure)  # type: ignore[union-attr]
 
 
 def axes(ax: Axes | None, *, square: bool = False) -> Axes:
