@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import argparse
+import contextlib
+import errno
 import os
 import signal
 import sys
@@ -11,25 +12,32 @@ from typing import TYPE_CHECKING
 
 from pyfret import verification, wear
 from pyfret._cli import crack, export, fit, threshold
+from pyfret._cli.parser import Parser, added
 from pyfret.citation import cite as sources
 from pyfret.result import open as open_result
 from pyfret.study.file import run_file
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Sequence
 
 #: Exit codes, those of ``fret``: done; ended early or with failures; bad input; output that
 #: could not be written.
 DONE, ENDED_EARLY, BAD_INPUT, UNWRITTEN = 0, 1, 2, 3
+#: What the system says when no more can be written.
+FULL = frozenset((errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO))
 
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    top = argparse.ArgumentParser(
-        prog="fret", description="The commands of fret that need Python: python -m pyfret ..."
+    top = Parser(
+        prog="fret",
+        description="The commands of fret that need Python: python -m pyfret ...",
+        epilog="Exit codes: 0 done; 1 ended early, or a point of a study has no answer; 2 bad "
+        "input or bad command line; 3 what was to be written could not be, such as to a full disk",
     )
-    commands = top.add_subparsers(dest="command", required=True)
-    study = commands.add_parser("study", help="solve a scene for many values of its parameters")
+    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    study = added(commands, "study", "solve a scene for many values of its parameters")
     study.add_argument("file", help="study file (TOML)")
     study.add_argument("-o", "--out", help="store (default: that of the file, or NAME.zarr)")
     study.add_argument("--workers", type=int, help="processes (default: one for each processor)")
@@ -40,13 +48,17 @@ def parser() -> argparse.ArgumentParser:
     crack.add_options(commands)
     fit.add_options(commands)
     threshold.add_options(commands)
-    report = commands.add_parser("report", help="write a result as one page for a browser")
+    report = added(commands, "report", "write a result as one page for a browser")
     report.add_argument("store", help="result")
     report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
     report.add_argument("--wear", metavar="STORE", help="result of fret wear, shown as well")
-    commands.add_parser("verify", help="check this installation against closed forms, in minutes")
-    cite = commands.add_parser("cite", help="say what to cite for a result")
+    added(commands, "verify", "check this installation against closed forms, in minutes")
+    cite = added(commands, "cite", "say what to cite for a result")
     cite.add_argument("store", nargs="?", help="result (default: all methods)")
+    for command in commands.choices.values():
+        tells = "--json" in command._option_string_actions
+        says = "print nothing" + ("; with --json the JSON alone" if tells else "")
+        command.add_argument("-q", "--quiet", action="store_true", help=says)
     return top
 
 
@@ -150,11 +162,21 @@ def run(arguments: Sequence[str] | None) -> int:
         "fit": fit.run,
         "threshold": threshold.run,
     }
+    # What people read; JSON is for programs, and stays.
+    quiet = options.quiet and not getattr(options, "json", False)
     try:
-        return commands[options.command](options)
+        with contextlib.ExitStack() as silence:
+            if quiet:
+                nowhere = silence.enter_context(Path(os.devnull).open("w", encoding="utf-8"))
+                silence.enter_context(contextlib.redirect_stdout(nowhere))
+            return commands[options.command](options)
     except BrokenPipeError:
         raise
-    except (ValueError, KeyError, OSError, ImportError) as error:
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        print(f"fret: {place}{error.strerror or error}", file=sys.stderr)
+        return UNWRITTEN if error.errno in FULL else BAD_INPUT
+    except (ValueError, KeyError, ImportError) as error:
         print(f"fret: {' '.join(str(error).split())}", file=sys.stderr)
         return BAD_INPUT
     except (RuntimeError, MemoryError) as error:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pyfret import fatigue
+from pyfret._cli.parser import added
 from pyfret._util import files
 from pyfret.fracture import Threshold
 from pyfret.result import open
@@ -23,11 +24,9 @@ __all__ = ["add_options", "run"]
 FIGURES, FIELDS = (".png", ".svg", ".pdf"), (".nc", ".zarr")
 
 
-def add_options(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     """Add the command to a command line."""
-    crack = commands.add_parser(
-        "crack", help="say whether a crack below the contact grows or stops"
-    )
+    crack = added(commands, "crack", "say whether a crack below the contact grows or stops")
     crack.add_argument("store", help="result, the increments of its cycle kept")
     crack.add_argument(
         "--x", type=float, help="place of the mouth [m] (default: the worse rim of the contact)"

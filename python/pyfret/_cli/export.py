@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pyfret import export
+from pyfret._cli.parser import added
 from pyfret.result import open as open_result
 
 if TYPE_CHECKING:
@@ -15,16 +16,20 @@ if TYPE_CHECKING:
 __all__ = ["add_options", "run"]
 
 
-def add_options(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     """The command and its options."""
-    command = commands.add_parser(
-        "export", help="write tractions, forces on a mesh or stress at points for another program"
+    command = added(
+        commands,
+        "export",
+        "write tractions, forces on a mesh or stress at points for another program",
     )
     command.add_argument("store", help="result")
     command.add_argument("-o", "--out", required=True, help="file to write; .vti gives an image")
     command.add_argument("--at", type=int, default=-1, help="increment, or -1 for the last kept")
     command.add_argument("--body", type=int, choices=(1, 2), default=2, help="the body (default 2)")
-    command.add_argument("--form", choices=("csv", "abaqus", "aster"), default="csv")
+    command.add_argument(
+        "--form", choices=("csv", "abaqus", "aster"), default="csv", help="of the file"
+    )
     command.add_argument("--of", choices=("p", "q_x", "q_y"), default="p", help="for abaqus")
     command.add_argument("--mesh", help="forces on the nodes of this mesh (.inp, or by meshio)")
     command.add_argument("--points", help="CSV file of places x,y,z: the stress there")

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pyfret import fit
+from pyfret._cli.parser import added
 from pyfret.study.design import varied
 
 if TYPE_CHECKING:
@@ -14,10 +15,10 @@ if TYPE_CHECKING:
 __all__ = ["add_options", "run"]
 
 
-def add_options(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     """Add the command to a command line."""
-    command = commands.add_parser(
-        "fit", help="find unknowns of a scene (mu, a rig, a coating) from a measured table"
+    command = added(
+        commands, "fit", "find unknowns of a scene (mu, a rig, a coating) from a measured table"
     )
     command.add_argument("data", help="table with units in its head, such as delta [um];T [N]")
     command.add_argument("scene", help="scene file with all that is known")
@@ -31,7 +32,13 @@ def add_options(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     command.add_argument(
         "--kind", choices=("loops", "indentation"), default="loops", help="default: loops"
     )
-    command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
+    command.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="replace a value of the scene file",
+    )
     command.add_argument("--x", metavar="NAME", help="column of the shift or the approach")
     command.add_argument("--force", metavar="NAME", help="column of the force")
     command.add_argument(

@@ -6,6 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from pyfret import fatigue
+from pyfret._cli.parser import added
 from pyfret.study.design import varied
 from pyfret.study.thresholds import Averaged, Threshold, threshold
 
@@ -15,10 +16,10 @@ if TYPE_CHECKING:
 __all__ = ["add_options", "run"]
 
 
-def add_options(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     """Add the command to a command line."""
-    command = commands.add_parser(
-        "threshold", help="find the load at which a fatigue criterion reaches its limit"
+    command = added(
+        commands, "threshold", "find the load at which a fatigue criterion reaches its limit"
     )
     command.add_argument("scene", help="scene file with a closed cycle")
     command.add_argument(
@@ -32,14 +33,16 @@ def add_options(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     command.add_argument("--between", required=True, metavar="LOW:HIGH", help="range of the load")
     command.add_argument("--material", required=True, help="name of the material")
     command.add_argument("--materials", metavar="FILE", help="table of materials (TOML)")
-    command.add_argument("--criterion", choices=fatigue.CRITERIA, default="crossland")
+    command.add_argument(
+        "--criterion", choices=fatigue.CRITERIA, default="crossland", help="criterion"
+    )
     command.add_argument("--value", type=float, default=1.0, help="safety factor or cycles")
     command.add_argument("--distance", type=float, metavar="L", help="critical distance [m]")
     command.add_argument(
         "--method", choices=("point", "line", "area"), default="line", help="default: line"
     )
     command.add_argument("--over", metavar="KEY=V,V,...", help="a curve over a second parameter")
-    command.add_argument("--json", action="store_true")
+    command.add_argument("--json", action="store_true", help="one JSON object per threshold")
 
 
 def run(options: argparse.Namespace) -> int:

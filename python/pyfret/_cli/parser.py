@@ -1,0 +1,130 @@
+"""The command line of the commands in Python: help and errors as the compiled ones have them."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import textwrap
+from typing import TYPE_CHECKING, Any, NoReturn
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["Parser", "added"]
+
+#: Columns of a line of help.
+WIDTH = 100
+#: Columns of the names of options, of which longer ones stand on a line of their own.
+NAMES = 26
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose help is a sentence, the usage, the arguments and the options."""
+
+    def __init__(self, **keywords: Any) -> None:
+        super().__init__(**{**keywords, "add_help": False, "allow_abbrev": False})
+        self.add_argument("-h", "--help", action="help", help="print help")
+
+    def format_usage(self) -> str:
+        """The usage in a line."""
+        needed = [a for a in self._actions if a.option_strings and a.required]
+        given = [f"{a.option_strings[-1]} {value(a)}" for a in needed]
+        places = [value(a) for a in self._places()]
+        options = [] if self._commands() is not None else ["[OPTIONS]"]
+        command = [] if options else ["<COMMAND>"]
+        return " ".join(["Usage:", self.prog, *options, *given, *places, *command]) + "\n"
+
+    def format_help(self) -> str:
+        """What the command does, how it is called, and what each part means."""
+        parts = [sentence(self.description or ""), "", self.format_usage()]
+        commands = self._commands()
+        if commands is not None:
+            rows = [(f"  {a.dest}", sentence(a.help or "")) for a in commands]
+            parts += ["Commands:", *table(rows), ""]
+        elif self._places():
+            rows = [(f"  {value(a)}", meaning(a)) for a in self._places()]
+            parts += ["Arguments:", *table(rows), ""]
+        options = [a for a in self._actions if a.option_strings]
+        # As the others have it, help is the last.
+        options.sort(key=lambda a: "--help" in a.option_strings)
+        parts += ["Options:", *table([(names(a), meaning(a)) for a in options])]
+        if self.epilog:
+            parts += ["", *textwrap.wrap(self.epilog, WIDTH)]
+        return "\n".join(parts) + "\n"
+
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong, how the command is called and where more stands."""
+        text = f"error: {message}\n\n{self.format_usage()}\nFor more information, try '--help'.\n"
+        self.exit(2, text)
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        # Without a standard error, as under pythonw, nobody is told.
+        stream = file or sys.stderr
+        if message and stream is not None:
+            stream.write(message)
+
+    def _places(self) -> list[argparse.Action]:
+        return [
+            a
+            for a in self._actions
+            if not a.option_strings and not isinstance(a, argparse._SubParsersAction)
+        ]
+
+    def _commands(self) -> Iterable[argparse.Action] | None:
+        found = (a for a in self._actions if isinstance(a, argparse._SubParsersAction))
+        return next((a._choices_actions for a in found), None)
+
+
+def added(
+    commands: argparse._SubParsersAction[Any], name: str, does: str
+) -> argparse.ArgumentParser:
+    """Add a command that does something."""
+    command: argparse.ArgumentParser = commands.add_parser(name, help=does, description=does)
+    return command
+
+
+def sentence(text: str) -> str:
+    """A text with a capital at its beginning."""
+    return text[:1].upper() + text[1:]
+
+
+def value(action: argparse.Action) -> str:
+    """What stands for the value of an argument or an option."""
+    name = action.metavar if isinstance(action.metavar, str) else action.dest
+    name = f"<{name.upper() if action.metavar is None else name}>".replace("_", "-")
+    return name if action.option_strings or action.nargs != "?" else f"[{name[1:-1]}]"
+
+
+def names(action: argparse.Action) -> str:
+    """The names of an option, with its value."""
+    short = [name for name in action.option_strings if not name.startswith("--")]
+    long = [name for name in action.option_strings if name.startswith("--")]
+    text = f"  {short[0]}, " if short else "      "
+    text += long[0] if long else ""
+    return text if action.nargs == 0 else f"{text} {value(action)}"
+
+
+def meaning(action: argparse.Action) -> str:
+    """What an argument means, its default and what it may be."""
+    text = sentence(action.help or "")
+    default = action.default
+    if default not in (None, False, argparse.SUPPRESS, []) and "default" not in text.lower():
+        text += f" [default: {default}]"
+    if action.choices is not None:
+        text += f" [possible values: {', '.join(str(of) for of in action.choices)}]"
+    return text.strip()
+
+
+def table(rows: list[tuple[str, str]]) -> list[str]:
+    """Names with their meanings beside them, or below where a name is long."""
+    width = min(max((len(name) for name, _ in rows), default=0) + 2, NAMES)
+    lines = []
+    for name, text in rows:
+        told = textwrap.wrap(text, WIDTH - width) or [""]
+        if len(name) + 2 > width:
+            lines.append(name)
+            lines += [" " * width + line for line in told]
+        else:
+            lines.append(name.ljust(width) + told[0])
+            lines += [" " * width + line for line in told[1:]]
+    return [line.rstrip() for line in lines]
