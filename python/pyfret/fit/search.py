@@ -5,6 +5,10 @@ offsets of gauges are unknowns as well, but cost none. The step of the differenc
 what the solver's tolerance leaves of a prediction. At the end the scene is solved once more on
 cells twice as wide; what that moves the unknowns, to first order, is the solver's part of the
 confidence.
+
+The confidence of an unknown is that of the linear model where it is narrow. Where it is wide the
+model is not linear over it, and its ends are those at which the sum of squares, least over all
+other unknowns, has risen by what noise explains (a profile): one or two solves an end.
 """
 
 from __future__ import annotations
@@ -34,7 +38,10 @@ __all__ = ["fit"]
 #: Step of the differences, of ln of an unknown or of its range.
 STEP = 0.02
 #: Steps of the search, each a solve and one more for each unknown.
-MOST = 14
+MOST = 12
+#: Half-width of a confidence, of ln of an unknown or of its range, beyond which its ends are
+#: those of the profile, and the most that they are farther than those of the linear model.
+WIDE, FARTHER = 0.15, 3.0
 #: Noise of data that tell none, over their range, to weigh sets of data against one another.
 NOISE = 0.02
 
@@ -94,7 +101,7 @@ def fit(
             bounds=search.bounds(),
             x_scale=1.0,
             xtol=1e-4,
-            ftol=1e-7,
+            ftol=1e-5,
             gtol=1e-9,
             max_nfev=MOST,
         )
@@ -279,18 +286,22 @@ class Search:
         spread = np.sqrt(np.diag(covariance))
         safe = np.where(spread > 0, spread, 1.0)
         correlation = covariance[:n, :n] / np.outer(safe[:n], safe[:n])
-        half = float(stats.t.ppf(0.975, degrees)) * spread[:n]
+        t = float(stats.t.ppf(0.975, degrees))
+        half = [(t * one, t * one) for one in spread[:n]]
+        for k, r in enumerate(self.ranges):
+            if t * spread[k] * r.width > WIDE and min(u[k], 1 - u[k]) > 0:
+                half[k] = self.profile(x, k, covariance, (jacobian, t * np.sqrt(left)))
         moved = np.abs((inverse.T / scale).T[:n] @ self.grid_error(u, gauges))
         known = {}
         for k, r in enumerate(self.ranges):
             value = r.value(u[k])
-            low, high = (r.value(u[k] + sign * (half[k] + moved[k])) for sign in (-1, 1))
+            low, high = (r.value(u[k] + s * (half[k][s > 0] + moved[k])) for s in (-1, 1))
             slope = value * r.width if r.by_log else r.width
             known[r.key] = Known(
                 value,
                 low,
                 high,
-                slope * half[k],
+                slope * 0.5 * sum(half[k]),
                 slope * moved[k],
                 bool(min(u[k], 1 - u[k]) < 2e-3),
             )
@@ -313,6 +324,48 @@ class Search:
             converged=converged,
             scene=varied(self.scene, values) if values else self.scene,
         )
+
+    def profile(
+        self,
+        x: NDArray[np.float64],
+        k: int,
+        covariance: NDArray[np.float64],
+        known: tuple[NDArray[np.float64], float],
+    ) -> tuple[float, float]:
+        """Distances down and up at which the root of the sum of squares has risen enough.
+
+        The other unknowns follow to first order. ``known``: the Jacobian, and the root of the
+        rise asked for.
+        """
+        jacobian, asked = known
+        others = np.delete(jacobian, k, axis=1)
+        along = covariance[:, k] / covariance[k, k]
+        linear = asked / float(np.linalg.norm(jacobian @ along))
+        least = float(self.residual(x) @ self.residual(x))
+
+        def risen(to: float) -> float:
+            there = x + to * along
+            there[: len(self.ranges)] = np.clip(there[: len(self.ranges)], 0.0, 1.0)
+            residual = self.residual(there)
+            fitted = others @ np.linalg.lstsq(others, residual, rcond=None)[0]
+            rest = residual - fitted
+            return float(np.sqrt(max(float(rest @ rest) - least, 0.0)))
+
+        def end(sign: float, room: float) -> float:
+            first = min(linear, room)
+            rise = max(risen(sign * first), 1e-3 * asked)
+            if rise >= asked or first == room:
+                return first * asked / rise
+            second = min(first * min(asked / rise, FARTHER), room)
+            further = risen(sign * second)
+            if further <= rise:
+                return second
+            return first + (second - first) * (asked - rise) / (further - rise)
+
+        down, up = (
+            min(end(sign, room), FARTHER * linear) for sign, room in ((-1, x[k]), (1, 1 - x[k]))
+        )
+        return down, up
 
     def grid_error(self, u: tuple[float, ...], gauges: NDArray[np.float64]) -> NDArray[np.float64]:
         """Change of what is computed on cells twice as wide: more than the grid itself leaves."""
