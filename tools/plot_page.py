@@ -1,0 +1,218 @@
+"""Write the page of all figures, docs/reference/figures.md, with a thumbnail of each.
+
+    python tools/plot_page.py
+
+The code below a thumbnail is the one that drew it.
+"""
+
+from __future__ import annotations
+
+import inspect
+import io
+import warnings
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+from PIL import Image
+
+import pyfret as fret
+from pyfret import plot
+
+DOCS = Path(__file__).parents[1] / "docs"
+PICTURES = DOCS / "figures" / "plots"
+#: Pixels of a thumbnail's width, and its colours.
+WIDTH, COLOURS = 300, 96
+
+#: What is drawn of what, by what a reader looks for.
+FIGURES: dict[str, dict[str, str]] = {
+    "A run": {
+        "overview": "result.plot()",
+        "fretting_loop": "fret.plot.fretting_loop(result)",
+        "loop_evolution": "fret.plot.loop_evolution(many)",
+        "stick_ratio": "fret.plot.stick_ratio(result)",
+        "load_path": "fret.plot.load_path(result)",
+    },
+    "The contact": {
+        "stick_slip": "fret.plot.stick_slip(result.at(-1))",
+        "pressure_map": "fret.plot.pressure_map(result.at(-1))",
+        "slip_map": "fret.plot.slip_map(result.at(-1))",
+        "shear_streamlines": "fret.plot.shear_streamlines(result.at(-1))",
+        "pressure_profile": "fret.plot.pressure_profile(result.at(-1))",
+        "shear_profile": "fret.plot.shear_profile(result.at(-1), bound=True)",
+        "shear_profiles": "fret.plot.shear_profiles(result)",
+    },
+    "Stress below": {
+        "stress_map": "fret.plot.stress_map(result.at(-1).stress())",
+        "stress_along_depth": "fret.plot.stress_along_depth(result.at(-1).stress(x=0.0, y=0.0))",
+        "section_map": "fret.plot.section_map(result.at(-1).stress().s_xx)",
+        "envelope_maps": "fret.plot.envelope_maps(result.envelope(y=0.0))",
+        "stress_history": "fret.plot.stress_history(result.envelope(y=0.0))",
+        "stress_maps": "fret.plot.stress_maps({2.0: result})",
+    },
+    "Fatigue, yield, cracks": {
+        "criterion_map": "fret.plot.criterion_map(life)",
+        "load_factor_map": "fret.plot.load_factor_map(rig.load_factors(880e6))",
+        "critical_plane_rose": "fret.plot.critical_plane_rose(history, criterion)",
+        "dang_van_diagram": "fret.plot.dang_van_diagram(history)",
+        "haigh_diagram": "fret.plot.haigh_diagram(life)",
+        "crack_arrest": "fret.plot.crack_arrest(cracks, threshold)",
+        "kitagawa": "fret.plot.kitagawa(cracks, threshold)",
+        "intensity_history": "fret.plot.intensity_history(cracks, 1e-4)",
+    },
+    "Wear and heat": {
+        "wear_history": "fret.plot.wear_history(worn)",
+        "wear_profiles": "fret.plot.wear_profiles(worn)",
+        "wear_loops": "fret.plot.wear_loops(worn)",
+        "depth_map": "fret.plot.depth_map(worn)",
+        "temperature": "fret.plot.temperature(hot)",
+        "temperature_map": 'fret.plot.temperature_map(hot, of="flash")',
+    },
+    "Many runs": {
+        "study_map": 'fret.plot.study_map(study, "loop_energy")',
+        "running_map": "fret.plot.running_map(table)",
+        "fretting_map": "fret.plot.fretting_map(table)",
+    },
+}
+#: Names of the module that draw no figure of their own.
+OTHERS = {
+    "animate": "writes a film of a path: loop, zones and shear, as `.gif` or `.mp4`",
+    "paper_figures": "writes figures 4 to 13 of the paper from its four runs",
+    "style": "sets the look inside a `with` block, for figures of your own beside these",
+}
+
+
+def names() -> dict[str, Any]:
+    """What the code of the figures draws."""
+    steel, hard = fret.Elastic(E=210e9, nu=0.3), fret.Elastic(E=420e9, nu=0.25)
+    R, W, mu = 5e-3, 10.0, 0.3
+    a = fret.reference.hertz(R=R, bodies=(steel, steel), W=W).a
+    scene = fret.Scene(
+        body1=fret.Body(steel, shape=fret.Sphere(R=R)),
+        body2=fret.Body(steel, coatings=fret.Coating(hard, thickness=0.5 * a)),
+        mu=mu,
+        grid=fret.Grid.centred(extent=2.4 * a, n=48),
+    )
+    pressed = fret.LoadPath.start().normal(W, increments=1)
+    path = pressed.cycles(1, T_x=0.8 * mu * W, increments=16)
+    result = fret.solve(scene, path, save="all", progress=False)
+    small = scene.replace(grid=fret.Grid.centred(extent=2.4 * a, n=24))
+    bare = small.replace(body2=fret.Body(steel))
+    many = fret.solve(small, pressed.cycles(4, T_x=0.8 * mu * W, increments=4), progress=False)
+
+    titanium = fret.material("titanium_6Al4V")
+    line = fret.Scene(
+        body1=fret.Body(titanium, shape=fret.Cylinder(R=0.05)),
+        body2=fret.Body(titanium),
+        mu=0.6,
+        grid=fret.Grid.strip(extent=1.6e-3, n=96),
+    )
+    rig_path = fret.LoadPath.start().force(W=4e5, increments=1)
+    for sign in (1, -1, 1, -1, 1):
+        rig_path = rig_path.force(T_x=sign * 1.2e5, sigma_B=sign * 1e8, increments=8)
+    rig = fret.solve(line, rig_path, save="all", progress=False)
+    table = fret.fatigue.Materials()
+    life = rig.life(table["titanium_6Al4V"], "smith_watson_topper")
+    worst = life.worst
+    history = fret.fatigue.history(rig, [worst.z], y=0.0)
+    history = history.sel(x=worst.x, method="nearest").isel(depth=0)
+
+    slid = pressed.displace(delta_x=[4e-6, -4e-6, 4e-6], increments=12)
+    hot = fret.solve(bare, slid, save="all", progress=False).temperature(
+        table["titanium_6Al4V"], table["titanium_6Al4V"], frequency=60.0
+    )
+    wide = bare.replace(grid=fret.Grid.centred(extent=4.5 * a, n=32))
+    worn = fret.wear.solve(
+        wide,
+        pressed.cycles(1, delta_x=4e-6, increments=8),
+        cycles=3e4,
+        body2=fret.wear.Archard(2e-15),
+        progress=False,
+    )
+    study = fret.study.solve(
+        small.replace(path=pressed.cycles(1, T_x=0.5 * mu * W, increments=2)),
+        {
+            "body2.coatings.0.thickness": (a * np.geomspace(0.1, 1.0, 4)).tolist(),
+            "body2.coatings.0.E": [1e11, 2e11, 3e11, 4e11],
+        },
+        measure="loop_energy",
+        executor=1,
+        progress=False,
+    )
+    running = fret.study.running_conditions(
+        bare, W=np.linspace(3, W, 4), delta=np.linspace(0.1e-6, 1.2e-6, 5), executor=1
+    )
+    return {
+        "fret": fret,
+        "result": result,
+        "many": many,
+        "rig": rig,
+        "life": life,
+        "history": history,
+        "criterion": table["titanium_6Al4V"].assessment("smith_watson_topper").criterion,
+        "cracks": rig.crack(),
+        "threshold": fret.fracture.Threshold(dK_th=4e6, dS_0=500e6),
+        "worn": worn,
+        "hot": hot,
+        "study": study,
+        "table": running,
+    }
+
+
+def thumbnail(drawn: Any, place: Path) -> None:
+    """A small picture of a figure, of few colours."""
+    figure = drawn if hasattr(drawn, "savefig") else drawn.get_figure()
+    file = io.BytesIO()
+    figure.savefig(file, dpi=2.0 * WIDTH / figure.get_size_inches()[0])
+    plt.close(figure)
+    image = Image.open(file).convert("RGB")
+    size = (WIDTH, round(WIDTH * image.height / image.width))
+    image.resize(size, Image.Resampling.LANCZOS).quantize(COLOURS).save(place, optimize=True)
+
+
+def summary(name: str) -> str:
+    """The first sentence of what a figure shows."""
+    text = inspect.getdoc(getattr(plot, name)) or ""
+    first = " ".join(text.split("\n\n")[0].split()).replace(":math:", "")
+    # What stands behind is where its parameters are.
+    return first.replace("``", "`").split("; parameters")[0].rstrip(".") + "."
+
+
+def page() -> str:
+    """The page."""
+    lines = [
+        "# All figures",
+        "",
+        "Every figure takes `ax=` to be laid over others or into a figure of yours, and `units=`",
+        "where it is over a_H and p_H; each is a method of what it shows, too, such as",
+        "`result.plot.fretting_loop()`. Parameters are in the [reference](plot.md). The code below",
+        "each is what drew it: `result` is the run of a coated ball, `rig` one of a cylinder on",
+        "titanium with a bulk stress. Written by `tools/plot_page.py`.",
+    ]
+    for title, figures in FIGURES.items():
+        lines += ["", f"## {title}", "", "| | |", "|---|---|"]
+        for name, code in figures.items():
+            about = summary(name).replace("|", "\\|")
+            picture = f"![{name}](../figures/plots/{name}.png)"
+            lines.append(f"| {picture} | **{name}**: {about}<br>`{code}` |")
+    lines += ["", "## And", "", "| | |", "|---|---|"]
+    lines += [f"| `{name}` | {says} |" for name, says in OTHERS.items()]
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    """Draw the thumbnails and write the page."""
+    mpl.use("agg")
+    warnings.simplefilter("ignore")
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    given = names()
+    for figures in FIGURES.values():
+        for name, code in figures.items():
+            thumbnail(eval(code, given), PICTURES / f"{name}.png")
+    (DOCS / "reference" / "figures.md").write_text(page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
