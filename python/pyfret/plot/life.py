@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 
 #: How criteria are written in figures.
 NAMES = dict(_core.criteria())
+#: Look of layers that nothing is known of.
+NO_MATERIAL: dict[str, Any] = {"fc": "white", "ec": "0.75", "hatch": "///", "lw": 0.0}
 #: Part of a limit below which a number is one of rounding.
 NOTHING = 1e-9
 #: Colour of what is not judged.
@@ -147,6 +150,10 @@ def _contours(
     if stretch and borders.size > 2:
         stretch_axis(ax, borders, "y")
     ax.set_facecolor(UNJUDGED)
+    for part, (top, bottom) in enumerate(pairwise(borders)):
+        of = shown.values[shown.layer.values == shown.layer.values[0] + part]
+        if np.isnan(of).all():
+            ax.axhspan(top, bottom, **NO_MATERIAL)
     image = _filled(ax, x, z, shown, levels, limit)
     for depth in inner:
         ax.axhline(depth, color="0.2", linewidth=0.8, linestyle=(0, (6, 3)))
@@ -218,7 +225,7 @@ def _mark(
     if lives and (field > np.log10(ENDLESS)).any():
         handles.append(Patch(color=UNJUDGED, label=f"beyond {ENDLESS:.0e} cycles"))
     if np.isnan(field).any():
-        handles.append(Patch(color=UNJUDGED, label="no material given"))
+        handles.append(Patch(**NO_MATERIAL, label="no material given"))
     inside_legend(ax, handles=handles)
 
 
