@@ -47,6 +47,10 @@ SYMBOLS = {
 }
 
 
+#: Part of a largest value from which on its error is said beside it.
+TOLD = 0.02
+
+
 def _scales(attrs: Mapping[Any, Any], units: Units, a_H: float | None, p_H: float | None) -> Scales:
     """Scales of a dataset, or those given."""
     given = {k: v for k, v in (("a_H", a_H), ("p_H", p_H)) if v is not None}
@@ -58,6 +62,8 @@ def _mark(ax: Axes, largest: Extreme, along: str, by: Scales, *, marker: str = "
     at = ((largest.x if along == "x" else largest.y) / by.length.value, largest.z / by.length.value)
     where = "largest" if marker == "x" else "on the surface"
     said = in_words(largest.value / by.stress.value)
+    if largest.error > TOLD * abs(largest.value):
+        said += f" ± {in_words(largest.error / by.stress.value, digits=2)}"
     said += f" {by.stress.name}" if by.stress.is_unit else ""
     mark(ax, at, f"{where} {said}", marker=marker)
 
