@@ -81,4 +81,4 @@ def test_the_stub_has_the_members_and_the_docstrings_of_the_module() -> None:
 
 def test_a_snapshot_declares_every_variable_of_the_store() -> None:
     declared = set(State.__annotations__)
-    assert declared == {*_core.labels(), "x", "y"}
+    assert declared == {*_core.labels(), "x", "y", "half_width"}

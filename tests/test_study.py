@@ -245,7 +245,7 @@ def test_stresses_wear_and_a_scene_file_with_its_measures(tmp_path: Path) -> Non
 
 def test_maps_of_studies(whole: fret.study.Study) -> None:
     ax = whole.map("p_max")
-    assert ax.get_ylabel() == "mu"
+    assert ax.get_ylabel() == r"$\mu$"
     line = fret.plot.study_map(whole, "p_max", at={"mu": 0.21})
     assert "largest pressure of the path [GPa]" in line.get_ylabel()
     with pytest.raises(ValueError, match="must be one of"):

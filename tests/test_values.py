@@ -33,6 +33,7 @@ TURN = np.linspace(0.0, 6.0 * np.pi, 900)
 
 #: A value of every class that needs no run; the members of enumerations are values as well.
 VALUES: list[Any] = [
+    fret.subsurface.Zone(-1e-4, 2e-4, 0),
     STEEL,
     COATING,
     BODY,
@@ -224,7 +225,7 @@ def test_the_lists_of_public_modules_are_their_names() -> None:
     for module in (*modules(), fret.plot):
         assert sorted(module.__all__) == dir(module), module
         assert all(hasattr(module, name) for name in module.__all__)
-    assert len(dir(fret)) <= 45
+    assert len(dir(fret)) <= 46
 
 
 def test_a_run_is_the_same_in_memory_and_in_a_store(tmp_path: Any) -> None:

@@ -96,7 +96,7 @@ def test_options_are_refused_by_name(options: dict[str, Any], told: str) -> None
 def test_figures_are_drawn() -> None:
     result = worn([fret.wear.Archard(2e-14)])
     axes = fret.plot.wear_profiles(result)
-    assert axes.get_ylabel() == "worn depth [um]"
+    assert axes.get_ylabel() == "worn depth [µm]"
     assert len(axes.lines) > 2
     assert fret.plot.wear_history(result).get_xlabel() == "cycles"
     assert len(fret.plot.wear_loops(result).lines) == 2

@@ -184,7 +184,8 @@ def load_path(path: LoadPath | Run, *, mu: float | None = None, ax: Axes | None 
     ax.set_xlabel(r"$t/\tau$")
     ax.set_xlim(0, 1)
     if columns:
-        ax.legend(loc="best")
+        # The curves of a path leave no corner free.
+        ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderpad=0.1)
     return ax
 
 
