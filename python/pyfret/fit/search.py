@@ -7,8 +7,8 @@ cells twice as wide; what that moves the unknowns, to first order, is the solver
 confidence.
 
 The confidence of an unknown is that of the linear model where it is narrow. Where it is wide the
-model is not linear over it, and its ends are those at which the sum of squares, least over all
-other unknowns, has risen by what noise explains (a profile): one or two solves an end.
+model is not linear over it: each end is moved outwards to where the sum of squares, least over
+all other unknowns, has risen by what noise explains (a profile), one or two solves an end.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ __all__ = ["fit"]
 #: Step of the differences, of ln of an unknown or of its range.
 STEP = 0.02
 #: Steps of the search, each a solve and one more for each unknown.
-MOST = 12
-#: Half-width of a confidence, of ln of an unknown or of its range, beyond which its ends are
-#: those of the profile, and the most that they are farther than those of the linear model.
+MOST = 13
+#: Half-width of a confidence, of ln of an unknown or of its range, beyond which its profile is
+#: computed, and the most that its ends are farther than those of the linear model.
 WIDE, FARTHER = 0.15, 3.0
 #: Noise of data that tell none, over their range, to weigh sets of data against one another.
 NOISE = 0.02
@@ -334,14 +334,16 @@ class Search:
     ) -> tuple[float, float]:
         """Distances down and up at which the root of the sum of squares has risen enough.
 
-        The other unknowns follow to first order. ``known``: the Jacobian, and the root of the
-        rise asked for.
+        The other unknowns follow to first order, which overestimates the rise: no distance is
+        shorter than that of the linear model. ``known``: the Jacobian, and the root of the rise
+        asked for.
         """
         jacobian, asked = known
         others = np.delete(jacobian, k, axis=1)
         along = covariance[:, k] / covariance[k, k]
         linear = asked / float(np.linalg.norm(jacobian @ along))
-        least = float(self.residual(x) @ self.residual(x))
+        residual = self.residual(x)
+        least = float(residual @ residual)
 
         def risen(to: float) -> float:
             there = x + to * along
@@ -352,20 +354,18 @@ class Search:
             return float(np.sqrt(max(float(rest @ rest) - least, 0.0)))
 
         def end(sign: float, room: float) -> float:
-            first = min(linear, room)
-            rise = max(risen(sign * first), 1e-3 * asked)
-            if rise >= asked or first == room:
-                return first * asked / rise
-            second = min(first * min(asked / rise, FARTHER), room)
-            further = risen(sign * second)
-            if further <= rise:
-                return second
-            return first + (second - first) * (asked - rise) / (further - rise)
+            if linear >= room:
+                return linear
+            rise = max(risen(sign * linear), 1e-3 * asked)
+            if rise >= asked:
+                return linear
+            to = min(linear * min(asked / rise, FARTHER), room)
+            further = risen(sign * to)
+            if further <= max(asked, rise):
+                return to
+            return linear + (to - linear) * (asked - rise) / (further - rise)
 
-        down, up = (
-            min(end(sign, room), FARTHER * linear) for sign, room in ((-1, x[k]), (1, 1 - x[k]))
-        )
-        return down, up
+        return end(-1, x[k]), end(1, 1 - x[k])
 
     def grid_error(self, u: tuple[float, ...], gauges: NDArray[np.float64]) -> NDArray[np.float64]:
         """Change of what is computed on cells twice as wide: more than the grid itself leaves."""
