@@ -12,6 +12,7 @@
 mod average;
 mod by_criterion;
 mod by_yield;
+mod climb;
 pub mod crack;
 mod cycle;
 mod judged;

@@ -2,42 +2,19 @@
 //!
 //! Starting points are the local maxima of the samples (hills) and the places where the rim of the
 //! contact and the border of the stick zone cross the line. From the worst of these the search
-//! ascends: points beside it along the line and in depth are judged, with smaller and smaller
-//! steps. Every value is that of a history at a point; none is extrapolated.
+//! ascends ([`Climb`]). Every value is that of a history at a point; none is extrapolated, and none is
+//! below the worst sample.
 
-use ndarray::Array2;
-
+use super::climb::Climb;
 use super::judged::{Judge, Judged};
-use super::moments::Moments;
-use super::site::{At, History, Site};
-use crate::convolution::Tractions;
+use super::site::Site;
 use crate::error::Error;
-use crate::fields::{Border, Depth, Errors, Extreme, Line, Point, TwiceAsLarge, Zone, borders};
-use crate::scene::Grid;
+use crate::fields::{Errors, Extreme, Line};
 
-/// Most hills and most places on borders that are judged before the ascent.
-const HILLS: usize = 3;
-const BORDERS: usize = 6;
 /// Hills below this part of the highest are ignored.
 const LOWEST: f64 = 0.8;
 /// First step along the line in cells, and in depth over the distance to the neighbouring one.
 const STEP: f64 = 0.5;
-/// Divisor of a step without gain; steps below SHORTEST times the first end the ascent.
-const CLOSER: f64 = 3.0;
-const SHORTEST: f64 = 0.01;
-/// Most rounds of the ascent.
-const ROUNDS: usize = 16;
-/// Least relative gain of a step.
-const GAIN: f64 = 1e-6;
-/// A point is on a border if it is at most this many cells from it.
-const ON_BORDER: f64 = 0.1;
-/// Contact cells times moments up to which every point of the ascent is judged by the whole
-/// history.
-const CHEAP: usize = 100_000;
-/// Moments that represent a longer history during the ascent.
-const STAND_FOR: usize = 32;
-/// Moments whose borders are used as starting points.
-const SEEN: usize = 16;
 
 /// The worst point of a layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,9 +24,6 @@ pub struct Worst<F> {
     /// Its score and place.
     pub extreme: Extreme,
 }
-
-/// A point of a section: place on the line and depth \[m\].
-type Place = [f64; 2];
 
 /// The worst point of a layer from the judgements on a section; `None` if the layer has no number.
 pub fn worst<J: Judge>(
@@ -105,10 +79,19 @@ pub fn worst<J: Judge>(
     } else {
         site.whole(&[point], false)?
     };
-    let Some(found) = climb.judged(&history)?.first().copied() else {
+    let Some(mut found) = climb.judged(&history)?.first().copied() else {
         return Ok(None);
     };
-    let score = judge.score(&found);
+    let (mut place, mut point, mut score) = (place, point, judge.score(&found));
+    // A sample is the stress of the whole section: the point may lie below it where rims within the cells or steps of
+    // the tractions count.
+    let missing = (highest.1 - score).max(0.0);
+    if missing > 0.0
+        && let Some(sample) = climb.sample(judged, highest.0)
+    {
+        (place, point) = (highest.0, climb.point(highest.0));
+        (found, score) = (sample, highest.1);
+    }
     let border = climb.on_border(place, &known);
     let coarse = climb.on_coarser_cells(place, border, &moments)?;
     // An assumed rim may be half a cell off.
@@ -121,7 +104,7 @@ pub fn worst<J: Judge>(
     };
     let beside = climb.scores(&at, &beside)?.into_iter();
     let unsure = beside.map(|beside| (score - beside).abs());
-    let along = unsure.fold(left[0], f64::max);
+    let along = unsure.fold(left[0].max(missing), f64::max);
     let (x_error, y_error) = match judged.line {
         Line::AlongX(_) => (along, 0.0),
         Line::AlongY(_) => (0.0, along),
@@ -142,285 +125,4 @@ pub fn worst<J: Judge>(
             },
         },
     }))
-}
-
-/// The search in a layer of a section.
-struct Climb<'a, J> {
-    site: &'a Site<'a>,
-    judge: &'a J,
-    layer: usize,
-    line: Line,
-}
-
-impl<J: Judge> Climb<'_, J> {
-    /// The tops of the samples over the depths, the worst first, with their scores.
-    fn hills(&self, judged: &Judged<J::Found>) -> Vec<(Place, f64)> {
-        let tops: Vec<(Place, f64)> = judged
-            .depths
-            .iter()
-            .zip(&judged.found)
-            .filter(|(depth, _)| depth.layer == self.layer)
-            .filter_map(|(depth, found)| {
-                let scores = found.as_ref()?.iter().map(|f| self.judge.score(f));
-                let numbers = scores.enumerate().filter(|(_, score)| !score.is_nan());
-                let (n, score) = numbers.max_by(|a, b| a.1.total_cmp(&b.1))?;
-                Some(([judged.along[n], depth.z], score))
-            })
-            .collect();
-        let is_top = |n: &usize| {
-            let beside = [n.checked_sub(1), Some(n + 1)];
-            let mut beside = beside.into_iter().flatten().filter_map(|m| tops.get(m));
-            beside.all(|other| other.1 <= tops[*n].1)
-        };
-        let mut hills: Vec<_> = (0..tops.len()).filter(is_top).map(|n| tops[n]).collect();
-        hills.sort_by(|a, b| b.1.total_cmp(&a.1));
-        hills.truncate(HILLS);
-        hills
-    }
-
-    /// Where the line crosses the rims and stick borders of moments of the cycle, each once.
-    fn borders(&self) -> Result<Vec<Border>, Error> {
-        let count = self.site.cycle.count();
-        let step = count.div_ceil(SEEN).max(1);
-        let which: Vec<usize> = (0..count).rev().step_by(step).collect();
-        let moments = self.site.cycle.moments(&which)?;
-        let mut all: Vec<Border> = Vec::new();
-        for (tractions, stick) in moments.tractions.iter().zip(&moments.stick) {
-            for border in borders_of(self.site.grid, tractions, stick, self.line)? {
-                let apart = |b: &Border| (self.along(b) - self.along(&border)).abs();
-                if !all.iter().any(|b| apart(b) < ON_BORDER / 2.0 * self.cell()) {
-                    all.push(border);
-                }
-            }
-        }
-        Ok(all)
-    }
-
-    /// The borders beside which the samples of the surface are worst, as places.
-    fn beside(&self, known: &[Border], judged: &Judged<J::Found>) -> Vec<Place> {
-        let at_surface = |d: &Depth| d.z <= 0.0 && d.layer == 0;
-        let surface = judged.depths.iter().position(at_surface);
-        let Some(found) = surface.and_then(|n| judged.found[n].as_ref()) else {
-            return Vec::new();
-        };
-        let near = |s: f64| {
-            let away = |n: &usize| (judged.along[*n] - s).abs();
-            let nearest = (0..judged.along.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
-            nearest.map_or(f64::NAN, |n| self.judge.score(&found[n]))
-        };
-        let scored = known.iter().map(|b| (self.along(b), near(self.along(b))));
-        let mut by_score: Vec<_> = scored.filter(|(_, score)| !score.is_nan()).collect();
-        by_score.sort_by(|a, b| b.1.total_cmp(&a.1));
-        by_score
-            .iter()
-            .take(BORDERS)
-            .map(|(s, _)| [*s, 0.0])
-            .collect()
-    }
-
-    /// All moments of the cycle, or of a long one those whose stress at a place is farthest apart.
-    fn moments(&self, place: Place) -> Result<Moments, Error> {
-        let count = self.site.cycle.count();
-        let all: Vec<usize> = (0..count).collect();
-        let last = self.site.cycle.moments(&[count - 1])?;
-        let touching = last.tractions[0][2].iter().filter(|p| **p > 0.0).count();
-        if touching * count <= CHEAP || count <= STAND_FOR {
-            return self.site.cycle.moments(&all);
-        }
-        let history = self.site.whole(&[self.point(place)], false)?;
-        let away = |a: usize, b: usize| -> f64 {
-            (0..6)
-                .map(|c| (history[(a, 0, c)] - history[(b, 0, c)]).powi(2))
-                .sum()
-        };
-        let mut chosen = vec![0];
-        let mut nearest: Vec<f64> = all.iter().map(|n| away(*n, 0)).collect();
-        while chosen.len() < STAND_FOR {
-            let farthest = (0..count).max_by(|a, b| nearest[*a].total_cmp(&nearest[*b]));
-            let Some(next) = farthest.filter(|n| nearest[*n] > 0.0) else {
-                break;
-            };
-            chosen.push(next);
-            for n in 0..count {
-                nearest[n] = nearest[n].min(away(n, next));
-            }
-        }
-        self.site.cycle.moments(&chosen)
-    }
-
-    /// Ascends from a place: the top, and the drop of the score at the last steps along the line
-    /// and in depth.
-    fn climbed(
-        &self,
-        at: &At,
-        (mut place, mut score): (Place, f64),
-        first: [f64; 2],
-        [top, deepest]: [f64; 2],
-    ) -> Result<(Place, [f64; 2]), Error> {
-        // The representative moments may score less than the whole history of the sample.
-        score = self.scores(at, &[place])?.first().copied().unwrap_or(score);
-        let reach = self.site.along(self.line);
-        let ends = [reach[0], reach[reach.len() - 1]];
-        let (mut steps, mut left) = (first, [0.0; 2]);
-        for _ in 0..ROUNDS {
-            let mut beside: Vec<(usize, Place)> = Vec::new();
-            for axis in 0..2 {
-                for by in [-steps[axis], steps[axis]] {
-                    let mut next = place;
-                    let (low, high) = if axis == 0 {
-                        (ends[0], ends[1])
-                    } else {
-                        (top, deepest)
-                    };
-                    next[axis] = (next[axis] + by).clamp(low, high);
-                    if next != place {
-                        beside.push((axis, next));
-                    }
-                }
-            }
-            let places: Vec<Place> = beside.iter().map(|(_, place)| *place).collect();
-            let scores = self.scores(at, &places)?;
-            let mut best = (place, score, None);
-            for ((axis, place), beside) in beside.iter().zip(&scores) {
-                if *beside > best.1 {
-                    best = (*place, *beside, Some(*axis));
-                }
-            }
-            for axis in 0..2 {
-                let of_axis = beside.iter().zip(&scores).filter(|((a, _), _)| *a == axis);
-                let nearest = of_axis.map(|(_, s)| *s).fold(f64::NEG_INFINITY, f64::max);
-                if nearest.is_finite() {
-                    left[axis] = (best.1 - nearest).abs();
-                }
-                if best.2 != Some(axis) {
-                    steps[axis] /= CLOSER;
-                }
-            }
-            let gained = best.1 - score > GAIN * score.abs();
-            (place, score) = (best.0, best.1);
-            let short = (0..2).all(|axis| steps[axis] <= SHORTEST * first[axis]);
-            if short || (!gained && scores.is_empty()) {
-                break;
-            }
-        }
-        Ok((place, left))
-    }
-
-    fn scores(&self, at: &At, places: &[Place]) -> Result<Vec<f64>, Error> {
-        if places.is_empty() {
-            return Ok(Vec::new());
-        }
-        let points: Vec<Point> = places.iter().map(|place| self.point(*place)).collect();
-        let found = self.judged(&at.history(&points)?)?;
-        Ok(found.iter().map(|f| self.judge.score(f)).collect())
-    }
-
-    fn judged(&self, history: &History) -> Result<Vec<J::Found>, Error> {
-        self.judge
-            .judge(self.layer, &history.view(), &self.site.stop)
-    }
-
-    /// The score of the tractions on cells twice as large, on the same border if it lies on one.
-    fn on_coarser_cells(
-        &self,
-        [s, z]: Place,
-        border: Option<&Border>,
-        moments: &Moments,
-    ) -> Result<Option<f64>, Error> {
-        let cells = TwiceAsLarge::new(self.site.grid);
-        if cells.grid.nx < 4 {
-            return Ok(None);
-        }
-        let place = match border {
-            None => [s, z],
-            Some(border) => [
-                self.on_coarser_border(border, moments, &cells)?
-                    .unwrap_or(s),
-                z,
-            ],
-        };
-        let at = self.site.under_coarser(moments)?;
-        Ok(self.scores(&at, &[place])?.first().copied())
-    }
-
-    /// The nearest border of the same zone on cells twice as large.
-    fn on_coarser_border(
-        &self,
-        border: &Border,
-        moments: &Moments,
-        cells: &TwiceAsLarge,
-    ) -> Result<Option<f64>, Error> {
-        let s = self.along(border);
-        let middle = cells.middle;
-        let (line, shift) = match self.line {
-            Line::AlongX(y) => (Line::AlongX(y - middle.1), middle.0),
-            Line::AlongY(x) => (Line::AlongY(x - middle.0), middle.1),
-        };
-        let coarse = moments.on_coarser(cells);
-        let mut nearest: Option<f64> = None;
-        for (tractions, stick) in coarse.tractions.iter().zip(&coarse.stick) {
-            for other in borders_of(&cells.grid, tractions, stick, line)? {
-                let at = self.along(&other) + shift;
-                let nearer = nearest.is_none_or(|known| (at - s).abs() < (known - s).abs());
-                if other.zone == border.zone && nearer {
-                    nearest = Some(at);
-                }
-            }
-        }
-        Ok(nearest.filter(|at| (at - s).abs() < 4.0 * self.cell()))
-    }
-
-    /// The border that a place lies on.
-    fn on_border<'b>(&self, [s, z]: Place, known: &'b [Border]) -> Option<&'b Border> {
-        let near = ON_BORDER * self.cell();
-        let mut on = known.iter().filter(|b| (self.along(b) - s).abs() <= near);
-        let first = on.next().filter(|_| z <= near && self.layer == 0)?;
-        // Where both zones end together the rim is reported.
-        Some(
-            on.find(|b| b.zone == Zone::Contact)
-                .filter(|_| first.zone == Zone::Stick)
-                .unwrap_or(first),
-        )
-    }
-
-    fn along(&self, border: &Border) -> f64 {
-        match self.line {
-            Line::AlongX(_) => border.x,
-            Line::AlongY(_) => border.y,
-        }
-    }
-
-    /// Distance of the samples along the line \[m\].
-    fn cell(&self) -> f64 {
-        match self.line {
-            Line::AlongX(_) => self.site.grid.dx,
-            Line::AlongY(_) => self.site.grid.dy,
-        }
-    }
-
-    fn point(&self, [s, z]: Place) -> Point {
-        let depth = Depth {
-            z,
-            layer: self.layer,
-        };
-        match self.line {
-            Line::AlongX(y) => (s, y, depth),
-            Line::AlongY(x) => (x, s, depth),
-        }
-    }
-}
-
-/// The crossings of a line with the borders of a moment.
-fn borders_of(
-    grid: &Grid,
-    [q_x, q_y, p]: &[Array2<f64>; 3],
-    stick: &Array2<bool>,
-    line: Line,
-) -> Result<Vec<Border>, Error> {
-    let tractions = Tractions {
-        q_x: q_x.as_slice(),
-        q_y: q_y.as_slice(),
-        p: p.as_slice(),
-    };
-    borders(grid, &tractions, stick.as_slice(), Some(line))
 }

@@ -18,6 +18,7 @@
 //! is integrated over the cell.
 
 mod borders;
+mod climb;
 mod coarser;
 mod depth;
 mod energy;

@@ -1,12 +1,12 @@
 //! The largest value of a number below a contact: a value at a point.
 //!
 //! Starting points are the local maxima of the samples (hills) and the places where rims and stick
-//! borders cross the line. From the highest of these the search ascends: the number is evaluated on
-//! both sides along every free direction and at the vertex of the parabola through these values,
-//! with smaller and smaller steps. No value is extrapolated.
+//! borders cross the line. From the highest of these the search ascends ([`climb`]). No value is
+//! extrapolated.
 
 use ndarray::{Array2, ArrayView2, Axis};
 
+use super::climb::{Start, climb, point};
 use super::coarser::Coarser;
 use super::depth::on_interfaces;
 use super::maximum::{Hill, hills, top_of_line};
@@ -22,11 +22,6 @@ const BORDERS: usize = 6;
 /// Hills below this part of the highest are not evaluated: the field between samples exceeds them
 /// by little.
 const LOWEST: f64 = 0.8;
-/// Most rounds of the ascent, and the ratio of the steps of successive rounds.
-const ROUNDS: usize = 5;
-const CLOSER: f64 = 1.0 / 3.0;
-/// Relative gain of a round that ends the ascent.
-const ENOUGH: f64 = 1e-4;
 /// First steps along x and y in cells, from a hill and from a border.
 const STEP: f64 = 0.5;
 const STEP_AT_BORDER: f64 = 0.25;
@@ -43,19 +38,6 @@ pub struct Search {
     /// Whether there is one row of cells.
     flat: bool,
 }
-
-/// A starting point of an ascent.
-struct Start {
-    place: [f64; 3],
-    layer: usize,
-    /// First steps along x, y, z; 0 along directions that are not searched.
-    steps: [f64; 3],
-    /// The value there, where it is a sample.
-    known: Option<f64>,
-}
-
-/// Values at points.
-type Values<'a> = dyn Fn(&[Point]) -> Result<Vec<f64>, Error> + 'a;
 
 impl Search {
     /// In the body `side` under the first of the states, below `line` or anywhere.
@@ -312,10 +294,6 @@ impl Search {
     }
 }
 
-fn point([x, y, z]: [f64; 3], layer: usize) -> Point {
-    (x, y, Depth { z, layer })
-}
-
 fn lives_on_interfaces(probe: &Probe) -> bool {
     matches!(probe, Probe::Stress(m) if m.of_interfaces)
 }
@@ -341,90 +319,6 @@ fn hills_of<const D: usize>(
     hills.retain(|hill| hill.top.value >= highest - spread);
     hills.truncate(HILLS);
     hills
-}
-
-/// Ascends from a start of a given value, between two depths of its layer. Returns place, value and
-/// the remaining error along each direction.
-fn climb(
-    values: &Values<'_>,
-    start: &Start,
-    value: f64,
-    (highest, deepest): (f64, f64),
-) -> Result<([f64; 3], f64, [f64; 3]), Error> {
-    let (mut place, mut best, mut steps) = (start.place, value, start.steps);
-    let mut left = [0.0; 3];
-    for _ in 0..ROUNDS {
-        let beside = |axis: usize, sign: f64| {
-            let mut at = place;
-            at[axis] += sign * steps[axis];
-            at[2] = at[2].clamp(highest, deepest);
-            at
-        };
-        let sides = (0..3).flat_map(|axis| [-1.0, 1.0].map(|sign| (axis, beside(axis, sign))));
-        let sides: Vec<_> = sides
-            .filter(|(axis, at)| at[*axis] != place[*axis])
-            .collect();
-        let points: Vec<Point> = sides
-            .iter()
-            .map(|(_, at)| point(*at, start.layer))
-            .collect();
-        let found = values(&points)?;
-        let mut top = place;
-        for axis in 0..3 {
-            let of_axis = sides.iter().zip(&found).filter(|((a, _), _)| *a == axis);
-            let of_axis: Vec<_> = of_axis
-                .map(|((_, at), v)| (at[axis] - place[axis], *v))
-                .collect();
-            let (step, gain) = vertex(best, &of_axis);
-            top[axis] += step;
-            left[axis] = gain;
-        }
-        let mut tried: Vec<_> = sides.iter().map(|(_, at)| *at).zip(found).collect();
-        if top != place {
-            let found = values(&[point(top, start.layer)])?;
-            tried.push((top, found[0]));
-        }
-        let before = best;
-        let mut outwards = false;
-        for (n, (at, value)) in tried.into_iter().enumerate() {
-            if value > best {
-                (place, best) = (at, value);
-                outwards = n < sides.len();
-            }
-        }
-        if !outwards {
-            if best - before <= ENOUGH * best.abs() {
-                break;
-            }
-            steps = steps.map(|s| CLOSER * s);
-        }
-    }
-    Ok((place, best, left))
-}
-
-/// The vertex of the parabola through a value and those at one or two distances from it, limited to
-/// these: its distance, and the drop of the parabola at a third of the distances from it.
-fn vertex(value: f64, sides: &[(f64, f64)]) -> (f64, f64) {
-    let &[(low, v_low), (high, v_high)] = sides else {
-        // At the border of a layer: the value itself is the top, unless the field rises away from
-        // it.
-        let rises = sides.iter().filter(|(_, v)| *v > value);
-        return rises
-            .map(|(s, v)| (*s, v - value))
-            .next()
-            .unwrap_or((0.0, 0.0));
-    };
-    let (left, right) = ((v_low - value) / low, (v_high - value) / high);
-    let half = (right - left) / (high - low);
-    let slope = left - half * low;
-    if half >= 0.0 || half.is_nan() {
-        return (0.0, (v_low.max(v_high) - value).max(0.0));
-    }
-    let third = CLOSER * high.max(-low);
-    (
-        (-slope / (2.0 * half)).clamp(low, high),
-        -half * third * third,
-    )
 }
 
 /// A probe on a section, shape (depths, places), and its largest value.
@@ -461,43 +355,5 @@ impl Section {
             })
         };
         probes.iter().filter_map(one).collect()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn climbed(f: impl Fn(f64, f64) -> f64, x: f64, z: f64) -> ([f64; 3], f64, [f64; 3]) {
-        let values = |points: &[Point]| Ok(points.iter().map(|p| f(p.0, p.2.z)).collect());
-        let start = Start {
-            place: [x, 0.0, z],
-            layer: 0,
-            steps: [0.5, 0.0, 0.3],
-            known: None,
-        };
-        climb(&values, &start, f(x, z), (0.0, 3.0)).expect("a value")
-    }
-
-    #[test]
-    fn climbs_to_the_top_of_a_smooth_hill() {
-        let f = |x: f64, z: f64| (x - 0.13).cos() * (2.0 * (z - 1.1)).cos();
-        let (place, value, left) = climbed(f, 0.5, 1.3);
-        assert!(
-            (value - 1.0).abs() < 1e-4 && (place[0] - 0.13).abs() < 0.02,
-            "{place:?} {value}"
-        );
-        assert!(left[0] > 0.0 && left[1] == 0.0 && left[2] > 0.0, "{left:?}");
-        assert!(1.0 - value <= left.iter().sum::<f64>(), "{left:?} {value}");
-    }
-
-    #[test]
-    fn climbs_to_a_cusp_at_the_surface() {
-        let f = |x: f64, z: f64| 2.0 - (x - 0.2_f64).abs().sqrt() - z;
-        let (place, value, left) = climbed(f, 0.2, 0.0);
-        assert!(
-            place == [0.2, 0.0, 0.0] && value == 2.0 && left[2] == 0.0,
-            "{place:?}"
-        );
     }
 }

@@ -16,6 +16,7 @@ use contact_core::scene::{Body, Scene, Shape};
 use ndarray::{ArrayView2, s};
 
 use crate::audit::{Audit, Violations};
+use crate::below;
 use crate::draw::{Drawn, Intent};
 use crate::twins::{compared, has_twins};
 
@@ -151,6 +152,11 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
         }
         (Err(error), _) => return (ended(scene, "", &error), None),
     };
+    if below::is_looked_at(seed)
+        && let Err(why) = below::judged(scene, &end.fields, stop)
+    {
+        return (Fate::Failed(why), None);
+    }
     let twins = if has_twins(seed) {
         compared(scene, &end, stop)
     } else {

@@ -9,6 +9,7 @@
 
 #[path = "../audit/mod.rs"]
 mod audit;
+mod below;
 mod campaign;
 mod corners;
 #[path = "../document/mod.rs"]

@@ -11,7 +11,7 @@ use contact_core::fields::{Line, Zone};
 use contact_core::scene::Body;
 use serde_json::json;
 
-use super::Options;
+use super::options::Options;
 
 /// The lines of a layer.
 #[derive(Clone)]

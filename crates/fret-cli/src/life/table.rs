@@ -8,7 +8,7 @@ use contact_core::assess::{ByCriterion, Judged};
 use contact_core::fatigue::AtPoint;
 use contact_core::fields::Line;
 
-use super::Options;
+use super::options::Options;
 
 pub(super) fn check(options: &Options) -> Result<(), Error> {
     let Some(out) = &options.out else {

@@ -9,7 +9,7 @@ use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::{Below, depths_of, place};
+use super::below::{Below, depths_of, place};
 use crate::fatigue::Assessment;
 
 /// What a criterion found on a section.

@@ -1,19 +1,20 @@
 //! From stress to decision: judgement of a section below a contact over a closed cycle.
 
+mod below;
 mod criterion;
 mod given;
 mod yielding;
 
 use std::sync::{Arc, Mutex};
 
-use contact_core::assess::{self as core, Averaging, ByCriterion, ByYield, Distance, Judged, Site};
+use contact_core::assess::{self as core, Averaging, ByCriterion, ByYield, Distance, Judged};
 use contact_core::fatigue::{AtPoint, Search};
-use contact_core::fields::{Depth, Line, Side, Zone, residual_of_layers};
-use contact_core::{Error, scene};
+use contact_core::fields::residual_of_layers;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use self::below::Below;
 pub(crate) use self::criterion::CriterionBelow;
 use self::criterion::arrays;
 use self::given::Given;
@@ -21,7 +22,6 @@ pub(crate) use self::yielding::YieldBelow;
 use crate::argument::to_python;
 use crate::arguments::{List, side};
 use crate::fatigue::Material;
-use crate::interruptible::interruptible;
 use crate::scene::{Body, Grid};
 use crate::subsurface::{Subsurface, line};
 
@@ -33,44 +33,6 @@ use crate::subsurface::{Subsurface, line};
 #[pyclass(frozen, module = "pyfret.fatigue")]
 pub(crate) struct CycleSection {
     below: Arc<Below>,
-}
-
-pub(super) struct Below {
-    body: scene::Body,
-    grid: scene::Grid,
-    side: Side,
-    pub(super) line: Line,
-    residual: Vec<f64>,
-    given: Given,
-}
-
-impl Below {
-    /// Does `work` at the site while signals are heard; without residual stress if the judge has it.
-    pub(super) fn at<T: Send>(
-        &self,
-        py: Python<'_>,
-        residual: bool,
-        work: impl FnOnce(&Site<'_>) -> Result<T, Error> + Send,
-    ) -> PyResult<T> {
-        let stop = Arc::default();
-        let found = interruptible(py, &stop, || {
-            work(&Site {
-                body: &self.body,
-                side: self.side,
-                grid: &self.grid,
-                residual: if residual { &self.residual } else { &[] },
-                cycle: &self.given,
-                stop: stop.clone(),
-            })
-        })?;
-        let raised = self
-            .given
-            .raised
-            .lock()
-            .ok()
-            .and_then(|mut raised| raised.take());
-        raised.map_or_else(|| found.map_err(to_python), Err)
-    }
 }
 
 #[pymethods]
@@ -220,32 +182,4 @@ fn only<F>(judged: Vec<Judged<F>>) -> PyResult<Judged<F>> {
     judged
         .next()
         .ok_or_else(|| PyValueError::new_err("nothing was judged"))
-}
-
-/// Place and errors of a worst point.
-fn place<'py, F>(py: Python<'py>, worst: &core::Worst<F>) -> PyResult<Bound<'py, PyDict>> {
-    let found = PyDict::new(py);
-    let (depth, error) = (worst.extreme.depth, worst.extreme.error);
-    found.set_item("score", worst.extreme.value)?;
-    for (name, value) in [
-        ("x", worst.extreme.x),
-        ("y", worst.extreme.y),
-        ("z", depth.z),
-    ] {
-        found.set_item(name, value)?;
-    }
-    found.set_item("layer", depth.layer)?;
-    found.set_item("errors", (error.x, error.y, error.z, error.tractions))?;
-    found.set_item(
-        "at",
-        worst.extreme.at.map(|zone| match zone {
-            Zone::Contact => "contact",
-            Zone::Stick => "stick",
-        }),
-    )?;
-    Ok(found)
-}
-
-fn depths_of<F>(judged: &Judged<F>) -> (Vec<f64>, Vec<usize>) {
-    judged.depths.iter().map(|d: &Depth| (d.z, d.layer)).unzip()
 }

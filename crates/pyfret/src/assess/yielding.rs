@@ -10,7 +10,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::{Below, depths_of, place};
+use super::below::{Below, depths_of, place};
 
 /// A load factor of several.
 type Factor = fn(&Yield) -> f64;

@@ -1,0 +1,73 @@
+//! Options of `fret life`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use contact_core::assess::Averaging;
+use contact_core::fatigue::CRITERIA;
+
+/// Options of `fret life`.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Result store of `fret run`, the increments of its cycle kept
+    pub(super) store: PathBuf,
+    /// Name of the material, or one for each layer from the surface down, with commas; 'none'
+    /// leaves a layer out. One alone is that of the substrate (default: the only one of
+    /// --materials)
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(super) material: Vec<String>,
+    /// Table of materials (TOML)
+    #[arg(long, value_name = "FILE")]
+    pub(super) materials: Option<PathBuf>,
+    /// Criterion, or several with commas, judged by the same stress
+    #[arg(long, required = true, value_delimiter = ',', value_name = "CRITERIA",
+          value_parser = CRITERIA.iter().map(|c| c.name).collect::<Vec<_>>())]
+    pub(super) criterion: Vec<String>,
+    /// Body below (2) or above (1) the contact plane
+    #[arg(long, default_value = "2", value_parser = clap::value_parser!(u8).range(1..=2))]
+    pub(super) body: u8,
+    /// Section along x at this y, in metres (default: 0)
+    #[arg(
+        long,
+        value_name = "Y",
+        allow_hyphen_values = true,
+        conflicts_with = "along_y"
+    )]
+    pub(super) along_x: Option<f64>,
+    /// Section along y at this x, in metres
+    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    pub(super) along_y: Option<f64>,
+    /// Depths in metres (default: as the layers ask)
+    #[arg(long, value_name = "Z", value_delimiter = ',')]
+    pub(super) depths: Vec<f64>,
+    /// Which closed cycle of the load path, from 0; negative from the end
+    #[arg(long, default_value = "-1", allow_hyphen_values = true)]
+    pub(super) cycle: i64,
+    /// Residual stress of each layer from the surface down, the substrate's last [Pa], tension
+    /// positive; write --residual=-1e9,0 if the first is negative
+    #[arg(
+        long,
+        value_name = "STRESSES",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub(super) residual: Vec<f64>,
+    /// Judge the mean stress over this critical distance, in metres, from the top of a layer
+    #[arg(long, value_name = "L")]
+    pub(super) distance: Option<f64>,
+    /// What is averaged over: the stress at the depth L/2, its mean down to 2 L, over the half disc
+    /// or the half ball of radius L
+    #[arg(long, default_value = "line", requires = "distance",
+          value_parser = Averaging::ALL.map(|(name, _)| name).to_vec())]
+    pub(super) method: String,
+    /// Layer that the distance lies in, from the surface down (default: the outermost with a
+    /// material)
+    #[arg(long, value_name = "N", requires = "distance")]
+    pub(super) layer: Option<usize>,
+    /// Print one JSON object per layer, for programs; an endless life is null
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Table of the section to write (.csv)
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) out: Option<PathBuf>,
+}
