@@ -97,14 +97,14 @@ pub(crate) fn cycle(
 }
 
 /// Grows a crack from `start` in the direction that its cycle asks for. `stress` gives the stress of the
-/// body without the crack at points, one instant of the cycle after the other.
+/// body without the crack at a crack's points, one instant of the cycle after the other.
 ///
 /// Pieces are curved so that at the end of each the crack has no reason to turn; their number is
 /// doubled until the tip moves less than the tolerance.
 pub fn grow<E: From<Error>>(
     start: &Path,
     growing: &Growing,
-    mut stress: impl FnMut(&[Point]) -> Result<Vec<Vec<PlaneStress>>, E>,
+    mut stress: impl FnMut(&Crack) -> Result<Vec<Vec<PlaneStress>>, E>,
 ) -> Result<Grown, E> {
     start.check()?;
     if !(growing.to > start.length() && growing.to.is_finite()) {
@@ -133,11 +133,11 @@ fn in_pieces<E: From<Error>>(
     start: &Path,
     growing: &Growing,
     pieces: usize,
-    stress: &mut impl FnMut(&[Point]) -> Result<Vec<Vec<PlaneStress>>, E>,
+    stress: &mut impl FnMut(&Crack) -> Result<Vec<Vec<PlaneStress>>, E>,
 ) -> Result<Grown, E> {
     let mut at_tip = |path: &Path| -> Result<Tip, E> {
         let crack = Crack::with_step(path.clone(), step(path).max(COARSE))?;
-        let stress = stress(&crack.points())?;
+        let stress = stress(&crack)?;
         Ok(Tip {
             at: path.tip(),
             cycle: cycle(&crack, growing.friction, &stress)?,

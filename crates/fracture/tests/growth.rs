@@ -258,11 +258,9 @@ fn an_inclined_crack_under_tension_turns_normal_to_it() {
         to: 1e-3,
         ..Growing::default()
     };
-    let tension = |points: &[fracture::Point]| -> Result<Vec<Vec<PlaneStress>>, Error> {
-        Ok(vec![
-            vec![[1e8, 0.0, 0.0]; points.len()],
-            vec![[0.0; 3]; points.len()],
-        ])
+    let tension = |crack: &Crack| -> Result<Vec<Vec<PlaneStress>>, Error> {
+        let points = crack.points().len();
+        Ok(vec![vec![[1e8, 0.0, 0.0]; points], vec![[0.0; 3]; points]])
     };
     let grown = grow(&start, &growing, tension).unwrap();
     let tip = grown.path.tip();
@@ -272,6 +270,46 @@ fn an_inclined_crack_under_tension_turns_normal_to_it() {
     near(k.K_max, 1.1215 * 1e8 * (PI * tip.z).sqrt(), 2e-2);
     for tip in &grown.tips[1..] {
         assert!((tip.cycle[0].K_II / tip.cycle[0].K_I).abs() < 2e-3);
+    }
+    // The part up to a tip on the way is the crack that it was.
+    let ends = grown.path.ends();
+    for (tip, end) in grown.tips.iter().zip(&ends) {
+        let part = grown.path.up_to(*end);
+        let found = part.tip();
+        assert!((found.x - tip.at.x).hypot(found.z - tip.at.z) < 1e-15 && found.s == tip.at.s);
+    }
+    let half = grown.path.up_to(0.5 * ends[0] + 0.5 * ends[1]);
+    near(half.length(), 0.5 * ends[0] + 0.5 * ends[1], 1e-14);
+    assert_eq!(grown.path.up_to(ends[ends.len() - 1]), grown.path);
+}
+
+/// The direction of the largest range under tension that comes and goes is that of either criterion: normal
+/// to it, whatever the tolerance.
+#[test]
+fn the_path_settles_with_its_tolerance() {
+    let start = Path::straight(0.0, 1e-4, 60_f64.to_radians());
+    let tension = |crack: &Crack| -> Result<Vec<Vec<PlaneStress>>, Error> {
+        Ok(vec![vec![[1e8, 0.0, 0.0]; crack.points().len()]])
+    };
+    for direction in [Direction::TangentialStress, Direction::OpeningIntensity] {
+        let to = |tolerance| {
+            let growing = Growing {
+                to: 4e-4,
+                direction,
+                tolerance,
+                ..Growing::default()
+            };
+            grow(&start, &growing, tension).unwrap()
+        };
+        let (coarse, fine) = (to(2e-2), to(2e-3));
+        assert!(fine.error < 2e-3 * 3e-4, "{direction:?} {}", fine.error);
+        let (a, b) = (coarse.path.tip(), fine.path.tip());
+        let off = (a.x - b.x).hypot(a.z - b.z);
+        assert!(
+            off < coarse.error,
+            "{direction:?} {off} of {}",
+            coarse.error
+        );
     }
 }
 

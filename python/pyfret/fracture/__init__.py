@@ -1,7 +1,7 @@
 """Will a crack stop, will the coating come off? Stress intensity, arrest, energy release.
 
 :func:`crack` (or :meth:`pyfret.Result.crack`) takes the stress of a contact's cycle to the tips of
-cracks; :class:`Cracks` says with a :class:`Threshold` where they stop and with :class:`Paris` how
+cracks, :func:`grow` (:meth:`pyfret.Result.grow_crack`) lets one choose its way; :class:`Cracks` says with a :class:`Threshold` where they stop and with :class:`Paris` how
 long that takes; :class:`Crack` does so for any stress history, without a contact. ::
 
     cracks = result.crack()
@@ -18,7 +18,7 @@ coating releases where it parts from its substrate or cracks. ::
 
 from pyfret._core import Crack, ellipse_factor
 from pyfret._util.names import listing
-from pyfret.fracture.below import crack
+from pyfret.fracture.below import crack, grow
 from pyfret.fracture.film import channel_release, film_intensity
 from pyfret.fracture.growth import Arrest, CrackLife, Cracks, Paris, Threshold
 from pyfret.fracture.interface import Buckling, buckling_release, edge_release, over_cycle
@@ -37,6 +37,7 @@ __all__ = [
     "edge_release",
     "ellipse_factor",
     "film_intensity",
+    "grow",
     "over_cycle",
 ]
 __dir__ = listing(__all__)
