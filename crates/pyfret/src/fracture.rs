@@ -194,7 +194,8 @@ impl Crack {
     /// dict
     ///     Of the tips on the way ``length``, ``x``, ``z`` [m], ``angle`` [rad], over (time, tips)
     ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip may
-    ///     be off [m]; ``closed``, whether the crack ends because nothing opens it.
+    ///     be off [m]; ``end``: "reached" the length, "closed", as nothing opens it, "surface",
+    ///     "kinks", where its direction jumps.
     #[pyo3(signature = (stress, *, end, direction = "tangential_stress", friction = 0.0, tolerance = 1e-2))]
     fn grow<'py>(
         &self,
@@ -229,7 +230,7 @@ impl Crack {
         result.set_item("error", table(&|k| k.error))?;
         set_path(py, &result, &tips)?;
         result.set_item("path_error", found.error)?;
-        result.set_item("closed", found.closed)?;
+        result.set_item("end", named(found.end))?;
         Ok(result)
     }
 
@@ -386,8 +387,18 @@ pub(crate) fn crack_growth_of_states<'py>(
     let result = tables(py, &found.over)?;
     set_path(py, &result, &found.tips)?;
     result.set_item("path_error", found.error)?;
-    result.set_item("closed", found.closed)?;
+    result.set_item("end", named(found.end))?;
     Ok(result)
+}
+
+/// Why a crack ends, in a word.
+fn named(end: of_cracks::End) -> &'static str {
+    match end {
+        of_cracks::End::Reached => "reached",
+        of_cracks::End::Closed => "closed",
+        of_cracks::End::Surface => "surface",
+        of_cracks::End::Kinks => "kinks",
+    }
 }
 
 /// Adds the tips on the way: length, x and depth [m], angle [rad].

@@ -20,15 +20,18 @@ from pyfret._core import Crack, ellipse_factor
 from pyfret._util.names import listing
 from pyfret.fracture.below import crack, grow
 from pyfret.fracture.film import channel_release, film_intensity
+from pyfret.fracture.first import PARTS, FirstToFail, first_to_fail
 from pyfret.fracture.growth import Arrest, CrackLife, Cracks, Paris, Threshold
 from pyfret.fracture.interface import Buckling, buckling_release, edge_release, over_cycle
 
 __all__ = [
+    "PARTS",
     "Arrest",
     "Buckling",
     "Crack",
     "CrackLife",
     "Cracks",
+    "FirstToFail",
     "Paris",
     "Threshold",
     "buckling_release",
@@ -37,6 +40,7 @@ __all__ = [
     "edge_release",
     "ellipse_factor",
     "film_intensity",
+    "first_to_fail",
     "grow",
     "over_cycle",
 ]

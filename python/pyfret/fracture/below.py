@@ -149,13 +149,14 @@ def grow(
     -------
     Cracks
         K over (increment, length) with the tip at each end of a piece, ``x`` and ``z`` of the tips
-        [m]; the attribute ``path_error`` is how far the last tip may be off [m], ``closed`` tells
-        that the crack ends before `end` because nothing opens it.
+        [m]; the attribute ``path_error`` is how far the last tip may be off [m], ``end`` tells why
+        the crack ends: "reached" its length, "closed", as nothing opens it, "surface", to which it
+        comes back, or "kinks", where its direction jumps by more than 0.5 rad.
 
     Raises
     ------
     ValueError
-        As :func:`crack`; the crack comes back to the surface.
+        As :func:`crack`.
     """
     cycle_of = Cycle(result, cycle, body_number, residual)
     x, azimuth = cycle_of.place(x, azimuth, angle, friction)
@@ -171,7 +172,7 @@ def grow(
     )
     about = {"x": x, "angle": angle, "azimuth": azimuth, "friction": friction}
     about |= {"direction": direction, "path_error": found["path_error"]}
-    about |= {"closed": int(found["closed"])}
+    about |= {"end": found["end"]}
     return labelled(found, cycle_of, found["length"], found, about)
 
 
@@ -289,6 +290,8 @@ def labelled(
         "z": ("length", tips["z"], {**metre, "long_name": "depth of the tip"}),
     }
     about |= {"body_number": cycle.body_number, "half_width": cycle.half_width}
+    of_run = cycle.result.dataset.attrs
+    about |= {name: of_run[name] for name in ("a_H", "p_H") if name in of_run}
     return Cracks(xr.Dataset(variables, coords=coordinates, attrs=about))
 
 

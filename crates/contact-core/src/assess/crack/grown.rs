@@ -1,6 +1,6 @@
 //! A crack that chooses its direction below a contact.
 
-use fracture::{Crack, Direction, Growing, Path, PlaneStress, Point, grow};
+use fracture::{Crack, Direction, End, Growing, Path, PlaneStress, Point, grow};
 use rayon::prelude::*;
 
 use super::along::{Line, Which};
@@ -32,8 +32,8 @@ pub struct Grown {
     pub over: Vec<OverCycle>,
     /// Distance between the last tip and that of the path with half of the pieces \[m\].
     pub error: f64,
-    /// Whether it ends because nothing opens it any more.
-    pub closed: bool,
+    /// Why it ends.
+    pub end: End,
 }
 
 /// What ends the growth, of this crate or of the crack.
@@ -84,7 +84,7 @@ pub fn grown(below: &Below<'_>, states: &States<'_>, growth: &Growth) -> Result<
         tips: found.tips.iter().map(|tip| tip.at).collect(),
         over,
         error: found.error,
-        closed: found.closed,
+        end: found.end,
     })
 }
 
