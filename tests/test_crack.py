@@ -191,7 +191,7 @@ def test_a_kink_is_that_of_the_plain_crack(rig: fret.Result) -> None:
 
 
 def test_the_deepest_point_of_a_crack_under_a_ball() -> None:
-    """Rotated load, rotated plane; the estimate is the plane value times Newman and Raju's factor."""
+    """A load along y turns the plane; the estimate is the plane value times the factor."""
     ball = fret.Body(STEEL, shape=fret.Sphere(R=5e-3))
     scene = fret.Scene(
         body1=ball, body2=fret.Body(STEEL), mu=0.5, grid=fret.Grid.centred(extent=3.2e-4, n=20)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import pyfret as fret
 from pyfret import experiments
-from validation.pages import DPI
+from validation.arrest import arrest
+from validation.sheets import Page, drawn, remarks, table
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,27 +31,6 @@ NOT_READ = (
 )
 
 
-@dataclass(frozen=True)
-class Page:
-    """A page: its title, its text, and a line of the verdict."""
-
-    name: str
-    title: str
-    text: list[str]
-    verdict: str
-
-
-def table(head: list[str], rows: list[list[str]]) -> str:
-    """A table in Markdown."""
-    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
-
-
-def remarks(test: experiments.Experiment) -> str:
-    """Misprints and choices as a list."""
-    return "\n".join(f"- {remark}" for remark in test.remarks)
-
-
 def spread(ratios: list[float], within: float) -> str:
     """Mean, scatter and count of ratios."""
     r = np.array(ratios)
@@ -67,16 +45,6 @@ def factor(ratios: list[float], by: float) -> str:
     """How many ratios lie within a factor."""
     logs = np.abs(np.log(ratios))
     return f"{int(np.sum(logs <= np.log(by)))} of {len(ratios)} within a factor {by:g}"
-
-
-def drawn(out: Path, name: str, draw: Callable[[Any], None]) -> str:
-    """A figure of a page."""
-    with fret.plot.style():
-        figure, ax = plt.subplots(figsize=(5.4, 3.6), layout="constrained")
-        draw(ax)
-        figure.savefig(out / f"{name}.png", dpi=DPI)
-        plt.close(figure)
-    return f"![{name}]({name}.png)"
 
 
 def fouvry2007(out: Path) -> Page:
@@ -509,7 +477,7 @@ def vanpeteghem2011(out: Path) -> Page:
 
 PAGES: dict[str, Callable[[Path], Page]] = {
     page.__name__: page
-    for page in (fouvry2007, fouvry2017, arnaud2021, baydoun2019, icf13, vanpeteghem2011)
+    for page in (fouvry2007, fouvry2017, arnaud2021, baydoun2019, icf13, arrest, vanpeteghem2011)
 }
 
 

@@ -81,8 +81,8 @@ __all__ = [
     "coated_indentation",
     "continued_pressure",
     "coupled_indentation",
-    "crack_life",
     "crack_growth_of_states",
+    "crack_life",
     "crack_of_states",
     "criteria",
     "criterion_on",
@@ -2397,8 +2397,9 @@ class Crack:
         -------
         dict
             Of the tips on the way ``length``, ``x``, ``z`` [m], ``angle`` [rad], over (time, tips)
-            ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip may
-            be off [m]; ``closed``, whether the crack ends because nothing opens it.
+            ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip
+            may be off [m]; ``end``: "reached" the length, "closed", as nothing opens the crack,
+            "surface", to which it came back, "kinks", where its direction jumps.
         """
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
     def __replace__(self, **changes: Any) -> Crack: ...
@@ -2423,6 +2424,7 @@ def crack_of_states(
     body_number: int = 2,
 ) -> dict[str, _Array]:
     """K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`."""
+
 def crack_growth_of_states(
     body: Body,
     grid: Grid,
@@ -2439,6 +2441,7 @@ def crack_growth_of_states(
     body_number: int = 2,
 ) -> dict[str, Any]:
     """A crack that grows below a contact; use :meth:`pyfret.Result.grow_crack`."""
+
 def threshold_at(threshold_: _Threshold, lengths: Sequence[float]) -> tuple[list[float], float]:
     """Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m]."""
 

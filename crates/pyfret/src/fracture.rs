@@ -193,9 +193,9 @@ impl Crack {
     /// -------
     /// dict
     ///     Of the tips on the way ``length``, ``x``, ``z`` [m], ``angle`` [rad], over (time, tips)
-    ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip may
-    ///     be off [m]; ``end``: "reached" the length, "closed", as nothing opens it, "surface",
-    ///     "kinks", where its direction jumps.
+    ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip
+    ///     may be off [m]; ``end``: "reached" the length, "closed", as nothing opens the crack,
+    ///     "surface", to which it came back, "kinks", where its direction jumps.
     #[pyo3(signature = (stress, *, end, direction = "tangential_stress", friction = 0.0, tolerance = 1e-2))]
     fn grow<'py>(
         &self,

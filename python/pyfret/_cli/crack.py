@@ -50,7 +50,9 @@ def add_options(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         "lengths to the last",
     )
     crack.add_argument(
-        "--azimuth", type=float, help="of its plane about z [degrees] (default: of the largest range)"
+        "--azimuth",
+        type=float,
+        help="of its plane about z [degrees] (default: of the largest range)",
     )
     crack.add_argument(
         "--aspect", type=float, help="depth over half-length of a semi-ellipse: an estimate"

@@ -1,8 +1,9 @@
 """Will a crack stop, will the coating come off? Stress intensity, arrest, energy release.
 
 :func:`crack` (or :meth:`pyfret.Result.crack`) takes the stress of a contact's cycle to the tips of
-cracks, :func:`grow` (:meth:`pyfret.Result.grow_crack`) lets one choose its way; :class:`Cracks` says with a :class:`Threshold` where they stop and with :class:`Paris` how
-long that takes; :class:`Crack` does so for any stress history, without a contact. ::
+cracks, :func:`grow` (:meth:`pyfret.Result.grow_crack`) lets one choose its way; :class:`Cracks`
+says with a :class:`Threshold` where they stop and with :class:`Paris` how long that takes;
+:class:`Crack` does so for any stress history, without a contact. ::
 
     cracks = result.crack()
     cracks.arrest(fracture.Threshold(dK_th=2.1e6, dS_0=124e6))

@@ -170,9 +170,8 @@ def grow(
         azimuth=azimuth,
         friction=friction,
     )
-    about = {"x": x, "angle": angle, "azimuth": azimuth, "friction": friction}
-    about |= {"direction": direction, "path_error": found["path_error"]}
-    about |= {"end": found["end"]}
+    about: dict[str, Any] = {"x": x, "angle": angle, "azimuth": azimuth, "friction": friction}
+    about |= {"direction": direction, "path_error": found["path_error"], "end": found["end"]}
     return labelled(found, cycle_of, found["length"], found, about)
 
 

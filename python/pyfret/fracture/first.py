@@ -53,6 +53,7 @@ def first_to_fail(
     shear_strength: float | None = None,
     threshold: Threshold | None = None,
     residual: Sequence[float] | None = None,
+    x: float | None = None,
     lengths: Sequence[float] | None = None,
     body_number: int = 2,
     cycle: int | None = -1,
@@ -72,10 +73,11 @@ def first_to_fail(
     peel_strength, shear_strength : float, optional
         Strengths of the interfaces [Pa], both or neither: :func:`over_cycle`.
     threshold : Threshold, optional
-        Of the substrate, for a normal crack that has come through the coatings at the rim below
-        which the range of K is larger: :func:`crack`.
+        Of the substrate, for a normal crack that has come through the coatings: :func:`crack`.
     residual : sequence of float, optional
         Residual stress of every layer from the surface down, the substrate's last [Pa].
+    x : float, optional
+        Its mouth [m] (default: the rim of the contact below which the range of K is larger).
     lengths : array, optional
         Lengths of the crack [m] (default: 16 from 1.5 times the thickness of the coatings to twice
         half the width of the contact).
@@ -106,7 +108,7 @@ def first_to_fail(
             cycle=cycle,
             residual=residual,
         )
-        largest = float(stress.isel(depth=slice(0, 2)).sel(component="xx").max())
+        largest = float(stress.isel(depth=slice(0, 2)).sel(component="s_xx").max())
         film = math.sqrt(channel_release(coating, below, largest) / toughness)
     if peel_strength is not None or shear_strength is not None:
         found = over_cycle(
@@ -122,7 +124,7 @@ def first_to_fail(
             shortest = BELOW * sum(c.thickness for c in body.coatings)
             lengths = np.geomspace(shortest, 2.0 * result.a_H, LENGTHS).tolist()
         cracks = crack(
-            result, lengths=lengths, body_number=body_number, cycle=cycle, residual=residual
+            result, x, lengths=lengths, body_number=body_number, cycle=cycle, residual=residual
         )
         substrate = cracks.arrest(threshold).margin
     return FirstToFail(film, interface, substrate)

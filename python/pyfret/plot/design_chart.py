@@ -67,7 +67,9 @@ def design_chart(
         load = np.ma.masked_invalid(table[part].values)
         if min(load.shape) > 1 and load.count() and load.min() < 1.0 < load.max():
             ax.contour(at_x, at_y, load, levels=[1.0], colors="0.2", linestyles=style)
-            entries.append(Line2D([], [], color="0.2", linestyle=style, label=f"limit of the {name}"))
+            line = Line2D([], [], color="0.2", label=f"limit of the {name}")
+            line.set_linestyle(style)
+            entries.append(line)
     names = labels if labels is not None else (x, y)
     ax.set_xlabel(names[0])
     ax.set_ylabel(names[1])

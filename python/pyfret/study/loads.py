@@ -204,7 +204,7 @@ class Slides(Exception):
 
 def refuse_sliding(scene: Scene, T: float, W: float) -> None:
     """Raise where friction cannot bear a force [N]."""
-    if T > scene.mu * W * (1 - 1e-9):
+    if scene.mu * W * (1 - 1e-9) < T:
         raise Slides(f"T = {T} N is more than mu W = {scene.mu * W} N")
 
 

@@ -238,7 +238,7 @@ class FirstToFail:
 
     Parameters
     ----------
-    toughness, peel_strength, shear_strength, threshold, residual, lengths, body_number
+    toughness, peel_strength, shear_strength, threshold, residual, x, lengths, body_number
         As in :func:`pyfret.fracture.first_to_fail`.
     """
 
@@ -247,6 +247,7 @@ class FirstToFail:
     shear_strength: float | None = None
     threshold: fracture.Threshold | None = None
     residual: Sequence[float] | None = None
+    x: float | None = None
     lengths: Sequence[float] | None = None
     body_number: int = 2
 
