@@ -121,8 +121,9 @@ def arrest(out: Path) -> Page:
             "page, and none is needed for plain fretting: from some depth on no instant of the "
             "cycle opens a crack, so that each stops, whatever its threshold. Under bulk stress "
             "the range of K has a least value beyond its first maximum, and a crack grows through "
-            "if its threshold is below that; a static bulk stress leaves a range, too, as far down "
-            "as shear reaches. dK in MPa m^0.5, faces in contact without friction.",
+            "if its threshold is below that (cracks of up to three half-widths; FF_7 has a static "
+            "bulk stress, so that its range falls on further down). dK in MPa m^0.5, faces in "
+            "contact without friction.",
             rows_of_tests,
             "**The width of the contact.** Cylinders on Al-4%Cu, all with p_0 = 157 MPa, mu = "
             "0.75, T = 0.6 mu W and the bulk stress in phase, fully reversed: the stress at the "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -21,6 +21,8 @@ __all__ = ["design_chart"]
 #: What fails first, by the codes of ``first``, each with its colour.
 FIRST = {0: ("nothing fails", "#ffffff"), 1: ("film", "#fdd0a2")}
 FIRST |= {2: ("interface", "#c7e9c0"), 3: ("substrate", "#9ecae1")}
+#: Lines of the limits of film, interface and substrate.
+STYLES: tuple[Literal["solid", "dashed", "dotted"], ...] = ("solid", "dashed", "dotted")
 
 
 @styled
@@ -61,15 +63,12 @@ def design_chart(
         for n, (name, colour) in FIRST.items()
         if n in first
     ]
-    for (name, _), style, part in zip(
-        list(FIRST.values())[1:], ("solid", "dashed", "dotted"), PARTS, strict=True
-    ):
-        load = np.ma.masked_invalid(table[part].values)
+    for name, style in zip(PARTS, STYLES, strict=True):
+        load = np.ma.masked_invalid(table[name].values)
         if min(load.shape) > 1 and load.count() and load.min() < 1.0 < load.max():
             ax.contour(at_x, at_y, load, levels=[1.0], colors="0.2", linestyles=style)
-            line = Line2D([], [], color="0.2", label=f"limit of the {name}")
-            line.set_linestyle(style)
-            entries.append(line)
+            label = f"limit of the {name}"
+            entries.append(Line2D([], [], color="0.2", linestyle=style, label=label))
     names = labels if labels is not None else (x, y)
     ax.set_xlabel(names[0])
     ax.set_ylabel(names[1])
