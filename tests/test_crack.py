@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import matplotlib as mpl
 import numpy as np
 import pytest
+import xarray as xr
 
 import pyfret as fret
 from pyfret import fracture
@@ -111,6 +112,162 @@ def test_thresholds() -> None:
     assert fracture.Threshold.of(own) == fracture.Threshold(4e6, 300e6)
 
 
+def test_growth_constants_of_the_table_of_materials() -> None:
+    table = fret.fatigue.Materials()
+    alloy = fracture.Threshold.of(table["aluminium_4Cu"])
+    assert (alloy.dK_th, alloy.dS_0, alloy.walker) == (2.1e6, 124e6, None)
+    assert alloy.a_0 == pytest.approx(91.29465388e-6)
+    assert fracture.Paris.of(table["aluminium_7075_T6"]) == fracture.Paris(2.71e-11, 3.7)
+    with pytest.raises(ValueError, match=r"aluminium_4Cu.*paris_C"):
+        fracture.Paris.of(table["aluminium_4Cu"])
+    own = fret.fatigue.Material(
+        "mine", [("dK_th", 8e6, "a test"), ("s_D", 300e6, "one"), ("walker", 0.6, "another")]
+    )
+    assert fracture.Threshold.of(own).walker == 0.6
+    assert fracture.Threshold.of(own, walker=0.9).walker == 0.9
+
+
+def test_growth_below_a_contact(rig: fret.Result) -> None:
+    """The path settles; a straight first crack of the path has the K of a straight crack."""
+    grown = rig.grow_crack(start=2e-5, end=2e-4, angle=0.4, tolerance=0.05)
+    data = grown.dataset
+    assert grown.lengths[0] == pytest.approx(2e-5)
+    assert grown.lengths[-1] == pytest.approx(2e-4)
+    assert data.attrs["path_error"] < 0.05 * 1.8e-4
+    assert data.attrs["end"] == "reached"
+    straight = rig.crack(data.attrs["x"], lengths=[2e-5], angle=0.4)
+    assert grown.K_max[0] == pytest.approx(straight.K_max[0], rel=1e-4)
+    # It turns towards the normal of the tension, and its tips are as far apart as it is long.
+    steps = np.hypot(np.diff(data.x), np.diff(data.z))
+    assert steps.sum() == pytest.approx(1.8e-4, rel=1e-2)
+    assert abs(data.x[-1] - data.x[-2]) < 0.2 * (data.z[-1] - data.z[-2])
+    finer = rig.grow_crack(start=2e-5, end=2e-4, angle=0.4, tolerance=0.01)
+    off = np.hypot(finer.dataset.x[-1] - data.x[-1], finer.dataset.z[-1] - data.z[-1])
+    assert off <= data.attrs["path_error"]
+    assert grown.arrest(fracture.Threshold(1e3)).verdict in ("grows", "stops")
+
+
+def test_growth_under_a_plain_history() -> None:
+    """Under tension to and fro an inclined crack turns normal to it, and K_II vanishes."""
+    crack = fracture.Crack(legs=[(1e-4, np.radians(40))])
+
+    def tension(points: np.ndarray) -> np.ndarray:
+        stress = np.zeros((2, len(points), 6))
+        stress[0, :, 0] = 100e6
+        return stress
+
+    grown = crack.grow(tension, end=5e-4)
+    assert abs(grown["angle"][-1]) < 0.05
+    assert np.abs(grown["K_II"][0, 1:]).max() < 3e-3 * grown["K_I"][0, -1]
+    depth = grown["z"][-1]
+    assert grown["K_I"][0, -1] == pytest.approx(F_0 * 100e6 * np.sqrt(np.pi * depth), rel=2e-2)
+    assert grown["path_error"] < 1e-2 * 4e-4
+
+    def wrong(points: np.ndarray) -> np.ndarray:
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        crack.grow(wrong, end=5e-4)
+    with pytest.raises(ValueError, match="direction"):
+        crack.grow(tension, end=5e-4, direction="down")  # type: ignore[arg-type]
+
+
+def test_a_kink_is_that_of_the_plain_crack(rig: fret.Result) -> None:
+    x = -rig.a_H
+    lengths = [3e-5, 1e-4]
+    kinked = rig.crack(x, lengths=lengths, kink=(5e-5, 0.5)).dataset
+    straight = rig.crack(x, lengths=lengths).dataset
+    # Those that end before the kink are straight ones.
+    assert kinked.K_I[:, 0].values == pytest.approx(straight.K_I[:, 0].values, rel=1e-3)
+    assert float(kinked.x[1] - x) == pytest.approx(5e-5 * np.sin(0.5))
+    # A kink that does not turn is none.
+    plain = rig.crack(x, lengths=[1e-4], kink=(5e-5, 0.0)).dataset
+    assert plain.K_I_linear[:, 0].values == pytest.approx(
+        straight.K_I_linear[:, 1].values, abs=1e-4 * float(straight.K_I_linear.max())
+    )
+    assert float(abs(kinked.K_II_linear[:, 1] - straight.K_II_linear[:, 1]).max()) > 1e5
+    with pytest.raises(ValueError, match="kink"):
+        rig.crack(x, lengths=lengths, kink=(-5e-5, 0.5))
+
+
+def test_the_deepest_point_of_a_crack_under_a_ball() -> None:
+    """A load along y turns the plane; the estimate is the plane value times the factor."""
+    ball = fret.Body(STEEL, shape=fret.Sphere(R=5e-3))
+    scene = fret.Scene(
+        body1=ball, body2=fret.Body(STEEL), mu=0.5, grid=fret.Grid.centred(extent=3.2e-4, n=20)
+    )
+    W, T = 20.0, 6.0
+
+    def sheared(along: str) -> fret.Result:
+        path = fret.LoadPath.start().normal(W, increments=2)
+        for force, increments in ((T, 3), (-T, 5), (T, 5)):
+            path = path.force(**{along: force}, increments=increments)
+        return fret.solve(scene, path, save="all", progress=False)
+
+    lengths = [1e-5, 3e-5]
+    along_x, along_y = sheared("T_x"), sheared("T_y")
+    plane, turned = along_x.crack(lengths=lengths), along_y.crack(lengths=lengths)
+    assert plane.dataset.attrs["azimuth"] == 0.0
+    assert turned.dataset.attrs["azimuth"] == pytest.approx(np.pi / 2)
+    assert turned.K_max == pytest.approx(plane.K_max, rel=1e-3)
+    estimate = along_x.crack(plane.dataset.attrs["x"], lengths=lengths, aspect=1.0)
+    assert pytest.approx(0.590752 * plane.K_max, rel=1e-5) == estimate.K_max
+    largest = estimate.dataset.isel(increment=int(estimate.dataset.K_I[:, 0].argmax()), length=0)
+    assert float(largest.error) > 0.05 * float(largest.K_I)
+    with pytest.raises(ValueError, match="aspect"):
+        along_x.crack(lengths=lengths, aspect=2.0)
+
+
+def test_film_interface_or_substrate(rig: fret.Result) -> None:
+    film = fret.Coating(fret.Elastic(E=400e9, nu=0.25), thickness=1e-5)
+    scene = rig.scene.replace(body2=fret.Body(STEEL, coatings=[film]), path=rig.scene.path)
+    result = fret.solve(scene, save="all", progress=False)
+    limits = {
+        "toughness": 20.0,
+        "peel_strength": 500e6,
+        "shear_strength": 500e6,
+        "threshold": fracture.Threshold(2e6, 200e6),
+        "lengths": [2e-5, 5e-5, 1e-4, 3e-4],
+    }
+    plain = fracture.first_to_fail(result, **limits)
+    pulled = fracture.first_to_fail(result, **limits, residual=[2e9, 0.0])
+    pressed = fracture.first_to_fail(result, **limits, residual=[-5e9, 0.0])
+    # Residual stress loads the film alone of the first two; half the energy, a root of two more.
+    assert pulled.film > plain.film > 0.0
+    assert pulled.interface == plain.interface > 0.0
+    assert pressed.film == 0.0
+    tougher = fracture.first_to_fail(result, toughness=40.0)
+    assert plain.film / tougher.film == pytest.approx(np.sqrt(2.0))
+    assert np.isnan(tougher.substrate)
+    assert pulled.first == "film"
+    found = fret.study.FirstToFail(**limits, residual=[2e9, 0.0])(result)
+    assert int(found["first"]) == 1
+    with pytest.raises(ValueError, match="no coating"):
+        fracture.first_to_fail(rig, toughness=1.0)
+
+
+def test_the_arrest_map_holds_what_each_point_gives(rig: fret.Result) -> None:
+    scene = rig.scene.replace(grid=fret.Grid.strip(extent=1e-3, n=64))
+    arrest = fret.study.Arrest(fracture.Threshold(3e6, 300e6))
+    table = fret.study.arrest_map(
+        scene, W=2e5, T=[3e4, 9e4, 2e5], sigma_B=[0.0, 2e8], arrest=arrest, executor=1
+    )
+    assert table.arrest_margin.dims == ("T", "sigma_B")
+    assert np.isnan(table.arrest_margin[2]).all()
+    # Without bulk stress every crack stops, whatever the threshold: deep down nothing opens it.
+    assert (table.arrest_margin[:2, 0] < 1.0).all()
+    assert table.arrest_length[1, 0] > table.arrest_length[0, 0]
+    assert (table.arrest_margin[:2, 1] > table.arrest_margin[:2, 0]).all()
+    path = fret.LoadPath.start().normal(2e5, increments=2)
+    for T, bulk, increments in ((9e4, 2e8, 4), (-9e4, 0.0, 8), (9e4, 2e8, 8)):
+        path = path.force(T_x=T, sigma_B=bulk, increments=increments)
+    alone = fret.solve(scene, path, save="all", progress=False).crack()
+    margin = alone.arrest(arrest.threshold).margin
+    assert float(table.arrest_margin[1, 1]) == pytest.approx(margin, rel=1e-9)
+    ax = fret.plot.arrest_map(table)
+    assert "stops" in [text.get_text() for text in ax.get_legend().get_texts()]
+
+
 def test_kitagawa_of_uniform_tension() -> None:
     lengths = np.geomspace(1e-6, 1e-3, 20)
     K = 100e6 * np.sqrt(np.pi * lengths)
@@ -142,6 +299,28 @@ def test_figures(rig: fret.Result) -> None:
     ):
         assert ax.get_xlabel()
         assert ax.lines
+    panels = fret.plot.crack_panels(rig, cracks, threshold)
+    section = panels.axes[0]
+    # The crack stands where it is, in the units of the section.
+    crack = next(line for line in section.lines if line.get_zorder() == 4)
+    x = cracks.dataset.attrs["x"]
+    assert abs(crack.get_xdata()[0]) == pytest.approx(abs(x) * 1e6, rel=1e-6)
+    table = xr.Dataset(
+        {
+            name: (("h", "s"), values)
+            for name, values in {
+                "film": [[0.5, 1.5], [0.5, 2.0]],
+                "interface": [[0.2, 0.2], [1.2, 1.2]],
+                "substrate": [[0.1, 0.1], [0.1, 0.1]],
+                "first": [[0, 1], [2, 1]],
+            }.items()
+        },
+        coords={"h": [1.0, 2.0], "s": [0.0, 1.0]},
+    )
+    chart = fret.plot.design_chart(table, "s", "h")
+    named = [text.get_text() for text in chart.get_legend().get_texts()]
+    assert named[:3] == ["nothing fails", "film", "interface"]
+    assert "limit of the film" in named
 
 
 def test_command(rig: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -157,3 +336,12 @@ def test_command(rig: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture
     assert figure.stat().st_size > 0
     assert commands.main(["crack", str(store), "--dS-0", "1e8"]) == 2
     assert "--dK-th" in capsys.readouterr().err
+    grown = ["crack", str(store), "--grow", "tangential_stress", "--lengths", "3e-5,2e-4"]
+    assert commands.main([*grown, "--dK-th", "1e3", "--paris", "1e-11,3"]) == 0
+    said = capsys.readouterr().out
+    assert said.count("MPa m^0.5") >= 9
+    assert "cycles" in said
+    kinked = ["crack", str(store), "--lengths", lengths, "--kink", "5e-5,20", "--aspect", "0.8"]
+    assert commands.main(kinked) == 0
+    assert commands.main([*grown, "--kink", "5e-5,20"]) == 2
+    assert "--grow" in capsys.readouterr().err

@@ -3,7 +3,7 @@
 SI units everywhere; axes, signs and names are those of ``docs/conventions.md``.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, ClassVar, Final, Literal, TypeAlias, final
 
@@ -81,6 +81,7 @@ __all__ = [
     "coated_indentation",
     "continued_pressure",
     "coupled_indentation",
+    "crack_growth_of_states",
     "crack_life",
     "crack_of_states",
     "criteria",
@@ -2410,6 +2411,43 @@ class Crack:
             ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5], ``open``, the share of the crack that
             is open, each over time.
         """
+    def grow(
+        self,
+        stress: Callable[[_Array], ArrayLike],
+        *,
+        end: float,
+        direction: Literal["tangential_stress", "opening_intensity"] = "tangential_stress",
+        friction: float = 0.0,
+        tolerance: float = 1e-2,
+    ) -> dict[str, Any]:
+        """Grow the crack in the direction of the largest range over a cycle of stress.
+
+        Pieces are curved so that at the end of each the crack has no reason to turn; their number
+        doubles until the tip moves less than the tolerance.
+
+        Parameters
+        ----------
+        stress : callable
+            Takes points, x and depth [m] in an array of shape (points, 2), and gives the stress of
+            the body without the crack there over the instants of the cycle [Pa], shape
+            (time, points, 6).
+        end : float
+            Length to grow to [m].
+        direction : {"tangential_stress", "opening_intensity"}
+            Largest range of the tangential stress ahead of the tip, or of K_I of a small kink.
+        friction : float
+            Coefficient of friction between faces in contact.
+        tolerance : float
+            Distance by which the last tip may be off over the length grown.
+
+        Returns
+        -------
+        dict
+            Of the tips on the way ``length``, ``x``, ``z`` [m], ``angle`` [rad], over (time, tips)
+            ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip
+            may be off [m]; ``end``: "reached" the length, "closed", as nothing opens the crack,
+            "surface", to which it came back, "kinks", where its direction jumps.
+        """
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
     def __replace__(self, **changes: Any) -> Crack: ...
     def replace(self, **changes: Any) -> Crack:
@@ -2422,20 +2460,34 @@ _Threshold: TypeAlias = tuple[
 def crack_of_states(
     body: Body,
     grid: Grid,
+    states: Mapping[str, Any],
     *,
-    p: NDArray[np.float64],
-    q_x: NDArray[np.float64],
-    q_y: NDArray[np.float64],
-    stick: NDArray[np.bool_],
-    sigma_B: Sequence[float],
     x: float,
     lengths: Sequence[float],
     angle: float = 0.0,
+    kink: tuple[float, float] | None = None,
+    azimuth: float = 0.0,
     friction: float = 0.0,
-    residual: Sequence[float] | None = None,
     body_number: int = 2,
 ) -> dict[str, _Array]:
     """K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`."""
+
+def crack_growth_of_states(
+    body: Body,
+    grid: Grid,
+    states: Mapping[str, Any],
+    *,
+    x: float,
+    start: float,
+    end: float,
+    direction: str,
+    tolerance: float,
+    angle: float = 0.0,
+    azimuth: float = 0.0,
+    friction: float = 0.0,
+    body_number: int = 2,
+) -> dict[str, Any]:
+    """A crack that grows below a contact; use :meth:`pyfret.Result.grow_crack`."""
 
 def threshold_at(threshold_: _Threshold, lengths: Sequence[float]) -> tuple[list[float], float]:
     """Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m]."""

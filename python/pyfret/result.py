@@ -304,6 +304,9 @@ class Result(Run):
         *,
         lengths: ArrayLike | None = None,
         angle: float = 0.0,
+        kink: tuple[float, float] | None = None,
+        azimuth: float | None = None,
+        aspect: float | None = None,
         friction: float = 0.0,
         body_number: int = 2,
         cycle: int | None = -1,
@@ -318,6 +321,43 @@ class Result(Run):
             x,
             lengths=lengths,
             angle=angle,
+            kink=kink,
+            azimuth=azimuth,
+            aspect=aspect,
+            friction=friction,
+            body_number=body_number,
+            cycle=cycle,
+            residual=residual,
+        )
+
+    def grow_crack(
+        self,
+        x: float | None = None,
+        *,
+        start: float | None = None,
+        end: float | None = None,
+        angle: float = 0.0,
+        azimuth: float | None = None,
+        direction: Literal["tangential_stress", "opening_intensity"] = "tangential_stress",
+        tolerance: float = 1e-2,
+        friction: float = 0.0,
+        body_number: int = 2,
+        cycle: int | None = -1,
+        residual: Sequence[float] | None = None,
+    ) -> fracture.Cracks:
+        """Let a crack grow in the direction of the largest range over a closed cycle.
+
+        Parameters and result are those of :func:`pyfret.fracture.grow`.
+        """
+        return fracture.grow(
+            self,
+            x,
+            start=start,
+            end=end,
+            angle=angle,
+            azimuth=azimuth,
+            direction=direction,
+            tolerance=tolerance,
             friction=friction,
             body_number=body_number,
             cycle=cycle,

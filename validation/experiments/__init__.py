@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from validation.experiments import (
     arnaud2021,
+    arrest,
     baydoun2019,
     fouvry2007,
     fouvry2017,
@@ -29,6 +30,7 @@ PAGES: dict[str, Callable[[Path], Page]] = {
     "arnaud2021": arnaud2021.page,
     "baydoun2019": baydoun2019.page,
     "icf13": icf13.page,
+    "arrest": arrest.page,
     "vanpeteghem2011": vanpeteghem2011.page,
 }
 

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use contact_core::Scene;
-use contact_core::assess::crack::{Cracks, over_cycle};
+use contact_core::assess::crack::{Below, Cracks, over_cycle};
 use contact_core::convolution::Tractions;
 use contact_core::fields::{Side, States};
 use contact_core::march::March;
@@ -62,9 +62,14 @@ fn compare(share: f64, cells: usize) {
             x: -line.a,
             angle,
             lengths: [0.05, 0.1, 0.2, 0.5, 1.0].map(|l| l * line.a).to_vec(),
-            friction: 0.0,
+            ..Cracks::default()
         };
-        let found = over_cycle(&scene.body2, Side::Body2, &scene.grid, &states, &cracks).unwrap();
+        let below = Below {
+            body: &scene.body2,
+            side: Side::Body2,
+            grid: &scene.grid,
+        };
+        let found = over_cycle(&below, &states, &cracks).unwrap();
         for (length, found) in cracks.lengths.iter().zip(found) {
             let crack = Crack::new(Path::straight(-line.a, *length, angle)).unwrap();
             let stress: Vec<_> = crack

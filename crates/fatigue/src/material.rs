@@ -78,6 +78,17 @@ pub const QUANTITIES: &[Quantity] = &[
         "Pa m^0.5",
         "threshold range of the stress intensity, R = -1",
     ),
+    quantity(
+        "paris_C",
+        "m/cycle at 1 MPa m^0.5",
+        "coefficient of Paris' law, R = 0",
+    ),
+    quantity("paris_m", "1", "exponent of Paris' law"),
+    quantity(
+        "walker",
+        "1",
+        "exponent gamma of Walker's dependence of crack growth on R",
+    ),
     quantity("alpha_T", "1/K", "thermal expansion"),
     quantity("density", "kg/m^3", "density"),
     quantity("specific_heat", "J/(kg K)", "specific heat"),

@@ -11,12 +11,16 @@ use super::stress::{PlaneStress, Point};
 
 /// Turn at the tip below which a piece's end has its direction \[rad\].
 const STRAIGHT: f64 = 2e-3;
+/// Turn on the way beyond which the crack would not bend but kink \[rad\]: the direction jumps where another
+/// instant or another mode takes the lead.
+const SHARP: f64 = 0.5;
 /// Corrections of a piece's end.
 const CORRECTIONS: usize = 4;
 /// Step of the quadrature that directions need: K to 1e-3 in closed cracks.
 const COARSE: f64 = 0.2;
-/// Most pieces of a path.
+/// Most pieces of a path, and of one that ends early.
 const MOST_PIECES: usize = 64;
+const ENOUGH_PIECES: usize = 16;
 
 /// How a crack grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,8 +80,21 @@ pub struct Grown {
     pub tips: Vec<Tip>,
     /// Distance between the tips of this path and of that with half of the pieces \[m\].
     pub error: f64,
-    /// Whether it ends because nothing opens it any more.
-    pub closed: bool,
+    /// Why it ends.
+    pub end: End,
+}
+
+/// Why a crack grows no further.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// It has the length to grow to.
+    Reached,
+    /// Nothing opens it any more.
+    Closed,
+    /// It comes back to the surface.
+    Surface,
+    /// Its direction jumps by more than 0.5 rad: another instant, or shear, takes the lead.
+    Kinks,
 }
 
 /// K over a cycle with faces that touch: `stress` are the stresses at the crack's points of one
@@ -97,14 +114,15 @@ pub(crate) fn cycle(
 }
 
 /// Grows a crack from `start` in the direction that its cycle asks for. `stress` gives the stress
-/// of the body without the crack at points, one instant of the cycle after the other.
+/// of the body without the crack at a crack's points, one instant of the cycle after the other.
 ///
 /// Pieces are curved so that at the end of each the crack has no reason to turn; their number is
-/// doubled until the tip moves less than the tolerance.
+/// doubled until the tip moves less than the tolerance. A crack ends early where nothing opens it, where
+/// it comes back to the surface and where its direction jumps, which is known to a piece.
 pub fn grow<E: From<Error>>(
     start: &Path,
     growing: &Growing,
-    mut stress: impl FnMut(&[Point]) -> Result<Vec<Vec<PlaneStress>>, E>,
+    mut stress: impl FnMut(&Crack) -> Result<Vec<Vec<PlaneStress>>, E>,
 ) -> Result<Grown, E> {
     start.check()?;
     if !(growing.to > start.length() && growing.to.is_finite()) {
@@ -122,7 +140,10 @@ pub fn grow<E: From<Error>>(
         let (a, b) = (coarse.path.tip(), fine.path.tip());
         fine.error = (a.x - b.x).hypot(a.z - b.z);
         let grown = fine.path.length() - start.length();
-        if fine.error <= growing.tolerance * grown || pieces >= MOST_PIECES || fine.closed {
+        if fine.error <= growing.tolerance * grown
+            || pieces >= MOST_PIECES
+            || (fine.end != End::Reached && pieces >= ENOUGH_PIECES)
+        {
             return Ok(fine);
         }
         coarse = fine;
@@ -133,11 +154,11 @@ fn in_pieces<E: From<Error>>(
     start: &Path,
     growing: &Growing,
     pieces: usize,
-    stress: &mut impl FnMut(&[Point]) -> Result<Vec<Vec<PlaneStress>>, E>,
+    stress: &mut impl FnMut(&Crack) -> Result<Vec<Vec<PlaneStress>>, E>,
 ) -> Result<Grown, E> {
     let mut at_tip = |path: &Path| -> Result<Tip, E> {
         let crack = Crack::with_step(path.clone(), step(path).max(COARSE))?;
-        let stress = stress(&crack.points())?;
+        let stress = stress(&crack)?;
         Ok(Tip {
             at: path.tip(),
             cycle: cycle(&crack, growing.friction, &stress)?,
@@ -148,30 +169,42 @@ fn in_pieces<E: From<Error>>(
         path: start.clone(),
         tips: vec![first],
         error: f64::INFINITY,
-        closed: false,
+        end: End::Reached,
     };
     let factor = (growing.to / start.length()).powf(1.0 / pieces as f64);
     for n in 0..pieces {
         let last = &grown.tips[grown.tips.len() - 1];
         let Some((turn, _)) = growing.direction.turn(&last.cycle) else {
-            grown.closed = true;
+            grown.end = End::Closed;
             return Ok(grown);
         };
         let length = grown.path.length() * (factor - 1.0);
         let from = last.at.angle;
+        if n > 0 && turn.abs() > SHARP {
+            grown.end = End::Kinks;
+            return Ok(grown);
+        }
         let kink = n == 0 && turn.abs() > STRAIGHT;
         let mut end = from + turn;
         let mut path = with_piece(&grown.path, kink, (length, end), end);
+        if path.check().is_err() {
+            grown.end = End::Surface;
+            return Ok(grown);
+        }
         let mut tip = at_tip(&path)?;
         for _ in 0..CORRECTIONS {
             let Some((more, _)) = growing.direction.turn(&tip.cycle) else {
                 break;
             };
-            if more.abs() <= STRAIGHT {
+            if more.abs() <= STRAIGHT || more.abs() > SHARP {
                 break;
             }
-            end += more;
-            path = with_piece(&grown.path, kink, (length, end), from + turn);
+            let next = with_piece(&grown.path, kink, (length, end + more), from + turn);
+            if next.check().is_err() {
+                grown.end = End::Surface;
+                return Ok(grown);
+            }
+            (end, path) = (end + more, next);
             tip = at_tip(&path)?;
         }
         grown.path = path;

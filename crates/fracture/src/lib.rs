@@ -52,7 +52,7 @@ pub use ellipse::ellipse_factor;
 pub use error::Error;
 pub use film::Film;
 pub use friction::{Faces, State};
-pub use grow::{Growing, Grown, Tip, grow};
+pub use grow::{End, Growing, Grown, Tip, grow};
 pub use life::{Growth, Life, Rate};
 pub use path::{Leg, Path};
 pub use stress::{PlaneStress, Point, Traction};

@@ -113,6 +113,49 @@ impl Path {
         self.legs.iter().map(Leg::length).sum()
     }
 
+    /// The part from the mouth to the length `s` \[m\] of the path.
+    pub fn up_to(&self, s: f64) -> Self {
+        // What rounding leaves of a length is no piece.
+        let least = 1e-12 * s;
+        let mut rest = s;
+        let mut part = Self {
+            mouth: self.mouth,
+            legs: Vec::new(),
+        };
+        for leg in &self.legs {
+            let mut kept = Leg {
+                start: leg.start,
+                pieces: Vec::new(),
+            };
+            for (length, end) in &leg.pieces {
+                if rest <= least {
+                    break;
+                }
+                if rest < length - least {
+                    let turned = kept.end() + (end - kept.end()) * rest / length;
+                    kept.pieces.push((rest, turned));
+                } else {
+                    kept.pieces.push((*length, *end));
+                }
+                rest -= length;
+            }
+            if !kept.pieces.is_empty() {
+                part.legs.push(kept);
+            }
+        }
+        part
+    }
+
+    /// Lengths from the mouth at which its pieces end \[m\], ascending, the last that of the tip.
+    pub fn ends(&self) -> Vec<f64> {
+        let pieces = self.legs.iter().flat_map(|leg| &leg.pieces);
+        let sum = |sum: &mut f64, (length, _): &(f64, f64)| {
+            *sum += length;
+            Some(*sum)
+        };
+        pieces.scan(0.0, sum).collect()
+    }
+
     /// The tip.
     pub fn tip(&self) -> Point {
         self.at(self.length())

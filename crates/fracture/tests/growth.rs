@@ -7,7 +7,7 @@ mod truth;
 use std::f64::consts::PI;
 
 use fracture::{
-    Crack, Curve, Direction, Error, Extremes, Growing, Growth, Intensity, LoadRatio, Path,
+    Crack, Curve, Direction, End, Error, Extremes, Growing, Growth, Intensity, LoadRatio, Path,
     PlaneStress, Rate, Threshold, Verdict, ellipse_factor, grow, kinked,
 };
 use truth::Fretting;
@@ -258,11 +258,9 @@ fn an_inclined_crack_under_tension_turns_normal_to_it() {
         to: 1e-3,
         ..Growing::default()
     };
-    let tension = |points: &[fracture::Point]| -> Result<Vec<Vec<PlaneStress>>, Error> {
-        Ok(vec![
-            vec![[1e8, 0.0, 0.0]; points.len()],
-            vec![[0.0; 3]; points.len()],
-        ])
+    let tension = |crack: &Crack| -> Result<Vec<Vec<PlaneStress>>, Error> {
+        let points = crack.points().len();
+        Ok(vec![vec![[1e8, 0.0, 0.0]; points], vec![[0.0; 3]; points]])
     };
     let grown = grow(&start, &growing, tension).unwrap();
     let tip = grown.path.tip();
@@ -272,6 +270,88 @@ fn an_inclined_crack_under_tension_turns_normal_to_it() {
     near(k.K_max, 1.1215 * 1e8 * (PI * tip.z).sqrt(), 2e-2);
     for tip in &grown.tips[1..] {
         assert!((tip.cycle[0].K_II / tip.cycle[0].K_I).abs() < 2e-3);
+    }
+    // The part up to a tip on the way is the crack that it was.
+    let ends = grown.path.ends();
+    for (tip, end) in grown.tips.iter().zip(&ends) {
+        let part = grown.path.up_to(*end);
+        let found = part.tip();
+        assert!((found.x - tip.at.x).hypot(found.z - tip.at.z) < 1e-15 && found.s == tip.at.s);
+    }
+    let half = grown.path.up_to(0.5 * ends[0] + 0.5 * ends[1]);
+    near(half.length(), 0.5 * ends[0] + 0.5 * ends[1], 1e-14);
+    assert_eq!(grown.path.up_to(ends[ends.len() - 1]), grown.path);
+}
+
+/// The error told of a coarse path holds the tip of a finer one.
+#[test]
+fn the_path_settles_with_its_tolerance() {
+    let start = Path::straight(0.0, 1e-4, 30_f64.to_radians());
+    let tension = |crack: &Crack| -> Result<Vec<Vec<PlaneStress>>, Error> {
+        let points = crack.points().len();
+        Ok(vec![vec![[1e8, 0.0, 0.0]; points], vec![[0.0; 3]; points]])
+    };
+    for direction in [Direction::TangentialStress, Direction::OpeningIntensity] {
+        let to = |tolerance| {
+            let growing = Growing {
+                to: 2e-4,
+                direction,
+                tolerance,
+                ..Growing::default()
+            };
+            grow(&start, &growing, tension).unwrap()
+        };
+        let (coarse, fine) = (to(2e-2), to(2e-3));
+        assert!(fine.error < 2e-3 * 1e-4, "{direction:?} {}", fine.error);
+        let (a, b) = (coarse.path.tip(), fine.path.tip());
+        let off = (a.x - b.x).hypot(a.z - b.z);
+        assert!(
+            off < coarse.error,
+            "{direction:?} {off} of {}",
+            coarse.error
+        );
+    }
+}
+
+/// Below a contact the mouth of an inclined crack closes and its tip opens, and the other way round; the
+/// faces settle at every instant of a growing, kinked crack.
+#[test]
+fn a_crack_grows_below_a_fretting_contact() {
+    let growing = Growing {
+        to: 0.2,
+        tolerance: 2e-2,
+        ..Growing::default()
+    };
+    let cycle = |crack: &Crack| -> Result<Vec<Vec<PlaneStress>>, Error> {
+        let points = crack.points();
+        let instant = |n: i32| {
+            let way = 1.0 - f64::from(n) / 3.0;
+            let load = Fretting {
+                pressure: 1.0,
+                shear: 0.6 * way,
+                stick: (0.5_f64.sqrt(), 0.0),
+                bulk: 0.0,
+            };
+            load.along(&points)
+        };
+        Ok((0..=6).map(instant).collect())
+    };
+    for (angle, friction) in [(0.0, 0.3), (0.4, 0.0)] {
+        let growing = Growing {
+            friction,
+            ..growing
+        };
+        let grown = grow(&Path::straight(-1.0, 0.06, angle), &growing, cycle).unwrap();
+        println!("{angle} {friction}: {:?} {:?}", grown.path.tip(), grown.end);
+        let length = grown.path.length();
+        assert_eq!(grown.end == End::Reached, (length - 0.2).abs() < 1e-9);
+        assert!(grown.tips.len() > 4, "{angle} {friction}");
+        let close = grown.error < 2e-2 * length;
+        assert!(
+            close || grown.end != End::Reached,
+            "{angle} {friction} {}",
+            grown.error
+        );
     }
 }
 

@@ -23,6 +23,38 @@ fn refused(error: of_cracks::Error) -> PyErr {
     to_python(core::refused(error))
 }
 
+/// What a function of the caller raised, or the crack refused.
+struct Raised(PyErr);
+
+impl From<PyErr> for Raised {
+    fn from(error: PyErr) -> Self {
+        Self(error)
+    }
+}
+
+impl From<of_cracks::Error> for Raised {
+    fn from(error: of_cracks::Error) -> Self {
+        Self(refused(error))
+    }
+}
+
+/// Stress in the plane over (time, points) from all of its components.
+fn history(stress: Array<'_, Ix3>, points: usize) -> PyResult<Vec<Vec<of_cracks::PlaneStress>>> {
+    let stress = stress.as_array();
+    let (_, found, components) = stress.dim();
+    if found != points || components != 6 {
+        return Err(PyValueError::new_err(format!(
+            "stress has the shape {:?}: must be (time, {points}, 6)",
+            stress.dim(),
+        )));
+    }
+    let plane = |s: ndarray::ArrayView1<'_, f64>| [s[0], s[2], s[4]];
+    let instants = stress.outer_iter();
+    Ok(instants
+        .map(|of| of.outer_iter().map(plane).collect())
+        .collect())
+}
+
 /// A crack from the surface of a half-plane: where stress is wanted, what it does at the tip.
 ///
 /// Plane strain; nothing here knows of contacts. K_I + i K_II = lim sqrt(2 pi r) (s_nn + i s_tn)
@@ -112,20 +144,11 @@ impl Crack {
         stress: Array<'_, Ix3>,
         friction: Option<f64>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let stress = stress.as_array();
-        let (_, points, components) = stress.dim();
-        if points != self.0.points().len() || components != 6 {
-            return Err(PyValueError::new_err(format!(
-                "stress has the shape {:?}: must be (time, {}, 6)",
-                stress.dim(),
-                self.0.points().len()
-            )));
-        }
+        let history = history(stress, self.0.points().len())?;
         let start = of_cracks::Faces::new(&self.0, friction.unwrap_or(0.0)).map_err(refused)?;
         let mut faces = start;
         let (mut found, mut open) = (Vec::new(), Vec::new());
-        for instant in stress.outer_iter() {
-            let plane: Vec<_> = instant.outer_iter().map(|s| [s[0], s[2], s[4]]).collect();
+        for plane in history {
             if friction.is_some() {
                 faces = faces.next(&plane).map_err(refused)?;
                 found.push(faces.intensity);
@@ -146,44 +169,111 @@ impl Crack {
         Ok(result)
     }
 
+    /// Grow the crack in the direction of the largest range over a cycle of stress.
+    ///
+    /// Pieces are curved so that at the end of each the crack has no reason to turn; their number
+    /// doubles until the tip moves less than the tolerance.
+    ///
+    /// Parameters
+    /// ----------
+    /// stress : callable
+    ///     Takes points, x and depth [m] in an array of shape (points, 2), and gives the stress of
+    ///     the body without the crack there over the instants of the cycle [Pa], shape
+    ///     (time, points, 6).
+    /// end : float
+    ///     Length to grow to [m].
+    /// direction : {"tangential_stress", "opening_intensity"}
+    ///     Largest range of the tangential stress ahead of the tip, or of K_I of a small kink.
+    /// friction : float
+    ///     Coefficient of friction between faces in contact.
+    /// tolerance : float
+    ///     Distance by which the last tip may be off over the length grown.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     Of the tips on the way ``length``, ``x``, ``z`` [m], ``angle`` [rad], over (time, tips)
+    ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip
+    ///     may be off [m]; ``end``: "reached" the length, "closed", as nothing opens the crack,
+    ///     "surface", to which it came back, "kinks", where its direction jumps.
+    #[pyo3(signature = (stress, *, end, direction = "tangential_stress", friction = 0.0, tolerance = 1e-2))]
+    fn grow<'py>(
+        &self,
+        py: Python<'py>,
+        stress: &Bound<'py, PyAny>,
+        end: f64,
+        direction: &str,
+        friction: f64,
+        tolerance: f64,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let growing = of_cracks::Growing {
+            direction: core::direction_named(direction).map_err(to_python)?,
+            to: end,
+            friction,
+            tolerance,
+        };
+        let at = |crack: &of_cracks::Crack| -> Result<Vec<Vec<of_cracks::PlaneStress>>, Raised> {
+            let points = Self(crack.clone()).points(py);
+            let found = stress.call1((points,))?;
+            Ok(history(found.extract()?, crack.points().len())?)
+        };
+        let found = of_cracks::grow(self.0.path(), &growing, at).map_err(|Raised(error)| error)?;
+        let tips: Vec<_> = found.tips.iter().map(|tip| tip.at).collect();
+        let times = found.tips.first().map_or(0, |tip| tip.cycle.len());
+        let table = |f: &dyn Fn(&of_cracks::Intensity) -> f64| {
+            let of = |(n, l): (usize, usize)| f(&found.tips[l].cycle[n]);
+            Array2::from_shape_fn((times, found.tips.len()), of).into_pyarray(py)
+        };
+        let result = PyDict::new(py);
+        result.set_item("K_I", table(&|k| k.K_I))?;
+        result.set_item("K_II", table(&|k| k.K_II))?;
+        result.set_item("error", table(&|k| k.error))?;
+        set_path(py, &result, &tips)?;
+        result.set_item("path_error", found.error)?;
+        result.set_item("end", named(found.end))?;
+        Ok(result)
+    }
+
     fn __repr__(&self) -> String {
         format!("Crack(legs={:?}, x={:?})", self.legs(), self.x())
     }
 }
 
-/// K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`.
-#[pyfunction]
-#[pyo3(signature = (body, grid, *, p, q_x, q_y, stick, sigma_B, x, lengths, angle = 0.0, friction = 0.0, residual = None, body_number = 2))]
-pub(crate) fn crack_of_states<'py>(
-    py: Python<'py>,
-    body: Body,
-    grid: Grid,
-    p: Array<'_, Ix3>,
-    q_x: Array<'_, Ix3>,
-    q_y: Array<'_, Ix3>,
-    stick: Mask<'_, Ix3>,
+/// States of a contact above cracks, as arrays over (state, x, y).
+#[derive(FromPyObject)]
+pub(crate) struct ContactStates<'py> {
+    #[pyo3(item)]
+    p: Array<'py, Ix3>,
+    #[pyo3(item)]
+    q_x: Array<'py, Ix3>,
+    #[pyo3(item)]
+    q_y: Array<'py, Ix3>,
+    #[pyo3(item)]
+    stick: Mask<'py, Ix3>,
+    #[pyo3(item)]
     sigma_B: List<f64>,
-    x: f64,
-    lengths: List<f64>,
-    angle: f64,
-    friction: f64,
+    #[pyo3(item)]
     residual: Option<List<f64>>,
-    body_number: u8,
-) -> PyResult<Bound<'py, PyDict>> {
-    let shape = (sigma_B.len(), grid.0.nx, grid.0.ny);
-    let shapes = [
-        p.as_array().dim(),
-        q_x.as_array().dim(),
-        q_y.as_array().dim(),
-    ];
-    if shapes.iter().any(|s| *s != shape) || stick.as_array().dim() != shape {
+}
+
+/// What `f` finds below a contact in its states.
+fn below_contact<T: Send>(
+    py: Python<'_>,
+    (body, body_number): (&Body, u8),
+    grid: &Grid,
+    given: ContactStates<'_>,
+    f: impl FnOnce(&core::Below<'_>, &States<'_>) -> Result<T, contact_core::Error> + Send,
+) -> PyResult<T> {
+    let shape = (given.sigma_B.len(), grid.0.nx, grid.0.ny);
+    let fields = [&given.q_x, &given.q_y, &given.p].map(|field| field.as_array());
+    if fields.iter().any(|s| s.dim() != shape) || given.stick.as_array().dim() != shape {
         return Err(PyValueError::new_err(format!(
             "p, q_x, q_y and stick must be of the shape {shape:?}, that of the states and the grid"
         )));
     }
     let cells = grid.0.cells();
-    let fields = [q_x, q_y, p].map(|f| f.as_array().iter().copied().collect::<Vec<_>>());
-    let stick: Vec<bool> = stick.as_array().iter().copied().collect();
+    let fields = fields.map(|f| f.iter().copied().collect::<Vec<_>>());
+    let stick: Vec<bool> = given.stick.as_array().iter().copied().collect();
     let of = |state: usize, field: usize| &fields[field][state * cells..(state + 1) * cells];
     let tractions = |n: usize| Tractions {
         q_x: Some(of(n, 0)),
@@ -192,16 +282,15 @@ pub(crate) fn crack_of_states<'py>(
     };
     let tractions: Vec<_> = (0..shape.0).map(tractions).collect();
     let stick: Vec<&[bool]> = stick.chunks(cells).collect();
-    let residual = residual.unwrap_or_default();
+    let residual = given.residual.unwrap_or_default();
     let residual =
         contact_core::fields::residual_of_layers(&body.0, &residual).map_err(to_python)?;
-    let cracks = core::Cracks {
-        x,
-        angle,
-        lengths: lengths.0,
-        friction,
+    let below = core::Below {
+        body: &body.0,
+        side: side(body_number)?,
+        grid: &grid.0,
     };
-    let side = side(body_number)?;
+    let sigma_B = given.sigma_B.0;
     let stop = Arc::default();
     let found = interruptible(py, &stop, || {
         let states = States {
@@ -211,11 +300,16 @@ pub(crate) fn crack_of_states<'py>(
             stick: Some(&stick),
             stop: stop.clone(),
         };
-        core::over_cycle(&body.0, side, &grid.0, &states, &cracks)
+        f(&below, &states)
     })?;
-    let found = found.map_err(to_python)?;
+    found.map_err(to_python)
+}
+
+/// K over (state, length), as named arrays.
+fn tables<'py>(py: Python<'py>, found: &[core::OverCycle]) -> PyResult<Bound<'py, PyDict>> {
+    let states = found.first().map_or(0, |over| over.faces.len());
     let table = |f: &dyn Fn(&core::OverCycle, usize) -> f64| {
-        Array2::from_shape_fn((shape.0, found.len()), |(n, l)| f(&found[l], n)).into_pyarray(py)
+        Array2::from_shape_fn((states, found.len()), |(n, l)| f(&found[l], n)).into_pyarray(py)
     };
     let result = PyDict::new(py);
     result.set_item("K_I", table(&|c, n| c.faces[n].K_I))?;
@@ -225,6 +319,96 @@ pub(crate) fn crack_of_states<'py>(
     result.set_item("error", table(&|c, n| c.faces[n].error))?;
     result.set_item("open", table(&|c, n| c.open[n]))?;
     Ok(result)
+}
+
+/// K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`.
+#[pyfunction]
+#[pyo3(signature = (body, grid, states, *, x, lengths, angle = 0.0, kink = None, azimuth = 0.0, friction = 0.0, body_number = 2))]
+pub(crate) fn crack_of_states<'py>(
+    py: Python<'py>,
+    body: Body,
+    grid: Grid,
+    states: ContactStates<'_>,
+    x: f64,
+    lengths: List<f64>,
+    angle: f64,
+    kink: Option<(f64, f64)>,
+    azimuth: f64,
+    friction: f64,
+    body_number: u8,
+) -> PyResult<Bound<'py, PyDict>> {
+    let cracks = core::Cracks {
+        x,
+        angle,
+        kink,
+        azimuth,
+        lengths: lengths.0,
+        friction,
+    };
+    let found = below_contact(py, (&body, body_number), &grid, states, |below, states| {
+        core::over_cycle(below, states, &cracks)
+    })?;
+    tables(py, &found)
+}
+
+/// A crack that grows below a contact; use :meth:`pyfret.Result.grow_crack`.
+#[pyfunction]
+#[pyo3(signature = (body, grid, states, *, x, start, end, direction, tolerance, angle = 0.0, azimuth = 0.0, friction = 0.0, body_number = 2))]
+pub(crate) fn crack_growth_of_states<'py>(
+    py: Python<'py>,
+    body: Body,
+    grid: Grid,
+    states: ContactStates<'_>,
+    x: f64,
+    start: f64,
+    end: f64,
+    direction: &str,
+    tolerance: f64,
+    angle: f64,
+    azimuth: f64,
+    friction: f64,
+    body_number: u8,
+) -> PyResult<Bound<'py, PyDict>> {
+    let growth = core::Growth {
+        x,
+        angle,
+        azimuth,
+        start,
+        growing: of_cracks::Growing {
+            direction: core::direction_named(direction).map_err(to_python)?,
+            to: end,
+            friction,
+            tolerance,
+        },
+    };
+    let found = below_contact(py, (&body, body_number), &grid, states, |below, states| {
+        core::grown(below, states, &growth)
+    })?;
+    let result = tables(py, &found.over)?;
+    set_path(py, &result, &found.tips)?;
+    result.set_item("path_error", found.error)?;
+    result.set_item("end", named(found.end))?;
+    Ok(result)
+}
+
+/// Why a crack ends, in a word.
+fn named(end: of_cracks::End) -> &'static str {
+    match end {
+        of_cracks::End::Reached => "reached",
+        of_cracks::End::Closed => "closed",
+        of_cracks::End::Surface => "surface",
+        of_cracks::End::Kinks => "kinks",
+    }
+}
+
+/// Adds the tips on the way: length, x and depth [m], angle [rad].
+fn set_path(py: Python<'_>, result: &Bound<'_, PyDict>, tips: &[of_cracks::Point]) -> PyResult<()> {
+    let row =
+        |f: &dyn Fn(&of_cracks::Point) -> f64| -> Array1<f64> { tips.iter().map(f).collect() };
+    result.set_item("length", row(&|tip| tip.s).into_pyarray(py))?;
+    result.set_item("x", row(&|tip| tip.x).into_pyarray(py))?;
+    result.set_item("z", row(&|tip| tip.z).into_pyarray(py))?;
+    result.set_item("angle", row(&|tip| tip.angle).into_pyarray(py))
 }
 
 /// A curve of K over lengths [m] from the largest and smallest K_I of the cycle [Pa m^0.5].

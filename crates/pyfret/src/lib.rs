@@ -85,8 +85,8 @@ mod _core {
     };
     #[pymodule_export]
     use crate::fracture::{
-        Crack, arrest, channel_crack, crack_life, crack_of_states, ellipse_factor,
-        equivalent_range, partial_crack, threshold_at,
+        Crack, arrest, channel_crack, crack_growth_of_states, crack_life, crack_of_states,
+        ellipse_factor, equivalent_range, partial_crack, threshold_at,
     };
     #[pymodule_export]
     use crate::heat::cycle_temperature;

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 from pyfret import fatigue
 from pyfret._cli.parser import added
 from pyfret._util import files
-from pyfret.fracture import Threshold
+from pyfret.fracture import Paris, Threshold
 from pyfret.result import open
 
 if TYPE_CHECKING:
     import argparse
 
     from pyfret.fracture import Cracks
+    from pyfret.result import Result
 
 __all__ = ["add_options", "run"]
 
@@ -35,6 +36,26 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
         "--angle", type=float, default=0.0, help="from the inward normal towards +x [degrees]"
     )
     crack.add_argument("--lengths", type=numbers, metavar="L,...", help="lengths of the crack [m]")
+    crack.add_argument(
+        "--kink",
+        type=numbers,
+        metavar="L,ANGLE",
+        help="length [m] after which cracks go on at another angle [degrees]",
+    )
+    crack.add_argument(
+        "--grow",
+        choices=("tangential_stress", "opening_intensity"),
+        help="let the crack choose its way by the largest range of this, from the first of the "
+        "lengths to the last",
+    )
+    crack.add_argument(
+        "--azimuth",
+        type=float,
+        help="of its plane about z [degrees] (default: of the largest range)",
+    )
+    crack.add_argument(
+        "--aspect", type=float, help="depth over half-length of a semi-ellipse: an estimate"
+    )
     crack.add_argument("--friction", type=float, default=0.0, help="between its faces (default: 0)")
     crack.add_argument("--body", type=int, choices=(1, 2), default=2, help="default: 2, the lower")
     crack.add_argument("--cycle", type=int, default=-1, help="which cycle (default: the last)")
@@ -53,6 +74,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     crack.add_argument("--materials", metavar="FILE", help="table of materials (TOML)")
     crack.add_argument("--walker", type=float, help="exponent of the load ratio (default: none)")
     crack.add_argument("--json", action="store_true", help="one JSON object per length and verdict")
+    crack.add_argument("--paris", type=numbers, metavar="C,M", help="growth, C at 1 MPa m^0.5 [m]")
     crack.add_argument("-o", "--out", help="figure (.png, .svg, .pdf) or K over the cycle (.nc)")
 
 
@@ -66,27 +88,51 @@ def run(options: argparse.Namespace) -> int:
     if options.out is not None and Path(options.out).suffix not in (*FIGURES, *FIELDS):
         raise ValueError(f"--out {options.out}: must end in {', '.join((*FIGURES, *FIELDS))}")
     threshold = _threshold(options)
+    if options.paris is not None and (threshold is None or len(options.paris) != 2):
+        raise ValueError("--paris: two numbers C,M, and a threshold, --dK-th or --material")
     if options.out and Path(options.out).suffix in FIGURES and threshold is None:
         raise ValueError("--out: the figure needs a threshold, --dK-th or --material")
-    cracks = open(options.store).crack(
-        options.x,
-        lengths=options.lengths,
-        angle=math.radians(options.angle),
-        friction=options.friction,
-        body_number=options.body,
-        cycle=options.cycle,
-        residual=options.residual,
-    )
-    for row in _rows(cracks, threshold):
+    result = open(options.store)
+    cracks = _cracks(result, options)
+    rows = _rows(cracks, threshold)
+    if options.paris is not None and threshold is not None:
+        rows[-1]["cycles"] = cracks.life(threshold, Paris(*options.paris)).cycles
+    for row in rows:
         print(json.dumps(row) if options.json else _line(row))
     if options.out and Path(options.out).suffix in FIELDS:
         files.write(cracks.dataset, options.out)
     elif options.out and threshold is not None:
         from pyfret import plot
 
-        ax = plot.crack_arrest(cracks, threshold)
-        ax.get_figure().savefig(options.out, bbox_inches="tight")  # type: ignore[union-attr]
+        plot.crack_panels(result, cracks, threshold).savefig(options.out)
     return 0
+
+
+def _cracks(result: Result, options: argparse.Namespace) -> Cracks:
+    """The cracks asked for, or the one that grows."""
+    azimuth = None if options.azimuth is None else math.radians(options.azimuth)
+    common: dict[str, Any] = {
+        "angle": math.radians(options.angle),
+        "azimuth": azimuth,
+        "friction": options.friction,
+        "body_number": options.body,
+        "cycle": options.cycle,
+        "residual": options.residual,
+    }
+    if options.grow is not None:
+        if options.kink is not None or options.aspect is not None:
+            raise ValueError("--grow: leave out --kink and --aspect")
+        if options.lengths is not None:
+            common |= {"start": min(options.lengths), "end": max(options.lengths)}
+        return result.grow_crack(options.x, direction=options.grow, **common)
+    kink = None
+    if options.kink is not None:
+        if len(options.kink) != 2:
+            raise ValueError("--kink: must be a length [m] and an angle [degrees]")
+        kink = (options.kink[0], math.radians(options.kink[1]))
+    return result.crack(
+        options.x, lengths=options.lengths, kink=kink, aspect=options.aspect, **common
+    )
 
 
 def _threshold(options: argparse.Namespace) -> Threshold | None:
@@ -145,7 +191,8 @@ def _line(row: dict[str, object]) -> str:
             "grows": "grows through all lengths",
         }[str(row["verdict"])]
         at = number["margin_at"] * 1e6
-        return f"{place} {said}; least dK/dK_th {number['margin']:.4g} at {at:.4g} um"
+        text = f"{place} {said}; least dK/dK_th {number['margin']:.4g} at {at:.4g} um"
+        return text + (f"; {number['cycles']:.4g} cycles" if "cycles" in row else "")
     line = f"l = {number['length'] * 1e6:.4g} um: K_I {number['K_min'] / 1e6:.4g} to "
     line += f"{number['K_max'] / 1e6:.4g} MPa m^0.5 (+- {number['error'] / 1e6:.2g}), "
     line += f"dK {number['dK'] / 1e6:.4g}"

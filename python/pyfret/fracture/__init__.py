@@ -1,8 +1,9 @@
 """Will a crack stop, will the coating come off? Stress intensity, arrest, energy release.
 
 :func:`crack` (or :meth:`pyfret.Result.crack`) takes the stress of a contact's cycle to the tips of
-cracks; :class:`Cracks` says with a :class:`Threshold` where they stop and with :class:`Paris` how
-long that takes; :class:`Crack` does so for any stress history, without a contact. ::
+cracks, :func:`grow` (:meth:`pyfret.Result.grow_crack`) lets one choose its way; :class:`Cracks`
+says with a :class:`Threshold` where they stop and with :class:`Paris` how long that takes;
+:class:`Crack` does so for any stress history, without a contact. ::
 
     cracks = result.crack()
     cracks.arrest(fracture.Threshold(dK_th=2.1e6, dS_0=124e6))
@@ -18,17 +19,20 @@ coating releases where it parts from its substrate or cracks. ::
 
 from pyfret._core import Crack, ellipse_factor
 from pyfret._util.names import listing
-from pyfret.fracture.below import crack
+from pyfret.fracture.below import crack, grow
 from pyfret.fracture.film import channel_release, film_intensity
+from pyfret.fracture.first import PARTS, FirstToFail, first_to_fail
 from pyfret.fracture.growth import Arrest, CrackLife, Cracks, Paris, Threshold
 from pyfret.fracture.interface import Buckling, buckling_release, edge_release, over_cycle
 
 __all__ = [
+    "PARTS",
     "Arrest",
     "Buckling",
     "Crack",
     "CrackLife",
     "Cracks",
+    "FirstToFail",
     "Paris",
     "Threshold",
     "buckling_release",
@@ -37,6 +41,8 @@ __all__ = [
     "edge_release",
     "ellipse_factor",
     "film_intensity",
+    "first_to_fail",
+    "grow",
     "over_cycle",
 ]
 __dir__ = listing(__all__)

@@ -63,8 +63,11 @@ class Threshold:
         """Take the threshold from ``dK_th`` and ``s_D`` of a material, both fully reversed.
 
         Of the range ``dK_th`` at R = -1 half is positive, and of the range 2 ``s_D`` of stress; a
-        material without one of them is refused by its name.
+        material without one of them is refused by its name. The dependence on R is the material's
+        ``walker`` where it has one and none is given.
         """
+        known = {name: value for name, value, _ in material.numbers()}
+        walker = known.get("walker") if walker is None else walker
         return cls(material.number("dK_th") / 2.0, material.number("s_D"), Y, walker)
 
     def _numbers(
@@ -105,6 +108,11 @@ class Paris:
     m: float
     threshold_in: Literal["plain", "powers", "difference"] = "plain"
     short: bool = False
+
+    @classmethod
+    def of(cls, material: Material) -> Paris:
+        """Take ``paris_C`` and ``paris_m`` of a material; one without them is refused by name."""
+        return cls(material.number("paris_C"), material.number("paris_m"))
 
 
 @dataclass(frozen=True)
@@ -154,7 +162,7 @@ class Cracks(Labelled):
 
     ``dataset`` has ``K_I`` and ``K_II`` over (increment, length), their ``error``, ``open``, the
     share of the crack that is open, and ``K_I_linear``, ``K_II_linear`` with faces that may pass
-    through each other [Pa m^0.5].
+    through each other [Pa m^0.5]; the tip of each length is at ``x``, ``z`` [m].
     """
 
     @classmethod

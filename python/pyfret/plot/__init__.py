@@ -7,8 +7,10 @@ of the paper from its four runs in one call.
 
 from pyfret._util.names import listing
 from pyfret.plot.animation import animate
+from pyfret.plot.crack_section import crack_panels, crack_path
 from pyfret.plot.cracks import crack_arrest, intensity_history, kitagawa
-from pyfret.plot.fretting_map import fretting_map, running_map
+from pyfret.plot.design_chart import design_chart
+from pyfret.plot.fretting_map import arrest_map, fretting_map, running_map
 from pyfret.plot.heat import temperature, temperature_map
 from pyfret.plot.histories import fretting_loop, load_path, loop_evolution, stick_ratio
 from pyfret.plot.life import (
@@ -36,11 +38,15 @@ from pyfret.plot.wear import depth_map, wear_history, wear_loops, wear_profiles
 
 __all__ = [
     "animate",
+    "arrest_map",
     "crack_arrest",
+    "crack_panels",
+    "crack_path",
     "criterion_map",
     "critical_plane_rose",
     "dang_van_diagram",
     "depth_map",
+    "design_chart",
     "envelope_maps",
     "fretting_loop",
     "fretting_map",

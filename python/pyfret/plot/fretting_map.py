@@ -26,7 +26,9 @@ AXES = {"T": (1.0, r"$T$"), "delta": (1e6, r"$\delta$ [µm]")}
 #: Lives whose contours are drawn [cycles], and the levels of safety factors.
 LIVES = 10.0 ** np.arange(3, 10)
 FACTORS = np.array([0.3, 0.5, 1.0, 2.0, 4.0])
-CRACK, ENERGY = "#a50f15", "0.35"
+CRACK, ENERGY, ARREST = "#a50f15", "0.35", "#08519c"
+#: Lengths of stopped cracks whose contours are drawn [µm].
+LENGTHS = np.array([10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0])
 
 
 @styled
@@ -35,12 +37,14 @@ def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 
     The crack risk is the criterion that the map was made with, as safety factor or as life in
     cycles: full lines, thick where the factor is 1. Dashed lines are the energy that friction
-    dissipates in a cycle, to which wear is proportional.
+    dissipates in a cycle, to which wear is proportional. Dotted lines are lengths at which cracks
+    stop; where none stops any more a thick dotted line begins.
 
     Parameters
     ----------
     table : xarray.Dataset
-        Of :func:`pyfret.study.running_conditions` with `cracking`; without, the risk is left out.
+        Of :func:`pyfret.study.running_conditions` with `cracking` and `arrest`; what was not asked
+        for is left out.
     ax : matplotlib Axes, optional
         Where to draw.
     """
@@ -62,6 +66,7 @@ def fretting_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
         if name in table:
             meaning = {"safety_factor": "safety factor", "life": "life [cycles]"}[name]
             entries += lines(ax, W, amplitude, table[name].values, levels, CRACK, "solid", meaning)
+    entries += arrest_lines(ax, W, amplitude, table)
     ax.set_xlabel(f"$W$ [{force_unit(table)}]")
     ax.set_ylabel(label if driven == "delta" else f"{label} [{force_unit(table)}]")
     ax.grid(visible=False)
@@ -81,7 +86,7 @@ def lines(
     field: NDArray[Any],
     levels: NDArray[Any] | None,
     colour: str,
-    style: Literal["solid", "dashed"],
+    style: Literal["solid", "dashed", "dotted"],
     meaning: str,
 ) -> list[Line2D]:
     """Contours with their numbers, and their entry in the legend; none where nothing is known."""
@@ -96,6 +101,68 @@ def lines(
     )
     ax.clabel(drawn, fontsize=7, fmt="%g")
     return [Line2D([], [], color=colour, linestyle=style, linewidth=1.0, label=meaning)]
+
+
+def arrest_lines(
+    ax: Axes, x: NDArray[Any], y: NDArray[Any], table: xr.Dataset, colour: str = ARREST
+) -> list[Line2D]:
+    """Contours of the length at which cracks stop, and the line beyond which none does."""
+    if "arrest_margin" not in table:
+        return []
+    length = table.arrest_length.values * 1e6
+    meaning = "crack stops at [µm]"
+    entries = lines(ax, x, y, length, LENGTHS, colour, "dotted", meaning)
+    margin = np.ma.masked_invalid(table.arrest_margin.values)
+    if min(margin.shape) > 1 and margin.min() < 1.0 < margin.max():
+        ax.contour(x, y, margin, levels=[1.0], colors=colour, linestyles="dotted", linewidths=2.2)
+        line = Line2D([], [], color=colour, linestyle="dotted", linewidth=2.2)
+        line.set_label("no crack stops beyond")
+        entries.append(line)
+    return entries
+
+
+@styled
+def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
+    """Where cracks stop over shear and bulk stress, and at which length.
+
+    Three areas: no crack grows from its first length, cracks stop, cracks grow; dotted lines are
+    the lengths at which they stop, full lines the criterion of initiation, if the map has one.
+
+    Parameters
+    ----------
+    table : xarray.Dataset
+        Of :func:`pyfret.study.arrest_map`.
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    ax = axes(ax)
+    table = table.transpose("T", "sigma_B")
+    bulk, T = table.sigma_B.values / 1e6, table["T"].values / 1e3
+    margin, length = table.arrest_margin.values, table.arrest_length.values
+    shortest = np.nanmin(length) if np.isfinite(length).any() else np.nan
+    fate = np.where(margin >= 1.0, 2.0, np.where(length <= shortest, 0.0, 1.0))
+    fate[np.isnan(margin)] = np.nan
+    names = ("no growth", "stops", "grows")
+    colours = ListedColormap(["#ffffff", "#9ecae1", "#fdd0a2"])
+    norm = BoundaryNorm(np.arange(-0.5, 3.0), colours.N)
+    ax.pcolormesh(bulk, T, np.ma.masked_invalid(fate), cmap=colours, norm=norm, shading="nearest")
+    entries: list[Patch | Line2D] = [
+        Patch(facecolor=colours(n), edgecolor="0.6", label=name)
+        for n, name in enumerate(names)
+        if n in fate
+    ]
+    for name, levels, meaning in (
+        ("safety_factor", FACTORS, "safety factor of initiation"),
+        ("life", LIVES, "cycles to initiation"),
+    ):
+        if name in table:
+            entries += lines(ax, bulk, T, table[name].values, levels, CRACK, "solid", meaning)
+    entries += arrest_lines(ax, bulk, T, table)
+    ax.set_xlabel(r"bulk stress $\sigma_\mathrm{B}$ [MPa]")
+    ax.set_ylabel(r"$T$ [kN]")
+    ax.grid(visible=False)
+    ax.legend(handles=entries, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
+    return ax
 
 
 @styled

@@ -10,20 +10,23 @@ study of the load path that a map of running conditions needs. ::
 
 from pyfret._util.names import called, listing
 from pyfret.study.design import varied
-from pyfret.study.loads import running_conditions
+from pyfret.study.loads import arrest_map, running_conditions
 from pyfret.study.loop import solve
-from pyfret.study.measures import MEASURES, Cracking, Wear
+from pyfret.study.measures import MEASURES, Arrest, Cracking, FirstToFail, Wear
 from pyfret.study.outcome import Study, open
 from pyfret.study.thresholds import Averaged, Limits, Threshold, fit_limits, threshold
 
 __all__ = [
     "MEASURES",
+    "Arrest",
     "Averaged",
     "Cracking",
+    "FirstToFail",
     "Limits",
     "Study",
     "Threshold",
     "Wear",
+    "arrest_map",
     "fit_limits",
     "open",
     "running_conditions",

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-    from pyfret.study.measures import Cracking, Measure
+    from pyfret.study.measures import Arrest, Cracking, Measure
 
-__all__ = ["running_conditions"]
+__all__ = ["arrest_map", "running_conditions"]
 
 #: Number of gross slip, and what the numbers mean.
 SLIDES = 3
@@ -49,6 +49,7 @@ def running_conditions(
     cycles: int = 1,
     increments: tuple[int, int] = (20, 20),
     cracking: Cracking | None = None,
+    arrest: Arrest | None = None,
     executor: Any = None,
     on_point: Callable[[int, int], object] | None = None,
 ) -> xr.Dataset:
@@ -75,6 +76,8 @@ def running_conditions(
     cracking : Cracking, optional
         A criterion of fatigue to judge the last cycle by:
         ``study.Cracking(material, "dang_van")``.
+    arrest : Arrest, optional
+        Whether a crack stops: ``study.Arrest(fracture.Threshold(dK_th, dS_0))``.
     executor : int, Executor or distributed.Client, optional
         Who solves, as in :func:`pyfret.study.solve`.
     on_point : callable, optional
@@ -86,7 +89,8 @@ def running_conditions(
         Over W and T or delta: ``status`` (0 no contact, 1 full stick, 2 partial slip, 3 gross
         slip), ``energy_ratio``, ``sliding_ratio``, ``dissipated`` [J], ``stiffness`` [N/m], and
         ``delta`` [m] or ``T`` [N], half of their ranges, and with `cracking` its ``safety_factor``
-        or ``life`` [cycles] and ``crack_depth`` [m]; NaN where a force slides, except the status.
+        or ``life`` [cycles] and ``crack_depth`` [m], with `arrest` ``arrest_margin`` and
+        ``arrest_length`` [m]; NaN where a force slides, except the status.
 
     Raises
     ------
@@ -100,9 +104,9 @@ def running_conditions(
     normal, tangential = np.atleast_1d(plain(W, "W")), np.atleast_1d(plain(given, driven))
     measures: list[Measure] = [name for shown, name in SHOWN.items() if shown != driven]
     found = solve(
-        Cycles(scene, driven, cycles, increments, fields=cracking is not None),
+        Cycles(scene, driven, cycles, increments, fields=bool(cracking or arrest)),
         {"W": normal, AMPLITUDE: tangential},
-        measure=[*measures, cracking] if cracking else measures,
+        measure=[*measures, *(one for one in (cracking, arrest) if one)],
         executor=executor,
         progress=False,
         on_point=on_point,
@@ -113,10 +117,75 @@ def running_conditions(
     return labelled(found.dataset, scene, driven)
 
 
+def arrest_map(
+    scene: Scene,
+    *,
+    W: float,
+    T: ArrayLike,
+    sigma_B: ArrayLike,
+    arrest: Arrest,
+    bulk_ratio: float = 0.0,
+    increments: tuple[int, int] = (2, 8),
+    cracking: Cracking | None = None,
+    executor: Any = None,
+    on_point: Callable[[int, int], object] | None = None,
+) -> xr.Dataset:
+    """Where cracks stop in fretting fatigue: a study over shear and bulk stress in phase.
+
+    At every point the pad is pressed on, then T and the bulk stress go to their largest values,
+    to -T and `bulk_ratio` times the bulk stress, and back.
+
+    Parameters
+    ----------
+    scene : Scene
+        The contact; a grid that is too small grows.
+    W : float
+        Normal force [N].
+    T, sigma_B : array
+        Amplitudes of the tangential force [N] and largest bulk stresses of body 2 [Pa].
+    arrest : Arrest
+        The crack and its threshold.
+    bulk_ratio : float
+        Smallest over largest bulk stress.
+    increments : (int, int)
+        Increments of the indentation and of a full stroke.
+    cracking, executor, on_point
+        As in :func:`running_conditions`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over T and sigma_B: ``arrest_margin``, ``arrest_length`` [m], with `cracking` its
+        ``safety_factor`` or ``life`` [cycles] and ``crack_depth`` [m]; NaN where the force slides.
+
+    Raises
+    ------
+    RuntimeError
+        A point could not be solved; the message says which and why.
+    """
+    loads = {
+        "T": np.atleast_1d(plain(T, "T")),
+        "sigma_B": np.atleast_1d(plain(sigma_B, "sigma_B")),
+    }
+    measures: list[Measure] = [arrest, *([cracking] if cracking else [])]
+    template = BulkCycle(scene, float(W), bulk_ratio, increments)
+    found = solve(
+        template, loads, measure=measures, executor=executor, progress=False, on_point=on_point
+    )
+    for point, reason in found.failed():
+        if not reason.startswith(Slides.__name__):
+            raise RuntimeError(f"T = {point['T']} N, sigma_B = {point['sigma_B']} Pa: {reason}")
+    judged = ("arrest_margin", "arrest_length", "safety_factor", "life", "crack_depth")
+    table = found.dataset[[name for name in judged if name in found.dataset]]
+    table["T"] = table["T"].assign_attrs(units="N", long_name="amplitude of the force")
+    table["sigma_B"] = table["sigma_B"].assign_attrs(units="Pa", long_name="largest bulk stress")
+    return table.assign_attrs({"title": scene.title, "mu": scene.mu, "W": float(W)})
+
+
 def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
     """The study of the loads with the names of the map."""
     units = {"T": ("N", "amplitude of the force"), "delta": ("m", "amplitude of the shift")}
-    judged = ("safety_factor", "life", "crack_depth")
+    judged = ("safety_factor", "life", "crack_depth", "arrest_margin", "arrest_length")
     kept = {name: shown for shown, name in SHOWN.items() if name in found}
     kept |= {name: name for name in judged if name in found}
     table = found[list(kept)].rename(kept).drop_vars(AMPLITUDE).rename({AMPLITUDE: driven})
@@ -135,6 +204,12 @@ class Slides(Exception):
     """The force is more than friction can bear."""
 
 
+def refuse_sliding(scene: Scene, T: float, W: float) -> None:
+    """Raise where friction cannot bear a force [N]."""
+    if scene.mu * W * (1 - 1e-9) < T:
+        raise Slides(f"T = {T} N is more than mu W = {scene.mu * W} N")
+
+
 @dataclass(frozen=True)
 class Cycles:
     """Makes the scene of a point: indentation, first loading, cycles."""
@@ -149,8 +224,8 @@ class Cycles:
     def __call__(self, point: dict[str, float]) -> Scene:
         """The scene under the normal force and the amplitude of a point."""
         W, amplitude = point["W"], point[AMPLITUDE]
-        if self.driven == "T" and amplitude > self.scene.mu * W * (1 - 1e-9):
-            raise Slides(f"T = {amplitude} N is more than mu W = {self.scene.mu * W} N")
+        if self.driven == "T":
+            refuse_sliding(self.scene, amplitude, W)
         indentation, stroke = self.increments
         path = LoadPath.start().normal(W, increments=indentation)
         for n, turn in enumerate([amplitude, *([-amplitude, amplitude] * self.cycles)]):
@@ -162,3 +237,26 @@ class Cycles:
         last = len(path)
         first = last - 2 * stroke if self.fields else last
         return self.scene.replace(path=path, save=list(range(first, last + 1)))
+
+
+@dataclass(frozen=True)
+class BulkCycle:
+    """Makes the scene of a point: indentation, then a cycle of shear and bulk stress in phase."""
+
+    scene: Scene
+    W: float
+    bulk_ratio: float
+    increments: tuple[int, int]
+
+    def __call__(self, point: dict[str, float]) -> Scene:
+        """The scene under the force and the bulk stress of a point."""
+        T, sigma_B = point["T"], point["sigma_B"]
+        refuse_sliding(self.scene, T, self.W)
+        indentation, stroke = self.increments
+        path = LoadPath.start().normal(self.W, increments=indentation)
+        turns = ((T, sigma_B), (-T, self.bulk_ratio * sigma_B), (T, sigma_B))
+        for n, (force, bulk) in enumerate(turns):
+            part = max(stroke // 2, 1) if n == 0 else stroke
+            path = path.force(T_x=force, sigma_B=bulk, increments=part)
+        last = len(path)
+        return self.scene.replace(path=path, save=list(range(last - 2 * stroke, last + 1)))

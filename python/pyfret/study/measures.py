@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
+from pyfret import fracture
 from pyfret._util.lazy import xr
 from pyfret._util.units import unit_on
 from pyfret.run.summary import directions
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from pyfret.fatigue.lives import Materials
     from pyfret.result import Result
 
-__all__ = ["MEASURES", "Measure", "Wear", "measured"]
+__all__ = ["MEASURES", "Arrest", "Cracking", "FirstToFail", "Measure", "Wear", "measured"]
 
 #: A name of :data:`MEASURES`, or a function of the result.
 Measure: TypeAlias = "str | Callable[[Result], Any]"
@@ -200,6 +201,84 @@ class Cracking:
         }
 
 
+@dataclass(frozen=True)
+class Arrest:
+    """A measure: whether a crack below the last closed cycle stops.
+
+    Gives ``arrest_margin``, the smallest range of K over its threshold on the way, below 1 where a
+    crack stops, and ``arrest_length`` [m], where it stops: the first length where it does not grow
+    at all, NaN where it grows through all lengths.
+
+    Parameters
+    ----------
+    threshold : pyfret.fracture.Threshold
+        Of the material.
+    x, lengths, angle, azimuth, aspect, friction, body_number, residual
+        The crack, as in :func:`pyfret.fracture.crack`.
+    """
+
+    threshold: fracture.Threshold
+    x: float | None = None
+    lengths: Sequence[float] | None = None
+    angle: float = 0.0
+    azimuth: float | None = None
+    aspect: float | None = None
+    friction: float = 0.0
+    body_number: int = 2
+    residual: Sequence[float] | None = None
+
+    def __call__(self, result: Result) -> dict[str, xr.DataArray]:
+        """Follow the crack."""
+        options = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "threshold"}
+        found = fracture.crack(result, **options).arrest(self.threshold)
+        length = math.nan if found.length is None else found.length
+        margin = {"units": "1", "long_name": "least range of K over its threshold"}
+        metre = {"units": "m", "long_name": "length at which the crack stops"}
+        return {
+            "arrest_margin": xr.DataArray(found.margin, attrs=margin),
+            "arrest_length": xr.DataArray(length, attrs=metre),
+        }
+
+
+@dataclass(frozen=True)
+class FirstToFail:
+    """A measure: whether film, interface or substrate goes first below the last closed cycle.
+
+    Gives ``film``, ``interface`` and ``substrate``, each the load over what it can bear, 1 where it
+    fails, NaN without its limit, and ``first``: 0 nothing fails, 1 the film, 2 the interface, 3 the
+    substrate, that with the largest of the three where it is 1 or more.
+
+    Parameters
+    ----------
+    toughness, peel_strength, shear_strength, threshold, residual, x, lengths, body_number
+        As in :func:`pyfret.fracture.first_to_fail`.
+    """
+
+    toughness: float | None = None
+    peel_strength: float | None = None
+    shear_strength: float | None = None
+    threshold: fracture.Threshold | None = None
+    residual: Sequence[float] | None = None
+    x: float | None = None
+    lengths: Sequence[float] | None = None
+    body_number: int = 2
+
+    def __call__(self, result: Result) -> dict[str, xr.DataArray]:
+        """Compare the three."""
+        options = {f.name: getattr(self, f.name) for f in fields(self)}
+        found = fracture.first_to_fail(result, **options)
+        numbers = {
+            name: xr.DataArray(
+                getattr(found, name), attrs={"units": "1", "long_name": f"{name}: load over limit"}
+            )
+            for name in fracture.PARTS
+        }
+        order = f"0 none, {', '.join(f'{n + 1} {name}' for n, name in enumerate(fracture.PARTS))}"
+        first = 0 if found.first is None else 1 + fracture.PARTS.index(found.first)
+        attrs = {"units": "1", "long_name": f"what fails first: {order}"}
+        return numbers | {"first": xr.DataArray(first, attrs=attrs)}
+
+
 def names_of(measures: Sequence[Measure]) -> list[str]:
     """Names of measures, to tell studies apart."""
     return [m if isinstance(m, str) else name_of(m) for m in measures]
@@ -220,7 +299,7 @@ def checked(measure: Measure | Sequence[Measure]) -> list[Measure]:
     names = names_of(measures)
     for n, name in enumerate(names):
         # Measures of this package name what they give themselves.
-        own = isinstance(measures[n], (Wear, Cracking))
+        own = isinstance(measures[n], (Wear, Cracking, Arrest, FirstToFail))
         if name in names[:n] and not own:
             raise ValueError(
                 f"two measures have the name {name}: give each a name of its own, "

@@ -1,10 +1,10 @@
-//! Single points, by summation over the loaded cells.
+//! Single points, by summation over the loaded cells; all states share the kernel's values.
 
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::loads::{Loads, Plane, Source, snapped};
+use super::loads::{Loads, Patch, Plane, Source, snapped};
 use super::near_rim::NearRim;
 use super::states::Loaded;
 use super::{Border, Depth, Line, Side, States};
@@ -13,12 +13,13 @@ use crate::kernels::{DepthKernel, Displacement, Quantity};
 use crate::scene::{Body, Grid};
 use crate::stop::unless;
 
-/// Stress and displacement at single points; each costs one kernel value per loaded cell.
+/// Stress and displacement at single points; each costs one kernel value per cell that is loaded in any state.
 pub struct Points {
     loaded: Loaded,
     plane: Plane,
-    /// By state, for loads on cells and for point loads.
+    /// By state, for loads on cells and for point loads, on the patch that holds the loads of all states.
     loads: Vec<[Loads; 2]>,
+    patches: [Patch; 2],
 }
 
 /// A point: x, y \[m\] and the depth.
@@ -36,16 +37,15 @@ impl Points {
         let window = || Ok((0..grid.nx, 0..grid.ny));
         let loaded = Loaded::new(body, side, grid, &states, window)?;
         let plane = Plane::new(grid, false);
+        let patches = Source::ALL.map(|source| plane.patch(states.tractions, source));
         let loads = states.tractions.iter().map(|state| {
-            Source::ALL.map(|source| {
-                let patch = plane.patch(std::slice::from_ref(state), source);
-                plane.loads(state, side, source, patch)
-            })
+            Source::ALL.map(|source| plane.loads(state, side, source, patches[source.index()]))
         });
         Ok(Self {
             loaded,
             plane,
             loads: loads.collect(),
+            patches,
         })
     }
 
@@ -57,6 +57,20 @@ impl Points {
     /// border of a cell: there it is the mean of both sides, and infinite terms are evaluated 1/(2
     /// pi) of a cell beside the border.
     pub fn stress(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 6]>>, Error> {
+        self.stress_of(points, false)
+    }
+
+    /// The stress of each state, and that which tractions constant in each cell would cause: the difference is what the
+    /// cells leave open of the tractions within them. Without [`States::stick`] both are the same.
+    pub fn stress_and_constant(&self, points: &[Point]) -> Result<[Vec<Vec<[f64; 6]>>; 2], Error> {
+        let mut all = self.stress_of(points, true)?;
+        let constant = all.split_off(self.loads.len());
+        Ok([all, constant])
+    }
+
+    /// The stress of each state, then, if asked for, that of constant tractions.
+    fn stress_of(&self, points: &[Point], constant_too: bool) -> Result<Vec<Vec<[f64; 6]>>, Error> {
+        let states = self.loads.len();
         let away = |&(x, y, depth): &Point| {
             let rim = self
                 .loaded
@@ -68,10 +82,14 @@ impl Points {
         };
         let points: Vec<Point> = points.iter().map(away).collect();
         let points = points.as_slice();
-        let mut all = self.gather(points, |kernel, depth, n, values: &mut [[f64; 6]]| {
+        let mut all = self.gather(points, |kernel, depth, n, values: &mut Vec<[f64; 6]>| {
+            if constant_too {
+                values.extend_from_within(..);
+            }
             let Some(rim) = &self.loaded.rim else { return };
             let (cell, offset) = NearRim::locate(&self.loaded.grid, points[n].0, points[n].1);
             let near = |(state, _): &(usize, _)| rim.is_near(*state, depth, cell);
+            let values = &mut values[..states];
             let mut near = values.iter_mut().enumerate().filter(near).peekable();
             let parts = near
                 .peek()
@@ -83,7 +101,7 @@ impl Points {
         })?;
         for (state, stresses) in all.iter_mut().enumerate() {
             for (stress, (_, _, depth)) in stresses.iter_mut().zip(points) {
-                let uniform = self.loaded.uniform(state, *depth);
+                let uniform = self.loaded.uniform(state % states, *depth);
                 for (s, uniform) in stress.iter_mut().zip(uniform) {
                     *s += uniform;
                 }
@@ -117,7 +135,7 @@ impl Points {
     fn gather<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
         &self,
         points: &[Point],
-        more: impl Fn(&DepthKernel<Q, N, R>, Depth, usize, &mut [[f64; R]]) + Sync,
+        more: impl Fn(&DepthKernel<Q, N, R>, Depth, usize, &mut Vec<[f64; R]>) + Sync,
     ) -> Result<Vec<Vec<[f64; R]>>, Error> {
         // Points at one depth share its kernel.
         let mut by_depth: BTreeMap<(u64, usize), Vec<usize>> = BTreeMap::new();
@@ -139,7 +157,11 @@ impl Points {
                 Ok((group, values))
             })
             .collect::<Result<_, Error>>()?;
-        let mut all = vec![vec![[0.0; R]; points.len()]; self.loads.len()];
+        let of_first = groups
+            .iter()
+            .find_map(|(_, values): &(_, Vec<Vec<_>>)| values.first());
+        let states = of_first.map_or(self.loads.len(), Vec::len);
+        let mut all = vec![vec![[0.0; R]; points.len()]; states];
         for (group, values) in groups {
             for (n, of_states) in group.into_iter().zip(values) {
                 for (state, value) in all.iter_mut().zip(of_states) {
@@ -156,7 +178,7 @@ impl Points {
         &self,
         points: &[Point],
         group: &[usize],
-        more: &(impl Fn(&DepthKernel<Q, N, R>, Depth, usize, &mut [[f64; R]]) + Sync),
+        more: &(impl Fn(&DepthKernel<Q, N, R>, Depth, usize, &mut Vec<[f64; R]>) + Sync),
     ) -> Result<Vec<Vec<[f64; R]>>, Error> {
         let depth = points[group[0]].2;
         let farthest = group
@@ -166,46 +188,47 @@ impl Points {
         let reach = self.plane.reach() + farthest;
         let kernel: DepthKernel<Q, N, R> = self.loaded.kernel(depth, reach)?;
         let source = Source::at(depth.z, self.plane.d);
-        let variant = source.index();
         let at = |n: &usize| {
             let (x, y, _) = points[*n];
-            let of_state = |loads: &[Loads; 2]| self.sum(&kernel, source, &loads[variant], (x, y));
-            let mut values: Vec<_> = self
-                .loads
-                .iter()
-                .map(of_state)
-                .collect::<Result<_, Error>>()?;
+            let mut values = self.sums(&kernel, source, (x, y))?;
             more(&kernel, depth, *n, &mut values);
             Ok(values)
         };
         group.par_iter().map(at).collect()
     }
 
-    fn sum<Q: Quantity<N, R>, const N: usize, const R: usize>(
+    /// What the loads of each state cause at a place.
+    fn sums<Q: Quantity<N, R>, const N: usize, const R: usize>(
         &self,
         kernel: &DepthKernel<Q, N, R>,
         source: Source,
-        loads: &Loads,
         (x, y): (f64, f64),
-    ) -> Result<[f64; R], Error> {
+    ) -> Result<Vec<[f64; R]>, Error> {
         let Plane { n, d, .. } = self.plane;
-        let patch = loads.patch;
+        let patch = self.patches[source.index()];
         // From the middle of a cell, in cells.
         let from = |v: f64, i: usize, start: isize, n: usize, d: f64| {
             let middle = (i as isize + start) as f64 - (n - 1) as f64 / 2.0;
             snapped(v / d - middle)
         };
         let from_x = from(x, 0, patch.start.0, n.0, d.0);
-        let mut sum = [0.0; R];
+        let mut sums = vec![[0.0; R]; self.loads.len()];
         for j in 0..patch.rows {
             unless(&self.loaded.stop)?;
-            let rows = [0, 1, 2].map(|component| loads.row(component, j));
+            let rows = self.loads.iter().map(|loads| &loads[source.index()]);
+            let rows: Vec<_> = rows
+                .map(|loads| [0, 1, 2].map(|component| loads.row(component, j)))
+                .collect();
             let from_y = from(y, j, patch.start.1, n.1, d.1) * d.1;
-            let loaded = (0..patch.columns).filter(|i| rows.iter().any(|row| row[*i] != 0.0));
-            let offsets = loaded.map(|i| (i, from_x - i as f64));
+            let holds = |i: &usize| rows.iter().flatten().any(|row| row[*i] != 0.0);
+            let offsets = (0..patch.columns)
+                .filter(holds)
+                .map(|i| (i, from_x - i as f64));
             let mut add = |i: usize, response: [[f64; 3]; R]| {
-                for (sum, row) in sum.iter_mut().zip(&response) {
-                    *sum += row[0] * rows[0][i] + row[1] * rows[1][i] + row[2] * rows[2][i];
+                for (sums, rows) in sums.iter_mut().zip(&rows) {
+                    for (sum, row) in sums.iter_mut().zip(&response) {
+                        *sum += row[0] * rows[0][i] + row[1] * rows[1][i] + row[2] * rows[2][i];
+                    }
                 }
             };
             match source {
@@ -218,11 +241,11 @@ impl Points {
                 }
             }
         }
-        for (row, sum) in sum.iter_mut().enumerate() {
+        for (row, sum) in sums.iter_mut().flat_map(|sums| sums.iter_mut().enumerate()) {
             if Q::has_one_z(row) {
                 *sum *= self.loaded.side.sign();
             }
         }
-        Ok(sum)
+        Ok(sums)
     }
 }

@@ -1,0 +1,130 @@
+"""What goes first below a coated contact: the film, the interface or the substrate."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from pyfret.fatigue.cycles import history
+from pyfret.fracture.below import crack
+from pyfret.fracture.film import channel_release
+from pyfret.fracture.interface import over_cycle
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from pyfret.fracture.growth import Threshold
+    from pyfret.run import Run
+
+__all__ = ["PARTS", "FirstToFail", "first_to_fail"]
+
+Part: TypeAlias = Literal["film", "interface", "substrate"]
+#: What may fail, from the surface down.
+PARTS: tuple[Part, ...] = ("film", "interface", "substrate")
+#: Shortest crack in the substrate over the thickness of the coatings, and their number.
+BELOW, LENGTHS = 1.5, 16
+
+
+class FirstToFail(NamedTuple):
+    """Load over what it can bear, 1 at failure; NaN where no limit was given."""
+
+    #: Root of the energy that a channel crack releases over the toughness of the film.
+    film: float
+    #: Root of the quadratic criterion of the interfaces.
+    interface: float
+    #: Smallest range of K over its threshold of a crack that has come through the coatings.
+    substrate: float
+
+    @property
+    def first(self) -> Part | None:
+        """The part with the largest of the three; None where none fails."""
+        loads = [-math.inf if math.isnan(load) else load for load in self]
+        largest = int(np.argmax(loads))
+        return PARTS[largest] if loads[largest] >= 1.0 else None
+
+
+def first_to_fail(
+    result: Run,
+    *,
+    toughness: float | None = None,
+    peel_strength: float | None = None,
+    shear_strength: float | None = None,
+    threshold: Threshold | None = None,
+    residual: Sequence[float] | None = None,
+    x: float | None = None,
+    lengths: Sequence[float] | None = None,
+    body_number: int = 2,
+    cycle: int | None = -1,
+) -> FirstToFail:
+    """Compare what a closed cycle does to film, interface and substrate in the plane y = 0.
+
+    All three are proportional to the stress, so that the largest goes first as loads grow.
+
+    Parameters
+    ----------
+    result : Result
+        Of a coated body, solved with ``save="all"``, or with the increments of the cycle.
+    toughness : float, optional
+        Energy release rate at which a crack channels through the outermost coating [J/m^2]; it is
+        under the largest s_xx of the cycle at its top and bottom, residual stress included, on the
+        safe side where that varies through the thickness.
+    peel_strength, shear_strength : float, optional
+        Strengths of the interfaces [Pa], both or neither: :func:`over_cycle`.
+    threshold : Threshold, optional
+        Of the substrate, for a normal crack that has come through the coatings: :func:`crack`.
+    residual : sequence of float, optional
+        Residual stress of every layer from the surface down, the substrate's last [Pa].
+    x : float, optional
+        Its mouth [m] (default: the rim of the contact below which the range of K is larger).
+    lengths : array, optional
+        Lengths of the crack [m] (default: 16 from 1.5 times the thickness of the coatings to twice
+        half the width of the contact).
+    body_number, cycle
+        As in :func:`pyfret.fatigue.life`.
+
+    Raises
+    ------
+    ValueError
+        The body has no coating, one strength is given alone, or as :func:`crack`.
+    """
+    scene = result.scene
+    body = scene.body1 if body_number == 1 else scene.body2
+    if not body.coatings:
+        raise ValueError(f"body {body_number} has no coating and no interface")
+    film = interface = substrate = math.nan
+    if toughness is not None:
+        if not (toughness > 0.0 and np.isfinite(toughness)):
+            raise ValueError(f"toughness = {toughness}: must be positive, in J/m^2")
+        coating = body.coatings[0]
+        below = body.coatings[1].material if len(body.coatings) > 1 else body.substrate
+        # The surface, and both sides of the first interface: the upper one is the film's.
+        stress = history(
+            result,
+            [0.0, coating.thickness],
+            y=0.0,
+            body_number=body_number,
+            cycle=cycle,
+            residual=residual,
+        )
+        largest = float(stress.isel(depth=slice(0, 2)).sel(component="s_xx").max())
+        film = math.sqrt(channel_release(coating, below, largest) / toughness)
+    if peel_strength is not None or shear_strength is not None:
+        found = over_cycle(
+            result,
+            peel_strength=peel_strength,
+            shear_strength=shear_strength,
+            body_number=body_number,
+            cycle=cycle,
+        )
+        interface = math.sqrt(float(found.criterion.max()))
+    if threshold is not None:
+        if lengths is None:
+            shortest = BELOW * sum(c.thickness for c in body.coatings)
+            lengths = np.geomspace(shortest, 2.0 * result.a_H, LENGTHS).tolist()
+        cracks = crack(
+            result, x, lengths=lengths, body_number=body_number, cycle=cycle, residual=residual
+        )
+        substrate = cracks.arrest(threshold).margin
+    return FirstToFail(film, interface, substrate)

@@ -1,0 +1,115 @@
+"""A crack in the section below a contact, and all that decides about it in one figure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from pyfret.plot.cracks import MICRO, crack_arrest, intensity_history, kitagawa
+from pyfret.plot.scales import scales
+from pyfret.plot.stresses import section_map
+from pyfret.plot.style import styled
+from pyfret.subsurface.contact import stress_below
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from pyfret.fracture.growth import Cracks, Threshold
+    from pyfret.plot.scales import Units
+    from pyfret.run import Run
+
+__all__ = ["crack_panels", "crack_path"]
+
+#: Depth of the section over half the width of the contact, and number of depths.
+DEEPEST, DEPTHS = 1.5, 40
+
+
+@styled
+def crack_path(
+    cracks: Cracks,
+    threshold: Threshold | None = None,
+    *,
+    units: Units = "auto",
+    ax: Axes,
+) -> Axes:
+    """Draw a crack into the figure of a section, such as :func:`section_map` gives it.
+
+    The line runs to where the crack stops, marked by a dot, and dashed on to the longest length;
+    without a threshold to the longest.
+
+    Parameters
+    ----------
+    cracks : Cracks
+        From :meth:`Result.crack` or :meth:`Result.grow_crack`.
+    threshold : Threshold, optional
+        Of the material.
+    units : "auto", "dimensionless" or "SI"
+        Those of the figure: over a_H where it has an axis of x/a_H (default), or in um.
+    ax : matplotlib Axes
+        The figure of the section.
+    """
+    dataset = cracks.dataset
+    scale = scales(dataset.attrs, units).length.value
+    if units == "auto" and "a_H" not in ax.get_xlabel():
+        scale = scales(dataset.attrs, "SI").length.value
+    mouth = dataset.attrs["x"]
+    x = np.concatenate([[mouth], dataset.x.values]) / scale
+    z = np.concatenate([[0.0], dataset.z.values]) / scale
+    s = np.concatenate([[0.0], cracks.lengths])
+    stop = None if threshold is None else cracks.arrest(threshold).length
+    end = s[-1] if stop is None else stop
+    grown = np.append(s[s < end], end)
+    ax.plot(np.interp(grown, s, x), np.interp(grown, s, z), color="k", linewidth=1.8, zorder=4)
+    if stop is not None:
+        rest = np.insert(s[s > end], 0, end)
+        line = np.interp(rest, s, x), np.interp(rest, s, z)
+        ax.plot(*line, color="k", linewidth=0.8, linestyle="dashed", zorder=4)
+        ax.plot(line[0][0], line[1][0], "o", color="#a50f15", markersize=4, zorder=5)
+        ax.annotate(
+            f"stops at {stop * MICRO:.3g} µm",
+            (float(line[0][0]), float(line[1][0])),
+            xytext=(6, -3),
+            textcoords="offset points",
+            fontsize=8,
+            bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
+            zorder=5,
+        )
+    return ax
+
+
+@styled
+def crack_panels(result: Run, cracks: Cracks, threshold: Threshold) -> Figure:
+    """Draw the crack in the stress at its largest K_I, K over the cycle, arrest and Kitagawa.
+
+    Parameters
+    ----------
+    result : Result
+        The run whose cycle the cracks are of.
+    cracks : Cracks
+        From :meth:`Result.crack` or :meth:`Result.grow_crack`, in the plane y = 0.
+    threshold : Threshold
+        Of the material.
+    """
+    about = cracks.dataset.attrs
+    if about.get("azimuth", 0.0) != 0.0:
+        raise ValueError(f"azimuth = {about['azimuth']} rad: the section shown is that of 0")
+    figure, axes = plt.subplots(2, 2, figsize=(8.4, 6.6), layout="constrained")
+    K_I = cracks.dataset.K_I
+    shown = K_I.isel(length=int(K_I.max("increment").argmax()))
+    moment = result.at(int(K_I.increment[int(shown.argmax())]))
+    body = about["body_number"]
+    depths = np.linspace(0.0, DEEPEST * about["half_width"], DEPTHS)
+    layered = (result.scene.body1 if body == 1 else result.scene.body2).coatings
+    inner = np.cumsum([coating.thickness for coating in layered])
+    stress = stress_below(moment, np.union1d(depths, inner), y=0.0, body_number=body)
+    section_map(stress.s_xx, ax=axes[0, 0])
+    crack_path(cracks, threshold, ax=axes[0, 0])
+    found = cracks.arrest(threshold)
+    length = cracks.lengths[len(cracks.lengths) // 2] if found.length is None else found.length
+    intensity_history(cracks, float(length), ax=axes[0, 1])
+    crack_arrest(cracks, threshold, ax=axes[1, 0])
+    kitagawa(cracks, threshold, ax=axes[1, 1])
+    return figure

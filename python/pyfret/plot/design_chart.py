@@ -1,0 +1,77 @@
+"""The design chart of coatings: film, interface or substrate, which goes first."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from pyfret.fracture.first import PARTS
+from pyfret.plot.style import axes, styled
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+__all__ = ["design_chart"]
+
+#: What fails first, by the codes of ``first``, each with its colour.
+FIRST = {0: ("nothing fails", "#ffffff"), 1: ("film", "#fdd0a2")}
+FIRST |= {2: ("interface", "#c7e9c0"), 3: ("substrate", "#9ecae1")}
+#: Lines of the limits of film, interface and substrate.
+STYLES: tuple[Literal["solid", "dashed", "dotted"], ...] = ("solid", "dashed", "dotted")
+
+
+@styled
+def design_chart(
+    table: xr.Dataset,
+    x: str,
+    y: str,
+    *,
+    labels: tuple[str, str] | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Film, interface or substrate: what fails first over two parameters of a study.
+
+    Areas by what is loaded most over its limit; lines where each of the three reaches its own.
+
+    Parameters
+    ----------
+    table : xarray.Dataset
+        Of a study measured by :class:`pyfret.study.FirstToFail`.
+    x, y : str
+        The parameters along the axes.
+    labels : (str, str), optional
+        Of the axes (default: the names of the parameters).
+    ax : matplotlib Axes, optional
+        Where to draw.
+    """
+    ax = axes(ax)
+    table = table.transpose(y, x)
+    at_x, at_y = table[x].values, table[y].values
+    first = table["first"].values
+    colours = ListedColormap([colour for _, colour in FIRST.values()])
+    norm = BoundaryNorm(np.arange(-0.5, 4.0), colours.N)
+    ax.pcolormesh(
+        at_x, at_y, np.ma.masked_invalid(first), cmap=colours, norm=norm, shading="nearest"
+    )
+    entries: list[Patch | Line2D] = [
+        Patch(facecolor=colour, edgecolor="0.6", label=name)
+        for n, (name, colour) in FIRST.items()
+        if n in first
+    ]
+    for name, style in zip(PARTS, STYLES, strict=True):
+        load = np.ma.masked_invalid(table[name].values)
+        if min(load.shape) > 1 and load.count() and load.min() < 1.0 < load.max():
+            ax.contour(at_x, at_y, load, levels=[1.0], colors="0.2", linestyles=style)
+            label = f"limit of the {name}"
+            entries.append(Line2D([], [], color="0.2", linestyle=style, label=label))
+    names = labels if labels is not None else (x, y)
+    ax.set_xlabel(names[0])
+    ax.set_ylabel(names[1])
+    ax.grid(visible=False)
+    ax.legend(handles=entries, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
+    return ax
