@@ -4,7 +4,7 @@ use fracture::{Crack, Direction, End, Growing, Path, PlaneStress, Point, grow};
 use rayon::prelude::*;
 
 use super::along::{Line, Which};
-use super::{Below, NEAREST, OverCycle, QUADRATURE, on_line, refused};
+use super::intensity::{Below, NEAREST, OverCycle, QUADRATURE, on_line, refused};
 use crate::error::Error;
 use crate::fields::States;
 
@@ -15,7 +15,7 @@ pub struct Growth {
     pub x: f64,
     /// Angle of the first crack from the inward normal, positive towards +x \[rad\].
     pub angle: f64,
-    /// Angle of the plane of the crack, as in [`super::Cracks`].
+    /// Angle of the plane of the crack, about the axis of depth from that of x \[rad\].
     pub azimuth: f64,
     /// Length of the first crack \[m\].
     pub start: f64,
