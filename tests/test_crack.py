@@ -39,6 +39,15 @@ def rig() -> fret.Result:
     return fret.solve(scene, path, save="all")
 
 
+@pytest.fixture(scope="module")
+def pulled(rig: fret.Result) -> fret.Result:
+    """The same with a bulk stress in phase, from nothing to 200 MPa."""
+    path = fret.LoadPath.start().normal(2e5, increments=2)
+    for T, bulk in ((3e4, 200e6), (-3e4, 0.0), (3e4, 200e6)):
+        path = path.force(T_x=T, sigma_B=bulk, increments=6)
+    return fret.solve(rig.scene, path, save="all", progress=False)
+
+
 def test_uniform_tension_on_a_normal_crack() -> None:
     crack = fracture.Crack(legs=[(1e-4, 0.0)])
     stress = np.zeros((2, len(crack.points), 6))
@@ -86,16 +95,11 @@ def test_the_worse_rim_is_the_trailing_one_and_short_cracks_stop(rig: fret.Resul
     assert life.length == pytest.approx(stops.length)
 
 
-def test_bulk_tension_opens_a_crack_as_it_should(rig: fret.Result) -> None:
+def test_bulk_tension_opens_a_crack_as_it_should(pulled: fret.Result) -> None:
     """Far below a contact the bulk stress alone is left: checked by a run with it."""
-    scene = rig.scene
-    path = fret.LoadPath.start().normal(2e5, increments=2)
-    path = path.force(T_x=3e4, sigma_B=200e6, increments=6)
-    path = path.force(T_x=-3e4, sigma_B=0.0, increments=6)
-    path = path.force(T_x=3e4, sigma_B=200e6, increments=6)
-    pulled = fret.solve(scene, path, save="all").crack(lengths=[1e-5, 1e-4, 1e-3, 3e-3])
+    cracks = pulled.crack(lengths=[1e-5, 1e-4, 1e-3, 3e-3])
     K = F_0 * 200e6 * np.sqrt(np.pi * 3e-3)
-    assert pulled.K_max[-1] == pytest.approx(K, rel=0.15)
+    assert cracks.K_max[-1] == pytest.approx(K, rel=0.15)
 
 
 def test_thresholds() -> None:
@@ -127,24 +131,28 @@ def test_growth_constants_of_the_table_of_materials() -> None:
     assert fracture.Threshold.of(own, walker=0.9).walker == 0.9
 
 
-def test_growth_below_a_contact(rig: fret.Result) -> None:
+def test_growth_below_a_contact(rig: fret.Result, pulled: fret.Result) -> None:
     """The path settles; a straight first crack of the path has the K of a straight crack."""
-    grown = rig.grow_crack(start=2e-5, end=2e-4, angle=0.4, tolerance=0.05)
+    grown = pulled.grow_crack(start=2e-5, end=2e-4, angle=0.4, tolerance=0.05)
     data = grown.dataset
+    assert data.attrs["end"] == "reached"
     assert grown.lengths[0] == pytest.approx(2e-5)
     assert grown.lengths[-1] == pytest.approx(2e-4)
     assert data.attrs["path_error"] < 0.05 * 1.8e-4
-    assert data.attrs["end"] == "reached"
-    straight = rig.crack(data.attrs["x"], lengths=[2e-5], angle=0.4)
+    straight = pulled.crack(data.attrs["x"], lengths=[2e-5], angle=0.4)
     assert grown.K_max[0] == pytest.approx(straight.K_max[0], rel=1e-4)
     # It turns towards the normal of the tension, and its tips are as far apart as it is long.
     steps = np.hypot(np.diff(data.x), np.diff(data.z))
     assert steps.sum() == pytest.approx(1.8e-4, rel=1e-2)
     assert abs(data.x[-1] - data.x[-2]) < 0.2 * (data.z[-1] - data.z[-2])
-    finer = rig.grow_crack(start=2e-5, end=2e-4, angle=0.4, tolerance=0.01)
+    finer = pulled.grow_crack(start=2e-5, end=2e-4, angle=0.4, tolerance=0.01)
     off = np.hypot(finer.dataset.x[-1] - data.x[-1], finer.dataset.z[-1] - data.z[-1])
     assert off <= data.attrs["path_error"]
-    assert grown.arrest(fracture.Threshold(1e3)).verdict in ("grows", "stops")
+    assert grown.arrest(fracture.Threshold(1e3)).verdict == "grows"
+    # Without bulk stress a crack that shear has taken over ends before its length.
+    alone = rig.grow_crack(start=2e-5, end=2e-4, angle=0.4, tolerance=0.05)
+    assert alone.dataset.attrs["end"] != "reached"
+    assert alone.lengths[-1] < 1.9e-4
 
 
 def test_growth_under_a_plain_history() -> None:
@@ -178,12 +186,13 @@ def test_a_kink_is_that_of_the_plain_crack(rig: fret.Result) -> None:
     kinked = rig.crack(x, lengths=lengths, kink=(5e-5, 0.5)).dataset
     straight = rig.crack(x, lengths=lengths).dataset
     # Those that end before the kink are straight ones.
-    assert kinked.K_I[:, 0].values == pytest.approx(straight.K_I[:, 0].values, rel=1e-3)
+    close = 1e-4 * float(straight.K_I.max())
+    assert kinked.K_I[:, 0].values == pytest.approx(straight.K_I[:, 0].values, abs=close)
     assert float(kinked.x[1] - x) == pytest.approx(5e-5 * np.sin(0.5))
     # A kink that does not turn is none.
     plain = rig.crack(x, lengths=[1e-4], kink=(5e-5, 0.0)).dataset
     assert plain.K_I_linear[:, 0].values == pytest.approx(
-        straight.K_I_linear[:, 1].values, abs=1e-4 * float(straight.K_I_linear.max())
+        straight.K_I_linear[:, 1].values, abs=close
     )
     assert float(abs(kinked.K_II_linear[:, 1] - straight.K_II_linear[:, 1]).max()) > 1e5
     with pytest.raises(ValueError, match="kink"):
@@ -206,13 +215,16 @@ def test_the_deepest_point_of_a_crack_under_a_ball() -> None:
 
     lengths = [1e-5, 3e-5]
     along_x, along_y = sheared("T_x"), sheared("T_y")
-    plane, turned = along_x.crack(lengths=lengths), along_y.crack(lengths=lengths)
+    plane = along_x.crack(lengths=lengths)
+    turned = along_y.crack(plane.dataset.attrs["x"], lengths=lengths)
     assert plane.dataset.attrs["azimuth"] == 0.0
     assert turned.dataset.attrs["azimuth"] == pytest.approx(np.pi / 2)
     assert turned.K_max == pytest.approx(plane.K_max, rel=1e-3)
     estimate = along_x.crack(plane.dataset.attrs["x"], lengths=lengths, aspect=1.0)
     assert pytest.approx(0.590752 * plane.K_max, rel=1e-5) == estimate.K_max
-    largest = estimate.dataset.isel(increment=int(estimate.dataset.K_I[:, 0].argmax()), length=0)
+    largest = estimate.dataset.isel(
+        increment=int(estimate.dataset.K_I.values[:, 0].argmax()), length=0
+    )
     assert float(largest.error) > 0.05 * float(largest.K_I)
     with pytest.raises(ValueError, match="aspect"):
         along_x.crack(lengths=lengths, aspect=2.0)
@@ -323,9 +335,9 @@ def test_figures(rig: fret.Result) -> None:
     assert "limit of the film" in named
 
 
-def test_command(rig: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_command(pulled: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     store = tmp_path / "rig.nc"
-    rig.save(store)
+    pulled.save(store)
     figure = tmp_path / "crack.png"
     lengths = "1e-5,3e-5,1e-4,3e-4"
     told = ["crack", str(store), "--lengths", lengths, "--dK-th", "2e6", "-o", str(figure)]
@@ -340,7 +352,7 @@ def test_command(rig: fret.Result, tmp_path: Path, capsys: pytest.CaptureFixture
     assert commands.main([*grown, "--dK-th", "1e3", "--paris", "1e-11,3"]) == 0
     said = capsys.readouterr().out
     assert said.count("MPa m^0.5") >= 9
-    assert "cycles" in said
+    assert " cycles" in said
     kinked = ["crack", str(store), "--lengths", lengths, "--kink", "5e-5,20", "--aspect", "0.8"]
     assert commands.main(kinked) == 0
     assert commands.main([*grown, "--kink", "5e-5,20"]) == 2

@@ -28,10 +28,10 @@ study = fret.study.solve(
         "body2.coatings.0.thickness": [1e-5, 2e-5, 4e-5, 6e-5],
     },
     measure=fret.study.FirstToFail(
-        toughness=30.0,
-        peel_strength=100e6,
-        shear_strength=150e6,
-        threshold=fracture.Threshold(dK_th=2.5e6, dS_0=300e6),
+        toughness=90.0,
+        peel_strength=80e6,
+        shear_strength=120e6,
+        threshold=fracture.Threshold(dK_th=4.5e6, dS_0=540e6),
         residual=[-5e8, 0.0],
         x=-6.3e-4,  # the rim that trails when the bulk stress pulls
     ),

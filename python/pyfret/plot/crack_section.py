@@ -98,8 +98,8 @@ def crack_panels(result: Run, cracks: Cracks, threshold: Threshold) -> Figure:
         raise ValueError(f"azimuth = {about['azimuth']} rad: the section shown is that of 0")
     figure, axes = plt.subplots(2, 2, figsize=(8.4, 6.6), layout="constrained")
     K_I = cracks.dataset.K_I
-    shown = K_I.isel(length=int(K_I.max("increment").argmax()))
-    moment = result.at(int(K_I.increment[int(shown.argmax())]))
+    shown = K_I.isel(length=int(K_I.max("increment").values.argmax()))
+    moment = result.at(int(K_I.increment[int(shown.values.argmax())]))
     body = about["body_number"]
     depths = np.linspace(0.0, DEEPEST * about["half_width"], DEPTHS)
     layered = (result.scene.body1 if body == 1 else result.scene.body2).coatings
