@@ -47,4 +47,8 @@ def write(out: Path, only: list[str] | None = None) -> str:
         print(rows[-1], flush=True)
     head = "\n".join(["| test | predicted over measured | claims that hold |", "|---|---|---|"])
     text = "\n".join([head, *rows])
-    return f"## Published tests\n\n{NOT_READ}\n\n{text}"
+    found = (
+        "How often `fret.fit` finds friction, a rig and a coating inside its confidence: "
+        "[identification](identification.md)."
+    )
+    return f"## Published tests\n\n{NOT_READ}\n\n{text}\n\n{found}"
