@@ -154,8 +154,9 @@ fn random_stacks_hold_together_as_their_bonds_say() {
     }
 }
 
-/// Forty random stacks of one to four layers, some incompressible, some interfaces perfect, against one
-/// linear system for all constants solved in 60 digits: on the surface and on both sides of an interface.
+/// Forty random stacks of one to four layers, some incompressible, some interfaces perfect, against
+/// one linear system for all constants solved in 60 digits: on the surface and on both sides of an
+/// interface.
 #[test]
 fn random_stacks_against_a_direct_solution_in_many_digits() {
     let entries = load("kernel_bonds.json");

@@ -112,8 +112,8 @@ impl Faces {
         Ok(next)
     }
 
-    /// Pressure for known shear, shear for known pressure, until the pressure settles; its last change over the largest
-    /// traction.
+    /// Pressure for known shear, shear for known pressure, until the pressure settles; its last
+    /// change over the largest traction.
     fn settle(
         &mut self,
         contact: &Contact,

@@ -11,8 +11,8 @@ use super::stress::{PlaneStress, Point};
 
 /// Turn at the tip below which a piece's end has its direction \[rad\].
 const STRAIGHT: f64 = 2e-3;
-/// Turn on the way beyond which the crack would not bend but kink \[rad\]: the direction jumps where another
-/// instant or another mode takes the lead.
+/// Turn on the way beyond which the crack would not bend but kink \[rad\]: the direction jumps
+/// where another instant or another mode takes the lead.
 const SHARP: f64 = 0.5;
 /// Corrections of a piece's end.
 const CORRECTIONS: usize = 4;
@@ -117,8 +117,8 @@ pub(crate) fn cycle(
 /// of the body without the crack at a crack's points, one instant of the cycle after the other.
 ///
 /// Pieces are curved so that at the end of each the crack has no reason to turn; their number is
-/// doubled until the tip moves less than the tolerance. A crack ends early where nothing opens it, where
-/// it comes back to the surface and where its direction jumps, which is known to a piece.
+/// doubled until the tip moves less than the tolerance. A crack ends early where nothing opens it,
+/// where it comes back to the surface and where its direction jumps, which is known to a piece.
 pub fn grow<E: From<Error>>(
     start: &Path,
     growing: &Growing,

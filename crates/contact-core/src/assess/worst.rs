@@ -2,8 +2,8 @@
 //!
 //! Starting points are the local maxima of the samples (hills) and the places where the rim of the
 //! contact and the border of the stick zone cross the line. From the worst of these the search
-//! ascends ([`Climb`]). Every value is that of a history at a point; none is extrapolated, and none is
-//! below the worst sample.
+//! ascends ([`Climb`]). Every value is that of a history at a point; none is extrapolated, and none
+//! is below the worst sample.
 
 use super::climb::Climb;
 use super::judged::{Judge, Judged};
@@ -83,8 +83,8 @@ pub fn worst<J: Judge>(
         return Ok(None);
     };
     let (mut place, mut point, mut score) = (place, point, judge.score(&found));
-    // A sample is the stress of the whole section: the point may lie below it where rims within the cells or steps of
-    // the tractions count.
+    // A sample is the stress of the whole section: the point may lie below it where rims within the
+    // cells or steps of the tractions count.
     let missing = (highest.1 - score).max(0.0);
     if missing > 0.0
         && let Some(sample) = climb.sample(judged, highest.0)

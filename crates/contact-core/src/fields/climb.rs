@@ -1,7 +1,7 @@
 //! The ascent to the largest value of a number, from a starting point.
 //!
-//! The number is evaluated on both sides along every free direction and at the vertex of the parabola
-//! through these values, with smaller and smaller steps.
+//! The number is evaluated on both sides along every free direction and at the vertex of the
+//! parabola through these values, with smaller and smaller steps.
 
 use super::{Depth, Point};
 use crate::error::Error;

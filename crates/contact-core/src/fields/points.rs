@@ -13,11 +13,13 @@ use crate::kernels::{DepthKernel, Displacement, Quantity};
 use crate::scene::{Body, Grid};
 use crate::stop::unless;
 
-/// Stress and displacement at single points; each costs one kernel value per cell that is loaded in any state.
+/// Stress and displacement at single points; each costs one kernel value per cell that is loaded in
+/// any state.
 pub struct Points {
     loaded: Loaded,
     plane: Plane,
-    /// By state, for loads on cells and for point loads, on the patch that holds the loads of all states.
+    /// By state, for loads on cells and for point loads, on the patch that holds the loads of all
+    /// states.
     loads: Vec<[Loads; 2]>,
     patches: [Patch; 2],
 }
@@ -60,8 +62,9 @@ impl Points {
         self.stress_of(points, false)
     }
 
-    /// The stress of each state, and that which tractions constant in each cell would cause: the difference is what the
-    /// cells leave open of the tractions within them. Without [`States::stick`] both are the same.
+    /// The stress of each state, and that which tractions constant in each cell would cause: the
+    /// difference is what the cells leave open of the tractions within them. Without
+    /// [`States::stick`] both are the same.
     pub fn stress_and_constant(&self, points: &[Point]) -> Result<[Vec<Vec<[f64; 6]>>; 2], Error> {
         let mut all = self.stress_of(points, true)?;
         let constant = all.split_off(self.loads.len());

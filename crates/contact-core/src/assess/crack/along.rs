@@ -1,8 +1,8 @@
 //! The stress of the body without the crack along the lines of cracks.
 //!
-//! It is sampled at distances that grow with that from the mouth; between them it is interpolated over
-//! the logarithm of the distance, part by part: a part lies in one layer and between two ends of pieces
-//! of the crack, so that the stress is smooth on it. No place is asked for twice.
+//! It is sampled at distances that grow with that from the mouth; between them it is interpolated
+//! over the logarithm of the distance, part by part: a part lies in one layer and between two ends
+//! of pieces of the crack, so that the stress is smooth on it. No place is asked for twice.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,5 @@
-//! Stress intensity of a crack below a contact: the stress along its line, faces that touch, errors.
+//! Stress intensity of a crack below a contact: the stress along its line, faces that touch,
+//! errors.
 
 use std::collections::HashMap;
 

@@ -25,8 +25,8 @@ pub struct Cracks {
     pub angle: f64,
     /// Length \[m\] after which cracks go on at another angle \[rad\] (default: they are straight).
     pub kink: Option<(f64, f64)>,
-    /// Angle of the plane of the cracks about the axis of depth from that of x \[rad\] (default 0); x is
-    /// the distance from the axis along it.
+    /// Angle of the plane of the cracks about the axis of depth from that of x \[rad\] (default 0);
+    /// x is the distance from the axis along it.
     pub azimuth: f64,
     /// Lengths \[m\], ascending.
     pub lengths: Vec<f64>,
