@@ -1,7 +1,7 @@
 //! Bonds that give way: limits, closed forms, the jump at every interface of random stacks; nu =
 //! 1/2.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::print_stdout, clippy::unwrap_used)]
 
 mod kernel_tables;
 #[expect(dead_code, reason = "numbers of the unit interval suffice here")]

@@ -114,6 +114,7 @@ impl Path {
     }
 
     /// The part from the mouth to the length `s` \[m\] of the path.
+    #[must_use]
     pub fn up_to(&self, s: f64) -> Self {
         // What rounding leaves of a length is no piece.
         let least = 1e-12 * s;

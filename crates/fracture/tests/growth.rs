@@ -342,7 +342,6 @@ fn a_crack_grows_below_a_fretting_contact() {
             ..growing
         };
         let grown = grow(&Path::straight(-1.0, 0.06, angle), &growing, cycle).unwrap();
-        println!("{angle} {friction}: {:?} {:?}", grown.path.tip(), grown.end);
         let length = grown.path.length();
         assert_eq!(grown.end == End::Reached, (length - 0.2).abs() < 1e-9);
         assert!(grown.tips.len() > 4, "{angle} {friction}");

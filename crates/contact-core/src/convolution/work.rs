@@ -33,6 +33,7 @@ impl Convolutions {
     }
 
     /// Less the work `done`, or none.
+    #[must_use]
     pub fn left_after(self, done: Self) -> Self {
         Self(self.0.saturating_sub(done.0))
     }
