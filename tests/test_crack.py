@@ -280,6 +280,26 @@ def test_the_arrest_map_holds_what_each_point_gives(rig: fret.Result) -> None:
     assert "stops" in [text.get_text() for text in ax.get_legend().get_texts()]
 
 
+def test_the_running_map_has_the_lengths_at_which_cracks_stop(rig: fret.Result) -> None:
+    scene = rig.scene.replace(grid=fret.Grid.strip(extent=1e-3, n=64))
+    arrest = fret.study.Arrest(fracture.Threshold(2e6, 300e6), lengths=[5e-6, 2e-5, 1e-4, 4e-4])
+    table = fret.study.running_conditions(
+        scene,
+        W=[1.5e5, 2e5],
+        T=[6e4, 8e4, 1e5],
+        increments=(2, 6),
+        arrest=arrest,
+        executor=1,
+    )
+    length = table.arrest_length.transpose("W", "T").values
+    # More shear takes them deeper; at 1e5 N the smaller force slides.
+    assert (length[:, 1] > length[:, 0]).all()
+    assert np.isnan(length[0, 2])
+    assert (table.arrest_margin.values[np.isfinite(table.arrest_margin)] < 1.0).all()
+    ax = fret.plot.fretting_map(table)
+    assert "crack stops at [µm]" in [text.get_text() for text in ax.get_legend().get_texts()]
+
+
 def test_kitagawa_of_uniform_tension() -> None:
     lengths = np.geomspace(1e-6, 1e-3, 20)
     K = 100e6 * np.sqrt(np.pi * lengths)

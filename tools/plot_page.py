@@ -61,6 +61,7 @@ FIGURES: dict[str, dict[str, str]] = {
         "crack_arrest": "fret.plot.crack_arrest(cracks, threshold)",
         "kitagawa": "fret.plot.kitagawa(cracks, threshold)",
         "intensity_history": "fret.plot.intensity_history(cracks, 1e-4)",
+        "crack_panels": "fret.plot.crack_panels(rig, cracks, threshold)",
     },
     "Wear and heat": {
         "wear_history": "fret.plot.wear_history(worn)",
@@ -74,10 +75,15 @@ FIGURES: dict[str, dict[str, str]] = {
         "study_map": 'fret.plot.study_map(study, "loop_energy")',
         "running_map": "fret.plot.running_map(table)",
         "fretting_map": "fret.plot.fretting_map(table)",
+        "arrest_map": "fret.plot.arrest_map(stopping)",
+        "design_chart": (
+            'fret.plot.design_chart(first, "friction.mu", "body2.coatings.0.thickness")'
+        ),
     },
 }
 #: Names of the module that draw no figure of their own.
 OTHERS = {
+    "crack_path": "draws a crack into the figure of a section, as `crack_panels` does",
     "animate": "writes a film of a path: loop, zones and shear, as `.gif` or `.mp4`",
     "paper_figures": "writes figures 4 to 13 of the paper from its four runs",
     "style": "sets the look inside a `with` block, for figures of your own beside these",
@@ -141,6 +147,35 @@ def names() -> dict[str, Any]:
         executor=1,
         progress=False,
     )
+    threshold = fret.fracture.Threshold(dK_th=2.5e6, dS_0=300e6)
+    stopping = fret.study.arrest_map(
+        line,
+        W=4e5,
+        T=np.linspace(2e4, 2.2e5, 5),
+        sigma_B=np.linspace(0.0, 3.5e8, 5),
+        arrest=fret.study.Arrest(threshold),
+    )
+    nitride = fret.Coating(fret.Elastic(E=450e9, nu=0.25), thickness=2e-5)
+    pulled = fret.LoadPath.start().force(W=4e5, increments=1)
+    for T, bulk in ((1e5, 1.6e8), (-1e5, 0.0), (1e5, 1.6e8)):
+        pulled = pulled.force(T_x=T, sigma_B=bulk, increments=3)
+    first = fret.study.solve(
+        line.replace(body2=fret.Body(titanium, coatings=nitride), path=pulled, save="all"),
+        {
+            "friction.mu": [0.3, 0.5, 0.7, 0.9],
+            "body2.coatings.0.thickness": [1e-5, 2e-5, 4e-5, 6e-5],
+        },
+        measure=fret.study.FirstToFail(
+            toughness=90.0,
+            peel_strength=80e6,
+            shear_strength=120e6,
+            threshold=threshold,
+            residual=[-5e8, 0.0],
+            x=-6.3e-4,
+        ),
+        executor=1,
+        progress=False,
+    ).dataset
     running = fret.study.running_conditions(
         bare, W=np.linspace(3, W, 4), delta=np.linspace(0.1e-6, 1.2e-6, 5), executor=1
     )
@@ -158,6 +193,8 @@ def names() -> dict[str, Any]:
         "hot": hot,
         "study": study,
         "table": running,
+        "stopping": stopping,
+        "first": first,
     }
 
 

@@ -24,7 +24,7 @@ scene = fret.Scene(
 table = fret.study.running_conditions(
     scene,
     W=np.linspace(5.0, 20.0, 4),
-    delta=np.linspace(0.15e-6, 1.2e-6, 6),
+    delta=np.linspace(0.15e-6, 1.2e-6, 5),
     increments=(3, 10),
     cracking=fret.study.Cracking(fatigue.Materials()["steel_42CrMo4"], "crossland"),
     arrest=fret.study.Arrest(fracture.Threshold(dK_th=3e6, dS_0=400e6), aspect=1.0),

@@ -53,9 +53,9 @@ from pyfret._core import (
     Sphere,
     SurfaceMap,
     SurfaceOperator,
-    __version__,
     graded,
 )
+from pyfret._core import __version__ as __version__
 from pyfret._util.names import MODULES, MOVED, OTHER_NAMES, listing, moved
 from pyfret.citation import cite
 from pyfret.grids import offer as offer_grids
@@ -91,7 +91,6 @@ __all__ = [
     "Sphere",
     "SurfaceMap",
     "SurfaceOperator",
-    "__version__",
     "cite",
     "errors",
     "experiments",
