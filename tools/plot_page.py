@@ -77,7 +77,8 @@ FIGURES: dict[str, dict[str, str]] = {
         "fretting_map": "fret.plot.fretting_map(table)",
         "arrest_map": "fret.plot.arrest_map(stopping)",
         "design_chart": (
-            'fret.plot.design_chart(first, "friction.mu", "body2.coatings.0.thickness")'
+            'fret.plot.design_chart(first, "friction.mu", "body2.coatings.0.thickness", '
+            'labels=("friction coefficient", "thickness [m]"))'
         ),
     },
 }
@@ -169,7 +170,7 @@ def names() -> dict[str, Any]:
             toughness=90.0,
             peel_strength=80e6,
             shear_strength=120e6,
-            threshold=threshold,
+            threshold=fret.fracture.Threshold(dK_th=4.5e6, dS_0=540e6),
             residual=[-5e8, 0.0],
             x=-6.3e-4,
         ),
