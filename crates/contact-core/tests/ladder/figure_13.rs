@@ -97,7 +97,8 @@ fn on_two_grids(ratio: f64, n: usize) -> Stressed {
     fine
 }
 
-/// In the compliant coating, in its middle, by a tenth: more than ten errors of the surface's.
+/// In the compliant coating, in its middle, by 9.7 %: on 512 cells along x 0.5445 p_H there and
+/// 0.4965 p_H on the surface.
 #[test]
 fn a_compliant_coating_is_stressed_most_in_its_middle() {
     let Stressed {
@@ -105,7 +106,11 @@ fn a_compliant_coating_is_stressed_most_in_its_middle() {
         below: (value, at),
     } = on_two_grids(0.5, 64);
     assert!(at.layer == 0 && (0.3..0.6).contains(&at.z), "{at:?}");
-    assert!(value > surface.0 + 10.0 * surface.2, "{value} {surface:?}");
+    assert!((surface.0 - 0.4965).abs() < surface.2, "{surface:?}");
+    assert!(
+        (value / surface.0 - 1.097).abs() < 5e-3,
+        "{value} {surface:?}"
+    );
 }
 
 /// On the free surface, at the trailing rim, by a few hundredths.
