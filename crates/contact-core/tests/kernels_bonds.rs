@@ -9,7 +9,7 @@ mod splitmix;
 
 use contact_core::kernels::{Complex64, RadialResponse, Stack, influence_coefficients, stress_at};
 use contact_core::scene::{Body, Bond, Coating, Elastic, Grid, KernelSettings, Shape};
-use kernel_tables::{load, matrix, number, whole};
+use kernel_tables::{load, number, off, whole};
 use serde_json::Value;
 use splitmix::Draw;
 
@@ -189,20 +189,6 @@ fn random_stacks_against_a_direct_solution_in_many_digits() {
     }
     println!("largest difference {worst:.1e} of the largest entry of its kind");
     assert!(worst < 1e-11, "{worst:e}");
-}
-
-/// Largest difference from the table over its largest entry.
-fn off(ours: &[[Complex64; 3]], entry: &Value, of: &str) -> f64 {
-    let [re, im] = ["re", "im"].map(|part| matrix(&entry[format!("{of}_{part}")]));
-    let (mut largest, mut worst): (f64, f64) = (0.0, 0.0);
-    for (row, ours) in ours.iter().enumerate() {
-        for (column, ours) in ours.iter().enumerate() {
-            let theirs = Complex64::new(re[row][column], im[row][column]);
-            largest = largest.max(theirs.norm());
-            worst = worst.max((ours - theirs).norm());
-        }
-    }
-    worst / largest
 }
 
 #[test]

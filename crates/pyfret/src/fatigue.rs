@@ -17,6 +17,17 @@ use crate::arguments::{Array, List};
 use crate::error::of_criterion as refused;
 use crate::interruptible::interruptible;
 
+/// The numbers of a criterion at a point, by the names that Python has for them.
+pub(crate) const AT_POINT: [(&str, fn(&core::AtPoint) -> f64); 7] = [
+    ("value", |p| p.value),
+    ("missed", |p| p.missed),
+    ("planes", |p| p.planes as f64),
+    ("shear_amplitude", |p| p.shear_amplitude),
+    ("shear_chord", |p| p.shear_chord),
+    ("normal_max", |p| p.normal_max),
+    ("normal_min", |p| p.normal_min),
+];
+
 /// A criterion by its name, one of :data:`pyfret.fatigue.CRITERIA`, and its numbers by theirs.
 ///
 /// Examples
@@ -331,18 +342,14 @@ pub(crate) fn criterion_on<'py>(
     };
     let work = || core::evaluate(&criterion.0, &view, &search, &stop);
     let points = interruptible(py, &stop, work)?.map_err(refused)?;
-    let of = |f: &dyn Fn(&core::AtPoint) -> f64| {
+    let of = |f: fn(&core::AtPoint) -> f64| {
         let values: Array1<f64> = points.iter().map(f).collect();
         values.into_pyarray(py)
     };
     let found = PyDict::new(py);
-    found.set_item("value", of(&|p| p.value))?;
-    found.set_item("missed", of(&|p| p.missed))?;
-    found.set_item("planes", of(&|p| p.planes as f64))?;
-    found.set_item("shear_amplitude", of(&|p| p.shear_amplitude))?;
-    found.set_item("shear_chord", of(&|p| p.shear_chord))?;
-    found.set_item("normal_max", of(&|p| p.normal_max))?;
-    found.set_item("normal_min", of(&|p| p.normal_min))?;
+    for (name, number) in AT_POINT {
+        found.set_item(name, of(number))?;
+    }
     let normal = Array2::from_shape_fn((points.len(), 3), |(n, d)| points[n].normal[d]);
     found.set_item("normal", normal.into_pyarray(py))?;
     Ok(found)

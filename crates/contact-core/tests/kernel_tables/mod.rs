@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 #![allow(dead_code, reason = "each test file reads its own table")]
 
+use contact_core::kernels::Complex64;
 use contact_core::scene::{Body, Coating, Elastic, Shape};
 use serde_json::Value;
 
@@ -47,4 +48,18 @@ pub(crate) fn body(entry: &Value) -> Body {
         bonds: Vec::new(),
         shape: Shape::Flat,
     }
+}
+
+/// Largest difference from the table over its largest entry.
+pub(crate) fn off(ours: &[[Complex64; 3]], entry: &Value, of: &str) -> f64 {
+    let [re, im] = ["re", "im"].map(|part| matrix(&entry[format!("{of}_{part}")]));
+    let (mut largest, mut worst): (f64, f64) = (0.0, 0.0);
+    for (row, ours) in ours.iter().enumerate() {
+        for (column, ours) in ours.iter().enumerate() {
+            let theirs = Complex64::new(re[row][column], im[row][column]);
+            largest = largest.max(theirs.norm());
+            worst = worst.max((ours - theirs).norm());
+        }
+    }
+    worst / largest
 }

@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, non_snake_case)]
 
+#[path = "../branch_ends/mod.rs"]
+mod branch_ends;
 #[path = "../document/mod.rs"]
 mod document;
 mod random;
@@ -19,20 +21,10 @@ use contact_core::scene::{
 };
 use serde_json::Value;
 
+use branch_ends::solved;
+
 const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
 const R: f64 = 0.01;
-
-/// The fields at the end of each branch.
-fn solved(scene: &Scene) -> Vec<Fields> {
-    let mut march = March::new(scene).unwrap();
-    let mut ends = Vec::new();
-    while let Some(increment) = march.advance() {
-        if increment.unwrap().point.ends_branch {
-            ends.push(march.fields());
-        }
-    }
-    ends
-}
 
 fn tractions(fields: &Fields) -> Tractions<'_> {
     Tractions {

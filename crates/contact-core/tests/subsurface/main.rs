@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+#[path = "../branch_ends/mod.rs"]
+mod branch_ends;
 mod bulk;
 mod closed_forms;
 mod elasticity;

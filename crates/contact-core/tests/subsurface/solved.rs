@@ -2,12 +2,14 @@
 
 use contact_core::convolution::Tractions;
 use contact_core::fields::{Depth, Line, Points, Section, Side, States, depths};
-use contact_core::march::{Fields, March};
+use contact_core::march::Fields;
 use contact_core::reference::{CattaneoMindlin, Hertz, HertzStress, hertz};
 use contact_core::scene::{
     Body, Coating, Elastic, Friction, Grid, LoadPath, Rough, Scene, Settings, Shape,
 };
 use ndarray::Array3;
+
+use crate::branch_ends::solved;
 
 const R: f64 = 0.018;
 const W: f64 = 1e3;
@@ -48,18 +50,6 @@ fn stress(scene: &Scene, fields: &Fields, depths: &[Depth], rim: bool) -> Array3
     };
     let section = Section::new(&scene.body2, Side::Body2, &scene.grid, line, states).unwrap();
     section.stress(depths).unwrap().remove(0) / scene.hertz().map_or(1.0, |h| h.p0)
-}
-
-/// The fields at the end of each branch.
-fn solved(scene: &Scene) -> Vec<Fields> {
-    let mut march = March::new(scene).unwrap();
-    let mut ends = Vec::new();
-    while let Some(increment) = march.advance() {
-        if increment.unwrap().point.ends_branch {
-            ends.push(march.fields());
-        }
-    }
-    ends
 }
 
 /// Errors of the worst component of every sample, the largest first: error, cell, depth. On the

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::below::{Below, depths_of, place};
-use crate::fatigue::Assessment;
+use crate::fatigue::{AT_POINT, Assessment};
 
 /// What a criterion found on a section.
 #[pyclass(frozen, module = "pyfret.fatigue")]
@@ -83,20 +83,16 @@ pub(super) fn arrays<'py, 'a>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let places = rows.iter().flatten().map(Vec::len).next().unwrap_or(0);
     let at = |row: usize, place: usize| rows[row].as_ref().and_then(|row| row[place]);
-    let of = |f: &dyn Fn(&AtPoint) -> f64| {
+    let of = |f: fn(&AtPoint) -> f64| {
         let values = Array2::from_shape_fn((rows.len(), places), |(row, place)| {
             at(row, place).map_or(f64::NAN, |found| f(&found))
         });
         values.into_pyarray(py)
     };
     let found = PyDict::new(py);
-    found.set_item("value", of(&|p| p.value))?;
-    found.set_item("missed", of(&|p| p.missed))?;
-    found.set_item("planes", of(&|p| p.planes as f64))?;
-    found.set_item("shear_amplitude", of(&|p| p.shear_amplitude))?;
-    found.set_item("shear_chord", of(&|p| p.shear_chord))?;
-    found.set_item("normal_max", of(&|p| p.normal_max))?;
-    found.set_item("normal_min", of(&|p| p.normal_min))?;
+    for (name, number) in AT_POINT {
+        found.set_item(name, of(number))?;
+    }
     let margin = Array2::from_shape_fn((rows.len(), places), |(row, place)| {
         let judged = at(row, place).zip(assessment(row));
         judged.map_or(f64::NAN, |(found, assessment)| {

@@ -1,0 +1,230 @@
+//! A crack under any stress.
+
+use ::fracture as of_cracks;
+use contact_core::assess::crack as core;
+use ndarray::{Array1, Array2, Ix3};
+use numpy::IntoPyArray;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::told::{named, refused, set_path};
+use crate::arguments::{Array, List};
+use crate::error::to_python;
+use crate::parts::parts;
+
+/// What a function of the caller raised, or the crack refused.
+struct Raised(PyErr);
+
+impl From<PyErr> for Raised {
+    fn from(error: PyErr) -> Self {
+        Self(error)
+    }
+}
+
+impl From<of_cracks::Error> for Raised {
+    fn from(error: of_cracks::Error) -> Self {
+        Self(refused(error))
+    }
+}
+
+/// Stress in the plane over (time, points) from all of its components.
+fn history(stress: Array<'_, Ix3>, points: usize) -> PyResult<Vec<Vec<of_cracks::PlaneStress>>> {
+    let stress = stress.as_array();
+    let (_, found, components) = stress.dim();
+    if found != points || components != 6 {
+        return Err(PyValueError::new_err(format!(
+            "stress has the shape {:?}: must be (time, {points}, 6)",
+            stress.dim(),
+        )));
+    }
+    let plane = |s: ndarray::ArrayView1<'_, f64>| [s[0], s[2], s[4]];
+    let instants = stress.outer_iter();
+    Ok(instants
+        .map(|of| of.outer_iter().map(plane).collect())
+        .collect())
+}
+
+/// A crack from the surface of a half-plane: where stress is wanted, what it does at the tip.
+///
+/// Plane strain; nothing here knows of contacts. K_I + i K_II = lim sqrt(2 pi r) (s_nn + i s_tn)
+/// ahead of the tip, t along the crack, n = +x for a crack along the depth.
+///
+/// Parameters
+/// ----------
+/// x : float
+///     Place of the mouth [m].
+/// legs : list of (float, float)
+///     Length [m] and angle [rad] of each straight leg from the mouth on; angles are from the
+///     inward normal, positive towards +x.
+///
+/// Examples
+/// --------
+/// >>> crack = Crack(legs=[(1e-4, 0.0)])
+/// >>> tension = np.zeros((1, len(crack.points), 6))
+/// >>> tension[..., 0] = 100e6
+/// >>> K = crack.intensity(tension).get("K_I").item(0)
+/// >>> round(K / (100e6 * np.sqrt(np.pi * 1e-4)), 4)
+/// 1.1215
+#[pyclass(frozen, module = "pyfret.fracture")]
+#[derive(Clone)]
+pub(crate) struct Crack(of_cracks::Crack);
+
+parts!(Crack: legs, x);
+
+#[pymethods]
+impl Crack {
+    fn __eq__(slf: &Bound<'_, Self>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+        crate::parts::equal(slf.as_any(), other, Self::PARTS)
+    }
+
+    #[new]
+    #[pyo3(signature = (*, legs, x = 0.0))]
+    fn new(legs: List<(f64, f64)>, x: f64) -> PyResult<Self> {
+        let path = of_cracks::Path::kinked(x, &legs);
+        of_cracks::Crack::new(path).map(Self).map_err(refused)
+    }
+
+    /// Place of the mouth [m].
+    #[getter]
+    fn x(&self) -> f64 {
+        self.0.path().mouth
+    }
+
+    /// Length [m] and angle [rad] of each leg.
+    #[getter]
+    fn legs(&self) -> Vec<(f64, f64)> {
+        let legs = self.0.path().legs.iter();
+        legs.map(|leg| (leg.length(), leg.end())).collect()
+    }
+
+    /// Length along the crack [m].
+    #[getter]
+    fn length(&self) -> f64 {
+        self.0.length()
+    }
+
+    /// Points at which the stress is wanted, tip to mouth: x and depth [m], (points, 2).
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> Bound<'py, numpy::PyArray2<f64>> {
+        let points = self.0.points();
+        let of = |(n, c): (usize, usize)| if c == 0 { points[n].x } else { points[n].z };
+        Array2::from_shape_fn((points.len(), 2), of).into_pyarray(py)
+    }
+
+    /// K over the instants of a history of stress at :attr:`points`.
+    ///
+    /// Parameters
+    /// ----------
+    /// stress : array of shape (time, points, 6)
+    ///     Stress of the body without the crack [Pa]: xx, yy, zz, xy, xz, yz, z the depth.
+    /// friction : float, optional
+    ///     Coefficient of friction between faces in contact; by default faces may pass through
+    ///     each other, and K is linear in the stress.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5], ``open``, the share of the crack that
+    ///     is open, each over time.
+    #[pyo3(signature = (stress, *, friction = None))]
+    fn intensity<'py>(
+        &self,
+        py: Python<'py>,
+        stress: Array<'_, Ix3>,
+        friction: Option<f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let history = history(stress, self.0.points().len())?;
+        let start = of_cracks::Faces::new(&self.0, friction.unwrap_or(0.0)).map_err(refused)?;
+        let mut faces = start;
+        let (mut found, mut open) = (Vec::new(), Vec::new());
+        for plane in history {
+            if friction.is_some() {
+                faces = faces.next(&plane).map_err(refused)?;
+                found.push(faces.intensity);
+                open.push(faces.open_share().map_err(refused)?);
+            } else {
+                found.push(self.0.intensity(&plane).map_err(refused)?);
+                open.push(1.0);
+            }
+        }
+        let row = |f: &dyn Fn(&of_cracks::Intensity) -> f64| -> Array1<f64> {
+            found.iter().map(f).collect()
+        };
+        let result = PyDict::new(py);
+        result.set_item("K_I", row(&|k| k.K_I).into_pyarray(py))?;
+        result.set_item("K_II", row(&|k| k.K_II).into_pyarray(py))?;
+        result.set_item("error", row(&|k| k.error).into_pyarray(py))?;
+        result.set_item("open", Array1::from(open).into_pyarray(py))?;
+        Ok(result)
+    }
+
+    /// Grow the crack in the direction of the largest range over a cycle of stress.
+    ///
+    /// Pieces are curved so that at the end of each the crack has no reason to turn; their number
+    /// doubles until the tip moves less than the tolerance.
+    ///
+    /// Parameters
+    /// ----------
+    /// stress : callable
+    ///     Takes points, x and depth [m] in an array of shape (points, 2), and gives the stress of
+    ///     the body without the crack there over the instants of the cycle [Pa], shape
+    ///     (time, points, 6).
+    /// end : float
+    ///     Length to grow to [m].
+    /// direction : {"tangential_stress", "opening_intensity"}
+    ///     Largest range of the tangential stress ahead of the tip, or of K_I of a small kink.
+    /// friction : float
+    ///     Coefficient of friction between faces in contact.
+    /// tolerance : float
+    ///     Distance by which the last tip may be off over the length grown.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     Of the tips on the way ``length``, ``x``, ``z`` [m], ``angle`` [rad], over (time, tips)
+    ///     ``K_I``, ``K_II`` and their ``error`` [Pa m^0.5]; ``path_error``, how far the last tip
+    ///     may be off [m]; ``end``: "reached" the length, "closed", as nothing opens the crack,
+    ///     "surface", to which it came back, "kinks", where its direction jumps.
+    #[pyo3(signature = (stress, *, end, direction = "tangential_stress", friction = 0.0, tolerance = 1e-2))]
+    fn grow<'py>(
+        &self,
+        py: Python<'py>,
+        stress: &Bound<'py, PyAny>,
+        end: f64,
+        direction: &str,
+        friction: f64,
+        tolerance: f64,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let growing = of_cracks::Growing {
+            direction: core::direction_named(direction).map_err(to_python)?,
+            to: end,
+            friction,
+            tolerance,
+        };
+        let at = |crack: &of_cracks::Crack| -> Result<Vec<Vec<of_cracks::PlaneStress>>, Raised> {
+            let points = Self(crack.clone()).points(py);
+            let found = stress.call1((points,))?;
+            Ok(history(found.extract()?, crack.points().len())?)
+        };
+        let found = of_cracks::grow(self.0.path(), &growing, at).map_err(|Raised(error)| error)?;
+        let tips: Vec<_> = found.tips.iter().map(|tip| tip.at).collect();
+        let times = found.tips.first().map_or(0, |tip| tip.cycle.len());
+        let table = |f: &dyn Fn(&of_cracks::Intensity) -> f64| {
+            let of = |(n, l): (usize, usize)| f(&found.tips[l].cycle[n]);
+            Array2::from_shape_fn((times, found.tips.len()), of).into_pyarray(py)
+        };
+        let result = PyDict::new(py);
+        result.set_item("K_I", table(&|k| k.K_I))?;
+        result.set_item("K_II", table(&|k| k.K_II))?;
+        result.set_item("error", table(&|k| k.error))?;
+        set_path(py, &result, &tips)?;
+        result.set_item("path_error", found.error)?;
+        result.set_item("end", named(found.end))?;
+        Ok(result)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Crack(legs={:?}, x={:?})", self.legs(), self.x())
+    }
+}

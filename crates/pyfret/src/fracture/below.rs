@@ -1,0 +1,171 @@
+//! Cracks below a contact.
+
+use std::sync::Arc;
+
+use ::fracture as of_cracks;
+use contact_core::assess::crack as core;
+use contact_core::convolution::Tractions;
+use contact_core::fields::States;
+use ndarray::{Array2, Ix3};
+use numpy::IntoPyArray;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::told::{named, set_path};
+use crate::arguments::{Array, List, Mask, side};
+use crate::error::to_python;
+use crate::interruptible::interruptible;
+use crate::scene::{Body, Grid};
+
+/// States of a contact above cracks, as arrays over (state, x, y).
+#[derive(FromPyObject)]
+pub(crate) struct ContactStates<'py> {
+    #[pyo3(item)]
+    p: Array<'py, Ix3>,
+    #[pyo3(item)]
+    q_x: Array<'py, Ix3>,
+    #[pyo3(item)]
+    q_y: Array<'py, Ix3>,
+    #[pyo3(item)]
+    stick: Mask<'py, Ix3>,
+    #[pyo3(item)]
+    sigma_B: List<f64>,
+    #[pyo3(item)]
+    residual: Option<List<f64>>,
+}
+
+/// What `f` finds below a contact in its states.
+fn below_contact<T: Send>(
+    py: Python<'_>,
+    (body, body_number): (&Body, u8),
+    grid: &Grid,
+    given: ContactStates<'_>,
+    f: impl FnOnce(&core::Below<'_>, &States<'_>) -> Result<T, contact_core::Error> + Send,
+) -> PyResult<T> {
+    let shape = (given.sigma_B.len(), grid.0.nx, grid.0.ny);
+    let fields = [&given.q_x, &given.q_y, &given.p].map(|field| field.as_array());
+    if fields.iter().any(|s| s.dim() != shape) || given.stick.as_array().dim() != shape {
+        return Err(PyValueError::new_err(format!(
+            "p, q_x, q_y and stick must be of the shape {shape:?}, that of the states and the grid"
+        )));
+    }
+    let cells = grid.0.cells();
+    let fields = fields.map(|f| f.iter().copied().collect::<Vec<_>>());
+    let stick: Vec<bool> = given.stick.as_array().iter().copied().collect();
+    let of = |state: usize, field: usize| &fields[field][state * cells..(state + 1) * cells];
+    let tractions = |n: usize| Tractions {
+        q_x: Some(of(n, 0)),
+        q_y: Some(of(n, 1)),
+        p: Some(of(n, 2)),
+    };
+    let tractions: Vec<_> = (0..shape.0).map(tractions).collect();
+    let stick: Vec<&[bool]> = stick.chunks(cells).collect();
+    let residual = given.residual.unwrap_or_default();
+    let residual =
+        contact_core::fields::residual_of_layers(&body.0, &residual).map_err(to_python)?;
+    let below = core::Below {
+        body: &body.0,
+        side: side(body_number)?,
+        grid: &grid.0,
+    };
+    let sigma_B = given.sigma_B.0;
+    let stop = Arc::default();
+    let found = interruptible(py, &stop, || {
+        let states = States {
+            tractions: &tractions,
+            sigma_B: &sigma_B,
+            residual: &residual,
+            stick: Some(&stick),
+            stop: stop.clone(),
+        };
+        f(&below, &states)
+    })?;
+    found.map_err(to_python)
+}
+
+/// K over (state, length), as named arrays.
+fn tables<'py>(py: Python<'py>, found: &[core::OverCycle]) -> PyResult<Bound<'py, PyDict>> {
+    let states = found.first().map_or(0, |over| over.faces.len());
+    let table = |f: &dyn Fn(&core::OverCycle, usize) -> f64| {
+        Array2::from_shape_fn((states, found.len()), |(n, l)| f(&found[l], n)).into_pyarray(py)
+    };
+    let result = PyDict::new(py);
+    result.set_item("K_I", table(&|c, n| c.faces[n].K_I))?;
+    result.set_item("K_II", table(&|c, n| c.faces[n].K_II))?;
+    result.set_item("K_I_linear", table(&|c, n| c.linear[n].K_I))?;
+    result.set_item("K_II_linear", table(&|c, n| c.linear[n].K_II))?;
+    result.set_item("error", table(&|c, n| c.faces[n].error))?;
+    result.set_item("open", table(&|c, n| c.open[n]))?;
+    Ok(result)
+}
+
+/// K of cracks below a contact in several of its states; use :meth:`pyfret.Result.crack`.
+#[pyfunction]
+#[pyo3(signature = (body, grid, states, *, x, lengths, angle = 0.0, kink = None, azimuth = 0.0, friction = 0.0, body_number = 2))]
+pub(crate) fn crack_of_states<'py>(
+    py: Python<'py>,
+    body: Body,
+    grid: Grid,
+    states: ContactStates<'_>,
+    x: f64,
+    lengths: List<f64>,
+    angle: f64,
+    kink: Option<(f64, f64)>,
+    azimuth: f64,
+    friction: f64,
+    body_number: u8,
+) -> PyResult<Bound<'py, PyDict>> {
+    let cracks = core::Cracks {
+        x,
+        angle,
+        kink,
+        azimuth,
+        lengths: lengths.0,
+        friction,
+    };
+    let found = below_contact(py, (&body, body_number), &grid, states, |below, states| {
+        core::over_cycle(below, states, &cracks)
+    })?;
+    tables(py, &found)
+}
+
+/// A crack that grows below a contact; use :meth:`pyfret.Result.grow_crack`.
+#[pyfunction]
+#[pyo3(signature = (body, grid, states, *, x, start, end, direction, tolerance, angle = 0.0, azimuth = 0.0, friction = 0.0, body_number = 2))]
+pub(crate) fn crack_growth_of_states<'py>(
+    py: Python<'py>,
+    body: Body,
+    grid: Grid,
+    states: ContactStates<'_>,
+    x: f64,
+    start: f64,
+    end: f64,
+    direction: &str,
+    tolerance: f64,
+    angle: f64,
+    azimuth: f64,
+    friction: f64,
+    body_number: u8,
+) -> PyResult<Bound<'py, PyDict>> {
+    let growth = core::Growth {
+        x,
+        angle,
+        azimuth,
+        start,
+        growing: of_cracks::Growing {
+            direction: core::direction_named(direction).map_err(to_python)?,
+            to: end,
+            friction,
+            tolerance,
+        },
+    };
+    let found = below_contact(py, (&body, body_number), &grid, states, |below, states| {
+        core::grown(below, states, &growth)
+    })?;
+    let result = tables(py, &found.over)?;
+    set_path(py, &result, &found.tips)?;
+    result.set_item("path_error", found.error)?;
+    result.set_item("end", named(found.end))?;
+    Ok(result)
+}

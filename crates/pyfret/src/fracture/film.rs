@@ -1,0 +1,41 @@
+//! Cracks in films, and fronts that are half an ellipse.
+
+use ::fracture as of_cracks;
+use pyo3::prelude::*;
+
+use super::told::refused;
+use crate::material::Elastic;
+
+/// Factor from the plane K to the deepest point of a semi-elliptic crack of the aspect a/c <= 1.
+///
+/// Newman and Raju's K under uniform tension over that of a straight front: an estimate, which
+/// takes the stress as constant along the front. J. C. Newman, I. S. Raju, NASA TM 85793 (1984).
+#[pyfunction]
+pub(crate) fn ellipse_factor(aspect: f64) -> PyResult<f64> {
+    of_cracks::ellipse_factor(aspect).map_err(refused)
+}
+
+/// A film on another material: materials of both.
+fn film(film: Elastic, below: Elastic) -> PyResult<of_cracks::Film> {
+    let pair = |m: Elastic| (m.0.E, m.0.nu);
+    of_cracks::Film::of(pair(film), pair(below)).map_err(refused)
+}
+
+/// Factor g of a channel crack in a film; use :func:`pyfret.fracture.channel_release`.
+#[pyfunction]
+pub(crate) fn channel_crack(py: Python<'_>, film_: Elastic, below: Elastic) -> PyResult<f64> {
+    let film = film(film_, below)?;
+    py.detach(|| film.channel()).map_err(refused)
+}
+
+/// Factor F of a crack with its tip in a film; use :func:`pyfret.fracture.film_intensity`.
+#[pyfunction]
+pub(crate) fn partial_crack(
+    py: Python<'_>,
+    film_: Elastic,
+    below: Elastic,
+    depth: f64,
+) -> PyResult<f64> {
+    let film = film(film_, below)?;
+    py.detach(|| film.partial(depth)).map_err(refused)
+}

@@ -1,0 +1,126 @@
+//! Arrest and life of a crack from its K over the length.
+
+use ::fracture as of_cracks;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use super::told::refused;
+use crate::arguments::List;
+
+/// A curve of K over lengths [m] from the largest and smallest K_I of the cycle [Pa m^0.5].
+fn curve(lengths: List<f64>, K_max: List<f64>, K_min: List<f64>) -> PyResult<of_cracks::Curve> {
+    if K_max.len() != K_min.len() {
+        return Err(PyValueError::new_err(
+            "K_max and K_min: must be of the same length",
+        ));
+    }
+    let extremes = K_max.into_iter().zip(K_min);
+    let extremes = extremes.map(|(K_max, K_min)| of_cracks::Extremes { K_max, K_min });
+    of_cracks::Curve::new(lengths.0, extremes.collect()).map_err(refused)
+}
+
+/// Threshold as its numbers: dK_th, dS_0, Y, Walker's exponent, table of R.
+type Numbers = (f64, Option<f64>, f64, Option<f64>, Option<Vec<(f64, f64)>>);
+
+fn threshold((dK_th, dS_0, Y, walker, table): Numbers) -> PyResult<of_cracks::Threshold> {
+    let ratio = match (walker, table) {
+        (None, None) => of_cracks::LoadRatio::None,
+        (Some(gamma), None) => of_cracks::LoadRatio::Walker { gamma },
+        (None, Some(rows)) => of_cracks::LoadRatio::Table(rows),
+        _ => return Err(PyValueError::new_err("walker and table: give one of both")),
+    };
+    let threshold = of_cracks::Threshold {
+        dK_th,
+        dS_0,
+        Y,
+        ratio,
+    };
+    threshold.check().map_err(refused)?;
+    Ok(threshold)
+}
+
+/// Threshold range of K at R = 0 [Pa m^0.5] at lengths [m], and El Haddad's a_0 [m].
+#[pyfunction]
+pub(crate) fn threshold_at(threshold_: Numbers, lengths: List<f64>) -> PyResult<(Vec<f64>, f64)> {
+    let of = threshold(threshold_)?;
+    Ok((lengths.iter().map(|l| of.at(*l)).collect(), of.a_0()))
+}
+
+/// Equivalent range of K at R = 0 [Pa m^0.5] of extremes of K.
+#[pyfunction]
+pub(crate) fn equivalent_range(
+    threshold_: Numbers,
+    K_max: List<f64>,
+    K_min: List<f64>,
+) -> PyResult<Vec<f64>> {
+    let of = threshold(threshold_)?;
+    let pairs = K_max.into_iter().zip(K_min);
+    let range = |(K_max, K_min)| of.equivalent(of_cracks::Extremes { K_max, K_min });
+    Ok(pairs.map(range).collect())
+}
+
+/// Verdict, length where it stops, crossings, margin and its length.
+type Arrested = (&'static str, Option<f64>, Vec<f64>, f64, f64);
+
+/// What becomes of a crack: verdict, length where it stops, crossings, margin and its length.
+#[pyfunction]
+pub(crate) fn arrest(
+    lengths: List<f64>,
+    K_max: List<f64>,
+    K_min: List<f64>,
+    threshold_: Numbers,
+    start: f64,
+) -> PyResult<Arrested> {
+    let found = curve(lengths, K_max, K_min)?
+        .arrest(&threshold(threshold_)?, start)
+        .map_err(refused)?;
+    let (verdict, length) = match found.verdict {
+        of_cracks::Verdict::Dormant => ("dormant", Some(start)),
+        of_cracks::Verdict::Stops(l) => ("stops", Some(l)),
+        of_cracks::Verdict::Grows => ("grows", None),
+    };
+    Ok((
+        verdict,
+        length,
+        found.crossings,
+        found.margin,
+        found.margin_at,
+    ))
+}
+
+/// Cycles of growth by Paris' law, where it ends [m] and whether it stops there.
+#[pyfunction]
+#[pyo3(signature = (lengths, K_max, K_min, threshold_, *, C, m, growth, short, start, end))]
+pub(crate) fn crack_life(
+    lengths: List<f64>,
+    K_max: List<f64>,
+    K_min: List<f64>,
+    threshold_: Numbers,
+    C: f64,
+    m: f64,
+    growth: &str,
+    short: bool,
+    start: f64,
+    end: f64,
+) -> PyResult<(f64, f64, bool)> {
+    let growth = match growth {
+        "plain" => of_cracks::Growth::Plain,
+        "powers" => of_cracks::Growth::Powers,
+        "difference" => of_cracks::Growth::Difference,
+        other => {
+            return Err(PyValueError::new_err(format!(
+                "threshold_in = {other:?}: must be 'plain', 'powers' or 'difference'"
+            )));
+        }
+    };
+    let rate = of_cracks::Rate {
+        C,
+        m,
+        growth,
+        short,
+    };
+    let life = curve(lengths, K_max, K_min)?
+        .life(&threshold(threshold_)?, &rate, (start, end))
+        .map_err(refused)?;
+    Ok((life.cycles, life.to, life.stopped))
+}
