@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from pyfret.fatigue.cycles import history
-from pyfret.fracture.below import crack
+from pyfret.fracture.below import Cycle, crack
 from pyfret.fracture.film import channel_release
 from pyfret.fracture.interface import over_cycle
 
@@ -60,7 +60,8 @@ def first_to_fail(
 ) -> FirstToFail:
     """Compare what a closed cycle does to film, interface and substrate in the plane y = 0.
 
-    All three are proportional to the stress, so that the largest goes first as loads grow.
+    All three are proportional to the stress, so that without residual stress the largest goes first
+    as loads grow.
 
     Parameters
     ----------
@@ -122,7 +123,9 @@ def first_to_fail(
     if threshold is not None:
         if lengths is None:
             shortest = BELOW * sum(c.thickness for c in body.coatings)
-            lengths = np.geomspace(shortest, 2.0 * result.a_H, LENGTHS).tolist()
+            half_width = Cycle(result, cycle, body_number, residual).half_width
+            longest = max(2.0 * half_width, 2.0 * shortest)
+            lengths = np.geomspace(shortest, longest, LENGTHS).tolist()
         cracks = crack(
             result, x, lengths=lengths, body_number=body_number, cycle=cycle, residual=residual
         )
