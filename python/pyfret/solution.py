@@ -10,9 +10,10 @@ from pyfret._core import Scene
 from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
 from pyfret._util.units import line_contact
-from pyfret.result import Result, Snapshot, open
+from pyfret.result import Result, open
 from pyfret.run.dataset import dataset
 from pyfret.scene.warnings import doubt_run, doubt_scene
+from pyfret.snapshot import Snapshot
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

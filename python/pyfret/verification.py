@@ -29,7 +29,8 @@ from pyfret._core import (
 from pyfret.solution import solve
 
 if TYPE_CHECKING:
-    from pyfret.result import Result, Snapshot
+    from pyfret.result import Result
+    from pyfret.snapshot import Snapshot
 
 __all__ = ["Check", "Verification", "verify"]
 

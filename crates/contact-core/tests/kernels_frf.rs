@@ -4,7 +4,7 @@
 
 mod kernel_tables;
 
-use contact_core::kernels::{Complex64, Stack};
+use contact_core::kernels::Stack;
 use kernel_tables::{body, load, number, off, whole};
 
 /// Relative to the largest entry of the same kind: rounding of a few hundred operations.

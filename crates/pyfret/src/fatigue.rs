@@ -17,8 +17,11 @@ use crate::arguments::{Array, List};
 use crate::error::of_criterion as refused;
 use crate::interruptible::interruptible;
 
+/// A number of what a criterion finds at a point.
+type Number = fn(&core::AtPoint) -> f64;
+
 /// The numbers of a criterion at a point, by the names that Python has for them.
-pub(crate) const AT_POINT: [(&str, fn(&core::AtPoint) -> f64); 7] = [
+pub(crate) const AT_POINT: [(&str, Number); 7] = [
     ("value", |p| p.value),
     ("missed", |p| p.missed),
     ("planes", |p| p.planes as f64),
@@ -342,7 +345,7 @@ pub(crate) fn criterion_on<'py>(
     };
     let work = || core::evaluate(&criterion.0, &view, &search, &stop);
     let points = interruptible(py, &stop, work)?.map_err(refused)?;
-    let of = |f: fn(&core::AtPoint) -> f64| {
+    let of = |f: Number| {
         let values: Array1<f64> = points.iter().map(f).collect();
         values.into_pyarray(py)
     };

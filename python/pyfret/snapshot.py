@@ -1,0 +1,197 @@
+"""The state of one increment, and all that follows from it."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any, Literal
+
+from pyfret.export.write import write as export
+from pyfret.run import Run, State
+from pyfret.run.tables import state_html
+from pyfret.subsurface import contact
+from pyfret.subsurface.tensor import LABELS
+from pyfret.subsurface.zones import Zone, zone
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Sequence
+
+    import xarray as xr
+    from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike
+
+    from pyfret.export.frame import Frame
+    from pyfret.subsurface.tensor import Stress
+
+__all__ = ["Figures", "Snapshot"]
+
+
+class Figures:
+    """The figures of :mod:`pyfret.plot` of one thing, such as ``result.plot.fretting_loop()``.
+
+    Called itself, six of them in one: ``result.plot()``.
+    """
+
+    def __init__(self, shown: Run | State) -> None:
+        self._shown = shown
+
+    def __call__(self, *, units: Literal["auto", "dimensionless", "SI"] = "auto") -> Figure:
+        """Draw six panels in one figure: :func:`pyfret.plot.overview`."""
+        from pyfret import plot
+
+        return plot.overview(self._shown, units=units)
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        """Give the figure of that name, drawn of the thing."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        from pyfret import plot
+
+        return partial(getattr(plot, name), self._shown)
+
+    def __dir__(self) -> list[str]:
+        """The figures of such a thing."""
+        from pyfret import plot
+
+        kind = "Run" if isinstance(self._shown, Run) else "State"
+        return [name for name in plot.__all__ if kind in first_annotation(getattr(plot, name))]
+
+    def __repr__(self) -> str:
+        """Give the names of the figures."""
+        return f"figures of {self._shown!r}: {', '.join(dir(self))}"
+
+
+def first_annotation(function: Callable[..., Any]) -> str:
+    """The type of the first argument of a function, as it is written."""
+    return str(next(iter(getattr(function, "__annotations__", {}).values()), ""))
+
+
+class Snapshot(State):
+    """The contact at the end of one increment: its scalars and its fields.
+
+    Every variable of :attr:`dataset` is an attribute as well, e.g. ``snapshot.p``; :attr:`plot` has
+    the figures that show it.
+    """
+
+    @property
+    def plot(self) -> Figures:
+        """The figures that show an increment: ``snapshot.plot()``, ``.plot.stick_slip()``."""
+        return Figures(self)
+
+    def _repr_html_(self) -> str:
+        """Tables for notebooks."""
+        return state_html(self)
+
+    def _elsewhere(self, name: str) -> dict[str, str]:
+        stresses = {of: f"it is a stress, snapshot.stress().{of}" for of in LABELS}
+        return {**stresses, **super()._elsewhere(name)}
+
+    def stress(
+        self,
+        z: ArrayLike | None = None,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        body_number: int = 2,
+        bulk: bool = True,
+        residual: Sequence[float] | None = None,
+    ) -> Stress:
+        """Stress below the contact, in the lower body unless `body_number` is 1.
+
+        Parameters
+        ----------
+        z : float or array, optional
+            Depths [m]; those on an interface appear twice, once in each layer (default: those that
+            the layers ask for, down to twice :attr:`length`).
+        x, y : float, optional
+            With `y`, the section along x at that y; with `x`, that along y; with both, the line
+            below a point; with neither, the whole plane at every depth given, or where none is, the
+            section at y = 0.
+        body_number : 1 or 2
+            The body.
+        bulk : bool
+            Whether its bulk stress is part of the stress.
+        residual : sequence of float, optional
+            Residual stress of every layer from the surface down, the substrate's last [Pa], tension
+            positive: biaxial and uniform, added to s_xx and s_yy. It has no effect on the contact.
+
+        Warns
+        -----
+        SceneWarning
+            The first interface is nearer to the surface than a cell is long.
+
+        Examples
+        --------
+        >>> below = result.at(-1).stress()  # doctest: +SKIP
+        >>> below.maximum("von_mises")  # doctest: +SKIP
+        """
+        return contact.stress_below(
+            self,
+            z,
+            x=x,
+            y=y,
+            body_number=body_number,
+            bulk=bulk,
+            residual=residual,
+        )
+
+    def displacement(
+        self,
+        z: ArrayLike | None = None,
+        *,
+        x: float | None = None,
+        y: float | None = None,
+        body_number: int = 2,
+    ) -> xr.Dataset:
+        """Displacements u_x, u_y, u_z of a body below the contact [m], as in :meth:`stress`."""
+        return contact.displacement_below(self, z, x=x, y=y, body_number=body_number)
+
+    def stick_zone(self, *, y: float = 0.0) -> Zone:
+        """Where the stick zone begins and ends along a line of constant `y` [m], within the cells.
+
+        Its ``left`` and ``right`` border and its ``middle``, the offset that a bulk stress gives
+        it, in m; NaN where nothing sticks.
+        """
+        return zone(self, "stick", y)
+
+    def contact_zone(self, *, y: float = 0.0) -> Zone:
+        """Where the contact begins and ends along a line of constant `y`, as :meth:`stick_zone`."""
+        return zone(self, "contact", y)
+
+    def write_volume(
+        self,
+        out: str | os.PathLike[str],
+        z: ArrayLike | None = None,
+        *,
+        of: Sequence[str] = ("von_mises",),
+        body_number: int = 2,
+        bulk: bool = True,
+        residual: Sequence[float] | None = None,
+    ) -> None:
+        """Write stress, displacement in the volume: :func:`pyfret.subsurface.write_volume`."""
+        contact.write_below(
+            self, out, z, of=of, body_number=body_number, bulk=bulk, residual=residual
+        )
+
+    def export(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        frame: Frame | None = None,
+        body_number: int = 2,
+        form: Literal["csv", "abaqus", "aster"] = "csv",
+        of: Literal["p", "q_x", "q_y"] = "p",
+        mesh: str | os.PathLike[str] | None = None,
+        points: ArrayLike | None = None,
+    ) -> None:
+        """Write tractions, forces on a mesh or stress at points: :func:`pyfret.export.write`."""
+        export(
+            self,
+            path,
+            frame=frame,
+            body_number=body_number,
+            form=form,
+            of=of,
+            mesh=mesh,
+            points=points,
+        )
