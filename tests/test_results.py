@@ -47,6 +47,7 @@ SCALARS = [
     "alternations",
     "normal_iterations",
     "tangential_iterations",
+    "path_grid",
     "parts",
 ]
 FIELDS = [

@@ -1480,6 +1480,11 @@ class Settings:
     path_tolerance : float, optional
         Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over
         the largest shear of the path (L2, default 5e-3).
+    path_grid : "auto", "same" or int, optional
+        Cells along x of the grid for increments that are solved for the path alone (fields not kept,
+        not the end of a branch, constant normal force and tilting moments): a half or a quarter of
+        those of the grid; ``"same"``: the grid itself. ``"auto"`` (default): chosen with the
+        increments, such that ``path_tolerance`` holds; ``"same"`` where these are given.
     turning : bool, optional
         Let slip follow the turn of the shear within an increment (default True): the path becomes
         of second order.
@@ -1506,6 +1511,7 @@ class Settings:
         entering: bool | None = None,
         turning: bool | None = None,
         path_tolerance: float | None = None,
+        path_grid: Literal["auto", "same"] | int | None = None,
         max_alternations: int | None = None,
         max_iterations: int | None = None,
         kernel: _KernelMethod | None = None,
@@ -1528,6 +1534,9 @@ class Settings:
     @property
     def path_tolerance(self) -> float:
         """Largest error of the shear that increments are chosen for."""
+    @property
+    def path_grid(self) -> Literal["auto", "same"] | int:
+        """Grid of the increments that are solved for the path alone."""
     @property
     def max_alternations(self) -> int:
         """Most passes of the intermediate loop per increment."""

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use contact_core::estimate::choose_increments;
 use contact_core::march as core;
 use contact_core::output::{FIELDS, Kind, SCALARS, group_attributes};
+use contact_core::scene::PathGrid;
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -44,7 +45,10 @@ impl March {
         scene.0.check_fit().map_err(to_python)?;
         let stop = Arc::default();
         let march = interruptible(py, &stop, || {
-            let scene = choose_increments(&scene.0, &stop)?;
+            let mut scene = scene.0;
+            // The fields of every increment can be read.
+            scene.settings.solver.path_grid = PathGrid::Same;
+            let scene = choose_increments(&scene, &stop)?;
             core::March::until(&scene, &stop)
         })?;
         Ok(Self {

@@ -7,7 +7,9 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::trial::{PathError, Trial};
+use super::path_grid::choose_path_grid;
+use super::trial::Trial;
+use super::two_runs::PathError;
 use crate::error::Error;
 use crate::scene::{Branch, LoadPath, Loads, RigidMotion, Scene, Spacing};
 
@@ -50,7 +52,8 @@ const MOST: usize = 20_000;
 const MOST_OF_BRANCH: usize = 1000;
 
 /// The scene with increments chosen for each branch that has none, for an error of the shear within
-/// `solver.path_tolerance`, and with the estimated error of each branch.
+/// `solver.path_tolerance`, with the estimated error of each branch, and with the grid that the path
+/// is solved on.
 ///
 /// A scene whose increments are given is returned as it is. Ends when `stop` is raised:
 /// [`Error::Interrupted`] after increment 0.
@@ -79,6 +82,7 @@ pub fn choose_increments(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scene,
             branch.path_error = Some(error.q);
         }
     }
+    choose_path_grid(&mut chosen, stop)?;
     Ok(chosen)
 }
 

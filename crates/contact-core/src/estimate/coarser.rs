@@ -9,7 +9,7 @@ use super::branch_ends::BranchEnds;
 use super::numbers::{MOTIONS, NUMBERS, numbers};
 use crate::error::Error;
 use crate::march::{BranchSummary, March, Tractions, summarise};
-use crate::scene::{Grid, RigidMotion, SaveFields, Scene};
+use crate::scene::{Grid, PathGrid, RigidMotion, SaveFields, Scene};
 
 /// Cells of the coarser grids each way, over those of the grid.
 const PARTS: [f64; 2] = [0.5, 0.375];
@@ -97,6 +97,7 @@ fn coarser(scene: &Scene, part: f64) -> Result<Scene, Error> {
     let (along_x, along_y) = grid.extent();
     let mut coarse = scene.clone();
     coarse.settings.save = SaveFields::Branches;
+    coarse.settings.solver.path_grid = PathGrid::Same;
     coarse.grid = Grid {
         nx,
         ny,

@@ -33,7 +33,7 @@ use super::numbers::{
     CONTACT_RADIUS, DISSIPATED, LOADS, MOTIONS, NUMBERS, P_MAX, STICK_RATIO, is_given, numbers,
 };
 use super::path_error::path_errors;
-use super::trial::PathError;
+use super::two_runs::PathError;
 use crate::error::Error;
 use crate::march::{BranchSummary, Increment, TANGENTIAL_SHARE, Tractions, summarise};
 use crate::plan::Plan;

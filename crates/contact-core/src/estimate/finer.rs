@@ -11,7 +11,7 @@ use std::sync::atomic::AtomicBool;
 use super::numbers::{NUMBERS, numbers};
 use crate::error::Error;
 use crate::march::{March, summarise};
-use crate::scene::{Grid, SaveFields, Scene};
+use crate::scene::{Grid, PathGrid, SaveFields, Scene};
 
 /// Most increments of a branch.
 const INCREMENTS: usize = 24;
@@ -76,6 +76,7 @@ pub fn finest(scene: &Scene) -> Option<Scene> {
         ..scene.clone()
     };
     fine.settings.save = SaveFields::Branches;
+    fine.settings.solver.path_grid = PathGrid::Same;
     fine.settings.solver.tolerance = Some(scene.tolerance().max(TOLERANCE));
     for branch in &mut fine.path.branches {
         branch.increments = Some(branch.count().min(INCREMENTS));

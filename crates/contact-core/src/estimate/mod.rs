@@ -8,7 +8,9 @@ mod error_bars;
 mod finer;
 mod numbers;
 mod path_error;
+mod path_grid;
 mod trial;
+mod two_runs;
 
 pub use bar::Bar;
 pub use branch_ends::BranchEnds;

@@ -17,7 +17,9 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::choice::choose_increments;
-use super::trial::{PathError, Trial};
+use super::path_grid::path_grid_errors;
+use super::trial::Trial;
+use super::two_runs::PathError;
 use crate::error::Error;
 use crate::scene::Scene;
 
@@ -37,12 +39,21 @@ pub fn estimate_path_error(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Scen
     Ok(estimated)
 }
 
-/// Errors of the increments at the end of each branch of a path whose increments are all given.
+/// Errors at the end of each branch of a path whose increments are all given: of the increments and
+/// of the grid that the path is solved on.
 pub(crate) fn path_errors(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<Vec<PathError>, Error> {
     if scene.friction.mu == 0.0 {
         // Without friction the pressure depends on the loads alone, not on the path.
         let branches = scene.path.branches.iter();
         return Ok(branches.map(|_| PathError::default()).collect());
     }
-    Trial::new(scene, stop)?.errors(&scene.path, |_| true)
+    let mut errors = Trial::new(scene, stop)?.errors(&scene.path, |_| true)?;
+    for (error, of_grid) in errors.iter_mut().zip(path_grid_errors(scene, stop)?) {
+        error.p += of_grid.p;
+        error.q += of_grid.q;
+        for (error, of_grid) in error.numbers.iter_mut().zip(of_grid.numbers) {
+            *error += of_grid.abs().copysign(*error);
+        }
+    }
+    Ok(errors)
 }

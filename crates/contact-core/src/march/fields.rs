@@ -3,7 +3,7 @@
 use ndarray::Array2;
 
 use super::domain::on_grid;
-use super::{March, Motion};
+use super::{March, Motion, State};
 use crate::plan::Half;
 
 /// p, `q_x`, `q_y` \[Pa\], each of shape (nx, ny).
@@ -45,31 +45,28 @@ impl March {
     /// The shear tractions q_x, q_y after the last increment on the whole grid \[Pa\], shape (nx,
     /// ny).
     pub fn shear(&self) -> [Array2<f64>; 2] {
-        let q = &self.state.interface.q;
-        let q_y = on_grid(&self.problem, &self.state, &q[1], Half::Odd)
-            * self.problem.scene.friction.stretch();
-        [on_grid(&self.problem, &self.state, &q[0], Half::Even), q_y]
+        self.shear_of(&self.caught_up())
+    }
+
+    fn shear_of(&self, state: &State) -> [Array2<f64>; 2] {
+        let unfold = |f: &[f64], half| on_grid(&self.problem, state, f, half);
+        let [q_x, q_y] = &state.interface.q;
+        let q_y = unfold(q_y, Half::Odd) * self.problem.scene.friction.stretch();
+        [unfold(q_x, Half::Even), q_y]
     }
 
     /// p, `q_x`, `q_y` after the last increment on the whole grid \[Pa\], shape (nx, ny).
     pub fn tractions(&self) -> Tractions {
-        let [q_x, q_y] = self.shear();
-        [
-            on_grid(
-                &self.problem,
-                &self.state,
-                &self.state.interface.p,
-                Half::Even,
-            ),
-            q_x,
-            q_y,
-        ]
+        let state = self.caught_up();
+        let p = on_grid(&self.problem, &state, &state.interface.p, Half::Even);
+        let [q_x, q_y] = self.shear_of(&state);
+        [p, q_x, q_y]
     }
 
     /// The fields after the last increment on the whole grid.
     pub fn fields(&self) -> Fields {
-        let unfold = |f: &[f64], half| on_grid(&self.problem, &self.state, f, half);
-        let s = &self.state;
+        let s = &*self.caught_up();
+        let unfold = |f: &[f64], half| on_grid(&self.problem, s, f, half);
         let now = &s.interface;
         let Motion {
             delta_z,
@@ -83,9 +80,9 @@ impl March {
             .scene
             .grid
             .map(|x, y| delta_z + y * phi_x - x * phi_y);
-        let [q_x, q_y] = self.shear();
+        let [q_x, q_y] = self.shear_of(s);
         let p = unfold(&now.p, Half::Even);
-        let [u_x, u_y, u_z] = self.domain.displacements(&self.problem, &self.state);
+        let [u_x, u_y, u_z] = self.domain.displacements(&self.problem, s);
         let mask = |mask: &[bool]| {
             let field: Vec<f64> = mask.iter().map(|&yes| f64::from(u8::from(yes))).collect();
             unfold(&field, Half::Even).mapv(|yes| yes > 0.0)

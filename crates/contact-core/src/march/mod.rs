@@ -4,7 +4,9 @@
 //! increment: drives -> no slip -> guess -> solve -> check -> account.
 
 mod accounts;
+mod carried;
 mod check;
+mod coupling;
 mod direction;
 mod domain;
 mod entry;
@@ -17,6 +19,7 @@ mod guess;
 mod increment;
 mod lifted;
 mod off_grid;
+mod path_grid;
 mod problem;
 mod reached;
 mod results;
@@ -42,6 +45,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use self::domain::Domain;
+use self::path_grid::Along;
 use self::problem::{Largest, Problem};
 use self::retry::{CONVOLUTIONS, reach};
 use self::setup::{Failure, Workspace};
@@ -58,6 +62,8 @@ pub struct March {
     domain: Domain,
     state: State,
     workspace: Workspace,
+    /// The same path on a coarser grid, if there is one.
+    coarse: Option<Box<March>>,
 }
 
 impl March {
@@ -79,17 +85,20 @@ impl March {
     pub fn planned(scene: &Scene, plan: Plan, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
         scene.path.check_increments()?;
         plan.check_memory(scene)?;
+        let coarse = Self::on_path_grid(scene, &plan, stop)?;
         let domain = Domain::new(scene, &plan, stop)?;
         let mut solved = scene.clone();
         solved.settings.solver.tolerance = Some(scene.tolerance());
         Ok(Self {
             points: plan.points(scene),
-            state: unloaded(scene, &domain),
+            state: unloaded(scene, &domain, coarse.as_deref()),
+            coarse,
             workspace: Workspace::new(domain.cells(), scene.friction.mu),
             problem: Problem {
                 largest: Largest::of(&scene.path),
                 approach: scene.approach(),
                 cycles: 0.0,
+                share: 1.0,
                 scene: solved,
                 plan,
                 stop: stop.clone(),
@@ -112,7 +121,14 @@ impl March {
         stop: &Arc<AtomicBool>,
     ) -> Result<Self, Error> {
         let mut march = Self::until(scene, stop)?;
-        let fits = state.fits(&scene.grid, march.problem.plan.mirror);
+        let mirror = march.problem.plan.mirror;
+        // A run whose path grid did not converge continued without one.
+        march.coarse = march.coarse.filter(|_| state.along.is_some());
+        let path_fits = match (&march.coarse, &state.along) {
+            (Some(coarse), Some(along)) => along.fits(&coarse.problem.scene.grid, mirror),
+            (_, along) => along.is_none(),
+        };
+        let fits = state.fits(&scene.grid, mirror) && path_fits;
         if !fits || state.increments > march.points.len() {
             return Err(Error::invalid(
                 "state",
@@ -127,6 +143,9 @@ impl March {
     /// Ends the run when `flag` is raised, within the increment: [`Error::Interrupted`], and the
     /// state is that of the last increment that was finished.
     pub fn stop_on(&mut self, flag: Arc<AtomicBool>) {
+        if let Some(coarse) = &mut self.coarse {
+            coarse.stop_on(flag.clone());
+        }
         self.problem.stop = flag;
     }
 
@@ -135,7 +154,10 @@ impl March {
         self.problem.scene.path = path.clone();
         self.problem.largest = Largest::of(path);
         self.points = self.problem.plan.points(&self.problem.scene);
-        let unloaded = || unloaded(&self.problem.scene, &self.domain);
+        if let Some(coarse) = &mut self.coarse {
+            coarse.go_along(path, None);
+        }
+        let unloaded = || unloaded(&self.problem.scene, &self.domain, self.coarse.as_deref());
         self.state = state.unwrap_or_else(unloaded);
     }
 
@@ -143,6 +165,9 @@ impl March {
     /// ([`Methods`](crate::plan::Methods)).
     pub(crate) fn grow_in(&mut self, steps: usize) {
         self.problem.plan.methods.growth_steps = steps;
+        if let Some(coarse) = &mut self.coarse {
+            coarse.grow_in(steps);
+        }
     }
 
     /// The scene, with the tolerance that it is solved with.
@@ -174,11 +199,20 @@ impl March {
         let end = &self.problem.scene.path.branches[point.branch].to;
         let (forces, motions) = (self.state.loads.forces(), self.state.motion.motions());
         let point = point.resolved(end, forces, motions);
+        Some(if self.coarse.is_some() {
+            self.on_both_grids(&point)
+        } else {
+            self.solve(&point)
+        })
+    }
+
+    /// Computes the increment to a point.
+    fn solve(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let before = self.domain.work();
         self.domain.allow(Convolutions::whole(CONVOLUTIONS));
         // The state in the window that it was found in, once that has changed.
         let mut found = None;
-        let mut ended = self.in_a_window(&point, &mut found);
+        let mut ended = self.in_a_window(point, &mut found);
         match &mut ended {
             // Failed attempts count as work, too.
             Ok(increment) => {
@@ -193,7 +227,7 @@ impl March {
                 }
             }
         }
-        Some(ended)
+        ended
     }
 
     /// Computes an increment in a window that is wide enough for it. The window changes here,
@@ -232,7 +266,10 @@ impl March {
 }
 
 /// The state before the first increment.
-fn unloaded(scene: &Scene, domain: &Domain) -> State {
+fn unloaded(scene: &Scene, domain: &Domain, coarse: Option<&March>) -> State {
     let touching = domain.window.geometry.touching(scene, [0.0; 3]);
-    State::unloaded(domain.shape(), domain.cells(), touching)
+    State {
+        along: coarse.map(|coarse| Box::new(Along::beginning(&coarse.state))),
+        ..State::unloaded(domain.shape(), domain.cells(), touching)
+    }
 }

@@ -24,6 +24,8 @@ pub(super) struct Problem {
     pub(super) approach: f64,
     /// Cycles of wear done.
     pub(super) cycles: f64,
+    /// Part of the tolerance that the increment is solved to.
+    pub(super) share: f64,
     /// Raised from outside to end the run.
     pub(super) stop: Arc<AtomicBool>,
 }
@@ -138,7 +140,7 @@ impl Problem {
     /// The settings of the loops for a share of the tolerance, with tolerances as lengths \[m\].
     pub(super) fn params(&self, share: f64) -> AlternationParams {
         let solver = &self.scene.settings.solver;
-        let gap = share * self.scene.tolerance() * self.approach;
+        let gap = self.share * share * self.scene.tolerance() * self.approach;
         // An error of the shear acts on the gap, however large mu is: the factor mu is capped at 1.
         let slip = TANGENTIAL_SHARE * self.scene.friction.scale().min(1.0) * gap;
         AlternationParams {

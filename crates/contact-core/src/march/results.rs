@@ -22,6 +22,19 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// From the motions in the order of [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
+    pub(super) fn from_motions(motions: [f64; 6]) -> Self {
+        let [delta_z, phi_x, phi_y, delta_x, delta_y, phi_z] = motions;
+        Self {
+            delta_z,
+            delta_x,
+            delta_y,
+            phi_x,
+            phi_y,
+            phi_z,
+        }
+    }
+
     /// The motions in the order of [`RigidMotion::ALL`](crate::scene::RigidMotion::ALL).
     pub fn motions(&self) -> [f64; 6] {
         [
@@ -153,6 +166,9 @@ pub struct Increment {
     pub p_max: f64,
     /// Largest shear traction |q| \[Pa\].
     pub q_max: f64,
+    /// Cells along x of the grid that it was solved on; fewer than those of the scene's grid where
+    /// it was solved for the path alone (`solver.path_grid`).
+    pub path_grid: usize,
     /// Energies of the increment.
     pub energy: Energy,
     /// Residuals of the equations.

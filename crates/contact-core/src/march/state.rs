@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Motion;
+use super::path_grid::Along;
 use crate::cells::Arms;
 use crate::plan::Mirror;
 use crate::scene::{Grid, LoadPoint, Loads};
@@ -48,6 +49,9 @@ pub struct State {
     pub(crate) residual: [Vec<f64>; 2],
     /// Change of the loads in the last increment.
     pub(crate) step: Loads,
+    /// State of the coarser grid that the path is solved on, if there is one; the other fields are
+    /// then those of the last increment that was solved on the grid of the scene.
+    pub(crate) along: Option<Box<Along>>,
 }
 
 impl State {
@@ -76,6 +80,7 @@ impl State {
             q_before: pair(),
             residual: pair(),
             step: Loads::default(),
+            along: None,
         }
     }
 

@@ -324,6 +324,11 @@ pub const SCALARS: &[Scalar] = &[
         "iterations of the tangential solver",
         |i| i.work.tangential_iterations as f64,
     ),
+    count(
+        "path_grid",
+        "cells along x of the grid that the increment was solved on",
+        |i| i.path_grid as f64,
+    ),
     count("parts", "pieces that the increment was solved in", |i| {
         i.work.parts as f64
     }),

@@ -34,7 +34,8 @@ pub use motion::{Prescribed, RigidMotion};
 pub use number_files::FileOfNumbers;
 pub use resolution::{FEW_CELLS, FEWEST_CELLS};
 pub use settings::{
-    KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
+    KernelMethod, KernelSettings, PathGrid, Preset, SaveFields, Settings, SkipSettings,
+    SolverSettings,
 };
 pub use shape::{Rough, Shape};
 pub use surface_map::SurfaceMap;
@@ -129,6 +130,7 @@ impl Scene {
         self.check_yardsticks()?;
         self.check_sense()?;
         self.settings.check()?;
+        self.check_path_grid()?;
         self.check_saved()
     }
 
@@ -266,6 +268,41 @@ impl Scene {
         let layers = bodies.iter().flat_map(|body| &body.coatings);
         let soft: f64 = layers.map(|c| c.thickness / c.material.E).sum();
         of_half_spaces.min(W / (length * width) * soft)
+    }
+
+    /// Fails if the path grid does not divide the grid, or the scene needs its own grid for the path.
+    pub(crate) fn check_path_grid(&self) -> Result<(), Error> {
+        let PathGrid::Cells(cells) = self.settings.solver.path_grid else {
+            return Ok(());
+        };
+        let (nx, ny) = (self.grid.nx, self.grid.ny);
+        let divides = |ratio: &usize| nx.is_multiple_of(2 * ratio) && ny.is_multiple_of(2 * ratio);
+        let rolls = self.path.branches.iter().any(|b| b.to.rolled != 0.0);
+        let history = self.friction.kinetic.is_some() || self.friction.history.is_some();
+        let same = if self.grid.plane_strain {
+            Some("in plane strain")
+        } else if rolls {
+            Some("where the bodies roll")
+        } else if history {
+            Some("where friction depends on what cells have been through")
+        } else if self.settings.solver.preset == Preset::Spinu2020 {
+            Some("with the preset spinu2020")
+        } else {
+            None
+        };
+        let ratios: Vec<usize> = [2, 4].into_iter().filter(divides).collect();
+        if same.is_none() && ratios.iter().any(|ratio| nx == ratio * cells) {
+            return Ok(());
+        }
+        let cells_of = |ratio: &usize| format!(", {}", nx / ratio);
+        let allowed = match same {
+            Some(why) => format!("\"auto\" or \"same\" {why}"),
+            None => format!(
+                "\"auto\", \"same\"{}: an even half or quarter of the cells along x and y",
+                ratios.iter().map(cells_of).collect::<String>()
+            ),
+        };
+        Err(Error::invalid("solver.path_grid", cells, allowed))
     }
 
     /// Relative tolerance of the solution: that of the settings, or 1e-6, or where increments are

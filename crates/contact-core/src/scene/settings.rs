@@ -87,6 +87,9 @@ pub struct SolverSettings {
     /// Largest error of the shear at the ends of branches that increments are chosen for where no
     /// number is given, over the largest shear of the path (L2, default 5e-3).
     pub path_tolerance: f64,
+    /// The grid that the path is solved on between the increments whose fields are kept (default:
+    /// [`PathGrid::Auto`]).
+    pub path_grid: PathGrid,
     /// Most passes of the intermediate loop per increment (default 60).
     pub max_alternations: usize,
     /// Most iterations of an inner loop (default 1000).
@@ -101,10 +104,24 @@ impl Default for SolverSettings {
             entering: true,
             turning: true,
             path_tolerance: 5e-3,
+            path_grid: PathGrid::Auto,
             max_alternations: 60,
             max_iterations: 1000,
         }
     }
+}
+
+/// The grid of increments that are solved for the path alone: their fields are not kept, they do not
+/// end a branch, and the normal force and the tilting moments are constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathGrid {
+    /// Chosen with the increments ([`choose_increments`](crate::estimate::choose_increments)); where
+    /// these are given, the grid of the scene.
+    Auto,
+    /// The grid of the scene.
+    Same,
+    /// Cells along x: an even half or quarter of those of the grid.
+    Cells(usize),
 }
 
 /// Families of algorithms.

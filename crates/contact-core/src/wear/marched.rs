@@ -31,7 +31,7 @@ use super::settings::{Wear, thicknesses};
 use crate::cells::Drive;
 use crate::error::Error;
 use crate::march::{Increment, March, Reached, State};
-use crate::scene::{Branch, Friction, FrictionHistory, History, Scene};
+use crate::scene::{Branch, Friction, FrictionHistory, History, PathGrid, Scene};
 
 /// Change of the pressure between two corrections (root mean square, over the pressure) that ends
 /// them.
@@ -90,6 +90,7 @@ impl Marched {
             branch.t_end = (i + 1) as f64;
         }
         scene.settings.skip.far = false;
+        scene.settings.solver.path_grid = PathGrid::Same;
         if wear.rig_stiffness.is_finite() {
             scene.path.rig_stiffness = Some(wear.rig_stiffness);
         }

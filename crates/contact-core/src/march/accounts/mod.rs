@@ -54,6 +54,7 @@ pub(super) fn draw_up(
         cells_per_radius: zones.cells_per_radius,
         p_max,
         q_max,
+        path_grid: setup.problem.scene.grid.nx,
         energy,
         residuals,
         work: Work {

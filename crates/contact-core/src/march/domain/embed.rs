@@ -46,7 +46,7 @@ pub(super) fn interface(
 }
 
 /// A state in another window; in a wider one the displacements of the new cells are not computed.
-pub(super) fn state(
+pub(in crate::march) fn state(
     state: &State,
     from: (usize, usize),
     to: (usize, usize),
@@ -63,6 +63,7 @@ pub(super) fn state(
         q_before: state.q_before.each_ref().map(field),
         residual: state.residual.each_ref().map(field),
         at_limit: embedded(&state.at_limit, from, to, mirror, false),
+        along: state.along.clone(),
         ..*state
     }
 }

@@ -16,6 +16,7 @@ use std::sync::{Mutex, PoisonError};
 
 use ndarray::Array2;
 
+pub(super) use self::embed::state as embedded_state;
 pub(super) use self::fit::half_lengths;
 use self::shape::{first, shape_of};
 use super::State;

@@ -7,7 +7,8 @@ use toml::Value;
 use super::fault::Fault;
 use super::section::{Section, count};
 use crate::scene::{
-    KernelMethod, KernelSettings, Preset, SaveFields, Settings, SkipSettings, SolverSettings,
+    KernelMethod, KernelSettings, PathGrid, Preset, SaveFields, Settings, SkipSettings,
+    SolverSettings,
 };
 
 /// Where a key stands among the settings `T` of its section.
@@ -19,6 +20,7 @@ enum Place<T> {
     /// A number that may be left to its default.
     Open(fn(&mut T) -> &mut Option<f64>),
     Preset(fn(&mut T) -> &mut Preset),
+    PathGrid(fn(&mut T) -> &mut PathGrid),
     Kernel(fn(&mut T) -> &mut KernelMethod),
     Save(fn(&mut T) -> &mut SaveFields),
 }
@@ -36,6 +38,7 @@ const SOLVER: &Keys<SolverSettings> = &[
     ("entering", Place::Flag(|s| &mut s.entering)),
     ("turning", Place::Flag(|s| &mut s.turning)),
     ("path_tolerance", Place::Number(|s| &mut s.path_tolerance)),
+    ("path_grid", Place::PathGrid(|s| &mut s.path_grid)),
     (
         "max_alternations",
         Place::Count(|s| &mut s.max_alternations),
@@ -87,6 +90,7 @@ fn read<T>(root: &Section<'_>, name: &str, keys: &Keys<T>, into: &mut T) -> Resu
             Place::Number(of) => *of(into) = section.number_or(key, *of(into), &[])?,
             Place::Open(of) => *of(into) = section.number_if(key, &[])?.or(*of(into)),
             Place::Preset(of) => *of(into) = section.choice(key, &PRESETS)?,
+            Place::PathGrid(of) => *of(into) = path_grid(&section)?,
             Place::Kernel(of) => *of(into) = kernel_method(&section)?,
             Place::Save(of) => *of(into) = save(&section)?,
         }
@@ -108,11 +112,29 @@ fn write<T>(text: &mut String, name: &str, keys: &Keys<T>, from: &mut T) {
                 let word = PRESETS.iter().find(|(_, of)| *of == preset);
                 word.map(|(word, _)| format!("\"{word}\""))
             }
+            Place::PathGrid(of) => Some(match *of(from) {
+                PathGrid::Auto => "\"auto\"".to_owned(),
+                PathGrid::Same => "\"same\"".to_owned(),
+                PathGrid::Cells(cells) => cells.to_string(),
+            }),
             Place::Kernel(of) => Some(kernel_text(*of(from))),
             Place::Save(of) => Some(save_text(of(from))),
         };
         if let Some(value) = value {
             let _ = writeln!(text, "{key} = {value}");
+        }
+    }
+}
+
+fn path_grid(solver: &Section<'_>) -> Result<PathGrid, Fault> {
+    match solver.get("path_grid") {
+        None => Ok(PathGrid::Auto),
+        Some(Value::String(word)) if word == "auto" => Ok(PathGrid::Auto),
+        Some(Value::String(word)) if word == "same" => Ok(PathGrid::Same),
+        Some(Value::Integer(_)) => Ok(PathGrid::Cells(solver.count_or("path_grid", 1, 1)?)),
+        Some(other) => {
+            let what = "\"auto\", \"same\", or a half or a quarter of the cells along x";
+            Err(Fault::value(&solver.path("path_grid"), other, what))
         }
     }
 }

@@ -1,6 +1,7 @@
 //! How a scene is solved.
 
 mod kernel_method;
+mod path_grid;
 mod preset;
 mod save;
 mod skip;
@@ -12,6 +13,7 @@ use crate::error::to_python;
 use crate::parts::{parts, shown_by_parts};
 use kernel_method::Method;
 pub(crate) use kernel_method::{FrequencyDomain, Hankel, InverseFft};
+use path_grid::PathGrid;
 pub(crate) use preset::Preset;
 pub(crate) use save::Save;
 pub(crate) use skip::Skip;
@@ -33,6 +35,11 @@ pub(crate) use skip::Skip;
 /// path_tolerance : float, optional
 ///     Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over
 ///     the largest shear of the path (L2, default 5e-3).
+/// path_grid : "auto", "same" or int, optional
+///     Cells along x of the grid for increments that are solved for the path alone (fields not kept,
+///     not the end of a branch, constant normal force and tilting moments): a half or a quarter of
+///     those of the grid; ``"same"``: the grid itself. ``"auto"`` (default): chosen with the
+///     increments, such that ``path_tolerance`` holds; ``"same"`` where these are given.
 /// turning : bool, optional
 ///     Let slip follow the turn of the shear within an increment (default True): the path becomes
 ///     of second order.
@@ -54,8 +61,8 @@ pub(crate) use skip::Skip;
 pub(crate) struct Settings(pub(crate) core::Settings);
 
 parts!(
-    Settings: preset, tolerance, entering, turning, path_tolerance, max_alternations,
-    max_iterations, kernel, kernel_tolerance, skip, save
+    Settings: preset, tolerance, entering, turning, path_tolerance, path_grid,
+    max_alternations, max_iterations, kernel, kernel_tolerance, skip, save
 );
 
 shown_by_parts!(Settings);
@@ -64,7 +71,7 @@ shown_by_parts!(Settings);
 impl Settings {
     #[new]
     #[pyo3(signature = (
-        *, preset = None, tolerance = None, entering = None, turning = None, path_tolerance = None, max_alternations = None, max_iterations = None,
+        *, preset = None, tolerance = None, entering = None, turning = None, path_tolerance = None, path_grid = None, max_alternations = None, max_iterations = None,
         kernel = None, kernel_tolerance = None, skip = None, save = None,
     ))]
     fn new(
@@ -73,6 +80,7 @@ impl Settings {
         entering: Option<bool>,
         turning: Option<bool>,
         path_tolerance: Option<f64>,
+        path_grid: Option<PathGrid>,
         max_alternations: Option<usize>,
         max_iterations: Option<usize>,
         kernel: Option<Method>,
@@ -91,6 +99,9 @@ impl Settings {
         solver.entering = entering.unwrap_or(solver.entering);
         solver.turning = turning.unwrap_or(solver.turning);
         solver.path_tolerance = path_tolerance.unwrap_or(solver.path_tolerance);
+        if let Some(path_grid) = path_grid {
+            solver.path_grid = path_grid.into_core()?;
+        }
         solver.max_alternations = max_alternations.unwrap_or(solver.max_alternations);
         solver.max_iterations = max_iterations.unwrap_or(solver.max_iterations);
         settings.kernel.method = kernel.map_or(settings.kernel.method, Into::into);
@@ -134,6 +145,12 @@ impl Settings {
     #[getter]
     fn path_tolerance(&self) -> f64 {
         self.0.solver.path_tolerance
+    }
+
+    /// Grid of the increments that are solved for the path alone.
+    #[getter]
+    fn path_grid(&self) -> PathGrid {
+        self.0.solver.path_grid.into()
     }
 
     /// Most passes of the intermediate loop per increment.
