@@ -93,8 +93,10 @@ fn ends_and_rows_are_those_of_the_grid_itself() {
     column("stick_ratio", Increment::stick_ratio, 3e-2);
     column("dissipated", |row| row.energy.dissipated, 1e-2);
     column("residual_energy", |row| 1.0 + row.residuals.energy, 1e-4);
+    column("M_y", |row| row.point.loads.M_y, 1e-2);
     for (a, b) in rows.iter().zip(&whole) {
-        assert_eq!((a.index, a.point), (b.index, b.point));
+        let at = |row: &Increment| (row.index, row.point.t, row.point.loads.T_x);
+        assert_eq!(at(a), at(b));
     }
 }
 

@@ -48,7 +48,8 @@ impl March {
             let mut scene = scene.0;
             // The fields of every increment can be read.
             scene.settings.solver.path_grid = PathGrid::Same;
-            let scene = choose_increments(&scene, &stop)?;
+            let mut scene = choose_increments(&scene, &stop)?;
+            scene.settings.solver.path_grid = PathGrid::Auto;
             core::March::until(&scene, &stop)
         })?;
         Ok(Self {
