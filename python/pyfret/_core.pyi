@@ -887,6 +887,10 @@ class Grid:
         >>> path = LoadPath.start().normal(10.0).cycles(1, T_x=1.0)  # doctest: +SKIP
         >>> grid = Grid.for_contact(ball, flat, path)  # doctest: +SKIP
         """
+    def unit_of(self, unit: str) -> str:
+        """Unit of a number of a run on this grid, by that of a contact of two directions: on a strip
+        one metre wide forces are in N/m, energies in J/m, areas in m^2/m.
+        """
     @property
     def plane_strain(self) -> bool:
         """Whether the cells are without end along y."""

@@ -9,7 +9,6 @@ from pyfret import _core
 from pyfret._core import Scene
 from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
-from pyfret._util.units import line_contact
 from pyfret.result import Result, open
 from pyfret.run.dataset import dataset
 from pyfret.scene.warnings import doubt_run, doubt_scene
@@ -184,8 +183,6 @@ class Increment(Snapshot):
                     f"ask for the fields of increment {mine} before that"
                 )
             labelled = dataset(self._running.variables(), self._running.attributes)
-            if self.scene.grid.plane_strain:
-                labelled = line_contact(labelled, self.scene.grid)
             if doubts := self._running.doubts():
                 # Of the increments so far, as a store has them that ends here.
                 labelled.attrs["doubts"] = "\n".join(doubts)
@@ -198,7 +195,6 @@ class Increment(Snapshot):
 
     def __getattr__(self, name: str) -> xr.DataArray:
         """Give a scalar at once, a field by way of the dataset."""
-        flat = name == "contact_radius" and self.scene.grid.plane_strain
-        if not name.startswith("_") and name in self._scalars and not flat:
+        if not name.startswith("_") and name in self._scalars:
             return xr.DataArray(self._scalars[name], name=name)
         return super().__getattr__(name)

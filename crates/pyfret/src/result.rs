@@ -154,13 +154,13 @@ pub(crate) fn solve_in_memory(
     let run = |watch: &mut dyn Observer| whole(&scene, error, watch);
     let (mut columns, bars) = watched(py, Columns::default(), on_increment, run)?;
     if let Some(bars) = bars {
-        columns.set_error_bars(&bars);
+        columns.set_error_bars(&bars, &scene.0.grid);
     }
     let attributes = Value::Object(std::mem::take(&mut columns.attributes)).to_string();
     let grid = &scene.0.grid;
     let variables = Variables::new(py);
     variables.cells(grid)?;
-    variables.columns(columns, (grid.nx, grid.ny))?;
+    variables.columns(columns, grid)?;
     Ok((variables.finish(), attributes))
 }
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import re
 
-from pyfret._util.units import PER_METRE
-
 __all__ = ["parameter_label"]
 
 #: The last part of a key: words, unit, and how many of its SI unit that is.
@@ -29,6 +27,8 @@ MEANINGS: dict[str, tuple[str, str, float]] = {
     "n": ("cells along a side", "", 1.0),
     "rms": ("rms roughness", "µm", 1e-6),
 }
+#: Units of loads, which of a line contact are per metre.
+LOADS = ("N", "N m")
 #: Letters of a label from which on it takes two lines.
 LONG = 36
 #: Numbers that are given over another one: what that is called.
@@ -80,7 +80,8 @@ def parameter_label(key: str, *, per_metre: bool = False) -> tuple[str, float]:
     words, unit, size = MEANINGS[last]
     if over is not None:
         words, unit, size = f"{words} over {over}", "", 1.0
-    unit = PER_METRE.get(unit, unit) if per_metre else unit
+    if per_metre and unit in LOADS:
+        unit = f"{unit}/m"
     label = f"{words}, {place}" if place else words
     label = f"{label} [{unit}]" if unit else label
     # As long as an axis is.

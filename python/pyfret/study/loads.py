@@ -10,7 +10,6 @@ import numpy as np
 from pyfret._core import LoadPath, Scene
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
-from pyfret._util.units import unit_on
 from pyfret.study.loop import solve
 
 if TYPE_CHECKING:
@@ -191,12 +190,12 @@ def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
     table = found[list(kept)].rename(kept).drop_vars(AMPLITUDE).rename({AMPLITUDE: driven})
     table["status"] = table["status"].fillna(SLIDES).assign_attrs(long_name=STATUS)
     unit, meaning = units[driven]
-    unit = unit_on(scene.grid, unit)
+    unit = scene.grid.unit_of(unit)
     amplitude = found[AMPLITUDE].values
     table = table.assign_coords(
         {driven: (driven, amplitude, {"units": unit, "long_name": meaning})}
     )
-    table["W"] = table["W"].assign_attrs(units=unit_on(scene.grid, "N"), long_name="normal force")
+    table["W"] = table["W"].assign_attrs(units=scene.grid.unit_of("N"), long_name="normal force")
     return table.assign_attrs({"title": scene.title, "mu": scene.mu})
 
 
