@@ -70,8 +70,8 @@ SCENES = {
         fret.LoadPath.start().normal(W / 4, increments=2).cycles(1, delta_y=1e-7, increments=4),
     ),
     "wavy flat under a ball, shear that goes round": scene(
-        fret.Sphere(R) + fret.shapes.Waviness(amplitude=1e-8, wavelength=A),
-        PRESSED.ellipse(T_x=0.3 * MU * W, T_y=0.2 * MU * W, increments=2),
+        fret.Sphere(R) + fret.shapes.Waviness(amplitude=2e-7, wavelength=0.7 * A),
+        PRESSED.ellipse(T_x=0.3 * MU * W, T_y=0.2 * MU * W, increments=8),
     ),
     "measured surface": scene(
         fret.Sphere(R)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from pyfret._core import LoadPath
+    from pyfret._core import _FrictionFunction as FrictionFunction
 
 __all__ = ["Increment", "march", "resume", "solve"]
 
@@ -100,6 +101,7 @@ def resume(
     store: str | os.PathLike[str],
     *,
     checkpoint: float = 5.0,
+    friction_law: FrictionFunction | None = None,
     progress: bool = True,
 ) -> Result:
     """Go on with a run that was interrupted, crashed or killed, to the end of its load path.
@@ -111,17 +113,23 @@ def resume(
     ----------
     store : path
         Result store of the run, as given to :func:`solve` or to ``fret run``.
+    friction_law : callable, optional
+        The ``law`` of the run's :class:`Friction`, which no store can hold.
     checkpoint, progress
         As in :func:`solve`.
 
     Raises
     ------
+    InvalidSceneError
+        The run has a friction law of one's own and none is given, or the other way about.
     StoreError
         There is no store, another process writes it, or its checkpoint is damaged or of another
         version of pyfret.
     """
     with Progress(title="resumed", shown=progress) as bar:
-        _core.resume(store, checkpoint=checkpoint, on_increment=bar.update)
+        _core.resume(
+            store, checkpoint=checkpoint, friction_law=friction_law, on_increment=bar.update
+        )
     return told(open(store))
 
 
