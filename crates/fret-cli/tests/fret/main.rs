@@ -91,14 +91,14 @@ fn a_line_contact_is_told_per_metre() {
         "schema = 1\nbody1 = { shape.cylinder.R = 0.02, E = 210e9, nu = 0.3 }\n\
          body2 = { shape = \"flat\", E = 210e9, nu = 0.3 }\nfriction.mu = 0.3\n\
          grid = { n = [64, 1], extent = 3e-4, plane_strain = true }\n\
-         path = [{ W = 1e5, increments = 1 }, { T_x = 15e3, increments = 2 }, \
-         { T_x = -15e3, increments = 4 }, { T_x = 15e3, increments = 4 }]\n",
+         path = [{ W = 3e4, increments = 1 }, { T_x = 4500.0, increments = 4 }, \
+         { T_x = -4500.0, increments = 8 }, { T_x = 4500.0, increments = 8 }]\n",
     )
     .unwrap();
     let scene = scene.to_str().unwrap();
     let checked = text(&fret(&["check", scene]).stdout);
     for part in [
-        "W up to 100000 N/m",
+        "W up to 30000 N/m",
         "plane strain; forces and energies per metre",
     ] {
         assert!(checked.contains(part), "{checked}");
@@ -107,7 +107,7 @@ fn a_line_contact_is_told_per_metre() {
     let output = fret(&["run", scene, "-o", out.to_str().unwrap()]);
     let (told, error) = (text(&output.stdout), text(&output.stderr));
     assert!(
-        error.contains("W = 100000 N/m, T_x = 15000 N/m: half width"),
+        error.contains("W = 30000 N/m, T_x = 4500 N/m: half width"),
         "{error}"
     );
     for part in ["[N/m]", "half", "[mJ/m]", "N/m per m"] {
@@ -124,7 +124,7 @@ fn a_line_contact_is_told_per_metre() {
     assert_eq!(told["units"]["force"], "N/m");
     assert_eq!(told["units"]["stiffness"], "N/m per m");
     let branch = &told["branches"][3];
-    let a = (4.0 * 1e5 * 0.02 * 1.82 / (std::f64::consts::PI * 210e9)).sqrt();
+    let a = (4.0 * 3e4 * 0.02 * 1.82 / (std::f64::consts::PI * 210e9)).sqrt();
     let half = branch["half_width"].as_f64().unwrap();
     assert!((half / a - 1.0).abs() < 0.5 * 3e-4 / 64.0 / a, "{half}");
     let stick = branch["stick_ratio"].as_f64().unwrap();
