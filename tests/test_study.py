@@ -308,7 +308,8 @@ def test_a_friction_law_of_ones_own_goes_with_the_scene() -> None:
     def law(x: object, y: object, p: object, slip: object, dissipated: object) -> float:
         return 0.3
 
-    scene = sphere_on_flat(n=16).replace(mu=fret.Friction(0.3, law=law))
+    path = fret.LoadPath.start().normal(1e3, increments=1)
+    scene = sphere_on_flat(n=16).replace(mu=fret.Friction(0.3, law=law), path=path)
     made = fret.study.varied(scene, {"solver.path_tolerance": 0.01})
     assert made.friction.law is law
     assert fret.study.varied(scene, {"mu": 0.4}).friction == fret.Friction(0.4, law=law)
