@@ -84,6 +84,48 @@ def test_quiet_prints_nothing_and_with_json_the_json(
     assert capsys.readouterr().out == ""
 
 
+def test_every_command_tells_programs_what_came_out(
+    store: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    def told(*words: str) -> dict[str, object]:
+        assert commands.main([*words, "--json", "--quiet"]) == 0
+        found = json.loads(capsys.readouterr().out)
+        assert isinstance(found, dict)
+        return found
+
+    out = tmp_path / "tractions.csv"
+    assert told("export", str(store), "-o", str(out)) == {
+        "file": str(out),
+        "body": 2,
+        "unit": "m",
+        "bytes": out.stat().st_size,
+    }
+    page = tmp_path / "page.html"
+    crack = ["--crack", "--lengths", "1e-5,3e-5,6e-5,1e-4", "--dK-th", "3e6"]
+    assert told("report", str(store), "-o", str(page), *crack) == {
+        "page": str(page),
+        "bytes": page.stat().st_size,
+    }
+    assert "kitagawa" in page.read_text(encoding="utf-8")
+    sources = told("cite", str(store))["sources"]
+    assert "10.24874/ti.2020.42.01.13" in json.dumps(sources)
+    study = tmp_path / "study.toml"
+    scene = tmp_path / "scene.toml"
+    scene.write_text(fret.open(store).scene.to_toml(), encoding="utf-8")
+    study.write_text(
+        'scene = "scene.toml"\nmeasure = ["stick_ratio"]\n'
+        '[parameters]\n"friction.mu" = [0.3, 0.4]\n',
+        encoding="utf-8",
+    )
+    assert told("study", str(study), "-o", str(tmp_path / "s.zarr"), "--workers", "1") == {
+        "store": str(tmp_path / "s.zarr"),
+        "points": {"open": 0, "done": 2, "failed": 0},
+        "measures": ["stick_ratio"],
+        "failed": [],
+        "map": None,
+    }
+
+
 @pytest.mark.parametrize(
     ("number", "code"), [(errno.ENOSPC, 3), (errno.EROFS, 3), (errno.EACCES, 2)]
 )

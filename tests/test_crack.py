@@ -300,6 +300,32 @@ def test_the_running_map_has_the_lengths_at_which_cracks_stop(rig: fret.Result) 
     assert "crack stops at [µm]" in [text.get_text() for text in ax.get_legend().get_texts()]
 
 
+def test_bulk_stress_moves_the_line_of_arrest_in_the_running_map(rig: fret.Result) -> None:
+    scene = rig.scene.replace(grid=fret.Grid.strip(extent=1e-3, n=64))
+    arrest = fret.study.Arrest(fracture.Threshold(3e6, 300e6), lengths=[5e-6, 2e-5, 1e-4, 4e-4])
+    loads = {"W": [1.5e5, 2e5], "T": [3e4, 8e4], "increments": (2, 8), "executor": 1}
+    table = fret.study.running_conditions(scene, **loads, sigma_B=[0.0, 2e8], arrest=arrest)
+    assert set(table.arrest_margin.dims) == {"W", "T", "sigma_B"}
+    assert table.sigma_B.attrs["units"] == "Pa"
+    assert (table.arrest_margin.sel(sigma_B=2e8) > table.arrest_margin.sel(sigma_B=0.0)).all()
+    one = fret.study.running_conditions(scene, **loads, sigma_B=2e8, arrest=arrest)
+    assert one.attrs["sigma_B"] == 2e8
+    np.testing.assert_allclose(
+        one.arrest_margin, table.arrest_margin.sel(sigma_B=2e8).transpose(*one.arrest_margin.dims)
+    )
+    # A point is that of the map of shear and bulk stress.
+    chart = fret.study.arrest_map(
+        scene, W=2e5, T=[8e4], sigma_B=[2e8], arrest=arrest, increments=(2, 8), executor=1
+    )
+    margin = float(one.arrest_margin.sel(W=2e5, T=8e4))
+    assert margin == pytest.approx(float(chart.arrest_margin[0, 0]), rel=1e-9)
+    ax = fret.plot.running_map(table.sel(sigma_B=0.0))
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert "crack stops at [µm]" in labels
+    with pytest.raises(ValueError, match="must be 0 with shifts"):
+        fret.study.running_conditions(scene, W=[1e5], delta=[1e-6], sigma_B=1e8, executor=1)
+
+
 def test_kitagawa_of_uniform_tension() -> None:
     lengths = np.geomspace(1e-6, 1e-3, 20)
     K = 100e6 * np.sqrt(np.pi * lengths)

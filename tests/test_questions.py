@@ -149,8 +149,10 @@ def test_materials_have_names() -> None:
         assert elastic.nu == 0.3
     assert fret.material("titanium_6Al4V").nu != 0.3
     with pytest.warns(fret.errors.SceneWarning, match="no Poisson's ratio"):
-        assert fret.material("TiN").nu == 0.25
+        assert fret.material("CrN").nu == 0.25
     assert fret.fatigue.Materials()["TiN"].number("E") == fret.material("TiN", nu=0.3).E
+    assert fret.material("TiN").nu == 0.25
+    assert fret.material("steel_42CrMo4") == fret.Elastic(E=207e9, nu=0.30)
     with pytest.raises(KeyError, match=r"there are .*TiN"):
         fret.material("TiNN")
 

@@ -18,6 +18,7 @@ import pyfret as fret
 from conftest import ROOT, W, sphere_on_flat
 from pyfret import verification
 from pyfret.report import content
+from pyfret.report.crack import Crack
 
 PATH = fret.LoadPath.start().normal(W, increments=3).cycles(1, T_x=200.0, increments=8)
 #: Widths and heights of a laptop and of a phone.
@@ -100,6 +101,40 @@ def test_scenes_without_increments_of_interest_have_their_page(tmp_path: Path) -
         result.report(tmp_path / "page.pdf")
 
 
+@pytest.fixture(scope="module")
+def cracked(result: fret.Result, tmp_path_factory: Any) -> Path:
+    place: Path = tmp_path_factory.mktemp("cracked") / "run.html"
+    crack = result.crack(lengths=np.geomspace(5e-6, 4e-4, 12))
+    result.report(place, crack=crack, threshold=fret.fracture.Threshold(3e6, 300e6))
+    return place
+
+
+def test_a_crack_is_in_the_section_with_its_numbers(result: fret.Result) -> None:
+    crack = result.crack(lengths=np.geomspace(5e-6, 4e-4, 12))
+    threshold = fret.fracture.Threshold(3e6, 300e6)
+    numbers = content.figures(result, None, Crack(crack, threshold))
+    found = crack.arrest(threshold)
+    assert found.verdict == "stops"
+    assert found.length is not None
+    assert f"stops at {1e6 * found.length:.3g} µm" in numbers["crack"]["says"]
+    drawn = numbers["stress"]["crack"]
+    # A normal crack: straight down from its mouth to where it stops, and on from there.
+    mouth = 1e6 * crack.dataset.attrs["x"]
+    assert drawn["grown"]["x"] == pytest.approx([mouth] * len(drawn["grown"]["x"]), rel=1e-3)
+    assert drawn["rest"]["z"][0] == drawn["end"]["z"][0] == drawn["grown"]["z"][-1]
+    length = float(numbers["crack"]["length"]) * 1e-6
+    nearest = crack.dataset.sel(length=found.length, method="nearest")
+    assert length == pytest.approx(float(nearest.length), rel=5e-3)
+    np.testing.assert_allclose(numbers["crack"]["K_I"], 1e-6 * nearest.K_I, rtol=1e-3, atol=1e-9)
+    diagram, truth = numbers["crack"]["kitagawa"], crack.kitagawa(threshold)
+    np.testing.assert_allclose(diagram["limit"], 1e-6 * truth["limit"], rtol=1e-3)
+    alone = content.figures(result, None, Crack(crack, None))["crack"]
+    assert alone["kitagawa"] is None
+    assert "stops" not in alone["says"]
+    with pytest.raises(ValueError, match="needs a crack"):
+        result.report("run.html", threshold=threshold)
+
+
 def browser(play: Any) -> Any:
     """Chromium, or the test is skipped."""
     found = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -110,7 +145,7 @@ def browser(play: Any) -> Any:
 
 
 @pytest.mark.timeout(180)
-def test_it_is_drawn_in_a_browser_without_errors_or_requests(page: Path) -> None:
+def test_it_is_drawn_in_a_browser_without_errors_or_requests(page: Path, cracked: Path) -> None:
     api = pytest.importorskip("playwright.sync_api")
     with api.sync_playwright() as play:
         chromium = browser(play)
@@ -131,6 +166,13 @@ def test_it_is_drawn_in_a_browser_without_errors_or_requests(page: Path) -> None
             assert [url for url in asked if not url.startswith(("file:", "data:"))] == []
             assert view.evaluate("document.documentElement.scrollWidth") <= width
             for name in ("loop", "p", "q", "zone", "profile", "stress", "depths", "profiles"):
+                assert view.locator(f"#{name} .main-svg").count() > 0, name
+            view.goto(cracked.as_uri())
+            view.wait_for_selector("body[data-drawn=yes]", timeout=60_000)
+            assert "stops at" in view.inner_text("#verdict")
+            assert said == []
+            assert view.evaluate("document.documentElement.scrollWidth") <= width
+            for name in ("stress", "intensity", "kitagawa"):
                 assert view.locator(f"#{name} .main-svg").count() > 0, name
             view.close()
         chromium.close()

@@ -81,7 +81,7 @@ def test_the_dataset_has_all_scalars_and_fields_with_their_units(coated: fret.Re
 
 def test_the_result_knows_its_scene(coated: fret.Result) -> None:
     attrs = coated.dataset.attrs
-    assert attrs["schema"] == 2
+    assert attrs["schema"] == 3
     assert attrs["version"] == fret.__version__
     assert attrs["R"] == pytest.approx(R)
     assert coated.mu == MU

@@ -19,6 +19,7 @@ import xarray as xr
 import pyfret as fret
 from conftest import MU, ROOT, R, W, sphere_on_flat
 from pyfret import citation
+from pyfret.plot.parameters import parameter_label
 
 #: A cycle, small.
 PATH = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=150.0, increments=6)
@@ -286,3 +287,29 @@ def test_sources_are_those_of_the_bibliography() -> None:
     assert all(source.doi in known for source in citation.sources())
     assert "10.1115/1.3261591" in fret.cite(SCENE)
     assert "10.1115/1.3261591" not in fret.cite(sphere_on_flat())
+
+
+def test_keys_of_the_path_may_be_those_of_all_branches_and_of_an_amplitude() -> None:
+    path = fret.LoadPath.start().normal(1e3, increments=1).cycles(1, delta_x=1e-6, increments=2)
+    scene = sphere_on_flat(n=16).replace(path=path)
+    amplitude = "path.1.delta_x,-path.2.delta_x,path.3.delta_x"
+    made = fret.study.varied(scene, {"path.*.W": 500.0, amplitude: 3e-6})
+    assert [branch.W for branch in made.path.branches] == [500.0] * 4
+    assert [branch.delta_x for branch in made.path.branches[1:]] == [3e-6, -3e-6, 3e-6]
+    # Of the first branch alone: the others go back to the old force, which is hardly meant.
+    with pytest.warns(fret.errors.SceneWarning, match=r"path\.\*\.W is that of all"):
+        alone = fret.study.varied(scene, {"path.0.W": 500.0})
+    assert [branch.W for branch in alone.path.branches] == [500.0, 1e3, 1e3, 1e3]
+    assert parameter_label(amplitude) == (r"amplitude of $\delta_x$ [µm]", 1e-6)
+    assert parameter_label("path.*.W", per_metre=True) == ("$W$ [N/m]", 1.0)
+
+
+def test_a_friction_law_of_ones_own_goes_with_the_scene() -> None:
+    def law(x: object, y: object, p: object, slip: object, dissipated: object) -> float:
+        return 0.3
+
+    path = fret.LoadPath.start().normal(1e3, increments=1)
+    scene = sphere_on_flat(n=16).replace(mu=fret.Friction(0.3, law=law), path=path)
+    made = fret.study.varied(scene, {"solver.path_tolerance": 0.01})
+    assert made.friction.law is law
+    assert fret.study.varied(scene, {"mu": 0.4}).friction == fret.Friction(0.4, law=law)

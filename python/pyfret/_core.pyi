@@ -127,6 +127,8 @@ __all__ = [
 _Array: TypeAlias = NDArray[np.float64]
 _Variable: TypeAlias = tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]
 _Pitch: TypeAlias = float | tuple[float, float]
+#: Of x, y, p, slip, dissipated: arrays with a number for each cell.
+_FrictionFunction: TypeAlias = Callable[[_Array, _Array, _Array, _Array, _Array], ArrayLike]
 _Missing: TypeAlias = Literal["refuse", "crop", "fill"]
 
 __version__: Final[str]
@@ -774,6 +776,15 @@ class Friction:
         Factor of the coefficient over the surface.
     history : (History, list of pairs), optional
         Factor of the coefficient, linear between the pairs (history, factor).
+    law : callable, optional
+        A function of five arrays, a number for each cell: places `x`, `y` [m], pressure `p` [Pa],
+        length of the way slipped `slip` [m], energy per area `dissipated` [J/m^2]. It gives the
+        coefficient along x of each cell, finite and >= 0, an array of the same shape or one number;
+        `mu` is about what it gives, the measure of tolerances, and the coefficient where nothing
+        is pressed yet. An increment is solved again until the coefficient is that of pressure and
+        history at its end. What the function raises is raised as it is. No map, history or kinetic
+        coefficient beside it, no wear; a store keeps that there is a law, not which:
+        ``pyfret.resume(store, friction_law=...)``.
     """
 
     def __new__(
@@ -784,6 +795,7 @@ class Friction:
         kinetic: float | None = None,
         map: SurfaceMap | None = None,
         history: tuple[History, Sequence[tuple[float, float]]] | None = None,
+        law: _FrictionFunction | Literal["own"] | None = None,
     ) -> Friction: ...
     @property
     def mu(self) -> float:
@@ -800,6 +812,9 @@ class Friction:
     @property
     def history(self) -> tuple[History, list[tuple[float, float]]] | None:
         """Factor as a function of the history."""
+    @property
+    def law(self) -> _FrictionFunction | Literal["own"] | None:
+        """The function that gives the coefficient; ``"own"`` if only that there is one is known."""
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
     def __replace__(self, **changes: Any) -> Friction: ...
     def replace(self, **changes: Any) -> Friction:
@@ -886,6 +901,11 @@ class Grid:
         >>> ball, flat = Body(steel, shape=Sphere(R=5e-3)), Body(steel)  # doctest: +SKIP
         >>> path = LoadPath.start().normal(10.0).cycles(1, T_x=1.0)  # doctest: +SKIP
         >>> grid = Grid.for_contact(ball, flat, path)  # doctest: +SKIP
+        """
+    def unit_of(self, unit: str) -> str:
+        """Unit of a number of a run on this grid, by that of a contact of two directions.
+
+        On a strip one metre wide forces are in N/m, energies in J/m, areas in m^2/m.
         """
     @property
     def plane_strain(self) -> bool:
@@ -2286,6 +2306,7 @@ def resume(
     store: str | PathLike[str],
     *,
     checkpoint: float = 5.0,
+    friction_law: _FrictionFunction | Literal["own"] | None = None,
     on_increment: Callable[[int, int], object] | None = None,
 ) -> None:
     """Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it."""

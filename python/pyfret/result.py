@@ -275,10 +275,12 @@ class Result(Run):
         path: str | os.PathLike[str],
         *,
         wear: WearResult | None = None,
+        crack: fracture.Cracks | None = None,
+        threshold: fracture.Threshold | None = None,
         figures: Mapping[str, Figure] | None = None,
     ) -> None:
         """Write one page for a browser, for people without pyfret: :meth:`pyfret.Result.report`."""
-        report(self, path, wear=wear, figures=figures)
+        report(self, path, wear=wear, crack=crack, threshold=threshold, figures=figures)
 
     def _repr_html_(self) -> str:
         """Tables for notebooks."""

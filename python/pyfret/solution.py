@@ -9,7 +9,6 @@ from pyfret import _core
 from pyfret._core import Scene
 from pyfret._util.lazy import xr
 from pyfret._util.progress import Progress
-from pyfret._util.units import line_contact
 from pyfret.result import Result, open
 from pyfret.run.dataset import dataset
 from pyfret.scene.warnings import doubt_run, doubt_scene
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from pyfret._core import LoadPath
+    from pyfret._core import _FrictionFunction as FrictionFunction
 
 __all__ = ["Increment", "march", "resume", "solve"]
 
@@ -101,6 +101,7 @@ def resume(
     store: str | os.PathLike[str],
     *,
     checkpoint: float = 5.0,
+    friction_law: FrictionFunction | None = None,
     progress: bool = True,
 ) -> Result:
     """Go on with a run that was interrupted, crashed or killed, to the end of its load path.
@@ -112,17 +113,23 @@ def resume(
     ----------
     store : path
         Result store of the run, as given to :func:`solve` or to ``fret run``.
+    friction_law : callable, optional
+        The ``law`` of the run's :class:`Friction`, which no store can hold.
     checkpoint, progress
         As in :func:`solve`.
 
     Raises
     ------
+    InvalidSceneError
+        The run has a friction law of one's own and none is given, or the other way about.
     StoreError
         There is no store, another process writes it, or its checkpoint is damaged or of another
         version of pyfret.
     """
     with Progress(title="resumed", shown=progress) as bar:
-        _core.resume(store, checkpoint=checkpoint, on_increment=bar.update)
+        _core.resume(
+            store, checkpoint=checkpoint, friction_law=friction_law, on_increment=bar.update
+        )
     return told(open(store))
 
 
@@ -184,8 +191,6 @@ class Increment(Snapshot):
                     f"ask for the fields of increment {mine} before that"
                 )
             labelled = dataset(self._running.variables(), self._running.attributes)
-            if self.scene.grid.plane_strain:
-                labelled = line_contact(labelled, self.scene.grid)
             if doubts := self._running.doubts():
                 # Of the increments so far, as a store has them that ends here.
                 labelled.attrs["doubts"] = "\n".join(doubts)
@@ -198,7 +203,6 @@ class Increment(Snapshot):
 
     def __getattr__(self, name: str) -> xr.DataArray:
         """Give a scalar at once, a field by way of the dataset."""
-        flat = name == "contact_radius" and self.scene.grid.plane_strain
-        if not name.startswith("_") and name in self._scalars and not flat:
+        if not name.startswith("_") and name in self._scalars:
             return xr.DataArray(self._scalars[name], name=name)
         return super().__getattr__(name)

@@ -2,6 +2,8 @@
 
 use std::fmt::Display;
 
+use crate::scene::Raised;
+
 /// Every failure of the core, for people: what is wrong, where, what is allowed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -15,6 +17,12 @@ pub enum Error {
         value: String,
         /// What is allowed.
         allowed: String,
+    },
+    /// A friction law of the user's own has raised an error.
+    #[error("friction.law: {raised}")]
+    FrictionLaw {
+        /// What it has raised.
+        raised: Raised,
     },
     /// A scene file does not follow the schema.
     #[error("{file}:{line}: {message}")]

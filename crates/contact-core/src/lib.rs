@@ -44,6 +44,11 @@ mod stop;
 pub mod wear;
 pub mod zones;
 
+/// The page on the use as a dependency, whose examples compile and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/howto/rust.md")]
+struct UseAsADependency;
+
 pub use error::Error;
 #[doc(no_inline)]
 pub use fatigue;

@@ -72,6 +72,72 @@ fn witness(path: &Path, stop_after: usize) -> Witness {
     }
 }
 
+/// Hertz's line contact, R = 0.02 m, W = 3e4 N/m: 4 W R/(pi E*) = a^2, p_H = 2 W/(pi a).
+const LINE: &str = r#"
+schema = 1
+title = "Line"
+body1 = { shape.cylinder.R = 0.02, E = 210e9, nu = 0.3 }
+body2 = { shape = "flat", E = 210e9, nu = 0.3 }
+friction.mu = 0.3
+grid = { n = [64, 1], extent = 3e-4, plane_strain = true }
+path = [
+    { W = 3e4, increments = 1 },
+    { T_x = { mu_W = 0.5 }, increments = 2 },
+]
+"#;
+
+#[test]
+fn a_line_contact_is_in_units_per_metre_and_of_its_half_width() {
+    let (R, W) = (0.02, 3e4);
+    let E_star = 210e9 / (2.0 * (1.0 - 0.3 * 0.3));
+    let a = (4.0 * W * R / (std::f64::consts::PI * E_star)).sqrt();
+    let p_H = 2.0 * W / (std::f64::consts::PI * a);
+    for (k, extent) in ["3e-4", "5e-4"].into_iter().enumerate() {
+        let path = free(&format!("line{k}.zarr"));
+        let settings = [format!("grid.extent={extent}")];
+        let scene = Scene::from_toml_str(LINE, "line.toml", &settings).unwrap();
+        solve(&scene, &mut witness(&path, 0)).unwrap();
+        let store = Store::open(&path).unwrap();
+        let last = |name: &str| *store.column(name).unwrap().last().unwrap();
+        let cell = scene.grid.dx / a;
+        assert!((last("half_width") / a - 1.0).abs() < 0.5 * cell);
+        assert!((last("p_max") / p_H - 1.0).abs() < 0.5 * cell);
+        assert_eq!(last("W"), W);
+        assert!(store.column("contact_radius").is_err());
+        // What describes the bodies does not depend on the grid.
+        for (name, truth) in [("R", R), ("a_H", a), ("p_H", p_H)] {
+            let told = store.attributes()[name].as_f64().unwrap();
+            assert!((told / truth - 1.0).abs() < 1e-12, "{name} = {told}");
+        }
+        for (name, units) in [
+            ("W", "N/m"),
+            ("T_x", "N/m"),
+            ("M_z", "N m/m"),
+            ("dissipated", "J/m"),
+            ("contact_area", "m^2/m"),
+            ("half_width", "m"),
+            ("p_max", "Pa"),
+        ] {
+            let text = fs::read_to_string(path.join(name).join(".zattrs")).unwrap();
+            assert!(
+                text.contains(&format!("\"units\": \"{units}\"")),
+                "{name}: {text}"
+            );
+        }
+    }
+}
+
+#[test]
+fn on_a_strip_of_another_width_forces_are_those_on_it() {
+    let path = free("width.zarr");
+    let settings = ["grid.extent=[3e-4, 0.01]", "path.0.W=3e2"].map(str::to_owned);
+    let scene = Scene::from_toml_str(LINE, "line.toml", &settings).unwrap();
+    solve(&scene, &mut witness(&path, 0)).unwrap();
+    let text = fs::read_to_string(path.join("W").join(".zattrs")).unwrap();
+    assert!(text.contains("\"units\": \"N\""), "{text}");
+    assert_eq!(Store::open(&path).unwrap().column("W").unwrap()[2], 3e2);
+}
+
 #[test]
 fn everything_comes_back() {
     let path = free("everything.zarr");
@@ -265,11 +331,11 @@ fn damage_is_named() {
     assert!(text(store.column("F").unwrap_err()).contains("holds no F"));
 
     let metadata = fs::read_to_string(path.join(".zmetadata")).unwrap();
-    let other = metadata.replace("\"schema\": 2", "\"schema\": 9");
+    let other = metadata.replace("\"schema\": 3", "\"schema\": 9");
     fs::write(path.join(".zmetadata"), other).unwrap();
     let error = text(Store::open(&path).err().unwrap());
     assert!(
-        error.contains("schema 9: this version reads schema 2"),
+        error.contains("schema 9: this version reads schema 3"),
         "{error}"
     );
     let endless = metadata.replace("      12\n", "      1200000000000\n");

@@ -83,18 +83,28 @@ fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
     }
     line(
         "grid",
-        format!(
-            "{} x {} cells on {length_x:.4e} m x {length_y:.4e} m",
-            grid.nx, grid.ny
-        ),
+        if grid.plane_strain {
+            format!(
+                "{} cells on {length_x:.4e} m, plane strain; forces and energies {}",
+                grid.nx,
+                match grid.unit_of("N") {
+                    "N/m" => "per metre".to_owned(),
+                    _ => format!("on a width of {length_y:.4e} m"),
+                }
+            )
+        } else {
+            let (nx, ny) = (grid.nx, grid.ny);
+            format!("{nx} x {ny} cells on {length_x:.4e} m x {length_y:.4e} m")
+        },
     );
     line(
         "load path",
         format!(
-            "{} branches, {}, W up to {} N",
+            "{} branches, {}, W up to {} {}",
             scene.path.branches.len(),
             increments(scene),
-            scene.path.W_max()
+            short(scene.path.W_max()),
+            grid.unit_of("N")
         ),
     );
     line("work", work(scene, plan));

@@ -15,7 +15,7 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment]) -> Value {
         .iter()
         .map(|b| {
             done += b.increments;
-            branch(b, &increments[done - 1])
+            branch(scene, b, &increments[done - 1])
         })
         .collect();
     let cycles: Vec<Value> = cycles(scene, increments)
@@ -29,13 +29,35 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment]) -> Value {
         "a_H": hertz.map(|h| h.a),
         "p_H": hertz.map(|h| h.p0),
         "increments": increments.len(),
+        "units": units(scene),
         "branches": branches,
         "cycles": cycles,
         "doubts": Reached::of(increments).doubts(scene),
     })
 }
 
-fn branch(b: &BranchSummary, last: &Increment) -> Value {
+/// Units of forces, moments, energies and stiffnesses: of a line contact they are per metre.
+fn units(scene: &Scene) -> Value {
+    let of = |unit| scene.grid.unit_of(unit);
+    json!({
+        "force": of("N"),
+        "moment": of("N m"),
+        "energy": of("J"),
+        "stiffness": of("N/m"),
+        "torsional_stiffness": of("N m/rad"),
+    })
+}
+
+/// The variable of the store that is the size of the contact.
+fn length_of(scene: &Scene) -> &'static str {
+    if scene.grid.plane_strain {
+        "half_width"
+    } else {
+        "contact_radius"
+    }
+}
+
+fn branch(scene: &Scene, b: &BranchSummary, last: &Increment) -> Value {
     let mut of = Map::new();
     let mut set = |key: &str, value: Value| of.insert(key.to_owned(), value);
     set("branch", json!(b.branch));
@@ -45,7 +67,7 @@ fn branch(b: &BranchSummary, last: &Increment) -> Value {
         set(of.load(), json!(loads[of.index()]));
         set(of.name(), json!(motions[of.index()]));
     }
-    set("contact_radius", json!(b.contact_radius));
+    set(length_of(scene), json!(b.contact_radius));
     set("stick_ratio", json!(b.stick_ratio));
     set("status", json!(state(last.status).replace(' ', "_")));
     set("p_max", json!(b.p_max));

@@ -83,7 +83,7 @@ enum Command {
     /// Wear the surfaces of a scene with a table [wear] over many cycles
     Wear(wear::Options),
     /// Solve a scene for many values of its parameters (needs the Python package)
-    Study(python::Study),
+    Study(python::Options),
     /// Judge the stress below the contact of a result over a cycle by a fatigue criterion
     Life(life::Options),
     /// Write tractions, forces on a mesh or stress at points for another program (needs the Python
@@ -92,15 +92,15 @@ enum Command {
     /// Say whether a crack below the contact of a result grows or stops (needs the Python package)
     Crack(python::Options),
     /// Write a result as one page for a browser (needs the Python package)
-    Report(python::Report),
+    Report(python::Options),
     /// Find unknowns of a scene (mu, a rig, a coating, wear) from a measured table
     Fit(python::Options),
     /// Find the load at which a fatigue criterion reaches its limit
     Threshold(python::Options),
     /// Check this installation against closed forms in minutes (needs the Python package)
-    Verify,
+    Verify(python::Options),
     /// Say what to cite for a result (needs the Python package)
-    Cite(python::Cite),
+    Cite(python::Options),
 }
 
 /// Runs the command that the arguments name, the first of them the program's name, and gives the
@@ -132,15 +132,15 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         }
         Command::Man { folder } => manual(&folder),
         Command::Wear(options) => wear::wear(&options),
-        Command::Study(options) => return in_python("study", &options.arguments()),
+        Command::Study(options) => return in_python("study", &options.arguments),
         Command::Life(options) => life::life(&options),
         Command::Export(options) => return in_python("export", &options.arguments),
         Command::Crack(options) => return in_python("crack", &options.arguments),
-        Command::Report(options) => return in_python("report", &options.arguments()),
+        Command::Report(options) => return in_python("report", &options.arguments),
         Command::Fit(options) => return in_python("fit", &options.arguments),
         Command::Threshold(options) => return in_python("threshold", &options.arguments),
-        Command::Verify => return in_python("verify", &[]),
-        Command::Cite(options) => return in_python("cite", &options.arguments()),
+        Command::Verify(options) => return in_python("verify", &options.arguments),
+        Command::Cite(options) => return in_python("cite", &options.arguments),
     };
     match outcome {
         Ok(()) => 0,

@@ -5,7 +5,7 @@
 //! looks for modules where it is installed, never in the folder in which the command is given: a
 //! `numpy.py` that lies there is not run.
 
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::io;
 use std::path::PathBuf;
 use std::process::Command;
@@ -38,98 +38,6 @@ pub(crate) struct Options {
     /// Arguments; --help lists them
     #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
     pub(crate) arguments: Vec<OsString>,
-}
-
-/// Options of `fret study`.
-#[derive(Args)]
-pub(crate) struct Study {
-    /// Study file (TOML)
-    file: PathBuf,
-    /// Store (default: that of the file, or NAME.zarr)
-    #[arg(short, long, value_name = "STORE")]
-    out: Option<PathBuf>,
-    /// Processes (default: one for each processor)
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    workers: Option<u16>,
-    /// Address of a Dask cluster, such as tcp://host:8786
-    #[arg(long, value_name = "ADDRESS", conflicts_with = "workers")]
-    scheduler: Option<String>,
-    /// Solve points that failed before as well
-    #[arg(long)]
-    again: bool,
-    /// Figure of the first measure (.png, .svg)
-    #[arg(long, value_name = "FILE")]
-    map: Option<PathBuf>,
-}
-
-/// Options of `fret report`.
-#[derive(Args)]
-pub(crate) struct Report {
-    /// Result store
-    store: PathBuf,
-    /// Page to write (default: NAME.html)
-    #[arg(short, long, value_name = "FILE")]
-    out: Option<PathBuf>,
-    /// Result of fret wear, shown as well
-    #[arg(long, value_name = "STORE")]
-    wear: Option<PathBuf>,
-}
-
-/// Options of `fret cite`.
-#[derive(Args)]
-pub(crate) struct Cite {
-    /// Result store (default: all methods)
-    store: Option<PathBuf>,
-}
-
-/// Arguments in the form of Python's part: options with their values in one, what stands alone
-/// last.
-#[derive(Default)]
-struct Words(Vec<OsString>);
-
-impl Words {
-    fn option(mut self, name: &str, value: Option<impl AsRef<OsStr>>) -> Self {
-        if let Some(value) = value {
-            let mut word = OsString::from(format!("{name}="));
-            word.push(value.as_ref());
-            self.0.push(word);
-        }
-        self
-    }
-
-    fn ending_in(mut self, alone: Option<&PathBuf>) -> Vec<OsString> {
-        if let Some(alone) = alone {
-            self.0.extend(["--".into(), alone.into()]);
-        }
-        self.0
-    }
-}
-
-impl Study {
-    pub(crate) fn arguments(&self) -> Vec<OsString> {
-        let mut words = Words::default()
-            .option("--out", self.out.as_ref())
-            .option("--workers", self.workers.map(|n| n.to_string()))
-            .option("--scheduler", self.scheduler.as_ref())
-            .option("--map", self.map.as_ref());
-        words.0.extend(self.again.then(|| "--again".into()));
-        words.ending_in(Some(&self.file))
-    }
-}
-
-impl Report {
-    pub(crate) fn arguments(&self) -> Vec<OsString> {
-        let words = Words::default().option("--out", self.out.as_ref());
-        words
-            .option("--wear", self.wear.as_ref())
-            .ending_in(Some(&self.store))
-    }
-}
-
-impl Cite {
-    pub(crate) fn arguments(&self) -> Vec<OsString> {
-        Words::default().ending_in(self.store.as_ref())
-    }
 }
 
 /// Hands a command over to Python and ends as it ends. On Unix the interpreter takes the place of

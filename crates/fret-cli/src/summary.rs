@@ -62,21 +62,26 @@ pub(crate) fn line(scene: &Scene, branch: &BranchSummary, t: f64) -> String {
     let Measures { radius, pressure } = Measures::of(scene);
     let loads = branch.told(scene).loads;
     let held = loads.given.motions();
+    let force = scene.grid.unit_of("N");
     let others = OTHERS.iter().fold(String::new(), |text, of| {
         match (loads.forces()[of.index()], held[of.index()]) {
             // What keeps the bodies from turning says little.
             (0.0, _) | (_, Some(0.0)) => text,
-            (load, _) => text + &format!(", {} = {} {}", of.load(), short(load), units(*of).0),
+            (load, _) => {
+                let unit = units(scene, *of).0;
+                text + &format!(", {} = {} {unit}", of.load(), short(load))
+            }
         }
     });
     format!(
-        "branch {}/{}: t = {}, W = {} N, T_x = {} N{others}: contact radius {:.4} {}, \
+        "branch {}/{}: t = {}, W = {} {force}, T_x = {} {force}{others}: {} {:.4} {}, \
          stick ratio {:.4}, p_max {:.4} {}",
         branch.branch + 1,
         scene.path.branches.len(),
         short(t),
         short(loads.W),
         short(loads.T_x),
+        size(scene),
         branch.contact_radius / radius.1,
         radius.0,
         branch.stick_ratio,
@@ -94,11 +99,29 @@ const OTHERS: [RigidMotion; 4] = [
 ];
 
 /// The units of a load and of its motion.
-fn units(of: RigidMotion) -> (&'static str, &'static str) {
-    if of.is_rotation() {
+fn units(scene: &Scene, of: RigidMotion) -> (&'static str, &'static str) {
+    let (load, motion) = if of.is_rotation() {
         ("N m", "urad")
     } else {
         ("N", "um")
+    };
+    (scene.grid.unit_of(load), motion)
+}
+
+/// What the size of the contact is called.
+fn size(scene: &Scene) -> &'static str {
+    if scene.grid.plane_strain {
+        "half width"
+    } else {
+        "contact radius"
+    }
+}
+
+/// Energies for people: microjoules, of line contacts millijoules per metre.
+fn energy(scene: &Scene) -> (&'static str, f64) {
+    match scene.grid.unit_of("J") {
+        "J/m" => ("mJ/m", 1e3),
+        _ => ("uJ", MICRO),
     }
 }
 
@@ -121,29 +144,26 @@ fn column(
 fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
     let Measures { radius, pressure } = Measures::of(scene);
     let micro = |x: f64| short(x * MICRO);
-    // In plane strain half the width of the strips that touch.
+    let (force, (joule, joules)) = (scene.grid.unit_of("N"), energy(scene));
     let width = if scene.grid.plane_strain {
-        ("half-\nwidth", Some(scene.grid.dy))
+        "half\nwidth"
     } else {
-        ("radius", None)
+        "radius"
     };
     let mut columns = vec![
         column("#", |b, _| (b.branch + 1).to_string()),
         column("t", |_, last| short(last.point.t)),
-        column("W\n[N]", |b, _| short(b.loads.W)),
-        column("T_x\n[N]", |b, _| short(b.loads.T_x)),
+        column(format!("W\n[{force}]"), |b, _| short(b.loads.W)),
+        column(format!("T_x\n[{force}]"), |b, _| short(b.loads.T_x)),
     ];
     for of in driven(scene) {
-        let title = format!("{}\n[{}]", of.load(), units(of).0);
+        let title = format!("{}\n[{}]", of.load(), units(scene, of).0);
         let k = of.index();
         columns.push(column(title, move |b, _| short(b.loads.forces()[k])));
     }
     columns.extend([
-        column(format!("{}\n[{}]", width.0, radius.0), move |b, last| {
-            let a = width
-                .1
-                .map_or(b.contact_radius, |dy| last.contact_area / (2.0 * dy));
-            short(a / radius.1)
+        column(format!("{width}\n[{}]", radius.0), move |b, _| {
+            short(b.contact_radius / radius.1)
         }),
         column("stick\nratio", |b, _| short(b.stick_ratio)),
         column("state", |_, last| state(last.status).replace(' ', "\n")),
@@ -154,12 +174,14 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
         column("delta_x\n[um]", move |b, _| micro(b.motion.delta_x)),
     ]);
     for of in driven(scene) {
-        let title = format!("{}\n[{}]", of.name(), units(of).1);
+        let title = format!("{}\n[{}]", of.name(), units(scene, of).1);
         let k = of.index();
         columns.push(column(title, move |b, _| micro(b.motion.motions()[k])));
     }
     columns.extend([
-        column("dissip.\n[uJ]", move |b, _| micro(b.dissipated)),
+        column(format!("dissip.\n[{joule}]"), move |b, _| {
+            short(b.dissipated * joules)
+        }),
         column("incre-\nments", |b, _| b.increments.to_string()),
     ]);
     let errors: Vec<Option<f64>> = scene.path.branches.iter().map(|b| b.path_error).collect();
@@ -201,18 +223,19 @@ fn driven(scene: &Scene) -> impl Iterator<Item = RigidMotion> {
 /// A line for every cycle: state of the interface, energy and stiffness.
 fn cycle_lines(scene: &Scene, increments: &[Increment]) -> Vec<String> {
     let cycles = json::cycles(scene, increments);
+    let (joule, joules) = energy(scene);
     let line = |(n, (direction, c)): (usize, &(Direction, Cycle))| {
-        let stiffness = if *direction == Direction::Torsion {
+        let stiffness = scene.grid.unit_of(if *direction == Direction::Torsion {
             "N m/rad"
         } else {
             "N/m"
-        };
+        });
         format!(
-            "cycle {} ({}): {}, {} uJ dissipated, energy ratio {}, stiffness {:.3e} {stiffness}",
+            "cycle {} ({}): {}, {} {joule} dissipated, energy ratio {}, stiffness {:.3e} {stiffness}",
             n + 1,
             word(*direction),
             state(c.status),
-            short(c.dissipated * MICRO),
+            short(c.dissipated * joules),
             short(c.energy_ratio()),
             c.stiffness
         )
@@ -255,7 +278,7 @@ fn answers(scene: &Scene) -> Vec<Answer> {
         ends().any(|to| to.given.motions()[of.index()].is_some_and(|motion| motion != 0.0))
     };
     let loads = RigidMotion::ALL.into_iter().filter(given).map(|of| Answer {
-        title: format!("{}\n[{}]", of.load(), units(of).0),
+        title: format!("{}\n[{}]", of.load(), units(scene, of).0),
         of: Box::new(move |branch, bar| {
             (
                 branch.loads.forces()[of.index()],
@@ -266,7 +289,7 @@ fn answers(scene: &Scene) -> Vec<Answer> {
     });
     let loaded = |of: &RigidMotion| ends().any(|to| to.forces()[of.index()] != 0.0);
     let motions = OTHERS.into_iter().filter(loaded).map(|of| Answer {
-        title: format!("{}\n[{}]", of.name(), units(of).1),
+        title: format!("{}\n[{}]", of.name(), units(scene, of).1),
         of: Box::new(move |branch, bar| {
             (
                 branch.motion.motions()[of.index()],
@@ -282,18 +305,19 @@ fn answers(scene: &Scene) -> Vec<Answer> {
 pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[ErrorBars]) -> String {
     let Measures { radius, pressure } = Measures::of(scene);
     let answers = answers(scene);
+    let (joule, joules) = energy(scene);
     let mut table = Table::new();
     table
         .load_style(presets::ASCII_BORDERS_ONLY_CONDENSED)
         .set_header(
             [
                 "branch".to_owned(),
-                format!("contact radius\n[{}]", radius.0),
+                format!("{}\n[{}]", size(scene), radius.0),
                 "stick ratio".to_owned(),
                 format!("p_max\n[{}]", pressure.0),
                 "approach delta_z\n[um]".to_owned(),
                 "shift delta_x\n[um]".to_owned(),
-                "dissipated\n[uJ]".to_owned(),
+                format!("dissipated\n[{joule}]"),
             ]
             .into_iter()
             .chain(answers.iter().map(|answer| answer.title.clone()))
@@ -306,7 +330,7 @@ pub(crate) fn error_table(scene: &Scene, increments: &[Increment], bars: &[Error
             (of.p_max, bar.p_max, 1.0 / pressure.1),
             (of.motion.delta_z, bar.delta_z, MICRO),
             (of.motion.delta_x, bar.delta_x, MICRO),
-            (of.dissipated, bar.dissipated, MICRO),
+            (of.dissipated, bar.dissipated, joules),
         ];
         numbers.extend(answers.iter().map(|answer| (answer.of)(of, bar)));
         let fields = [bar.p, bar.q];

@@ -8,7 +8,7 @@ use std::time::Instant;
 use clap::Args;
 use contact_core::Error;
 use contact_core::output::{WearStore, read_worn, resume_wear};
-use contact_core::scene::{Reach, Scene};
+use contact_core::scene::{Grid, Reach, Scene};
 use contact_core::wear::{Event, EventKind, Jump, Wear, WearRun};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
@@ -159,7 +159,7 @@ fn to_end(
         printed = print(&format!("{all:#}"));
     }
     if shown == Shown::Table {
-        printed = print(&table(jumps));
+        printed = print(&table(jumps, &run.scene().grid));
         let seconds = begun.elapsed().as_secs_f64();
         say(&format!("{} jumps in {seconds:.1} s", jumps.len()));
     }
@@ -212,15 +212,16 @@ fn told_of(event: &Event) -> String {
 }
 
 /// A line for every few jumps.
-fn table(jumps: &[Jump]) -> String {
+fn table(jumps: &[Jump], grid: &Grid) -> String {
+    let volume = grid.unit_of("m^3").replace('^', "");
     let mut lines = vec![format!(
         "{:>12} {:>11} {:>11} {:>12} {:>12} {:>12} {:>10} {:>8}",
         "cycles",
         "depth1 um",
         "depth2 um",
-        "volume1 m3",
-        "volume2 m3",
-        "energy J",
+        format!("volume1 {volume}"),
+        format!("volume2 {volume}"),
+        format!("energy {}", grid.unit_of("J")),
         "p_max MPa",
         "error"
     )];

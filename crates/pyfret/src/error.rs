@@ -76,6 +76,10 @@ pub(crate) fn to_python(error: Error) -> PyErr {
         | Error::StressInaccurate { .. }
         | Error::TemperatureInaccurate { .. } => KernelInaccurateError::new_err(text),
         Error::Criterion(error) => of_criterion(error),
+        Error::FrictionLaw { raised } => match raised.0.downcast_ref::<PyErr>() {
+            Some(own) => Python::attach(|py| own.clone_ref(py)),
+            None => PyRuntimeError::new_err(text),
+        },
         Error::File { .. } => StoreError::new_err(text),
         Error::Interrupted { .. } => PyKeyboardInterrupt::new_err(text),
         Error::TooLarge { .. } => PyMemoryError::new_err(text),

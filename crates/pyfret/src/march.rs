@@ -97,7 +97,8 @@ impl March {
             Some(Ok(increment)) => {
                 self.reached.see(&increment);
                 let scalars = PyDict::new(py);
-                for scalar in SCALARS {
+                let grid = self.inner().scene().grid;
+                for scalar in SCALARS.iter().map(|scalar| scalar.on(&grid)) {
                     let value = (scalar.value)(&increment);
                     match scalar.kind {
                         Kind::Real => scalars.set_item(scalar.name, value)?,
@@ -113,11 +114,13 @@ impl March {
     /// The last increment as variables: dimensions, values, attributes as xarray takes them.
     fn variables<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let variables = Variables::new(py);
-        if let Some(increment) = &self.last {
-            variables.increment(increment)?;
-        }
+        let last = self.last;
         let march = self.inner();
-        variables.cells(&march.scene().grid)?;
+        let grid = march.scene().grid;
+        if let Some(increment) = &last {
+            variables.increment(increment, &grid)?;
+        }
+        variables.cells(&grid)?;
         variables.fields(&march.fields())?;
         Ok(variables.finish())
     }

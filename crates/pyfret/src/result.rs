@@ -17,6 +17,7 @@ use serde_json::Value;
 use crate::error::to_python;
 use crate::interruptible::interruptible;
 use crate::scene::Scene;
+use crate::scene::friction_law::own_law;
 use crate::variables::Variables;
 
 /// Keeps the run, tells Python how far it is, and lets it stop the run.
@@ -154,13 +155,13 @@ pub(crate) fn solve_in_memory(
     let run = |watch: &mut dyn Observer| whole(&scene, error, watch);
     let (mut columns, bars) = watched(py, Columns::default(), on_increment, run)?;
     if let Some(bars) = bars {
-        columns.set_error_bars(&bars);
+        columns.set_error_bars(&bars, &scene.0.grid);
     }
     let attributes = Value::Object(std::mem::take(&mut columns.attributes)).to_string();
     let grid = &scene.0.grid;
     let variables = Variables::new(py);
     variables.cells(grid)?;
-    variables.columns(columns, (grid.nx, grid.ny))?;
+    variables.columns(columns, grid)?;
     Ok((variables.finish(), attributes))
 }
 
@@ -173,19 +174,24 @@ pub(crate) fn verify(py: Python<'_>, store: PathBuf) -> PyResult<String> {
 
 /// Go on with the run of a store that ended early; use :func:`pyfret.resume`, which opens it.
 #[pyfunction]
-#[pyo3(signature = (store, *, checkpoint = 5.0, on_increment = None))]
+#[pyo3(signature = (store, *, checkpoint = 5.0, friction_law = None, on_increment = None))]
 pub(crate) fn resume(
     py: Python<'_>,
     store: PathBuf,
     checkpoint: f64,
+    friction_law: Option<&Bound<'_, PyAny>>,
     on_increment: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     let (interval, stop) = (interval(checkpoint)?, Arc::default());
+    let law = friction_law.map(own_law).transpose()?;
     let Some(Resumed {
         march,
         writer,
         increments,
-    }) = interruptible(py, &stop, || output::resume(store, Some(&stop)))?.map_err(to_python)?
+    }) = interruptible(py, &stop, || {
+        output::resume_by(store, law.as_ref(), Some(&stop))
+    })?
+    .map_err(to_python)?
     else {
         return Ok(());
     };

@@ -57,8 +57,8 @@ impl<'py> Variables<'py> {
     }
 
     /// The numbers of one increment, without a dimension.
-    pub(crate) fn increment(&self, increment: &Increment) -> PyResult<()> {
-        for scalar in SCALARS {
+    pub(crate) fn increment(&self, increment: &Increment, grid: &Grid) -> PyResult<()> {
+        for scalar in SCALARS.iter().map(|scalar| scalar.on(grid)) {
             let value = ArrayD::from_elem(IxDyn(&[]), (scalar.value)(increment));
             let values = self.typed(scalar.kind, value);
             self.put(scalar.name, &[], values, (scalar.units, scalar.long_name))?;
@@ -85,9 +85,10 @@ impl<'py> Variables<'py> {
     }
 
     /// The numbers of all increments, and the fields of those that are kept.
-    pub(crate) fn columns(&self, columns: Columns, (nx, ny): (usize, usize)) -> PyResult<()> {
+    pub(crate) fn columns(&self, columns: Columns, grid: &Grid) -> PyResult<()> {
         let py = self.0.py();
-        for (scalar, values) in SCALARS.iter().zip(columns.scalars) {
+        let on_grid = SCALARS.iter().map(|scalar| scalar.on(grid));
+        for (scalar, values) in on_grid.zip(columns.scalars) {
             let values = self.typed(scalar.kind, Array1::from_vec(values).into_dyn());
             self.put(
                 scalar.name,
@@ -107,8 +108,8 @@ impl<'py> Variables<'py> {
         }
         for (field, kept) in FIELDS.iter().zip(columns.fields) {
             let values = match kept {
-                KeptField::Real(kept) => stacked(py, kept, (nx, ny)),
-                KeptField::Mask(kept) => stacked(py, kept, (nx, ny)),
+                KeptField::Real(kept) => stacked(py, kept, (grid.nx, grid.ny)),
+                KeptField::Mask(kept) => stacked(py, kept, (grid.nx, grid.ny)),
             };
             self.put(
                 field.name,

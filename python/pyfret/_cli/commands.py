@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import json
 import os
 import signal
 import sys
@@ -13,7 +14,9 @@ from typing import TYPE_CHECKING
 from pyfret import verification, wear
 from pyfret._cli import crack, export, fit, threshold
 from pyfret._cli.parser import Parser, added
-from pyfret.citation import cite as sources
+from pyfret._core import __version__
+from pyfret.citation import cite as told
+from pyfret.citation import sources
 from pyfret.result import open as open_result
 from pyfret.study.file import run_file
 
@@ -52,9 +55,15 @@ def parser() -> argparse.ArgumentParser:
     report.add_argument("store", help="result")
     report.add_argument("-o", "--out", help="page to write (default: NAME.html)")
     report.add_argument("--wear", metavar="STORE", help="result of fret wear, shown as well")
-    added(commands, "verify", "check this installation against closed forms, in minutes")
+    report.add_argument(
+        "--crack", action="store_true", help="show a crack as well; the options below say which"
+    )
+    crack.add_crack(report)
+    verify = added(commands, "verify", "check this installation against closed forms, in minutes")
     cite = added(commands, "cite", "say what to cite for a result")
     cite.add_argument("store", nargs="?", help="result (default: all methods)")
+    for command in (study, report, verify, cite):
+        command.add_argument("--json", action="store_true", help="print one JSON object")
     for command in commands.choices.values():
         tells = "--json" in command._option_string_actions
         says = "print nothing" + ("; with --json the JSON alone" if tells else "")
@@ -82,10 +91,19 @@ def study(options: argparse.Namespace) -> int:
     finally:
         if client is not None:
             client.close()
-    print(f"{place}: {found!r}")
     failed = found.failed()
-    for values, reason in failed:
-        print(f"{', '.join(f'{k} = {v}' for k, v in values.items())}: {reason}")
+    if options.json:
+        tell(
+            store=str(place),
+            points=found.count(),
+            measures=found.measures,
+            failed=[{**values, "reason": reason} for values, reason in failed],
+            map=options.map,
+        )
+    else:
+        print(f"{place}: {found!r}")
+        for values, reason in failed:
+            print(f"{', '.join(f'{k} = {v}' for k, v in values.items())}: {reason}")
     if options.map:
         import matplotlib.pyplot as plt
 
@@ -99,22 +117,53 @@ def report(options: argparse.Namespace) -> int:
     """Write the page of a result."""
     place = Path(options.out or Path(options.store).with_suffix(".html").name)
     worn = wear.open(options.wear) if options.wear else None
-    open_result(options.store).report(place, wear=worn)
-    print(f"{place}: {place.stat().st_size / 1e6:.1f} MB")
+    result = open_result(options.store)
+    cracks = threshold = None
+    if options.crack:
+        cracks, threshold = crack.cracks_of(result, options), crack.threshold_of(options)
+    result.report(place, wear=worn, crack=cracks, threshold=threshold)
+    size = place.stat().st_size
+    if options.json:
+        tell(page=str(place), bytes=size)
+    else:
+        print(f"{place}: {size / 1e6:.1f} MB")
     return DONE
 
 
-def verify(_: argparse.Namespace) -> int:
+def verify(options: argparse.Namespace) -> int:
     """Compare with closed forms, a line for every number."""
     found = verification.verify()
-    print(found)
+    if options.json:
+        checks = [
+            {
+                "what": of.what,
+                "source": of.source,
+                "ours": of.ours,
+                "truth": of.truth,
+                "error": of.error,
+                "passed": of.passed,
+            }
+            for of in found.checks
+        ]
+        tell(passed=found.passed, checks=checks)
+    else:
+        print(found)
     return DONE if found.passed else ENDED_EARLY
 
 
 def cite(options: argparse.Namespace) -> int:
     """Say what to cite."""
-    print(sources(open_result(options.store) if options.store else None))
+    result = open_result(options.store) if options.store else None
+    if options.json:
+        tell(version=__version__, sources=[source._asdict() for source in sources(result)])
+    else:
+        print(told(result))
     return DONE
+
+
+def tell(**answer: object) -> None:
+    """Print what came out as one JSON object."""
+    print(json.dumps(answer, indent=2))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

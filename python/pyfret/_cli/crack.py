@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from pyfret.fracture import Cracks
     from pyfret.result import Result
 
-__all__ = ["add_options", "run"]
+__all__ = ["add_crack", "add_options", "cracks_of", "run", "threshold_of"]
 
 #: Endings of figures, and of files of the fields.
 FIGURES, FIELDS = (".png", ".svg", ".pdf"), (".nc", ".zarr")
@@ -29,6 +29,14 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     """Add the command to a command line."""
     crack = added(commands, "crack", "say whether a crack below the contact grows or stops")
     crack.add_argument("store", help="result, the increments of its cycle kept")
+    add_crack(crack)
+    crack.add_argument("--json", action="store_true", help="one JSON object per length and verdict")
+    crack.add_argument("--paris", type=numbers, metavar="C,M", help="growth, C at 1 MPa m^0.5 [m]")
+    crack.add_argument("-o", "--out", help="figure (.png, .svg, .pdf) or K over the cycle (.nc)")
+
+
+def add_crack(crack: argparse.ArgumentParser) -> None:
+    """Add the options that say which crack, and which threshold."""
     crack.add_argument(
         "--x", type=float, help="place of the mouth [m] (default: the worse rim of the contact)"
     )
@@ -73,9 +81,6 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     crack.add_argument("--material", help="takes dK_th and s_D of a material instead")
     crack.add_argument("--materials", metavar="FILE", help="table of materials (TOML)")
     crack.add_argument("--walker", type=float, help="exponent of the load ratio (default: none)")
-    crack.add_argument("--json", action="store_true", help="one JSON object per length and verdict")
-    crack.add_argument("--paris", type=numbers, metavar="C,M", help="growth, C at 1 MPa m^0.5 [m]")
-    crack.add_argument("-o", "--out", help="figure (.png, .svg, .pdf) or K over the cycle (.nc)")
 
 
 def numbers(text: str) -> list[float]:
@@ -87,13 +92,13 @@ def run(options: argparse.Namespace) -> int:
     """Take the stress of a result to the tips of cracks and say what came out."""
     if options.out is not None and Path(options.out).suffix not in (*FIGURES, *FIELDS):
         raise ValueError(f"--out {options.out}: must end in {', '.join((*FIGURES, *FIELDS))}")
-    threshold = _threshold(options)
+    threshold = threshold_of(options)
     if options.paris is not None and (threshold is None or len(options.paris) != 2):
         raise ValueError("--paris: two numbers C,M, and a threshold, --dK-th or --material")
     if options.out and Path(options.out).suffix in FIGURES and threshold is None:
         raise ValueError("--out: the figure needs a threshold, --dK-th or --material")
     result = open(options.store)
-    cracks = _cracks(result, options)
+    cracks = cracks_of(result, options)
     rows = _rows(cracks, threshold)
     if options.paris is not None and threshold is not None:
         rows[-1]["cycles"] = cracks.life(threshold, Paris(*options.paris)).cycles
@@ -108,7 +113,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _cracks(result: Result, options: argparse.Namespace) -> Cracks:
+def cracks_of(result: Result, options: argparse.Namespace) -> Cracks:
     """The cracks asked for, or the one that grows."""
     azimuth = None if options.azimuth is None else math.radians(options.azimuth)
     common: dict[str, Any] = {
@@ -135,7 +140,8 @@ def _cracks(result: Result, options: argparse.Namespace) -> Cracks:
     )
 
 
-def _threshold(options: argparse.Namespace) -> Threshold | None:
+def threshold_of(options: argparse.Namespace) -> Threshold | None:
+    """The threshold asked for, if any."""
     if options.material is not None:
         if options.dK_th is not None or options.dS_0 is not None:
             raise ValueError("--material: gives --dK-th and --dS-0 itself; leave these out")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -37,6 +39,7 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     command.add_argument("--axis-x", default="1,0,0", help="the contact's x in the model")
     command.add_argument("--axis-z", default="0,0,1", help="the contact's z, into body 2")
     command.add_argument("--unit", choices=("m", "mm"), default="m", help="length of the model")
+    command.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -60,7 +63,11 @@ def run(options: argparse.Namespace) -> int:
         mesh=options.mesh,
         points=points,
     )
-    print(options.out)
+    if options.json:
+        about = {"file": options.out, "body": options.body, "unit": options.unit}
+        print(json.dumps(about | {"bytes": Path(options.out).stat().st_size}, indent=2))
+    else:
+        print(options.out)
     return 0
 
 

@@ -49,12 +49,9 @@ def run(options: argparse.Namespace) -> int:
     """Find the threshold, or the curve, and say it."""
     material = fatigue.Materials(options.materials)[options.material]
     measure = Averaged(material, options.criterion, options.distance, options.method)
-    keys = options.parameter.split(",")
 
     def scene(values: dict[str, Any]) -> Any:
-        load = values.pop(options.parameter)
-        signed = {key.removeprefix("-"): -load if key.startswith("-") else load for key in keys}
-        return varied(options.scene, {**values, **signed, "output.save": "all"})
+        return varied(options.scene, {**values, "output.save": "all"})
 
     low, _, high = options.between.partition(":")
     over = None

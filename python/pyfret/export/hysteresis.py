@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pyfret._util.lazy import xr
-from pyfret._util.units import unit_on
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -59,7 +57,7 @@ def hysteresis(result: Run, *, direction: Literal["x", "y", "torsion"] = "x") ->
     secant = np.divide(T, delta, out=np.full_like(T, stiffness[0]), where=delta > 0.0)
     energy = _masing(delta, T)
     lengths, forces = ("rad", "N m") if torsion else ("m", "N")
-    per = partial(unit_on, result.scene.grid)
+    per = result.scene.grid.unit_of
     stiffnesses, forces = per(f"{forces}/{lengths}"), per(forces)
     columns = {
         "delta": (delta, lengths, "half range of the shift"),

@@ -159,7 +159,8 @@ def arrest_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
             entries += lines(ax, bulk, T, table[name].values, levels, CRACK, "solid", meaning)
     entries += arrest_lines(ax, bulk, T, table)
     ax.set_xlabel(r"bulk stress $\sigma_\mathrm{B}$ [MPa]")
-    ax.set_ylabel(r"$T$ [kN]")
+    unit = str(table["T"].attrs.get("units", "N"))
+    ax.set_ylabel(f"$T$ [k{unit}]")
     ax.grid(visible=False)
     ax.legend(handles=entries, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     return ax
@@ -171,7 +172,8 @@ def running_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
 
     Coloured by the energy ratio, which tells gross slip (0.2 and more) from partial slip. Over
     shifts a line parts them by the status; over forces it is grey where there is no static
-    solution, above the dashed line :math:`T = \mu W`.
+    solution, above the dashed line :math:`T = \mu W`. With `arrest` in the sweep dotted lines are
+    the lengths at which cracks stop, and a thick one begins where none does.
     """
     ax = axes(ax)
     driven = "T" if "T" in table.dims else "delta"
@@ -192,6 +194,9 @@ def running_map(table: xr.Dataset, *, ax: Axes | None = None) -> Axes:
     if driven == "T":
         ends = np.array([0.0, W.max() * 1.1])
         ax.plot(ends, table.attrs["mu"] * ends, color="0.2", linestyle="--", linewidth=0.9)
+    entries = arrest_lines(ax, W, amplitude, table.transpose(driven, "W"))
+    if entries:
+        ax.legend(handles=entries, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     ax.set_xlim(*limits[0])
     ax.set_ylim(*limits[1])
     ax.set_xlabel(f"$W$ [{force_unit(table)}]")

@@ -227,6 +227,8 @@ def loop_evolution(result: Run, *, ax: Axes | None = None, **line: Any) -> Axes:
         ax.plot(number, values, label=label, **line)
     ax.set_xlabel("cycle")
     ax.set_xticks(number)
+    # A point at the largest value is whole.
+    ax.margins(y=0.08)
     ax.set_ylim(bottom=0.0)
     if number.size:
         ax.legend()

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import re
 
-from pyfret._util.units import PER_METRE
-
 __all__ = ["parameter_label"]
 
 #: The last part of a key: words, unit, and how many of its SI unit that is.
@@ -29,6 +27,8 @@ MEANINGS: dict[str, tuple[str, str, float]] = {
     "n": ("cells along a side", "", 1.0),
     "rms": ("rms roughness", "µm", 1e-6),
 }
+#: Units of loads, which of a line contact are per metre.
+LOADS = ("N", "N m")
 #: Letters of a label from which on it takes two lines.
 LONG = 36
 #: Numbers that are given over another one: what that is called.
@@ -43,6 +43,7 @@ PLACES = (
     (r"body(\d)\.substrate", "substrate of body {body}"),
     (r"body(\d)(?:\.(?:shape|surface)(?:\.\w+)*)?", "body {body}"),
     (r"path\.(\d+)", "branch {branch}"),
+    (r"path\.(\*)", ""),
 )
 
 
@@ -52,8 +53,8 @@ def place_in_words(whole: str) -> str | None:
         return ""
     for form, words in PLACES:
         if found := re.fullmatch(form, whole):
-            first, last = found[1], int(found[found.lastindex or 1])
-            return words.format(body=first, branch=first, n=last + 1)
+            first, last = found[1], found[found.lastindex or 1]
+            return words.format(body=first, branch=first, n=int(last) + 1) if words else ""
     return None
 
 
@@ -69,7 +70,9 @@ def parameter_label(key: str, *, per_metre: bool = False) -> tuple[str, float]:
     >>> parameter_label("speed")
     ('speed', 1.0)
     """
-    whole, _, last = key.rpartition(".")
+    first, *more = key.split(",")
+    amplitude = any(part.strip().startswith("-") for part in more)
+    whole, _, last = first.removeprefix("-").rpartition(".")
     over = OVER.get(last)
     if over is not None:
         whole, _, last = whole.rpartition(".")
@@ -78,9 +81,13 @@ def parameter_label(key: str, *, per_metre: bool = False) -> tuple[str, float]:
     if last not in MEANINGS or place is None or not (whole or last == "mu"):
         return key, 1.0
     words, unit, size = MEANINGS[last]
+    if more:
+        place = ""
+        words = f"amplitude of {words}" if amplitude else words
     if over is not None:
         words, unit, size = f"{words} over {over}", "", 1.0
-    unit = PER_METRE.get(unit, unit) if per_metre else unit
+    if per_metre and unit in LOADS:
+        unit = f"{unit}/m"
     label = f"{words}, {place}" if place else words
     label = f"{label} [{unit}]" if unit else label
     # As long as an axis is.

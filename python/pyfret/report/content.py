@@ -8,6 +8,8 @@ import numpy as np
 
 from pyfret._util.depths import stretched, thin
 from pyfret._util.numbers import in_words
+from pyfret.report.crack import Crack
+from pyfret.report.digits import short
 from pyfret.run.summary import directions
 from pyfret.subsurface.contact import stress_below
 
@@ -35,18 +37,6 @@ LOOPS = {
     "y": ("T_y", "delta_y", "T<sub>y</sub>", "δ<sub>y</sub> [µm]"),
     "torsion": ("M_z", "phi_z", "M<sub>z</sub>", "φ<sub>z</sub> [µrad]"),
 }
-
-
-def short(values: Any, digits: int = 4) -> Any:
-    """Numbers in a few digits as lists; what is no number becomes None."""
-    array = np.asarray(values, dtype=float)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        power = digits - 1 - np.floor(np.log10(np.abs(array)))
-        power = np.where(np.isfinite(power), power, 0.0)
-        rounded = np.round(array * 10.0**power) / 10.0**power
-    listed = np.where(np.isfinite(rounded), rounded, np.nan).astype(object)
-    listed[~np.isfinite(rounded)] = None
-    return listed.tolist()
 
 
 def chosen(n: int, most: int) -> NDArray[np.int64]:
@@ -128,12 +118,17 @@ def loop(result: Run) -> dict[str, Any]:
     }
 
 
-def stress(result: Run) -> dict[str, Any] | None:
-    """Von Mises stress on the section y = 0 of the lower body at the last increment."""
+def stress(result: Run, crack: Crack | None = None) -> dict[str, Any] | None:
+    """Von Mises stress on the section y = 0 at the last increment, with the crack in it.
+
+    Of the lower body, or of that with the crack.
+    """
     at = result.at(-1)
-    if not bool(at.contact.any()) or not np.isfinite(result.scene.body2.substrate.E):
+    number = 2 if crack is None else int(crack.about["body_number"])
+    body = result.scene.body1 if number == 1 else result.scene.body2
+    if not bool(at.contact.any()) or not np.isfinite(body.substrate.E):
         return None
-    below = stress_below(at)
+    below = stress_below(at, body_number=number)
     largest = below.maximum()
     values = 1e-6 * below.von_mises.values
     z, x = below.von_mises.z.values, below.von_mises.x.values
@@ -143,7 +138,8 @@ def stress(result: Run) -> dict[str, Any] | None:
         room = SIDEWAYS * max(np.ptp(touched), z[-1])
         near = np.flatnonzero((x >= touched[0] - room) & (x <= touched[-1] + room))
     depths, along = chosen(z.size, DOWN), near[chosen(near.size, ALONG)]
-    borders = 1e6 * np.array([z[0], *result.scene.interfaces(), z[-1]])
+    interfaces = np.cumsum([layer.thickness for layer in body.coatings])
+    borders = 1e6 * np.array([z[0], *interfaces, z[-1]])
     flat = np.ptp(x[along]) > FLAT * np.ptp(z)
     stretch = thin(borders)
 
@@ -164,6 +160,8 @@ def stress(result: Run) -> dict[str, Any] | None:
         "largest": [1e6 * largest.x, 1e6 * largest.z, 1e-6 * largest.value],
         "mark": [1e6 * largest.x, *place(np.array([1e6 * largest.z]))],
         "error": 1e-6 * largest.error,
+        "body": "upper" if number == 1 else "lower",
+        "crack": None if crack is None else crack.drawn(1e6 * z[-1], place),
     }
 
 
@@ -179,11 +177,14 @@ def wear(worn: WearResult) -> dict[str, Any]:
     }
 
 
-def figures(result: Run, worn: WearResult | None) -> dict[str, Any]:
+def figures(
+    result: Run, worn: WearResult | None = None, crack: Crack | None = None
+) -> dict[str, Any]:
     """All numbers of the figures of a page."""
     return {
         "fields": increments(result),
         "loop": loop(result),
-        "stress": stress(result),
+        "stress": stress(result, crack),
+        "crack": None if crack is None else crack.numbers(),
         "wear": None if worn is None else wear(worn),
     }

@@ -108,14 +108,53 @@
       type: "line", xref: "paper", x0: 0, x1: 1, y0: z, y1: z, line: { dash: "dash", width: 1 },
     }));
     const [x, z, value] = stress.largest;
+    const crack = [];
+    if (stress.crack) {
+      const way = (of, line) => crack.push({ x: of.x, y: of.z, mode: "lines", line: { color: "black", ...line }, hoverinfo: "skip", showlegend: false });
+      way(stress.crack.grown, { width: 2.5 });
+      way(stress.crack.rest, { width: 1, dash: "dash" });
+      if (stress.crack.end) {
+        crack.push({ x: stress.crack.end.x, y: stress.crack.end.z, mode: "markers", marker: { size: 8, color: "#a50f15" }, hoverinfo: "skip", showlegend: false });
+      }
+    }
+    document.getElementById("body").textContent = stress.body;
     Plotly.newPlot("stress", [
       { type: "heatmap", x: stress.x, y: stress.place, z: stress.values, customdata: stress.z.map((z) => stress.x.map(() => z)), hovertemplate: "x %{x} µm, z %{customdata} µm: %{z} MPa<extra></extra>", colorscale: "YlGnBu", reversescale: true, colorbar: { title: { text: "[MPa]", side: "right" }, thickness: 12 } },
-      { x: [stress.mark[0]], y: [stress.mark[1]], mode: "markers", marker: { symbol: "x-thin", size: 10, line: { width: 2, color: "black" } }, hoverinfo: "skip" },
+      { x: [stress.mark[0]], y: [stress.mark[1]], mode: "markers", marker: { symbol: "x-thin", size: 10, line: { width: 2, color: "black" } }, hoverinfo: "skip", showlegend: false },
+      ...crack,
     ], section, options);
     document.getElementById("largest").textContent =
-      `the cross marks the largest, ${value.toPrecision(4)} MPa at x = ${x.toPrecision(3)} µm, z = ${z.toPrecision(3)} µm.`;
+      `the cross marks the largest, ${value.toPrecision(4)} MPa at x = ${x.toPrecision(3)} µm, z = ${z.toPrecision(3)} µm${stress.crack ? `; the line is the crack${stress.crack.end ? ", dashed beyond where it stops" : ""}` : ""}.`;
   } else {
     document.getElementById("below").remove();
+  }
+  if (data.crack) {
+    const of = data.crack;
+    document.getElementById("verdict").textContent = of.says;
+    document.getElementById("length").textContent = of.length;
+    const K = (name, label, color) => ({
+      x: of.increment, y: of[name], name: label, line: { color },
+      error_y: { type: "data", array: of.error, thickness: 1, width: 2 },
+    });
+    Plotly.newPlot("intensity", [K("K_I", "K<sub>I</sub>", colours.first), K("K_II", "K<sub>II</sub>", colours.second)], layout("increment", "K [MPa m<sup>1/2</sup>]"), options);
+    if (of.kitagawa) {
+      const { length, load, limit, smooth } = of.kitagawa;
+      const axes = layout("crack length [µm]", "range of stress [MPa]");
+      axes.xaxis = { ...axes.xaxis, type: "log", dtick: "D2" };
+      axes.yaxis = { ...axes.yaxis, type: "log", dtick: "D2" };
+      const lines = [
+        { x: length, y: load, name: "load", line: { color: colours.first } },
+        { x: length, y: limit, name: "limit", line: { color: "black" } },
+      ];
+      if (smooth !== null) {
+        lines.push({ x: [length[0], length[length.length - 1]], y: [smooth, smooth], name: "fatigue limit", mode: "lines", line: { color: colours.bound, dash: "dot" } });
+      }
+      Plotly.newPlot("kitagawa", lines, axes, options);
+    } else {
+      document.getElementById("diagram").remove();
+    }
+  } else {
+    document.getElementById("cracked").remove();
   }
   if (data.wear) {
     const bodies = ["upper body", "lower body"];

@@ -15,6 +15,7 @@ from pyfret._core import __version__
 from pyfret._util.files import beside
 from pyfret.citation import sources
 from pyfret.report.content import figures as numbers
+from pyfret.report.crack import Crack
 from pyfret.run.summary import directions
 from pyfret.run.tables import cycles_table, ends_table
 from pyfret.scene.tables import scene_html, table
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
+    from pyfret.fracture.growth import Cracks, Threshold
     from pyfret.run import Run
     from pyfret.wear.runs import WearResult
 
@@ -39,6 +41,8 @@ def report(
     path: str | os.PathLike[str],
     *,
     wear: WearResult | None = None,
+    crack: Cracks | None = None,
+    threshold: Threshold | None = None,
     figures: Mapping[str, Figure] | None = None,
 ) -> None:
     """Write a result as one page for a browser, which needs neither pyfret nor a network.
@@ -55,6 +59,11 @@ def report(
         File to write, ``.html``; one that is there is replaced.
     wear : WearResult, optional
         What many cycles wore off.
+    crack : Cracks, optional
+        A crack of :meth:`Result.crack` or :meth:`Result.grow_crack`: its way in the section, K over
+        the cycle.
+    threshold : Threshold, optional
+        Of its material: whether and where the crack stops, Kitagawa and Takahashi's diagram.
     figures : mapping of str to Figure, optional
         Figures of matplotlib to append, by their captions: lives, yours.
 
@@ -63,11 +72,14 @@ def report(
     ImportError
         If the package plotly is missing: ``pip install "fretting[report]"``.
     ValueError
-        The ending of the file is another.
+        The ending of the file is another, or a threshold is given without a crack.
     """
     place = Path(path)
     if place.suffix not in (".html", ".htm"):
         raise ValueError(f"{place}: must end in .html")
+    if threshold is not None and crack is None:
+        raise ValueError("threshold: needs a crack, such as crack=result.crack()")
+    cracked = None if crack is None else Crack(crack, threshold)
     page = Template((HERE / "page.html").read_text(encoding="utf-8")).substitute(
         title=escape(str(result.dataset.attrs["title"]) or "Fretting contact"),
         version=escape(str(result.dataset.attrs.get("version", __version__))),
@@ -84,7 +96,7 @@ def report(
         toml=escape(result.scene.to_toml()),
         css=(HERE / "page.css").read_text(encoding="utf-8"),
         js=(HERE / "page.js").read_text(encoding="utf-8"),
-        numbers=packed(json.dumps(numbers(result, wear), allow_nan=False)),
+        numbers=packed(json.dumps(numbers(result, wear, cracked), allow_nan=False)),
         plotly=packed(drawing()),
     )
     with beside(place) as unfinished:

@@ -8,7 +8,6 @@ import numpy as np
 
 from pyfret._core import Scene
 from pyfret._util.labelled import Labelled
-from pyfret._util.units import line_contact
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -22,9 +21,6 @@ class OfRun(Labelled):
     def __init__(self, dataset: xr.Dataset, scene: Scene | None = None) -> None:
         super().__init__(dataset)
         self._scene = scene
-        # One row of cells may be a strip; others are not worth reading their scene.
-        if dataset.sizes.get("y") == 1 and self.scene.grid.plane_strain:
-            super().__init__(line_contact(dataset, self.scene.grid))
 
     @property
     def dataset(self) -> xr.Dataset:

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Literal
 
 from pyfret import _core
 from pyfret._util.lazy import xr
-from pyfret._util.units import unit_on
 
 if TYPE_CHECKING:
     from pyfret._core import Scene
@@ -54,7 +53,7 @@ def of_cycles(
             name: (
                 "cycle",
                 [cycle[name] for cycle in found],
-                {"units": unit_on(grid, units.get(unit, unit)), "long_name": of},
+                {"units": grid.unit_of(units.get(unit, unit)), "long_name": of},
             )
             for name, (unit, of) in LOOP.items()
         },

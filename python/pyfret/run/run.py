@@ -173,10 +173,6 @@ class Run(OfRun):
         for name in (name for name in bars[0] if name != "branch"):
             of_field = name in ("p", "q")
             values = np.array([[bar[name][part] for part in parts] for bar in bars], dtype=float)
-            if name == "contact_radius" and "half_width" in self.dataset:
-                # From the circle of radius r of the same area, 2 a dy = pi r^2.
-                half, dy = self.branches().half_width.values, self.scene.grid.dy
-                name, values = "half_width", np.sqrt(2 * np.pi * half / dy)[:, None] * values
             attrs = {"units": "1"} if of_field else self.dataset[name].attrs
             table[name] = (("branch", "part"), values, attrs)
         return table

@@ -9,7 +9,6 @@ import numpy as np
 
 from pyfret._core import LoadPath, Scene
 from pyfret._util.numbers import in_words, length
-from pyfret._util.units import unit_on
 from pyfret.scene.words import friction_in_words, shape_in_words
 
 if TYPE_CHECKING:
@@ -108,7 +107,7 @@ def given(branch: Branch, grid: Grid | None = None) -> str:
         if not value and (name != "W" or value is None):
             continue
         if unit in ("N", "N m") and grid is not None:
-            unit = unit_on(grid, unit)
+            unit = grid.unit_of(unit)
         shown = length(value) if not unit else f"{number(value / FACTORS.get(unit, 1.0))} {unit}"
         parts.append(f"{symbol} = {shown}")
     return ", ".join(parts) or "nothing"

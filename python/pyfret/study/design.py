@@ -5,7 +5,9 @@ from __future__ import annotations
 import difflib
 import json
 import math
+import re
 import sys
+import warnings
 import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,6 +20,7 @@ import numpy as np
 from pyfret._core import InvalidSceneError, Scene
 from pyfret._util.lazy import xr
 from pyfret._util.text import read_text
+from pyfret.errors import SceneWarning
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -47,7 +50,9 @@ def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Sce
         follows the radius; a :class:`Scene` has all numbers in SI units.
     values : mapping of str to value
         By the keys of a scene file, such as ``"body2.coatings.0.thickness"`` or
-        ``"path.1.T_x.mu_W"``; ``"mu"`` is short for ``"friction.mu"``.
+        ``"path.1.T_x.mu_W"``; ``"mu"`` is short for ``"friction.mu"``. ``"path.*.W"`` is that of
+        every branch; several keys with commas between get the same value, with a ``-`` before it
+        the opposite one: ``"path.1.T_x,-path.2.T_x,path.3.T_x"`` is an amplitude.
 
     Raises
     ------
@@ -58,10 +63,48 @@ def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Sce
     --------
     >>> harder = varied("coated.toml", {"body2.coatings.0.E": 3e11})  # doctest: +SKIP
     """
-    settings = [f"{SHORT.get(key, key)}={toml(value)}" for key, value in values.items()]
-    if isinstance(scene, Scene):
-        return Scene.from_toml(scene.to_toml(), set=settings)
-    return Scene.from_file(scene, set=settings)
+    given = scene if isinstance(scene, Scene) else None
+    settings = [
+        f"{SHORT.get(one, one)}={toml(each)}"
+        for key, value in values.items()
+        for one, each in spread(key, value, scene)
+    ]
+    if given is None:
+        return Scene.from_file(scene, set=settings)
+    made = Scene.from_toml(given.to_toml(), set=settings)
+    told_alone(values, given)
+    if callable(given.friction.law):
+        # A function stands in no text.
+        return made.replace(mu=made.friction.replace(law=given.friction.law))
+    return made
+
+
+def spread(key: str, value: Any, scene: Scene | str | PathLike[str]) -> Iterator[tuple[str, Any]]:
+    """The keys that one stands for, each with its value."""
+    for part in key.split(","):
+        one = part.strip().removeprefix("-")
+        each = -value if part.strip().startswith("-") else value
+        if ".*." in one:
+            whole = scene if isinstance(scene, Scene) else Scene.from_file(scene)
+            for n in range(len(whole.path.branches)):
+                yield one.replace(".*.", f".{n}."), each
+        else:
+            yield one, each
+
+
+def told_alone(values: Mapping[str, Any], scene: Scene) -> None:
+    """Warn of a normal force of one branch from which the next goes back to the old one."""
+    branches = scene.path.branches
+    for key in values:
+        found = re.fullmatch(r"path\.(\d+)\.W", key)
+        after = int(found[1]) + 1 if found else len(branches)
+        if after < len(branches) and branches[after].W == branches[after - 1].W:
+            warnings.warn(
+                f"{key}: of this branch alone, the next goes back to W = "
+                f"{branches[after].W:g}; path.*.W is that of all",
+                SceneWarning,
+                stacklevel=3,
+            )
 
 
 def toml(value: Any) -> str:

@@ -10,7 +10,6 @@ import numpy as np
 from pyfret._core import LoadPath, Scene
 from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
-from pyfret._util.units import unit_on
 from pyfret.study.loop import solve
 
 if TYPE_CHECKING:
@@ -36,6 +35,7 @@ SHOWN = {
     "delta": "delta",
     "stiffness": "stiffness",
 }
+BULK = "largest bulk stress"
 #: Name of a parameter of the map whose measure is called the same.
 AMPLITUDE = "amplitude"
 
@@ -47,6 +47,8 @@ def running_conditions(
     T: ArrayLike | None = None,
     delta: ArrayLike | None = None,
     cycles: int = 1,
+    sigma_B: ArrayLike = 0.0,
+    bulk_ratio: float = 0.0,
     increments: tuple[int, int] = (20, 20),
     cracking: Cracking | None = None,
     arrest: Arrest | None = None,
@@ -71,6 +73,11 @@ def running_conditions(
         Amplitudes of the shift [m], instead of `T`: gross slip is solved as well.
     cycles : int
         Number of cycles; the map shows the last.
+    sigma_B : float or array
+        Largest bulk stress of body 2 [Pa], in phase with the force `T`; several make a third
+        dimension, of which a figure shows one, ``table.sel(sigma_B=...)``.
+    bulk_ratio : float
+        Smallest over largest bulk stress.
     increments : (int, int)
         Increments of the indentation and of a full stroke.
     cracking : Cracking, optional
@@ -103,9 +110,24 @@ def running_conditions(
         raise ValueError("give the amplitudes T or delta, one of them")
     normal, tangential = np.atleast_1d(plain(W, "W")), np.atleast_1d(plain(given, driven))
     measures: list[Measure] = [name for shown, name in SHOWN.items() if shown != driven]
+    bulk = np.atleast_1d(plain(sigma_B, "sigma_B"))
+    if driven == "delta" and bulk.any():
+        raise ValueError("sigma_B: must be 0 with shifts delta; it goes with forces T")
+    loads = {"W": normal, AMPLITUDE: tangential}
+    if np.ndim(sigma_B):
+        loads["sigma_B"] = bulk
+    template = Cycles(
+        scene,
+        driven,
+        cycles,
+        increments,
+        fields=bool(cracking or arrest),
+        sigma_B=float(bulk[0]),
+        bulk_ratio=bulk_ratio,
+    )
     found = solve(
-        Cycles(scene, driven, cycles, increments, fields=bool(cracking or arrest)),
-        {"W": normal, AMPLITUDE: tangential},
+        template,
+        loads,
         measure=[*measures, *(one for one in (cracking, arrest) if one)],
         executor=executor,
         progress=False,
@@ -114,7 +136,11 @@ def running_conditions(
     for point, reason in found.failed():
         if not reason.startswith(Slides.__name__):
             raise RuntimeError(f"W = {point['W']} N, {driven} = {point[AMPLITUDE]}: {reason}")
-    return labelled(found.dataset, scene, driven)
+    table = labelled(found.dataset, scene, driven)
+    if "sigma_B" in table.dims:
+        table["sigma_B"] = table["sigma_B"].assign_attrs(units="Pa", long_name=BULK)
+        return table
+    return table.assign_attrs(sigma_B=float(bulk[0]))
 
 
 def arrest_map(
@@ -177,8 +203,9 @@ def arrest_map(
             raise RuntimeError(f"T = {point['T']} N, sigma_B = {point['sigma_B']} Pa: {reason}")
     judged = ("arrest_margin", "arrest_length", "safety_factor", "life", "crack_depth")
     table = found.dataset[[name for name in judged if name in found.dataset]]
-    table["T"] = table["T"].assign_attrs(units="N", long_name="amplitude of the force")
-    table["sigma_B"] = table["sigma_B"].assign_attrs(units="Pa", long_name="largest bulk stress")
+    unit = scene.grid.unit_of("N")
+    table["T"] = table["T"].assign_attrs(units=unit, long_name="amplitude of the force")
+    table["sigma_B"] = table["sigma_B"].assign_attrs(units="Pa", long_name=BULK)
     return table.assign_attrs({"title": scene.title, "mu": scene.mu, "W": float(W)})
 
 
@@ -191,12 +218,12 @@ def labelled(found: xr.Dataset, scene: Scene, driven: str) -> xr.Dataset:
     table = found[list(kept)].rename(kept).drop_vars(AMPLITUDE).rename({AMPLITUDE: driven})
     table["status"] = table["status"].fillna(SLIDES).assign_attrs(long_name=STATUS)
     unit, meaning = units[driven]
-    unit = unit_on(scene.grid, unit)
+    unit = scene.grid.unit_of(unit)
     amplitude = found[AMPLITUDE].values
     table = table.assign_coords(
         {driven: (driven, amplitude, {"units": unit, "long_name": meaning})}
     )
-    table["W"] = table["W"].assign_attrs(units=unit_on(scene.grid, "N"), long_name="normal force")
+    table["W"] = table["W"].assign_attrs(units=scene.grid.unit_of("N"), long_name="normal force")
     return table.assign_attrs({"title": scene.title, "mu": scene.mu})
 
 
@@ -220,6 +247,9 @@ class Cycles:
     increments: tuple[int, int]
     #: Whether the fields of the last cycle are kept, or of its end alone.
     fields: bool
+    #: Largest bulk stress where it is no parameter, and the smallest over the largest.
+    sigma_B: float = 0.0
+    bulk_ratio: float = 0.0
 
     def __call__(self, point: dict[str, float]) -> Scene:
         """The scene under the normal force and the amplitude of a point."""
@@ -228,10 +258,12 @@ class Cycles:
             refuse_sliding(self.scene, amplitude, W)
         indentation, stroke = self.increments
         path = LoadPath.start().normal(W, increments=indentation)
+        largest = point.get("sigma_B", self.sigma_B)
         for n, turn in enumerate([amplitude, *([-amplitude, amplitude] * self.cycles)]):
             part = max(stroke // 2, 1) if n == 0 else stroke
             if self.driven == "T":
-                path = path.force(T_x=turn, increments=part)
+                bulk = largest * (1.0 if turn > 0.0 else self.bulk_ratio)
+                path = path.force(T_x=turn, sigma_B=bulk, increments=part)
             else:
                 path = path.displace(delta_x=turn, increments=part)
         last = len(path)

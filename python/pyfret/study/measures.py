@@ -11,7 +11,6 @@ import numpy as np
 
 from pyfret import fracture
 from pyfret._util.lazy import xr
-from pyfret._util.units import unit_on
 from pyfret.run.summary import directions
 from pyfret.subsurface.tensor import LABELS
 from pyfret.wear.runs import solve
@@ -314,7 +313,7 @@ def measured(result: Result, measures: Sequence[Measure]) -> dict[str, xr.Variab
     for one in measures:
         if isinstance(one, str):
             units, meaning, of = MEASURES[one]
-            units = unit_on(result.scene.grid, units)
+            units = result.scene.grid.unit_of(units)
             found[one] = xr.Variable((), of(result), {"units": units, "long_name": meaning})
         else:
             found |= variables(one(result), name_of(one))

@@ -17,7 +17,6 @@ from pyfret._core import Scene, StoreError
 from pyfret._util import files
 from pyfret._util.labelled import Labelled
 from pyfret._util.progress import Progress
-from pyfret._util.units import line_contact
 from pyfret.scene.tables import table
 
 if sys.version_info >= (3, 11):
@@ -50,12 +49,6 @@ class WearResult(Labelled):
     ``p``, ``stick`` over ``block``, ``x``, ``y`` (coordinate ``block_cycles``), and the friction
     loops ``loop_delta_x``, ``loop_T_x``, ... over ``block``, ``corner``.
     """
-
-    def __init__(self, dataset: xr.Dataset) -> None:
-        if dataset.sizes.get("y") == 1:
-            grid = Scene.from_toml(dataset.attrs["scene"]).grid
-            dataset = line_contact(dataset, grid) if grid.plane_strain else dataset
-        super().__init__(dataset)
 
     def __getattr__(self, name: str) -> Any:
         """Give a variable or an attribute of the dataset."""

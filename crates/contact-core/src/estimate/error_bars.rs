@@ -57,7 +57,7 @@ const RING_ENERGY: f64 = 0.024;
 pub struct ErrorBars {
     /// Branch, from 0.
     pub branch: usize,
-    /// Of the contact radius \[m\].
+    /// Of the contact radius, of a line contact of half its width \[m\].
     pub contact_radius: Bar,
     /// Of the stick area over the contact area.
     pub stick_ratio: Bar,
@@ -240,12 +240,16 @@ fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NU
 
 /// Uncertainty of the stick ratio: the area of a ring of width [`BORDER`] along the border of the
 /// stick zone over that of the contact; where the slip ring is narrower than [`SEEN`], of a ring of
-/// the missing width.
+/// the missing width. In a line contact the ring is a strip on both sides.
 fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {
     if !may_slip(scene) || fine.contact_radius <= 0.0 {
         return 0.0;
     }
     let (ratio, cell) = (fine.stick_ratio, cell(scene) / fine.contact_radius);
+    if scene.grid.plane_strain {
+        let missed = (SEEN * cell - (1.0 - ratio)).max(0.0);
+        return (BORDER * cell).max(missed);
+    }
     // Width of the ring, over the radius of the contact.
     let seen = 1.0 - ratio.max(0.0).sqrt();
     let missed = (SEEN * cell - seen).max(0.0);

@@ -5,7 +5,8 @@
 //! history that the solution gives, until the coefficient no longer changes.
 
 use super::setup::Setup;
-use crate::scene::History;
+use crate::error::Error;
+use crate::scene::{CellHistory, History, OwnFriction};
 
 /// Most corrections of the coefficient in an increment, and the relative change that ends them.
 pub(super) const CORRECTIONS: usize = 8;
@@ -48,6 +49,45 @@ pub(super) fn update(
             }
         });
     }
+}
+
+/// The pressure at the end of an increment, and by how much slip and dissipated energy have grown.
+pub(super) struct Solved<'a> {
+    pub(super) p: &'a [f64],
+    pub(super) slip: &'a [f64],
+    pub(super) dissipated: &'a [f64],
+}
+
+/// Sets `mu` by a law of the user's own: at the start of an increment, or at the end of one that is
+/// solved.
+pub(super) fn by_law(
+    setup: &Setup<'_>,
+    law: &OwnFriction,
+    solved: Option<&Solved<'_>>,
+    mu: &mut [f64],
+) -> Result<(), Error> {
+    let (geometry, state) = (setup.geometry, setup.state);
+    let (mirror, arms) = (setup.problem.plan.mirror, &geometry.arms);
+    let place = |of: &[f64]| of.iter().map(|of| of * arms.length).collect::<Vec<_>>();
+    let grown = |field: &[f64], by: Option<&[f64]>| -> Vec<f64> {
+        (0..mu.len())
+            .map(|n| {
+                let so_far = setup
+                    .roll
+                    .origin(geometry, mirror, n)
+                    .map_or(0.0, |n| field[n]);
+                so_far + by.map_or(0.0, |by| by[n])
+            })
+            .collect()
+    };
+    let cells = CellHistory {
+        x: &place(&arms.x),
+        y: &place(&arms.y),
+        p: solved.map_or(&setup.last().p, |solved| solved.p),
+        slip: &grown(&state.slip_length, solved.map(|solved| solved.slip)),
+        dissipated: &grown(&state.dissipated, solved.map(|solved| solved.dissipated)),
+    };
+    law.coefficients(&cells, setup.problem.scene.friction.mu, mu)
 }
 
 /// Extrapolated growth of the history of each cell: that of the last increment times the ratio of

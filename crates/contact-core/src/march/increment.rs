@@ -42,8 +42,13 @@ pub(super) fn increment(
         drives: Drives::new(problem, &geometry.arms, state, point),
         goes_on: state.going_on(point),
     };
-    let mu = [&mut ws.mu[..], &mut ws.mu_before[..]];
-    friction::update(&given, friction::expected(&given), mu);
+    if let Some(law) = &problem.scene.friction.law {
+        friction::by_law(&given, law, None, &mut ws.mu_before)?;
+        ws.mu.clone_from(&ws.mu_before);
+    } else {
+        let mu = [&mut ws.mu[..], &mut ws.mu_before[..]];
+        friction::update(&given, friction::expected(&given), mu);
+    }
     let most_work = domain.most_work();
     let response = Response {
         inverse: domain.window.inverse.as_deref_mut().map(|of| of as _),
@@ -93,15 +98,11 @@ fn with_its_friction<'a>(
     ws: &'a mut Workspace,
     extrapolates: bool,
 ) -> Result<Solution, Error> {
-    let history = given
-        .problem
-        .scene
-        .friction
-        .history
-        .as_ref()
-        .map(|history| history.of);
+    let law = &given.problem.scene.friction;
     let of_cells = |of: &History| matches!(of, History::Slip | History::Dissipated);
-    let follows = history.filter(of_cells);
+    let history = law.history.as_ref().map(|history| history.of);
+    let (history, own) = (history.filter(of_cells), law.law.as_ref());
+    let follows = history.is_some() || own.is_some();
     let mut solver = Solver {
         response,
         no_slip: &mut ws.no_slip,
@@ -119,12 +120,22 @@ fn with_its_friction<'a>(
             None => solve(&setup, &mut solver, extrapolates)?,
             Some(now) => entry::solve(&setup, &mut solver, now)?,
         };
-        let Some(of) = follows.filter(|_| corrections < friction::CORRECTIONS) else {
+        if !follows || corrections == friction::CORRECTIONS {
             return Ok((now, info));
-        };
-        let growth = accounts::growth(&setup, solver.no_slip, &now, info.shift, of);
+        }
+        let growth = |of| accounts::growth(&setup, solver.no_slip, &now, info.shift, of);
         let (mut next, mut before) = (ws.mu.clone(), ws.mu_before.clone());
-        friction::update(&setup, |n| growth[n], [&mut next, &mut before]);
+        if let Some(law) = own {
+            let solved = friction::Solved {
+                p: &now.p,
+                slip: &growth(History::Slip),
+                dissipated: &growth(History::Dissipated),
+            };
+            friction::by_law(&setup, law, Some(&solved), &mut next)?;
+        } else if let Some(of) = history {
+            let growth = growth(of);
+            friction::update(&setup, |n| growth[n], [&mut next, &mut before]);
+        }
         if info.exceeds_friction() || friction::has_settled(&ws.mu, &next) {
             return Ok((now, info));
         }

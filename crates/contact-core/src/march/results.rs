@@ -162,6 +162,8 @@ pub struct Increment {
     /// Cells across the radius of the contact: the half width, the smaller semi-axis of an ellipse,
     /// of many spots that of the one in the middle of their area; zero without a contact.
     pub cells_per_radius: f64,
+    /// Radius of the circle of the contact's area, of a line contact half its width \[m\].
+    pub contact_radius: f64,
     /// Largest pressure \[Pa\].
     pub p_max: f64,
     /// Largest shear traction |q| \[Pa\].
@@ -185,10 +187,5 @@ impl Increment {
         } else {
             1.0
         }
-    }
-
-    /// Radius of the circle of the contact's area \[m\].
-    pub fn contact_radius(&self) -> f64 {
-        (self.contact_area / std::f64::consts::PI).sqrt()
     }
 }

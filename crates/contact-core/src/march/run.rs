@@ -89,7 +89,7 @@ pub struct BranchSummary {
     pub loads: Loads,
     /// Rigid-body motion at its end.
     pub motion: Motion,
-    /// Radius of the circle of the contact's area at its end \[m\].
+    /// Radius of the circle of the contact's area at its end, of a line contact half its width \[m\].
     pub contact_radius: f64,
     /// Stick area over contact area at its end.
     pub stick_ratio: f64,
@@ -153,7 +153,7 @@ pub fn summarise(increments: &[Increment]) -> Vec<BranchSummary> {
                 increments: of_branch.len(),
                 loads: end.point.loads,
                 motion: end.motion,
-                contact_radius: end.contact_radius(),
+                contact_radius: end.contact_radius,
                 stick_ratio: end.stick_ratio(),
                 p_max: end.p_max,
                 dissipated: of_branch.iter().map(|i| i.energy.dissipated).sum(),

@@ -21,7 +21,12 @@ pub fn group_attributes(scene: &Scene, plan: &Plan) -> Map<String, Value> {
     if let Some(hertz) = scene.hertz() {
         set("a_H", json!(hertz.a));
         set("p_H", json!(hertz.p0));
-        set("R", json!(hertz.a * hertz.a / hertz.delta_z));
+        let R = if scene.grid.plane_strain {
+            1.0 / scene.principal_curvatures().0
+        } else {
+            hertz.a * hertz.a / hertz.delta_z
+        };
+        set("R", json!(R));
     }
     set("status", json!("running"));
     attributes

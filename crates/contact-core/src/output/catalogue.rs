@@ -3,6 +3,7 @@
 use ndarray::Array2;
 
 use crate::march::{Fields, Increment};
+use crate::scene::Grid;
 
 /// How the numbers of a variable are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +31,27 @@ pub struct Scalar {
     pub kind: Kind,
     /// Its value.
     pub value: fn(&Increment) -> f64,
+}
+
+/// Name and meaning of the `contact_radius` of a line contact.
+pub(super) const HALF_WIDTH: (&str, &str) = ("half_width", "half the width of the contact");
+
+impl Scalar {
+    /// As it stands in a run on a grid: that of a line contact has half its width in place of a
+    /// radius, and units per metre.
+    #[must_use]
+    pub fn on(self, grid: &Grid) -> Self {
+        let (name, long_name) = match self.name {
+            "contact_radius" if grid.plane_strain => HALF_WIDTH,
+            name => (name, self.long_name),
+        };
+        Self {
+            name,
+            units: grid.unit_of(self.units),
+            long_name,
+            ..self
+        }
+    }
 }
 
 /// A field of the increments that are saved.
@@ -135,7 +157,8 @@ const fn count(
     }
 }
 
-/// The variables over `increment`. The first three are coordinates.
+/// The variables over `increment`, of a contact of two directions; [`Scalar::on`] gives those of a
+/// run. The first three are coordinates.
 pub const SCALARS: &[Scalar] = &[
     count("increment", "increment, counted from 1", |i| i.index as f64),
     real("t", "1", "path time", |i| i.point.t),
@@ -217,7 +240,7 @@ pub const SCALARS: &[Scalar] = &[
         "contact_radius",
         "m",
         "radius of the circle of the contact area",
-        Increment::contact_radius,
+        |i| i.contact_radius,
     ),
     real(
         "cells_per_radius",

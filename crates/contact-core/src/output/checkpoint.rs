@@ -23,7 +23,7 @@ use crate::error::Error;
 use crate::march::{Increment, State};
 
 /// The first bytes of a state; the number is that of the layout.
-const MAGIC: &[u8] = b"fret checkpoint 4\n";
+const MAGIC: &[u8] = b"fret checkpoint 5\n";
 pub(super) const FOLDER: &str = "checkpoint";
 /// Names in that folder.
 pub(super) const FILES: [&str; 3] = ["increments", "state.0", "state.1"];

@@ -4,18 +4,35 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
+use super::catalogue::HALF_WIDTH;
 use super::consolidated::FILE;
 use super::folder::Folder;
 use super::reader::Store;
 use super::schema::DOUBTS;
 use crate::error::Error;
 use crate::estimate::ErrorBars;
+use crate::scene::Grid;
 
 /// Adds the error bars of its branches to a store whose run is done.
 pub fn write_error_bars(path: impl AsRef<Path>, bars: &[ErrorBars]) -> Result<(), Error> {
+    let grid = Store::open(path.as_ref())?.scene().grid;
     change(path.as_ref(), |attributes| {
-        attributes["error_bars"] = json!(bars);
+        attributes["error_bars"] = told(bars, &grid);
     })
+}
+
+/// The error bars of a run on a grid, by the names of its variables.
+pub(super) fn told(bars: &[ErrorBars], grid: &Grid) -> Value {
+    let mut told = json!(bars);
+    if grid.plane_strain {
+        for bar in told.as_array_mut().into_iter().flatten() {
+            let half = bar
+                .as_object_mut()
+                .and_then(|bar| bar.remove("contact_radius"));
+            bar[HALF_WIDTH.0] = half.into();
+        }
+    }
+    told
 }
 
 /// Says in a store whose run is done why it has no error bars, and returns that.

@@ -5,12 +5,12 @@ use serde_json::{Map, Value, json};
 
 use super::attributes::group_attributes;
 use super::catalogue::{FIELDS, FieldView, SCALARS};
-use super::error_bars::doubt_bars;
+use super::error_bars::{doubt_bars, told};
 use super::schema::DOUBTS;
 use crate::error::Error;
 use crate::estimate::ErrorBars;
 use crate::march::{Fields, Increment, March, Observer, Reached};
-use crate::scene::LoadPoint;
+use crate::scene::{Grid, LoadPoint};
 
 /// The fields of one name of all increments that keep theirs, each of shape (nx, ny).
 #[derive(Clone, Debug)]
@@ -38,9 +38,12 @@ pub struct Columns {
 
 impl Columns {
     /// Adds the error bars of the branches, or why there are none.
-    pub fn set_error_bars(&mut self, bars: &Result<Vec<ErrorBars>, Error>) {
+    pub fn set_error_bars(&mut self, bars: &Result<Vec<ErrorBars>, Error>, grid: &Grid) {
         match bars {
-            Ok(bars) => drop(self.attributes.insert("error_bars".into(), json!(bars))),
+            Ok(bars) => drop(
+                self.attributes
+                    .insert("error_bars".into(), told(bars, grid)),
+            ),
             Err(why) => drop(doubt_bars(&mut self.attributes, why)),
         }
     }

@@ -47,7 +47,7 @@ pub use error_bars::{write_error_bars, write_no_error_bars};
 pub use image_data::ImageData;
 pub use memory::{Columns, KeptField};
 pub use reader::Store;
-pub use resume::{Resumed, resume};
+pub use resume::{Resumed, resume, resume_by};
 pub use stress_store::StressStore;
 pub use volume::{VolumeSink, write_volume};
 pub use wear_store::{WearStore, resume_wear, resume_wear_by, verify_wear};

@@ -57,6 +57,7 @@ impl Open {
     pub(super) fn new(folder: Arc<Folder>, scene: &Scene, plan: &Plan) -> Self {
         let grid = &scene.grid;
         let scalars = SCALARS.iter().map(|s| {
+            let s = s.on(grid);
             let codes = [
                 ("flag_values", json!([0, 1, 2, 3])),
                 ("flag_meanings", json!(STATUS_MEANINGS)),

@@ -17,7 +17,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::catalogue::{FIELDS, SCALARS};
+use super::catalogue::{FIELDS, HALF_WIDTH, SCALARS};
 use super::checkpoint::{self, Checkpoints};
 use super::folder::{Folder, beside};
 use super::reader::Store;
@@ -237,6 +237,7 @@ fn is_of_a_store(name: &OsStr) -> bool {
         || METADATA.contains(&name)
         || COORDINATES.contains(&name)
         || SCALARS.iter().any(|s| s.name == name)
+        || name == HALF_WIDTH.0
         || FIELDS.iter().any(|f| f.name == name)
         || Probe::all().any(|p| p.name() == name)
         || wear_catalogue::holds(name)

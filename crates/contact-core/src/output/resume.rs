@@ -18,6 +18,7 @@ use super::wear_store::WearStore;
 use super::writer::StoreWriter;
 use crate::error::Error;
 use crate::march::{Increment, March};
+use crate::scene::{OwnFriction, Scene, is_missing};
 
 /// The columns over the increments whose fields are kept.
 const SAVED: [(&str, Kind); 2] = [("saved_increment", Kind::Count), ("saved_t", Kind::Real)];
@@ -43,6 +44,16 @@ pub fn resume(
     path: impl AsRef<Path>,
     stop: Option<&Arc<AtomicBool>>,
 ) -> Result<Option<Resumed>, Error> {
+    resume_by(path, None, stop)
+}
+
+/// The same for a run by a friction law of the user's own, which no store can hold: it is given
+/// again. Fails if the run has such a law and none is given, or the other way about.
+pub fn resume_by(
+    path: impl AsRef<Path>,
+    law: Option<&OwnFriction>,
+    stop: Option<&Arc<AtomicBool>>,
+) -> Result<Option<Resumed>, Error> {
     let stop = stop.cloned().unwrap_or_default();
     let path = place(path.as_ref())?;
     mend(&path);
@@ -65,7 +76,7 @@ pub fn resume(
         state,
         increments,
     } = Checkpoints::find(store.folder(), text.unwrap_or_default())?;
-    let scene = store.scene();
+    let scene = &with_law(store.scene(), law)?;
     let march = match state {
         Some(state) => March::resume_until(scene, state, &stop)?,
         None => March::until(scene, &stop)?,
@@ -89,6 +100,20 @@ pub fn resume(
         writer: StoreWriter::go_on(open),
         increments,
     }))
+}
+
+/// The scene of a store with the law that is given for it.
+fn with_law(scene: &Scene, law: Option<&OwnFriction>) -> Result<Scene, Error> {
+    let mut scene = scene.clone();
+    match (&scene.friction.law, law) {
+        (Some(_), None) => return Err(is_missing()),
+        (None, Some(_)) => {
+            let allowed = "left out: the run has a coefficient and no law of your own";
+            return Err(Error::invalid("friction.law", "a law of your own", allowed));
+        }
+        _ => scene.friction.law = law.cloned(),
+    }
+    Ok(scene)
 }
 
 /// The metadata of a store whose run is resumed: without the fields that were saved only because it

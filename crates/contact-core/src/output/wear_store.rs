@@ -130,7 +130,8 @@ impl WearStore {
             } else {
                 Kind::Real
             };
-            Column::new(name, kind, (unit, what), "jump", &[]).extend(jumps.iter().map(of))
+            Column::new(name, kind, (grid.unit_of(unit), what), "jump", &[])
+                .extend(jumps.iter().map(of))
         };
         let mut columns: Vec<Column> = SCALARS.iter().map(scalar).collect();
         let along = |name, what, n: usize, at: &dyn Fn(usize) -> f64| {
@@ -198,6 +199,7 @@ fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<(Variable, Vec<f64
             values,
         )
     };
+    let force = run.scene().grid.unit_of("N");
     let corners = block.friction_loop.len() as u64;
     let corner = |name, words, c: usize| {
         let shape = vec![blocks as u64, corners];
@@ -276,13 +278,13 @@ fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<(Variable, Vec<f64
             ("m", "shift along x in the friction loop"),
             0,
         ),
-        corner("loop_T_x", ("N", "force along x in the friction loop"), 1),
+        corner("loop_T_x", (force, "force along x in the friction loop"), 1),
         corner(
             "loop_delta_y",
             ("m", "shift along y in the friction loop"),
             2,
         ),
-        corner("loop_T_y", ("N", "force along y in the friction loop"), 3),
+        corner("loop_T_y", (force, "force along y in the friction loop"), 3),
     ]
 }
 

@@ -34,7 +34,8 @@ pub(crate) fn direct_branches(
             Ok("without friction pressure depends on the loads alone"),
         );
     }
-    if scene.friction.kinetic.is_some() || scene.friction.history.is_some() {
+    let friction = &scene.friction;
+    if friction.kinetic.is_some() || friction.history.is_some() || friction.law.is_some() {
         return none("friction depends on what cells have been through");
     }
     if branches.iter().any(|b| {

@@ -193,6 +193,9 @@ fn mirror(scene: &Scene) -> Result<&'static str, &'static str> {
         return Err("the surfaces are not mirror-symmetric in y");
     }
     let map = |map: &SurfaceMap| is_mirror_symmetric(&scene.grid.map(|x, y| map.at(x, y)));
+    if scene.friction.law.is_some() {
+        return Err("friction is a law of the user's own");
+    }
     if !scene.friction.map.as_ref().is_none_or(map) {
         return Err("the friction is not mirror-symmetric in y");
     }

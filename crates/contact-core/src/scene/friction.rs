@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::{Grid, SurfaceMap};
+use super::{FrictionLaw, Grid, OwnFriction, SurfaceMap};
 use crate::error::Error;
 
 /// Coulomb's law, `|q| <= mu p`, with a coefficient that may depend on the direction, the place and
@@ -24,6 +24,10 @@ pub struct Friction {
     pub map: Option<SurfaceMap>,
     /// Factor of the coefficient as a function of the history of a cell.
     pub history: Option<FrictionHistory>,
+    /// A law of the user's own, which gives the coefficient, along x, in place of `mu`: that is
+    /// about what it gives, the measure of tolerances and of what is dimensionless. No map, history
+    /// or kinetic coefficient beside it.
+    pub law: Option<OwnFriction>,
 }
 
 /// A piecewise linear function of the history of a cell, level beyond its ends.
@@ -57,6 +61,15 @@ impl Friction {
             kinetic: None,
             map: None,
             history: None,
+            law: None,
+        }
+    }
+
+    /// A law of the user's own; `mu` is about what it gives.
+    pub fn own(mu: f64, law: impl FrictionLaw + 'static) -> Self {
+        Self {
+            law: Some(OwnFriction::new(law)),
+            ..Self::coulomb(mu)
         }
     }
 
@@ -72,7 +85,10 @@ impl Friction {
 
     /// The tangential force that friction carries at most under `W`, if the law says so alone.
     pub(crate) fn limit(&self, W: f64) -> Option<f64> {
-        let plain = self.mu_y.is_none() && self.map.is_none() && self.history.is_none();
+        let plain = self.mu_y.is_none()
+            && self.map.is_none()
+            && self.history.is_none()
+            && self.law.is_none();
         plain.then_some(if W > 0.0 { self.mu * W } else { 0.0 })
     }
 
@@ -91,6 +107,16 @@ impl Friction {
                 && !(positive(mu) && positive(self.mu))
             {
                 return Err(Error::invalid(key, mu, "a positive number, as friction.mu"));
+            }
+        }
+        if self.law.is_some() {
+            if !positive(self.mu) {
+                let allowed = "a finite number > 0: about what the law gives";
+                return Err(Error::invalid("friction.mu", self.mu, allowed));
+            }
+            if self.map.is_some() || self.history.is_some() || self.kinetic.is_some() {
+                let allowed = "without map, history and kinetic: the law knows place and history";
+                return Err(Error::invalid("friction.law", "a law of your own", allowed));
             }
         }
         if let Some(map) = &self.map {

@@ -65,6 +65,34 @@ impl Grid {
         self.dx * self.dy
     }
 
+    /// Radius of the circle of an area \[m^2\], of a line contact half its width \[m\].
+    pub fn radius_of(&self, area: f64) -> f64 {
+        if self.plane_strain {
+            area / (2.0 * self.dy)
+        } else {
+            (area / std::f64::consts::PI).sqrt()
+        }
+    }
+
+    /// The unit of a number of a run, by that of a contact of two directions: on a strip one metre
+    /// wide forces, moments, energies, areas, volumes and stiffnesses are those per metre; on a
+    /// strip of another width they are those on that width.
+    pub fn unit_of<'a>(&self, unit: &'a str) -> &'a str {
+        if !(self.plane_strain && self.dy == 1.0) {
+            return unit;
+        }
+        match unit {
+            "N" => "N/m",
+            "N m" => "N m/m",
+            "J" => "J/m",
+            "m^2" => "m^2/m",
+            "m^3" => "m^3/m",
+            "N/m" => "N/m per m",
+            "N m/rad" => "N m/rad per m",
+            other => other,
+        }
+    }
+
     /// Length along x and along y \[m\].
     pub fn extent(&self) -> (f64, f64) {
         (self.nx as f64 * self.dx, self.ny as f64 * self.dy)

@@ -9,6 +9,7 @@ mod case;
 mod doubts;
 mod files;
 mod friction;
+mod friction_law;
 mod grid;
 mod load_path;
 mod loads;
@@ -26,6 +27,8 @@ pub use body::Body;
 pub(crate) use case::{Fault, Section, read_with, text_of};
 pub use files::Reach;
 pub use friction::{Friction, FrictionHistory, History};
+pub(crate) use friction_law::is_missing;
+pub use friction_law::{CellHistory, FrictionLaw, LawError, OwnFriction, Raised};
 pub use grid::Grid;
 pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
 pub use loads::{Given, Loads};
@@ -70,6 +73,19 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// A scene without a title, solved by the default settings.
+    pub fn new(body1: Body, body2: Body, friction: Friction, grid: Grid, path: LoadPath) -> Self {
+        Self {
+            title: String::new(),
+            body1,
+            body2,
+            friction,
+            grid,
+            path,
+            settings: Settings::default(),
+        }
+    }
+
     /// Fails with the key, the value and what is allowed if the scene has no meaning.
     pub fn check(&self) -> Result<(), Error> {
         self.body1.check("body1")?;

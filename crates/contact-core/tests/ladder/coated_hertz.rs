@@ -20,7 +20,7 @@ fn compare(scene: &Scene, truth: &CoatedIndentation) {
         // The pressure a few cells inside tells less of the rim where it changes over the coating's
         // thickness: what a parabola leaves out over some four cells.
         let rim = RIM + 16.0 * narrow;
-        close("a", increment.contact_radius() / truth.a, 1.0, rim * d);
+        close("a", increment.contact_radius / truth.a, 1.0, rim * d);
         close("p_max", increment.p_max / highest, 1.0, smooth);
         close(
             "delta_z",
@@ -74,7 +74,7 @@ fn radius_pressure_and_approach_within_three_per_mille_at_512() {
     for (ratio, h) in ROWS {
         let (scene, truth) = row(ratio, h, 512);
         run(&scene, |_, increment| {
-            close("a", increment.contact_radius() / truth.a, 1.0, 3e-3);
+            close("a", increment.contact_radius / truth.a, 1.0, 3e-3);
             close("p_max", increment.p_max / truth.p(0.0), 1.0, 3e-3);
             close(
                 "delta_z",
@@ -158,7 +158,7 @@ fn a_layer_thinner_than_the_cells() {
         scene.grid = Grid::centred(2.4 * a, n).expect("a grid");
         let increment = run(&scene, |_, _| {}).remove(0);
         let d = scene.grid.dx / a;
-        close("a", increment.contact_radius() / a, 1.0, RIM * d);
+        close("a", increment.contact_radius / a, 1.0, RIM * d);
         // Even numbers of cells have none in the middle.
         let highest = M * a * a / (2.0 * R * h) * (1.0 - 0.5 * d * d);
         close("p_max", increment.p_max / highest, 1.0, 1e-4);

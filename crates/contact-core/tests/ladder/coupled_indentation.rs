@@ -47,7 +47,7 @@ fn stick_radius_pressure_and_approach_of_every_pair() {
                 claim * truth.stick_ratio + RIM * d
             };
             let a = hertz.a * part * truth.W.cbrt().recip();
-            close("a", increment.contact_radius() / a, 1.0, rim + TRUTH);
+            close("a", increment.contact_radius / a, 1.0, rim + TRUTH);
             let ratio = (increment.stick_area / increment.contact_area).sqrt();
             close("c/a", ratio, truth.stick_ratio, ring);
             let p0 = truth.p0 * truth.W.powf(2.0 / 3.0) * hertz.p0 * part;
@@ -97,7 +97,7 @@ fn the_border_of_a_growing_stick_zone_is_known_to_a_tenth_of_a_cell() {
         // Once the stick zone has thirty cells and more for the five that tell its border.
         for increment in &run(&scene, |_, _| {})[3 * n / 8..] {
             let ratio = (increment.stick_area / increment.contact_area).sqrt();
-            let a = increment.contact_radius() / scene.grid.dx;
+            let a = increment.contact_radius / scene.grid.dx;
             // Twice what a border that shrinks is off by.
             close("c/a", ratio, truth.stick_ratio, 2.0 * RIM / a);
         }

@@ -2,7 +2,8 @@
 
 use contact_core::march::{Fields, Increment, Status};
 use contact_core::scene::{
-    Friction, FrictionHistory, History, LoadPath, Loads, Missing, Scene, SurfaceMap,
+    CellHistory, Friction, FrictionHistory, FrictionLaw, History, LawError, LoadPath, Loads,
+    Missing, Scene, SurfaceMap,
 };
 use ndarray::{Array2, Zip};
 
@@ -137,6 +138,83 @@ fn friction_follows_the_slip_and_the_energy_of_each_cell() {
         });
         assert!(sliding >= 5, "{sliding}");
         close("T_x/(mu W)", expected / (MU * W), 1.5, 0.1);
+    }
+}
+
+/// A coefficient that a function of pressure and slip gives.
+#[derive(Debug)]
+struct Given(fn(f64, f64) -> f64);
+
+impl FrictionLaw for Given {
+    fn coefficients(&self, cells: &CellHistory<'_>, mu: &mut [f64]) -> Result<(), LawError> {
+        for (n, mu) in mu.iter_mut().enumerate() {
+            *mu = (self.0)(cells.p[n], cells.slip[n]);
+        }
+        Ok(())
+    }
+}
+
+/// Pressure at which the coefficient of the law of pressure is MU \[Pa\].
+const P_MU: f64 = 1e9;
+
+#[test]
+fn a_law_of_pressure_is_that_of_the_pressure_at_the_end() {
+    // mu = MU p/P: the sum of mu p is MU/P times that of p^2, 3/4 p_H W under Hertz's pressure.
+    let law = Given(|p, _| MU * p / P_MU);
+    let path = indentation(1).to(shifted_to(6.0 * incipient(), 0.0), 6);
+    let scene = scene(Friction::own(MU, law), path);
+    let p_H = hertz_of(&scene).p0;
+    let increments = audited(&scene, |_, _| ());
+    let end = increments.last().expect("an increment");
+    assert_eq!(end.status, Status::GrossSlip);
+    let limit = 0.75 * MU * p_H / P_MU * W;
+    let cell = cell(&scene);
+    close(
+        "T_x",
+        end.point.loads.T_x / limit,
+        1.0,
+        SMOOTH * cell * cell,
+    );
+}
+
+/// Slip over which the coefficient of the law of slip grows to 1.5 MU \[m\].
+const FULL: f64 = 4e-5;
+
+#[test]
+fn a_law_of_slip_is_that_of_the_slip_at_the_end() {
+    let grown = |slip: f64| MU * (1.0 + 0.5 * (slip / FULL).min(1.0));
+    let law = Given(|_, slip| MU * (1.0 + 0.5 * (slip / FULL).min(1.0)));
+    let path = indentation(1).to(shifted_to(8.0 * incipient(), 0.0), 10);
+    let scene = scene(Friction::own(MU, law), path);
+    let area = scene.grid.cell_area();
+    let (mut sliding, mut most) = (0, 0.0_f64);
+    audited(&scene, |fields, i| {
+        // Slip went one way: its sum is its length. All slips along x: the sum of mu p, each
+        // coefficient that of the slip by then, to 1e-3 of itself.
+        let expected = Zip::from(&fields.slip_x)
+            .and(&fields.p)
+            .fold(0.0, |sum, slip, p| sum + area * grown(slip.abs()) * p);
+        if i.status == Status::GrossSlip {
+            close("T_x", i.point.loads.T_x / expected, 1.0, 1e-3);
+            sliding += 1;
+            most = most.max(i.point.loads.T_x / (MU * W));
+        }
+    });
+    assert!(sliding >= 5, "{sliding}");
+    assert!(most > 1.1, "{most}");
+}
+
+#[test]
+fn a_law_that_gives_no_coefficient_is_refused() {
+    for bad in [|_, _| f64::NAN, |_, _| -0.1, |_, _| f64::INFINITY] as [fn(f64, f64) -> f64; 3] {
+        let scene = scene(Friction::own(MU, Given(bad)), indentation(1));
+        let refused = contact_core::march::solve(&scene, &mut ()).expect_err("no coefficient");
+        let text = refused.to_string();
+        assert!(text.starts_with("friction.law = "), "{text}");
+        assert!(
+            text.contains("must be a finite coefficient >= 0 in every cell"),
+            "{text}"
+        );
     }
 }
 

@@ -128,7 +128,7 @@ fn a_given_approach_is_a_given_force() {
         // The rim follows from the pressure a few cells inside, a tenth of the largest; in a
         // contact of a few cells the stencil that it is extrapolated with depends on the last
         // digits.
-        if f.contact_radius() > 8.0 * by_force.grid.dx {
+        if f.contact_radius > 8.0 * by_force.grid.dx {
             close("area", m.contact_area / f.contact_area, 1.0, 10.0 * known);
         }
     }

@@ -21,7 +21,7 @@ fn radius_pressure_and_approach_converge_with_the_grid() {
             let p = march.fields().p;
             let error = norm(&(&p - &truth)) / norm(&truth);
             let highest = hertz.p(scene.grid.dx / 2f64.sqrt());
-            close("a", increment.contact_radius() / hertz.a, 1.0, RIM * d);
+            close("a", increment.contact_radius / hertz.a, 1.0, RIM * d);
             close("p0", increment.p_max / highest, 1.0, smooth);
             close(
                 "delta_z",

@@ -166,7 +166,7 @@ fn the_cone_of_sneddon() {
     // The cells at the tip see it blunted: the approach errs by a part of slope times a cell.
     close("delta_z", delta_z / (0.5 * PI * a * slope), 1.0, 0.5 * cell);
     // The pressure bends more towards the middle than that of a sphere.
-    close("a", last.contact_radius() / a, 1.0, 2.0 * RIM * cell);
+    close("a", last.contact_radius / a, 1.0, 2.0 * RIM * cell);
     // p = (E* slope/2) acosh(a/r), away from the tip and the rim.
     for ((i, j), p) in fields.p.indexed_iter() {
         let r = scene.grid.x(i).hypot(scene.grid.y(j)) / a;

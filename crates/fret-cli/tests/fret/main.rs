@@ -84,6 +84,54 @@ fn error_bars_stand_in_the_summary_and_in_the_store() {
 }
 
 #[test]
+fn a_line_contact_is_told_per_metre() {
+    let scene = free("line.toml");
+    fs::write(
+        &scene,
+        "schema = 1\nbody1 = { shape.cylinder.R = 0.02, E = 210e9, nu = 0.3 }\n\
+         body2 = { shape = \"flat\", E = 210e9, nu = 0.3 }\nfriction.mu = 0.3\n\
+         grid = { n = [64, 1], extent = 3e-4, plane_strain = true }\n\
+         path = [{ W = 3e4, increments = 1 }, { T_x = 4500.0, increments = 4 }, \
+         { T_x = -4500.0, increments = 8 }, { T_x = 4500.0, increments = 8 }]\n",
+    )
+    .unwrap();
+    let scene = scene.to_str().unwrap();
+    let checked = text(&fret(&["check", scene]).stdout);
+    for part in [
+        "W up to 30000 N/m",
+        "plane strain; forces and energies per metre",
+    ] {
+        assert!(checked.contains(part), "{checked}");
+    }
+    let out = free("line.zarr");
+    let output = fret(&["run", scene, "-o", out.to_str().unwrap()]);
+    let (told, error) = (text(&output.stdout), text(&output.stderr));
+    assert!(
+        error.contains("W = 30000 N/m, T_x = 4500 N/m: half width"),
+        "{error}"
+    );
+    for part in ["[N/m]", "half", "[mJ/m]", "N/m per m"] {
+        assert!(told.contains(part), "{told}");
+    }
+    for part in ["[N]", "radius", "uJ"] {
+        assert!(!told.contains(part), "{told}");
+    }
+    // Cattaneo's cycle of amplitude T = mu W/2 (Johnson, Contact Mechanics, 7.2.4) sticks on
+    // sqrt(1/2) of the width; the JSON has names and units of the store.
+    let out = free("line_json.zarr");
+    let output = fret(&["run", scene, "-o", out.to_str().unwrap(), "--json"]);
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(told["units"]["force"], "N/m");
+    assert_eq!(told["units"]["stiffness"], "N/m per m");
+    let branch = &told["branches"][3];
+    let a = (4.0 * 3e4 * 0.02 * 1.82 / (std::f64::consts::PI * 210e9)).sqrt();
+    let half = branch["half_width"].as_f64().unwrap();
+    assert!((half / a - 1.0).abs() < 0.5 * 3e-4 / 64.0 / a, "{half}");
+    let stick = branch["stick_ratio"].as_f64().unwrap();
+    assert!((stick - 0.5_f64.sqrt()).abs() < 0.02, "{stick}");
+}
+
+#[test]
 fn a_run_says_what_it_does_and_leaves_a_store() {
     let out = free("run.zarr");
     let output = run(&out, &[]);

@@ -4,6 +4,7 @@ use contact_core::scene as core;
 use pyo3::prelude::*;
 
 use super::SurfaceMap;
+use super::friction_law::{function, own_law};
 use crate::arguments::List;
 use crate::error::{must_be, to_python};
 use crate::parts::{members, parts};
@@ -68,22 +69,32 @@ impl From<core::History> for History {
 ///     Factor of the coefficient over the surface.
 /// history : (History, list of pairs), optional
 ///     Factor of the coefficient, linear between the pairs (history, factor).
+/// law : callable, optional
+///     A function of five arrays, a number for each cell: places `x`, `y` [m], pressure `p` [Pa],
+///     length of the way slipped `slip` [m], energy per area `dissipated` [J/m^2]. It gives the
+///     coefficient along x of each cell, finite and >= 0, an array of the same shape or one number;
+///     `mu` is about what it gives, the measure of tolerances, and the coefficient where nothing
+///     is pressed yet. An increment is solved again until the coefficient is that of pressure and
+///     history at its end. What the function raises is raised as it is. No map, history or kinetic
+///     coefficient beside it, no wear; a store keeps that there is a law, not which:
+///     ``pyfret.resume(store, friction_law=...)``.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Friction(pub(crate) core::Friction);
 
-parts!(Friction: mu, mu_y, kinetic, map, history);
+parts!(Friction: mu, mu_y, kinetic, map, history, law);
 
 #[pymethods]
 impl Friction {
     #[new]
-    #[pyo3(signature = (mu, *, mu_y = None, kinetic = None, map = None, history = None))]
+    #[pyo3(signature = (mu, *, mu_y = None, kinetic = None, map = None, history = None, law = None))]
     fn new(
         mu: f64,
         mu_y: Option<f64>,
         kinetic: Option<f64>,
         map: Option<SurfaceMap>,
         history: Option<(History, List<(f64, f64)>)>,
+        law: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let law = core::Friction {
             mu,
@@ -94,6 +105,7 @@ impl Friction {
                 of: of.into(),
                 table: table.0,
             }),
+            law: law.map(own_law).transpose()?,
         };
         law.check(None).map_err(to_python)?;
         Ok(Self(law))
@@ -130,6 +142,12 @@ impl Friction {
         history.map(|h| (h.of.into(), h.table.clone()))
     }
 
+    /// The function that gives the coefficient; ``"own"`` if only that there is one is known.
+    #[getter]
+    fn law(&self, py: Python<'_>) -> Option<Py<PyAny>> {
+        self.0.law.as_ref().map(|law| function(py, law))
+    }
+
     pub(crate) fn __repr__(&self) -> String {
         let mut parts = vec![format!("{:?}", self.0.mu)];
         for (name, mu) in [("mu_y", self.0.mu_y), ("kinetic", self.0.kinetic)] {
@@ -137,6 +155,7 @@ impl Friction {
         }
         parts.extend(self.0.map.as_ref().map(|_| "map=...".to_owned()));
         parts.extend(self.0.history.as_ref().map(|_| "history=...".to_owned()));
+        parts.extend(self.0.law.as_ref().map(|_| "law=...".to_owned()));
         format!("Friction({})", parts.join(", "))
     }
 }
@@ -157,7 +176,7 @@ impl<'py> FromPyObject<'_, 'py> for AnyFriction {
         } else if let Ok(mu) = value.extract() {
             mu
         } else {
-            let wanted = "a coefficient, such as 0.3, a law, such as Friction(0.3, kinetic=0.25), or \"stick\" \
+            let wanted = "a coefficient, such as 0.3, a law, such as Friction(0.3, kinetic=0.25) or Friction(0.3, law=function), or \"stick\" \
                           for no slip";
             return Err(must_be(&value, wanted));
         };

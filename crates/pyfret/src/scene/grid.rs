@@ -126,6 +126,13 @@ impl Grid {
         self.0.plane_strain
     }
 
+    /// Unit of a number of a run on this grid, by that of a contact of two directions.
+    ///
+    /// On a strip one metre wide forces are in N/m, energies in J/m, areas in m^2/m.
+    fn unit_of<'a>(&self, unit: &'a str) -> &'a str {
+        self.0.unit_of(unit)
+    }
+
     /// Number of cells along x.
     #[getter]
     fn nx(&self) -> usize {

@@ -4,6 +4,7 @@ mod body;
 mod branch;
 mod branches;
 mod friction;
+pub(crate) mod friction_law;
 mod grid;
 mod increments;
 mod load_path;

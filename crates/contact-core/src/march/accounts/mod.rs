@@ -52,6 +52,11 @@ pub(super) fn draw_up(
         contact_area: zones.contact * cell_area,
         stick_area,
         cells_per_radius: zones.cells_per_radius,
+        contact_radius: setup
+            .problem
+            .scene
+            .grid
+            .radius_of(zones.contact * cell_area),
         p_max,
         q_max,
         path_grid: setup.problem.scene.grid.nx,

@@ -6,8 +6,10 @@ use super::fault::Fault;
 use super::section::Section;
 use super::shape::{MAP, map_text, surface_map};
 use crate::scene::files::Files;
-use crate::scene::{Friction, FrictionHistory, History};
+use crate::scene::{Friction, FrictionHistory, History, OwnFriction};
 
+/// The word for a law of the user's own.
+const OWN: &str = "own";
 /// The words of the histories.
 const HISTORIES: [(&str, History); 4] = [
     ("slip", History::Slip),
@@ -18,7 +20,7 @@ const HISTORIES: [(&str, History); 4] = [
 
 /// The friction law.
 pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction, Fault> {
-    let keys = ["mu", "mu_y", "kinetic", "map", "history"];
+    let keys = ["mu", "mu_y", "kinetic", "map", "history", "law"];
     let section = root.need_section("friction", &keys)?;
     let what = "a number >= 0, or \"stick\" for no slip";
     let mu = match section.need("mu", what)? {
@@ -50,7 +52,20 @@ pub(super) fn friction(root: &Section<'_>, files: &Files<'_>) -> Result<Friction
         kinetic: number("kinetic")?,
         map: map.map(|map| surface_map(&map, files)).transpose()?,
         history: friction_history(&section)?,
+        law: own_law(&section)?,
     })
+}
+
+/// That the law is the user's own, which no file can hold.
+fn own_law(friction: &Section<'_>) -> Result<Option<OwnFriction>, Fault> {
+    match friction.get("law") {
+        None => Ok(None),
+        Some(Value::String(word)) if word == OWN => Ok(Some(OwnFriction::elsewhere())),
+        Some(other) => {
+            let what = "\"own\": it is a function, given in Python or Rust";
+            Err(Fault::value("friction.law", other, what))
+        }
+    }
 }
 
 fn friction_history(friction: &Section<'_>) -> Result<Option<FrictionHistory>, Fault> {
@@ -72,6 +87,7 @@ pub(super) fn text(friction: &Friction) -> String {
     for (key, mu) in [("mu_y", friction.mu_y), ("kinetic", friction.kinetic)] {
         lines.extend(mu.map(|mu| format!("{key} = {mu:?}")));
     }
+    lines.extend(friction.law.as_ref().map(|_| format!("law = \"{OWN}\"")));
     let map = friction.map.as_ref();
     lines.extend(map.map(|map| format!("map = {{ {} }}", map_text(map))));
     if let Some(FrictionHistory { of, table }) = &friction.history {

@@ -92,6 +92,20 @@ pub enum Shape {
 }
 
 impl Shape {
+    /// A sphere of radius R \[m\].
+    pub fn sphere(R: f64) -> Self {
+        Self::Sphere { R }
+    }
+
+    /// A cylinder of radius R \[m\] along y that leaves the grid, as of a line contact.
+    pub fn cylinder(R: f64) -> Self {
+        Self::Cylinder {
+            R,
+            length: f64::INFINITY,
+            angle: 0.0,
+        }
+    }
+
     /// Distance of the surface from the contact plane at the cell centres \[m\], shape (nx, ny).
     pub fn fall(&self, grid: &Grid) -> Array2<f64> {
         match self {

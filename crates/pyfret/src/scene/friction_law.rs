@@ -1,0 +1,84 @@
+//! Friction laws that are functions of Python.
+
+use std::sync::Arc;
+
+use contact_core::scene::{self as core, CellHistory, LawError};
+use numpy::{PyArrayLikeDyn, ToPyArray};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+/// The word for a law of which only that it exists is known.
+pub(crate) const OWN: &str = "own";
+
+/// A callable on arrays.
+#[derive(Debug)]
+struct Own(Py<PyAny>);
+
+impl core::FrictionLaw for Own {
+    fn coefficients(&self, cells: &CellHistory<'_>, mu: &mut [f64]) -> Result<(), LawError> {
+        let call = |py: Python<'_>| -> PyResult<()> {
+            let fields = [cells.x, cells.y, cells.p, cells.slip, cells.dissipated];
+            let [x, y, p, slip, dissipated] = fields.map(|field| field.to_pyarray(py));
+            let found = self.0.bind(py).call1((x, y, p, slip, dissipated))?;
+            let found: PyArrayLikeDyn<'_, f64, numpy::AllowTypeChange> =
+                found.extract().map_err(|_| {
+                    PyTypeError::new_err(format!(
+                        "friction law {}: gave {found}, must be an array of real numbers, a coefficient for each \
+                         cell, or one number",
+                        self.0
+                    ))
+                })?;
+            let found = found.as_array();
+            match (found.ndim(), found.len()) {
+                (0, _) => mu.fill(found.sum()),
+                (1, n) if n == mu.len() => {
+                    for (mu, found) in mu.iter_mut().zip(found) {
+                        *mu = *found;
+                    }
+                }
+                _ => {
+                    return Err(PyValueError::new_err(format!(
+                        "friction law {}: gave an array of shape {:?}, must be ({},), a coefficient for each \
+                         cell, or one number",
+                        self.0,
+                        found.shape(),
+                        mu.len()
+                    )));
+                }
+            }
+            Ok(())
+        };
+        Python::attach(call).map_err(|raised| Arc::new(raised) as LawError)
+    }
+
+    fn identity(&self) -> usize {
+        self.0.as_ptr() as usize
+    }
+
+    fn as_any(&self) -> Option<&dyn std::any::Any> {
+        Some(self)
+    }
+}
+
+/// A law from a function, or from the word for one that is elsewhere.
+pub(crate) fn own_law(given: &Bound<'_, PyAny>) -> PyResult<core::OwnFriction> {
+    if given.extract::<&str>().is_ok_and(|word| word == OWN) {
+        return Ok(core::OwnFriction::elsewhere());
+    }
+    if given.is_callable() {
+        return Ok(core::OwnFriction::new(Own(given.clone().unbind())));
+    }
+    Err(crate::error::must_be(
+        given,
+        "a function of the arrays (x, y, p, slip, dissipated) that gives the coefficient of each cell",
+    ))
+}
+
+/// The function of a law, or the word for one that is elsewhere.
+pub(crate) fn function(py: Python<'_>, law: &core::OwnFriction) -> Py<PyAny> {
+    let own = law.0.as_any().and_then(|law| law.downcast_ref::<Own>());
+    own.map_or_else(
+        || pyo3::types::PyString::new(py, OWN).into_any().unbind(),
+        |own| own.0.clone_ref(py),
+    )
+}

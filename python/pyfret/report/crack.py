@@ -1,0 +1,112 @@
+"""A crack on the page of a result: its way in the section, K over the cycle, the diagram."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pyfret._util.numbers import in_words
+from pyfret.report.digits import short
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from pyfret.fracture.growth import Arrest, Cracks, Threshold
+
+__all__ = ["Crack"]
+
+MICRO, MEGA = 1e6, 1e-6
+#: What became of a crack, in words.
+SAID = {
+    "dormant": "does not grow from its first length",
+    "stops": "stops at {length} µm",
+    "grows": "grows through all lengths",
+}
+
+
+@dataclass(frozen=True)
+class Crack:
+    """Cracks of several lengths, and the threshold below which they stop, if it is known."""
+
+    cracks: Cracks
+    threshold: Threshold | None
+
+    @property
+    def about(self) -> dict[str, Any]:
+        """Where the crack is."""
+        return self.cracks.dataset.attrs
+
+    def found(self) -> Arrest | None:
+        """Whether it stops."""
+        return None if self.threshold is None else self.cracks.arrest(self.threshold)
+
+    def verdict(self) -> str:
+        """What the crack does, as a sentence."""
+        about, found = self.about, self.found()
+        body = "upper" if about["body_number"] == 1 else "lower"
+        begun = f"The crack from x = {MICRO * about['x']:.4g} µm of the {body} body"
+        if found is None:
+            lengths = MICRO * self.cracks.lengths
+            return f"{begun}, {in_words(lengths[0], 3)} to {in_words(lengths[-1], 3)} µm long."
+        what = SAID[found.verdict].format(length=in_words(MICRO * (found.length or 0.0), 3))
+        return (
+            f"{begun} {what}; its range of K is {found.margin:.3g} times the threshold where that "
+            f"ratio is least, at {in_words(MICRO * found.margin_at, 3)} µm."
+        )
+
+    def drawn(
+        self, deepest: float, place: Callable[[NDArray[np.float64]], list[float]]
+    ) -> dict[str, Any] | None:
+        """Its way [µm] where depths [µm] are drawn at a place: to where it stops, and the rest.
+
+        Nothing in a plane other than that of the section.
+        """
+        if self.about.get("azimuth", 0.0) != 0.0:
+            return None
+        d, found = self.cracks.dataset, self.found()
+        s = np.concatenate([[0.0], self.cracks.lengths])
+        x = MICRO * np.concatenate([[self.about["x"]], d.x.values])
+        z = MICRO * np.concatenate([[0.0], d.z.values])
+        stop = s[-1] if found is None or found.length is None else found.length
+
+        def way(of: NDArray[np.float64]) -> dict[str, Any]:
+            depth = np.interp(of, s, z)
+            inside = depth <= deepest
+            return {"x": short(np.interp(of, s, x)[inside]), "z": short(place(depth[inside]))}
+
+        stops = found is not None and found.verdict == "stops"
+        return {
+            "grown": way(np.append(s[s < stop], stop)),
+            "rest": way(np.insert(s[s > stop], 0, stop)),
+            "end": way(np.array([stop])) if stops else None,
+        }
+
+    def numbers(self) -> dict[str, Any]:
+        """K over the cycle at the length where the crack stops, or the longest; the diagram."""
+        found = self.found()
+        length = found.length if found and found.length else float(self.cracks.lengths[-1])
+        one = self.cracks.dataset.sel(length=length, method="nearest")
+        K = {name: short(MEGA * one[name].values) for name in ("K_I", "K_II", "error")}
+        return {
+            "says": self.verdict(),
+            "length": in_words(MICRO * float(one.length), 3),
+            "increment": one.increment.values.astype(int).tolist(),
+            **K,
+            "kitagawa": None if self.threshold is None else self._diagram(self.threshold),
+        }
+
+    def _diagram(self, threshold: Threshold) -> dict[str, Any]:
+        """Kitagawa and Takahashi's diagram [µm, MPa]; a load that opens nothing is left out."""
+        d = self.cracks.kitagawa(threshold)
+        load = np.where(d["load"].values > 0.0, d["load"].values, np.nan)
+        smooth = None if threshold.dS_0 is None else MEGA * threshold.dS_0
+        return {
+            "length": short(MICRO * self.cracks.lengths),
+            "load": short(MEGA * load),
+            "limit": short(MEGA * d["limit"].values),
+            "smooth": smooth,
+        }
