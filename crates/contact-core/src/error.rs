@@ -1,8 +1,26 @@
 //! Errors, with the numbers that explain them.
 
 use std::fmt::Display;
+use std::sync::Arc;
 
-use crate::scene::Raised;
+/// What a law raises: its own error, which reaches the caller as it is.
+pub type LawError = Arc<dyn std::error::Error + Send + Sync>;
+
+/// An error of a law of the user's own; equal to itself alone.
+#[derive(Clone, Debug)]
+pub struct Raised(pub LawError);
+
+impl PartialEq for Raised {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Display for Raised {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        Display::fmt(&self.0, f)
+    }
+}
 
 /// Every failure of the core, for people: what is wrong, where, what is allowed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -44,14 +62,16 @@ pub enum Error {
     },
     /// The contact reaches the border of the grid.
     #[error(
-        "the contact touches the border of the grid at increment {increment} (W = {W} N); \
+        "the contact touches the border of the grid at increment {increment} (W = {W} {unit}); \
          the grid is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide"
     )]
     OffGrid {
         /// Increment, from 1.
         increment: usize,
-        /// Normal force \[N\].
+        /// Normal force \[N\], and its unit, in line contacts N/m.
         W: f64,
+        /// See `W`.
+        unit: &'static str,
         /// Length of the grid along x \[m\].
         extent_x: f64,
         /// Length of the grid along y \[m\].
@@ -76,12 +96,14 @@ pub enum Error {
     },
     /// The contact is certain to leave the grid, before anything is solved.
     #[error(
-        "the contact does not fit on the grid: under W = {W} N its radius is {a:.4e} m at least; the grid \
+        "the contact does not fit on the grid: under W = {W} {unit} its radius is {a:.4e} m at least; the grid \
          is {extent_x:.4e} m by {extent_y:.4e} m and should be about {needed:.4e} m wide{doubt}"
     )]
     GridTooSmall {
-        /// Largest normal force \[N\].
+        /// Largest normal force \[N\], and its unit, in line contacts N/m.
         W: f64,
+        /// See `W`.
+        unit: &'static str,
         /// Smallest radius that the contact can have \[m\].
         a: f64,
         /// Length of the grid along x \[m\].

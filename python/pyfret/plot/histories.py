@@ -227,9 +227,8 @@ def loop_evolution(result: Run, *, ax: Axes | None = None, **line: Any) -> Axes:
         ax.plot(number, values, label=label, **line)
     ax.set_xlabel("cycle")
     ax.set_xticks(number)
-    # A point at the largest value is whole.
-    ax.margins(y=0.08)
-    ax.set_ylim(bottom=0.0)
+    # With room for a whole point at the largest value.
+    ax.set_ylim(0.0, 1.08 * ax.dataLim.y1 if number.size and ax.dataLim.y1 > 0.0 else None)
     if number.size:
         ax.legend()
     else:

@@ -63,19 +63,18 @@ def varied(scene: Scene | str | PathLike[str], values: Mapping[str, Any]) -> Sce
     --------
     >>> harder = varied("coated.toml", {"body2.coatings.0.E": 3e11})  # doctest: +SKIP
     """
-    given = scene if isinstance(scene, Scene) else None
     settings = [
         f"{SHORT.get(one, one)}={toml(each)}"
         for key, value in values.items()
         for one, each in spread(key, value, scene)
     ]
-    if given is None:
+    if not isinstance(scene, Scene):
         return Scene.from_file(scene, set=settings)
-    made = Scene.from_toml(given.to_toml(), set=settings)
-    told_alone(values, given)
-    if callable(given.friction.law):
+    made = Scene.from_toml(scene.to_toml(), set=settings)
+    told_alone(values, scene)
+    if callable(scene.friction.law):
         # A function stands in no text.
-        return made.replace(mu=made.friction.replace(law=given.friction.law))
+        return made.replace(mu=made.friction.replace(law=scene.friction.law))
     return made
 
 

@@ -35,6 +35,7 @@ pub(super) fn check(setup: &Setup<'_>, now: &Interface) -> Result<(), Error> {
     Err(Error::OffGrid {
         increment: setup.state.increments + 1,
         W,
+        unit: setup.problem.scene.grid.unit_of("N"),
         extent_x: extent.0,
         extent_y: extent.1,
         needed: expected.max(GROWTH * touched),

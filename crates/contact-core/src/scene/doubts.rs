@@ -60,8 +60,11 @@ impl Scene {
         let radius = 1.0 / self.principal_curvatures().0;
         if hertz.a > radius {
             let contact = format!(
-                "a contact of radius {:.3e} m (W = {:.3e} N, E* = {:.3e} Pa)",
-                hertz.a, hertz.W, hertz.E_star
+                "a contact of radius {:.3e} m (W = {:.3e} {}, E* = {:.3e} Pa)",
+                hertz.a,
+                hertz.W,
+                self.grid.unit_of("N"),
+                hertz.E_star
             );
             let allowed = format!("smaller than the bodies' radius R = {radius:.3e} m: {UNITS}");
             return Err(Error::invalid("path", contact, allowed));
@@ -101,6 +104,7 @@ impl Scene {
         Err(Error::GridTooSmall {
             doubt: units.map_or_else(String::new, |doubt| format!("; {doubt}")),
             W: hertz.W,
+            unit: self.grid.unit_of("N"),
             a: hertz.a,
             extent_x,
             extent_y,
@@ -210,9 +214,10 @@ impl Scene {
             p0, E_star, W, a, ..
         } = *hertz;
         let wide = a * self.principal_curvatures().0;
+        let unit = self.grid.unit_of("N");
         (wide > WIDE).then(|| {
             format!(
-                "a_H/R = {wide:.2}, the peak pressure is {:.2} E* (W = {W:.3e} N, E* = {E_star:.3e} Pa, a_H = {a:.3e} m): \
+                "a_H/R = {wide:.2}, the peak pressure is {:.2} E* (W = {W:.3e} {unit}, E* = {E_star:.3e} Pa, a_H = {a:.3e} m): \
                  half-spaces and small strains hold up to a/R = {WIDE}; {UNITS}",
                 p0 / E_star
             )

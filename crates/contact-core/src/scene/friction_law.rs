@@ -3,10 +3,7 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::error::Error;
-
-/// What a law raises: its own error, which reaches the caller as it is.
-pub type LawError = Arc<dyn std::error::Error + Send + Sync>;
+use crate::error::{Error, LawError, Raised};
 
 /// Cells, and what each has been through.
 #[derive(Clone, Copy, Debug)]
@@ -125,21 +122,5 @@ impl FrictionLaw for Elsewhere {
 
     fn is_elsewhere(&self) -> bool {
         true
-    }
-}
-
-/// An error of a law of the user's own; equal to itself alone.
-#[derive(Clone, Debug)]
-pub struct Raised(pub LawError);
-
-impl PartialEq for Raised {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
-    }
-}
-
-impl std::fmt::Display for Raised {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        std::fmt::Display::fmt(&self.0, f)
     }
 }

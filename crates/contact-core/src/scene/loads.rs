@@ -208,7 +208,7 @@ impl Loads {
             return Err(Error::invalid(
                 key(if T_x.abs() >= T_y.abs() { "T_x" } else { "T_y" }),
                 T,
-                format!("|T| <= mu W = {limit} N, the largest force that friction can carry"),
+                format!("|T| <= mu W = {limit}, the largest force that friction can carry"),
             ));
         }
         Ok(())

@@ -28,7 +28,7 @@ pub(crate) use case::{Fault, Section, read_with, text_of};
 pub use files::Reach;
 pub use friction::{Friction, FrictionHistory, History};
 pub(crate) use friction_law::is_missing;
-pub use friction_law::{CellHistory, FrictionLaw, LawError, OwnFriction, Raised};
+pub use friction_law::{CellHistory, FrictionLaw, OwnFriction};
 pub use grid::Grid;
 pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
 pub use loads::{Given, Loads};
@@ -47,6 +47,7 @@ pub(crate) use self::doubts::LARGE_STRAIN;
 pub(crate) use self::settings::MOST_ALIASES;
 use self::settings::{PATH_PART, TOLERANCE};
 use crate::error::Error;
+pub use crate::error::LawError;
 use crate::memory::fits;
 use crate::reference::{Hertz, contact_modulus, hertz, hertz_ellipse, line_contact};
 

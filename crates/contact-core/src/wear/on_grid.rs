@@ -37,6 +37,7 @@ pub(super) fn check(grid: &Grid, rows: usize, p: &[f64], shifts: &[Shift]) -> Re
     Err(Error::OffGrid {
         increment: 0,
         W: p.iter().sum::<f64>() * grid.cell_area(),
+        unit: grid.unit_of("N"),
         extent_x,
         extent_y,
         needed: GROWTH * touched,

@@ -263,7 +263,7 @@ fn bad_input_is_refused_before_anything_is_written() {
         ("grid.n=0", &["grid.n = 0", ">= 1"]),
         (
             "path.1.T_x.mu_W=1.5",
-            &["path[1].T_x = 450", "|T| <= mu W = 300 N"],
+            &["path[1].T_x = 450", "|T| <= mu W = 300,"],
         ),
         ("grid.m=3", &["grid.m", "`grid.n`"]),
         // The contact leaves the grid.

@@ -89,7 +89,7 @@ W = 1000.0;  W = -1.0;  27;  path[0].W = -1;  a finite compressive force
 increments = 10;  increments = 0;  28;  path[0].increments = 0;  >= 1
 increments = 10;  increments = 1.5;  28;  path[0].increments = 1.5;  a whole number
 t = 0.1;  t = 0.0;  29;  path[0].t = 0;  a time after 0
-mu_W = 0.9;  mu_W = 1.1;  32;  path[1].T_x = 330;  |T| <= mu W = 300 N
+mu_W = 0.9;  mu_W = 1.1;  32;  path[1].T_x = 330;  |T| <= mu W = 300
 mu_W = 0.9;  a_H = 0.9;  32;  path[1].T_x = { a_H = 0.9 };  { mu_W = number }
 schema = 1;  schema = 2;  1;  schema = 2;  must be 1
 "flat";  "flot";  10;  body2.shape = "flot";  "flat" or a table such as { sphere
