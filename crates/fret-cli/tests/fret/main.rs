@@ -85,7 +85,7 @@ fn error_bars_stand_in_the_summary_and_in_the_store() {
 
 #[test]
 fn a_line_contact_is_told_per_metre() {
-    let scene = free("line.toml");
+    let scene = Path::new(env!("CARGO_TARGET_TMPDIR")).join("line.toml");
     fs::write(
         &scene,
         "schema = 1\nbody1 = { shape.cylinder.R = 0.02, E = 210e9, nu = 0.3 }\n\
