@@ -6,6 +6,8 @@
 //! near the sample, and the difference of the continued and the constant tractions is added on each
 //! part. The parts' responses depend on offsets and depth alone: all samples of a depth share them.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::ops::Range;
 
 use super::loads::{Plane, snapped};
@@ -188,6 +190,7 @@ impl NearRim {
             (-most..=most).filter(move |k| (*k as f64 - f).abs() <= reach + 0.5)
         };
         let cells = within(offset.0, n.0).flat_map(|k| within(offset.1, n.1).map(move |l| (k, l)));
+        let known = RefCell::default();
         let cut = |(k, l): (isize, isize)| {
             let cut = Cut {
                 kernel,
@@ -197,6 +200,7 @@ impl NearRim {
                 sample: (offset.0 - k as f64, offset.1 - l as f64),
                 z,
                 fineness,
+                known: &known,
             };
             let mut parts = Vec::new();
             cut.thirds(&mut parts, (0.0, 0.0), 1.0, 1);
@@ -237,6 +241,7 @@ impl NearRim {
         const DIPOLE: f64 = 1.0 / 12.0;
         let mut beyond = [[[0.0; 3]; 6]; 2];
         let axes = if self.is_flat() { 1 } else { 2 };
+        let known = RefCell::default();
         for (axis, sum) in beyond.iter_mut().enumerate().take(axes) {
             let along = |d: &Divided| [d.from.0, d.from.1][axis];
             let ends = [cells.iter().map(along).min(), cells.iter().map(along).max()];
@@ -252,6 +257,7 @@ impl NearRim {
                         sample: (offset.0 - middle[0], offset.1 - middle[1]),
                         z,
                         fineness,
+                        known: &known,
                     };
                     let response = cut.response(cut.sample.0, cut.sample.1, 1.0);
                     for (sum, v) in sum.iter_mut().flatten().zip(response.iter().flatten()) {
@@ -376,7 +382,11 @@ struct Cut<'a> {
     /// Depth in cells.
     z: f64,
     fineness: Fineness,
+    known: &'a RefCell<Known>,
 }
+
+/// Responses by distance along and across and by size.
+type Known = HashMap<[u64; 3], [[f64; 3]; 6]>;
 
 impl Cut<'_> {
     /// Adds the nine thirds of a part, `times` being the number of divisions so far; a third that
@@ -409,8 +419,27 @@ impl Cut<'_> {
         }
     }
 
-    /// The stress under a part of a size at an offset in its own lengths.
+    /// The stress under a part of a size at an offset in its own lengths; mirrored parts share it.
     fn response(&self, x: f64, y: f64, size: f64) -> [[f64; 3]; 6] {
+        let place = [x.abs(), y.abs()];
+        let key = [place[0], place[1], size].map(f64::to_bits);
+        let mut known = self.known.borrow_mut();
+        let response = known
+            .entry(key)
+            .or_insert_with(|| self.computed(place[0], place[1], size));
+        let mut mirrored = *response;
+        for (row, response) in mirrored.iter_mut().enumerate() {
+            for (column, v) in response.iter_mut().enumerate() {
+                let (odd_x, odd_y) = Stress::is_odd(row, column);
+                if (odd_x && x < 0.0) != (odd_y && y < 0.0) {
+                    *v = -*v;
+                }
+            }
+        }
+        mirrored
+    }
+
+    fn computed(&self, x: f64, y: f64, size: f64) -> [[f64; 3]; 6] {
         let d_x = size * self.d.0;
         let d_y = if self.flat { self.d.1 } else { size * self.d.1 };
         let cell = Cell {
