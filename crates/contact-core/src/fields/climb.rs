@@ -1,14 +1,19 @@
 //! The ascent to the largest value of a number, from a starting point.
 //!
 //! The number is evaluated on both sides along every free direction and at the vertex of the
-//! parabola through these values, with smaller and smaller steps.
+//! parabola through these values, with smaller and smaller steps. Where it rises towards a side,
+//! the ascent goes there with steps twice as long: the samples end with the grid, and a tension
+//! around a contact may be largest beyond it.
 
 use super::{Depth, Point};
 use crate::error::Error;
 
-/// Most rounds of the ascent, and the ratio of the steps of successive rounds.
+/// Most rounds with smaller steps, and the ratio of the steps of successive rounds.
 const ROUNDS: usize = 5;
 const CLOSER: f64 = 1.0 / 3.0;
+/// Most rounds towards a side, and the ratio of the steps of successive rounds.
+const OUTWARDS: usize = 16;
+const FARTHER: f64 = 2.0;
 /// Relative gain of a round that ends the ascent.
 const ENOUGH: f64 = 1e-4;
 
@@ -39,7 +44,8 @@ pub(super) fn climb(
 ) -> Result<([f64; 3], f64, [f64; 3]), Error> {
     let (mut place, mut best, mut steps) = (start.place, value, start.steps);
     let mut left = [0.0; 3];
-    for _ in 0..ROUNDS {
+    let (mut closer, mut farther) = (0, 0);
+    while closer < ROUNDS && farther < OUTWARDS {
         let beside = |axis: usize, sign: f64| {
             let mut at = place;
             at[axis] += sign * steps[axis];
@@ -71,17 +77,21 @@ pub(super) fn climb(
             tried.push((top, found[0]));
         }
         let before = best;
-        let mut outwards = false;
+        let mut outwards = None;
         for (n, (at, value)) in tried.into_iter().enumerate() {
             if value > best {
                 (place, best) = (at, value);
-                outwards = n < sides.len();
+                outwards = sides.get(n).map(|(axis, _)| *axis);
             }
         }
-        if !outwards {
+        if let Some(axis) = outwards {
+            farther += 1;
+            steps[axis] *= FARTHER;
+        } else {
             if best - before <= ENOUGH * best.abs() {
                 break;
             }
+            closer += 1;
             steps = steps.map(|s| CLOSER * s);
         }
     }
@@ -138,6 +148,17 @@ mod tests {
         );
         assert!(left[0] > 0.0 && left[1] == 0.0 && left[2] > 0.0, "{left:?}");
         assert!(1.0 - value <= left.iter().sum::<f64>(), "{left:?} {value}");
+    }
+
+    #[test]
+    fn climbs_to_a_top_far_beyond_the_start() {
+        let f = |x: f64, z: f64| 1.0 / (1.0 + (x - 40.0).powi(2) / 900.0) - 0.1 * (z - 1.3).powi(2);
+        let (place, value, left) = climbed(f, 0.5, 1.3);
+        let off = 1.0 - value;
+        assert!(
+            off < 1e-3 && off <= left.iter().sum::<f64>(),
+            "{place:?} {value} {left:?}"
+        );
     }
 
     #[test]

@@ -30,8 +30,8 @@ pub struct Errors {
     pub y: f64,
     /// Of the search along depth.
     pub z: f64,
-    /// Of the tractions: change of the value under the tractions on cells twice as large; `None` if
-    /// not computed.
+    /// Of the tractions: change of the value under the tractions on cells twice as large, within
+    /// four cells of a border on a layer thinner than that 2.4 times that; `None` if not computed.
     pub tractions: Option<f64>,
 }
 

@@ -6,6 +6,8 @@
 //! near the sample, and the difference of the continued and the constant tractions is added on each
 //! part. The parts' responses depend on offsets and depth alone: all samples of a depth share them.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::ops::Range;
 
 use super::loads::{Plane, snapped};
@@ -17,11 +19,13 @@ use crate::zones::{Continued, Within};
 
 /// Deepest samples, in cells.
 const DEEPEST: f64 = 6.0;
-/// Largest distance of a sample from a border, in cells along or across, at which the correction is
-/// computed: below the surface, where only cells at the border contribute, and near the surface,
-/// where the slope of the tractions counts as well.
+/// Largest distance from a border, in cells along or across, of cells in which the tractions are
+/// not linear, and of samples below the surface at which the correction is computed. Near the
+/// surface it is computed everywhere: there the slope of the tractions counts.
 const FARTHEST: u8 = 3 + REACH as u8;
-const FARTHEST_AT_SURFACE: u8 = 24;
+/// Distance of a sample from the borders beyond which the slope around it stands for that of the
+/// cells which are not divided.
+const SMOOTH: u8 = 12;
 /// Depth in cells down to which the slope counts: variations of the period of a cell decay like
 /// exp(-2 pi z).
 const AT_SURFACE: f64 = 1.0;
@@ -66,12 +70,24 @@ pub(super) struct NearRim {
 
 /// Parts of the cells around a sample.
 pub(super) struct Parts {
-    /// By cell: columns and rows from the sample's, and its parts.
-    cells: Vec<((isize, isize), Vec<Part>)>,
+    cells: Vec<Divided>,
+    /// The stress at the sample under unit slopes of the tractions, along and across, in all cells
+    /// beyond.
+    beyond: [[[f64; 3]; 6]; 2],
     /// From the middle of the sample's cell, in cells.
     offset: (f64, f64),
     /// Whether the sample is on the surface, where s_zz, s_xz, s_yz are the tractions themselves.
     on_surface: bool,
+}
+
+/// A cell near the sample.
+struct Divided {
+    /// Columns and rows from the sample's.
+    from: (isize, isize),
+    parts: Vec<Part>,
+    /// The stress at the sample under tractions that grow by one over the length and over the width
+    /// of the cell and are zero in its middle.
+    slopes: [[[f64; 3]; 6]; 2],
 }
 
 /// A part of a cell.
@@ -174,6 +190,7 @@ impl NearRim {
             (-most..=most).filter(move |k| (*k as f64 - f).abs() <= reach + 0.5)
         };
         let cells = within(offset.0, n.0).flat_map(|k| within(offset.1, n.1).map(move |l| (k, l)));
+        let known = RefCell::default();
         let cut = |(k, l): (isize, isize)| {
             let cut = Cut {
                 kernel,
@@ -183,27 +200,78 @@ impl NearRim {
                 sample: (offset.0 - k as f64, offset.1 - l as f64),
                 z,
                 fineness,
+                known: &known,
             };
             let mut parts = Vec::new();
             cut.thirds(&mut parts, (0.0, 0.0), 1.0, 1);
-            ((k, l), parts)
+            Divided {
+                from: (k, l),
+                slopes: slopes(&parts),
+                parts,
+            }
         };
+        let cells: Vec<Divided> = cells.map(cut).collect();
         Some(Parts {
-            cells: cells.map(cut).collect(),
+            beyond: self.beyond(kernel, &cells, offset, fineness, z),
+            cells,
             offset,
             on_surface: depth.z <= 0.0,
         })
     }
 
+    /// The response to unit slopes along and across beyond some cells around a sample. In a row of
+    /// cells k with the middles x_k and the length d the slope g adds g (s - x_k)/d to the traction
+    /// at s, a dipole of g d^2/12: with the response K to a line of load the cells to the right of
+    /// x_R sum up to
+    ///
+    /// ```text
+    /// -g/12 sum_k K'(x - x_k) d^2 = -g/12 K(x - x_R) d,
+    /// ```
+    ///
+    /// the response to -g/12 on one cell in whose middle they begin; those to the left to that of
+    /// g/12. Rows without a divided cell add nothing.
+    fn beyond(
+        &self,
+        kernel: &DepthKernel<Stress, 10, 6>,
+        cells: &[Divided],
+        offset: (f64, f64),
+        fineness: Fineness,
+        z: f64,
+    ) -> [[[f64; 3]; 6]; 2] {
+        const DIPOLE: f64 = 1.0 / 12.0;
+        let mut beyond = [[[0.0; 3]; 6]; 2];
+        let axes = if self.is_flat() { 1 } else { 2 };
+        let known = RefCell::default();
+        for (axis, sum) in beyond.iter_mut().enumerate().take(axes) {
+            let along = |d: &Divided| [d.from.0, d.from.1][axis];
+            let ends = [cells.iter().map(along).min(), cells.iter().map(along).max()];
+            for (end, sign) in ends.into_iter().flatten().zip([1.0, -1.0]) {
+                for Divided { from, .. } in cells.iter().filter(|d| along(d) == end) {
+                    let mut middle = [from.0 as f64, from.1 as f64];
+                    middle[axis] -= 0.5 * sign;
+                    let cut = Cut {
+                        kernel,
+                        side: self.side,
+                        d: self.plane.d,
+                        flat: self.is_flat(),
+                        sample: (offset.0 - middle[0], offset.1 - middle[1]),
+                        z,
+                        fineness,
+                        known: &known,
+                    };
+                    let response = cut.response(cut.sample.0, cut.sample.1, 1.0);
+                    for (sum, v) in sum.iter_mut().flatten().zip(response.iter().flatten()) {
+                        *sum += sign * DIPOLE * v;
+                    }
+                }
+            }
+        }
+        beyond
+    }
+
     /// Whether the correction is computed at samples in a cell at a depth.
     pub(super) fn is_near(&self, state: usize, depth: Depth, cell: (usize, usize)) -> bool {
-        let at_surface = self.depth_in_cells(depth) < AT_SURFACE;
-        let farthest = if at_surface {
-            FARTHEST_AT_SURFACE
-        } else {
-            FARTHEST
-        };
-        self.states[state].distance(cell) <= farthest
+        self.depth_in_cells(depth) < AT_SURFACE || self.states[state].distance(cell) <= FARTHEST
     }
 
     fn depth_in_cells(&self, depth: Depth) -> f64 {
@@ -245,17 +313,28 @@ impl NearRim {
     ) {
         let state = &self.states[state];
         let mut more = [0.0; 6];
-        for ((columns, rows), cut) in &parts.cells {
+        let mut add = |response: &[[f64; 3]; 6], q: [f64; 3]| {
+            for (stress, row) in more.iter_mut().zip(response) {
+                *stress += row[0] * q[0] + row[1] * q[1] + row[2] * q[2];
+            }
+        };
+        let slopes = |cell| state.slopes(cell).into_iter().flatten();
+        if state.distance((i, j)) > SMOOTH {
+            let beyond = parts.beyond.iter().zip(slopes((i, j)));
+            beyond.for_each(|(response, q)| add(response, q));
+        }
+        for divided in &parts.cells {
+            let (columns, rows) = divided.from;
             let cell = i
-                .checked_add_signed(*columns)
-                .zip(j.checked_add_signed(*rows));
-            let Some(within) = cell.and_then(|cell| state.within(cell)) else {
-                continue;
-            };
-            for Part { at, response } in cut {
-                let q = excess(&within, *at);
-                for (stress, row) in more.iter_mut().zip(response) {
-                    *stress += row[0] * q[0] + row[1] * q[1] + row[2] * q[2];
+                .checked_add_signed(columns)
+                .zip(j.checked_add_signed(rows));
+            let Some(cell) = cell else { continue };
+            if state.distance(cell) > FARTHEST {
+                let within = divided.slopes.iter().zip(slopes(cell));
+                within.for_each(|(response, q)| add(response, q));
+            } else if let Some(within) = state.within(cell) {
+                for Part { at, response } in &divided.parts {
+                    add(response, excess(&within, *at));
                 }
             }
         }
@@ -271,6 +350,19 @@ impl NearRim {
             }
         }
     }
+}
+
+/// The response to a unit slope along and across, from the parts of a cell.
+fn slopes(parts: &[Part]) -> [[[f64; 3]; 6]; 2] {
+    let mut slopes = [[[0.0; 3]; 6]; 2];
+    for Part { at, response } in parts {
+        for (slope, at) in slopes.iter_mut().zip([at.0, at.1]) {
+            for (sum, v) in slope.iter_mut().flatten().zip(response.iter().flatten()) {
+                *sum += at * v;
+            }
+        }
+    }
+    slopes
 }
 
 /// Continued less constant tractions at an offset in a cell \[Pa\].
@@ -290,7 +382,11 @@ struct Cut<'a> {
     /// Depth in cells.
     z: f64,
     fineness: Fineness,
+    known: &'a RefCell<Known>,
 }
+
+/// Responses by distance along and across and by size.
+type Known = HashMap<[u64; 3], [[f64; 3]; 6]>;
 
 impl Cut<'_> {
     /// Adds the nine thirds of a part, `times` being the number of divisions so far; a third that
@@ -323,8 +419,27 @@ impl Cut<'_> {
         }
     }
 
-    /// The stress under a part of a size at an offset in its own lengths.
+    /// The stress under a part of a size at an offset in its own lengths; mirrored parts share it.
     fn response(&self, x: f64, y: f64, size: f64) -> [[f64; 3]; 6] {
+        let place = [x.abs(), y.abs()];
+        let key = [place[0], place[1], size].map(f64::to_bits);
+        let mut known = self.known.borrow_mut();
+        let response = known
+            .entry(key)
+            .or_insert_with(|| self.computed(place[0], place[1], size));
+        let mut mirrored = *response;
+        for (row, response) in mirrored.iter_mut().enumerate() {
+            for (column, v) in response.iter_mut().enumerate() {
+                let (odd_x, odd_y) = Stress::is_odd(row, column);
+                if (odd_x && x < 0.0) != (odd_y && y < 0.0) {
+                    *v = -*v;
+                }
+            }
+        }
+        mirrored
+    }
+
+    fn computed(&self, x: f64, y: f64, size: f64) -> [[f64; 3]; 6] {
         let d_x = size * self.d.0;
         let d_y = if self.flat { self.d.1 } else { size * self.d.1 };
         let cell = Cell {

@@ -27,6 +27,11 @@ const STEP: f64 = 0.5;
 const STEP_AT_BORDER: f64 = 0.25;
 /// A point is on a border if it is at most this many cells from it.
 const ON_BORDER: f64 = 0.1;
+/// A layer at the surface thinner than so many cells has its rim law within a few of them: as many
+/// cells around a border the error of a value falls like the root of the cell, and is 1/(2^(1/2) -
+/// 1) times the change to cells twice as large.
+const RESOLVED: f64 = 4.0;
+const OF_ROOT: f64 = 1.0 + std::f64::consts::SQRT_2;
 
 /// Looks for the largest values below a contact.
 pub struct Search {
@@ -37,6 +42,8 @@ pub struct Search {
     d: (f64, f64),
     /// Whether there is one row of cells.
     flat: bool,
+    /// Whether the layer at the surface is too thin for the cells ([`RESOLVED`]).
+    thin: bool,
 }
 
 impl Search {
@@ -55,7 +62,14 @@ impl Search {
         };
         let coarser = Coarser::new(body, side, grid, line, &states)?;
         let points = Points::new(body, side, grid, states)?;
+        let cell = if grid.ny == 1 {
+            grid.dx
+        } else {
+            grid.dx.max(grid.dy)
+        };
+        let outermost = body.coatings.first();
         Ok(Self {
+            thin: outermost.is_some_and(|layer| layer.thickness < RESOLVED * cell),
             borders: points.borders(0, line),
             coarser,
             points,
@@ -227,6 +241,11 @@ impl Search {
             Probe::Stress(m) => (m.value)(&self.coarser.stress(at, border)?),
             Probe::Displacement(c) => self.coarser.displacement(at.0, at.1, at.2)?[c.axis()],
         };
+        let part = if self.thin && self.is_near_border(at) {
+            OF_ROOT
+        } else {
+            1.0
+        };
         Ok(Some(Extreme {
             value,
             x: at.0,
@@ -237,7 +256,7 @@ impl Search {
                 x: left[0].max(unsure),
                 y: left[1],
                 z: left[2],
-                tractions: Some((value - coarse).abs()),
+                tractions: Some(part * (value - coarse).abs()),
             },
         }))
     }
@@ -278,7 +297,20 @@ impl Search {
     }
 
     /// The border that a point lies on.
-    fn border_at(&self, (x, y, depth): Point) -> Option<&Border> {
+    fn border_at(&self, at: Point) -> Option<&Border> {
+        let nearest = self.nearest_border(at);
+        let on_it = nearest.filter(|(_, away)| away[0].max(away[1]) < ON_BORDER);
+        on_it.map(|(border, _)| border)
+    }
+
+    /// Whether a border is within [`RESOLVED`] cells.
+    fn is_near_border(&self, at: Point) -> bool {
+        let nearest = self.nearest_border(at);
+        nearest.is_some_and(|(_, away)| away[0].max(away[1]) < RESOLVED)
+    }
+
+    /// The nearest border and the distances from it along the surface and in depth \[cells\].
+    fn nearest_border(&self, (x, y, depth): Point) -> Option<(&Border, [f64; 2])> {
         let cell = if self.flat {
             self.d.0
         } else {
@@ -286,11 +318,8 @@ impl Search {
         };
         let across = |v: f64| if self.flat { 0.0 } else { v / self.d.1 };
         let away = |b: &Border| ((b.x - x) / self.d.0).hypot(across(b.y - y));
-        let nearest = self
-            .borders
-            .iter()
-            .min_by(|a, b| away(a).total_cmp(&away(b)))?;
-        (away(nearest) < ON_BORDER && depth.z < ON_BORDER * cell).then_some(nearest)
+        let by_distance = self.borders.iter().map(|b| (b, [away(b), depth.z / cell]));
+        by_distance.min_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]))
     }
 }
 

@@ -225,6 +225,26 @@ impl Continued {
             .is_some_and(|at| around(at, self.taken.dim()).any(|at| self.taken[at]))
     }
 
+    /// Change of q_x, q_y, p over the length and over the width of a cell far from borders \[Pa\];
+    /// none where they are constant.
+    pub(crate) fn slopes(&self, cell: (usize, usize)) -> Option<[[f64; 3]; 2]> {
+        let (i, j) = self.place(cell)?;
+        if self.varying[(i, j)] == Varying::Nothing {
+            return None;
+        }
+        let (columns, rows) = self.level.dim();
+        let beside = |n: usize, count: usize| (n.saturating_sub(1), (n + 1).min(count - 1));
+        let ((left, right), (below, above)) = (beside(i, columns), beside(j, rows));
+        let slope = |c: usize, low: (usize, usize), high: (usize, usize)| {
+            let cells = (high.0 - low.0 + high.1 - low.1).max(1);
+            (self.constant[c][high] - self.constant[c][low]) / cells as f64
+        };
+        Some([
+            [0, 1, 2].map(|c| slope(c, (left, j), (right, j))),
+            [0, 1, 2].map(|c| slope(c, (i, below), (i, above))),
+        ])
+    }
+
     /// The tractions within a cell; none where they are constant.
     pub(crate) fn within(&self, cell: (usize, usize)) -> Option<Within> {
         let at = self.place(cell)?;

@@ -12,7 +12,7 @@ pub(crate) enum Power {
 
 impl Power {
     /// The level of a value >= 0.
-    pub(super) fn of(self, value: f64) -> f64 {
+    pub(crate) fn of(self, value: f64) -> f64 {
         let value = value.max(0.0);
         match self {
             Self::One => value,

@@ -23,6 +23,11 @@ const ALONG: usize = 7;
 /// rise.
 const STRAIGHT: f64 = 0.1;
 
+/// Largest difference of the level of a cell from the extrapolated one, over the change of the
+/// level per cell: beyond it the level is not smooth (a rough contact, a layer as thin as the
+/// cells).
+const OFF: f64 = 0.12;
+
 /// The cells of a line from which a level is extrapolated.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stencil {
@@ -201,6 +206,19 @@ pub(crate) struct Level {
     pub(crate) middle: f64,
     /// Its gradient per cell along x and y.
     pub(crate) gradient: [f64; 2],
+}
+
+impl Level {
+    /// Whether it agrees with the own level of the cell.
+    pub(crate) fn agrees(&self, own: f64) -> bool {
+        agree(self.middle, self.gradient, own)
+    }
+}
+
+/// Whether an extrapolated level agrees with the own level of a cell ([`OFF`]); negative values
+/// count as zero.
+pub(super) fn agree(middle: f64, gradient: [f64; 2], own: f64) -> bool {
+    (middle.max(0.0) - own).abs() <= OFF * gradient[0].hypot(gradient[1])
 }
 
 impl Lattice {

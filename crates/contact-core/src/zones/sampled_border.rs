@@ -4,16 +4,11 @@ use ndarray::Array2;
 
 use super::edge::Edge;
 use super::laws::Power;
-use super::level::Stencil;
+use super::level::{Stencil, agree};
 use super::neighbours::around;
 use crate::cells::Lattice;
 use crate::plan::Mirror;
 use crate::scene::Grid;
-
-/// Largest difference of the level of a cell from the extrapolated one, over the change of the
-/// level per cell: beyond it the level is not smooth (a rough contact, a layer as thin as the
-/// cells).
-const OFF: f64 = 0.12;
 
 /// Neighbours with an extrapolated level from which the level of a cell outside is averaged if its
 /// own cannot be extrapolated, at least.
@@ -130,11 +125,9 @@ impl<'a> Planes<'a> {
         self.edges.binary_search_by_key(&n, |(n, _)| *n).ok()
     }
 
-    /// Whether a plane agrees with the own level of a cell ([`OFF`]); negative values count as
-    /// zero.
+    /// Whether a plane agrees with the own level of a cell.
     fn agrees(&self, cell: (usize, usize), plane: Plane) -> bool {
-        let off = (plane.middle.max(0.0) - self.own[cell]).abs();
-        off <= OFF * plane.slope[0].hypot(plane.slope[1])
+        agree(plane.middle, plane.slope, self.own[cell])
     }
 
     /// The mean level of a cell by the planes of its neighbours with `of`, and their number.

@@ -14,7 +14,7 @@ impl Audit {
     /// reports the same.
     pub(super) fn check_energy(
         &mut self,
-        now: &End,
+        (now, rolled): (&End, isize),
         increment: &Increment,
         found: &mut Violations,
     ) {
@@ -26,13 +26,15 @@ impl Audit {
         ];
         let of_loads = mean(from.W, to.W) * d[0]
             + mean(from.T_x, to.T_x) * d[1]
-            + mean(from.T_y, to.T_y) * d[2];
+            + mean(from.T_y, to.T_y) * d[2]
+            - self.on_slopes(now, rolled);
         self.work += of_loads.abs();
         // In pieces, each has mean tractions of its own.
         if increment.work.parts > 1 || self.work == 0.0 {
             return;
         }
-        let [stored, on_surface] = self.stored_and_on_surface(now, d);
+        let [stored, mut on_surface] = self.stored_and_on_surface(now, d);
+        on_surface -= self.on_slopes(now, rolled);
         let e = increment.energy;
         let rounding = ROUNDING * self.work;
         let allowed = self.energy_within_tolerance(now) + rounding;
@@ -48,6 +50,16 @@ impl Audit {
         ] {
             found.raise(Law::Energy, missing.abs() / allowed);
         }
+    }
+
+    /// Work of the pressure on the undeformed gap of material that rolls through the contact \[J\].
+    fn on_slopes(&self, now: &End, rolled: isize) -> f64 {
+        let last = &self.start.fields.p;
+        let cells = now.fields.p.indexed_iter().filter(|_| rolled != 0);
+        let sum: f64 = cells
+            .map(|(n, p)| mean(*p, last[n]) * self.wider(n, rolled))
+            .sum();
+        sum * self.scene.grid.cell_area()
     }
 
     /// Change of the elastic energy, and the work of the tractions on gaps and slips \[J\].

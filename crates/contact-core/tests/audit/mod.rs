@@ -7,6 +7,7 @@ mod dissipation;
 mod energy;
 pub(crate) mod misfit;
 mod response;
+mod rolled;
 mod sector;
 mod slip;
 
@@ -149,11 +150,15 @@ impl Audit {
         }
         self.check_response(&now.fields, &mut found);
         self.check_contact(&now, increment, &mut found);
-        self.check_monotone(&now, &mut found);
+        let rolled = self.rolls(&now);
+        if rolled == 0 {
+            self.check_monotone(&now, &mut found);
+        }
+        self.roll(rolled);
         self.check_coulomb(&now, increment, &mut found);
         self.check_slip(&now, increment, &mut found);
         self.check_dissipation(&now, increment, &mut found);
-        self.check_energy(&now, increment, &mut found);
+        self.check_energy((&now, rolled), increment, &mut found);
         self.start = now;
         found
     }

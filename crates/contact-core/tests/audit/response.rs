@@ -31,7 +31,7 @@ impl Response {
     }
 
     /// u_x, u_y, u_z of the tractions \[m\].
-    fn of(&mut self, fields: &Fields) -> [Vec<f64>; 3] {
+    pub(super) fn of(&mut self, fields: &Fields) -> [Vec<f64>; 3] {
         let mut u = [(); 3].map(|()| vec![0.0; fields.p.len()]);
         let [u_x, u_y, u_z] = &mut u;
         self.op.respond(

@@ -21,6 +21,7 @@ use contact_core::march::{Fields, Increment, Status};
 use contact_core::scene::Scene;
 use ndarray::Array2;
 
+use super::rolled::carried;
 use super::sector::Sector;
 use super::{Audit, End, Law, Violations, dot, held};
 
@@ -42,6 +43,12 @@ impl Rest {
             moved: Array2::from_elem(dim, [0.0; 2]),
             cells: vec![0.0],
         }
+    }
+
+    /// Carries all along with the material.
+    pub(super) fn roll(&mut self, cells: isize) {
+        self.since = carried(&self.since, cells, 0);
+        self.moved = carried(&self.moved, cells, [0.0; 2]);
     }
 
     /// What the cells that stick may have moved, root of the sum of squares, over the tolerance.

@@ -4,7 +4,9 @@ use contact_core::reference::{CoatedIndentation, coated_indentation, hertz};
 use contact_core::scene::{Body, Coating, Elastic, Grid, LoadPath, Scene, Shape};
 use serde_json::Value;
 
-use crate::bench::{FIELD, R, RIM, SMOOTH, STEEL, W, close, coated, norm, run, sphere_on_flat};
+use crate::bench::{
+    FIELD, R, RIM, SMOOTH, STEEL, W, WHOLE_CELLS, close, coated, norm, run, sphere_on_flat,
+};
 
 /// Runs one frictionless increment and compares it with the truth.
 fn compare(scene: &Scene, truth: &CoatedIndentation) {
@@ -83,6 +85,25 @@ fn radius_pressure_and_approach_within_three_per_mille_at_512() {
                 3e-3,
             );
         });
+    }
+}
+
+/// Under a thin hard coating the pressure changes over its thickness at the rim: where the cells do
+/// not resolve that, the radius is that of whole cells.
+#[test]
+fn the_radius_on_a_thin_hard_coating_is_no_worse_than_that_of_whole_cells() {
+    for (ratio, h) in [(4.0, 0.05), (4.0, 0.02), (2.0, 0.05), (3.0, 0.1)] {
+        for n in [64, 101, 128, 256] {
+            let (scene, truth) = row(ratio, h, n);
+            run(&scene, |march, increment| {
+                let whole = march.fields().contact.iter().filter(|c| **c).count() as f64;
+                let whole = (whole * scene.grid.cell_area() / std::f64::consts::PI).sqrt();
+                let [off, whole] = [increment.contact_radius(), whole].map(|a| a / truth.a - 1.0);
+                let cell = scene.grid.dx / truth.a;
+                println!("E1/E2 = {ratio}, h = {h} a, n = {n}: {off:.4}, whole cells {whole:.4}");
+                assert!(off.abs() < WHOLE_CELLS * cell, "{off} of {cell}");
+            });
+        }
     }
 }
 

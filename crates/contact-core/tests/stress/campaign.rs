@@ -13,12 +13,13 @@ use contact_core::march::Fields;
 use contact_core::march::{Increment, March};
 use contact_core::reference::hertz;
 use contact_core::scene::{Body, Scene, Shape};
-use ndarray::{ArrayView2, s};
+use ndarray::{Array2, ArrayView2, s};
 
 use crate::audit::{Audit, Violations};
 use crate::below;
 use crate::draw::{Drawn, Intent};
 use crate::twins::{compared, has_twins};
+use crate::warm;
 
 /// A scene that takes longer is stopped: most take a second, the largest half a minute, and the
 /// machine may have other things to do.
@@ -64,7 +65,7 @@ pub(crate) fn audited(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<(End, Vio
     march.stop_on(stop.clone());
     let mut audit = Audit::new(scene);
     let mut worst = Violations::default();
-    let mut increments = Vec::new();
+    let (mut increments, mut dissipated) = (Vec::new(), Vec::new());
     let (mut fields, mut approach) = (march.fields(), 0.0);
     while let Some(increment) = march.advance() {
         let increment = increment?;
@@ -73,6 +74,7 @@ pub(crate) fn audited(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<(End, Vio
             println!("{increment:?}\n{found:?}");
         }
         worst.worse(&found);
+        dissipated.push(march.fields().dissipated);
         if increment.contact_area > 0.0 {
             fields = march.fields();
             approach = increment.motion.delta_z;
@@ -83,6 +85,7 @@ pub(crate) fn audited(scene: &Scene, stop: &Arc<AtomicBool>) -> Result<(End, Vio
         fields,
         approach,
         increments,
+        dissipated,
     };
     Ok((end, worst))
 }
@@ -92,6 +95,8 @@ pub(crate) struct End {
     pub(crate) fields: Fields,
     pub(crate) approach: f64,
     pub(crate) increments: Vec<Increment>,
+    /// Energy per area that friction has taken up to the end of each \[J/m^2\].
+    pub(crate) dissipated: Vec<Array2<f64>>,
 }
 
 impl End {
@@ -146,6 +151,9 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
         {
             return (Fate::Refused, None);
         }
+        (Err(Error::InvalidScene { key, .. }), Solve) if key.starts_with("path.rolled") => {
+            return (on_longer_grid(scene, stop), None);
+        }
         // How far the contact of ten layers reaches is not known when a scene is drawn.
         (Err(Error::OffGrid { needed, .. }), OffGrid | Edge | Solve) => {
             return (on_grid_asked_for(scene, needed, stop), None);
@@ -154,6 +162,11 @@ fn fate(seed: u64, drawn: &Drawn, stop: &Arc<AtomicBool>) -> (Fate, Option<End>)
     };
     if below::is_looked_at(seed)
         && let Err(why) = below::judged(scene, &end.fields, stop)
+    {
+        return (Fate::Failed(why), None);
+    }
+    if warm::is_warmed(seed)
+        && let Err(why) = warm::warmed(seed, scene, &end, stop)
     {
         return (Fate::Failed(why), None);
     }
@@ -252,11 +265,26 @@ fn on_grid_asked_for(scene: &Scene, mut needed: f64, stop: &Arc<AtomicBool>) -> 
     Fate::Failed("no grid asked for is large enough".into())
 }
 
+/// A scene whose contact would roll off its grid, with as many cells again along x.
+fn on_longer_grid(scene: &Scene, stop: &Arc<AtomicBool>) -> Fate {
+    let mut longer = scene.clone();
+    longer.grid.nx *= 2;
+    match audited(&longer, stop) {
+        Ok((_, violations)) if violations.hold() => Fate::Refused,
+        Ok((_, violations)) => Fate::Failed(format!("on a longer grid: {violations:?}")),
+        Err(error) => ended(scene, "on a longer grid: ", &error),
+    }
+}
+
 /// The scene on a grid of as many cells that is as long and as wide as needed.
 fn widened(scene: &Scene, needed: f64) -> Scene {
     let mut scene = scene.clone();
     let grid = &mut scene.grid;
-    grid.dx = grid.dx.max(needed / grid.nx as f64);
+    let longer = (needed / grid.extent().0).max(1.0);
+    grid.dx *= longer;
     grid.dy = grid.dy.max(needed / grid.ny as f64);
+    for branch in &mut scene.path.branches {
+        branch.to.rolled *= longer;
+    }
     scene
 }

@@ -29,13 +29,42 @@ pub(crate) struct Drawn {
 /// Seeds from here on draw other shapes than a sphere, and branches of given shifts.
 pub(crate) const SHAPED: u64 = 100_000;
 
+/// Seeds from here on roll at the end of their paths.
+pub(crate) const ROLLED: u64 = 200_000;
+
 /// The scene of a seed.
 pub(crate) fn draw(seed: u64) -> Drawn {
     let mut drawn = sphere(seed);
-    if seed >= SHAPED {
+    if seed >= ROLLED {
+        roll(&mut Rng::with_seed(!seed), &mut drawn.scene);
+    } else if seed >= SHAPED {
         shape(&mut Rng::with_seed(!seed), &mut drawn);
     }
     drawn
+}
+
+/// Adds a branch in which the contact rolls one to three cells an increment, under the forces that
+/// it has or with a given creepage; the grid has room for that.
+fn roll(rng: &mut Rng, scene: &mut Scene) {
+    let cells = rng.usize(1..4);
+    scene.grid.nx += 2 * (cells + 2);
+    let increments = rng.usize(1..8);
+    let way = (cells * increments) as f64 * scene.grid.dx;
+    let last = scene.path.branches.len() - 1;
+    let before = &scene.path.branches[last];
+    let (mut to, t_end) = (before.to, before.t_end + 1.0);
+    to.rolled = if rng.bool() { way } else { -way };
+    if rng.bool() {
+        let creep = scene.friction.mu * scene.approach() * power(rng, -2.0, 0.5);
+        to.given.delta_x = Some(if rng.bool() { creep } else { -creep });
+    }
+    scene.path.branches.push(Branch {
+        to,
+        increments: Some(increments),
+        spacing: Spacing::Uniform,
+        t_end,
+        path_error: None,
+    });
 }
 
 /// Gives body 1 another shape, about as wide in contact as its sphere, and, of every other scene,

@@ -19,6 +19,7 @@ mod held;
 mod report;
 mod twins;
 mod unresisted;
+mod warm;
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -40,8 +41,8 @@ fn threads() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Runs n scenes, each in one thread: three quarters with spheres, of the seeds from 0 on, the
-/// others with other shapes.
+/// Runs n scenes, each in one thread: of five three with spheres, of the seeds from 0 on, one with
+/// another shape and one that rolls.
 fn campaign(n: u64) -> Vec<Outcome> {
     let next = AtomicU64::new(0);
     let outcomes = Mutex::new(Vec::new());
@@ -59,10 +60,10 @@ fn campaign(n: u64) -> Vec<Outcome> {
                     if k >= n || begun.elapsed() > bound {
                         return;
                     }
-                    let seed = if k % 4 < 3 {
-                        k - k / 4
-                    } else {
-                        draw::SHAPED + k / 4
+                    let seed = match k % 5 {
+                        3 => draw::SHAPED + k / 5,
+                        4 => draw::ROLLED + k / 5,
+                        n => 3 * (k / 5) + n,
                     };
                     let drawn = draw::draw(seed);
                     let outcome = pool.install(|| outcome(seed, &drawn, LIMIT));

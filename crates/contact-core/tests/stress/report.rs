@@ -1,11 +1,14 @@
 //! The campaign in numbers, as Markdown.
 
 use std::fmt::Write;
+use std::ops::Range;
 
 use crate::audit::Violations;
+use crate::below;
 use crate::campaign::{Fate, Outcome};
-use crate::draw::SHAPED;
-use crate::twins::{TWINS, UNTURNED, has_twins};
+use crate::draw::{ROLLED, SHAPED};
+use crate::twins::{self, UNTURNED, has_twins};
+use crate::warm;
 
 impl Outcome {
     /// Whether a result was given that is not one.
@@ -30,13 +33,21 @@ pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> Stri
     let refused = count(&|f| matches!(f, Fate::Refused));
     let unsolved = count(&|f| matches!(f, Fate::Unsolved(_)));
     let failed = count(&|f| matches!(f, Fate::Failed(_) | Fate::Stopped));
-    let shaped = outcomes.iter().filter(|o| o.seed >= SHAPED).count();
+    let of = |seeds: Range<u64>| outcomes.iter().filter(|o| seeds.contains(&o.seed)).count();
+    let (shaped, rolled) = (of(SHAPED..ROLLED), of(ROLLED..u64::MAX));
+    let below = |seed: &u64| below::is_looked_at(*seed);
+    let is_solved = |o: &&Outcome| matches!(o.fate, Fate::Solved(..));
+    let seeds = || outcomes.iter().filter(is_solved).map(|o| o.seed);
+    let (below, warmed) = (
+        seeds().filter(below).count(),
+        seeds().filter(|seed| warm::is_warmed(*seed)).count(),
+    );
     let panicked = count(&|f| matches!(f, Fate::Panicked(_)));
     let wrong = outcomes.iter().filter(|o| o.is_silently_wrong()).count() - panicked;
     let share = 100.0 * solved as f64 / (total - refused).max(1) as f64;
     let _ = writeln!(
         text,
-        "| scenes, of these with other shapes than a sphere | {total}, {shaped} |\n|---|---|"
+        "| scenes, of these with other shapes than a sphere, that roll | {total}, {shaped}, {rolled} |\n|---|---|"
     );
     let _ = writeln!(
         text,
@@ -58,6 +69,10 @@ pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> Stri
     let _ = writeln!(
         text,
         "| solved but violating an equation, NaN or unlike a twin | {wrong} |"
+    );
+    let _ = writeln!(
+        text,
+        "| solved ones judged below the surface, warmed by friction | {below}, {warmed} |"
     );
     write_work(&mut text, outcomes, seconds, threads);
     write_worst(&mut text, outcomes);
@@ -85,7 +100,7 @@ fn write_work(text: &mut String, outcomes: &[Outcome], seconds: f64, threads: us
         if let Fate::Solved(_, twins) = &outcome.fate {
             compared[0] += twins.len();
             compared[1] += twins.iter().filter(|(name, _)| *name == UNTURNED).count();
-            compared[2] += TWINS - twins.len();
+            compared[2] += twins::twins(outcome.seed) - twins.len();
         }
     }
     let _ = writeln!(

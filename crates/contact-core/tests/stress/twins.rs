@@ -4,20 +4,26 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::march::Fields;
-use contact_core::scene::{Loads, Scene};
+use contact_core::scene::{Given, Loads, Scene};
 use ndarray::Array2;
 
 use crate::audit::misfit::{Misfit, least_response};
 use crate::campaign::{End, Fate, audited, ended};
-use crate::draw::SHAPED;
+use crate::draw::{ROLLED, SHAPED};
 
 /// Whether a scene is compared with its twins.
 pub(crate) fn has_twins(seed: u64) -> bool {
-    seed.is_multiple_of(2) && seed < SHAPED
+    seed.is_multiple_of(2) && !(SHAPED..ROLLED).contains(&seed)
 }
 
-/// Twins of a scene.
-pub(crate) const TWINS: usize = 3;
+/// How many twins a scene of a seed has: what rolls along x has none turned by a right angle.
+pub(crate) fn twins(seed: u64) -> usize {
+    if seed >= ROLLED { 2 } else { 3 }
+}
+
+fn rolls(scene: &Scene) -> bool {
+    scene.path.branches.iter().any(|b| b.to.rolled != 0.0)
+}
 
 /// The name of twins that are alike without the turn of the slip only.
 pub(crate) const UNTURNED: &str = "unturned";
@@ -84,6 +90,11 @@ fn twins_of(scene: &Scene) -> Vec<(&'static str, Scene, Back)> {
         W: l.W * force,
         T_x: l.T_x * force,
         T_y: l.T_y * force,
+        rolled: l.rolled * length,
+        given: Given {
+            delta_x: l.given.delta_x.map(|shift| shift * length),
+            ..l.given
+        },
         ..l
     });
     for body in [&mut scaled.body1, &mut scaled.body2] {
@@ -120,6 +131,9 @@ fn twins_of(scene: &Scene) -> Vec<(&'static str, Scene, Back)> {
         }),
     ));
 
+    if rolls(scene) {
+        return twins;
+    }
     // A quarter turn: x to y, y to -x.
     let mut rotated = with_loads(&|l| Loads {
         T_x: -l.T_y,

@@ -12,7 +12,8 @@
 //!
 //! with Dundurs' beta and the shear q_n towards the inside on body 2 (a rim that slides on
 //! dissimilar bodies; M. Comninou, J. Appl. Mech. 43 (1976) 631). Of the laws in question the one
-//! with the straightest level is taken.
+//! with the straightest level is taken. Cells at a rim whose own level is another (a rough contact, a
+//! layer as thin as the cells), and those beside them, count whole.
 //!
 //! Where a stick zone grows, cells come to stick with the shear with which they slipped, and their
 //! shortfall depends on the position of the border in every increment. There the slip s of the
@@ -204,7 +205,7 @@ impl<'a> Cells<'a> {
     fn rim(&self) -> Vec<(usize, Edge)> {
         let (now, scene) = (self.now, &self.setup.problem.scene);
         let beta = dundurs_beta(scene.body1.outermost(), scene.body2.outermost());
-        (self.lattice).edges(&self.contact, [Stencil::ROOT, Stencil::LINEAR], |line| {
+        let laws = |line: &mut Line| {
             let at = line.outermost();
             let ring = line.cells().iter().take_while(|&&n| now.slip[n]).count();
             if beta != 0.0 && ring > RING {
@@ -221,7 +222,21 @@ impl<'a> Cells<'a> {
                 Power::Other(2.0 / (1.0 + 2.0 * e))
             };
             ([power, Power::One], |n: usize| now.p[n])
-        })
+        };
+        let stencils = [Stencil::ROOT, Stencil::LINEAR];
+        let mut rim = self.lattice.edges(&self.contact, stencils, laws);
+        let mut off = vec![false; self.contact.len()];
+        for (n, edge) in &rim {
+            off[*n] = edge.level.is_some_and(|level| {
+                let (powers, pressure) = laws(&mut level.line.clone());
+                !level.agrees(powers[level.law].of(pressure(*n)))
+            });
+        }
+        for (n, edge) in &mut rim {
+            let agrees = !off[*n] && !self.lattice.is_beside(*n, &off);
+            edge.level = edge.level.filter(|_| agrees);
+        }
+        rim
     }
 
     /// The border of the stick zone, within the `rim`, given the slip of a cell in the increment
