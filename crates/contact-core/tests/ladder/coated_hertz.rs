@@ -98,7 +98,7 @@ fn the_radius_on_a_thin_hard_coating_is_no_worse_than_that_of_whole_cells() {
             run(&scene, |march, increment| {
                 let whole = march.fields().contact.iter().filter(|c| **c).count() as f64;
                 let whole = (whole * scene.grid.cell_area() / std::f64::consts::PI).sqrt();
-                let [off, whole] = [increment.contact_radius(), whole].map(|a| a / truth.a - 1.0);
+                let [off, whole] = [increment.contact_radius, whole].map(|a| a / truth.a - 1.0);
                 let cell = scene.grid.dx / truth.a;
                 println!("E1/E2 = {ratio}, h = {h} a, n = {n}: {off:.4}, whole cells {whole:.4}");
                 assert!(off.abs() < WHOLE_CELLS * cell, "{off} of {cell}");
