@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 /// Largest number of nodes of a rule that is cached.
-const MOST: usize = 32;
+const MOST_NODES: usize = 32;
 
-static RULES: LazyLock<Vec<Vec<(f64, f64)>>> = LazyLock::new(|| (0..=MOST).map(rule).collect());
+static RULES: LazyLock<Vec<Vec<(f64, f64)>>> =
+    LazyLock::new(|| (0..=MOST_NODES).map(rule).collect());
 
 /// Nodes and weights on \[-1, 1\] of the n-point rule, 1 <= n <= 32.
 ///
@@ -42,7 +43,7 @@ mod tests {
 
     #[test]
     fn integrates_polynomials_up_to_their_order() {
-        for n in 1..=MOST {
+        for n in 1..=MOST_NODES {
             for power in (0..2 * n).step_by(2) {
                 let sum: f64 = gauss(n).iter().map(|(x, w)| w * x.powi(power as i32)).sum();
                 let exact = 2.0 / (power as f64 + 1.0);

@@ -1,7 +1,7 @@
 //! Stresses on a plane.
 
 use crate::circle::half_chord;
-use crate::on_planes::ShearRoom;
+use crate::on_planes::ShearBuffers;
 use crate::path::{Frame, Path};
 
 /// Shear amplitude and normal stresses on the plane of a unit normal \[Pa\].
@@ -14,13 +14,13 @@ pub(crate) struct Acting {
 }
 
 impl Acting {
-    pub(crate) fn on(path: &Path, n: [f64; 3], room: &mut ShearRoom) -> Self {
-        path.resolve(&Frame::across(n), &mut room.shear);
+    pub(crate) fn on(path: &Path, n: [f64; 3], buffers: &mut ShearBuffers) -> Self {
+        path.resolve(&Frame::across(n), &mut buffers.shear);
         let (normal, unit) = (path.normal(n), path.unit());
-        let circle = room.circles.round(&room.shear);
+        let circle = buffers.circles.round(&buffers.shear);
         Self {
             shear_amplitude: unit * circle.radius,
-            shear_chord: unit * half_chord(&room.shear, &circle),
+            shear_chord: unit * half_chord(&buffers.shear, &circle),
             normal_max: unit * normal.max,
             normal_min: unit * normal.min,
         }

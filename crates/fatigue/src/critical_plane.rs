@@ -25,7 +25,7 @@ use crate::hemisphere::{Face, midway};
 use crate::lanes::LANES;
 use crate::limit::Limit;
 use crate::path::dot;
-use crate::plane_function::{Bend, Enough, Known, NO_EDGE, Plane, PlaneFunction};
+use crate::plane_function::{Bend, BestPlane, NO_EDGE, Plane, PlaneFunction, Threshold};
 use crate::refine::{nearly, refine};
 use crate::tangent::Tangent;
 
@@ -63,7 +63,7 @@ pub(crate) struct Peak {
 
 /// Buffers of the search.
 #[derive(Default)]
-pub(crate) struct Room {
+pub(crate) struct Buffers {
     planes: Vec<Plane>,
     faces: Vec<Face>,
     cut: Vec<Face>,
@@ -88,7 +88,7 @@ const ROUNDED: f64 = 1e-14;
 const FEW: usize = 48;
 /// Planes within 18 degrees (this cosine) and with the same deciding instants lead to the same
 /// maximum.
-const NEAR: f64 = 0.95;
+const NEARBY: f64 = 0.95;
 /// Planes with a larger cosine are the same: twice the error of a maximum before it is refined.
 const SAME: f64 = 1.0 - 2e-6;
 /// Most pieces that are refined.
@@ -96,36 +96,36 @@ const PIECES: usize = 24;
 
 impl Search {
     /// The plane on which `f` is largest.
-    pub(crate) fn peak(&self, f: &mut impl PlaneFunction, room: &mut Room) -> Peak {
+    pub(crate) fn peak(&self, f: &mut impl PlaneFunction, buffers: &mut Buffers) -> Peak {
         let start = f.start();
-        room.tried.clear();
-        room.tops.clear();
-        let mut bend = room.first_planes(f);
-        let mut best = room.refined(f, room.best(0..room.planes.len()));
+        buffers.tried.clear();
+        buffers.tops.clear();
+        let mut bend = buffers.first_planes(f);
+        let mut best = buffers.refined(f, buffers.best(0..buffers.planes.len()));
         let yardstick = f.yardstick(&bend);
         let tolerance = |value: f64| self.tolerance * value.abs().max(SMALL * yardstick);
         if f.rounding(best.n) >= 0.05 * tolerance(best.value) {
             f.to_double();
-            bend = room.first_planes(f);
+            bend = buffers.first_planes(f);
         }
         let mut known = f.known(best.n, best.value, tolerance(best.value));
         let ceiling = f.ceiling(&bend);
         let mut missed = ceiling - best.value;
-        let mut seen = room.planes.len();
+        let mut seen = buffers.planes.len();
         let at_once = ceiling <= known.values[2];
         for cuts in 0.. {
             if at_once {
-                room.faces.clear();
+                buffers.faces.clear();
                 break;
             }
-            let Room {
+            let Buffers {
                 planes, faces, cut, ..
-            } = room;
+            } = buffers;
             let among = if cuts == 0 { &start.faces } else { &*cut };
             if known.n != best.n {
                 known = f.known(best.n, best.value, tolerance(best.value));
             }
-            let Known {
+            let BestPlane {
                 tangent,
                 values: [_, tied, near],
                 ..
@@ -151,37 +151,37 @@ impl Search {
             if faces.is_empty() || done || full {
                 break;
             }
-            room.cut();
-            let sag = room.cut.iter().map(|f| f.sag).fold(0.0, f64::max);
-            let enough = Enough {
+            buffers.cut();
+            let sag = buffers.cut.iter().map(|f| f.sag).fold(0.0, f64::max);
+            let enough = Threshold {
                 first: f64::INFINITY,
                 tangent,
                 sum: tangent.sum_of(best.value) - bend.of(&tangent) * sag,
             };
-            f.measure(&mut room.planes[seen..], enough);
-            let higher = room.best(seen..room.planes.len());
-            seen = room.planes.len();
-            if room.planes[higher].value > best.value {
-                let other = room.refined(f, higher);
+            f.measure(&mut buffers.planes[seen..], enough);
+            let higher = buffers.best(seen..buffers.planes.len());
+            seen = buffers.planes.len();
+            if buffers.planes[higher].value > best.value {
+                let other = buffers.refined(f, higher);
                 if other.value > best.value {
                     best = other;
                 }
             }
         }
         let proved = best.value + missed;
-        room.try_the_rest(f, &mut best);
+        buffers.try_the_rest(f, &mut best);
         if f.tie() > 0.0 {
-            room.of_the_first_part(f, &mut best);
+            buffers.of_the_first_part(f, &mut best);
         }
         Peak {
             missed: (proved - best.value).max(0.0),
-            planes: room.planes.len(),
+            planes: buffers.planes.len(),
             ..best
         }
     }
 }
 
-impl Room {
+impl Buffers {
     /// Evaluates the planes of the first triangles; returns the bounds on second derivatives.
     fn first_planes(&mut self, f: &mut impl PlaneFunction) -> Bend {
         let start = f.start();
@@ -189,7 +189,7 @@ impl Room {
         self.planes
             .extend(start.planes.iter().map(|n| Plane::of(*n, [0; 6])));
         let (mut largest, mut best) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-        let mut enough = Enough {
+        let mut enough = Threshold {
             first: f64::NEG_INFINITY,
             tangent: Tangent::NONE,
             sum: f64::NEG_INFINITY,
@@ -264,8 +264,9 @@ impl Room {
         for k in 0..self.corners.len() {
             let plane = self.corners[k];
             let Plane { n, instants, .. } = self.planes[plane];
-            let again =
-                |(those, m): &([usize; 6], [f64; 3])| *those == instants && dot(*m, n).abs() > NEAR;
+            let again = |(those, m): &([usize; 6], [f64; 3])| {
+                *those == instants && dot(*m, n).abs() > NEARBY
+            };
             if self.tried.iter().any(again) || self.tried.len() > PIECES {
                 continue;
             }

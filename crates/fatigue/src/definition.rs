@@ -13,10 +13,10 @@
 
 use crate::allowed::Allowed;
 use crate::ball::Ball;
+use crate::combination::Combination;
 use crate::error::Error;
 use crate::invariants::{OfInvariants, crossland, dang_van};
 use crate::judge::{Judge, strain_life};
-use crate::law::Law;
 use crate::life::CoffinManson;
 use crate::material::Material;
 use crate::path::Path;
@@ -68,7 +68,7 @@ pub(crate) enum Acts {
 /// A criterion on a plane: a law of two parts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OnPlane {
-    pub(crate) law: Law,
+    pub(crate) combination: Combination,
     /// Whether the first part is tau_a; else it is the strain amplitude.
     pub(crate) shear: bool,
     /// The strain is the first number times s_n less the second times the sum of the normal
@@ -153,7 +153,7 @@ pub const CRITERIA: &[Definition] = &[
             Ok(([sine / cosine, 0.0, 0.0, 0.0], Judge::Limit(t_D / cosine)))
         },
         curve: without_lives,
-        acts: |[k, ..], unit| of_stress(Law::Sum(k), unit),
+        acts: |[k, ..], unit| of_stress(Combination::Sum(k), unit),
     },
     Definition {
         name: "matake",
@@ -168,7 +168,7 @@ pub const CRITERIA: &[Definition] = &[
             Ok(([k, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
         },
         curve: without_lives,
-        acts: |[k, ..], unit| of_stress(Law::first(k), unit),
+        acts: |[k, ..], unit| of_stress(Combination::first(k), unit),
     },
     Definition {
         name: "mcdiarmid",
@@ -183,7 +183,7 @@ pub const CRITERIA: &[Definition] = &[
             Ok(([k, 0.0, 0.0, 0.0], Judge::Limit(t_D)))
         },
         curve: without_lives,
-        acts: |[k, ..], unit| of_stress(Law::first(k), unit),
+        acts: |[k, ..], unit| of_stress(Combination::first(k), unit),
     },
     Definition {
         name: "smith_watson_topper",
@@ -200,7 +200,7 @@ pub const CRITERIA: &[Definition] = &[
         curve: |curve, _, cycles| curve.smith_watson_topper(cycles),
         acts: |[E, nu, ..], unit| {
             Acts::OnPlanes(OnPlane {
-                law: Law::Product,
+                combination: Combination::Product,
                 shear: false,
                 strain: Some([1.0 + nu, nu]),
                 factor: unit * (unit / E),
@@ -226,7 +226,7 @@ pub const CRITERIA: &[Definition] = &[
         curve: |curve, [_, nu, k, s_y], cycles| curve.fatemi_socie(cycles, nu, k, s_y),
         acts: |[E, nu, k, s_y], unit| {
             Acts::OnPlanes(OnPlane {
-                law: Law::Raised(k / s_y * unit),
+                combination: Combination::Raised(k / s_y * unit),
                 shear: true,
                 strain: None,
                 factor: 2.0 * (1.0 + nu) * (unit / E),
@@ -249,7 +249,7 @@ pub const CRITERIA: &[Definition] = &[
         // amplitude.
         acts: |[E, nu, S, _], unit| {
             Acts::OnPlanes(OnPlane {
-                law: Law::first(2.0 * S),
+                combination: Combination::first(2.0 * S),
                 shear: true,
                 strain: Some([0.5, nu / (2.0 * (1.0 + nu))]),
                 factor: 2.0 * (1.0 + nu) * (unit / E),
@@ -264,9 +264,9 @@ fn limits(material: &Material) -> Result<(f64, f64), Error> {
 }
 
 /// A law of tau_a and s_n,max.
-fn of_stress(law: Law, unit: f64) -> Acts {
+fn of_stress(combination: Combination, unit: f64) -> Acts {
     Acts::OnPlanes(OnPlane {
-        law,
+        combination,
         shear: true,
         strain: None,
         factor: unit,

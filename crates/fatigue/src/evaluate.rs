@@ -9,11 +9,11 @@ use crate::acting::Acting;
 use crate::at_point::AtPoint;
 use crate::ball::Search as Balls;
 use crate::criterion::Criterion;
-use crate::critical_plane::{Room, Search};
+use crate::critical_plane::{Buffers, Search};
 use crate::definition::Acts;
 use crate::error::Error;
 use crate::invariants::sphere;
-use crate::on_planes::{OnPlanes, ShearRoom};
+use crate::on_planes::{OnPlanes, ShearBuffers};
 use crate::path::Path;
 use crate::plane_function::PlaneFunction;
 use crate::tensor::StressTensor;
@@ -27,8 +27,8 @@ const LARGEST: f64 = 1e75;
 /// Buffers of a worker besides the path.
 #[derive(Default)]
 struct Worker {
-    room: Room,
-    shear: ShearRoom,
+    buffers: Buffers,
+    shear: ShearBuffers,
     sphere: Balls<5>,
 }
 
@@ -127,7 +127,7 @@ fn at_point(criterion: &Criterion, path: &Path, search: &Search, worker: &mut Wo
     let mut planes = OnPlanes::new(of, path, &mut worker.shear);
     let peak = match planes.without_search() {
         Some(peak) => peak,
-        None => search.peak(&mut planes, &mut worker.room),
+        None => search.peak(&mut planes, &mut worker.buffers),
     };
     let missed = of.factor * peak.missed;
     if peak.n[0].is_nan() {
@@ -137,7 +137,7 @@ fn at_point(criterion: &Criterion, path: &Path, search: &Search, worker: &mut Wo
         };
     }
     let n = upward(peak.n);
-    let value = of.factor * of.law.there(planes.parts(peak.n));
+    let value = of.factor * of.combination.there(planes.parts(peak.n));
     let acting = Acting::on(path, n, &mut worker.shear);
     AtPoint {
         value,

@@ -81,7 +81,7 @@ pub const QUANTITIES: &[Quantity] = &[
     quantity(
         "paris_C",
         "m/cycle at 1 MPa m^0.5",
-        "coefficient of Paris' law, R = 0",
+        "coefficient of Paris' combination, R = 0",
     ),
     quantity("paris_m", "1", "exponent of Paris' law"),
     quantity(

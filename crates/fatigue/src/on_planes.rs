@@ -7,15 +7,15 @@
 //! constant stress (derived).
 
 use crate::circle::Circles;
+use crate::combination::Combination;
 use crate::critical_plane::Peak;
 use crate::definition::OnPlane;
 use crate::eight_planes::{Instants, OfThree};
 use crate::forms::{EDGES, corners_of};
 use crate::hemisphere::{COARSE, FINE, Face, Hemisphere};
 use crate::lanes::{LANES, Lanes, ROUNDING, Real};
-use crate::law::Law;
 use crate::path::{Frame, Path, normal_weights};
-use crate::plane_function::{Bend, Enough, Known, Plane, PlaneFunction};
+use crate::plane_function::{Bend, BestPlane, Plane, PlaneFunction, Threshold};
 use crate::product_bound::product_bounds;
 use crate::refine::{Deciding, First};
 use crate::shear_bound::About;
@@ -30,7 +30,7 @@ const LEAD: f64 = 0.01;
 const NOTHING: f64 = 1e-12;
 
 /// Buffers for the shear path on a plane, and for eight planes in single and double precision.
-pub(crate) struct ShearRoom {
+pub(crate) struct ShearBuffers {
     pub(crate) shear: Vec<[Lanes; 2]>,
     pub(crate) circles: Circles,
     single: Instants<f32>,
@@ -39,7 +39,7 @@ pub(crate) struct ShearRoom {
     squares: Instants<f32>,
 }
 
-impl Default for ShearRoom {
+impl Default for ShearBuffers {
     fn default() -> Self {
         Self {
             shear: Vec::new(),
@@ -54,8 +54,8 @@ impl Default for ShearRoom {
 /// A criterion on the planes of one point.
 pub(crate) struct OnPlanes<'a> {
     path: &'a Path,
-    room: &'a mut ShearRoom,
-    law: Law,
+    buffers: &'a mut ShearBuffers,
+    combination: Combination,
     strain: Option<[f64; 2]>,
     has_shear: bool,
     tresca: (f64, f64),
@@ -70,13 +70,13 @@ pub(crate) struct OnPlanes<'a> {
 }
 
 impl<'a> OnPlanes<'a> {
-    pub(crate) fn new(of: OnPlane, path: &'a Path, room: &'a mut ShearRoom) -> Self {
-        room.single.load(path);
+    pub(crate) fn new(of: OnPlane, path: &'a Path, buffers: &'a mut ShearBuffers) -> Self {
+        buffers.single.load(path);
         let tresca = path.tresca_bounds();
         Self {
             path,
-            room,
-            law: of.law.for_ratio((tresca.1 / path.size()).min(1.0)),
+            buffers,
+            combination: of.combination.for_ratio((tresca.1 / path.size()).min(1.0)),
             strain: of.strain,
             has_shear: of.shear,
             tresca,
@@ -111,22 +111,25 @@ impl<'a> OnPlanes<'a> {
                 planes: 0,
             })
         };
-        let of_tension = matches!(self.law, Law::Product | Law::Raised(_));
-        if of_tension && self.law.value([first, tension - NOTHING]) <= 0.0 {
-            return nowhere(self.law.value([first, tension]));
+        let of_tension = matches!(
+            self.combination,
+            Combination::Product | Combination::Raised(_)
+        );
+        if of_tension && self.combination.value([first, tension - NOTHING]) <= 0.0 {
+            return nowhere(self.combination.value([first, tension]));
         }
         if self.tresca.1 > NOTHING {
             return None;
         }
         let parts = self.parts(along);
-        let value = self.law.value(parts);
+        let value = self.combination.value(parts);
         let change = self.strain.map_or(0.0, |[along, _]| along * self.tresca.1);
         let ceiling = match (self.has_shear, self.strain) {
             (true, None) => [self.tresca.1, tension],
             (true, Some(_)) => [self.tresca.1, parts[1] + change],
             (false, _) => [parts[0] + change, tension],
         };
-        let missed = (self.law.value(ceiling) - value).max(0.0);
+        let missed = (self.combination.value(ceiling) - value).max(0.0);
         Some(Peak {
             n: along,
             value,
@@ -157,7 +160,7 @@ impl<'a> OnPlanes<'a> {
         &self,
         instants: &mut Instants<F>,
         planes: &mut [Plane],
-        enough: Enough,
+        enough: Threshold,
     ) {
         let n = [0, 1, 2].map(|d| std::array::from_fn(|l| planes[l.min(planes.len() - 1)].n[d]));
         let swept = instants.sweep(&n, self.strain, self.has_shear);
@@ -218,7 +221,7 @@ impl<'a> OnPlanes<'a> {
 
     /// Lowers the bounds by [`About`] the best plane, if two instants define its circle, as long as
     /// that excludes faces.
-    fn shear_bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &Known) {
+    fn shear_bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &BestPlane) {
         if self.best != known.n {
             self.best = known.n;
             let First::Shear([a, b, c]) = self.deciding(known.n).first else {
@@ -229,14 +232,15 @@ impl<'a> OnPlanes<'a> {
             } else {
                 (b == c).then_some([a, b])
             };
-            self.about = two.map(|on| About::plane(known.n, on, self.path, &mut self.room.squares));
+            self.about =
+                two.map(|on| About::plane(known.n, on, self.path, &mut self.buffers.squares));
         }
         let Some(about) = &self.about else {
             return;
         };
         let slack = self.slack()[1];
         let second = |eight: &[Face]| {
-            if self.law.tie() > 0.0 {
+            if self.combination.tie() > 0.0 {
                 // Its weight is tiny: an upper bound over all planes is enough.
                 return [[self.most_of_second(); LANES]; 3];
             }
@@ -244,16 +248,16 @@ impl<'a> OnPlanes<'a> {
             EDGES.map(|(i, j)| {
                 let (a, b) = (&corners[i], &corners[j]);
                 let normal_max = if self.in_double {
-                    self.room.double.mixed(a, b, None).normal_max
+                    self.buffers.double.mixed(a, b, None).normal_max
                 } else {
-                    let mixed = self.room.single.mixed(a, b, None);
+                    let mixed = self.buffers.single.mixed(a, b, None);
                     mixed.normal_max.map(f64::from)
                 };
                 normal_max.map(|most| most + slack)
             })
         };
         let first = known.parts[0].max(f64::MIN_POSITIVE);
-        if !about.bounds(&self.room.squares, first, second, (faces, planes), known) {
+        if !about.bounds(&self.buffers.squares, first, second, (faces, planes), known) {
             self.about = None;
         }
     }
@@ -274,8 +278,10 @@ impl<'a> OnPlanes<'a> {
 
     /// Shear amplitude and largest normal stress on a plane.
     fn shear_and_normal(&mut self, n: [f64; 3]) -> [f64; 2] {
-        let s_n = self.path.resolve(&Frame::across(n), &mut self.room.shear);
-        [self.room.circles.round(&self.room.shear).radius, s_n]
+        let s_n = self
+            .path
+            .resolve(&Frame::across(n), &mut self.buffers.shear);
+        [self.buffers.circles.round(&self.buffers.shear).radius, s_n]
     }
 }
 
@@ -294,27 +300,27 @@ impl PlaneFunction for OnPlanes<'_> {
         }
     }
 
-    fn measure(&mut self, planes: &mut [Plane], enough: Enough) {
+    fn measure(&mut self, planes: &mut [Plane], enough: Threshold) {
         // Moved out of `self`, which the evaluation borrows.
         if self.in_double {
-            let mut instants = std::mem::replace(&mut self.room.double, Instants::new());
+            let mut instants = std::mem::replace(&mut self.buffers.double, Instants::new());
             for eight in planes.chunks_mut(LANES) {
                 self.measure_eight(&mut instants, eight, enough);
             }
-            self.room.double = instants;
+            self.buffers.double = instants;
         } else {
-            let mut instants = std::mem::replace(&mut self.room.single, Instants::new());
+            let mut instants = std::mem::replace(&mut self.buffers.single, Instants::new());
             for eight in planes.chunks_mut(LANES) {
                 self.measure_eight(&mut instants, eight, enough);
             }
-            self.room.single = instants;
+            self.buffers.single = instants;
         }
     }
 
     fn start(&self) -> &'static Hemisphere {
-        match self.law {
-            Law::Product => &COARSE,
-            Law::Sum(_) | Law::First { .. } | Law::Raised(_) => &FINE,
+        match self.combination {
+            Combination::Product => &COARSE,
+            Combination::Sum(_) | Combination::First { .. } | Combination::Raised(_) => &FINE,
         }
     }
 
@@ -325,33 +331,37 @@ impl PlaneFunction for OnPlanes<'_> {
 
     fn to_double(&mut self) {
         self.in_double = true;
-        self.room.double.load(self.path);
+        self.buffers.double.load(self.path);
     }
 
     fn value(&self, parts: [f64; 2]) -> f64 {
-        self.law.value(parts)
+        self.combination.value(parts)
     }
 
-    fn bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &Known) {
+    fn bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &BestPlane) {
         if self.has_shear {
             self.shear_bounds(faces, planes, known);
         } else {
             let (strain, slack) = (self.strain.unwrap_or_default(), self.slack());
             let on = (faces, planes);
             if self.in_double {
-                product_bounds(&self.room.double, strain, slack, on, known);
+                product_bounds(&self.buffers.double, strain, slack, on, known);
             } else {
-                product_bounds(&self.room.single, strain, slack, on, known);
+                product_bounds(&self.buffers.single, strain, slack, on, known);
             }
         }
     }
 
     fn lead(&self) -> f64 {
-        if self.has_shear { self.law.tie() } else { LEAD }
+        if self.has_shear {
+            self.combination.tie()
+        } else {
+            LEAD
+        }
     }
 
     fn tie(&self) -> f64 {
-        self.law.tie()
+        self.combination.tie()
     }
 
     fn piece(&self, instants: [usize; 6]) -> Deciding {
@@ -381,15 +391,16 @@ impl PlaneFunction for OnPlanes<'_> {
         let [most, least] = weights.map_or([0; 2], |weights| self.path.extremes(&weights));
         let mut on = [0; 3];
         if self.has_shear {
-            self.path.resolve(&Frame::across(n), &mut self.room.shear);
-            on = self.room.circles.round(&self.room.shear).on;
+            self.path
+                .resolve(&Frame::across(n), &mut self.buffers.shear);
+            on = self.buffers.circles.round(&self.buffers.shear).on;
             on.sort_unstable();
         }
         self.piece([on[0], on[1], on[2], most, least, at])
     }
 
     fn tangent(&self, parts: [f64; 2]) -> Tangent {
-        self.law.tangent(parts)
+        self.combination.tangent(parts)
     }
 
     fn bend(&self, largest: f64, sag: f64) -> Bend {
@@ -414,7 +425,7 @@ impl PlaneFunction for OnPlanes<'_> {
     }
 
     fn yardstick(&self, bend: &Bend) -> f64 {
-        self.law.yardstick(bend.first)
+        self.combination.yardstick(bend.first)
     }
 
     fn ceiling(&self, bend: &Bend) -> f64 {
@@ -422,7 +433,7 @@ impl PlaneFunction for OnPlanes<'_> {
             Some(_) if self.has_shear => self.most_of_second(),
             _ => self.tension.0,
         };
-        self.law.value([bend.first, second])
+        self.combination.value([bend.first, second])
     }
 }
 

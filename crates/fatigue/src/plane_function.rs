@@ -27,7 +27,7 @@ pub(crate) struct Plane {
 /// A plane on which the first part is at most `first`, or the tangent at most `sum`, need not be
 /// evaluated exactly.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Enough {
+pub(crate) struct Threshold {
     pub(crate) first: f64,
     pub(crate) tangent: Tangent,
     pub(crate) sum: f64,
@@ -35,7 +35,7 @@ pub(crate) struct Enough {
 
 /// The best plane so far.
 #[derive(Clone, Copy)]
-pub(crate) struct Known {
+pub(crate) struct BestPlane {
     pub(crate) n: [f64; 3],
     pub(crate) parts: [f64; 2],
     /// The tangent at these parts.
@@ -58,7 +58,7 @@ pub(crate) struct Bend {
 /// A criterion on planes.
 pub(crate) trait PlaneFunction {
     /// Evaluates planes; exactly only where a plane may exceed `enough`.
-    fn measure(&mut self, planes: &mut [Plane], enough: Enough);
+    fn measure(&mut self, planes: &mut [Plane], enough: Threshold);
     /// The faces to start from.
     fn start(&self) -> &'static Hemisphere;
     /// Bound of the rounding error of the value of a plane.
@@ -75,7 +75,7 @@ pub(crate) trait PlaneFunction {
     /// their triangles.
     fn bend(&self, largest: f64, sag: f64) -> Bend;
     /// Lowers the bounds of the faces by quadratic forms of their corners.
-    fn bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &Known);
+    fn bounds(&mut self, faces: &mut [Face], planes: &[Plane], known: &BestPlane);
     /// The maxima of pieces within this part of the best value are refined: they may lead to a
     /// better plane.
     fn lead(&self) -> f64;
@@ -93,9 +93,9 @@ pub(crate) trait PlaneFunction {
     fn ceiling(&self, bend: &Bend) -> f64;
 
     /// The record of the best plane, with the tolerance of its value.
-    fn known(&mut self, n: [f64; 3], value: f64, tolerance: f64) -> Known {
+    fn known(&mut self, n: [f64; 3], value: f64, tolerance: f64) -> BestPlane {
         let parts = self.parts(n);
-        Known {
+        BestPlane {
             n,
             parts,
             tangent: self.tangent(parts),

@@ -5,7 +5,7 @@ use crate::eight_planes::Instants;
 use crate::forms::{EDGES, Forms, corners_of, lower};
 use crate::hemisphere::Face;
 use crate::lanes::{LANES, Real};
-use crate::plane_function::{Known, Plane};
+use crate::plane_function::{BestPlane, Plane};
 use crate::tangent::Tangent;
 
 /// The strain is the first number times the normal stress less the second times the sum of all
@@ -15,7 +15,7 @@ pub(crate) fn product_bounds<F: Real>(
     strain: [f64; 2],
     slack: [f64; 2],
     (faces, planes): (&mut [Face], &[Plane]),
-    known: &Known,
+    known: &BestPlane,
 ) {
     for eight in faces.chunks_mut(LANES) {
         let corners = corners_of(eight);

@@ -17,7 +17,7 @@ use crate::forms::{EDGES, Forms, corners_of, lower};
 use crate::hemisphere::Face;
 use crate::lanes::{Eight, LANES, ROUNDING};
 use crate::path::{Path, dot, normal_weights};
-use crate::plane_function::{Known, Plane};
+use crate::plane_function::{BestPlane, Plane};
 use crate::tensor::StressTensor;
 
 /// Squares about the best plane.
@@ -61,7 +61,7 @@ impl About {
         s: f64,
         second: impl Fn(&[Face]) -> [Eight<f64>; 3],
         (faces, planes): (&mut [Face], &[Plane]),
-        known: &Known,
+        known: &BestPlane,
     ) -> bool {
         let (mut seen, mut done) = (0, 0);
         let first = |square: f32, cosine: f64| {

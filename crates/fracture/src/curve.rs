@@ -36,12 +36,12 @@ pub struct Curve {
 }
 
 /// Fewest lengths of a curve.
-const FEWEST: usize = 4;
+const FEWEST_LENGTHS: usize = 4;
 
 impl Curve {
     /// From lengths \[m\], ascending, and the extremes of K at them.
     pub fn new(lengths: Vec<f64>, extremes: Vec<Extremes>) -> Result<Self, Error> {
-        if lengths.len() < FEWEST || lengths.len() != extremes.len() {
+        if lengths.len() < FEWEST_LENGTHS || lengths.len() != extremes.len() {
             let found = format!("{} and {} extremes of K", lengths.len(), extremes.len());
             return Err(Error::invalid(
                 "lengths",
@@ -81,11 +81,11 @@ impl Curve {
     pub fn at(&self, l: f64) -> Extremes {
         let n = self.lengths.len();
         let after = self.lengths.partition_point(|at| *at < l);
-        let first = after.saturating_sub(2).min(n - FEWEST);
+        let first = after.saturating_sub(2).min(n - FEWEST_LENGTHS);
         let x = |k: usize| self.lengths[k].ln();
         let mut sum = Extremes::default();
-        for k in first..first + FEWEST {
-            let others = (first..first + FEWEST).filter(|j| *j != k);
+        for k in first..first + FEWEST_LENGTHS {
+            let others = (first..first + FEWEST_LENGTHS).filter(|j| *j != k);
             let weight: f64 = others.map(|j| (l.ln() - x(j)) / (x(k) - x(j))).product();
             let weight = weight * (l / self.lengths[k]).sqrt();
             sum.K_max += weight * self.extremes[k].K_max;

@@ -15,7 +15,7 @@ const MOST_PASSES: usize = 200;
 /// Change of the pressure from pass to pass that ends the search, over its largest: a point between
 /// open and closed, or between stick and slip, that comes and goes changes it by some 1e-7; K is
 /// told to 1e-4.
-const SETTLED: f64 = 1e-6;
+const LEAST_CHANGE: f64 = 1e-6;
 /// The same after the last pass, which then counts as an error of K: more points come and go along
 /// kinked cracks.
 const BEARABLE: f64 = 1e-4;
@@ -150,7 +150,7 @@ impl Faces {
                 passes: MOST_PASSES,
                 change,
             })?;
-            if change <= SETTLED || (pass == MOST_PASSES && change <= BEARABLE) {
+            if change <= LEAST_CHANGE || (pass == MOST_PASSES && change <= BEARABLE) {
                 self.shear = carried;
                 return Ok(change);
             }

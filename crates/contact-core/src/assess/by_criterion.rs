@@ -12,7 +12,7 @@ use crate::scene::Body;
 
 /// Relative difference of an elastic constant of a material from that of the scene above which a
 /// note is added.
-const TOLD: f64 = 0.05;
+const NOTABLE_DIFFERENCE: f64 = 0.05;
 
 /// A criterion with the numbers of the material of every layer.
 #[derive(Clone, Debug)]
@@ -48,7 +48,7 @@ impl ByCriterion {
                 let Some(own) = of.criterion.number(number) else {
                     continue;
                 };
-                if (own - value).abs() > TOLD * value.abs() {
+                if (own - value).abs() > NOTABLE_DIFFERENCE * value.abs() {
                     let unit = if number == "E" { " GPa" } else { "" };
                     notes.push(format!(
                         "layer {layer}: strains follow from the scene's {number} = {:.4}{unit}; that of `{}` is \

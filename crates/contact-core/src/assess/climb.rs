@@ -18,7 +18,7 @@ const BORDERS: usize = 6;
 const CLOSER: f64 = 3.0;
 const SHORTEST: f64 = 0.01;
 /// Most rounds of the ascent.
-const ROUNDS: usize = 16;
+const MOST_ROUNDS: usize = 16;
 /// Least relative gain of a step.
 const GAIN: f64 = 1e-6;
 /// A point is on a border if it is at most this many cells from it.
@@ -29,7 +29,7 @@ const CHEAP: usize = 100_000;
 /// Moments that represent a longer history during the ascent.
 const STAND_FOR: usize = 32;
 /// Moments whose borders are used as starting points.
-const SEEN: usize = 16;
+const BORDER_MOMENTS: usize = 16;
 
 /// A point of a section: place on the line and depth \[m\].
 pub(super) type Place = [f64; 2];
@@ -79,7 +79,7 @@ impl<J: Judge> Climb<'_, J> {
     /// Where the line crosses the rims and stick borders of moments of the cycle, each once.
     pub(super) fn borders(&self) -> Result<Vec<Border>, Error> {
         let count = self.site.cycle.count();
-        let step = count.div_ceil(SEEN).max(1);
+        let step = count.div_ceil(BORDER_MOMENTS).max(1);
         let which: Vec<usize> = (0..count).rev().step_by(step).collect();
         let moments = self.site.cycle.moments(&which)?;
         let mut all: Vec<Border> = Vec::new();
@@ -160,7 +160,7 @@ impl<J: Judge> Climb<'_, J> {
         let reach = self.site.along(self.line);
         let ends = [reach[0], reach[reach.len() - 1]];
         let (mut steps, mut left) = (first, [0.0; 2]);
-        for _ in 0..ROUNDS {
+        for _ in 0..MOST_ROUNDS {
             let mut beside: Vec<(usize, Place)> = Vec::new();
             for axis in 0..2 {
                 for by in [-steps[axis], steps[axis]] {

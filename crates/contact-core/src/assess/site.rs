@@ -13,7 +13,7 @@ use crate::scene::{Body, Grid};
 /// Moments whose stresses are computed together: the kernels of a depth cost as much as ten.
 const TOGETHER: usize = 32;
 /// Largest memory of the stress at a time \[bytes\].
-const ROOM: f64 = 256e6;
+const MOST_MEMORY: f64 = 256e6;
 
 /// Stress over the moments of a cycle \[Pa\], of shape (moments, points, 6).
 pub(super) type History = Array3<f64>;
@@ -62,7 +62,7 @@ impl Site<'_> {
     ) -> Result<(), Error> {
         let (moments, places) = (self.cycle.count(), self.along(line).len());
         let each = 48.0 * moments as f64 * places as f64;
-        let chunk = (ROOM / each).max(1.0) as usize;
+        let chunk = (MOST_MEMORY / each).max(1.0) as usize;
         let all: Vec<usize> = (0..moments).collect();
         for (n, some) in depths.chunks(chunk).enumerate() {
             let mut histories = vec![Array3::zeros((moments, places, 6)); some.len()];

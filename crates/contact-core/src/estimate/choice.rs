@@ -16,12 +16,12 @@ use crate::scene::{Branch, LoadPath, Loads, RigidMotion, Scene, Spacing};
 /// Bounds of the order m, error ~ n^-m, computed from two rounds.
 const ORDERS: (f64, f64) = (1.25, 2.0);
 /// Order m assumed after the first round. For a growing contact, and where the error is nearly
-/// small enough ([`NEAR`]), the lower bound of [`ORDERS`] is assumed instead.
+/// small enough ([`NEARLY`]), the lower bound of [`ORDERS`] is assumed instead.
 const EXPECTED: f64 = 1.6;
 /// Increments in the first round: of a branch that starts without contact and is followed by
 /// others; of one that starts without contact and ends the path (its slip ring is the result); of
 /// all others.
-const FIRST: (usize, usize, usize) = (12, 56, 6);
+const FIRST_ROUND: (usize, usize, usize) = (12, 56, 6);
 /// Error aimed at, over the allowed error.
 const AIM: f64 = 0.9;
 /// Largest accepted estimate, over the tolerance.
@@ -38,17 +38,17 @@ const INHERITED: (f64, f64) = (0.36, 0.9);
 /// it to no less than KEPT times: cells that stick keep that error.
 const KEPT: f64 = 0.8;
 /// Largest factor of the increments of a branch in a round.
-const GROWTH: f64 = 4.0;
-/// No other round is needed if the error is at most NEAR times the one aimed at: NEAR.0 with an
-/// order from two rounds, NEAR.1 with the assumed one.
-const NEAR: (f64, f64) = (3.0, 2.0);
+const MOST_REFINEMENT: f64 = 4.0;
+/// No other round is needed if the error is at most NEARLY times the one aimed at: NEARLY.0 with an
+/// order from two rounds, NEARLY.1 with the assumed one.
+const NEARLY: (f64, f64) = (3.0, 2.0);
 /// An error above OWN times that of a preceding growth of contact is not inherited from it.
 const OWN: f64 = 2.0;
 /// Most rounds.
-const ROUNDS: usize = 8;
+const MOST_ROUNDS: usize = 8;
 /// Most increments of a path and of a branch. Where these are not enough (friction that falls with
 /// slip is of first order) the run reports the remaining error.
-const MOST: usize = 20_000;
+const MOST_INCREMENTS: usize = 20_000;
 const MOST_OF_BRANCH: usize = 1000;
 
 /// The scene with increments chosen for each branch that has none, for an error of the shear within
@@ -115,7 +115,7 @@ impl Choice {
     fn settle(&mut self, trial: &mut Trial) -> Result<bool, Error> {
         let last = self.path.branches.len() - 1;
         let mut until = last;
-        for _ in 0..ROUNDS {
+        for _ in 0..MOST_ROUNDS {
             let mut part = self.path.clone();
             part.branches.truncate(until + 1);
             // Only the increments that are chosen are varied.
@@ -127,7 +127,7 @@ impl Choice {
                 Some(k) if self.path.branches[k].spacing == Spacing::EqualRadius => k,
                 _ => last,
             };
-            if self.path.increments() > MOST {
+            if self.path.increments() > MOST_INCREMENTS {
                 break;
             }
         }
@@ -194,7 +194,7 @@ fn refine(
     let count = branch.equal_increments();
     let grows = branch.spacing == Spacing::EqualRadius;
     let excess = error / (AIM * allowed);
-    let limit = if before.is_some() { NEAR.0 } else { NEAR.1 };
+    let limit = if before.is_some() { NEARLY.0 } else { NEARLY.1 };
     let near = !grows && excess <= limit;
     let order = match *before {
         Some(before) => order(before, (count, error)),
@@ -202,7 +202,7 @@ fn refine(
         None => EXPECTED,
     };
     *before = Some((count, error));
-    let factor = excess.powf(1.0 / order).min(GROWTH);
+    let factor = excess.powf(1.0 / order).min(MOST_REFINEMENT);
     let more = ((count as f64 * factor).ceil() as usize).next_multiple_of(2);
     let more = more.min(MOST_OF_BRANCH.max(count));
     branch.set_equal_increments(more);
@@ -236,10 +236,10 @@ fn begin(path: &mut LoadPath, friction: bool) {
             }
             branch.set_equal_increments(match (friction, touches) {
                 (false, _) => 1,
-                (true, false) if k < last => FIRST.0,
-                (true, false) => FIRST.1,
+                (true, false) if k < last => FIRST_ROUND.0,
+                (true, false) => FIRST_ROUND.1,
                 (true, true) if goes_on => 1,
-                (true, true) => FIRST.2,
+                (true, true) => FIRST_ROUND.2,
             });
         }
         touches = branch.to.W > 0.0 || branch.to.given.delta_z.is_some_and(|d| d > 0.0);

@@ -25,11 +25,11 @@ pub(super) const ORDER: [f64; NUMBERS] = {
 /// Order m of the tractions, whose errors are those of the cells at the rim.
 const FIELDS: f64 = 1.0;
 /// Fewest cells each way of a coarser grid.
-const FEWEST: usize = 8;
+const FEWEST_CELLS_EACH_WAY: usize = 8;
 
 /// Error estimates of a branch from the coarser grids.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Told {
+pub(super) struct GridErrors {
     /// Scale of the errors of the numbers: root of the mean square over the grids, each in its
     /// unit.
     pub(super) numbers: [f64; NUMBERS],
@@ -43,8 +43,8 @@ pub(super) fn coarser_grids(
     fine: &[BranchSummary],
     tractions: &[Tractions],
     stop: &Arc<AtomicBool>,
-) -> Result<Vec<Told>, Error> {
-    let mut told = vec![Told::default(); fine.len()];
+) -> Result<Vec<GridErrors>, Error> {
+    let mut of_branches = vec![GridErrors::default(); fine.len()];
     for (k, part) in PARTS.into_iter().enumerate() {
         let coarser = coarser(scene, part)?;
         let mut nobody = ();
@@ -52,21 +52,22 @@ pub(super) fn coarser_grids(
         let march = March::until(&coarser, stop)?;
         let coarse = summarise(&march.run(Vec::new(), &mut ends)?);
         let ratio = ratio(&coarser.grid, &scene.grid);
-        for ((told, fine), coarse) in told.iter_mut().zip(fine).zip(&coarse) {
+        for ((of_branches, fine), coarse) in of_branches.iter_mut().zip(fine).zip(&coarse) {
             let (f, c) = (numbers(fine), numbers(coarse));
             for n in 0..NUMBERS {
                 let off = (f[n] - c[n]) / (ratio.powf(ORDER[n]) - 1.0);
-                told.numbers[n] = told.numbers[n].hypot(off / (PARTS.len() as f64).sqrt());
+                of_branches.numbers[n] =
+                    of_branches.numbers[n].hypot(off / (PARTS.len() as f64).sqrt());
             }
         }
         if k == 0 {
             let off = distances(tractions, &ends.tractions);
-            for (told, off) in told.iter_mut().zip(off) {
-                told.fields = off.map(|off| off / (ratio.powf(FIELDS) - 1.0));
+            for (of_branches, off) in of_branches.iter_mut().zip(off) {
+                of_branches.fields = off.map(|off| off / (ratio.powf(FIELDS) - 1.0));
             }
         }
     }
-    Ok(told)
+    Ok(of_branches)
 }
 
 /// The scene on the coarsest grid of the error estimate. Fails if there is none.
@@ -84,13 +85,13 @@ fn coarser(scene: &Scene, part: f64) -> Result<Scene, Error> {
     };
     let (nx, ny) = (fewer(grid.nx), fewer(grid.ny));
     let ny = if grid.plane_strain { 1 } else { ny };
-    if nx < FEWEST || (ny < FEWEST && !grid.plane_strain) {
+    if nx < FEWEST_CELLS_EACH_WAY || (ny < FEWEST_CELLS_EACH_WAY && !grid.plane_strain) {
         return Err(Error::invalid(
             "grid.n",
             format!("[{}, {}]", grid.nx, grid.ny),
             format!(
                 "{} or more cells, so that a part of them tells the error",
-                2 * FEWEST + 4
+                2 * FEWEST_CELLS_EACH_WAY + 4
             ),
         ));
     }

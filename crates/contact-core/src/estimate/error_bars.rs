@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 
 use super::bar::Bar;
 use super::choice::choose_increments;
-use super::coarser::{ORDER, Told, coarser_grids};
+use super::coarser::{GridErrors, ORDER, coarser_grids};
 use super::finer::Finer;
 use super::numbers::{
     CONTACT_RADIUS, DISSIPATED, LOADS, MOTIONS, NUMBERS, P_MAX, STICK_RATIO, is_given, numbers,
@@ -44,7 +44,7 @@ use crate::scene::{Branch, Scene};
 const BORDER: f64 = 0.07;
 /// Narrowest slip ring that the cells resolve \[cells\]. A narrower one may be missed as a whole,
 /// or a spurious one found.
-const SEEN: f64 = 0.5;
+const NARROWEST_RING: f64 = 0.5;
 /// E/(mu^2 W delta_z (1 - S)^2), E being the energy dissipated in a narrow slip ring during
 /// indentation and S the stick area over the contact area: the median of 26 indentations of
 /// dissimilar bodies (random scenes, 0.02 < 1 - S < 0.6; half of them between 0.022 and 0.035).
@@ -133,13 +133,13 @@ pub fn error_bars(
     let finer = Finer::solve(scene, stop)?;
     let branches = fine.iter().zip(coarser).zip(along_path).enumerate();
     Ok(branches
-        .map(|(k, ((fine, told), path))| {
+        .map(|(k, ((fine, of_grids), path))| {
             let of_finer = finer.as_ref().map(|finer| Differs {
                 ratio: finer.ratio,
                 off: finer.off[k],
                 tolerance: finer.tolerance,
             });
-            bars(scene, fine, &told, &path, of_finer.as_ref())
+            bars(scene, fine, &of_grids, &path, of_finer.as_ref())
         })
         .collect())
 }
@@ -158,7 +158,7 @@ struct Differs {
 fn bars(
     scene: &Scene,
     fine: &BranchSummary,
-    told: &Told,
+    of_grids: &GridErrors,
     path: &PathError,
     finer: Option<&Differs>,
 ) -> ErrorBars {
@@ -180,11 +180,15 @@ fn bars(
         };
         let solver = by_solver[n];
         match finer {
-            None => Bar::new(told.numbers[n].hypot(least), path.numbers[n].abs(), solver),
+            None => Bar::new(
+                of_grids.numbers[n].hypot(least),
+                path.numbers[n].abs(),
+                solver,
+            ),
             Some(finer) => {
                 // The error of the finer grid over that of the grid.
                 let left = finer.ratio.powf(-ORDER[n]);
-                let scatter = (left * told.numbers[n]).hypot(least);
+                let scatter = (left * of_grids.numbers[n]).hypot(least);
                 Bar::signed(
                     finer.off[n] / (1.0 - left),
                     scatter,
@@ -215,8 +219,8 @@ fn bars(
         T_y,
         M_z,
         dissipated: bar(DISSIPATED),
-        p: Bar::new(told.fields[0], path.p, tolerance),
-        q: Bar::new(told.fields[1], path.q, tolerance),
+        p: Bar::new(of_grids.fields[0], path.p, tolerance),
+        q: Bar::new(of_grids.fields[1], path.q, tolerance),
     }
 }
 
@@ -239,7 +243,7 @@ fn solver_parts(scene: &Scene, fine: &BranchSummary, tolerance: f64) -> [f64; NU
 }
 
 /// Uncertainty of the stick ratio: the area of a ring of width [`BORDER`] along the border of the
-/// stick zone over that of the contact; where the slip ring is narrower than [`SEEN`], of a ring of
+/// stick zone over that of the contact; where the slip ring is narrower than [`NARROWEST_RING`], of a ring of
 /// the missing width. In a line contact the ring is a strip on both sides.
 fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {
     if !may_slip(scene) || fine.contact_radius <= 0.0 {
@@ -247,12 +251,12 @@ fn slip_ring(scene: &Scene, fine: &BranchSummary) -> f64 {
     }
     let (ratio, cell) = (fine.stick_ratio, cell(scene) / fine.contact_radius);
     if scene.grid.plane_strain {
-        let missed = (SEEN * cell - (1.0 - ratio)).max(0.0);
+        let missed = (NARROWEST_RING * cell - (1.0 - ratio)).max(0.0);
         return (BORDER * cell).max(missed);
     }
     // Width of the ring, over the radius of the contact.
     let seen = 1.0 - ratio.max(0.0).sqrt();
-    let missed = (SEEN * cell - seen).max(0.0);
+    let missed = (NARROWEST_RING * cell - seen).max(0.0);
     2.0 * (BORDER * cell).max(missed) * ratio.max(0.0).sqrt()
 }
 

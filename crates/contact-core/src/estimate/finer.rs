@@ -16,9 +16,9 @@ use crate::scene::{Grid, PathGrid, SaveFields, Scene};
 /// Most increments of a branch.
 const INCREMENTS: usize = 24;
 /// Cells of the finer grid each way over those of the grid: the first with which it has no more
-/// cells than [`MOST`].
+/// cells than [`MOST_CELLS`].
 const TIMES: [usize; 2] = [3, 2];
-const MOST: usize = 512 * 512;
+const MOST_CELLS: usize = 512 * 512;
 /// Least tolerance of the solver: the errors of the cells are larger.
 const TOLERANCE: f64 = 1e-5;
 
@@ -70,7 +70,9 @@ impl Finer {
 /// need its memory besides that of the run.
 pub fn finest(scene: &Scene) -> Option<Scene> {
     let grids = TIMES.map(|times| refined(&scene.grid, times));
-    let grid = grids.into_iter().find(|grid| grid.nx * grid.ny <= MOST)?;
+    let grid = grids
+        .into_iter()
+        .find(|grid| grid.nx * grid.ny <= MOST_CELLS)?;
     let mut fine = Scene {
         grid,
         ..scene.clone()

@@ -20,11 +20,11 @@ use crate::error::Error;
 use crate::scene::{Branch, Grid, PathGrid, SaveFields, Scene};
 
 /// Cells of the shorter side of the path grid that is tried.
-const TRIED: usize = 32;
+const TRIAL_CELLS: usize = 32;
 /// Fewest cells of the shorter side of a grid on which a coarser path pays.
-const FEWEST: usize = 192;
+const FEWEST_CELLS: usize = 192;
 /// Fewest cells of the shorter side of a path grid.
-const FEWEST_OF_PATH: usize = 64;
+const FEWEST_PATH_CELLS: usize = 64;
 /// Cells of the grid over those of a path grid, the coarsest first.
 const RATIOS: [usize; 2] = [4, 2];
 /// Order m of the error in the cells of the path grid.
@@ -46,10 +46,10 @@ pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Res
     let shorter = nx.min(ny);
     let possible = |ratio: &usize| {
         let allowed = on_path_grid(scene, nx / ratio).check_path_grid().is_ok();
-        allowed && shorter >= FEWEST_OF_PATH * ratio
+        allowed && shorter >= FEWEST_PATH_CELLS * ratio
     };
     let ratios: Vec<usize> = RATIOS.into_iter().filter(possible).collect();
-    if shorter < FEWEST || ratios.is_empty() || !pays(scene) {
+    if shorter < FEWEST_CELLS || ratios.is_empty() || !pays(scene) {
         return Ok(());
     }
     let errors = match errors_of_trial(scene, telling(&scene.path.branches), stop) {
@@ -118,7 +118,7 @@ fn telling(branches: &[Branch]) -> usize {
 /// e(N, ratio N) over e(32, 64).
 fn extrapolation(cells: usize, ratio: usize) -> f64 {
     let halvings = (0..ratio.ilog2()).map(|k| (-ORDER * f64::from(k)).exp2());
-    (TRIED as f64 / cells as f64).powf(ORDER) * halvings.sum::<f64>()
+    (TRIAL_CELLS as f64 / cells as f64).powf(ORDER) * halvings.sum::<f64>()
 }
 
 /// The errors e(32, 64) at the ends of the first branches.
@@ -130,7 +130,7 @@ fn errors_of_trial(
     let Grid { nx, ny, .. } = scene.grid;
     let (length, width) = scene.grid.extent();
     let shorter = nx.min(ny) as f64;
-    let cells = |n: usize| 4 * ((n * TRIED) as f64 / (2.0 * shorter)).round() as usize;
+    let cells = |n: usize| 4 * ((n * TRIAL_CELLS) as f64 / (2.0 * shorter)).round() as usize;
     let mut trial = scene.clone();
     trial.path.branches.truncate(branches);
     for branch in &mut trial.path.branches {

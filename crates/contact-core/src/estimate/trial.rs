@@ -17,13 +17,13 @@ const KINETIC_ORDER: f64 = 1.0;
 const SLIDING_ORDER: f64 = 1.0;
 /// Solver tolerance of these runs over the tolerance of the path: the errors of the increments add
 /// up.
-const SOLVED: f64 = 4e-3;
+const SOLVER_SHARE: f64 = 4e-3;
 /// A grid is not halved below CELLS cells.
 const CELLS: usize = 32 * 32;
-/// Error of the increments on a grid of ENOUGH cells or more, over that on coarser ones: coarser
+/// Error of the increments on a grid of RESOLVED_CELLS cells or more, over that on coarser ones: coarser
 /// grids underestimate it by 20 to 30 % on the paper's scene, since the ring of the last cells is
 /// wider there.
-const ENOUGH: usize = 64 * 64;
+const RESOLVED_CELLS: usize = 64 * 64;
 const MISSED: f64 = 1.25;
 /// Contact cells that a grid must have.
 const CONTACT: usize = 300;
@@ -48,7 +48,7 @@ impl Trial {
         }
         let mut trial = scene.clone();
         let solver = &mut trial.settings.solver;
-        solver.tolerance = Some(solver.path_tolerance * SOLVED);
+        solver.tolerance = Some(solver.path_tolerance * SOLVER_SHARE);
         solver.path_grid = PathGrid::Same;
         let rolls = scene.path.branches.iter().any(|b| b.to.rolled != 0.0);
         while let Some(grid) = grids.pop() {
@@ -68,7 +68,7 @@ impl Trial {
             }
         }
         let runs = TwoRuns::new(&trial, &trial, stop)?;
-        let coarse = trial.grid != scene.grid && trial.grid.nx * trial.grid.ny < ENOUGH;
+        let coarse = trial.grid != scene.grid && trial.grid.nx * trial.grid.ny < RESOLVED_CELLS;
         Ok(Self {
             growth_steps: runs.growth_steps(),
             runs,

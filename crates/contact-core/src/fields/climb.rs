@@ -9,13 +9,13 @@ use super::{Depth, Point};
 use crate::error::Error;
 
 /// Most rounds with smaller steps, and the ratio of the steps of successive rounds.
-const ROUNDS: usize = 5;
+const MOST_ROUNDS: usize = 5;
 const CLOSER: f64 = 1.0 / 3.0;
 /// Most rounds towards a side, and the ratio of the steps of successive rounds.
 const OUTWARDS: usize = 16;
 const FARTHER: f64 = 2.0;
 /// Relative gain of a round that ends the ascent.
-const ENOUGH: f64 = 1e-4;
+const LEAST_GAIN: f64 = 1e-4;
 
 /// A starting point of an ascent.
 pub(super) struct Start {
@@ -45,7 +45,7 @@ pub(super) fn climb(
     let (mut place, mut best, mut steps) = (start.place, value, start.steps);
     let mut left = [0.0; 3];
     let (mut closer, mut farther) = (0, 0);
-    while closer < ROUNDS && farther < OUTWARDS {
+    while closer < MOST_ROUNDS && farther < OUTWARDS {
         let beside = |axis: usize, sign: f64| {
             let mut at = place;
             at[axis] += sign * steps[axis];
@@ -88,7 +88,7 @@ pub(super) fn climb(
             farther += 1;
             steps[axis] *= FARTHER;
         } else {
-            if best - before <= ENOUGH * best.abs() {
+            if best - before <= LEAST_GAIN * best.abs() {
                 break;
             }
             closer += 1;

@@ -11,7 +11,7 @@ use crate::scene::Grid;
 /// like exp(-pi z/dx): 1e-11 of the stress of a cell, itself a hundredth of the traction.
 pub(super) const DEEP: f64 = 8.0;
 /// Neighbours on each side that share a cell's load.
-const REACH: usize = 6;
+const SHARING_CELLS: usize = 6;
 
 /// How the load of a cell is applied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,27 +72,27 @@ pub(super) fn snapped(cells: f64) -> f64 {
     }
 }
 
-/// The weights of the point loads at -REACH to REACH cells.
+/// The weights of the point loads at -SHARING_CELLS to SHARING_CELLS cells.
 ///
 /// A wave exp(i k x) averaged over a cell is sinc(k dx/2) times its middle value; with
 /// s = sin(k dx/2) that is s/asin(s), a power series in s^2 = -delta^2/4, delta^2 being the second
 /// difference (derived).
-static WEIGHTS: LazyLock<[f64; 2 * REACH + 1]> = LazyLock::new(|| {
+static WEIGHTS: LazyLock<[f64; 2 * SHARING_CELLS + 1]> = LazyLock::new(|| {
     // asin(s)/s = sum b_n s^2n, and a its inverse.
-    let (mut a, mut b) = ([0.0; REACH + 1], [0.0; REACH + 1]);
+    let (mut a, mut b) = ([0.0; SHARING_CELLS + 1], [0.0; SHARING_CELLS + 1]);
     let mut central = 1.0;
-    for n in 0..=REACH {
+    for n in 0..=SHARING_CELLS {
         let m = n as f64;
         b[n] = central / (2.0 * m + 1.0);
         central *= (2.0 * m + 1.0) / (2.0 * m + 2.0);
     }
     a[0] = 1.0;
-    for n in 1..=REACH {
+    for n in 1..=SHARING_CELLS {
         a[n] = -(1..=n).map(|m| b[m] * a[n - m]).sum::<f64>();
     }
-    let mut weights = [0.0; 2 * REACH + 1];
-    let mut difference = [0.0; 2 * REACH + 1];
-    difference[REACH] = 1.0;
+    let mut weights = [0.0; 2 * SHARING_CELLS + 1];
+    let mut difference = [0.0; 2 * SHARING_CELLS + 1];
+    difference[SHARING_CELLS] = 1.0;
     for (n, a) in a.iter().enumerate() {
         let scale = a * (-0.25_f64).powi(n as i32);
         for (w, d) in weights.iter_mut().zip(difference) {
@@ -160,7 +160,7 @@ impl Plane {
 
     /// Largest distance of a point above the grid from a load \[m\].
     pub(super) fn reach(&self) -> f64 {
-        let length = |n: usize, d: f64| (n + 2 * REACH + 1) as f64 * d;
+        let length = |n: usize, d: f64| (n + 2 * SHARING_CELLS + 1) as f64 * d;
         length(self.n.0, self.d.0).hypot(length(self.n.1, self.d.1))
     }
 
@@ -204,7 +204,11 @@ impl Plane {
             (i0, i1, j0, j1) = (0, columns, 0, 1);
         }
         let margin = i0.min(columns - i1);
-        let grow = if source == Source::Points { REACH } else { 0 };
+        let grow = if source == Source::Points {
+            SHARING_CELLS
+        } else {
+            0
+        };
         let grown = |start: usize| start as isize - grow as isize;
         Patch {
             start: (grown(margin), grown(j0)),
@@ -260,9 +264,9 @@ fn spread(q: &mut [f64], columns: usize) {
     let rows = q.len() / columns;
     let mut line = vec![0.0; columns.max(rows)];
     let weighted = |line: &[f64], i: usize| -> f64 {
-        let from = i.saturating_sub(REACH);
-        let to = (i + REACH + 1).min(line.len());
-        let weights = &WEIGHTS[from + REACH - i..];
+        let from = i.saturating_sub(SHARING_CELLS);
+        let to = (i + SHARING_CELLS + 1).min(line.len());
+        let weights = &WEIGHTS[from + SHARING_CELLS - i..];
         line[from..to].iter().zip(weights).map(|(q, w)| q * w).sum()
     };
     for row in q.chunks_mut(columns) {

@@ -22,7 +22,7 @@ const DEEPEST: f64 = 6.0;
 /// Largest distance from a border, in cells along or across, of cells in which the tractions are
 /// not linear, and of samples below the surface at which the correction is computed. Near the
 /// surface it is computed everywhere: there the slope of the tractions counts.
-const FARTHEST: u8 = 3 + REACH as u8;
+const FARTHEST: u8 = 3 + DIVIDED_CELLS as u8;
 /// Distance of a sample from the borders beyond which the slope around it stands for that of the
 /// cells which are not divided.
 const SMOOTH: u8 = 12;
@@ -34,7 +34,7 @@ const AT_SURFACE: f64 = 1.0;
 const THIN: f64 = 2.0;
 const CONTRAST: f64 = 2.0;
 /// Cells on each side of a sample that are divided.
-const REACH: usize = 3;
+const DIVIDED_CELLS: usize = 3;
 /// Rows of s_zz, s_xz, s_yz with the traction whose negative they are on the surface.
 const OF_TRACTIONS: [(usize, usize); 3] = [(2, 2), (4, 0), (5, 1)];
 
@@ -111,7 +111,8 @@ impl NearRim {
     ) -> Self {
         // One more cell on each side for the interpolation, one for samples on a border.
         let wider = |cells: Range<usize>, count: usize| {
-            cells.start.saturating_sub(REACH + 2)..(cells.end + REACH + 2).min(count)
+            cells.start.saturating_sub(DIVIDED_CELLS + 2)
+                ..(cells.end + DIVIDED_CELLS + 2).min(count)
         };
         let window = (wider(columns, grid.nx), wider(rows, grid.ny));
         let cell = if grid.ny == 1 {
@@ -184,9 +185,13 @@ impl NearRim {
         if z >= DEEPEST {
             return None;
         }
-        let reach = REACH as f64;
+        let reach = DIVIDED_CELLS as f64;
         let within = |f: f64, n: usize| {
-            let most = if n == 1 { 0 } else { REACH as isize + 1 };
+            let most = if n == 1 {
+                0
+            } else {
+                DIVIDED_CELLS as isize + 1
+            };
             (-most..=most).filter(move |k| (*k as f64 - f).abs() <= reach + 0.5)
         };
         let cells = within(offset.0, n.0).flat_map(|k| within(offset.1, n.1).map(move |l| (k, l)));

@@ -23,12 +23,12 @@ use crate::scene::Grid;
 const CUBATURE: f64 = 1e-13;
 /// Largest error of the smooth part over the coefficient of the loaded cell.
 const TOLERANCE: f64 = 1e-9;
-/// Gauss nodes on a side within [`NEAR`] half lengths of the source: (1 + sqrt 2)^-40 is rounding.
+/// Gauss nodes on a side within [`NEAR_DISTANCE`] half lengths of the source: (1 + sqrt 2)^-40 is rounding.
 const NODES_NEAR: usize = 20;
-/// Those farther away: (2 NEAR)^-12.
+/// Those farther away: (2 NEAR_DISTANCE)^-12.
 const NODES_FAR: usize = 6;
 /// Distance over half the length of a side.
-const NEAR: f64 = 8.0;
+const NEAR_DISTANCE: f64 = 8.0;
 /// Memory per cell while coefficients are made: real and imaginary parts of sides and cells
 /// \[bytes\].
 const NUMBERS: f64 = 64.0;
@@ -129,7 +129,7 @@ fn side(distance: f64, middle: f64, length: f64, l: Complex64) -> Complex64 {
     let mut sum = Complex64::ZERO;
     for part in 0..parts as usize {
         let centre = middle - length / 2.0 + (2 * part + 1) as f64 * half;
-        let far = distance.hypot((centre.abs() - half).max(0.0)) > NEAR * half;
+        let far = distance.hypot((centre.abs() - half).max(0.0)) > NEAR_DISTANCE * half;
         for (t, weight) in gauss(if far { NODES_FAR } else { NODES_NEAR }) {
             let r = distance.hypot(centre + t * half);
             sum += weight * half * distance / r * mean_decay(l * r);

@@ -22,7 +22,7 @@ const TOLERANCE: f64 = 1e-9;
 /// Rounding error of the residual, over the right-hand side.
 const ROUNDING: f64 = 1e-14;
 /// Most iterations: those of a matrix like 1/k grow with the root of the cells across the contact.
-const MOST: usize = 2000;
+const MOST_ITERATIONS: usize = 2000;
 
 /// The heat shared out, at one frequency.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,19 +45,24 @@ pub fn partition(
     warmer: f64,
 ) -> Result<Partition, Error> {
     let heat = kept(heat, contact);
-    let mut asked = two.temperature(&heat);
-    let warmed = size(&kept(&asked, contact));
-    for t in &mut asked {
+    let mut goal_temperature = two.temperature(&heat);
+    let warmed = size(&kept(&goal_temperature, contact));
+    for t in &mut goal_temperature {
         *t += warmer;
     }
-    let asked = kept(&asked, contact);
+    let goal_temperature = kept(&goal_temperature, contact);
     let alone = kept(&one.temperature(&heat), contact);
     let cells = contact.iter().filter(|touches| **touches).count() as f64;
     let scale = size(&alone).min(warmed) + warmer.abs() * cells.sqrt();
     // Exact for two half-spaces in the steady state, and for two bodies that are the same.
     let share = two.self_coefficient() / (one.self_coefficient() + two.self_coefficient());
     let guess: Vec<_> = heat.iter().map(|q| share * q).collect();
-    let q_1 = solve(&mut one.sum(two), (&asked, scale), guess, contact)?;
+    let q_1 = solve(
+        &mut one.sum(two),
+        (&goal_temperature, scale),
+        guess,
+        contact,
+    )?;
     let q_2: Vec<_> = heat.iter().zip(&q_1).map(|(q, q_1)| q - q_1).collect();
     let rise = [one.temperature(&q_1), two.temperature(&q_2)];
     Ok(Partition {
@@ -78,18 +83,22 @@ fn kept(field: &[Complex64], contact: &[bool]) -> Vec<Complex64> {
 /// is the tolerance of `scale`.
 fn solve(
     matrix: &mut Conduction,
-    (asked, scale): (&[Complex64], f64),
+    (goal_temperature, scale): (&[Complex64], f64),
     mut x: Vec<Complex64>,
     contact: &[bool],
 ) -> Result<Vec<Complex64>, Error> {
     let product = kept(&matrix.temperature(&x), contact);
-    let mut r: Vec<_> = asked.iter().zip(product).map(|(b, a)| b - a).collect();
+    let mut r: Vec<_> = goal_temperature
+        .iter()
+        .zip(product)
+        .map(|(b, a)| b - a)
+        .collect();
     let mut direction = r.clone();
     let mut rr = dot(&r, &r);
     let mut iterations = 0;
-    let goal = (TOLERANCE * scale).max(ROUNDING * size(asked));
+    let goal = (TOLERANCE * scale).max(ROUNDING * size(goal_temperature));
     while size(&r) > goal {
-        if iterations == MOST || !rr.is_finite() {
+        if iterations == MOST_ITERATIONS || !rr.is_finite() {
             return Err(Error::HeatNotShared {
                 residual: size(&r) / scale,
                 tolerance: TOLERANCE,

@@ -3,7 +3,7 @@
 use crate::gauss::gauss;
 
 /// Most Gauss nodes along one side; a cell that needs more is halved.
-const MOST: usize = 10;
+const MOST_NODES: usize = 10;
 
 /// A rectangle of the contact plane, seen from the point where the effect is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +32,7 @@ impl Cell {
             let rho = axis + (axis * axis - 1.0).max(0.0).sqrt();
             let mut error = 1.0 / (rho * rho);
             let mut n = 1;
-            while error > tolerance && n <= MOST {
+            while error > tolerance && n <= MOST_NODES {
                 error /= rho * rho;
                 n += 1;
             }
@@ -40,7 +40,7 @@ impl Cell {
         };
         let nx = order(self.x, self.half_x, self.y, self.half_y);
         let ny = order(self.y, self.half_y, self.x, self.half_x);
-        (nx <= MOST && ny <= MOST).then_some((nx, ny))
+        (nx <= MOST_NODES && ny <= MOST_NODES).then_some((nx, ny))
     }
 
     /// Calls `f` with each node's x, y and weight \[m^2\].

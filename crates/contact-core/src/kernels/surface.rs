@@ -132,7 +132,7 @@ impl SurfaceKernel<'_> {
     }
 
     /// Which of the six are of the set.
-    fn asked_for(&self) -> [bool; 6] {
+    fn wanted(&self) -> [bool; 6] {
         let (shear, coupling) = (self.set != KernelSet::Normal, self.set == KernelSet::All);
         [shear, shear, true, shear, coupling, coupling]
     }
@@ -146,8 +146,8 @@ impl SurfaceKernel<'_> {
             0
         };
         let mirrored = |i: usize, j: usize| i < j && j < square;
-        let mut c = self.asked_for().map(|asked| {
-            if asked {
+        let mut c = self.wanted().map(|wanted| {
+            if wanted {
                 Array2::<f64>::zeros((nx, ny))
             } else {
                 none()

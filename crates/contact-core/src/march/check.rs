@@ -125,14 +125,14 @@ fn missing_loads(setup: &Setup<'_>, now: &Interface) -> f64 {
         ..*point
     };
     let carried = transmitted(setup, &all_given, now).forces();
-    let (asked, motions) = (point.loads.forces(), point.loads.given.motions());
+    let (prescribed, motions) = (point.loads.forces(), point.loads.given.motions());
     let [pressed, friction] = bearable(setup, now);
     (0..6)
-        .filter(|&k| motions[k].is_none() && carried[k] != asked[k])
+        .filter(|&k| motions[k].is_none() && carried[k] != prescribed[k])
         .fold(0.0, |worst, k| {
             let bears = if k < 3 { pressed } else { friction };
             let scale = bears * setup.geometry.arms.unit(k);
-            ((carried[k] - asked[k]) / scale).abs().max(worst)
+            ((carried[k] - prescribed[k]) / scale).abs().max(worst)
         })
 }
 
@@ -156,17 +156,17 @@ fn bearable(setup: &Setup<'_>, now: &Interface) -> [f64; 2] {
 /// friction.
 fn unresisted(setup: &Setup<'_>, now: &Interface) -> Option<Error> {
     let [pressed, friction] = bearable(setup, now);
-    let (asked, motions) = (
+    let (prescribed, motions) = (
         setup.point.loads.forces(),
         setup.point.loads.given.motions(),
     );
     let bears = |k: usize| if k < 3 { pressed } else { friction };
-    let k = (0..6).find(|&k| motions[k].is_none() && asked[k] != 0.0 && bears(k) <= 0.0)?;
+    let k = (0..6).find(|&k| motions[k].is_none() && prescribed[k] != 0.0 && bears(k) <= 0.0)?;
     let motion = RigidMotion::ALL[k];
     Some(Error::Unresisted {
         increment: setup.state.increments + 1,
         load: motion.load(),
-        value: asked[k],
+        value: prescribed[k],
         why: if pressed > 0.0 {
             "no cell in contact has friction"
         } else {

@@ -10,7 +10,7 @@ use crate::scene::{CellHistory, History, OwnFriction};
 
 /// Most corrections of the coefficient in an increment, and the relative change that ends them.
 pub(super) const CORRECTIONS: usize = 8;
-const SETTLED: f64 = 1e-3;
+const LEAST_CHANGE: f64 = 1e-3;
 
 /// Sets `mu` at the end of an increment in which the history of cell n grows by `grows(n)`, and
 /// `before` at its start for the same material (rolling included).
@@ -105,5 +105,5 @@ pub(super) fn expected(setup: &Setup<'_>) -> impl Fn(usize) -> f64 {
 pub(super) fn has_settled(mu: &[f64], next: &[f64]) -> bool {
     mu.iter()
         .zip(next)
-        .all(|(mu, next)| (mu - next).abs() <= SETTLED * mu)
+        .all(|(mu, next)| (mu - next).abs() <= LEAST_CHANGE * mu)
 }

@@ -27,7 +27,9 @@ pub(super) fn increment(
         problem.plan.friction,
     );
     let rolled = Rolled::new(&roll, geometry, problem.plan.mirror, state, respond).map_err(
-        |RollsOff { room }| rolls_off(problem, state, domain.shape(), roll.margin(), room),
+        |RollsOff { free_cells }| {
+            rolls_off(problem, state, domain.shape(), roll.margin(), free_cells)
+        },
     )?;
     let given = Setup {
         problem,
@@ -149,7 +151,7 @@ fn rolls_off(
     state: &State,
     shape: (usize, usize),
     cells: usize,
-    room: usize,
+    free_cells: usize,
 ) -> Failure {
     let whole = &problem.scene.grid;
     if shape.0 < whole.nx {
@@ -158,7 +160,7 @@ fn rolls_off(
         return Failure::Narrow([x + cells, y]);
     }
     let allowed = format!(
-        "at most {room} cells, as many as lie between the contact and the border of the grid: more increments, or a longer grid"
+        "at most {free_cells} cells, as many as lie between the contact and the border of the grid: more increments, or a longer grid"
     );
     Error::invalid(
         format!("path.rolled of increment {}", state.increments + 1),

@@ -8,7 +8,7 @@ use crate::solvers::Interface;
 /// Length of a sufficient grid over that of the expected contact.
 const CLEARANCE: f64 = 1.4;
 /// Factor by which a grid is to grow where the contact cannot be estimated.
-const GROWTH: f64 = 1.4;
+const GRID_GROWTH: f64 = 1.4;
 
 /// Fails if a cell at the border of the grid is in contact; the border of a window is kept free.
 pub(super) fn check(setup: &Setup<'_>, now: &Interface) -> Result<(), Error> {
@@ -38,6 +38,6 @@ pub(super) fn check(setup: &Setup<'_>, now: &Interface) -> Result<(), Error> {
         unit: setup.problem.scene.grid.unit_of("N"),
         extent_x: extent.0,
         extent_y: extent.1,
-        needed: expected.max(GROWTH * touched),
+        needed: expected.max(GRID_GROWTH * touched),
     })
 }

@@ -8,7 +8,7 @@ use crate::scene::{FEW_CELLS, FEWEST_CELLS, LARGE_STRAIN, Scene};
 const HARD: f64 = 0.05;
 /// A warning names the error of the increments if it exceeds the tolerance of the path by this
 /// factor.
-const TOLD: f64 = 2.0;
+const NOTABLE_RATIO: f64 = 2.0;
 /// Least Young's modulus of a solid that yields, other than rubber \[Pa\].
 const YIELDS: f64 = 1e9;
 
@@ -59,7 +59,7 @@ impl Reached {
             .iter()
             .map(|branch| branch.path_error.unwrap_or(0.0));
         if let Some((k, error)) = errors.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
-            && error > TOLD * allowed
+            && error > NOTABLE_RATIO * allowed
         {
             doubts.push(format!(
                 "branch {} of the path, in {} increments, leaves the shear {:.1} % off, the path tolerance is {:.1} %",

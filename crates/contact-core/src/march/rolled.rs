@@ -136,9 +136,9 @@ impl Rolled {
         if roll.rests() {
             return Ok(None);
         }
-        let room = room(roll, geometry, mirror, &state.interface.p);
-        if room < roll.margin() {
-            return Err(RollsOff { room });
+        let free_cells = free_cells(roll, geometry, mirror, &state.interface.p);
+        if free_cells < roll.margin() {
+            return Err(RollsOff { free_cells });
         }
         let field = |f: &[f64]| rolled(geometry, mirror, f, roll.cells);
         let earlier = |f: &Vec<f64>| rolled(geometry, mirror, f, 2 * roll.cells);
@@ -174,11 +174,11 @@ impl Rolled {
 
 /// The contact would roll off the cells.
 pub(super) struct RollsOff {
-    pub(super) room: usize,
+    pub(super) free_cells: usize,
 }
 
 /// Cells along x between the contact and the border that its material moves towards.
-fn room(roll: &Roll, geometry: &Geometry, mirror: Mirror, p: &[f64]) -> usize {
+fn free_cells(roll: &Roll, geometry: &Geometry, mirror: Mirror, p: &[f64]) -> usize {
     let rows = mirror.rows(geometry.grid.ny);
     let free = |column: &&[f64]| column.iter().all(|&p| p <= 0.0);
     if roll.cells > 0 {

@@ -133,7 +133,7 @@ pub(super) struct Solver<'a> {
 }
 
 /// One set of equations of an increment.
-pub(super) struct Asked<'a> {
+pub(super) struct Equations<'a> {
     /// Gap between the undeformed surfaces \[m\].
     pub(super) h_init: &'a [f64],
     /// Share of the tolerance.
@@ -149,21 +149,21 @@ impl Solver<'_> {
     pub(super) fn solve(
         &mut self,
         setup: &Setup<'_>,
-        asked: &Asked<'_>,
+        wanted: &Equations<'_>,
         mut now: Interface,
     ) -> Result<Solution, Error> {
         setup.unless_stopped()?;
         let equations = IncrementProblem {
-            h_init: asked.h_init,
+            h_init: wanted.h_init,
             friction: setup.problem.plan.friction,
             mu: setup.mu,
             arms: &setup.geometry.arms,
-            enters: asked.entry.is_some() || !asked.turns,
+            enters: wanted.entry.is_some() || !wanted.turns,
             normal: setup.drives.normal,
             tangential: setup.drives.tangential,
         };
-        let params = setup.problem.params(asked.share);
-        let mut no_slip = NoSlip::new(setup.start(asked.turns), self.no_slip, asked.entry);
+        let params = setup.problem.params(wanted.share);
+        let mut no_slip = NoSlip::new(setup.start(wanted.turns), self.no_slip, wanted.entry);
         let (response, ws) = (&mut self.response, &mut *self.workspace);
         match alternation(response, &equations, &mut no_slip, &mut now, ws, &params) {
             Ok(info) => Ok((now, info)),

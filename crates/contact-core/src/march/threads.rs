@@ -10,12 +10,12 @@ use std::time::{Duration, Instant};
 use rayon::Yield;
 
 /// How long `work` waits for the other threads.
-const PATIENCE: Duration = Duration::from_micros(100);
+const LONGEST_WAIT: Duration = Duration::from_micros(100);
 
 /// Runs `work` on a thread of the pool while the other threads poll for its parallel parts instead
 /// of sleeping.
 ///
-/// A thread that is busy with another job and does not arrive within [`PATIENCE`] is left out.
+/// A thread that is busy with another job and does not arrive within [`LONGEST_WAIT`] is left out.
 /// Arriving later it might start to poll from inside a part of this `work` (by stealing the polling
 /// job): that part would wait for `work` to end, and `work` for that part. With this rule a polling
 /// thread suspends only jobs that began before `work`, so that no cycle of waiting can form.
@@ -41,7 +41,7 @@ pub(super) fn with_busy_threads<R: Send>(work: impl FnOnce() -> R + Send) -> R {
         }
         let begin = Instant::now();
         while !watchers.iter().all(|came| came.load(Ordering::Relaxed))
-            && begin.elapsed() < PATIENCE
+            && begin.elapsed() < LONGEST_WAIT
         {
             spin_loop();
         }

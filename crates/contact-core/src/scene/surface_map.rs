@@ -34,14 +34,14 @@ impl SurfaceMap {
     /// Reads numbers from a `.npy` array, or from text: a table, one line per x, points x, y and
     /// height in any order, Gwyddion's export, an ESRI grid. What the file does not say of them,
     /// `told` says.
-    pub fn from_file(path: &Path, told: &FileOfNumbers) -> Result<Self, Error> {
+    pub fn from_file(path: &Path, format: &FileOfNumbers) -> Result<Self, Error> {
         // Readers may say it in several lines; an error is one sentence.
         let failed = |message: String| Error::File {
             path: path.display().to_string(),
             message: message.split_whitespace().collect::<Vec<_>>().join(" "),
         };
-        let Heights { values, spacing } = heights(files::read(path)?, told).map_err(failed)?;
-        let (values, filled) = completed(values, told.missing).map_err(failed)?;
+        let Heights { values, spacing } = heights(files::read(path)?, format).map_err(failed)?;
+        let (values, filled) = completed(values, format.missing).map_err(failed)?;
         let map = Self {
             values: Arc::new(values),
             spacing,

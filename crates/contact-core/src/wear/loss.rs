@@ -93,15 +93,15 @@ impl Loss {
 
 /// `2 halves - whole` where that is not negative, of the same sum.
 fn extrapolate(halves: &mut [f64], whole: &[f64]) {
-    let (mut asked, mut taken) = (0.0, 0.0);
+    let (mut exact, mut taken) = (0.0, 0.0);
     for (value, whole) in halves.iter_mut().zip(whole) {
         let change = *value - whole;
-        asked += *value + change;
+        exact += *value + change;
         *value = (*value + change).max(0.0);
         taken += *value;
     }
     let part = if taken > 0.0 {
-        (asked / taken).max(0.0)
+        (exact / taken).max(0.0)
     } else {
         0.0
     };
@@ -135,12 +135,12 @@ mod tests {
             };
             let (halves, whole) = (loss(3.0), loss(2.0));
             let sum = |f: &[f64]| f.iter().sum::<f64>();
-            let asked = [0, 1].map(|b| 2.0 * sum(&halves.depth[b]) - sum(&whole.depth[b]));
+            let exact = [0, 1].map(|b| 2.0 * sum(&halves.depth[b]) - sum(&whole.depth[b]));
             let (found, error) = halves.extrapolated(&whole, &Worn::none(30));
             assert!(error > 0.0 && (found.dissipated - 4.0).abs() < 1e-15);
             for b in 0..2 {
                 assert!(found.depth[b].iter().all(|w| *w >= 0.0));
-                assert!((sum(&found.depth[b]) - asked[b].max(0.0)).abs() < 1e-12);
+                assert!((sum(&found.depth[b]) - exact[b].max(0.0)).abs() < 1e-12);
             }
         }
     }

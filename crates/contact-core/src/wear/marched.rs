@@ -193,7 +193,7 @@ impl Marched {
     }
 
     /// The coefficients of the loss in a jump on the present surfaces, near the pressure p.
-    fn takes(&self, n: f64, rates: &Rates, worn: &Worn, p: &[f64]) -> Takes {
+    fn takes(&self, n: f64, rates: &Rates, worn: &Worn, p: &[f64]) -> LossRate {
         let mut way: Vec<f64> = rates.sigma.iter().map(|sigma| n * sigma).collect();
         let mut borne = vec![0.0; way.len()];
         let opens = self.wear.opens();
@@ -207,7 +207,7 @@ impl Marched {
                 0.0
             };
         }
-        Takes { n, way, borne }
+        LossRate { n, way, borne }
     }
 
     /// The coefficient of friction after so many cycles, if uniform.
@@ -321,7 +321,7 @@ struct Rates {
 }
 
 /// Loss in a jump: k way (p - borne) of each body.
-struct Takes {
+struct LossRate {
     /// Cycles.
     n: f64,
     /// Way slipped in all its cycles \[m\].
@@ -330,7 +330,7 @@ struct Takes {
     borne: Vec<f64>,
 }
 
-impl Takes {
+impl LossRate {
     /// The loss under the pressure p at the end of the jump.
     fn loss(&self, rates: &Rates, p: &[f64], cell_area: f64) -> Loss {
         let way = |c: usize| self.way[c] * (p[c] - self.borne[c]).max(0.0);

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::scene::Grid;
 
 /// Factor by which a grid is to grow where the contact cannot be estimated.
-const GROWTH: f64 = 1.4;
+const GRID_GROWTH: f64 = 1.4;
 
 /// Fails if a cell with pressure p \[Pa\] lies at the border of the grid, or if its place on a
 /// shifted body is off the grid; fields of `rows` cells per column, the last at the border.
@@ -40,6 +40,6 @@ pub(super) fn check(grid: &Grid, rows: usize, p: &[f64], shifts: &[Shift]) -> Re
         unit: grid.unit_of("N"),
         extent_x,
         extent_y,
-        needed: GROWTH * touched,
+        needed: GRID_GROWTH * touched,
     })
 }

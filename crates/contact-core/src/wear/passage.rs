@@ -27,15 +27,15 @@ impl Passage<'_> {
 
 /// The part of a jump at which the loss is `asked`, with the loss `half` in its first half and
 /// `whole` in all.
-fn part(asked: f64, half: f64, whole: f64) -> f64 {
-    if !(asked > 0.0 && whole > 0.0) {
+fn part(target: f64, half: f64, whole: f64) -> f64 {
+    if !(target > 0.0 && whole > 0.0) {
         return 0.0;
     }
     // The loss is monotone: the vertex of the parabola must not lie within the jump.
     let half = half.clamp(0.25 * whole, 0.75 * whole);
     let (slope, bend) = (4.0 * half - whole, 2.0 * whole - 4.0 * half);
-    let root = (slope * slope + 4.0 * bend * asked).max(0.0).sqrt();
-    (2.0 * asked / (slope + root)).clamp(0.0, 1.0)
+    let root = (slope * slope + 4.0 * bend * target).max(0.0).sqrt();
+    (2.0 * target / (slope + root)).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ const CAUTIOUS: f64 = 0.9;
 const LONGER: f64 = 4.0;
 const SHORTER: f64 = 0.2;
 /// Depth of the first jump over the approach, about.
-const FIRST: f64 = 0.05;
+const FIRST_JUMP: f64 = 0.05;
 /// Allowed change of the end pressure between a whole jump and two halves, over the tolerance of
 /// the depth. It bounds the change of the pressure within a jump only: on the accepted surfaces the
 /// pressure is solved anew.
@@ -142,7 +142,7 @@ impl WearRun {
             Jumps::Tolerance(_) => {
                 let rate = self.rate()?;
                 let first = if rate > 0.0 {
-                    FIRST * self.scene.approach() / rate
+                    FIRST_JUMP * self.scene.approach() / rate
                 } else {
                     all
                 };
@@ -174,11 +174,11 @@ impl WearRun {
         if jump.is_err() {
             self.model.restore(&self.state.model);
         }
-        Some(jump.map_err(|error| self.told(error)))
+        Some(jump.map_err(|error| self.at_cycle(error)))
     }
 
     /// Completes an error with the cycles done or the physical cause.
-    fn told(&mut self, error: Error) -> Error {
+    fn at_cycle(&mut self, error: Error) -> Error {
         match error {
             Error::NotConverged {
                 increment,
@@ -214,7 +214,7 @@ impl WearRun {
     /// one cycle.
     fn why(&mut self) -> String {
         let (rate, approach) = (self.rate().unwrap_or(0.0), self.scene.approach());
-        if rate < FIRST * approach {
+        if rate < FIRST_JUMP * approach {
             return String::new();
         }
         format!(
@@ -294,13 +294,13 @@ impl WearRun {
     }
 
     /// A jump of n cycles whole and in two halves.
-    fn attempt(&mut self, n: f64) -> Result<Tried, Error> {
+    fn attempt(&mut self, n: f64) -> Result<Attempt, Error> {
         let worn = &self.state.worn;
         if matches!(self.wear.jumps, Jumps::Explicit(_)) {
             let loss = self.model.jump(worn, n, false)?;
             let none = loss.depth.each_ref().map(|d| vec![0.0; d.len()]);
             let half = |d: &Vec<f64>| d.iter().map(|w| 0.5 * w).collect();
-            return Ok(Tried {
+            return Ok(Attempt {
                 half: loss.depth.each_ref().map(half),
                 loss,
                 error: 0.0,
@@ -331,7 +331,7 @@ impl WearRun {
             };
             cells.map(to).collect::<Vec<f64>>()
         });
-        Ok(Tried {
+        Ok(Attempt {
             loss,
             half,
             error,
@@ -343,7 +343,7 @@ impl WearRun {
     fn accept(
         &mut self,
         n: f64,
-        tried: &Tried,
+        tried: &Attempt,
         next: f64,
         retries: usize,
         ends: bool,
@@ -424,7 +424,7 @@ impl WearRun {
 }
 
 /// An attempted jump.
-struct Tried {
+struct Attempt {
     loss: Loss,
     /// Loss in its first half \[m\].
     half: [Vec<f64>; 2],

@@ -10,7 +10,7 @@ use crate::scene::Scene;
 
 /// Most chosen places of a branch of a stroke, and their distance over the half-width of the first
 /// contact.
-const MOST: usize = 12;
+const MOST_PLACES: usize = 12;
 const APART: f64 = 0.25;
 /// Fewest where the normal force changes within the branch.
 const UNDER_CHANGE: usize = 4;
@@ -76,7 +76,7 @@ fn choose_places(scene: &mut Scene) {
         } else {
             1
         };
-        let chosen = (places as usize).clamp(least, MOST);
+        let chosen = (places as usize).clamp(least, MOST_PLACES);
         branch.increments = branch.increments.or(Some(chosen));
         (at, W_before) = (to, W);
     }

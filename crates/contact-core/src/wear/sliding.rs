@@ -41,11 +41,11 @@ use crate::scene::{FrictionHistory, Scene, Shape};
 
 /// Change of the pressures in a round (root mean square, over that of the pressures) that ends the
 /// rounds.
-const SETTLED: f64 = 1e-3;
+const LEAST_CHANGE: f64 = 1e-3;
 /// Times the tolerance of the scene to which the pressures of a round are solved.
 const ROUGH: f64 = 10.0;
 /// Most rounds; a remaining error enters the estimate of the jump's error.
-const ROUNDS: usize = 60;
+const MOST_ROUNDS: usize = 60;
 
 /// The gross slip of a stroke.
 pub(crate) struct Sliding {
@@ -144,10 +144,10 @@ impl Sliding {
         self.pressing.begin();
         let mut momentum = 1.0_f64;
         let (mut around, mut last) = (self.p.clone(), self.p.clone());
-        let mut room = Room::of(self.h.len());
-        for _ in 0..ROUNDS {
+        let mut buffers = Buffers::of(self.h.len());
+        for _ in 0..MOST_ROUNDS {
             last.clone_from(&self.p);
-            self.round(worn, n, &k, &around, &mut room)?;
+            self.round(worn, n, &k, &around, &mut buffers)?;
             let (mut left, mut size, mut turned) = (0.0, 0.0, 0.0);
             for i in 0..self.places.len() {
                 for (c, p) in self.p[i].iter().enumerate() {
@@ -157,7 +157,7 @@ impl Sliding {
                     turned -= self.places[i].way * step * (p - last[i][c]);
                 }
             }
-            if left <= SETTLED * SETTLED * size || self.places.len() == 1 {
+            if left <= LEAST_CHANGE * LEAST_CHANGE * size || self.places.len() == 1 {
                 break;
             }
             let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
@@ -184,15 +184,15 @@ impl Sliding {
         n: f64,
         k: &[Vec<f64>; 2],
         around: &[Vec<f64>],
-        room: &mut Room,
+        buffers: &mut Buffers,
     ) -> Result<(), Error> {
         let (s, opens) = (self.way(), self.wear.opens());
-        let Room {
+        let Buffers {
             ways,
             end,
             h,
             compliance,
-        } = room;
+        } = buffers;
         self.sum(around, ways);
         for b in 0..2 {
             let cells = worn.depth[b].iter().zip(k[b].iter().zip(&ways[b]));
@@ -336,7 +336,7 @@ impl Sliding {
 }
 
 /// Buffers of the rounds of a jump.
-struct Room {
+struct Buffers {
     /// Pressed ways of a cycle in the coordinates of each body \[Pa m\].
     ways: [Vec<f64>; 2],
     /// Worn depth at the end of the jump \[m\].
@@ -347,7 +347,7 @@ struct Room {
     compliance: Vec<f64>,
 }
 
-impl Room {
+impl Buffers {
     fn of(cells: usize) -> Self {
         Self {
             ways: [vec![0.0; cells], vec![0.0; cells]],

@@ -12,7 +12,7 @@ use crate::scene::Grid;
 
 /// Neighbours with an extrapolated level from which the level of a cell outside is averaged if its
 /// own cannot be extrapolated, at least.
-const ENOUGH: usize = 4;
+const FEWEST_NEIGHBOURS: usize = 4;
 
 /// A level sampled at the cells: positive inside a zone, negative outside.
 pub(super) struct SampledBorder {
@@ -42,7 +42,7 @@ impl SampledBorder {
             let (mean, count) = planes.mean_around(cell, |_, _| true);
             match plane {
                 Some(plane) => level[cell] = plane.middle,
-                None if own[cell] <= 0.0 && count >= ENOUGH => level[cell] = mean,
+                None if own[cell] <= 0.0 && count >= FEWEST_NEIGHBOURS => level[cell] = mean,
                 None => {
                     unknown.push(cell);
                     continue;

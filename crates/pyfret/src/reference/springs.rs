@@ -10,7 +10,7 @@ use crate::material::{Elastic, Material};
 use crate::parts::made;
 
 /// Most springs, and most steps of a load.
-const MOST: usize = 10_000;
+const MOST_SPRINGS: usize = 10_000;
 
 /// One-dimensional springs with friction: the shift for every path of W and T.
 ///
@@ -71,7 +71,7 @@ impl Springs {
         positive("R", R)
             .and(positive("mu", mu))
             .map_err(to_python)?;
-        count("n", n, MOST).map_err(to_python)?;
+        count("n", n, MOST_SPRINGS).map_err(to_python)?;
         let mut springs = Self {
             springs: core::Springs::new(largest.0, R, body1, body2, mu, n),
             largest,
@@ -95,7 +95,7 @@ impl Springs {
         between("W", W, (0.0, most(self.largest.0.W))).map_err(to_python)?;
         let limit = most(self.mu * W);
         between("T", T, (-limit, limit)).map_err(to_python)?;
-        count("steps", steps, MOST).map_err(to_python)?;
+        count("steps", steps, MOST_SPRINGS).map_err(to_python)?;
         let from = self.loads.last().map_or((0.0, 0.0), |(W, T, _)| (*W, *T));
         self.loads.push((W, T, steps));
         Ok(self.springs.load(from, (W, T), steps))

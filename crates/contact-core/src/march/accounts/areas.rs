@@ -38,11 +38,11 @@ use crate::solvers::{Interface, friction_bound};
 use crate::zones::{Edge, Level, Line, Power, SHRINKS, STICK, Stencil, cells_per_radius};
 
 /// The rim of a slip ring on dissimilar bodies, n slip cells wide: for n > RING the pressure is
-/// extrapolated from the outermost max(n - 1, FEWEST) cells of a line, that is from slip cells but
+/// extrapolated from the outermost max(n - 1, FEWEST_CELLS) cells of a line, that is from slip cells but
 /// for the innermost, and from two at least besides those that the stencil skips. For n <= RING it
 /// is extrapolated from all cells of the line, though those that stick follow another law.
 const RING: usize = 3;
-const FEWEST: usize = 4;
+const FEWEST_CELLS: usize = 4;
 /// A sticking cell beside cells at the limit is at the limit too if |q| > (1 - REACHES) mu p.
 const REACHES: f64 = 5e-3;
 /// Largest |e| of the law of a rim, reached at mu beta = tan(0.4 pi) = 3.1.
@@ -131,13 +131,13 @@ fn at_limit(
         .map(|(n, &marked)| if marked { slip(n) } else { 0.0 })
         .collect();
     let most = slips.iter().copied().fold(0.0, f64::max);
-    let told = setup
+    let notable = setup
         .problem
         .params(1.0)
         .tangential
         .tolerance
         .max(TELLS * most);
-    let tells: Vec<bool> = slips.iter().map(|&slip| slip > told).collect();
+    let tells: Vec<bool> = slips.iter().map(|&slip| slip > notable).collect();
     // Cells without friction slip freely: they have no limit.
     let hardly = |n: usize| marked[n] && !tells[n] && setup.mu[n] > 0.0;
     if !(0..marked.len()).any(hardly) {
@@ -209,7 +209,7 @@ impl<'a> Cells<'a> {
             let at = line.outermost();
             let ring = line.cells().iter().take_while(|&&n| now.slip[n]).count();
             if beta != 0.0 && ring > RING {
-                line.shorten((ring - 1).max(FEWEST));
+                line.shorten((ring - 1).max(FEWEST_CELLS));
             }
             let q_n = now.q[0][at] * line.inwards[0] + now.q[1][at] * line.inwards[1];
             // With mu = infinity the rim does not slide: e = 0.

@@ -15,7 +15,7 @@ use crate::solvers::Response;
 /// Least cells between the contact and the border of the window.
 const MARGIN: usize = 2;
 /// Growth of the contact for which a window is widened in advance, at most.
-const GROWTH: f64 = 1.08;
+const WINDOW_GROWTH: f64 = 1.08;
 
 impl Domain {
     /// Moves the state into a window wide enough for the contact expected in the increment to
@@ -121,7 +121,8 @@ impl Domain {
         };
         let (now, margin) = (self.shape(), margin(problem, state, point));
         let [_, rest] = growth(problem, state, point);
-        let cells = |half: usize| 2 * ((half as f64 * rest.min(GROWTH)).round() as usize + margin);
+        let cells =
+            |half: usize| 2 * ((half as f64 * rest.min(WINDOW_GROWTH)).round() as usize + margin);
         let wider = [cells(half[0]).max(now.0), cells(half[1]).max(now.1)];
         self.move_into(problem, state, shape_for(whole, wider))
     }

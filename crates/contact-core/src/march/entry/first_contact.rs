@@ -4,16 +4,16 @@
 //! theta = h_init/delta_z of the increment, and its motion before entry is -theta d(delta). The
 //! shift d(delta) is part of the solution, so that the equations are solved repeatedly.
 
-use super::asked::entered;
+use super::equations::entered;
 use crate::error::Error;
 use crate::march::setup::{Setup, Solution, Solver};
 use crate::solvers::Interface;
 use crate::solvers::intermediate::AlternationInfo;
 
 /// Most iterations for the shift.
-const ROUNDS: usize = 6;
+const MOST_ITERATIONS: usize = 6;
 /// Change of the shift that ends the iteration, over the larger of shift and approach.
-const SETTLED: f64 = 1e-8;
+const LEAST_CHANGE: f64 = 1e-8;
 
 /// Solves for the first contact: finds the shift s with s = S(s), S being the shift of the solution
 /// with the entry motion of an assumed s. S is almost linear, so that a secant step from two
@@ -46,8 +46,8 @@ pub(super) fn solve_first_contact(
         let misfit: [f64; 3] = std::array::from_fn(|k| info.shift[k] - assumed[k]);
         // By symmetry the shift may vanish: then the approach is the scale.
         let least = setup.problem.approach;
-        let settled = size(misfit) <= SETTLED * size(info.shift).max(least);
-        if settled || round == ROUNDS || info.exceeds_friction() {
+        let settled = size(misfit) <= LEAST_CHANGE * size(info.shift).max(least);
+        if settled || round == MOST_ITERATIONS || info.exceeds_friction() {
             return Ok((now, info));
         }
         // Secant step along the last change of s.

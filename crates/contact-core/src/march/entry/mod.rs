@@ -5,7 +5,7 @@
 //! entry ([`KeptContact`]), which is added to the no-slip displacement u_0. A cell that leaves the
 //! contact needs no such term: its shear vanishes with its pressure.
 
-mod asked;
+mod equations;
 mod first_contact;
 mod kept_contact;
 mod least_squares;
@@ -28,7 +28,7 @@ pub(super) fn solve(
     guess: Interface,
 ) -> Result<Solution, Error> {
     if !cells_enter(setup) {
-        return solver.solve(setup, &asked::whole(setup), guess);
+        return solver.solve(setup, &equations::whole(setup), guess);
     }
     if setup.state.interface.p.iter().all(|&p| p <= 0.0) {
         return solve_first_contact(setup, solver, guess);
@@ -39,7 +39,7 @@ pub(super) fn solve(
     // The solution on the old contact is the better guess, if there is one.
     let solved = !info.exceeds_friction() && kept.p.iter().any(|&p| p > 0.0);
     let guess = if solved { kept } else { guess };
-    let (now, mut found) = solver.solve(setup, &asked::entered(setup, &motion), guess)?;
+    let (now, mut found) = solver.solve(setup, &equations::entered(setup, &motion), guess)?;
     found.add_work(&info);
     Ok((now, found))
 }
@@ -57,7 +57,7 @@ fn solve_kept(
     let apart: Vec<f64> = cells
         .map(|(h, &p)| if p > 0.0 { *h } else { h + far })
         .collect();
-    solver.solve(setup, &asked::kept(&apart), guess)
+    solver.solve(setup, &equations::kept(&apart), guess)
 }
 
 /// First guess on the old contact: the predicted pressure scaled to the load, the last shear.

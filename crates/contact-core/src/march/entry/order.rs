@@ -44,14 +44,14 @@ const SLOWEST: f64 = 1e-3;
 const AT_ONCE: f64 = 1e-4;
 
 /// m/c as a function of the distance and direction of the contact.
-struct Law {
+struct MotionRatio {
     /// A, B, C, D for each component.
     ratio: [[f64; 4]; 2],
     /// E
     toward: f64,
 }
 
-impl Law {
+impl MotionRatio {
     /// m/c
     fn ratio(&self, view: &View) -> [f64; 2] {
         let (s, e) = (view.root(), view.toward());
@@ -66,7 +66,7 @@ impl Law {
 struct Entering {
     cell: usize,
     view: View,
-    law: Law,
+    law: MotionRatio,
     /// Closing rate and its lower bound, over a whole increment \[m\].
     closing: f64,
     slowest: f64,
@@ -251,7 +251,7 @@ fn hold_back(
 }
 
 /// The fit of m/c at a cell, by least squares over the cells around, weighted by nearness.
-fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> Law {
+fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> MotionRatio {
     let unit = contact.closing[n];
     let [e_x, e_y] = view.toward();
     let along = [-e_y, e_x];
@@ -279,7 +279,7 @@ fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> 
     };
     let toward = left(0, motion_e) / left(2, e_e * (1.0 + RIDGE)).max(f64::MIN_POSITIVE);
     let ratio = |c: usize| [0, 1, 2, 3].map(|k| factors[c][k] - toward * factors[c + 2][k]);
-    Law {
+    MotionRatio {
         ratio: [ratio(0), ratio(1)],
         toward,
     }

@@ -178,7 +178,7 @@ pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<Su
         Some(Value::String(word)) => Ok(Some(word.clone())),
         Some(other) => Err(Fault::value(&section.path(key), other, what)),
     };
-    let told = FileOfNumbers {
+    let format = FileOfNumbers {
         spacing: section.get("spacing").map(spacing).transpose()?,
         unit: word("unit", "a unit of length in quotes, such as \"um\"")?,
         channel: word("channel", "the name of a column or channel in quotes")?,
@@ -186,7 +186,7 @@ pub(super) fn surface_map(section: &Section<'_>, files: &Files<'_>) -> Result<Su
     };
     let wrong = |e: &dyn std::fmt::Display| Fault::new(&key, format!("{key}: {e}"));
     let path = files.find(name).map_err(|e| wrong(&e))?;
-    SurfaceMap::from_file(&path, &told).map_err(|e| wrong(&e))
+    SurfaceMap::from_file(&path, &format).map_err(|e| wrong(&e))
 }
 
 /// Numbers in the scene itself.

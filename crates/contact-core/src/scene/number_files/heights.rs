@@ -42,10 +42,10 @@ const POINTS: usize = 16;
 const SAME: f64 = 1e-3;
 
 /// The numbers of a file; the error says what is wrong and what to give.
-pub(in crate::scene) fn heights(bytes: Vec<u8>, told: &FileOfNumbers) -> Result<Heights, String> {
+pub(in crate::scene) fn heights(bytes: Vec<u8>, format: &FileOfNumbers) -> Result<Heights, String> {
     let reader = Reader {
-        told,
-        unit: told.unit.as_deref().map(length).transpose()?,
+        format,
+        unit: format.unit.as_deref().map(length).transpose()?,
     };
     if npy::is_npy(&bytes) {
         let values = npy::read(bytes)?;
@@ -68,7 +68,7 @@ pub(in crate::scene) fn heights(bytes: Vec<u8>, told: &FileOfNumbers) -> Result<
         return reader.picture(&table, &header);
     }
     let (names, units) = unit::of_titles(&table.titles(), table.columns);
-    if let Some(columns) = Columns::of(&table, &names, told)? {
+    if let Some(columns) = Columns::of(&table, &names, format)? {
         return reader.points(&table, &columns, &units);
     }
     check_map(&table, &names)?;
@@ -151,12 +151,12 @@ struct Columns {
 
 impl Columns {
     /// The columns, if the table is a list of points.
-    fn of(table: &Table, names: &[String], told: &FileOfNumbers) -> Result<Option<Self>, String> {
+    fn of(table: &Table, names: &[String], format: &FileOfNumbers) -> Result<Option<Self>, String> {
         let (rows, columns) = (table.rows(), table.columns);
         let named = |axis| names.iter().position(|name| is_axis(name, axis));
         let lattice = |x, y| Lattice::of(table.column(x), table.column(y), rows);
         let of = |x, y, lattice| {
-            let value = value_column(columns, (x, y), names, told)?;
+            let value = value_column(columns, (x, y), names, format)?;
             Ok(Some(Self {
                 x,
                 y,
@@ -192,7 +192,7 @@ fn value_column(
     columns: usize,
     (x, y): (usize, usize),
     names: &[String],
-    told: &FileOfNumbers,
+    format: &FileOfNumbers,
 ) -> Result<usize, String> {
     let others: Vec<usize> = (0..columns).filter(|n| *n != x && *n != y).collect();
     let name = |n: usize| {
@@ -200,7 +200,7 @@ fn value_column(
             .get(n)
             .map_or_else(|| (n + 1).to_string(), Clone::clone)
     };
-    if let Some(channel) = &told.channel {
+    if let Some(channel) = &format.channel {
         let by_name = others.iter().find(|n| name(**n) == *channel);
         let by_number = channel.parse::<usize>().ok().map(|n| n.wrapping_sub(1));
         let by_number = by_number.filter(|n| others.contains(n));
@@ -222,12 +222,12 @@ fn value_column(
         }
     }
     let all: Vec<String> = others.iter().map(|n| format!("`{}`", name(*n))).collect();
-    let asked = told
+    let wanted = format
         .channel
         .as_ref()
         .map_or_else(String::new, |channel| format!("none is `{channel}`; "));
     Err(format!(
-        "points with {} columns beside x and y: {}: {asked}say which with channel",
+        "points with {} columns beside x and y: {}: {wanted}say which with channel",
         others.len(),
         all.join(", ")
     ))
@@ -235,7 +235,7 @@ fn value_column(
 
 /// Numbers of one kind or another, with what the caller says of them.
 struct Reader<'a> {
-    told: &'a FileOfNumbers,
+    format: &'a FileOfNumbers,
     /// Size of the unit that the caller gives.
     unit: Option<f64>,
 }
@@ -246,7 +246,7 @@ impl Reader<'_> {
         let Some(word) = word else {
             return Ok(self.unit.unwrap_or(1.0));
         };
-        let given = self.told.unit.as_deref().unwrap_or_default();
+        let given = self.format.unit.as_deref().unwrap_or_default();
         match (unit::named(word), self.unit) {
             (Some((Kind::Length, size)), None) => Ok(size),
             (Some((Kind::Length, size)), Some(unit)) if close(size, unit) => Ok(size),
@@ -265,11 +265,11 @@ impl Reader<'_> {
 
     /// Only a list of points, or a text of Gwyddion, has channels.
     fn check_channel(&self, has: Option<&str>) -> Result<(), String> {
-        match (&self.told.channel, has) {
-            (Some(asked), Some(has)) if asked != has => {
-                Err(format!("has the channel `{has}`, none `{asked}`"))
+        match (&self.format.channel, has) {
+            (Some(wanted), Some(has)) if wanted != has => {
+                Err(format!("has the channel `{has}`, none `{wanted}`"))
             }
-            (Some(asked), None) => Err(format!("has one channel without a name, none `{asked}`")),
+            (Some(wanted), None) => Err(format!("has one channel without a name, none `{wanted}`")),
             _ => Ok(()),
         }
     }
@@ -277,7 +277,7 @@ impl Reader<'_> {
     /// Numbers that stand in the order of their points.
     fn plain(&self, values: Array2<f64>, unit: Option<&str>) -> Result<Heights, String> {
         self.check_channel(None)?;
-        let spacing = self.told.spacing.ok_or_else(|| {
+        let spacing = self.format.spacing.ok_or_else(|| {
             let (nx, ny) = values.dim();
             format!("{nx} by {ny} plain numbers need the distance of the points in m, such as spacing = 2e-6")
         })?;
@@ -290,7 +290,7 @@ impl Reader<'_> {
 
     /// Numbers of a file that says the distance of their points \[m\].
     fn with_pitch(&self, values: Array2<f64>, said: (f64, f64)) -> Result<Heights, String> {
-        let spacing = match self.told.spacing {
+        let spacing = match self.format.spacing {
             None => said,
             Some(given) if close(given.0, said.0) && close(given.1, said.1) => given,
             Some((x, y)) => {
@@ -340,7 +340,7 @@ impl Reader<'_> {
         let values = values * self.scale(unit(*value))?;
         let pitch = lattice.pitch();
         let counts = close(pitch.0, 1.0) && close(pitch.1, 1.0) && unit(*x).or(unit(*y)).is_none();
-        match self.told.spacing {
+        match self.format.spacing {
             Some(spacing) if counts => Ok(Heights { values, spacing }),
             None if counts && self.unit.is_none() => Err(
                 "x and y of its points count them: say their distance in m, such as spacing = 2e-6, or their unit, \

@@ -8,7 +8,7 @@ use crate::solvers::Shear;
 
 /// Most rounds of clipping and balancing; after them the stick cells are taken to be too few for
 /// the missing force.
-const ROUNDS: usize = 8;
+const MOST_ROUNDS: usize = 8;
 
 /// Makes the shear admissible without a convolution: slip cells and cells beyond the bound are set
 /// on the circle |q| = g, cells outside the contact to zero, and stick cells share the missing
@@ -80,7 +80,7 @@ fn share_force(
         let q = q.map(|q| if inside { factor * q } else { 0.0 });
         (q, f64::from(u8::from(inside && !slips)))
     };
-    for _ in 0..ROUNDS {
+    for _ in 0..MOST_ROUNDS {
         let [q_x, q_y] = q;
         let from = ([bound], &*slip);
         let sums = if problem.drive.free[2] {
@@ -137,8 +137,8 @@ fn modes(x: f64, y: f64, [xx, xy, yy]: [f64; 3]) -> [f64; 6] {
 pub(crate) fn rounding(problem: &TangentialProblem<'_>) -> f64 {
     let finite = |g: f64| if g.is_finite() { g } else { 0.0 };
     let [carried] = sums([problem.bound], |_, [g]| [finite(g)]);
-    let asked = problem.drive.sums.iter().map(|s| s.abs()).sum::<f64>();
-    1e-13 * carried.max(asked)
+    let prescribed = problem.drive.sums.iter().map(|s| s.abs()).sum::<f64>();
+    1e-13 * carried.max(prescribed)
 }
 
 /// The part of the bound from which a cell counts as slipping.

@@ -41,7 +41,7 @@ pub(crate) fn exceeds(used: f64) -> bool {
 }
 
 /// Rounds that look for the motion under a force and a moment.
-const ROUNDS: usize = 200;
+const MOST_ROUNDS: usize = 200;
 
 /// The part of the limit that the loads of the free motions use.
 pub(crate) fn sliding(problem: &TangentialProblem<'_>) -> Sliding {
@@ -68,7 +68,7 @@ pub(crate) fn sliding(problem: &TangentialProblem<'_>) -> Sliding {
     // Fixed points of the weights g/|B m| climb to the largest ratio.
     let mut best = Sliding::default();
     let mut m = turned_by(problem, |_| 1.0);
-    for _ in 0..ROUNDS {
+    for _ in 0..MOST_ROUNDS {
         let used = dot(F, m) / friction_power(problem, m);
         let settled = used <= best.used * (1.0 + 1e-14);
         if used > best.used {

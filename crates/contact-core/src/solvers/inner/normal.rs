@@ -92,7 +92,7 @@ impl NormalWorkspace {
 /// Iterations without a smaller gap after which the preconditioner is dropped. It is built from the
 /// kernel cut off at the border of the grid; a kernel that reaches far beyond it (a stiff plate on
 /// a soft foundation) is badly approximated.
-const PATIENCE: usize = 50;
+const MOST_WITHOUT_GAIN: usize = 50;
 
 /// Solves for `p`, with `u_z` the total normal displacement, that under the shear included.
 ///
@@ -178,7 +178,7 @@ impl Descent {
         } else {
             self.since_best += 1;
         }
-        if self.since_best == PATIENCE && self.preconditioned {
+        if self.since_best == MOST_WITHOUT_GAIN && self.preconditioned {
             self.preconditioned = false;
             self.last_product = 0.0;
         }
@@ -279,27 +279,29 @@ impl Descent {
 const SUMMED: f64 = 1e-13;
 
 /// Most rounds of weighting and cutting that scale the pressure to its loads.
-const ROUNDS: usize = 20;
+const MOST_SCALINGS: usize = 20;
 
 /// Scales p to the force asked for, or weights it with a rigid motion, p (1 + B m), to the force
 /// and the moments.
 fn balance(problem: &NormalProblem<'_>, p: &mut [f64]) {
     let Drive {
-        free, sums: asked, ..
+        free,
+        sums: targets,
+        ..
     } = problem.drive;
     if free == [false; 3] {
         return;
     }
     if free[0] {
         let [sum] = sums([&*p], |_, [p]| [p]);
-        let factor = asked[0] / sum;
+        let factor = targets[0] / sum;
         set([], [p], |_, [], [p]| [p * factor]);
     }
     if free == [true, false, false] {
         return;
     }
     let enough = 1e-14 * p.iter().sum::<f64>();
-    for _ in 0..ROUNDS {
+    for _ in 0..MOST_SCALINGS {
         let missing = missing(problem, p);
         if missing.iter().all(|m| m.abs() <= enough) {
             return;

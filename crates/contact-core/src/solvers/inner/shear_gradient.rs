@@ -40,7 +40,7 @@ impl GradientBuffers {
 }
 
 /// Iterations without a smaller misfit after which the sets are taken to cycle.
-const PATIENCE: usize = 30;
+const MOST_WITHOUT_GAIN: usize = 30;
 /// Iterations of projected gradients after that: enough for a contact of some fifty cells across to
 /// reach the tolerance.
 const DESCENT: usize = 200;
@@ -62,7 +62,7 @@ pub(crate) fn shear_gradient(
     let mut last_product = 0.0;
     let (mut least, mut stalled) = (f64::INFINITY, 0);
     loop {
-        if stalled < PATIENCE {
+        if stalled < MOST_WITHOUT_GAIN {
             info.shift = first_shift(problem, shear);
         } else {
             info.shift = descent.run(response, problem, shear, DESCENT);

@@ -58,7 +58,7 @@ impl TangentialWorkspace {
 
 /// A slip set counts as settled when no slip cell moves along its shear by more than this part of
 /// the tolerance.
-const SETTLED: f64 = 0.1;
+const NEGLIGIBLE_CHANGE: f64 = 0.1;
 
 /// Target of the last conjugate gradients over the tolerance; the return to the circles adds an
 /// error.
@@ -185,7 +185,7 @@ impl<'a> Newton<'a> {
             system,
             params,
             c_xx: response.op.self_coefficients().0,
-            settled: SETTLED * params.tolerance,
+            settled: NEGLIGIBLE_CHANGE * params.tolerance,
             root: (cells.count() as f64).sqrt(),
             cells,
         }

@@ -19,7 +19,7 @@ const DEPTH: usize = 8;
 /// A pass is slow if the misfit after it is more than SLOW times that before.
 const SLOW: f64 = 0.5;
 /// Slow passes before the acceleration begins.
-const PATIENCE: usize = 2;
+const SLOW_PASSES: usize = 2;
 /// Accelerated passes in a row, none with a misfit below [`SLOW`] times the least, after which the
 /// damping is halved.
 const TRIALS: usize = 12;
@@ -79,9 +79,9 @@ impl Anderson {
         self.since_least = 0;
     }
 
-    /// Whether [`PATIENCE`] passes were slow, so that passes are combined.
+    /// Whether [`SLOW_PASSES`] passes were slow, so that passes are combined.
     pub(crate) fn accelerates(&self) -> bool {
-        self.enabled && self.slow_passes >= PATIENCE
+        self.enabled && self.slow_passes >= SLOW_PASSES
     }
 
     /// After a pass in which u_z under the shear changed by `change`: corrects `u_z` from the

@@ -10,7 +10,7 @@ use crate::solvers::Interface;
 
 /// First pass in which a cell that leaves the contact counts as lifted: the passes before find the
 /// contact.
-const FIRST: usize = 3;
+const FIRST_LIFTING_PASS: usize = 3;
 
 /// The numbers of such cells.
 #[derive(Debug, Default)]
@@ -25,7 +25,7 @@ impl Lifted {
     /// Adds the cells that the normal solver has taken out of the contact in a pass (from 1), with
     /// p = `p_before` before it.
     pub(super) fn find(&mut self, pass: usize, mu: &[f64], p_before: &[f64], now: &Interface) {
-        if pass < FIRST {
+        if pass < FIRST_LIFTING_PASS {
             return;
         }
         let left = |&n: &usize| mu[n].is_infinite() && p_before[n] > 0.0 && now.p[n] <= 0.0;

@@ -13,7 +13,7 @@ const TIED: f64 = 2e-5;
 
 /// The criterion as a function of its parts a and b.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Law {
+pub(crate) enum Combination {
     /// a + w b.
     Sum(f64),
     /// a + w b on the plane where a is largest, and b the larger of equal ones; the search
@@ -25,7 +25,7 @@ pub(crate) enum Law {
     Raised(f64),
 }
 
-impl Law {
+impl Combination {
     /// a + w b on the plane where a is largest.
     pub(crate) fn first(weight: f64) -> Self {
         Self::First { weight, tie: TIE }
