@@ -47,7 +47,7 @@ pub(crate) fn report(outcomes: &[Outcome], seconds: f64, threads: usize) -> Stri
     let share = 100.0 * solved as f64 / (total - refused).max(1) as f64;
     let _ = writeln!(
         text,
-        "| scenes, of these with other shapes than a sphere, that roll | {total}, {shaped}, {rolled} |\n|---|---|"
+        "| scenes, of these with another shape, that roll | {total}, {shaped}, {rolled} |\n|---|---|"
     );
     let _ = writeln!(
         text,

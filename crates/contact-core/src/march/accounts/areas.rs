@@ -12,8 +12,8 @@
 //!
 //! with Dundurs' beta and the shear q_n towards the inside on body 2 (a rim that slides on
 //! dissimilar bodies; M. Comninou, J. Appl. Mech. 43 (1976) 631). Of the laws in question the one
-//! with the straightest level is taken. Cells at a rim whose own level is another (a rough contact, a
-//! layer as thin as the cells), and those beside them, count whole.
+//! with the straightest level is taken. Cells at a rim whose own level is another (a rough contact,
+//! a layer as thin as the cells), and those beside them, count whole.
 //!
 //! Where a stick zone grows, cells come to stick with the shear with which they slipped, and their
 //! shortfall depends on the position of the border in every increment. There the slip s of the
