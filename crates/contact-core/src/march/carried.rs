@@ -35,117 +35,158 @@ pub(super) fn carried(problem: &Problem, state: &State, along: &Along, ratio: us
     let mirror = problem.plan.mirror;
     let kept = |(nx, ny): (usize, usize)| (nx, mirror.rows(ny));
     let (coarse, fine) = (kept(along.now.window), kept(state.window));
-    let now = &along.now;
-    let then = &embedded_state(&along.then, kept(along.then.window), coarse, mirror);
-    let on_fine = |weights: fn(f64) -> [f64; 4]| {
-        let of = |to: usize, from: usize, mirrored: bool| axis(to, from, ratio, mirrored, weights);
-        Interpolation {
-            columns: of(fine.0, coarse.0, false),
-            rows: of(fine.1, coarse.1, mirror == Mirror::Y),
-            width: coarse.1,
-        }
-    };
-    let (cubic, linear) = (on_fine(cubic), on_fine(linear));
-    let contact: Vec<f64> = now.interface.p.iter().map(|p| is(*p > 0.0)).collect();
-    let within = linear.of(&contact, Half::Even);
-    // Interpolates between cells in contact.
-    let masked = |of: &dyn Fn(usize) -> f64, half: Half| {
-        let field: Vec<f64> = (0..contact.len())
-            .map(|n| if contact[n] > 0.0 { of(n) } else { 0.0 })
-            .collect();
-        let mut on_fine = linear.of(&field, half);
-        for (value, within) in on_fine.iter_mut().zip(&within) {
-            *value = if *within > 0.0 { *value / within } else { 0.0 };
-        }
-        on_fine
-    };
-    let change = |now: &[f64], then: &[f64], half| masked(&|n| now[n] - then[n], half);
-
+    let then = embedded_state(&along.then, kept(along.then.window), coarse, mirror);
+    let change = Change::new(&along.now, &then, (coarse, fine), (ratio, mirror));
     let mut carried = state.clone();
-    let (halves, [i, j]) = ([Half::Even, Half::Odd], [&now.interface, &then.interface]);
-    for c in 0..2 {
-        let moved = cubic.of(&difference(&i.u[c], &j.u[c]), halves[c]);
-        add(&mut carried.interface.u[c], &moved);
-        add(
-            &mut carried.slip[c],
-            &change(&now.slip[c], &then.slip[c], halves[c]),
-        );
-    }
-    add(
-        &mut carried.interface.u_z,
-        &cubic.of(&difference(&i.u_z, &j.u_z), Half::Even),
-    );
-    let sums = [
-        (
-            &mut carried.slip_length,
-            &now.slip_length,
-            &then.slip_length,
-        ),
-        (&mut carried.dissipated, &now.dissipated, &then.dissipated),
-    ];
-    for (sum, now, then) in sums {
-        add(sum, &change(now, then, Half::Even));
-    }
-
-    let touches: Vec<bool> = state.interface.p.iter().map(|p| *p > 0.0).collect();
-    let total = |p: &[f64]| p.iter().sum::<f64>();
-    let share = total(&i.p) / total(&j.p);
-    let of_p = change(&i.p, &j.p, Half::Even);
-    let p = &mut carried.interface.p;
-    for (p, of_p) in p.iter_mut().zip(&of_p).filter(|(p, _)| **p > 0.0) {
-        *p = if *p + of_p > 0.0 { *p + of_p } else { *p };
-    }
-    let factor = share * total(&state.interface.p) / total(p);
-    if factor.is_finite() {
-        p.iter_mut().for_each(|p| *p *= factor);
-    }
-    let last = change(&i.p, &now.p_before, Half::Even);
-    let before = carried.interface.p.iter().zip(&last);
-    carried.p_before = before
-        .map(|(p, last)| if *p > 0.0 { (p - last).max(0.0) } else { 0.0 })
-        .collect();
-
-    let slips = masked(&|n| is(i.slip[n]), Half::Even);
-    let at_limit = masked(&|n| is(now.at_limit[n]), Half::Even);
-    let direction = [0, 1].map(|c| masked(&|n| i.q[c][n], halves[c]));
-    let of_q = [0, 1].map(|c| change(&i.q[c], &j.q[c], halves[c]));
-    let last = [0, 1].map(|c| change(&i.q[c], &now.q_before[c], halves[c]));
-    let mu = mu(problem, state.window);
-    for n in (0..touches.len()).filter(|&n| touches[n]) {
-        let interface = &mut carried.interface;
-        if within[n] > 0.0 {
-            interface.slip[n] = slips[n] > 0.5;
-            carried.at_limit[n] = at_limit[n] > 0.5;
-        }
-        let along = [direction[0][n], direction[1][n]];
-        let bound = mu(n) * interface.p[n];
-        let onto_bound = interface.slip[n] && size(along) > 0.0 && bound.is_finite();
-        for c in 0..2 {
-            let q = &mut interface.q[c][n];
-            *q = if onto_bound {
-                bound * along[c] / size(along)
-            } else {
-                *q + of_q[c][n]
-            };
-            carried.q_before[c][n] = *q - last[c][n];
-        }
-    }
-    // The sum of the shear is that of the loads: sticking cells share the difference.
-    for c in 0..2 {
-        let [now, then] = [i, j].map(|of| total(&of.q[c]));
-        let sum = total(&state.interface.q[c]) + (ratio * ratio) as f64 * (now - then);
-        let missing = sum - total(&carried.interface.q[c]);
-        let Interface { p, q, slip, .. } = &mut carried.interface;
-        let sticks = |n: &usize| p[*n] > 0.0 && !slip[*n];
-        let count = (0..p.len()).filter(sticks).count().max(1) as f64;
-        for n in (0..p.len()).filter(sticks) {
-            q[c][n] += missing / count;
-        }
-    }
-    carried.without_slip = now.without_slip;
+    change.displacements_and_sums(&mut carried);
+    change.pressure(&mut carried);
+    change.shear(&mut carried, mu(problem, state.window), ratio);
+    carried.without_slip = along.now.without_slip;
     // The gap beyond the window is unknown.
     carried.clear = 0.0;
     carried
+}
+
+const HALVES: [Half; 2] = [Half::Even, Half::Odd];
+
+/// Change of the coarse grid since the fine one was solved last.
+struct Change<'a> {
+    now: &'a State,
+    then: &'a State,
+    cubic: Interpolation,
+    linear: Interpolation,
+    /// 1 where the coarse cells are in contact, else 0.
+    contact: Vec<f64>,
+    /// The same interpolated to the fine cells.
+    within: Vec<f64>,
+}
+
+impl<'a> Change<'a> {
+    /// Between two states in the same window, from the kept cells of the coarse window to those of
+    /// the fine one.
+    fn new(
+        now: &'a State,
+        then: &'a State,
+        (coarse, fine): ((usize, usize), (usize, usize)),
+        (ratio, mirror): (usize, Mirror),
+    ) -> Self {
+        let on_fine = |weights: fn(f64) -> [f64; 4]| Interpolation {
+            columns: axis((fine.0, coarse.0), ratio, false, weights),
+            rows: axis((fine.1, coarse.1), ratio, mirror == Mirror::Y, weights),
+            width: coarse.1,
+        };
+        let (cubic, linear) = (on_fine(cubic), on_fine(linear));
+        let contact: Vec<f64> = now.interface.p.iter().map(|p| is(*p > 0.0)).collect();
+        Self {
+            now,
+            then,
+            within: linear.of(&contact, Half::Even),
+            cubic,
+            linear,
+            contact,
+        }
+    }
+
+    /// A field interpolated between cells in contact.
+    fn masked(&self, of: impl Fn(usize) -> f64, half: Half) -> Vec<f64> {
+        let field: Vec<f64> = (self.contact.iter().enumerate())
+            .map(|(n, contact)| if *contact > 0.0 { of(n) } else { 0.0 })
+            .collect();
+        let mut on_fine = self.linear.of(&field, half);
+        for (value, within) in on_fine.iter_mut().zip(&self.within) {
+            *value = if *within > 0.0 { *value / within } else { 0.0 };
+        }
+        on_fine
+    }
+
+    /// The change of a field from one to another, interpolated between cells in contact.
+    fn of(&self, to: &[f64], from: &[f64], half: Half) -> Vec<f64> {
+        self.masked(|n| to[n] - from[n], half)
+    }
+
+    fn displacements_and_sums(&self, carried: &mut State) {
+        let (now, then) = (self.now, self.then);
+        let (i, j) = (&now.interface, &then.interface);
+        for c in 0..2 {
+            let u = self.cubic.of(&difference(&i.u[c], &j.u[c]), HALVES[c]);
+            add(&mut carried.interface.u[c], &u);
+            let slip = self.of(&now.slip[c], &then.slip[c], HALVES[c]);
+            add(&mut carried.slip[c], &slip);
+        }
+        let u_z = self.cubic.of(&difference(&i.u_z, &j.u_z), Half::Even);
+        add(&mut carried.interface.u_z, &u_z);
+        let length = self.of(&now.slip_length, &then.slip_length, Half::Even);
+        add(&mut carried.slip_length, &length);
+        let dissipated = self.of(&now.dissipated, &then.dissipated, Half::Even);
+        add(&mut carried.dissipated, &dissipated);
+    }
+
+    fn pressure(&self, carried: &mut State) {
+        let (i, j) = (&self.now.interface, &self.then.interface);
+        let change = self.of(&i.p, &j.p, Half::Even);
+        let p = &mut carried.interface.p;
+        let sum = total(p) * total(&i.p) / total(&j.p);
+        for (p, change) in p.iter_mut().zip(&change).filter(|(p, _)| **p > 0.0) {
+            *p = if *p + change > 0.0 { *p + change } else { *p };
+        }
+        let factor = sum / total(p);
+        if factor.is_finite() {
+            for p in p.iter_mut() {
+                *p *= factor;
+            }
+        }
+        let last = self.of(&i.p, &self.now.p_before, Half::Even);
+        let before = p.iter().zip(&last);
+        carried.p_before = before
+            .map(|(p, last)| if *p > 0.0 { (p - last).max(0.0) } else { 0.0 })
+            .collect();
+    }
+
+    /// With the friction coefficient of a fine cell.
+    fn shear(&self, carried: &mut State, mu: impl Fn(usize) -> f64, ratio: usize) {
+        let (now, then) = (self.now, self.then);
+        let (i, j) = (&now.interface, &then.interface);
+        let slips = self.masked(|n| is(i.slip[n]), Half::Even);
+        let at_limit = self.masked(|n| is(now.at_limit[n]), Half::Even);
+        let direction = [0, 1].map(|c| self.masked(|n| i.q[c][n], HALVES[c]));
+        let change = [0, 1].map(|c| self.of(&i.q[c], &j.q[c], HALVES[c]));
+        let last = [0, 1].map(|c| self.of(&i.q[c], &now.q_before[c], HALVES[c]));
+        let Interface { p, q, slip, .. } = &mut carried.interface;
+        let sums = [0, 1].map(|c| {
+            let [now, then] = [i, j].map(|of| total(&of.q[c]));
+            total(&q[c]) + (ratio * ratio) as f64 * (now - then)
+        });
+        for n in (0..p.len()).filter(|&n| p[n] > 0.0) {
+            if self.within[n] > 0.0 {
+                slip[n] = slips[n] > 0.5;
+                carried.at_limit[n] = at_limit[n] > 0.5;
+            }
+            let along = [direction[0][n], direction[1][n]];
+            let bound = mu(n) * p[n];
+            let onto_bound = slip[n] && size(along) > 0.0 && bound.is_finite();
+            for c in 0..2 {
+                let q = &mut q[c][n];
+                *q = if onto_bound {
+                    bound * along[c] / size(along)
+                } else {
+                    *q + change[c][n]
+                };
+                carried.q_before[c][n] = *q - last[c][n];
+            }
+        }
+        // The sum of the shear is that of the loads: sticking cells share the difference.
+        let sticking: Vec<usize> = (0..p.len()).filter(|&n| p[n] > 0.0 && !slip[n]).collect();
+        for (q, sum) in q.iter_mut().zip(sums) {
+            let share = (sum - total(q)) / sticking.len().max(1) as f64;
+            for &n in &sticking {
+                q[n] += share;
+            }
+        }
+    }
+}
+
+fn total(field: &[f64]) -> f64 {
+    field.iter().sum()
 }
 
 /// Friction coefficient of the kept cells of a window.
@@ -199,8 +240,7 @@ struct Part {
 /// Weights along an axis: of `to` fine cells from `from` cells `ratio` times as long around the same
 /// middle, or of the upper halves of both (`mirrored`); beyond the last coarse cell its value.
 fn axis(
-    to: usize,
-    from: usize,
+    (to, from): (usize, usize),
     ratio: usize,
     mirrored: bool,
     weights: fn(f64) -> [f64; 4],

@@ -100,7 +100,6 @@ fn the_radius_on_a_thin_hard_coating_is_no_worse_than_that_of_whole_cells() {
                 let whole = (whole * scene.grid.cell_area() / std::f64::consts::PI).sqrt();
                 let [off, whole] = [increment.contact_radius, whole].map(|a| a / truth.a - 1.0);
                 let cell = scene.grid.dx / truth.a;
-                println!("E1/E2 = {ratio}, h = {h} a, n = {n}: {off:.4}, whole cells {whole:.4}");
                 assert!(off.abs() < WHOLE_CELLS * cell, "{off} of {cell}");
             });
         }
