@@ -1501,10 +1501,10 @@ class Settings:
         Largest error of the shear at the ends of branches that ``increments="auto"`` leaves, over
         the largest shear of the path (L2, default 5e-3).
     path_grid : "auto", "same" or int, optional
-        Cells along x of the grid for increments that are solved for the path alone (fields not kept,
-        not the end of a branch, constant normal force and tilting moments): a half or a quarter of
-        those of the grid; ``"same"``: the grid itself. ``"auto"`` (default): chosen with the
-        increments, such that ``path_tolerance`` holds; ``"same"`` where these are given.
+        Cells along x of the grid for increments that are solved for the path alone (fields not
+        kept, not the end of a branch, constant normal force and tilting moments): a half or a
+        quarter of those of the grid; ``"same"``: the grid itself. ``"auto"`` (default): chosen with
+        the increments, such that ``path_tolerance`` holds; ``"same"`` where these are given.
     turning : bool, optional
         Let slip follow the turn of the shear within an increment (default True): the path becomes
         of second order.

@@ -21,10 +21,9 @@
 
 use rayon::prelude::*;
 
-use super::State;
 use super::domain::embedded_state;
-use super::path_grid::Along;
 use super::problem::Problem;
+use super::state::{Along, State};
 use crate::cells::size;
 use crate::plan::{Half, Mirror};
 use crate::scene::Grid;

@@ -45,10 +45,10 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use self::domain::Domain;
-use self::path_grid::Along;
 use self::problem::{Largest, Problem};
 use self::retry::{CONVOLUTIONS, reach};
 use self::setup::{Failure, Workspace};
+use self::state::Along;
 use self::threads::with_busy_threads;
 use crate::convolution::{Convolutions, PARALLEL_FROM};
 use crate::error::Error;
@@ -202,12 +202,12 @@ impl March {
         Some(if self.coarse.is_some() {
             self.on_both_grids(&point)
         } else {
-            self.solve(&point)
+            self.advance_to(&point)
         })
     }
 
     /// Computes the increment to a point.
-    fn solve(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
+    fn advance_to(&mut self, point: &LoadPoint) -> Result<Increment, Error> {
         let before = self.domain.work();
         self.domain.allow(Convolutions::whole(CONVOLUTIONS));
         // The state in the window that it was found in, once that has changed.

@@ -25,13 +25,12 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use serde::{Deserialize, Serialize};
-
 use super::carried::carried;
 use super::coupling::coupling;
+use super::state::Along;
 use super::{Increment, March, Motion, State};
 use crate::error::Error;
-use crate::plan::{Mirror, Plan};
+use crate::plan::Plan;
 use crate::scene::{Grid, LoadPoint, PathGrid, SaveFields, Scene};
 
 /// Tolerance of increments that start from a carried state, over that of the scene.
@@ -40,38 +39,6 @@ const CARRIED_SHARE: f64 = 0.25;
 /// nu = 0 (128 cells, path on 64) is off by 8e-3, 1.2e-2, 0.10 and 0.69 at 0.3, 0.5, 0.7 and 1: a
 /// single increment from a carried state need not lead to the solution that small ones lead to.
 const MOST_COUPLING: f64 = 0.25;
-
-/// State of the coarse grid along the path.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Along {
-    /// At the last increment.
-    pub(super) now: State,
-    /// At the last increment that the fine grid was solved in or carried to.
-    pub(super) then: State,
-    /// That increment on the fine grid and on the coarse one.
-    rows: Option<[Increment; 2]>,
-}
-
-impl Along {
-    /// Before the first increment, with the coarse grid in that state.
-    pub(super) fn beginning(state: &State) -> Self {
-        Self {
-            now: state.clone(),
-            then: state.clone(),
-            rows: None,
-        }
-    }
-
-    /// Whether the fine grid is behind.
-    fn is_ahead(&self) -> bool {
-        self.now.increments > self.then.increments
-    }
-
-    /// Whether its fields have the size of a grid.
-    pub(super) fn fits(&self, grid: &Grid, mirror: Mirror) -> bool {
-        self.now.fits(grid, mirror) && self.then.fits(grid, mirror)
-    }
-}
 
 impl March {
     /// The march of the scene on its path grid; none where that is the grid itself.
@@ -127,14 +94,14 @@ impl March {
             Err(_) => {
                 self.catch_up();
                 (self.coarse, self.state.along) = (None, None);
-                return self.solve(point);
+                return self.advance_to(point);
             }
         };
         if !solves {
             return Ok(self.in_between(&on_coarse));
         }
         self.problem.share = if was_carried { CARRIED_SHARE } else { 1.0 };
-        let solved = self.solve(point);
+        let solved = self.advance_to(point);
         self.problem.share = 1.0;
         let Some(along) = &mut self.state.along else {
             return solved;

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Motion;
-use super::path_grid::Along;
+use super::{Increment, Motion};
 use crate::cells::Arms;
 use crate::plan::Mirror;
 use crate::scene::{Grid, LoadPoint, Loads};
@@ -118,5 +117,37 @@ impl State {
     pub(super) fn going_on(&self, point: &LoadPoint) -> Option<f64> {
         let step = point.loads.since(&self.loads, self.motion.motions());
         step.along(&self.step).filter(|_| self.increments > 1)
+    }
+}
+
+/// State of the coarse grid along the path.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Along {
+    /// At the last increment.
+    pub(super) now: State,
+    /// At the last increment that the fine grid was solved in or carried to.
+    pub(super) then: State,
+    /// That increment on the fine grid and on the coarse one.
+    pub(super) rows: Option<[Increment; 2]>,
+}
+
+impl Along {
+    /// Before the first increment, with the coarse grid in that state.
+    pub(super) fn beginning(state: &State) -> Self {
+        Self {
+            now: state.clone(),
+            then: state.clone(),
+            rows: None,
+        }
+    }
+
+    /// Whether the fine grid is behind.
+    pub(super) fn is_ahead(&self) -> bool {
+        self.now.increments > self.then.increments
+    }
+
+    /// Whether its fields have the size of a grid.
+    pub(super) fn fits(&self, grid: &Grid, mirror: Mirror) -> bool {
+        self.now.fits(grid, mirror) && self.then.fits(grid, mirror)
     }
 }
