@@ -27,7 +27,6 @@ use std::sync::atomic::AtomicBool;
 
 use super::carried::carried;
 use super::coupling::coupling;
-use super::state::Along;
 use super::{Increment, March, Motion, State};
 use crate::error::Error;
 use crate::plan::Plan;
