@@ -83,12 +83,16 @@ impl Run {
         let count = self.increments.len();
         let sum = |of: &dyn Fn(&Increment) -> f64| self.increments.iter().map(of).sum::<f64>();
         let [p, q, q_first] = self.errors(reference);
+        let cells = self.increments.iter().map(|i| i.path_grid).max();
+        let cells = cells.unwrap_or(1) as f64;
+        // In convolutions on the grid of the scene.
+        let work = |i: &Increment| i.work.convolutions * (i.path_grid as f64 / cells).powi(2);
         println!(
             "\"{}\",{count},{:.3},{:.0},{:.2},{:.2},{:.2},{:.2},{p:.2e},{q:.2e},{q_first:.2e}",
             self.settings.replace('"', "\"\""),
             self.seconds,
-            sum(&|i| i.work.convolutions),
-            sum(&|i| i.work.convolutions) / count as f64,
+            sum(&work),
+            sum(&work) / count as f64,
             sum(&|i| i.work.alternations as f64) / count as f64,
             sum(&|i| i.work.normal_iterations as f64) / count as f64,
             sum(&|i| i.work.tangential_iterations as f64) / count as f64,

@@ -53,6 +53,8 @@ class Crack:
             lengths = MICRO * self.cracks.lengths
             return f"{begun}, {in_words(lengths[0], 3)} to {in_words(lengths[-1], 3)} µm long."
         what = SAID[found.verdict].format(length=in_words(MICRO * (found.length or 0.0), 3))
+        if found.length is not None:
+            return f"{begun} {what}."
         return (
             f"{begun} {what}; its range of K is {found.margin:.3g} times the threshold where that "
             f"ratio is least, at {in_words(MICRO * found.margin_at, 3)} µm."
