@@ -73,6 +73,7 @@ class State(OfRun):
     alternations: xr.DataArray
     normal_iterations: xr.DataArray
     tangential_iterations: xr.DataArray
+    path_grid: xr.DataArray
     parts: xr.DataArray
     p: xr.DataArray
     q_x: xr.DataArray
