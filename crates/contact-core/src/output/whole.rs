@@ -23,7 +23,8 @@ pub(super) fn consolidated(folder: &Folder) -> Result<Consolidated, Error> {
     match consolidated.document(".zattrs")["schema"] {
         Value::Null => Err(folder.error(&"is not a result store (it has no schema)")),
         ref schema if *schema != SCHEMA => Err(folder.error(&format!(
-            "is a store of schema {schema}: this version reads schema {SCHEMA}"
+            "is a store of schema {schema}: this version reads schema {SCHEMA}; solve its scene again \
+             (the attribute `scene` holds it)"
         ))),
         _ if !whole && !text_has_sums(&text) => Err(folder.error(
             &"is a copy without checksums, as `save` or xarray write one: it can be opened in Python, but not be gone on \
