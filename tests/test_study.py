@@ -313,3 +313,25 @@ def test_a_friction_law_of_ones_own_goes_with_the_scene() -> None:
     made = fret.study.varied(scene, {"solver.path_tolerance": 0.01})
     assert made.friction.law is law
     assert fret.study.varied(scene, {"mu": 0.4}).friction == fret.Friction(0.4, law=law)
+
+
+def test_a_store_of_another_friction_law_is_another_study(tmp_path: Path) -> None:
+    def constant(x: object, y: object, p: object, slip: object, dissipated: object) -> float:
+        return 0.3
+
+    def higher(x: object, y: object, p: object, slip: object, dissipated: object) -> float:
+        return 0.5
+
+    path = fret.LoadPath.start().normal(1e3, increments=1)
+    place = tmp_path / "laws.zarr"
+
+    def solve(law: Any) -> fret.study.Study:
+        scene = sphere_on_flat(n=16).replace(mu=fret.Friction(0.3, law=law), path=path)
+        return fret.study.solve(
+            scene, {"path.0.W": [900.0]}, measure="p_max", executor=1, out=place, progress=False
+        )
+
+    solve(constant)
+    solve(constant)
+    with pytest.raises(fret.errors.StoreError, match=r"another study.*law"):
+        solve(higher)

@@ -115,6 +115,11 @@ def toml(value: Any) -> str:
     return json.dumps(value)
 
 
+def function_name(of: object) -> str:
+    """How a function is told from others: by its name."""
+    return f"function {getattr(of, '__qualname__', type(of).__qualname__)}"
+
+
 @dataclass(frozen=True)
 class Design:
     """The points of a study.
@@ -201,13 +206,15 @@ class Design:
             what = read_text(Path(source))
             files = self.files(Path(source), what)
         else:
-            what = f"function {getattr(source, '__qualname__', type(source).__qualname__)}"
+            what = function_name(source)
         design = {
             "parameters": dict(self.parameters),
             "combine": self.combine,
             "scene": what,
             "files": files,
         }
+        if isinstance(source, Scene) and callable(source.friction.law):
+            design["law"] = function_name(source.friction.law)
         return json.dumps(design)
 
     def files(self, scene: Path, text: str) -> dict[str, int]:

@@ -21,6 +21,7 @@ mod borders;
 mod climb;
 mod coarser;
 mod depth;
+mod divided;
 mod energy;
 mod envelope;
 mod extreme;
