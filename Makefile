@@ -38,7 +38,7 @@ validation: setup ## the validation book, every page from runs: docs/validation
 
 test: setup ## all tests: cargo, then pytest
 	cargo test --workspace --locked --release
-	$(PY) -m pytest
+	$(PY) -m pytest --numprocesses 2 --dist loadfile
 
 stress: ## 10 000 random scenes, 30 minutes at most; the numbers go to docs/reliability.md
 	FRET_STRESS=10000 FRET_STRESS_MINUTES=29 FRET_STRESS_REPORT=$(CURDIR)/docs/reliability.md \

@@ -329,14 +329,16 @@ def icf13(test: str, *, Q: float | None = None, n: int = 256) -> Experiment:
 def vanpeteghem2011(test: int) -> Experiment:
     """Ti-6Al-4V cylinder on flat, R = 80 mm, force constant: B. Van Peteghem, S. Fouvry, J. Petit.
 
-    Friction mu_e = 0.60 for all rows, alpha that of the frequency.
+    Friction mu_e = 0.55 for all rows, with which the energies of the tests under a constant force
+    are on average those measured (without test 6, whose stroke is suspect); alpha that of the
+    frequency.
     """
     row = next((r for r in table("vanpeteghem2011") if r["test"] == test), None)
     if row is None:
         raise ValueError(f"{test}: must be a test of the table vanpeteghem2011")
     slip, W = 0.5 * row["slip_stroke_m"], 8523 / 8e-3
     alpha = 5.349e-13 if row["frequency_Hz"] < 0.5 else 9.75e-14
-    scene = line(0.08, W, slip, 0.6, 2.6e-3)
+    scene = line(0.08, W, slip, 0.55, 2.6e-3)
     law = wearing.DissipatedEnergy(alpha)
     return Experiment(
         "B. Van Peteghem, S. Fouvry, J. Petit, Wear 271 (2011) 1535-1542, "

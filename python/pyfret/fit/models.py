@@ -26,6 +26,8 @@ Curve: TypeAlias = "Callable[[NDArray[np.float64]], NDArray[np.float64]]"
 
 #: Increments of a way of the loop and of an indentation, where the scene's path says nothing else.
 WAY, INDENTATION = 24, 16
+#: Default tolerance of the jumps of a run of wear.
+TOLERANCE = 0.01
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -41,14 +43,16 @@ class Model(Measured):
     solves : int
         Solves that one prediction takes.
     predict : callable
-        What the numbers measured should have been under a scene, given offsets afterwards.
+        What the numbers measured should have been under a scene, given offsets afterwards; with
+        the usual increments and jumps, or ``finer`` = 1/2 for half as many.
     """
 
     offsets: tuple[str, ...]
     scales: NDArray[np.float64]
     solves: int
     predict: Callable[
-        [Scene, Mapping[str, float]], Callable[[NDArray[np.float64]], NDArray[np.float64]]
+        [Scene, Mapping[str, float], float],
+        Callable[[NDArray[np.float64]], NDArray[np.float64]],
     ]
     noise: float | None
 
@@ -97,12 +101,12 @@ def of_loops(data: Loops) -> Model:
     force = 0.5 * float(np.median([np.ptp(data.T[data.cycle == n]) for n in cycles]))
 
     def predict(
-        scene: Scene, _: Mapping[str, float]
+        scene: Scene, _: Mapping[str, float], finer: float
     ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
         W = data.W if data.W is not None else normal_force(scene)
         path = LoadPath.start().normal(W, increments=1).rig(scene.path.rig_stiffness)
         for to, ways in ((reach, 0.5), (-reach, 1.0), (reach, 1.0)):
-            path = path.displace(delta_x=to, increments=round(WAY * ways))
+            path = path.displace(delta_x=to, increments=round(WAY * ways * finer))
         d = growing(scene, lambda s: solve(s, path, save=[len(path)], progress=False)).dataset
         branch = d.branch_of_increment.values
         shift, T = d.delta_x.values, d.T_x.values
@@ -130,10 +134,10 @@ def of_indentation(data: Indentation) -> Model:
     most = float(data.W.max())
 
     def predict(
-        scene: Scene, _: Mapping[str, float]
+        scene: Scene, _: Mapping[str, float], finer: float
     ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
         path = LoadPath.start()
-        steps = np.linspace(0, 1, INDENTATION + 1)[1:] ** 1.5
+        steps = np.linspace(0, 1, round(INDENTATION * finer) + 1)[1:] ** 1.5
         for part in steps:
             path = path.normal(most * float(part), increments=1)
         d = growing(scene, lambda s: solve(s, path, save=[len(path)], progress=False)).dataset
@@ -153,9 +157,9 @@ def of_scar(data: Scar) -> Model:
     half = float(np.ptp(data.x[data.depth > 0.1 * data.depth.max()])) / 2
 
     def predict(
-        scene: Scene, values: Mapping[str, float]
+        scene: Scene, values: Mapping[str, float], finer: float
     ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
-        arguments = wear_arguments(data.wear, values)
+        arguments = jumping(wear_arguments(data.wear, values), finer)
         d = growing(scene, lambda s: wear.solve(s, progress=False, **arguments)).dataset
         fields = {1: d.worn1, 2: d.worn2, 0: d.worn1 + d.worn2}
         profile = fields[data.body][-1].sel(y=0.0, method="nearest")
@@ -176,11 +180,11 @@ def of_lives(data: Lives) -> Model:
     """Lives: ln of the cycles to a part of the thickness in each test."""
 
     def predict(
-        scene: Scene, values: Mapping[str, float]
+        scene: Scene, values: Mapping[str, float], finer: float
     ) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
         found = []
         for n, settings in enumerate(data.settings):
-            arguments = wear_arguments(data.wear, {**values, **split(settings)[1]})
+            arguments = jumping(wear_arguments(data.wear, {**values, **split(settings)[1]}), finer)
             arguments.setdefault("cycles", 4 * float(data.cycles[n]))
             worn = wear.solve(varied(scene, split(settings)[0]), progress=False, **arguments)
             cycles = worn.cycles_to(part_of_coating=data.part, body=data.body)
@@ -194,6 +198,16 @@ def of_lives(data: Lives) -> Model:
     along = np.arange(count, dtype=float)
     measured = np.log(data.cycles)
     return Model(data, measured, along, labels, (), np.zeros(0), count, predict, data.noise)
+
+
+def jumping(arguments: dict[str, Any], finer: float) -> dict[str, Any]:
+    """The arguments of a run of wear with so many times the jumps."""
+    counted = [key for key in ("jumps", "explicit_jumps") if arguments.get(key) is not None]
+    if finer == 1:
+        return arguments
+    if counted:
+        return arguments | {key: max(round(finer * arguments[key]), 1) for key in counted}
+    return arguments | {"tolerance": (arguments.get("tolerance") or TOLERANCE) / finer}
 
 
 def growing(scene: Scene, run: Callable[[Scene], T]) -> T:

@@ -34,7 +34,7 @@ class Known:
     value, low, high : float
         Best value, and the ends of its 95 % confidence interval.
     noise, solver : float
-        Parts of the half-width: scatter of the data, and what the grid leaves.
+        Parts of the half-width: scatter of the data, and what cells and increments leave.
     at_bound : bool
         Whether the best value lies at the end of what was allowed.
     """
@@ -68,7 +68,8 @@ class Found(HoldsArrays):
     solves : int
         Contacts solved.
     grid_known : bool
-        Whether cells twice as wide told what the grid leaves; else the confidence holds none of it.
+        Whether cells twice as wide and half of the increments told what these leave; else the
+        confidence holds none of it.
     converged : bool
         Whether the search ended by itself.
     scene : Scene
@@ -131,8 +132,8 @@ class Found(HoldsArrays):
                 )
         if not self.grid_known:
             said.append(
-                "cells twice as wide could not be solved: what the grid leaves is not in the "
-                "confidence; give more cells"
+                "cells twice as wide, or half of the increments, could not be solved: what they "
+                "leave is not in the confidence; give more cells"
             )
         if not self.converged:
             said.append(f"the search did not settle in {self.solves} solves")

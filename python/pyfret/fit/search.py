@@ -3,8 +3,8 @@
 Every evaluation is a solve, so the Jacobian takes one for each unknown, solved side by side. The
 offsets of gauges are unknowns as well, but cost none. The step of the differences is far above
 what the solver's tolerance leaves of a prediction. At the end the scene is solved once more on
-cells twice as wide; what that moves the unknowns, to first order, is the solver's part of the
-confidence.
+cells twice as wide, and once with half of the increments (of the jumps, where it wears); what
+these move the unknowns, to first order, is the solver's part of the confidence.
 
 The confidence of an unknown is that of the linear model where it is narrow. Where it is wide the
 model is not linear over it: each end is moved outwards to where the sum of squares, least over
@@ -170,7 +170,7 @@ class Search:
     ranges: list[Range]
     workers: int
     solves: int = 0
-    #: Whether cells twice as wide could be solved, too.
+    #: Whether cells twice as wide and half of the increments could be solved, too.
     grid_known: bool = True
     known: dict[tuple[float, ...], list[Any]] = field(default_factory=dict)
 
@@ -194,12 +194,12 @@ class Search:
         """Values of the unknowns."""
         return {r.key: r.value(float(x)) for r, x in zip(self.ranges, u, strict=False)}
 
-    def predictions(self, scene: Scene, u: tuple[float, ...]) -> list[Any]:
-        """Solve all models."""
+    def predictions(self, scene: Scene, u: tuple[float, ...], finer: float = 1.0) -> list[Any]:
+        """Solve all models, with so many times their increments."""
         values = self.values(u)
         of_scene, _ = split(values)
         changed = varied(scene, of_scene) if of_scene else scene
-        return [model.predict(changed, values) for model in self.models]
+        return [model.predict(changed, values, finer) for model in self.models]
 
     def solved(self, points: list[tuple[float, ...]]) -> None:
         """Solve at points that are not known yet, side by side."""
@@ -291,7 +291,8 @@ class Search:
         for k, r in enumerate(self.ranges):
             if t * spread[k] * r.width > WIDE and min(u[k], 1 - u[k]) > 0:
                 half[k] = self.profile(x, k, covariance, (jacobian, t * np.sqrt(left)))
-        moved = np.abs((inverse.T / scale).T[:n] @ self.grid_error(u, gauges))
+        to_unknowns = (inverse.T / scale).T[:n]
+        moved = sum(np.abs(to_unknowns @ off) for off in self.solver_errors(u, gauges))
         known = {}
         for k, r in enumerate(self.ranges):
             value = r.value(u[k])
@@ -367,17 +368,27 @@ class Search:
 
         return end(-1, x[k]), end(1, 1 - x[k])
 
-    def grid_error(self, u: tuple[float, ...], gauges: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Change of what is computed on cells twice as wide: more than the grid itself leaves."""
+    def solver_errors(
+        self, u: tuple[float, ...], gauges: NDArray[np.float64]
+    ) -> list[NDArray[np.float64]]:
+        """Changes of what is computed on cells twice as wide and with half of the increments.
+
+        Each is more than cells and increments leave themselves.
+        """
+        here = self.weighted(self.known[u], gauges)
         coarse = self.scene.replace(grid=coarser(self.scene.grid))
-        try:
-            predictions = self.predictions(coarse, u)
-        except (RuntimeError, ValueError):
-            # On cells that are too wide for the contact there is no telling.
-            self.grid_known = False
-            return np.zeros_like(self.weighted(self.known[u], gauges))
-        self.solves += sum(model.solves for model in self.models)
-        return self.weighted(predictions, gauges) - self.weighted(self.known[u], gauges)
+        changes = []
+        for scene, finer in ((coarse, 1.0), (self.scene, 0.5)):
+            try:
+                predictions = self.predictions(scene, u, finer)
+            except (RuntimeError, ValueError):
+                # On cells that are too wide for the contact there is no telling.
+                self.grid_known = False
+                changes.append(np.zeros_like(here))
+            else:
+                changes.append(self.weighted(predictions, gauges) - here)
+                self.solves += sum(model.solves for model in self.models)
+        return changes
 
 
 def coarser(grid: Grid) -> Grid:
