@@ -2,12 +2,13 @@
 //!
 //! In rounds: the path is run on a coarse grid, the error of every branch estimated (`path_error`),
 //! and a branch whose error is too large gets more increments, by the order with which its error
-//! has fallen.
+//! has fallen. Branches that repeat earlier ones, as those of cycles do, get what these get.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::path_grid::choose_path_grid;
+use super::repeats::Repeats;
 use super::trial::Trial;
 use super::two_runs::PathError;
 use crate::error::Error;
@@ -97,30 +98,39 @@ struct Choice {
     most_inherited: f64,
     /// `solver.path_tolerance`.
     tolerance: f64,
+    repeats: Repeats,
 }
 
 impl Choice {
     fn new(scene: &Scene, path: LoadPath) -> Self {
-        let branches = &scene.path.branches;
+        let branches = scene.path.branches.iter();
+        let open: Vec<bool> = branches.map(|b| b.increments.is_none()).collect();
         Self {
-            path,
-            open: branches.iter().map(|b| b.increments.is_none()).collect(),
-            before: vec![None; branches.len()],
+            before: vec![None; open.len()],
             most_inherited: INHERITED.1,
             tolerance: scene.settings.solver.path_tolerance,
+            repeats: if scene.friction.varies() {
+                Repeats::none(&path)
+            } else {
+                Repeats::new(&path, &open)
+            },
+            path,
+            open,
         }
     }
 
     /// Rounds until the error of every branch is allowed; returns whether it is.
     fn settle(&mut self, trial: &mut Trial) -> Result<bool, Error> {
-        let last = self.path.branches.len() - 1;
+        let last = self.repeats.last();
         let mut until = last;
         for _ in 0..MOST_ROUNDS {
             let mut part = self.path.clone();
             part.branches.truncate(until + 1);
             // Only the increments that are chosen are varied.
             let errors = trial.errors(&part, |k| self.open[k])?;
-            until = match self.refine(&errors) {
+            let unsettled = self.refine(&errors);
+            self.repeats.fill(&mut self.path.branches);
+            until = match unsettled {
                 None if until == last => return Ok(true),
                 // The branches after a growth of contact depend on it: they are judged once it is
                 // refined.

@@ -9,6 +9,7 @@ mod finer;
 mod numbers;
 mod path_error;
 mod path_grid;
+mod repeats;
 mod trial;
 mod two_runs;
 

@@ -83,6 +83,11 @@ impl Friction {
         self.mu_y.map_or(1.0, |mu_y| mu_y / self.mu)
     }
 
+    /// Whether the coefficient of a cell changes along the path.
+    pub(crate) fn varies(&self) -> bool {
+        self.kinetic.is_some() || self.history.is_some() || self.law.is_some()
+    }
+
     /// The tangential force that friction carries at most under `W`, if the law says so alone.
     pub(crate) fn limit(&self, W: f64) -> Option<f64> {
         let plain = self.mu_y.is_none()

@@ -295,14 +295,11 @@ impl Scene {
         let (nx, ny) = (self.grid.nx, self.grid.ny);
         let divides = |ratio: &usize| nx.is_multiple_of(2 * ratio) && ny.is_multiple_of(2 * ratio);
         let rolls = self.path.branches.iter().any(|b| b.to.rolled != 0.0);
-        let friction = &self.friction;
-        let varies =
-            friction.kinetic.is_some() || friction.history.is_some() || friction.law.is_some();
         let same = if self.grid.plane_strain {
             Some("in plane strain")
         } else if rolls {
             Some("where the bodies roll")
-        } else if varies {
+        } else if self.friction.varies() {
             Some("where the coefficient of friction changes along the path")
         } else if self.settings.solver.preset == Preset::Spinu2020 {
             Some("with the preset spinu2020")

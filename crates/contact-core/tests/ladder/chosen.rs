@@ -103,6 +103,40 @@ fn a_coated_loop_has_its_stiffness_after_a_reversal() {
     }
 }
 
+/// The increments of a cycle that repeats are those of the first like it, with its error; given
+/// increments stay.
+#[test]
+fn cycles_get_the_increments_of_the_first() {
+    let T = LOOP * MU * W;
+    let coated_with = |path: LoadPath| {
+        let lower = Elastic { E: 100e9, nu: 0.3 };
+        let scene = sphere_on_flat(STEEL, lower, MU, (2.4, 32), path);
+        let a = hertz_of(&scene).a;
+        coated(scene, Elastic { E: 420e9, nu: 0.3 }, a)
+    };
+    let around = |path: LoadPath, of| path.tangential(&[T, -T], of);
+    let mut path = LoadPath::start().normal(W, None);
+    for of in [None, None, Some(10), None, None] {
+        path = around(path, of);
+    }
+    let scene = coated_with(path);
+    let chosen = chosen(&scene);
+    let branches = &chosen.path.branches;
+    let counts: Vec<_> = branches.iter().map(|b| b.increments).collect();
+    assert_eq!(counts[5..7], [Some(5), Some(5)]);
+    assert_eq!(counts[3..5], counts[7..9]);
+    assert_eq!(counts[7..9], counts[9..11]);
+    assert_ne!(counts[3], counts[5]);
+    let mut many = scene.clone();
+    for (branch, of) in many.path.branches.iter_mut().zip(branches) {
+        branch.increments = of.increments.map(|n| 8 * n);
+        branch.spacing = of.spacing;
+    }
+    let error = distance(&shear(&chosen), &shear(&many));
+    let tolerance = scene.settings.solver.path_tolerance;
+    assert!(error < tolerance, "{error:.2e} of {tolerance:.0e}");
+}
+
 /// The shear at the end of a path.
 fn shear(scene: &Scene) -> [Array2<f64>; 2] {
     let mut q = None;

@@ -124,8 +124,8 @@ impl Neighbours {
     pub(super) fn of(&self, n: usize, reach: isize) -> impl Iterator<Item = Neighbour> {
         let (i, j) = self.lattice.place(n);
         let clear = self.lattice.is_clear(n, reach);
-        let near = self.ways.iter().take_while(move |way| way.is_within(reach));
-        near.filter_map(move |way| {
+        let within = self.ways.partition_point(|way| way.is_within(reach));
+        self.ways[..within].iter().filter_map(move |way| {
             let row = j + way.rows;
             let cell = if clear {
                 (n as isize + way.step) as usize

@@ -229,24 +229,29 @@ fn hold_back(
         let next = &entering[k];
         let root = next.view.root();
         let own = contact.screened.own(root);
-        let around = |stage: Stage| {
-            contact.cells.of(next.cell, REACH).filter_map(move |near| {
-                let k = places[near.cell].filter(|&k| entering[k].stage == stage)?;
-                let response = match near.square {
-                    0 => own,
-                    _ => (contact.screened).between(&near, [entering[k].view.root(), root]),
-                };
-                Some((k, near, response))
-            })
-        };
-        let with = around(Stage::Enters).map(|(k, _, response)| response * entering[k].closing);
+        let (first, mut with) = (held_back.len(), 0.0);
+        for near in contact.cells.of(next.cell, REACH) {
+            let Some(k) = places[near.cell].filter(|&k| entering[k].stage != Stage::Inside) else {
+                continue;
+            };
+            let other = &entering[k];
+            let response = match near.square {
+                0 => own,
+                _ => (contact.screened).between(&near, [other.view.root(), root]),
+            };
+            if other.stage == Stage::Enters {
+                with += response * other.closing;
+            } else {
+                held_back.push((k, near.back(), response));
+            }
+        }
         // Pressure lifts neighbours on a thin soft layer: their (negative) response counts for at
         // most half of the cell's own.
-        let closing = with.sum::<f64>().max(0.5 * own * next.closing);
+        let closing = with.max(0.5 * own * next.closing);
         let pressure = next.closing * next.closing / closing;
-        held_back.extend(
-            around(Stage::Outside).map(|(k, near, response)| (k, near.back(), pressure * response)),
-        );
+        for (_, _, by) in &mut held_back[first..] {
+            *by *= pressure;
+        }
     }
 }
 

@@ -1,0 +1,45 @@
+//! Branches that repeat earlier ones: the increments of a cycle are chosen once.
+
+use crate::scene::{Branch, LoadPath};
+
+/// For each branch, the first one that leads from the same loads to the same loads in increments
+/// of the same kind.
+pub(super) struct Repeats(Vec<usize>);
+
+impl Repeats {
+    /// Of a path with the increments of the first round, chosen in the `open` branches.
+    pub(super) fn new(path: &LoadPath, open: &[bool]) -> Self {
+        let branches = &path.branches;
+        let from = |k: usize| k.checked_sub(1).map(|before| branches[before].to);
+        let alike = |k: usize, other: usize| {
+            let ([a, b], froms) = ([k, other].map(|n| &branches[n]), [k, other].map(from));
+            a.to == b.to
+                && froms[0] == froms[1]
+                && (open[k], a.increments, a.spacing) == (open[other], b.increments, b.spacing)
+        };
+        let first = |k| (0..k).find(|&other| alike(k, other)).unwrap_or(k);
+        Self((0..branches.len()).map(first).collect())
+    }
+
+    /// Where every branch is one of its own.
+    pub(super) fn none(path: &LoadPath) -> Self {
+        Self((0..path.branches.len()).collect())
+    }
+
+    /// The last branch that repeats no other: those after it are known from those up to it.
+    pub(super) fn last(&self) -> usize {
+        self.0.iter().copied().max().unwrap_or_default()
+    }
+
+    /// Gives branches the increments and the errors of those that they repeat.
+    pub(super) fn fill(&self, branches: &mut [Branch]) {
+        for (k, &of) in self.0.iter().enumerate() {
+            let Branch {
+                increments,
+                path_error,
+                ..
+            } = branches[of];
+            (branches[k].increments, branches[k].path_error) = (increments, path_error);
+        }
+    }
+}
