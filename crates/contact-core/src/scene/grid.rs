@@ -109,7 +109,7 @@ impl Grid {
     }
 
     /// `f(x, y)` at every cell centre, shape (nx, ny).
-    pub fn map(&self, f: impl Fn(f64, f64) -> f64) -> Array2<f64> {
+    pub fn map(&self, mut f: impl FnMut(f64, f64) -> f64) -> Array2<f64> {
         Array2::from_shape_fn((self.nx, self.ny), |(i, j)| f(self.x(i), self.y(j)))
     }
 

@@ -66,7 +66,7 @@ fn the_shift_follows_the_springs() {
         ..Config::default()
     };
     let mut runner = TestRunner::new(config);
-    for n in 0..10 {
+    for n in 0..5 {
         let points = waypoints().new_tree(&mut runner).expect("a path").current();
         let fine = error(&points, 60, 40);
         assert!(fine < ALLOWED, "path {n}: {fine}");

@@ -1,5 +1,7 @@
 //! One coating, no friction: the integral-equation solution, any indenter.
 
+use std::collections::HashMap;
+
 use contact_core::reference::{CoatedIndentation, coated_indentation, hertz};
 use contact_core::scene::{Body, Coating, Elastic, Grid, LoadPath, Scene, Shape};
 use serde_json::Value;
@@ -15,8 +17,13 @@ fn compare(scene: &Scene, truth: &CoatedIndentation) {
     let h = scene.body2.coatings[0].thickness;
     let narrow = (scene.grid.dx / h).powi(2);
     let smooth = SMOOTH * (d * d + narrow) + 1e-4;
+    // Eight cells of a round contact have one radius.
+    let mut known = HashMap::new();
+    let exact = scene.grid.map(|x, y| {
+        let r = x.hypot(y);
+        *known.entry(r.to_bits()).or_insert_with(|| truth.p(r))
+    });
     run(scene, |march, increment| {
-        let exact = scene.grid.map(|x, y| truth.p(x.hypot(y)));
         let p = march.fields().p;
         let highest = truth.p(scene.grid.dx / 2f64.sqrt());
         // The pressure a few cells inside tells less of the rim where it changes over the coating's

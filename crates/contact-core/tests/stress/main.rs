@@ -30,8 +30,8 @@ use campaign::{Fate, LIMIT, Outcome, outcome};
 
 /// Scenes that take longer are told at once, like those that fail \[s\].
 const SLOW: f64 = 20.0;
-/// Scenes of the slice: half a minute on two cores.
-const SLICE: u64 = 400;
+/// Scenes of the slice: a minute on two cores.
+const SLICE: u64 = 120;
 
 fn number(variable: &str) -> Option<u64> {
     std::env::var(variable).ok().map(|n| n.parse().unwrap())
