@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pyfret._core import LoadPath
+    from pyfret._core import _FrictionFunction as FrictionFunction
     from pyfret._core import _WearLaw as WearLaw
 
 __all__ = ["WearResult", "open", "resume", "solve"]
@@ -397,6 +398,7 @@ def resume(
     *,
     body1: WearLaw | list[WearLaw | None] | None = None,
     body2: WearLaw | list[WearLaw | None] | None = None,
+    friction_law: FrictionFunction | None = None,
     progress: bool = True,
 ) -> WearResult:
     """Go on with a run of :func:`solve` or ``fret wear`` that ended early, to the same bits.
@@ -407,6 +409,8 @@ def resume(
         Store of the run.
     body1, body2 : law or list of laws, optional
         Functions that the run wore by, which no store can hold.
+    friction_law : callable, optional
+        The function of its friction, ``Friction(mu, law=...)``, which no store can hold either.
     progress : bool
         Whether to draw a progress bar.
 
@@ -416,7 +420,7 @@ def resume(
         There is no run of wear, or its checkpoint is damaged or of another version of pyfret.
     """
     with Progress(title="resumed", shown=progress):
-        _core.resume_wear(store, body1=body1, body2=body2)
+        _core.resume_wear(store, body1=body1, body2=body2, friction_law=friction_law)
     return open(store)
 
 
