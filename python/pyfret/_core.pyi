@@ -107,6 +107,7 @@ __all__ = [
     "partial_crack",
     "principal",
     "probe_labels",
+    "read_text",
     "residual_of_layers",
     "resume",
     "resume_wear",
@@ -3083,6 +3084,9 @@ def wear(
     on_jump: Callable[[float], None] | None = None,
 ) -> None:
     """Runs a scene over many cycles into a store."""
+
+def read_text(path: str | PathLike[str]) -> str:
+    """The text of a file of numbers, in UTF-8, UTF-16 or Latin-1."""
 
 def verify_wear(store: str | PathLike[str]) -> None:
     """Fails if a file of the store of a run of wear is missing, or is not as it was written."""
