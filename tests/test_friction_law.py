@@ -154,19 +154,19 @@ def test_a_run_goes_on_with_its_law_bit_by_bit(tmp_path: Path) -> None:
 
 
 def by_energy(x: Any, y: Any, p: Any, slip: Any, dissipated: Any) -> Any:
-    return MU * np.interp(dissipated, [0.0, 1e8], [1.0, 0.6])
+    return MU * np.interp(dissipated, [0.0, 1e7], [1.0, 0.7])
 
 
 def test_over_cycles_of_wear_a_law_gives_what_the_same_table_gives() -> None:
-    table = fret.Friction(MU, history=(fret.History.DISSIPATED, [(0.0, 1.0), (1e8, 0.6)]))
+    table = fret.Friction(MU, history=(fret.History.DISSIPATED, [(0.0, 1.0), (1e7, 0.7)]))
     constant, by_table, by_law = (
         worn(scene(by_energy).replace(mu=mu)).dataset
         for mu in (MU, table, fret.Friction(MU, law=by_energy))
     )
     # Each coefficient is settled to a thousandth.
-    np.testing.assert_allclose(by_law.volume2, by_table.volume2, rtol=1e-2)
-    np.testing.assert_allclose(by_law.dissipated, by_table.dissipated, rtol=1e-2)
-    assert abs(float(by_law.volume2[-1] / constant.volume2[-1]) - 1.0) > 0.1
+    np.testing.assert_allclose(by_law.volume2, by_table.volume2, rtol=1e-3)
+    np.testing.assert_allclose(by_law.dissipated, by_table.dissipated, rtol=1e-3)
+    assert abs(float(by_law.volume2[-1] / constant.volume2[-1]) - 1.0) > 0.05
 
 
 def test_a_run_of_wear_goes_on_with_its_law_bit_by_bit(tmp_path: Path) -> None:
