@@ -235,8 +235,7 @@ class Life(Labelled):
             plane = f", plane {w.inclination:.1f} degrees from the surface normal"
         return (
             f"Life({self.dataset.attrs['criterion']}, {name} {w.margin:.4g} at "
-            f"x = {w.x:.4g} m, y = {w.y:.4g} m, z = {w.z:.4g} m, layer {w.layer}{plane})"
-            + "".join(f"\n  {note}" for note in self.notes)
+            f"{place(w)}{plane})" + "".join(f"\n  {note}" for note in self.notes)
         )
 
 

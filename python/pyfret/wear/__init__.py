@@ -2,8 +2,8 @@
 
 A run of wear is solved, opened and gone on with::
 
-worn = fret.wear.solve(scene, cycles=18e3, body2=fret.wear.Archard(k=1e-13))
-worn.depth2[-1]
+    worn = fret.wear.solve(scene, cycles=18e3, body2=fret.wear.Archard(k=1e-13))
+    worn.depth2[-1]
 """
 
 from pyfret._core import Archard, DissipatedEnergy
