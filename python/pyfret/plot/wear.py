@@ -13,7 +13,7 @@ from pyfret.plot.style import axes, styled
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from pyfret.wear.runs import WearResult
+    from pyfret.wear.result import WearResult
 
 #: What is drawn of a worn pair.
 Which = Literal["body1", "body2", "both"]

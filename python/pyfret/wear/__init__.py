@@ -8,7 +8,8 @@ worn.depth2[-1]
 
 from pyfret._core import Archard, DissipatedEnergy
 from pyfret._util.names import called, listing
-from pyfret.wear.runs import WearResult, open, resume, solve
+from pyfret.wear.result import WearResult
+from pyfret.wear.runs import open, resume, solve
 
 __all__ = ["Archard", "DissipatedEnergy", "WearResult", "open", "resume", "solve"]
 __dir__ = listing(__all__)
