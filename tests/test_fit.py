@@ -150,6 +150,27 @@ def test_separators_and_units_are_seen(tmp_path: Path, head: str) -> None:
     assert table.names == ("d", "T")
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+@pytest.mark.parametrize(
+    ("head", "mark"),
+    [
+        ("Weg [µm];Kraft [N]", ";"),
+        ("Weg;Kraft\nµm;N", ";"),
+        ("delta_x\tT_x\n[µm]\t[N]", "\t"),
+        ("delta T\nµm N", " "),
+    ],
+)
+def test_loops_are_read_in_any_encoding_with_units_in_the_head_or_below_it(
+    tmp_path: Path, encoding: str, head: str, mark: str
+) -> None:
+    file = tmp_path / "loop.csv"
+    rows = ["-1,5 -2", "0 0,5", "1,5 2", "0 -0,5", "-1,5 -2,0"]
+    file.write_text("\n".join([head, *(r.replace(" ", mark) for r in rows)]), encoding=encoding)
+    loop = fret.fit.loops(file)
+    np.testing.assert_allclose(loop.delta, [-1.5e-6, 0.0, 1.5e-6, 0.0, -1.5e-6])
+    np.testing.assert_allclose(loop.T, [-2.0, 0.5, 2.0, -0.5, -2.0])
+
+
 def test_several_loops_tell_their_drift() -> None:
     turn = np.linspace(0, 6 * np.pi, 300)
     loops = fret.fit.Loops.of(1e-6 * np.cos(turn), 5 * np.sin(turn) + 0.1 * turn)

@@ -16,6 +16,11 @@ from conftest import MU, W, sphere_on_flat
 PATH = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=0.5 * MU * W, increments=6)
 
 
+def worn(of: fret.Scene, **options: Any) -> fret.wear.WearResult:
+    given: dict[str, Any] = {"cycles": 2e4, "body2": fret.wear.Archard(1e-14), "jumps": 3}
+    return fret.wear.solve(of, **{**given, "progress": False, **options})
+
+
 def scene(law: Any, path: fret.LoadPath = PATH) -> fret.Scene:
     return sphere_on_flat(n=24).replace(mu=fret.Friction(MU, law=law), path=path)
 
@@ -106,8 +111,8 @@ def test_a_law_is_a_function_and_alone() -> None:
         fret.Friction(MU, law=softening, kinetic=0.2)
     with pytest.raises(TypeError, match=r"Friction\(0.3, law=function\)"):
         sphere_on_flat().replace(mu=softening)
-    with pytest.raises(ValueError, match=r"friction\.law"):
-        fret.wear.solve(scene(softening), cycles=10, body2=fret.wear.Archard(1e-14), progress=False)
+    with pytest.raises(ValueError, match=r"a law of your own.*march"):
+        worn(scene(softening), cycling="sliding")
 
 
 def test_a_law_is_kept_by_copies_and_only_named_by_files(tmp_path: Path) -> None:
@@ -145,4 +150,45 @@ def test_a_run_goes_on_with_its_law_bit_by_bit(tmp_path: Path) -> None:
     resumed = fret.resume(store, friction_law=softening, progress=False)
     assert resumed.status == "done"
     for name in ("delta_x", "dissipated", "q_x"):
+        assert (resumed.dataset[name].values == whole.dataset[name].values).all(), name
+
+
+def by_energy(x: Any, y: Any, p: Any, slip: Any, dissipated: Any) -> Any:
+    return MU * np.interp(dissipated, [0.0, 1e7], [1.0, 0.7])
+
+
+def test_over_cycles_of_wear_a_law_gives_what_the_same_table_gives() -> None:
+    table = fret.Friction(MU, history=(fret.History.DISSIPATED, [(0.0, 1.0), (1e7, 0.7)]))
+    constant, by_table, by_law = (
+        worn(scene(by_energy).replace(mu=mu)).dataset
+        for mu in (MU, table, fret.Friction(MU, law=by_energy))
+    )
+    # Each coefficient is settled to a thousandth.
+    np.testing.assert_allclose(by_law.volume2, by_table.volume2, rtol=1e-3)
+    np.testing.assert_allclose(by_law.dissipated, by_table.dissipated, rtol=1e-3)
+    assert abs(float(by_law.volume2[-1] / constant.volume2[-1]) - 1.0) > 0.05
+
+
+def test_a_run_of_wear_goes_on_with_its_law_bit_by_bit(tmp_path: Path) -> None:
+    whole = worn(scene(by_energy), jumps=4)
+    calls, lasts = 0, 10**9
+
+    def stops(*cells: Any) -> Any:
+        nonlocal calls
+        calls += 1
+        if calls > lasts:
+            raise RuntimeError("power cut")
+        return by_energy(*cells)
+
+    worn(scene(stops), jumps=4)
+    calls, lasts = 0, calls // 2
+    store = tmp_path / "worn.zarr"
+    with pytest.raises(RuntimeError, match="power cut"):
+        worn(scene(stops), jumps=4, out=store)
+    assert 0 < fret.wear.open(store).dataset.sizes["jump"] < 4
+    with pytest.raises(ValueError, match="friction_law="):
+        fret.wear.resume(store, progress=False)
+    resumed = fret.wear.resume(store, friction_law=by_energy, progress=False)
+    assert resumed.dataset.attrs["status"] == "done"
+    for name in ("volume2", "worn2", "dissipated"):
         assert (resumed.dataset[name].values == whole.dataset[name].values).all(), name

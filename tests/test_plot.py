@@ -26,6 +26,29 @@ def test_the_loop_starts_at_the_end_of_indentation(coated: fret.Result) -> None:
     np.testing.assert_allclose(np.max(line.get_ydata()), 0.9)
 
 
+def test_the_first_figure_of_a_notebook_leaves_it_interactive(coated: fret.Result) -> None:
+    """The backend of a notebook turns it on when the first figure is made, within the look."""
+    plt.ioff()
+    try:
+        with fret.plot.style():
+            plt.ion()
+        assert plt.isinteractive()
+        fret.plot.fretting_loop(coated)
+        assert plt.isinteractive()
+        plt.ioff()
+        fret.plot.fretting_loop(coated)
+        assert not plt.isinteractive()
+    finally:
+        plt.ioff()
+
+
+def test_depths_given_on_both_sides_of_an_interface_are_one_line(coated: fret.Result) -> None:
+    both = coated.at(-1).stress().dataset.z.values
+    figure = fret.plot.envelope_maps(coated.envelope(both, y=0.0))
+    dashed = [line for line in figure.axes[0].lines if line.get_linestyle() == "--"]
+    assert len(dashed) == 1
+
+
 def test_the_map_shows_stick_inside_slip(coated: fret.Result) -> None:
     ax = fret.plot.stick_slip(coated.at(-1))
     zones = np.asarray(ax.images[0].get_array())

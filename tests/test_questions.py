@@ -14,6 +14,7 @@ R, W = 5e-3, 10.0
 HERTZ = fret.reference.hertz(R=R, bodies=(STEEL, STEEL), W=W)
 BALL, FLAT = fret.Body(STEEL, shape=fret.Sphere(R=R)), fret.Body(STEEL)
 PATH = fret.LoadPath.start().normal(W).cycles(1, T_x=1.0, increments=4)
+LAW = fret.wear.Archard(k=1e-15)
 
 
 def of_pressure(grid: fret.Grid) -> float:
@@ -92,12 +93,68 @@ def test_roughness_has_eight_cells_in_its_shortest_wave() -> None:
         ({"path": fret.LoadPath.start()}, "presses nothing"),
         ({"body1": FLAT}, "flat surfaces touch all over"),
         ({"error": 1e-5}, "cells along a side"),
+        ({"wear": {"cycles": 1e3, "body2": fret.wear.Archard(k=1e-15)}}, "mu: must be given"),
+        (
+            {
+                "path": fret.LoadPath.start().normal(W).cycles(1, delta_x=10e-6),
+                "wear": {"cycles": 1e11, "body2": LAW, "cycling": "sliding", "jumps": 2},
+                "mu": 0.3,
+            },
+            r"k is in m\^2/N",
+        ),
     ],
 )
 def test_a_grid_that_cannot_be_chosen_says_why(change: dict[str, object], said: str) -> None:
     given: dict[str, object] = {"body1": BALL, "body2": FLAT, "path": PATH, **change}
     with pytest.raises(ValueError, match=said):
         fret.Grid.for_contact(**given)
+
+
+MCCOLL = (
+    fret.Body(fret.Elastic(E=200e9, nu=0.3), shape=fret.Cylinder(R=6e-3)),
+    fret.LoadPath.start().normal(18.5e3).cycles(1, delta_x=25e-6),
+)
+SLIDES = fret.LoadPath.start().normal(W).cycles(1, delta_x=10e-6)
+
+
+@pytest.mark.parametrize(
+    ("ball", "path", "mu", "wear"),
+    [
+        (BALL, SLIDES, 0.5, {"cycles": 5e4, "body2": LAW, "cycling": "sliding"}),
+        (
+            BALL,
+            fret.LoadPath.start().normal(W, increments=1).cycles(1, delta_x=6e-6, increments=4),
+            0.5,
+            {"cycles": 5e4, "body1": LAW, "body2": LAW, "debris_kept": 0.5, "jumps": 6},
+        ),
+        (
+            *MCCOLL,
+            0.9,
+            {
+                "cycles": 18e3,
+                "body1": fret.wear.Archard(k=1.9e-14),
+                "body2": fret.wear.Archard(k=2.9e-14),
+                "cycling": "sliding",
+                "rig_stiffness": 24.6e9,
+            },
+        ),
+    ],
+)
+def test_a_grid_holds_the_scar_and_no_more(
+    ball: fret.Body, path: fret.LoadPath, mu: float, wear: dict[str, object]
+) -> None:
+    strip = path is MCCOLL[1]
+    grid = fret.Grid.for_contact(ball, FLAT, path, error=0.04, wear=wear, mu=mu, plane_strain=strip)
+    scene = fret.Scene(body1=ball, body2=FLAT, mu=mu, grid=grid, path=path)
+    worn = fret.wear.solve(scene, **wear, progress=False)  # type: ignore[arg-type]
+    d = worn.dataset
+    assert d.attrs["status"] == "done"
+    touched = ((d.p > 0) | (d.worn1 > 0) | (d.worn2 > 0)).any("block").any("y").values
+    share = 2 * np.abs(d.x.values[touched]).max() / (grid.nx * grid.dx)
+    assert 0.7 < share < 0.9
+    # The scar is longer than the contact that begins it, which has eight cells in its radius.
+    assert grid.nx * grid.dx > 1.5 * 2.0 * scene.hertz.a  # type: ignore[union-attr]
+    assert scene.hertz.a / grid.dx > 7.0  # type: ignore[union-attr]
 
 
 @pytest.mark.parametrize("sigma_B", [0.0, 60e6])

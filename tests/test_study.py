@@ -45,6 +45,27 @@ def whole() -> fret.study.Study:
     return run()
 
 
+def test_sensitivity_is_the_part_of_the_variance() -> None:
+    """Of a sum of a and b^2 without interaction the parts are those of the terms and make 1."""
+    a, b = np.array([0.0, 1.0, 2.0]), np.array([-1.0, 0.5, 3.0, 4.0])
+    sums = xr.DataArray(10.0 + a[:, None] + b[None, :] ** 2, {"a": a, "b": b}, name="sum")
+    product = xr.DataArray(a[:, None] * (b - b.mean())[None, :], {"a": a, "b": b}, name="product")
+    status = xr.full_like(sums, 1, dtype=np.int8).rename("status")
+    study = fret.study.Study(xr.merge([sums, product, status]))
+    parts = study.sensitivity("sum")
+    assert list(parts.parameter.values) == ["b", "a"]
+    np.testing.assert_allclose(parts.sel(parameter="a"), a.var() / (a.var() + (b**2).var()))
+    np.testing.assert_allclose(parts.sum(), 1.0)
+    # b alone moves the mean over a, a alone moves nothing: the rest is interaction.
+    parts = study.sensitivity("product")
+    np.testing.assert_allclose(parts.sel(parameter="a"), 0.0, atol=1e-12)
+    np.testing.assert_allclose(parts.sel(parameter="b"), a.mean() ** 2 / (a**2).mean())
+    holes = fret.study.Study(study.dataset.assign({"sum": sums.where(sums < 20.0)}))
+    for of, of_study, says in (("sum", holes, "have no sum"), ("none", study, "must be one of")):
+        with pytest.raises(ValueError, match=says):
+            of_study.sensitivity(of)
+
+
 def test_a_point_is_the_solution_of_its_scene(whole: fret.study.Study) -> None:
     assert whole.count() == {"open": 0, "done": 6, "failed": 0}
     point = whole.dataset.isel({"body2.coatings.0.E": 1, "mu": 2})

@@ -107,6 +107,7 @@ __all__ = [
     "partial_crack",
     "principal",
     "probe_labels",
+    "read_text",
     "residual_of_layers",
     "resume",
     "resume_wear",
@@ -783,8 +784,8 @@ class Friction:
         `mu` is about what it gives, the measure of tolerances, and the coefficient where nothing
         is pressed yet. An increment is solved again until the coefficient is that of pressure and
         history at its end. What the function raises is raised as it is. No map, history or kinetic
-        coefficient beside it, no wear; a store keeps that there is a law, not which:
-        ``pyfret.resume(store, friction_law=...)``.
+        coefficient beside it; over cycles of wear slip and energy are those of all cycles so far. A
+        store keeps that there is a law, not which: ``pyfret.resume(store, friction_law=...)``.
     """
 
     def __new__(
@@ -865,6 +866,8 @@ class Grid:
         room: float = 1.2,
         start: float | None = None,
         plane_strain: bool = False,
+        wear: Mapping[str, Any] | None = None,
+        mu: float | Friction | None = None,
     ) -> Grid:
         """Choose a grid for the contact that comes out of two bodies and a load path.
 
@@ -889,11 +892,19 @@ class Grid:
             Side to begin with [m] (default: that of the Hertz contact, else a millimetre).
         plane_strain : bool
             Whether it is a line contact: a strip one metre wide.
+        wear : dict, optional
+            What wears, as keywords of :func:`pyfret.wear.solve`: cycles and laws at least. The
+            run is done on few cells, and the grid holds the scar at its end, strokes included.
+            `error` is then that of the contact at the end, and the first contact has eight cells
+            in its radius.
+        mu : float or Friction, optional
+            Coefficient of friction, which decides where wear slips: to be given with `wear`.
 
         Raises
         ------
         ValueError
-            Nothing is pressed together, or no size was found that fits, as of two flats.
+            Nothing is pressed together, no size was found that fits, as of two flats, or `wear`
+            comes without `mu`.
 
         Examples
         --------
@@ -901,6 +912,9 @@ class Grid:
         >>> ball, flat = Body(steel, shape=Sphere(R=5e-3)), Body(steel)  # doctest: +SKIP
         >>> path = LoadPath.start().normal(10.0).cycles(1, T_x=1.0)  # doctest: +SKIP
         >>> grid = Grid.for_contact(ball, flat, path)  # doctest: +SKIP
+        >>> law = Archard(k=1e-15)  # doctest: +SKIP
+        >>> wear = {"cycles": 1e5, "body2": law}  # doctest: +SKIP
+        >>> worn = Grid.for_contact(ball, flat, path, wear=wear, mu=0.3)  # doctest: +SKIP
         """
     def unit_of(self, unit: str) -> str:
         """Unit of a number of a run on this grid, by that of a contact of two directions.
@@ -3071,6 +3085,9 @@ def wear(
 ) -> None:
     """Runs a scene over many cycles into a store."""
 
+def read_text(path: str | PathLike[str]) -> str:
+    """The text of a file of numbers, in UTF-8, UTF-16 or Latin-1."""
+
 def verify_wear(store: str | PathLike[str]) -> None:
     """Fails if a file of the store of a run of wear is missing, or is not as it was written."""
 
@@ -3079,6 +3096,7 @@ def resume_wear(
     *,
     body1: _WearLaw | list[_WearLaw | None] | None = None,
     body2: _WearLaw | list[_WearLaw | None] | None = None,
+    friction_law: _FrictionFunction | Literal["own"] | None = None,
     on_jump: Callable[[float], None] | None = None,
 ) -> None:
     """Goes on with a run of wear that ended early."""

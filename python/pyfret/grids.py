@@ -10,9 +10,15 @@ import numpy as np
 
 from pyfret._core import Grid, InvalidSceneError, LoadPath, OffGridError, Rough, Scene, Sum
 from pyfret.solution import solve
+from pyfret.wear.runs import solve as wear_off
 
 if TYPE_CHECKING:
-    from pyfret._core import Body
+    from collections.abc import Mapping
+
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from pyfret._core import Body, Friction
 
 __all__ = ["for_contact", "offer"]
 
@@ -26,6 +32,11 @@ TRIES = 24
 CELLS_TIMES_ERROR = 0.31
 #: Cells in the shortest wave of a rough or a wavy surface.
 IN_A_WAVE = 8
+#: Cells across the contact before it wears, on the grid and on that of the trial, and most cells
+#: along a side of that one: a scar thirty times as long as the contact is none of this rig.
+IN_A_FIRST, IN_A_TRIAL, MOST_OF_TRIAL = 16, 8, 256
+#: How much longer the grid of a trial gets that the scar leaves, and the tolerance of its jumps.
+LONGER, ROUGHLY = 1.5, 0.05
 #: Fewest and most cells along a side.
 FEWEST, MOST = 24, 4096
 
@@ -39,6 +50,8 @@ def for_contact(
     room: float = 1.2,
     start: float | None = None,
     plane_strain: bool = False,
+    wear: Mapping[str, Any] | None = None,
+    mu: float | Friction | None = None,
 ) -> Grid:
     """Choose a grid for the contact that comes out of two bodies and a load path.
 
@@ -63,11 +76,19 @@ def for_contact(
         Side to begin with [m] (default: that of the Hertz contact, else a millimetre).
     plane_strain : bool
         Whether it is a line contact: a strip one metre wide.
+    wear : dict, optional
+        What wears, as keywords of :func:`pyfret.wear.solve`: cycles and laws at least. The
+        run is done on few cells, and the grid holds the scar at its end, strokes included.
+        `error` is then that of the contact at the end, and the first contact has eight cells
+        in its radius.
+    mu : float or Friction, optional
+        Coefficient of friction, which decides where wear slips: to be given with `wear`.
 
     Raises
     ------
     ValueError
-        Nothing is pressed together, or no size was found that fits, as of two flats.
+        Nothing is pressed together, no size was found that fits, as of two flats, or `wear`
+        comes without `mu`.
 
     Examples
     --------
@@ -75,6 +96,9 @@ def for_contact(
     >>> ball, flat = Body(steel, shape=Sphere(R=5e-3)), Body(steel)  # doctest: +SKIP
     >>> path = LoadPath.start().normal(10.0).cycles(1, T_x=1.0)  # doctest: +SKIP
     >>> grid = Grid.for_contact(ball, flat, path)  # doctest: +SKIP
+    >>> law = Archard(k=1e-15)  # doctest: +SKIP
+    >>> wear = {"cycles": 1e5, "body2": law}  # doctest: +SKIP
+    >>> worn = Grid.for_contact(ball, flat, path, wear=wear, mu=0.3)  # doctest: +SKIP
     """
     if not 0.0 < error < 1.0:
         raise ValueError(f"error = {error}: must be a part of the pressure, such as 0.005")
@@ -84,12 +108,20 @@ def for_contact(
     smooth1, smooth2 = (body.replace(shape=_smooth(body.shape)) for body in (body1, body2))
     lengths = _lengths(smooth1, smooth2, pressed, start, plane_strain=plane_strain)
     rough = smooth1 != body1 or smooth2 != body2
+    first = min(lengths)
+    if wear is not None:
+        if mu is None:
+            raise ValueError("mu: must be given with wear, since only what slips wears")
+        scene = Scene(body1=smooth1, body2=smooth2, mu=mu, grid=_square(first), path=path)
+        lengths = _scar(scene, lengths, dict(wear), plane_strain=plane_strain)
     sides = [(ROUGH if rough else 1.0) * room * of for of in lengths]
     cells = CELLS_TIMES_ERROR / error * room
     wave = min((_shortest(body.shape) for body in (body1, body2)), default=math.inf)
     shortest = min(sides)
     # Square cells, as many as the shorter side of the contact takes.
     size = min(shortest / max(cells, FEWEST), wave / IN_A_WAVE)
+    if wear is not None:
+        size = min(size, first / IN_A_FIRST)
     n = [2 * math.ceil(side / size / 2) for side in sides]
     if max(n) > MOST:
         raise ValueError(
@@ -114,8 +146,7 @@ def _pressed(path: LoadPath) -> LoadPath:
 
 def _scene(body1: Body, body2: Body, path: LoadPath, extent: float, *, plane_strain: bool) -> Scene:
     """The contact without friction on a coarse grid."""
-    strip = Grid.strip(extent=extent, n=4 * COARSE) if plane_strain else None
-    grid = strip or Grid.centred(extent=extent, n=COARSE)
+    grid = _square(extent, plane_strain=plane_strain)
     return Scene(body1=body1, body2=body2, mu=0.0, grid=grid, path=path)
 
 
@@ -165,12 +196,52 @@ def _box(scene: Scene) -> tuple[float, float] | None:
     contact = at.contact.values.astype(bool)
     if not contact.any():
         return 0.0, 0.0
-    grid = scene.grid
+    return _reach(contact, at.dataset, scene.grid)
+
+
+def _reach(touched: NDArray[np.bool_], d: xr.Dataset, grid: Grid) -> tuple[float, float]:
+    """Twice the reach of cells from the middle of a grid, along x and y [m]."""
     reach = []
     for name, axis, cell in (("x", 1, grid.dx), ("y", 0, grid.dy)):
-        places = np.abs(at.dataset[name].values[contact.any(axis=axis)])
+        places = np.abs(d[name].values[touched.any(axis=axis)])
         reach.append(2 * float(places.max()) + cell)
     return reach[0], reach[0] if grid.plane_strain else reach[1]
+
+
+def _square(extent: float, least: float = 0.0, *, plane_strain: bool = False) -> Grid:
+    """A grid of a trial, of `least` cells along a side or more."""
+    if plane_strain:
+        return Grid.strip(extent=extent, n=max(4 * COARSE, math.ceil(least)))
+    return Grid.centred(extent=extent, n=max(COARSE, math.ceil(least)))
+
+
+def _scar(
+    scene: Scene, first: tuple[float, float], wear: dict[str, Any], *, plane_strain: bool
+) -> tuple[float, float]:
+    """Lengths of the box around contact and scar of a run of wear on few cells [m]."""
+    given = {"tolerance", "jumps", "explicit_jumps"} & wear.keys()
+    how = wear if given else {**wear, "tolerance": ROUGHLY}
+    extent = 2.0 * max(first)
+    for _ in range(TRIES):
+        cells = IN_A_TRIAL * extent / min(first)
+        if cells > MOST_OF_TRIAL:
+            break
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                grid = _square(extent, cells, plane_strain=plane_strain)
+                worn = wear_off(scene.replace(grid=grid), **how, progress=False)
+        except OffGridError:
+            extent *= LONGER
+            continue
+        d = worn.dataset
+        touched = ((d.p > 0) | (d.worn1 > 0) | (d.worn2 > 0)).any("block").values
+        reach = _reach(touched, d, grid)
+        return reach if max(reach) < extent else (extent, extent)
+    raise ValueError(
+        f"the scar is longer than {extent / LONGER:.3g} m, {MOST_OF_TRIAL // IN_A_TRIAL} times the "
+        "contact before it: k is in m^2/N, alpha in m^3/J; if it is so long, give the grid yourself"
+    )
 
 
 def _smooth(shape: Any) -> Any:

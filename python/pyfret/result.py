@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from pyfret.fatigue.factors import LoadFactors, YieldStresses
     from pyfret.fatigue.lives import Life, Materials
     from pyfret.fatigue.section import SectionOptions
-    from pyfret.wear.runs import WearResult
+    from pyfret.wear.result import WearResult
 
 __all__ = ["Result", "open"]
 

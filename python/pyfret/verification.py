@@ -69,7 +69,7 @@ class Check:
     @property
     def passed(self) -> bool:
         """Whether the error is no more than a quarter above what it was."""
-        return abs(self.error) <= max(ROOM * abs(self.last), FLOOR)
+        return bool(abs(self.error) <= max(ROOM * abs(self.last), FLOOR))
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ use crate::failure::Failure;
 use crate::printed::print;
 use crate::scene_options::{SceneOptions, say_doubts};
 use crate::summary::short;
+use crate::words::{mega, um};
 
 /// Options of `fret check`.
 #[derive(Args)]
@@ -67,8 +68,8 @@ fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
         ),
         Some(hertz) => {
             let cells = (hertz.a / grid.dx, hertz.a / grid.dy);
-            line("a_H", format!("{:.6e} m", hertz.a));
-            line("p_H", format!("{:.6e} Pa", hertz.p0));
+            line("a_H", um(hertz.a));
+            line("p_H", mega(hertz.p0, "Pa"));
             let along_x = format!("{:.2} along x", cells.0);
             let along_y = format!(", {:.2} along y", cells.1);
             line(
@@ -85,16 +86,17 @@ fn description(scene: &Scene, plan: &Plan) -> Vec<(&'static str, String)> {
         "grid",
         if grid.plane_strain {
             format!(
-                "{} cells on {length_x:.4e} m, plane strain; forces and energies {}",
+                "{} cells on {}, plane strain; forces and energies {}",
                 grid.nx,
+                um(length_x),
                 match grid.unit_of("N") {
                     "N/m" => "per metre".to_owned(),
-                    _ => format!("on a width of {length_y:.4e} m"),
+                    _ => format!("on a width of {}", um(length_y)),
                 }
             )
         } else {
             let (nx, ny) = (grid.nx, grid.ny);
-            format!("{nx} x {ny} cells on {length_x:.4e} m x {length_y:.4e} m")
+            format!("{nx} x {ny} cells on {} x {}", um(length_x), um(length_y))
         },
     );
     line(

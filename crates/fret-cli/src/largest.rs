@@ -4,6 +4,7 @@ use contact_core::fields::{Errors, Extreme, Probe, Zone};
 use contact_core::scene::Scene;
 
 use crate::summary::short;
+use crate::words::{mega, um};
 
 /// Prints the largest values of an increment and their places.
 pub(crate) struct Largest<'a> {
@@ -51,7 +52,13 @@ impl Largest<'_> {
             .filter(|_| matches!(probe, Probe::Stress(_)));
         let left = error.sum();
         let value = hertz.map_or_else(
-            || format!("{value:.5e} {} +- {}", probe.unit(), short(left)),
+            || {
+                format!(
+                    "{} +- {}",
+                    mega(value, probe.unit()),
+                    mega(left, probe.unit())
+                )
+            },
             |h| format!("{:.5} p_H +- {}", value / h.p0, short(left / h.p0)),
         );
         let z = self.length(depth.z);
@@ -69,7 +76,7 @@ impl Largest<'_> {
     fn length(&self, v: f64) -> String {
         match self.scene.hertz() {
             Some(hertz) => format!("{:.4} a_H", v / hertz.a),
-            None => format!("{v:.4e} m"),
+            None => um(v),
         }
     }
 }

@@ -37,6 +37,8 @@ enum Template {
     Displacement,
     /// Ball on a multilayer
     ManyLayers,
+    /// Ball on a coated flat over many cycles, for `fret wear`
+    Wear,
 }
 
 impl Template {
@@ -48,6 +50,7 @@ impl Template {
             Self::Rough => include_str!("../templates/rough.toml"),
             Self::Displacement => include_str!("../templates/displacement.toml"),
             Self::ManyLayers => include_str!("../templates/many_layers.toml"),
+            Self::Wear => include_str!("../templates/wear.toml"),
         }
     }
 }

@@ -20,6 +20,7 @@ use crate::largest::Largest;
 use crate::loads::Loads;
 use crate::printed::print;
 use crate::terminal::say;
+use crate::words::um;
 
 /// Options of `fret stress`.
 #[derive(Args)]
@@ -68,11 +69,12 @@ pub(crate) struct Options {
     /// the contact
     #[arg(long, value_name = "Z")]
     depth: Option<f64>,
-    /// Number of depths to write, evenly from the surface; by default those that the layers ask
-    /// for, both sides of every interface among them, and 256 in image data. Largest values are
-    /// looked for at these and at those that the layers ask for
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    depths: Option<u16>,
+    /// Number of depths to write, evenly from the surface, such as 64, or the depths themselves
+    /// [m], such as 0,5e-6,10e-6; by default those that the layers ask for, both sides of every
+    /// interface among them, and 256 in image data. Largest values are looked for at these and at
+    /// those that the layers ask for
+    #[arg(long, value_name = "N or Z,Z,...", value_parser = Depths::read)]
+    depths: Option<Depths>,
     /// What to give, such as von_mises,s_xx,tresca,s_1,hydrostatic,u_z
     #[arg(
         long,
@@ -81,6 +83,36 @@ pub(crate) struct Options {
         default_value = "von_mises"
     )]
     of: Vec<String>,
+}
+
+/// Depths to write: so many, or these \[m\].
+#[derive(Clone, Debug)]
+enum Depths {
+    Number(u16),
+    Places(Vec<f64>),
+}
+
+impl Depths {
+    fn read(text: &str) -> Result<Self, String> {
+        let allowed = "a number of depths from 1 to 65535, or depths in m, not negative, such as 0,5e-6,10e-6";
+        if let Ok(n) = text.parse::<u16>() {
+            return if n > 0 {
+                Ok(Self::Number(n))
+            } else {
+                Err(allowed.into())
+            };
+        }
+        let places = text.split(',').map(|z| z.trim().parse::<f64>().ok());
+        let places: Option<Vec<f64>> = places.collect();
+        match places {
+            Some(z) if z.iter().all(|z| *z >= 0.0 && z.is_finite()) => {
+                let mut z = z;
+                z.sort_by(f64::total_cmp);
+                Ok(Self::Places(z))
+            }
+            _ => Err(allowed.into()),
+        }
+    }
 }
 
 /// The probes and places to compute.
@@ -180,8 +212,9 @@ impl Task {
             let z = (0..n).map(|i| deepest * f64::from(i) / steps);
             depths(body, &z.collect::<Vec<_>>())
         };
-        let mut written = match options.depths {
-            Some(n) => evenly(n)?,
+        let mut written = match &options.depths {
+            Some(Depths::Number(n)) => evenly(*n)?,
+            Some(Depths::Places(z)) => depths(body, z)?,
             None if is_image(options) => evenly(256)?,
             None => chosen.clone(),
         };
@@ -336,8 +369,9 @@ fn say_thin(scene: &Scene, body: &Body) {
     };
     if let Some(first) = body.interfaces().first().filter(|first| **first < cell) {
         say(&format!(
-            "fret: warning: the first interface is {first:.3e} m below the surface, {:.2} cells: the \
+            "fret: warning: the first interface is {} below the surface, {:.2} cells: the \
              tractions are known per cell; a finer grid tells whether that matters",
+            um(*first),
             first / cell
         ));
     }

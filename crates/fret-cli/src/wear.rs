@@ -20,6 +20,7 @@ use crate::run::stop_on_interrupt;
 use crate::scene_options::SceneOptions;
 use crate::terminal::{draws, say};
 use crate::threads::Threads;
+use crate::words::um;
 
 const TEMPLATE: &str = "{bar:20} {pos}/{len} cycles, {elapsed} elapsed, {eta} left  {msg}";
 
@@ -197,7 +198,7 @@ fn ended(error: Error) -> Failure {
 
 fn told_of(event: &Event) -> String {
     let (body, cycles) = (event.body, event.cycles);
-    let place = format!("at x = {:.3e} m, y = {:.3e} m", event.x, event.y);
+    let place = format!("at x = {}, y = {}", um(event.x), um(event.y));
     match event.kind {
         EventKind::Thinned => format!(
             "fret: after {cycles:.0} cycles body {body} has lost a part of its coatings' thickness that \

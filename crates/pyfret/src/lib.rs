@@ -35,6 +35,7 @@ mod result;
 mod scene;
 mod stress;
 mod subsurface;
+mod text;
 mod variables;
 mod wear;
 
@@ -98,6 +99,8 @@ mod _core {
     use crate::subsurface::{
         Subsurface, chosen_depths, depths, residual_of_layers, section_of_states,
     };
+    #[pymodule_export]
+    use crate::text::read_text;
     #[pymodule_export]
     use crate::wear::{Archard, DissipatedEnergy, resume_wear, verify_wear, wear};
 

@@ -18,6 +18,7 @@ use crate::error::to_python as scene_to_python;
 use crate::interruptible::interruptible;
 use crate::parts::parts;
 use crate::scene::Scene;
+use crate::scene::friction_law::own_law;
 
 /// What a factor is a function of, and its pairs.
 type Table = Option<(String, Vec<(f64, f64)>)>;
@@ -321,20 +322,25 @@ pub(crate) fn verify_wear(py: Python<'_>, store: PathBuf) -> PyResult<()> {
 
 /// Goes on with a run of wear that ended early.
 #[pyfunction]
-#[pyo3(signature = (store, *, body1 = None, body2 = None, on_jump = None))]
+#[pyo3(signature = (store, *, body1 = None, body2 = None, friction_law = None, on_jump = None))]
 pub(crate) fn resume_wear(
     py: Python<'_>,
     store: PathBuf,
     body1: Option<Bound<'_, PyAny>>,
     body2: Option<Bound<'_, PyAny>>,
+    friction_law: Option<&Bound<'_, PyAny>>,
     on_jump: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     let raised = Raised::default();
+    let friction = friction_law.map(own_law).transpose()?;
     let own =
         |law: Option<&Bound<'_, PyAny>>| law.map(|law| body(Some(law), None, &raised)).transpose();
     let own = [own(body1.as_ref())?, own(body2.as_ref())?];
     let stop = Arc::<AtomicBool>::default();
-    let found = interruptible(py, &stop, || take_up(&store, &own, &stop))?.map_err(to_python)?;
+    let found = interruptible(py, &stop, || {
+        take_up(&store, &own, friction.as_ref(), &stop)
+    })?;
+    let found = found.map_err(to_python)?;
     match found {
         None => Ok(()),
         Some((run, store)) => go(py, run, store, (&stop, &raised), on_jump.as_ref()),

@@ -27,7 +27,15 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     )
     command.add_argument("store", help="result")
     command.add_argument("-o", "--out", required=True, help="file to write; .vti gives an image")
-    command.add_argument("--at", type=int, default=-1, help="increment, or -1 for the last kept")
+    command.add_argument(
+        "--increment",
+        "--at",
+        dest="at",
+        type=int,
+        default=-1,
+        metavar="INCREMENT",
+        help="increment, or -1 for the last kept",
+    )
     command.add_argument("--body", type=int, choices=(1, 2), default=2, help="the body (default 2)")
     command.add_argument(
         "--form", choices=("csv", "abaqus", "aster"), default="csv", help="of the file"

@@ -25,6 +25,15 @@ class Parser(argparse.ArgumentParser):
         super().__init__(**{**keywords, "add_help": False, "allow_abbrev": False})
         self.add_argument("-h", "--help", action="help", help="print help")
 
+    def parse_known_args(  # type: ignore[override]
+        self, args: Any = None, namespace: Any = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """Parse the arguments; a command names those that it does not know, with its own usage."""
+        known, unknown = super().parse_known_args(args, namespace)
+        if unknown and self._commands() is None:
+            self.error(f"unexpected argument '{unknown[0]}' found")
+        return known, unknown
+
     def format_usage(self) -> str:
         """The usage in a line."""
         needed = [a for a in self._actions if a.option_strings and a.required]

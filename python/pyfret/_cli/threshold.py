@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import json
+import sys
 from typing import TYPE_CHECKING, Any
 
 from pyfret import fatigue
 from pyfret._cli.parser import added
 from pyfret.study.design import varied
 from pyfret.study.thresholds import Averaged, Threshold, threshold
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 if TYPE_CHECKING:
     import argparse
@@ -41,8 +47,26 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     command.add_argument(
         "--method", choices=("point", "line", "area"), default="line", help="default: line"
     )
+    command.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="replace a value of the scene file, as fret run does; may be repeated",
+    )
     command.add_argument("--over", metavar="KEY=V,V,...", help="a curve over a second parameter")
     command.add_argument("--json", action="store_true", help="one JSON object per threshold")
+
+
+def changed(text: str) -> tuple[str, Any]:
+    """A key of a scene file and its value; what is no value of TOML is a text."""
+    key, equals, value = text.partition("=")
+    if not equals:
+        raise ValueError(f"--set {text}: must be KEY=VALUE, such as grid.n=128")
+    try:
+        return key, tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return key, value
 
 
 def run(options: argparse.Namespace) -> int:
@@ -50,8 +74,10 @@ def run(options: argparse.Namespace) -> int:
     material = fatigue.Materials(options.materials)[options.material]
     measure = Averaged(material, options.criterion, options.distance, options.method)
 
+    changes = dict(changed(text) for text in options.set)
+
     def scene(values: dict[str, Any]) -> Any:
-        return varied(options.scene, {**values, "output.save": "all"})
+        return varied(options.scene, {**changes, **values, "output.save": "all"})
 
     low, _, high = options.between.partition(":")
     over = None

@@ -21,7 +21,8 @@ INVISIBLE = 0.06
 def interfaces(z: xr.DataArray, layer: xr.DataArray) -> list[float]:
     """Depths at which the layer changes."""
     changes = np.flatnonzero(np.diff(layer.values))
-    return [float(z[n] + z[n + 1]) / 2 for n in changes]
+    # Depths that are given on both sides of an interface change there more than once.
+    return list(dict.fromkeys(float(z[n] + z[n + 1]) / 2 for n in changes))
 
 
 def stretched(borders: NDArray[np.float64]) -> NDArray[np.float64]:

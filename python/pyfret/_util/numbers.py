@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from typing import Protocol
 
-__all__ = ["in_words", "length"]
+__all__ = ["in_words", "length", "place"]
 
 #: Units of lengths, the largest first [m].
 LENGTHS = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
@@ -37,3 +38,29 @@ def length(value: float) -> str:
     """
     size, unit = next((of for of in LENGTHS if abs(value) >= of[0] * (1 - 1e-9)), LENGTHS[-1])
     return f"{in_words(value / size)} {unit}" if value else "0 m"
+
+
+class Placed(Protocol):
+    """What lies somewhere below a surface."""
+
+    @property
+    def x(self) -> float:
+        """Place [m]."""
+
+    @property
+    def y(self) -> float:
+        """Place [m]."""
+
+    @property
+    def z(self) -> float:
+        """Depth [m]."""
+
+    @property
+    def layer(self) -> int:
+        """Layer from the surface down."""
+
+
+def place(of: Placed) -> str:
+    """Where something lies, in ASCII: short lengths with their units, and the layer."""
+    axes = ", ".join(f"{axis} = {length(getattr(of, axis))}" for axis in "xyz")
+    return f"{axes}, layer {of.layer}".replace("µ", "u")

@@ -19,6 +19,7 @@ import numpy as np
 
 from pyfret._core import Material
 from pyfret._util.labelled import Labelled
+from pyfret._util.numbers import in_words, place
 from pyfret.fatigue.cycle_section import (
     body_of,
     depths_of,
@@ -62,6 +63,10 @@ class Least(NamedTuple):
     #: What may be wrong with the factor, estimated: the search along the section and in depth, the
     #: tractions on cells twice as large.
     error: float
+
+    def __repr__(self) -> str:
+        """Give factor, error and place in a few digits."""
+        return f"Least({in_words(self.factor)} +- {in_words(self.error)}, {place(self)})"
 
 
 class LoadFactors(Labelled):

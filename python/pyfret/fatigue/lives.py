@@ -20,6 +20,7 @@ import numpy as np
 from pyfret._core import Material
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
+from pyfret._util.numbers import in_words, place
 from pyfret.fatigue.cycle_section import (
     body_of,
     depths_of,
@@ -99,6 +100,15 @@ class Worst(NamedTuple):
     def error(self) -> float:
         """What may be wrong with the value, all together."""
         return self.errors.sum
+
+    def __repr__(self) -> str:
+        """Give margin, value, error and place in a few digits."""
+        numbers = (
+            f"{name}={in_words(getattr(self, name))}" for name in ("margin", "value", "error")
+        )
+        at = f", at={self.at!r}" if self.at else ""
+        angle = "" if self.inclination is None else f", inclination={self.inclination:.1f} degrees"
+        return f"Worst({', '.join(numbers)}, {place(self)}{at}{angle})"
 
 
 class Life(Labelled):
@@ -225,8 +235,7 @@ class Life(Labelled):
             plane = f", plane {w.inclination:.1f} degrees from the surface normal"
         return (
             f"Life({self.dataset.attrs['criterion']}, {name} {w.margin:.4g} at "
-            f"x = {w.x:.4g} m, y = {w.y:.4g} m, z = {w.z:.4g} m, layer {w.layer}{plane})"
-            + "".join(f"\n  {note}" for note in self.notes)
+            f"{place(w)}{plane})" + "".join(f"\n  {note}" for note in self.notes)
         )
 
 

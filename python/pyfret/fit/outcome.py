@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from pyfret._core import Scene
     from pyfret.fit.data import Measured
+    from pyfret.plot.style import Drawn
 
 __all__ = ["Found", "Known"]
 
@@ -97,13 +98,13 @@ class Found(HoldsArrays):
         """Values of the unknowns."""
         return {key: known.value for key, known in self.known.items()}
 
-    def plot(self, *, data: int = 0, ax: Axes | None = None) -> Axes:
+    def plot(self, *, data: int = 0, ax: Axes | None = None) -> Drawn:
         """Draw what was measured, and what the values found make of it."""
         from pyfret.fit.figures import curves
 
         return curves(self.sets[data], self.computed[data], self.values, ax)
 
-    def plot_residuals(self, *, data: int = 0, ax: Axes | None = None) -> Axes:
+    def plot_residuals(self, *, data: int = 0, ax: Axes | None = None) -> Drawn:
         """Draw measured less computed; it should scatter about zero without a pattern."""
         from pyfret.fit.figures import residuals
 

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret import _core
+
 if TYPE_CHECKING:
     import os
 
@@ -81,7 +83,8 @@ def read(path: str | os.PathLike[str], units: dict[str, str] | None = None) -> T
     Parameters
     ----------
     path : path
-        Text with a head of names; lines that begin with ``#`` or ``%`` are left out.
+        Text in UTF-8, UTF-16 or Latin-1 with a head of names, and perhaps a line of units below it;
+        lines that begin with ``#`` or ``%`` are left out.
     units : dict of str to str, optional
         Units of columns whose head names none.
 
@@ -91,7 +94,7 @@ def read(path: str | os.PathLike[str], units: dict[str, str] | None = None) -> T
         There is no head, a number cannot be read, or a unit is unknown; the message has the line.
     """
     place = Path(path)
-    lines = place.read_text(encoding="utf-8-sig", errors="replace").splitlines()
+    lines = _core.read_text(place).splitlines()
     kept = [(n, line.strip()) for n, line in enumerate(lines, 1) if not line.startswith(("#", "%"))]
     filled = [line for _, line in kept if line]
     if len(filled) < 2:
@@ -103,6 +106,11 @@ def read(path: str | os.PathLike[str], units: dict[str, str] | None = None) -> T
             f"{place}:1: the first line must name the columns and their units, as in "
             "delta [um];T [N]"
         )
+    below = [cell.strip("[]()") for cell in cells(filled[1], separator)]
+    # Units may have a line of their own.
+    is_row = len(below) == len(heads) and all(unit in UNITS for unit in below)
+    if is_row:
+        units = {**dict(zip(heads, below, strict=True)), **(units or {})}
     parted = [named(head, units or {}) for head in heads]
     for name, unit in parted:
         if unit and unit not in UNITS:
@@ -119,7 +127,7 @@ def read(path: str | os.PathLike[str], units: dict[str, str] | None = None) -> T
             begun = True
             continue
         row = cells(line, separator)
-        if row == heads:
+        if row == heads or (is_row and [cell.strip("[]()") for cell in row] == below):
             continue
         if len(row) != len(heads):
             raise ValueError(f"{place}:{n}: {len(row)} numbers, where the head has {len(heads)}")
@@ -141,7 +149,8 @@ def parting(lines: list[str]) -> str | None:
     for separator in (";", "\t"):
         if all(separator in line for line in lines[:20]):
             return separator
-    rows = [line.split() for line in lines[1:20]]
+    # The line below the head may be one of units.
+    rows = [line.split() for line in lines[2:20] or lines[1:]]
     if all(len(row) > 1 and all(NUMBER.match(cell) for cell in row) for row in rows):
         return None
     return ","

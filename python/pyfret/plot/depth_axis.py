@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator, NullLocator
 
 from pyfret._util.depths import stretched
+from pyfret._util.numbers import in_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,7 +36,8 @@ def stretch(ax: Axes, borders: NDArray[np.float64], which: Literal["x", "y"]) ->
     far = places[-2] + 0.08
     ticks = [*borders[:-1], *(z for z in below if z <= borders[-1] and onward(np.array(z)) > far)]
     axis.set_major_locator(FixedLocator(ticks))
-    axis.set_major_formatter(FixedFormatter([f"{tick:.{2 if tick < 1 else 3}g}" for tick in ticks]))
+    numbers = [in_words(tick, 2 if tick < 1 else 3) for tick in ticks]
+    axis.set_major_formatter(FixedFormatter(numbers))
     if which == "x":
         # Neighbouring borders would write over one another.
         ax.tick_params(axis="x", labelrotation=45)

@@ -196,6 +196,7 @@ def _filled(
         steps = np.append(steps[steps < most], most)
         if steps.size < 2:
             return None
+    bold = False
     for part in np.unique(layers):
         here = layers == part
         if np.count_nonzero(here) < 2 or not np.isfinite(field[here]).any():
@@ -205,6 +206,10 @@ def _filled(
         ax.contour(x, z[here], field[here], levels=lines, colors="0.2", linewidths=0.4)
         if limit is not None and field[here].min() < limit < field[here].max():
             ax.contour(x, z[here], field[here], levels=[limit], colors="0.1", linewidths=1.8)
+            bold = True
+    if bold:
+        # For the legend; the contour itself has no label.
+        ax.plot([], [], color="0.1", linewidth=1.8, label="limit")
     return image
 
 

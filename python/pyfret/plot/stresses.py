@@ -307,6 +307,9 @@ def stress_history(
     half = max(half, 0.05 * middle)
     points = ax.scatter(value.increment, value, c=z, s=9, cmap="viridis", zorder=2)
     points.set_clim(middle - half, middle + half)
+    if half == 0.0:
+        # All on the surface: no depth is below zero.
+        points.set_clim(0.0, float(envelope.z.max()) / by.length.value)
     ax.xaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
     ax.set_xlim(float(value.increment[0]) - 0.5, float(value.increment[-1]) + 0.5)
     bar = ax.get_figure().colorbar(points, ax=ax)  # type: ignore[union-attr]

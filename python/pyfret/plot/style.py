@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import wraps
 from pathlib import Path
-from typing import ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, overload
 
 import matplotlib.pyplot as plt
 from matplotlib.artist import Artist
@@ -23,20 +23,48 @@ SLIP = "#F2C9A9"
 REFERENCE = "#9A9A9A"
 
 
-def style() -> AbstractContextManager[None]:
+@contextmanager
+def style() -> Iterator[None]:
     """Set the look of figures made inside the ``with`` block."""
-    return plt.style.context(Path(__file__).with_name("pyfret.mplstyle"))
+    with plt.style.context(Path(__file__).with_name("pyfret.mplstyle")):
+        try:
+            yield
+        finally:
+            # The first figure starts the backend, and that of a notebook turns this on: it is no
+            # matter of looks, and without it no later cell shows its figures.
+            interactive = plt.isinteractive()
+    interactive_again = plt.ion if interactive else plt.ioff
+    interactive_again()
+
+
+if TYPE_CHECKING:
+
+    class Drawn(Axes):
+        """Axes that know their figure: ``.figure.savefig("loop.png")`` writes it.
+
+        Matplotlib leaves open that it may be a part of a figure, as where `ax` lies in one.
+        """
+
+        @property
+        def figure(self) -> Figure:
+            """The figure."""
 
 
 P = ParamSpec("P")
 T = TypeVar("T")
 
 
-def styled(draw: Callable[P, T]) -> Callable[P, T]:
+@overload
+def styled(draw: Callable[P, Axes]) -> Callable[P, Drawn]: ...
+@overload
+def styled(draw: Callable[P, T]) -> Callable[P, T]: ...
+
+
+def styled(draw: Callable[P, Any]) -> Callable[P, Any]:
     """Make `draw` work in the shared look, whatever the user's own settings are."""
 
     @wraps(draw)
-    def inside(*args: P.args, **kwargs: P.kwargs) -> T:
+    def inside(*args: P.args, **kwargs: P.kwargs) -> Any:
         with style():
             drawn = draw(*args, **kwargs)
             if kwargs.get("ax") is None:

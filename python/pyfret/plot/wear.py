@@ -8,12 +8,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from pyfret._core import Scene
-from pyfret.plot.style import axes, styled
+from pyfret.plot.style import axes, inside_legend, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from pyfret.wear.runs import WearResult
+    from pyfret.wear.result import WearResult
 
 #: What is drawn of a worn pair.
 Which = Literal["body1", "body2", "both"]
@@ -87,10 +87,11 @@ def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
             continue
         (line,) = ax.plot(np.r_[first, d.cycles], depth, label=f"body {body}")
         bottom = 0.0
-        for layer in coated.coatings:
+        for n, layer in enumerate(coated.coatings):
             bottom += 1e6 * layer.thickness
             if bottom < 3 * depth[-1]:
-                ax.axhline(bottom, color=line.get_color(), linestyle=":", linewidth=1)
+                told = f"bottom of coating {n} of body {body}"
+                ax.axhline(bottom, color=line.get_color(), linestyle=":", linewidth=1, label=told)
     for event in result.events:
         if event["kind"] == "worn through":
             label = f"coating {event['coating']} of body {event['body']} is worn through"
@@ -98,7 +99,7 @@ def wear_history(result: WearResult, *, ax: Axes | None = None) -> Axes:
     ax.set_xlabel("cycles")
     ax.set_ylabel("deepest worn depth [µm]")
     ax.set_ylim(bottom=0)
-    ax.legend(loc="upper left", fontsize="small")
+    inside_legend(ax)
     return ax
 
 

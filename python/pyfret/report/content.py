@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pyfret.run import Run, State
-    from pyfret.wear.runs import WearResult
+    from pyfret.wear.result import WearResult
 
 __all__ = ["figures"]
 

@@ -41,7 +41,7 @@
     profile("p", at.p[0], "p [MPa]", fields.largest.p);
     profile("q", at.q[0], "|q| [MPa]", fields.largest.q || 1);
     const bars = [["stick", 2], ["slip", 1]].map(([name, code]) => ({
-      type: "bar", x: fields.x, name, marker: { color: colours[name], line: { width: 0 } },
+      type: "bar", x: fields.x, name, marker: { color: colours[name], line: { width: 1, color: colours[name] } },
       y: at.p[0].map((p, k) => (at.zone[0][k] === code ? p : null)),
     }));
     const zones = layout("x [µm]", "p [MPa]", { barmode: "overlay", bargap: 0 });

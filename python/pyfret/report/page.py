@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from pyfret.fracture.growth import Cracks, Threshold
     from pyfret.run import Run
-    from pyfret.wear.runs import WearResult
+    from pyfret.wear.result import WearResult
 
 __all__ = ["report"]
 

@@ -94,7 +94,7 @@ def cycles_table(result: Run, direction: Any) -> str:
 
 def run_html(result: Run) -> str:
     """A result as tables: what was solved, and the ends of the branches."""
-    title = escape(str(result.dataset.attrs["title"]))
+    title = escape(str(result.dataset.attrs["title"])) or "run"
     return f"<p><b>{title}</b>: {escape(result.status)}</p>{ends_table(result)}"
 
 

@@ -42,9 +42,14 @@ FACTORS = {"MPa": 1e6}
 
 
 def table(heading: Sequence[str], rows: Iterable[Sequence[str]], *, words: bool = False) -> str:
-    """A table of cells that are HTML already; it scrolls where it is too wide, words are broken."""
-    head = "".join(f"<th>{cell}</th>" for cell in heading)
-    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
+    """A table of cells that are HTML already; it scrolls where it is too wide.
+
+    `words` are broken and begin on the left.
+    """
+    left = ' style="text-align: left"' if words else ""
+    head = "".join(f"<th{left}>{cell}</th>" for cell in heading)
+    lines = ("".join(f"<td{left}>{cell}</td>" for cell in row) for row in rows)
+    body = "".join(f"<tr>{line}</tr>" for line in lines)
     kind = ' class="words"' if words else ""
     return (
         f'<div class="wide"><table{kind}><thead><tr>{head}</tr></thead>'

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret._util.labelled import Labelled
+from pyfret._util.lazy import xr
 from pyfret.scene.tables import number, table
 from pyfret.study.point import DONE, FAILED, OPEN
 from pyfret.study.store import read
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
     import pandas as pd
     from matplotlib.axes import Axes
+
+    from pyfret.plot.style import Drawn
 
 __all__ = ["Study", "open"]
 
@@ -70,7 +73,56 @@ class Study(Labelled):
         scalars = d[[name for name, of in d.data_vars.items() if set(of.dims) <= dims]]
         return scalars.to_dataframe().reset_index()
 
-    def map(self, of: str | None = None, *, ax: Axes | None = None, **options: Any) -> Axes:
+    def sensitivity(self, of: str | None = None) -> xr.DataArray:
+        """Give the part of a measure's variance over the study that each parameter makes alone.
+
+        The variance of the mean over all other parameters, over that of all points, which count
+        alike: the first-order Sobol index of the values studied. What the parts leave to 1 is
+        interaction. Points without a value are refused, since they would weigh on one side.
+
+        Parameters
+        ----------
+        of : str, optional
+            The measure (default: the first).
+
+        Returns
+        -------
+        DataArray over ``parameter``, the largest first.
+
+        Raises
+        ------
+        ValueError
+            There is no such measure, it is a field, a point has no value, or the parameters
+            change together.
+        """
+        chosen = self.measures[0] if of is None else of
+        if chosen not in self.measures:
+            raise ValueError(f"of = {of!r}: must be one of {', '.join(self.measures)}")
+        values = self.dataset[chosen].astype(float)
+        if "point" in values.dims or set(values.dims) != set(self.dataset["status"].dims):
+            raise ValueError(
+                f"{chosen} over {', '.join(map(str, values.dims))}: must be a number at every "
+                "point of a grid of parameters; samples are for packages such as SALib"
+            )
+        if (lost := int(values.isnull().sum())) > 0:
+            raise ValueError(f"{lost} of {values.size} points have no {chosen}: study.failed()")
+        names = [str(name) for name in values.dims]
+        whole = float(values.var())
+        parts = [
+            float(values.mean([other for other in names if other != name]).var()) / whole
+            if whole > 0.0
+            else 0.0
+            for name in names
+        ]
+        order = np.argsort(parts)[::-1]
+        return xr.DataArray(
+            np.asarray(parts)[order],
+            {"parameter": [names[n] for n in order]},
+            name=chosen,
+            attrs={"long_name": f"part of the variance of {chosen}", "units": "1"},
+        )
+
+    def map(self, of: str | None = None, *, ax: Axes | None = None, **options: Any) -> Drawn:
         """Draw a measure over the parameters: :func:`pyfret.plot.study_map`."""
         from pyfret.plot import study_map
 

@@ -11,6 +11,7 @@ from pyfret import _core
 from pyfret._util.guesses import no_attribute
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
+from pyfret._util.numbers import in_words, place
 from pyfret.scene.tables import table
 from pyfret.scene.warnings import SceneWarning
 
@@ -56,6 +57,12 @@ class Extreme(NamedTuple):
     error: float
     #: The same by its sources [Pa].
     errors: Errors
+
+    def __repr__(self) -> str:
+        """Give value, error and place in a few digits."""
+        value, error = (in_words(1e-6 * of) for of in (self.value, self.error))
+        at = f", {self.at}" if self.at else ""
+        return f"Extreme({value} MPa +- {error}, {place(self)}{at})"
 
 
 class Stress(Labelled):

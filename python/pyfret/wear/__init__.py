@@ -2,13 +2,14 @@
 
 A run of wear is solved, opened and gone on with::
 
-worn = fret.wear.solve(scene, cycles=18e3, body2=fret.wear.Archard(k=1e-13))
-worn.depth2[-1]
+    worn = fret.wear.solve(scene, cycles=18e3, body2=fret.wear.Archard(k=1e-13))
+    worn.depth2[-1]
 """
 
 from pyfret._core import Archard, DissipatedEnergy
 from pyfret._util.names import called, listing
-from pyfret.wear.runs import WearResult, open, resume, solve
+from pyfret.wear.result import WearResult
+from pyfret.wear.runs import open, resume, solve
 
 __all__ = ["Archard", "DissipatedEnergy", "WearResult", "open", "resume", "solve"]
 __dir__ = listing(__all__)

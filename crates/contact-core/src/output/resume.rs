@@ -102,8 +102,8 @@ pub fn resume_by(
     }))
 }
 
-/// The scene of a store with the law that is given for it.
-fn with_law(scene: &Scene, law: Option<&OwnFriction>) -> Result<Scene, Error> {
+/// The scene of a store with the friction law that is given for it.
+pub(super) fn with_law(scene: &Scene, law: Option<&OwnFriction>) -> Result<Scene, Error> {
     let mut scene = scene.clone();
     match (&scene.friction.law, law) {
         (Some(_), None) => return Err(is_missing()),

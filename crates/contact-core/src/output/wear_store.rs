@@ -16,13 +16,14 @@ use super::catalogue::Kind;
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
 use super::place::{Unfinished, is_free, is_store, mend};
+use super::resume::with_law;
 use super::schema::SCHEMA;
 use super::stored::Stored;
 use super::wear_catalogue::{SCALARS, Scalar};
 use super::wear_checkpoint::{Kept, read_checkpoint, write_checkpoint};
 use super::{column::Column, variable::Variable, whole};
 use crate::error::Error;
-use crate::scene::Scene;
+use crate::scene::{OwnFriction, Scene};
 use crate::wear::{Block, BodyWear, EventKind, Wear, WearRun};
 
 /// Attributes of the store, its status among them.
@@ -347,23 +348,25 @@ pub fn resume_wear(
         wear.bodies.each_ref().map(|body| Some(body.clone()))
     });
     let settled = of.map(|(scene, wear)| wear.settled(scene, stop));
-    take_up(path.as_ref(), settled.transpose()?, &own, stop)
+    let friction = of.and_then(|(scene, _)| scene.friction.law.as_ref());
+    take_up(path.as_ref(), settled.transpose()?, (&own, friction), stop)
 }
 
-/// The same for a run by laws of the user's own, which no store can hold: they are given again for
-/// the bodies that have them.
+/// The same for a run by laws of the user's own, which no store can hold: those of wear are given
+/// again for the bodies that have them, and that of friction.
 pub fn resume_wear_by(
     path: impl AsRef<Path>,
     own: &[Option<BodyWear>; 2],
+    friction: Option<&OwnFriction>,
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<(WearRun, WearStore)>, Error> {
-    take_up(path.as_ref(), None, own, stop)
+    take_up(path.as_ref(), None, (own, friction), stop)
 }
 
 fn take_up(
     path: &Path,
     of: Option<(Scene, Wear)>,
-    own: &[Option<BodyWear>; 2],
+    (own, friction): (&[Option<BodyWear>; 2], Option<&OwnFriction>),
     stop: &Arc<AtomicBool>,
 ) -> Result<Option<(WearRun, WearStore)>, Error> {
     let place = path.to_owned();
@@ -391,6 +394,7 @@ fn take_up(
     };
     let name = place.display().to_string();
     let (scene, wear) = Wear::from_store(&format!("{scene}{wear}"), &name, own)?;
+    let scene = with_law(&scene, friction)?;
     let lock = locked(&folder)?;
     let (state, kept) = read_checkpoint(&folder)?;
     let run = WearRun::resume(&scene, &wear, state, stop)?;

@@ -104,7 +104,7 @@ pub(crate) fn is_missing() -> Error {
         "friction.law",
         "own",
         "given again: a law of your own is in no file; pyfret.resume(store, friction_law=...) goes on with a store, \
-         scene.replace(mu=Friction(mu, law=...)) with a scene",
+         pyfret.wear.resume(store, friction_law=...) with a run of wear, scene.replace(mu=Friction(mu, law=...)) with a scene",
     )
 }
 

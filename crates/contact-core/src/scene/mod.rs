@@ -34,7 +34,7 @@ pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
 pub use loads::{Given, Loads};
 pub use missing::Missing;
 pub use motion::{Prescribed, RigidMotion};
-pub use number_files::FileOfNumbers;
+pub use number_files::{FileOfNumbers, tolerant as text_of_numbers};
 pub use resolution::{FEW_CELLS, FEWEST_CELLS};
 pub use settings::{
     KernelMethod, KernelSettings, PathGrid, Preset, SaveFields, Settings, SkipSettings,

@@ -62,6 +62,8 @@ pub(crate) struct Marched {
     plain_mu: Option<f64>,
     /// Its dependence on history.
     history: Option<FrictionHistory>,
+    /// Whether it depends on what a cell has been through, by a history or a law of the user's own.
+    remembers: bool,
     pub(crate) state: MarchedState,
     /// Mean pressure at the end of the last jump \[Pa\].
     pub(crate) p: Vec<f64>,
@@ -127,6 +129,7 @@ impl Marched {
             gives_approach: scene.path.branches[first_branch].to.given.delta_z.is_some(),
             plain_mu: plain(&scene.friction),
             history: scene.friction.history.clone(),
+            remembers: scene.friction.history.is_some() || scene.friction.law.is_some(),
             p: Vec::new(),
             state,
             wear: wear.clone(),
@@ -220,7 +223,7 @@ impl Marched {
     fn cycle(&mut self, worn: &Worn) -> Result<(Cycled, State), Error> {
         let gap = gap(&self.h, worn, self.wear.opens());
         let mut start = self.state.start.clone();
-        if self.history.is_some() {
+        if self.remembers {
             // The history that friction depends on includes all cycles so far.
             start.slip_length.clone_from(&worn.slid);
             start.dissipated.clone_from(&worn.energy[0]);

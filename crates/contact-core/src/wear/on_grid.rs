@@ -8,8 +8,9 @@ use crate::scene::Grid;
 /// Factor by which a grid is to grow where the contact cannot be estimated.
 const GRID_GROWTH: f64 = 1.4;
 
-/// Fails if a cell with pressure p \[Pa\] lies at the border of the grid, or if its place on a
-/// shifted body is off the grid; fields of `rows` cells per column, the last at the border.
+/// Fails if a cell with pressure p \[Pa\], or a depth that it wears, lies at the border of the grid,
+/// or if its place on a shifted body is off the grid; fields of `rows` cells per column, the last at
+/// the border.
 pub(super) fn check(grid: &Grid, rows: usize, p: &[f64], shifts: &[Shift]) -> Result<(), Error> {
     let pressed = || (0..p.len()).filter(|&n| p[n] > 0.0);
     let columns = pressed().fold(None, |range: Option<(usize, usize)>, n| {

@@ -8,6 +8,7 @@ use super::events::{crossing, events, passed};
 use super::jump::Jump;
 use super::loss::{Loss, Worn};
 use super::model::Model;
+use super::on_grid;
 use super::passage::Passage;
 use super::settings::{Jumps, Wear, WornThrough};
 use super::state::WearState;
@@ -237,7 +238,8 @@ impl WearRun {
                 });
             }
             self.model.restore(&self.state.model);
-            let tried = match self.attempt(n) {
+            let tried = self.attempt(n).and_then(|tried| self.on_grid(tried));
+            let tried = match tried {
                 Err(Error::NotConverged { .. }) if self.may_be_cut(n) => {
                     n *= SHORTER;
                     for_event = None;
@@ -281,6 +283,16 @@ impl WearRun {
             iterations: TRIES,
             why: String::new(),
         })
+    }
+
+    /// Fails if a jump wears cells at the border of the grid: the scar goes on beyond it, whatever the
+    /// pressure at the ends of the jump.
+    fn on_grid(&self, tried: Attempt) -> Result<Attempt, Error> {
+        let rows = self.model.pressing().rows();
+        for depth in &tried.loss.depth {
+            on_grid::check(&self.scene.grid, rows, depth, &[])?;
+        }
+        Ok(tried)
     }
 
     /// Whether the run chooses the length of its jumps and may take less than n cycles.

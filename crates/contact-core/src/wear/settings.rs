@@ -170,10 +170,6 @@ impl Wear {
             let allowed = "a finite coefficient above 0 for wear";
             return Err(Error::invalid("friction.mu", scene.friction.mu, allowed));
         }
-        if scene.friction.law.is_some() {
-            let allowed = "a coefficient with its map or history over cycles of wear";
-            return Err(Error::invalid("friction.law", "a law of your own", allowed));
-        }
         let of_increments = |h: &FrictionHistory| h.of == History::Increment;
         if scene.friction.history.as_ref().is_some_and(of_increments) {
             let allowed = "\"cycles\", \"slip\" or \"dissipated\" over cycles of wear";

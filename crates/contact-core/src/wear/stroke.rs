@@ -108,14 +108,16 @@ fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
     let friction = &scene.friction;
     let of_cycles = |h: &FrictionHistory| h.of == History::Cycles && rigid;
     let changes = friction.history.as_ref().is_some_and(|h| !of_cycles(h));
-    if friction.map.is_some() || changes || friction.kinetic.is_some() {
+    let own = friction.law.is_some();
+    if friction.map.is_some() || changes || friction.kinetic.is_some() || own {
         let allowed = "one coefficient mu where wear.cycling = \"sliding\", or, without a spring of the rig, one with a \
-                       history of cycles";
-        return refuse(
-            "friction".into(),
-            "a law of place or history".into(),
-            allowed,
-        );
+                       history of cycles; wear.cycling = \"march\" takes all of them";
+        let value = if own {
+            "a law of your own"
+        } else {
+            "a law of place or history"
+        };
+        return refuse("friction".into(), value.into(), allowed);
     }
     if scene.body1.shape != Shape::Flat && scene.body2.shape != Shape::Flat {
         let allowed = "flat where wear.cycling = \"sliding\" and body 1 is not";

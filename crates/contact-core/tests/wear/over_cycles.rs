@@ -6,7 +6,8 @@ use std::sync::Arc;
 use contact_core::Error;
 use contact_core::output::{WearStore, read_worn, resume_wear, resume_wear_by};
 use contact_core::scene::{
-    Coating, Elastic, Friction, FrictionHistory, Grid, History, LoadPath, Scene, Shape,
+    CellHistory, Coating, Elastic, Friction, FrictionHistory, FrictionLaw, Grid, History, LawError,
+    LoadPath, Scene, Shape,
 };
 use contact_core::wear::{
     Archard, BodyWear, CellCycle, Cycling, DissipatedEnergy, EventKind, Factor, Jumps, Law, Of,
@@ -233,6 +234,19 @@ impl Law for Own {
     }
 }
 
+/// Friction that falls with the energy of all cycles.
+#[derive(Debug)]
+struct Softens;
+
+impl FrictionLaw for Softens {
+    fn coefficients(&self, cells: &CellHistory<'_>, mu: &mut [f64]) -> Result<(), LawError> {
+        for (mu, energy) in mu.iter_mut().zip(cells.dissipated) {
+            *mu = 0.4 + 0.2 * (-energy / 1e9).exp();
+        }
+        Ok(())
+    }
+}
+
 #[test]
 fn runs_of_tables_and_of_functions_are_taken_up_to_the_same_bytes() {
     let table = |of| {
@@ -253,6 +267,10 @@ fn runs_of_tables_and_of_functions_are_taken_up_to_the_same_bytes() {
         }),
         ..sticks.friction
     };
+    let softens = Scene {
+        friction: Friction::own(sticks.friction.mu, Softens),
+        ..partial_slip()
+    };
     let cases = [
         (
             sliding(),
@@ -261,6 +279,11 @@ fn runs_of_tables_and_of_functions_are_taken_up_to_the_same_bytes() {
         ),
         (
             sticks,
+            Cycling::March,
+            [table(Of::Energy), table(Of::Cycles)],
+        ),
+        (
+            softens,
             Cycling::March,
             [table(Of::Energy), table(Of::Cycles)],
         ),
@@ -290,7 +313,13 @@ fn runs_of_tables_and_of_functions_are_taken_up_to_the_same_bytes() {
             let told = resume_wear(&broken, None, &stop).map(drop).unwrap_err();
             assert!(told.to_string().contains("given again"), "{told}");
         }
-        let (mut run, mut store) = resume_wear_by(&broken, &own, &stop).unwrap().unwrap();
+        let law = scene.friction.law.as_ref();
+        if law.is_some() {
+            let told = resume_wear_by(&broken, &own, None, &stop).map(drop);
+            let told = told.unwrap_err().to_string();
+            assert!(told.contains("given again"), "{told}");
+        }
+        let (mut run, mut store) = resume_wear_by(&broken, &own, law, &stop).unwrap().unwrap();
         while let Some(jump) = run.advance() {
             jump.unwrap();
             store.write(&mut run).unwrap();

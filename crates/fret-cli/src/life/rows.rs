@@ -1,5 +1,6 @@
 //! The lines of `fret life`: a worst point of each layer, or a mean.
 
+use crate::words::{mega, um};
 use std::fmt::Write as _;
 
 use contact_core::Error;
@@ -61,13 +62,14 @@ pub(super) fn points(
             "decides": decides,
         });
         let mut line = format!(
-            "layer {}: {}, {criterion} {:.5e} {unit} +- {error:.2e} at x = {:.4e} m, y = {:.4e} m, z = {:.4e} m",
+            "layer {}: {}, {criterion} {} +- {} at x = {}, y = {}, z = {}",
             w.extreme.depth.layer,
             said(margin, a),
-            w.extreme.value,
-            w.extreme.x,
-            w.extreme.y,
-            w.extreme.depth.z
+            mega(w.extreme.value, unit),
+            mega(error, unit),
+            um(w.extreme.x),
+            um(w.extreme.y),
+            um(w.extreme.depth.z)
         );
         if let Some(angle) = angle.filter(|angle| angle.is_finite()) {
             let _ = write!(line, ", plane {angle:.1} degrees from the surface normal");
@@ -139,10 +141,12 @@ pub(super) fn mean(
         "method": options.method, axis: place, "layer": layer,
     });
     let line = format!(
-        "layer {layer}: {}, {criterion} {:.5e} {unit} at {axis} = {place:.4e} m, {} method with L = {length:.3e} m",
+        "layer {layer}: {}, {criterion} {} at {axis} = {}, {} method with L = {}",
         said(margin, assessment),
-        most.value,
-        options.method
+        mega(most.value, unit),
+        um(place),
+        options.method,
+        um(length)
     );
     Ok(Row {
         line,

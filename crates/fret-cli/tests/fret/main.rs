@@ -335,8 +335,8 @@ fn check_solves_nothing() {
     let told = text(&output.stdout);
     assert!(output.status.success());
     for words in [
-        "a_H           5.0471",
-        "p_H           1.87",
+        "a_H           504.7 um",
+        "p_H           187",
         "cells per a_H 10.00 along x, 10.00 along y",
         "24 x 24 cells",
         "4 branches, 39 increments",

@@ -76,8 +76,8 @@ impl From<core::History> for History {
 ///     `mu` is about what it gives, the measure of tolerances, and the coefficient where nothing
 ///     is pressed yet. An increment is solved again until the coefficient is that of pressure and
 ///     history at its end. What the function raises is raised as it is. No map, history or kinetic
-///     coefficient beside it, no wear; a store keeps that there is a law, not which:
-///     ``pyfret.resume(store, friction_law=...)``.
+///     coefficient beside it; over cycles of wear slip and energy are those of all cycles so far. A
+///     store keeps that there is a law, not which: ``pyfret.resume(store, friction_law=...)``.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Friction(pub(crate) core::Friction);

@@ -81,6 +81,7 @@ pub(in crate::scene) fn heights(bytes: Vec<u8>, format: &FileOfNumbers) -> Resul
     }
     let shape = (table.rows(), table.columns);
     let unit = unit.cloned();
+    let unit = unit.or_else(|| unit::of_whole(&table.titles(), &table.comments));
     let values = Array2::from_shape_vec(shape, table.numbers).map_err(|e| e.to_string())?;
     reader.plain(values, unit.as_deref())
 }

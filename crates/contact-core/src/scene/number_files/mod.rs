@@ -16,5 +16,6 @@ mod unit;
 pub use heights::FileOfNumbers;
 pub(in crate::scene) use heights::{Heights, heights};
 pub(in crate::scene) use table::Table;
-pub(in crate::scene) use text::{strict, tolerant};
+pub(in crate::scene) use text::strict;
+pub use text::tolerant;
 pub(in crate::scene) use unit::{Kind, named, of_titles};

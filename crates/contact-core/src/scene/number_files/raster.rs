@@ -27,20 +27,7 @@ impl Header {
             values.next().map(|(_, value)| value.trim())
         };
         let (Some(width), Some(height)) = (entry("Width"), entry("Height")) else {
-            return Ok(None);
-        };
-        let length = |text: &str| {
-            let (value, word) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
-            let known = unit::named(word).filter(|(kind, _)| *kind == Kind::Length);
-            let length = number(value)
-                .zip(known)
-                .map(|(value, (_, size))| value * size);
-            length.ok_or_else(|| {
-                format!(
-                    "header: `{text}` is no length: must be a number and one of {}",
-                    unit::names(Kind::Length)
-                )
-            })
+            return Ok(Self::of_another_language(comments));
         };
         Ok(Some(Self {
             channel: entry("Channel").map(ToOwned::to_owned),
@@ -49,12 +36,49 @@ impl Header {
         }))
     }
 
+    /// The same four lines in another language: channel, width, height and unit, in this order.
+    fn of_another_language(comments: &[String]) -> Option<Self> {
+        let values = |line: &'_ String| {
+            line.split_once(':')
+                .map(|(_, value)| value.trim().to_owned())
+        };
+        comments.windows(4).find_map(|lines| {
+            let [channel, width, height, unit] = lines
+                .iter()
+                .map(values)
+                .collect::<Option<Vec<_>>>()?
+                .try_into()
+                .ok()?;
+            unit::named(&unit)?;
+            Some(Self {
+                channel: Some(channel),
+                size: (length(&width).ok()?, length(&height).ok()?),
+                unit: Some(unit),
+            })
+        })
+    }
+
     /// The numbers of the table with x first.
     pub(super) fn values(table: &Table) -> Result<Array2<f64>, String> {
         let shape = (table.rows(), table.columns);
         let rows = Array2::from_shape_vec(shape, table.numbers.clone());
         rows.map(Array2::reversed_axes).map_err(|e| e.to_string())
     }
+}
+
+/// A length with its unit, in m.
+fn length(text: &str) -> Result<f64, String> {
+    let (value, word) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+    let known = unit::named(word).filter(|(kind, _)| *kind == Kind::Length);
+    let length = number(value)
+        .zip(known)
+        .map(|(value, (_, size))| value * size);
+    length.ok_or_else(|| {
+        format!(
+            "header: `{text}` is no length: must be a number and one of {}",
+            unit::names(Kind::Length)
+        )
+    })
 }
 
 /// An ESRI ASCII grid: numbers and their distance along x and y, in the unit of the file.
@@ -136,5 +160,29 @@ impl EsriGrid {
             values: rows.reversed_axes(),
             pitch,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Header;
+
+    #[test]
+    fn the_header_of_gwyddion_is_known_in_any_language() {
+        let lines = |text: &str| text.lines().map(ToOwned::to_owned).collect::<Vec<_>>();
+        let said =
+            lines("Channel: Topography\nWidth: 48.0 \u{b5}m\nHeight: 40 \u{3bc}m\nValue units: nm");
+        let english = Header::of(&said).expect("a header");
+        let said = lines(
+            "Kanal: Topography\nBreite: 48,0 \u{b5}m\nH\u{f6}he: 40 \u{b5}m\nWerteinheiten: nm",
+        );
+        assert_eq!(Header::of(&said), Ok(english));
+        for none in [
+            "a: 1 um\nb: 2 um",
+            "Rig: A\nStroke: 4 um\nDrift: 1 um\nMade by: me",
+        ] {
+            assert_eq!(Header::of(&lines(none)), Ok(None));
+        }
+        assert!(Header::of(&lines("Width: 4 apples\nHeight: 3 um")).is_err());
     }
 }

@@ -1,7 +1,7 @@
 //! Bytes to text.
 
 /// Text of a file of numbers: UTF-8, UTF-16, or else Latin-1, in which instruments write their µ.
-pub(in crate::scene) fn tolerant(bytes: Vec<u8>) -> Result<String, String> {
+pub fn tolerant(bytes: Vec<u8>) -> Result<String, String> {
     let text = match unicode(bytes) {
         Ok(text) => text,
         Err((wrong, bytes))

@@ -145,12 +145,53 @@ pub(in crate::scene) fn of_titles(
     )
 }
 
+/// The unit of length in brackets at the end of the one title of a whole table, such as `z [um]`
+/// above a map, or of its last comment, in which NumPy writes a title.
+pub(in crate::scene) fn of_whole(titles: &[Vec<String>], comments: &[String]) -> Option<String> {
+    let only = |line: &Vec<String>| -> Option<String> {
+        let mut words = line.iter().filter(|word| !word.trim().is_empty());
+        words.next().filter(|_| words.next().is_none()).cloned()
+    };
+    let title = titles.iter().rev().find_map(only);
+    // A number in a comment is a setting, and its unit not that of the heights.
+    let comment = || {
+        comments
+            .last()
+            .filter(|text| !text.contains(char::is_numeric))
+    };
+    let title = title.or_else(|| comment().cloned())?;
+    let unit = of_title(&title).1?;
+    named(unit).filter(|(kind, _)| *kind == Kind::Length)?;
+    Some(unit.to_owned())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Kind, named, of_titles};
+    use super::{Kind, named, of_titles, of_whole};
 
     fn line(words: &str) -> Vec<String> {
         words.split(',').map(ToOwned::to_owned).collect()
+    }
+
+    #[test]
+    fn a_title_above_a_map_says_its_unit() {
+        let comments = |text: &str| vec![text.to_owned()];
+        for (titles, comments) in [
+            (vec![line("z [um]")], vec![]),
+            (vec![line("Scan of May"), line("Höhe (µm),,")], vec![]),
+            (vec![], comments("heights [um]")),
+        ] {
+            let unit = of_whole(&titles, &comments).expect("a unit");
+            assert_eq!(named(&unit), Some((Kind::Length, 1e-6)));
+        }
+        for (titles, comments) in [
+            (vec![line("Scan (May)")], vec![]),
+            (vec![line("x [mm],y [mm]")], vec![]),
+            (vec![], comments("pitch 2 [um]")),
+            (vec![line("force [N]")], vec![]),
+        ] {
+            assert_eq!(of_whole(&titles, &comments), None);
+        }
     }
 
     #[test]

@@ -1,0 +1,232 @@
+"""What a run of wear leaves: its jumps, its worn surfaces, its events."""
+
+from __future__ import annotations
+
+import math
+import sys
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pyfret._core import Scene
+from pyfret._util import files
+from pyfret._util.labelled import Labelled
+from pyfret.scene.tables import table
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+if TYPE_CHECKING:
+    import os
+
+    import xarray as xr
+
+__all__ = ["WearResult"]
+
+
+class WearResult(Labelled):
+    """Worn surfaces over blocks of cycles, and the numbers of every jump.
+
+    ``dataset`` has the scalars over ``jump`` (coordinate ``cycles``): ``volume1``, ``volume2``,
+    ``depth1``, ``depth2``, ``debris``, ``dissipated``, ``p_max``, ``stick_ratio``,
+    ``depth_error``, ...; the fields ``worn1``, ``worn2``, ``energy1``, ``energy2``, ``slid``,
+    ``p``, ``stick`` over ``block``, ``x``, ``y`` (coordinate ``block_cycles``), and the friction
+    loops ``loop_delta_x``, ``loop_T_x``, ... over ``block``, ``corner``.
+    """
+
+    def __getattr__(self, name: str) -> Any:
+        """Give a variable or an attribute of the dataset."""
+        if not name.startswith("_"):
+            if name in self.dataset:
+                return self.dataset[name]
+            if name in self.dataset.attrs:
+                return self.dataset.attrs[name]
+        raise AttributeError(f"a wear result has no {name!r}")
+
+    @property
+    def worn(self) -> xr.DataArray:
+        """Depth worn off both bodies together, read with no shift between them, m."""
+        total: xr.DataArray = self.dataset.worn1 + self.dataset.worn2
+        return total
+
+    def cycles_to(
+        self,
+        *,
+        depth: float | None = None,
+        part_of_coating: float | None = None,
+        volume: float | None = None,
+        body: int = 2,
+        coating: int = 0,
+    ) -> float:
+        """Cycles after which a body has worn so far; infinite if the run does not get there.
+
+        Within a jump the depth and the volume follow the parabola through its ends and its middle,
+        so the error is that of the jumps (``depth_error``).
+
+        Parameters
+        ----------
+        depth : float
+            Deepest worn depth [m].
+        part_of_coating : float
+            The deepest depth, as a part of a coating's thickness: 1 is worn through.
+        volume : float
+            Volume lost [m^3].
+        body : 1 or 2
+            The body.
+        coating : int
+            The coating, 0 the outermost; those above it are worn through before.
+
+        Raises
+        ------
+        ValueError
+            Not one of the three is given, or the body has no such coating.
+        """
+        given = {"depth": depth, "part_of_coating": part_of_coating, "volume": volume}
+        if sum(value is not None for value in given.values()) != 1:
+            raise ValueError(f"{', '.join(given)}: give one of them")
+        if body not in (1, 2):
+            raise ValueError(f"body = {body}: must be 1 or 2")
+        if part_of_coating is not None:
+            scene = Scene.from_toml(self.dataset.attrs["scene"])
+            coatings = (scene.body1 if body == 1 else scene.body2).coatings
+            if not 0 <= coating < len(coatings):
+                raise ValueError(f"coating = {coating}: body {body} has {len(coatings)} coatings")
+            above = sum(layer.thickness for layer in coatings[:coating])
+            depth = above + part_of_coating * coatings[coating].thickness
+        name, target = ("volume", volume) if depth is None else ("depth", depth)
+        return reached(self.dataset, f"{name}{body}", float(target or 0.0))
+
+    @property
+    def gap(self) -> xr.DataArray:
+        """By how much the gap has grown: what both bodies lost less the debris that stays, m."""
+        opened: xr.DataArray = (1.0 - self.debris_kept) * self.worn
+        return opened
+
+    @property
+    def debris_kept(self) -> float:
+        """Part of what both bodies lose that stays in the contact."""
+        return float(tomllib.loads(self.dataset.attrs["wear"])["wear"].get("debris_kept", 0.0))
+
+    def summary(self) -> str:
+        """Depths, volumes, energy, jumps, laws and what happened to the coatings, as text."""
+        d = self.dataset
+        last = {name: float(d[name][-1]) for name in d.data_vars if d[name].dims == ("jump",)}
+        volume, energy = (d[name].attrs["units"] for name in ("volume1", "dissipated"))
+        lines = [
+            str(d.attrs.get("title") or "wear"),
+            f"{float(d.cycles[-1]):.6g} cycles in {d.sizes['jump']} jumps, status: "
+            f"{d.attrs['status']}",
+        ]
+        for body in (1, 2):
+            if last[f"volume{body}"] > 0:
+                lines.append(
+                    f"body {body}: {1e6 * last[f'depth{body}']:.4g} um deep "
+                    f"(+- {last['depth_error']:.1%} of the jumps), {last[f'volume{body}']:.4g} "
+                    f"{volume}"
+                )
+        if self.debris_kept:
+            lines.append(
+                f"debris: {self.debris_kept:g} of it stays in the contact, {last['debris']:.4g} "
+                f"{volume}"
+            )
+        lines.append(
+            f"energy: {last['dissipated']:.4g} {energy}, {last['dissipated_per_cycle']:.4g} in "
+            "the last cycle"
+        )
+        lines.append(
+            f"largest pressure: {1e-6 * last['p_max']:.4g} MPa, stick ratio "
+            f"{last['stick_ratio']:.3f}"
+        )
+        lines += [
+            f"{event['kind']} after {event['cycles']:.0f} cycles: body {event['body']}, coating "
+            f"{event['coating']}, at x = {1e6 * event['x']:.1f} um, y = {1e6 * event['y']:.1f} um"
+            for event in self.events
+        ]
+        says = tomllib.loads(d.attrs["wear"])["wear"]
+        for body in (1, 2):
+            laws = says.get(f"body{body}", {}).get("laws", [])
+            lines += [f"law of body {body}: {written(law)}" for law in laws]
+        return "\n".join(lines)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the result to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``).
+
+        :func:`open` opens both. The place must be free.
+
+        Raises
+        ------
+        FileExistsError
+            There is something already.
+        ValueError
+            The ending is another.
+        """
+        files.write(self.dataset.load().drop_encoding(), path)
+
+    def report(self, path: str | os.PathLike[str]) -> None:
+        """Write a page for a browser: the contact on its unworn surfaces, and what wears."""
+        # Reports and solutions stand above wear.
+        above = [import_module(f"pyfret.{name}") for name in ("solution", "report")]
+        scene = Scene.from_toml(self.dataset.attrs["scene"])
+        above[1].report(above[0].solve(scene, progress=False), path, wear=self)
+
+    @property
+    def events(self) -> list[dict[str, Any]]:
+        """What happened to the coatings: kind, cycles, body, coating, x, y."""
+        return list(self.dataset.attrs["events"])
+
+    def _repr_html_(self) -> str:
+        """Cycles and depths of the blocks, for notebooks."""
+        d = self.dataset
+        at = [int(abs(d.cycles.values - of).argmin()) for of in d.block_cycles.values]
+        rows = [
+            [f"{float(d.cycles[n]):.4g}"]
+            + [f"{1e6 * float(d[name][n]):.4g}" for name in ("depth1", "depth2")]
+            + [f"{1e-6 * float(d.p_max[n]):.4g}"]
+            for n in at
+        ]
+        heading = ["cycles", "depth, body 1 [µm]", "depth, body 2 [µm]", "p_max [MPa]"]
+        return table(heading, rows)
+
+    def __repr__(self) -> str:
+        """Tell the cycles and the depths."""
+        d = self.dataset
+        return (
+            f"WearResult({float(d.cycles[-1]):.0f} cycles in {d.sizes['jump']} jumps, depths "
+            f"{float(d.depth1[-1]):.3e} m and {float(d.depth2[-1]):.3e} m)"
+        )
+
+
+def reached(d: xr.Dataset, name: str, target: float) -> float:
+    """Cycles at which a growing number of the jumps reaches a value, by parabolas."""
+    ends, middles, length = (np.asarray(d[k].values) for k in (name, f"{name}_halfway", "length"))
+    if target <= 0.0:
+        return float(d.cycles[0] - length[0])
+    jumps = np.flatnonzero(ends >= target)
+    if jumps.size == 0:
+        return math.inf
+    n = int(jumps[0])
+    quantity, body = name[:-1], int(name[-1])
+    start = float(ends[n - 1]) if n else float(d.attrs[f"{quantity}_before"][body - 1])
+    whole, asked = float(ends[n]) - start, target - start
+    if not (asked > 0.0 and whole > 0.0):
+        return float(d.cycles[n] - length[n])
+    half = min(max(float(middles[n]) - start, 0.25 * whole), 0.75 * whole)
+    slope, bend = 4.0 * half - whole, 2.0 * whole - 4.0 * half
+    part = 2.0 * asked / (slope + math.sqrt(max(slope**2 + 4.0 * bend * asked, 0.0)))
+    return float(d.cycles[n] - length[n] * (1.0 - min(part, 1.0)))
+
+
+def written(law: dict[str, Any]) -> str:
+    """A law in words."""
+    if law.get("own"):
+        return "a function"
+    name, unit = ("k", "m^2/N") if "k" in law else ("alpha", "m^3/J")
+    if not law[name]:
+        return "does not wear"
+    text = f"{name} = {law[name]:.4g} {unit}"
+    if law.get("threshold"):
+        text += f", threshold {law['threshold']:.4g}"
+    return text + (f", times a function of {law['factor']['of']}" if "factor" in law else "")
