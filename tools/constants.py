@@ -89,16 +89,17 @@ def definition(text: str, name: str) -> re.Match[str]:
 def read_from_environment(copy: Path, file: str, name: str) -> None:
     """Makes a constant a function in the copy, in its file and where it is imported."""
     source = copy / SOURCE
-    # Other modules have constants of the same name.
     module = Path(file).parent.name if file.endswith("/mod.rs") else Path(file).stem
+    # Where other modules have a constant of the same name, it is known by its module.
+    defined = [f for f in source.rglob("*.rs") if f"const {name}:" in f.read_text()]
+    used = rf"\b{module}\b[^;]*" if len(defined) > 1 else ""
     text = (source / file).read_text()
     kind, value = definition(text, name).groups()
     read = READ.format(name=name, kind=kind, value=value, key=key_of(file, name))
     for path in source.rglob("*.rs"):
         text = path.read_text()
         here = path == source / file
-        used = rf"^use [^;]*\b{module}\b[^;]*\b{name}\b"
-        if not here and not re.search(used, text, re.MULTILINE):
+        if not here and not re.search(rf"^use [^;]*{used}\b{name}\b", text, re.MULTILINE):
             continue
         lines = []
         for line in text.splitlines():
