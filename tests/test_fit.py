@@ -184,3 +184,28 @@ def test_ranges_are_refused_by_name() -> None:
         fret.fit(ball(), data, unknown={})
     with pytest.raises(ValueError, match=r"mu = \(1, 0\.5\)"):
         fret.fit(ball(), data, unknown={"mu": (1, 0.5)})
+
+
+def test_the_posterior_is_that_of_the_confidence_where_the_model_is_linear() -> None:
+    true = fret.study.varied(ball(), {"mu": 0.62, "rig.stiffness": 8e6})
+    shift, T = loop(true, 6e-6, 0.02, 1)
+    found = fret.fit(
+        ball(),
+        fret.fit.Loops.of(shift, T),
+        unknown={"mu": (0.2, 1.2), "rig.stiffness": (1e6, 1e8)},
+        posterior=4000,
+    )
+    posterior = found.posterior
+    assert posterior is not None
+    assert posterior.error < 0.2
+    assert posterior.solves <= 12
+    for key, value in {"mu": 0.62, "rig.stiffness": 8e6}.items():
+        low, high = posterior.interval(key)
+        assert low < value < high
+        known = found.known[key]
+        assert abs(known.value - np.median(posterior.samples[key])) < 0.2 * (high - low)
+        # Both without what the solver leaves.
+        assert (high - low) == pytest.approx(2 * known.noise, rel=0.15)
+    assert "95 % of the posterior" in found.summary()
+    again = [np.corrcoef(*posterior.samples.values())[0, 1], found.correlation[0, 1]]
+    assert abs(again[0] - again[1]) < 0.15

@@ -44,6 +44,13 @@ def add_options(commands: argparse._SubParsersAction[Any]) -> None:
     command.add_argument(
         "--unit", action="append", default=[], metavar="NAME=UNIT", help="unit of a column"
     )
+    command.add_argument(
+        "--posterior",
+        type=int,
+        default=0,
+        metavar="SAMPLES",
+        help="that many samples of the posterior, too: its 95 %% intervals",
+    )
     command.add_argument("--json", action="store_true", help="values and confidence as JSON")
     command.add_argument("-o", "--out", help="figure (.png, .svg, .pdf)")
 
@@ -59,9 +66,9 @@ def run(options: argparse.Namespace) -> int:
         data = fit.loops(options.data, delta=options.x, T=options.force, units=units)
     else:
         data = fit.indentation(options.data, delta_z=options.x, W=options.force, units=units)
-    found = fit.fit(scene, data, unknown=unknown)
+    found = fit.fit(scene, data, unknown=unknown, posterior=options.posterior)
     if options.json:
-        said = {
+        said: dict[str, Any] = {
             "unknown": {
                 key: {"value": k.value, "low": k.low, "high": k.high, "solver": k.solver}
                 for key, k in found.known.items()
@@ -72,6 +79,8 @@ def run(options: argparse.Namespace) -> int:
             "solves": found.solves,
             "doubts": found.doubts,
         }
+        if found.posterior is not None:
+            said["posterior"] = {key: found.posterior.interval(key) for key in found.known}
         print(json.dumps(said))
     else:
         print(found.summary())

@@ -17,6 +17,7 @@ from typing import Any
 from pyfret._util.names import listing
 from pyfret.fit.data import Indentation, Lives, Loops, Scar, indentation, lives, loops, scar
 from pyfret.fit.outcome import Found
+from pyfret.fit.posterior import Posterior
 from pyfret.fit.search import fit
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "Indentation",
     "Lives",
     "Loops",
+    "Posterior",
     "Scar",
     "fit",
     "indentation",

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from pyfret._core import Scene
     from pyfret.fit.data import Measured
+    from pyfret.fit.posterior import Posterior
     from pyfret.plot.style import Drawn
 
 __all__ = ["Found", "Known"]
@@ -24,6 +25,8 @@ __all__ = ["Found", "Known"]
 ALIKE = 0.97
 #: Factor between the ends of an interval from which an unknown counts as not resolved.
 UNRESOLVED = 4.0
+#: Error of the model of the posterior over the noise from which it is told.
+ROUGH = 0.3
 
 
 @dataclass(frozen=True)
@@ -75,6 +78,8 @@ class Found(HoldsArrays):
         Whether the search ended by itself.
     scene : Scene
         The scene with the values found.
+    posterior : Posterior, optional
+        Samples of the unknowns, where they were asked for.
     """
 
     known: dict[str, Known]
@@ -88,6 +93,7 @@ class Found(HoldsArrays):
     grid_known: bool
     converged: bool
     scene: Scene
+    posterior: Posterior | None = None
 
     def __getitem__(self, key: str) -> float:
         """The value of an unknown."""
@@ -136,6 +142,11 @@ class Found(HoldsArrays):
                 "cells twice as wide, or half of the increments, could not be solved: what they "
                 "leave is not in the confidence; give more cells"
             )
+        if self.posterior is not None and self.posterior.error > ROUGH:
+            said.append(
+                "the posterior is that of a quadratic model of the contact, which errs by "
+                f"{self.posterior.error:.2g} of the noise: the confidence by profiles is better"
+            )
         if not self.converged:
             said.append(f"the search did not settle in {self.solves} solves")
         for n, measured in enumerate(self.sets):
@@ -159,6 +170,10 @@ class Found(HoldsArrays):
                 f"{key:{width}}  {k.value:11.5g}  {k.low:10.4g} to {k.high:10.4g}  "
                 f"{k.noise:9.2g}, {k.solver:9.2g}"
             )
+        if self.posterior is not None:
+            for key in self.known:
+                low, high = self.posterior.interval(key)
+                lines.append(f"{key}: 95 % of the posterior from {low:.4g} to {high:.4g}")
         lines += [f"{name}: {value:.3g}" for name, value in self.offsets.items()]
         for of, noise in zip(self.sets, self.noise, strict=True):
             part = noise / float(np.ptp(of.measured)) if np.ptp(of.measured) else 0.0

@@ -16,7 +16,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,6 +26,7 @@ from pyfret._util.extras import needed
 from pyfret.fit.data import Data
 from pyfret.fit.models import Model, model_of, split
 from pyfret.fit.outcome import Found, Known
+from pyfret.fit.posterior import Posterior, sampled
 from pyfret.study.design import varied
 
 if TYPE_CHECKING:
@@ -52,6 +53,8 @@ def fit(
     *,
     unknown: Mapping[str, tuple[float, ...]],
     workers: int = 2,
+    posterior: int = 0,
+    seed: int = 0,
 ) -> Found:
     """Find unknowns of a scene from what was measured.
 
@@ -68,6 +71,12 @@ def fit(
         by their logarithm.
     workers : int
         Contacts solved side by side.
+    posterior : int
+        Number of samples of the posterior (default: none), by ``emcee``, of a quadratic model of
+        the contact around the best values; 16 more solves for three unknowns. The prior is flat
+        in what is searched.
+    seed : int
+        Seed of these samples.
 
     Returns
     -------
@@ -79,7 +88,7 @@ def fit(
     ValueError
         There is no unknown, or a range has no meaning.
     ModuleNotFoundError
-        ``scipy`` is not installed: ``pip install "fretting[fit]"``.
+        ``scipy`` (or ``emcee``) is not installed: ``pip install "fretting[fit]"``.
 
     Examples
     --------
@@ -105,7 +114,9 @@ def fit(
             gtol=1e-9,
             max_nfev=MOST,
         )
-        return search.outcome(np.asarray(found.x), converged=bool(found.status > 0))
+        best = np.asarray(found.x)
+        told = search.outcome(best, converged=bool(found.status > 0))
+        return search.with_posterior(told, best, posterior, seed) if posterior else told
 
 
 @dataclass(frozen=True)
@@ -325,6 +336,37 @@ class Search:
             converged=converged,
             scene=varied(self.scene, values) if values else self.scene,
         )
+
+    def with_posterior(self, found: Found, x: NDArray[np.float64], count: int, seed: int) -> Found:
+        """What was found, with samples of the posterior around x."""
+        u, gauges = self.parted(x)
+        n = len(self.ranges)
+        jacobian, residual = self.jacobian(x), self.residual(x)
+        left = float(residual @ residual) / max(residual.size - x.size, 1)
+        known = all(model.noise is not None for model in self.models)
+        before = self.solves
+
+        def solved(points: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
+            places = [tuple(float(v) for v in point) for point in points]
+            self.solved(places)
+            return [self.weighted(self.known[place], gauges) for place in places]
+
+        samples, error = sampled(
+            solved,
+            np.array(u),
+            np.asarray(left * np.linalg.pinv(jacobian.T @ jacobian)[:n, :n], np.float64),
+            self.weighted(self.known[u], gauges) - residual,
+            jacobian[:, n:],
+            noise=np.sqrt(max(left, 1.0)) if known else None,
+            count=count,
+            seed=seed,
+        )
+        values = {
+            r.key: np.array([r.value(float(one)) for one in samples[:, k]])
+            for k, r in enumerate(self.ranges)
+        }
+        posterior = Posterior(values, error, self.solves - before)
+        return replace(found, posterior=posterior, solves=self.solves)
 
     def profile(
         self,

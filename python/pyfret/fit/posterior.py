@@ -1,0 +1,165 @@
+"""The posterior of the unknowns: samples by ``emcee`` of a quadratic model of the contact.
+
+A sampler asks for ten thousands of solutions. Close to the best values what is computed is nearly
+quadratic in the unknowns: with L L^T the covariance of the linear model, y(u + L z) is fitted by a
+polynomial of second order in z through solves at |z| = 2, side by side, and compared with three
+further solves. The prior is flat in what is searched: the logarithm of positive ranges. Where the
+noise is not told, it is unknown as well, with the prior 1/sigma integrated out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pyfret._util.extras import needed
+from pyfret._util.holds_arrays import HoldsArrays
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["Posterior", "sampled"]
+
+#: |z| of the solves that the model goes through, and largest |z| of one component that is sampled.
+THROUGH, FARTHEST = 2.0, 4.0
+#: Solves that the model is compared with.
+CHECKS = 3
+#: Steps of the chains that are left out, and every so many of the others is kept.
+BURN, EVERY = 400, 10
+
+#: What should have been measured over its noise, at unknowns u, all data in a row.
+Solved = Callable[["list[NDArray[np.float64]]"], "list[NDArray[np.float64]]"]
+
+
+@dataclass(frozen=True, eq=False)
+class Posterior(HoldsArrays):
+    """Samples of the unknowns, given the data.
+
+    Attributes
+    ----------
+    samples : dict of str to array
+        Values by the keys of the unknowns; the n-th of all belong together.
+    error : float
+        What the quadratic model of the contact errs by (root mean square, at three solves), over
+        the noise.
+    solves : int
+        Contacts solved for it.
+    """
+
+    samples: dict[str, NDArray[np.float64]]
+    error: float
+    solves: int
+
+    def interval(self, key: str, part: float = 0.95) -> tuple[float, float]:
+        """The values between which that part of the samples lies, as many below as above."""
+        low, high = np.quantile(self.samples[key], [0.5 * (1 - part), 0.5 * (1 + part)])
+        return float(low), float(high)
+
+    def __repr__(self) -> str:
+        """Tell the medians and the 95 % intervals."""
+        said = []
+        for key, values in self.samples.items():
+            low, high = self.interval(key)
+            said.append(f"{key} = {np.median(values):.4g} [{low:.4g}, {high:.4g}]")
+        return f"Posterior({', '.join(said)}; model errs by {self.error:.2g} of the noise)"
+
+
+def monomials(z: NDArray[np.float64]) -> NDArray[np.float64]:
+    """1, z, and products of two, of points in rows."""
+    n = z.shape[1]
+    squares = [z[:, i] * z[:, j] for i in range(n) for j in range(i, n)]
+    return np.column_stack([np.ones(len(z)), z, *squares])
+
+
+def design(n: int) -> NDArray[np.float64]:
+    """Points of norm one that determine a quadratic of n unknowns, besides the middle."""
+    axes = np.vstack([np.eye(n), -np.eye(n)])
+    pairs = [
+        (s * axes[i] + t * axes[j]) / np.sqrt(2)
+        for i, j in combinations(range(n), 2)
+        for s, t in ((1, 1), (1, -1))
+    ]
+    return np.vstack([axes, *pairs])
+
+
+def sampled(
+    solved: Solved,
+    best: NDArray[np.float64],
+    covariance: NDArray[np.float64],
+    measured: NDArray[np.float64],
+    gauges: NDArray[np.float64],
+    *,
+    noise: float | None,
+    count: int,
+    seed: int,
+) -> tuple[NDArray[np.float64], float]:
+    """Samples of u, and the error of the model over the noise.
+
+    Parameters
+    ----------
+    solved : callable
+        Solutions at unknowns.
+    best, covariance : array
+        The best u, and the covariance of the linear model.
+    measured : array
+        What was measured, over noise, less what the offsets add.
+    gauges : array
+        Derivatives of what is computed by the offsets, shape (data, offsets).
+    noise : float, optional
+        Noise of what is measured; none: unknown.
+    count, seed : int
+        Samples, and the seed of the sampler.
+    """
+    emcee = needed("emcee", "fit")
+    n, dice = len(best), np.random.default_rng(seed)
+    values, ways = np.linalg.eigh(covariance)
+    # An unknown that the data do not tell is free over all of its range.
+    root = ways * np.minimum(np.sqrt(np.maximum(values, 0.0)), 0.25)
+
+    def at(z: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(best + z @ root.T)
+
+    def within(points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Points moved towards the middle until u lies in its range."""
+        for k, point in enumerate(points):
+            while np.any((at(point) < 0) | (at(point) > 1)):
+                point = points[k] = 0.8 * point
+        return points
+
+    aside = dice.standard_normal((CHECKS, n))
+    aside *= THROUGH / np.linalg.norm(aside, axis=1, keepdims=True)
+    points = within(np.vstack([np.zeros(n), THROUGH * design(n), aside]))
+    found = np.stack(solved(list(at(points))))
+    fitted, checks = slice(None, -CHECKS), slice(-CHECKS, None)
+    terms = np.asarray(np.linalg.lstsq(monomials(points[fitted]), found[fitted])[0], np.float64)
+    off = monomials(points[checks]) @ terms - found[checks]
+
+    # Offsets act linearly: what they can explain is no misfit.
+    basis = np.linalg.qr(gauges)[0] if gauges.shape[1] else np.zeros((len(measured), 0))
+
+    def unexplained(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+        return rows - (rows @ basis) @ basis.T
+
+    terms[0] -= measured
+    left = unexplained(terms)
+    gram, degrees = left @ left.T, len(measured) - gauges.shape[1]
+
+    def log_probability(z: NDArray[np.float64]) -> NDArray[np.float64]:
+        u, rows = at(z), monomials(z)
+        squares = np.maximum(np.einsum("ki,ij,kj->k", rows, gram, rows), 1e-300)
+        told = -0.5 * squares / noise**2 if noise else -0.5 * degrees * np.log(squares)
+        outside = np.any((u < 0) | (u > 1) | (np.abs(z) > FARTHEST), axis=1)
+        return np.where(outside, -np.inf, told)
+
+    walkers = max(32, 4 * n)
+    sampler = emcee.EnsembleSampler(walkers, n, log_probability, vectorize=True)
+    sampler.random_state = np.random.RandomState(seed).get_state()
+    steps = BURN + EVERY * -(-count // walkers)
+    sampler.run_mcmc(within(0.1 * dice.standard_normal((walkers, n))), steps)
+    chain = sampler.get_chain(discard=BURN, thin=EVERY, flat=True)[-count:]
+    scatter = noise or float(np.sqrt(max(gram[0, 0], 1e-300) / max(degrees - n, 1)))
+    return at(chain), float(np.sqrt(np.mean(unexplained(off) ** 2))) / scatter
