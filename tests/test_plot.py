@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+import types
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -40,6 +42,24 @@ def test_the_first_figure_of_a_notebook_leaves_it_interactive(coated: fret.Resul
         assert not plt.isinteractive()
     finally:
         plt.ioff()
+
+
+def test_a_notebook_shows_a_figure_once(
+    coated: fret.Result, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It shows what a cell has made, and its value as well: of an open figure only the first."""
+    shown: list[object] = []
+    notebook = types.ModuleType("IPython.display")
+    vars(notebook).update(Image=lambda data: data, display=shown.append)
+    monkeypatch.setitem(sys.modules, "IPython.display", notebook)
+    monkeypatch.setattr("matplotlib.get_backend", lambda: "inline")
+    figure = coated.plot()
+    figure._ipython_display_()  # type: ignore[attr-defined]
+    assert not shown
+    plt.close(figure)
+    figure._ipython_display_()  # type: ignore[attr-defined]
+    (picture,) = shown
+    assert bytes(picture).startswith(b"\x89PNG")  # type: ignore[call-overload]
 
 
 def test_depths_given_on_both_sides_of_an_interface_are_one_line(coated: fret.Result) -> None:
