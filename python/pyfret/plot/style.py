@@ -82,16 +82,15 @@ def styled(draw: Callable[P, Any]) -> Callable[P, Any]:
 def show_once(figure: Figure) -> None:
     """Let a notebook show a figure once where it is the value of a cell.
 
-    It shows every figure that a cell has made, and the value of a cell as well.
+    It shows the value of a cell, and then every figure that is open.
     """
 
     def show() -> None:
-        if plt.fignum_exists(figure.number):
-            return
         notebook = import_module("IPython.display")
         file = io.BytesIO()
         figure.savefig(file, format="png", bbox_inches="tight")
         notebook.display(notebook.Image(file.getvalue()))
+        plt.close(figure)
 
     figure._ipython_display_ = show  # type: ignore[attr-defined]
 
