@@ -188,7 +188,15 @@ def test_stress_that_is_not_there_is_refused(
     assert len(run.stderr.strip().splitlines()) == 1
 
 
-TEMPLATES = ("uncoated_ball", "coated_ball", "cylinder", "rough", "displacement", "many_layers")
+TEMPLATES = (
+    "uncoated_ball",
+    "coated_ball",
+    "cylinder",
+    "rough",
+    "displacement",
+    "many_layers",
+    "wear",
+)
 
 
 @pytest.mark.parametrize("template", TEMPLATES)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+import types
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -40,6 +42,23 @@ def test_the_first_figure_of_a_notebook_leaves_it_interactive(coated: fret.Resul
         assert not plt.isinteractive()
     finally:
         plt.ioff()
+
+
+def test_a_notebook_shows_a_figure_once(
+    coated: fret.Result, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It shows the value of a cell, and then every figure that is open."""
+    shown: list[bytes] = []
+    notebook = types.ModuleType("IPython.display")
+    vars(notebook).update(Image=bytes, display=shown.append)
+    monkeypatch.setitem(sys.modules, "IPython.display", notebook)
+    monkeypatch.setattr("matplotlib.get_backend", lambda: "inline")
+    figure = coated.plot()
+    assert plt.fignum_exists(figure.number)  # type: ignore[attr-defined]
+    figure._ipython_display_()  # type: ignore[attr-defined]
+    assert not plt.fignum_exists(figure.number)  # type: ignore[attr-defined]
+    (picture,) = shown
+    assert picture.startswith(b"\x89PNG")
 
 
 def test_depths_given_on_both_sides_of_an_interface_are_one_line(coated: fret.Result) -> None:

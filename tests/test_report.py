@@ -221,6 +221,8 @@ def test_verification_ships_with_the_package() -> None:
     worse = verification.Check("x", "y", ours=1.1, truth=1.0, scale=1.0, last=0.01)
     assert not worse.passed
     assert "1 FAILED" in str(verification.Verification([worse], 1.0))
+    # JSON knows no other kind of it.
+    assert all(type(check.passed) is bool for check in found.checks)
 
 
 def test_fret_hands_over_to_python() -> None:

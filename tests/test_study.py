@@ -66,6 +66,16 @@ def test_sensitivity_is_the_part_of_the_variance() -> None:
             of_study.sensitivity(of)
 
 
+@pytest.mark.parametrize("second", [2.0, np.nan])
+def test_a_map_says_where_a_point_that_is_done_has_no_value(second: float) -> None:
+    axes = {"a": [1.0, 2.0], "b": [1.0, 2.0]}
+    life = xr.DataArray([[1.0, second], [3.0, 4.0]], axes, name="life")
+    status = xr.full_like(life, 1, dtype=np.int8).rename("status")
+    legend = fret.study.Study(xr.merge([life, status])).map("life").get_legend()
+    told = [] if legend is None else [text.get_text() for text in legend.texts]
+    assert told == (["no value"] if np.isnan(second) else [])
+
+
 def test_a_point_is_the_solution_of_its_scene(whole: fret.study.Study) -> None:
     assert whole.count() == {"open": 0, "done": 6, "failed": 0}
     point = whole.dataset.isel({"body2.coatings.0.E": 1, "mu": 2})

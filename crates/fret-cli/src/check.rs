@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::printed::print;
 use crate::scene_options::{SceneOptions, say_doubts};
 use crate::summary::short;
-use crate::words::{mega, um};
+use crate::units::{mega, um};
 
 /// Options of `fret check`.
 #[derive(Args)]

@@ -4,7 +4,7 @@ use contact_core::fields::{Errors, Extreme, Probe, Zone};
 use contact_core::scene::Scene;
 
 use crate::summary::short;
-use crate::words::{mega, um};
+use crate::units::{mega, um};
 
 /// Prints the largest values of an increment and their places.
 pub(crate) struct Largest<'a> {

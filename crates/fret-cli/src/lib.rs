@@ -24,6 +24,7 @@ mod stress;
 mod summary;
 mod terminal;
 mod threads;
+mod units;
 mod wear;
 mod words;
 

@@ -20,7 +20,7 @@ use crate::largest::Largest;
 use crate::loads::Loads;
 use crate::printed::print;
 use crate::terminal::say;
-use crate::words::um;
+use crate::units::um;
 
 /// Options of `fret stress`.
 #[derive(Args)]

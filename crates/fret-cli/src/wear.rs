@@ -20,7 +20,7 @@ use crate::run::stop_on_interrupt;
 use crate::scene_options::SceneOptions;
 use crate::terminal::{draws, say};
 use crate::threads::Threads;
-use crate::words::um;
+use crate::units::um;
 
 const TEMPLATE: &str = "{bar:20} {pos}/{len} cycles, {elapsed} elapsed, {eta} left  {msg}";
 

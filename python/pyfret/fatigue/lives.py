@@ -221,7 +221,8 @@ class Life(Labelled):
         for layer in self.layers:
             w = self.worst_of(layer)
             place = (f"{1e6 * at:.4g}" for at in (w.x, w.y, w.z))
-            rows.append([str(layer), f"{w.margin:.4g}", f"{w.value:.5g} {unit}", *place])
+            value = f"{in_words(1e-6 * w.value)} MPa" if unit == "Pa" else f"{w.value:.4g} {unit}"
+            rows.append([str(layer), in_words(w.margin), value, *place])
         heading = ["layer", name.replace("_", " "), "value", "x [µm]", "y [µm]", "z [µm]"]
         criterion = escape(str(self.dataset.attrs["criterion"]))
         return f"<p><b>{criterion}</b></p>{table(heading, rows)}"

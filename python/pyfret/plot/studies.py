@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 import numpy as np
+from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from pyfret.plot.parameters import parameter_label
@@ -31,6 +32,8 @@ Words: TypeAlias = Mapping[str, tuple[str, float]]
 #: Values along both parameters from which on contours are drawn.
 CONTOURED = 4
 COLOURS = "YlGnBu"
+#: Status of a point that is done, and colour of points that are and have no value.
+DONE, NO_VALUE = 1, "0.9"
 
 
 class Tabulated(Protocol):
@@ -120,6 +123,11 @@ def study_map(
         )
     if "point" not in values.dims:
         crosses(ax, d["status"], words)
+    if values.ndim == 2 and bool((values.isnull() & (d["status"] == DONE)).any()):
+        # A life that is longer than the run, a crack that never starts.
+        ax.set_facecolor(NO_VALUE)
+        given = [*ax.get_legend_handles_labels()[0], Patch(color=NO_VALUE, label="no value")]
+        ax.legend(handles=given, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
     return ax
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, overload
 
+import matplotlib
 import matplotlib.pyplot as plt
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
@@ -69,9 +72,27 @@ def styled(draw: Callable[P, Any]) -> Callable[P, Any]:
             drawn = draw(*args, **kwargs)
             if kwargs.get("ax") is None:
                 settle(drawn)
-            return drawn
+        if isinstance(drawn, Figure) and "inline" in matplotlib.get_backend():
+            show_once(drawn)
+        return drawn
 
     return inside
+
+
+def show_once(figure: Figure) -> None:
+    """Let a notebook show a figure once where it is the value of a cell.
+
+    It shows the value of a cell, and then every figure that is open.
+    """
+
+    def show() -> None:
+        notebook = import_module("IPython.display")
+        file = io.BytesIO()
+        figure.savefig(file, format="png", bbox_inches="tight")
+        notebook.display(notebook.Image(file.getvalue()))
+        plt.close(figure)
+
+    figure._ipython_display_ = show  # type: ignore[attr-defined]
 
 
 def settle(drawn: object) -> None:

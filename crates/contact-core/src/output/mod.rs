@@ -23,6 +23,7 @@ mod column;
 mod consolidated;
 mod error_bars;
 mod folder;
+mod given_law;
 mod image_data;
 mod memory;
 mod open;

@@ -11,6 +11,7 @@ use super::checkpoint::{Checkpoints, Found};
 use super::column::Column;
 use super::consolidated::Consolidated;
 use super::folder::Folder;
+use super::given_law::with_law;
 use super::open::Open;
 use super::place::{mend, place};
 use super::reader::Store;
@@ -18,7 +19,7 @@ use super::wear_store::WearStore;
 use super::writer::StoreWriter;
 use crate::error::Error;
 use crate::march::{Increment, March};
-use crate::scene::{OwnFriction, Scene, is_missing};
+use crate::scene::OwnFriction;
 
 /// The columns over the increments whose fields are kept.
 const SAVED: [(&str, Kind); 2] = [("saved_increment", Kind::Count), ("saved_t", Kind::Real)];
@@ -100,20 +101,6 @@ pub fn resume_by(
         writer: StoreWriter::go_on(open),
         increments,
     }))
-}
-
-/// The scene of a store with the friction law that is given for it.
-pub(super) fn with_law(scene: &Scene, law: Option<&OwnFriction>) -> Result<Scene, Error> {
-    let mut scene = scene.clone();
-    match (&scene.friction.law, law) {
-        (Some(_), None) => return Err(is_missing()),
-        (None, Some(_)) => {
-            let allowed = "left out: the run has a coefficient and no law of your own";
-            return Err(Error::invalid("friction.law", "a law of your own", allowed));
-        }
-        _ => scene.friction.law = law.cloned(),
-    }
-    Ok(scene)
 }
 
 /// The metadata of a store whose run is resumed: without the fields that were saved only because it

@@ -1,6 +1,6 @@
 //! The lines of `fret life`: a worst point of each layer, or a mean.
 
-use crate::words::{mega, um};
+use crate::units::{mega, um};
 use std::fmt::Write as _;
 
 use contact_core::Error;
