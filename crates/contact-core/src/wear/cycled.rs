@@ -122,8 +122,8 @@ impl Sums {
         }
     }
 
-    /// The results of the cycle on surfaces worn so far, with this `gap` between them when unloaded;
-    /// it grows by the part `opens` of the worn depth.
+    /// The results of the cycle on surfaces worn so far, with this `gap` between them when
+    /// unloaded; it grows by the part `opens` of the worn depth.
     pub(crate) fn cycled(
         self,
         pressing: &mut Pressing,

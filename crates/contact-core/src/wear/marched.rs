@@ -11,10 +11,11 @@
 //!
 //! p_m being the mean pressure of the cycle, weighted with the energy dissipated in its increments,
 //! and u_q the mean normal displacement under the shear with the same weights, less the mean gap of
-//! cells that are in contact in a part of the cycle only, so that p = p_m for n = 0. `kept` is the part of the worn volume that stays in the contact as debris. The normal
-//! problem has the compliance (1 - kept) n k sigma, whatever the loads within the cycle. Predictor:
-//! sigma of the last cycle. Corrector: a cycle is solved on the predicted surfaces and the jump
-//! repeated with its sigma, until the pressure no longer changes.
+//! cells that are in contact in a part of the cycle only, so that p = p_m for n = 0. `kept` is the
+//! part of the worn volume that stays in the contact as debris. The normal problem has the
+//! compliance (1 - kept) n k sigma, whatever the loads within the cycle. Predictor: sigma of the
+//! last cycle. Corrector: a cycle is solved on the predicted surfaces and the jump repeated with
+//! its sigma, until pressure and worn depth no longer change.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
