@@ -51,7 +51,7 @@ def test_the_trailing_edge_pulls_as_hamilton_says(n: int) -> None:
     largest = below.maximum("s_xx")
     assert (largest.at, largest.z) == ("rim", 0.0)
     assert largest.value == pytest.approx(tension, abs=max(0.01, largest.error))
-    assert largest.error == pytest.approx(sum(largest.errors))
+    assert largest.error == pytest.approx(np.nansum(largest.errors))
     assert largest.errors.tractions > 0.0
     assert below.stick_borders().s_xx.size == 0
     # Samples beside the rim are right as well.
@@ -67,6 +67,34 @@ def test_the_trailing_edge_pulls_as_hamilton_says(n: int) -> None:
         fret.subsurface.stress(body, grid, [0.5], p=p, y=0.0, rim=True).rims()
     with pytest.raises(ValueError, match="rim=True"):
         constant.rims()
+
+
+def test_the_error_of_the_largest_stress_has_that_of_the_tractions() -> None:
+    force, mu, radius = 1e5, 0.76, 0.01
+    line = fret.reference.line_contact(R=radius, bodies=(STEEL, STEEL), W=force)
+
+    def largest(n: int, *, error: bool) -> fret.subsurface.Extreme:
+        scene = fret.Scene(
+            body1=fret.Body(STEEL, shape=fret.Cylinder(R=radius)),
+            body2=fret.Body(STEEL),
+            mu=mu,
+            grid=fret.Grid.strip(extent=2.3 * line.a, n=n),
+        )
+        path = fret.LoadPath.start().normal(force, increments=1)
+        path = path.tangential([0.44 * mu * force], increments=4)
+        result = fret.solve(scene, path, error=error, progress=False)
+        bars = result.error_bars().isel(branch=-1).sel(part="total") if error else None
+        found = result.at(-1).stress(y=0.0).maximum()
+        if bars is not None:
+            part = np.hypot(float(bars.p), float(bars.q))
+            assert found.errors.solution == pytest.approx(part * found.value)
+        return found
+
+    right = largest(768, error=False)
+    assert np.isnan(right.errors.solution)
+    for n in (64, 128, 256):
+        found = largest(n, error=True)
+        assert abs(found.value - right.value) <= found.error < 0.05 * found.value
 
 
 def test_the_largest_stress_of_a_layer(coated: fret.Result) -> None:

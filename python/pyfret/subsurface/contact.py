@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from pyfret.scene.warnings import doubt_layers
@@ -48,7 +49,16 @@ def stress_below(
         **state.tractions(),
     )
     yardsticks = {k: v for k, v in state.dataset.attrs.items() if k in ("a_H", "p_H")}
-    return below.assign_attrs(yardsticks)
+    return below.assign_attrs(yardsticks | tractions_error(state))
+
+
+def tractions_error(state: State) -> dict[str, float]:
+    """The error of pressure and shear as fields over the largest, where the run has error bars."""
+    bars = state.dataset.attrs.get("error_bars")
+    if not bars:
+        return {}
+    of_branch = bars[int(state.dataset.branch_of_increment)]
+    return {"tractions_error": math.hypot(*(of_branch[name]["total"] for name in ("p", "q")))}
 
 
 def displacement_below(

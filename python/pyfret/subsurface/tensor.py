@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -36,6 +37,9 @@ class Errors(NamedTuple):
     #: By how much the value differs under the tractions of cells twice as large; NaN where that was
     #: not looked at.
     tractions: float
+    #: The error of the tractions themselves, by the error bars of the fields p and q; NaN where the
+    #: run has none (``solve(..., error=True)``).
+    solution: float
 
 
 class Extreme(NamedTuple):
@@ -174,8 +178,10 @@ class Stress(Labelled):
         if found is None:
             raise ValueError("the section holds no number")
         value, x, y, z, in_layer, at, errors = found
-        error = float(np.nansum(errors))
-        return Extreme(value, x, y, z, in_layer, at, error, Errors(*errors))
+        part = self.dataset.attrs.get("tractions_error")
+        solution = math.nan if part is None else part * abs(value)
+        by_source = Errors(*errors, solution)
+        return Extreme(value, x, y, z, in_layer, at, float(np.nansum(by_source)), by_source)
 
     def on_surface(self) -> Stress:
         """Give the stress at the first depth alone."""

@@ -64,7 +64,7 @@ class WearResult(Labelled):
         """Cycles after which a body has worn so far; infinite if the run does not get there.
 
         Within a jump the depth and the volume follow the parabola through its ends and its middle,
-        so the error is that of the jumps (``depth_error``).
+        so the error is that of the depths (``depth_error``).
 
         Parameters
         ----------
@@ -124,7 +124,7 @@ class WearResult(Labelled):
             if last[f"volume{body}"] > 0:
                 lines.append(
                     f"body {body}: {1e6 * last[f'depth{body}']:.4g} um deep "
-                    f"(+- {last['depth_error']:.1%} of the jumps), {last[f'volume{body}']:.4g} "
+                    f"(+- {last['depth_error']:.1%}), {last[f'volume{body}']:.4g} "
                     f"{volume}"
                 )
         if self.debris_kept:

@@ -28,7 +28,7 @@ use crate::zones::{Level, SHRINKS, STICK, Stencil};
 
 /// B over C(0) - C(1) = `3 ln 3/pi dx/E*`, the difference of the responses of a cell and its
 /// neighbour.
-const STIFFENS: f64 = 1.643_621;
+pub(super) const STIFFENS: f64 = 1.643_621;
 /// Distance of the edge from the outer border of the outermost cell for beta = 0 \[cells\].
 const WITHIN: f64 = 0.174_65;
 /// If the cells of a zone carry also the shear of a part f of the next cell, their level vanishes

@@ -20,7 +20,7 @@ pub(crate) struct Cycled {
     pub(crate) dissipated: Vec<f64>,
     /// Mean pressure \[Pa\].
     pub(crate) p: Vec<f64>,
-    /// Mean normal displacement under the shear \[m\].
+    /// Mean normal displacement under the shear, less the mean gap of cells that touch \[m\].
     pub(crate) u_q: Vec<f64>,
     /// Mean normal force \[N\] and approach \[m\].
     pub(crate) mean: [f64; 2],
@@ -49,6 +49,8 @@ pub(crate) struct Sums {
     short: Vec<f64>,
     /// Way of each cell relative to the next one \[m\].
     apart: Vec<f64>,
+    /// Cells that are out of contact at some increment.
+    parted: Vec<bool>,
 }
 
 impl Sums {
@@ -71,6 +73,7 @@ impl Sums {
             mu,
             short: vec![f64::INFINITY; cells],
             apart: field(),
+            parted: vec![false; cells],
         }
     }
 
@@ -85,6 +88,7 @@ impl Sums {
         for c in 0..self.shape {
             let (p0, p1) = (before.interface.p[c], now.interface.p[c]);
             let p = 0.5 * (p0 + p1);
+            self.parted[c] |= p0 <= 0.0 || p1 <= 0.0;
             let way = now.slip_length[c] - before.slip_length[c];
             cycled.way[c] += way;
             cycled.pressed_way[c] += p * way;
@@ -118,13 +122,14 @@ impl Sums {
         }
     }
 
-    /// The results of the cycle on surfaces worn so far; the gap grows by the part `opens` of the
-    /// worn depth.
+    /// The results of the cycle on surfaces worn so far, with this `gap` between them when
+    /// unloaded; it grows by the part `opens` of the worn depth.
     pub(crate) fn cycled(
         self,
         pressing: &mut Pressing,
         coupled: bool,
         (worn, opens): (&Worn, f64),
+        gap: &[f64],
     ) -> Cycled {
         let mut cycled = self.cycled;
         cycled.dissipated.iter_mut().for_each(|d| *d = d.max(0.0));
@@ -156,10 +161,18 @@ impl Sums {
             }
         }
         cycled.mean.iter_mut().for_each(|m| *m /= weight);
-        if coupled {
+        let touch = self.parted.iter().zip(&cycled.p);
+        let in_part = touch.clone().any(|(parted, p)| *parted && *p > 0.0);
+        if coupled || in_part {
             let u_p = pressing.response(&cycled.p);
-            for c in 0..u_p.len() {
-                cycled.u_q[c] = self.u_z[c] / weight - u_p[c];
+            let [_, approach] = cycled.mean;
+            for (c, (parted, p)) in touch.enumerate() {
+                let u_z = if *parted && *p > 0.0 {
+                    approach - gap[c]
+                } else {
+                    self.u_z[c] / weight
+                };
+                cycled.u_q[c] = u_z - u_p[c];
             }
         }
         let sticking = cycled.stick.iter().filter(|s| **s).count() as f64 * pressing.cell_area();

@@ -10,11 +10,12 @@
 //! ```
 //!
 //! p_m being the mean pressure of the cycle, weighted with the energy dissipated in its increments,
-//! and u_q the mean normal displacement under the shear with the same weights, so that p = p_m for
-//! n = 0. `kept` is the part of the worn volume that stays in the contact as debris. The normal
-//! problem has the compliance (1 - kept) n k sigma, whatever the loads within the cycle. Predictor:
-//! sigma of the last cycle. Corrector: a cycle is solved on the predicted surfaces and the jump
-//! repeated with its sigma, until the pressure no longer changes.
+//! and u_q the mean normal displacement under the shear with the same weights, less the mean gap of
+//! cells that are in contact in a part of the cycle only, so that p = p_m for n = 0. `kept` is the
+//! part of the worn volume that stays in the contact as debris. The normal problem has the
+//! compliance (1 - kept) n k sigma, whatever the loads within the cycle. Predictor: sigma of the
+//! last cycle. Corrector: a cycle is solved on the predicted surfaces and the jump repeated with
+//! its sigma, until pressure and worn depth no longer change.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -27,7 +28,8 @@ use super::law::CellCycle;
 use super::loss::{Loss, Worn};
 use super::outward::outward;
 use super::pressing::Pressing;
-use super::settings::{Wear, thicknesses};
+use super::settings::{Jumps, Wear, thicknesses};
+use super::within_cell::half_a_cell;
 use crate::cells::Drive;
 use crate::error::Error;
 use crate::march::{Increment, March, Reached, State};
@@ -36,8 +38,14 @@ use crate::scene::{Branch, Friction, FrictionHistory, History, PathGrid, Scene};
 /// Change of the pressure between two corrections (root mean square, over the pressure) that ends
 /// them.
 const AGREES: f64 = 0.02;
-/// Most corrections of a jump.
-const CORRECTIONS: usize = 3;
+/// Change of the worn depth between two corrections (root mean square) that ends them: over that
+/// worn in the jump, or over the part of the worn depth that the jump may leave as an error
+/// (`USUAL` where jumps are given).
+const AGREES_IN_JUMP: f64 = 0.05;
+const AGREES_IN_ALL: f64 = 0.1;
+const USUAL: f64 = 0.01;
+/// Most corrections of a jump; one that has not converged by then is too long.
+const CORRECTIONS: usize = 8;
 
 /// The state on which the next jump depends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -162,7 +170,12 @@ impl Marched {
         }
         self.pressing.begin();
         let opens = self.wear.opens();
-        let mut last: Option<Vec<f64>> = None;
+        let may_leave = AGREES_IN_ALL
+            * match self.wear.jumps {
+                Jumps::Tolerance(tolerance) => tolerance,
+                Jumps::Number(_) | Jumps::Explicit(_) => USUAL,
+            };
+        let mut last: Option<(Vec<f64>, Loss)> = None;
         for correction in 0..=CORRECTIONS {
             let takes = self.takes(n, &rates, worn, &p);
             let cells = self.h.len();
@@ -176,13 +189,28 @@ impl Marched {
             self.pressing
                 .solve(&h, &compliance, rates.drive, &mut p, 1.0)?;
             let loss = takes.loss(&rates, &p, area);
-            if correction == CORRECTIONS || last.as_ref().is_some_and(|last| agree(last, &p)) {
-                self.p = p;
-                return Ok(loss);
+            if let Some((last_p, last_loss)) = &last {
+                let change = moved(last_loss, &loss);
+                let in_jump = AGREES_IN_JUMP * size_of(&loss.depth);
+                let enough = in_jump.max(may_leave * size_of(&worn.depth));
+                if agree(last_p, &p) && change <= enough {
+                    self.p = p;
+                    return Ok(loss);
+                }
+                if correction == CORRECTIONS {
+                    return Err(Error::NotConverged {
+                        increment: 0,
+                        solver: "wear",
+                        residual: change,
+                        tolerance: enough,
+                        iterations: CORRECTIONS,
+                        why: String::new(),
+                    });
+                }
             }
-            last = Some(p.clone());
             let mut end = worn.clone();
             end.add(&loss);
+            last = Some((p.clone(), loss));
             let (cycled, _) = self.cycle(&end)?;
             rates = self.rates(worn, &cycled)?;
             self.state.cycled = cycled;
@@ -193,6 +221,21 @@ impl Marched {
     /// The results of the last cycle.
     pub(crate) fn cycled(&self) -> &Cycled {
         &self.state.cycled
+    }
+
+    /// Error of the worn depth by the place of the border of the stick zone within its cell, were
+    /// the contact worn until nothing changes \[m\].
+    pub(crate) fn border_error(&mut self, worn: &Worn) -> Result<f64, Error> {
+        let Cycled { stick, cuts, p, .. } = &self.state.cycled;
+        let surfaces = (worn, self.wear.opens());
+        // Of bare and like bodies the shortfall is a root at the border to the end.
+        let coated = self.coatings.iter().any(|layers| !layers.is_empty());
+        let cuts = if coated || self.march.plan().coupling {
+            &[]
+        } else {
+            &cuts[..]
+        };
+        half_a_cell(&mut self.pressing, stick, cuts, p, surfaces)
     }
 
     /// The coefficients of the loss in a jump on the present surfaces, near the pressure p.
@@ -244,7 +287,12 @@ impl Marched {
         let state = self.march.state().clone();
         let coupling = self.march.plan().coupling;
         Ok((
-            sums.cycled(&mut self.pressing, coupling, (worn, self.wear.opens())),
+            sums.cycled(
+                &mut self.pressing,
+                coupling,
+                (worn, self.wear.opens()),
+                &gap,
+            ),
             state,
         ))
     }
@@ -382,6 +430,19 @@ fn agree(last: &[f64], now: &[f64]) -> bool {
         size += now * now;
     }
     moved <= AGREES * AGREES * size
+}
+
+/// Root mean square of the worn depths of both bodies, times a common factor.
+fn size_of(depth: &[Vec<f64>; 2]) -> f64 {
+    depth.iter().flatten().map(|w| w * w).sum::<f64>().sqrt()
+}
+
+/// The same of the change of the loss.
+fn moved(last: &Loss, now: &Loss) -> f64 {
+    let both = last.depth.iter().flatten().zip(now.depth.iter().flatten());
+    both.map(|(last, now)| (now - last).powi(2))
+        .sum::<f64>()
+        .sqrt()
 }
 
 fn advance(march: &mut March) -> Result<Increment, Error> {

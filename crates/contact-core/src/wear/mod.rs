@@ -33,6 +33,7 @@ mod state;
 mod stroke;
 mod table;
 mod varying;
+mod within_cell;
 mod worn_start;
 
 pub use block::Block;

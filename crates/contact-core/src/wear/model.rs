@@ -124,6 +124,15 @@ impl Model {
         }
     }
 
+    /// Error of the worn depth by the place of the border of the stick zone within its cell, were
+    /// the contact worn until nothing changes \[m\].
+    pub(crate) fn border_error(&mut self, worn: &Worn) -> Result<f64, Error> {
+        match self {
+            Self::Sliding(_) => Ok(0.0),
+            Self::Marched(m) => m.border_error(worn),
+        }
+    }
+
     /// The pressures at the end of the last jump.
     pub(crate) fn pressures(&self) -> Vec<f64> {
         match self {

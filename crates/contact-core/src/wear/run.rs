@@ -375,6 +375,7 @@ impl WearRun {
             middle.iter_mut().zip(half).for_each(|(w, half)| *w += half);
         }
         let area = self.model.pressing().cell_area();
+        let by_border = self.model.border_error(&worn)?;
         let state = &mut self.state;
         for (sum, moved) in state.moved.iter_mut().zip(&tried.moved) {
             sum.iter_mut()
@@ -388,7 +389,10 @@ impl WearRun {
         state.dissipated += tried.loss.dissipated;
         state.next = next;
         state.ended = ends;
+        let seen = state.seen(&self.model, self.wear.debris_kept);
+        let by_border = state.lost_by_slip(&seen) * by_border;
         let jump = Jump {
+            depth_error: seen.depth_error + by_border / state.worn.deepest().max(f64::MIN_POSITIVE),
             length: n,
             error: tried.error,
             pressure_error: tried.pressure_error,
@@ -397,7 +401,7 @@ impl WearRun {
             depth_halfway: middle
                 .each_ref()
                 .map(|w| w.iter().fold(0.0, |m: f64, w| m.max(*w))),
-            ..state.seen(&self.model, self.wear.debris_kept)
+            ..seen
         };
         state.history.push(jump.clone());
         Ok(jump)

@@ -65,4 +65,16 @@ impl WearState {
             depth_error: moved / self.worn.deepest().max(f64::MIN_POSITIVE),
         }
     }
+
+    /// The part of its pressure that the slip zone has lost by wear: that of the largest energy of
+    /// a cycle which is no longer dissipated.
+    pub(super) fn lost_by_slip(&self, now: &Jump) -> f64 {
+        let cycles = self.history.iter().map(|jump| jump.dissipated_per_cycle);
+        let most = cycles.fold(now.dissipated_per_cycle, f64::max);
+        if most > 0.0 {
+            1.0 - now.dissipated_per_cycle / most
+        } else {
+            0.0
+        }
+    }
 }

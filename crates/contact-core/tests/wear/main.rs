@@ -10,6 +10,7 @@ mod finite_elements;
 mod gross_slip;
 mod input;
 mod invariants;
+mod late;
 mod laws;
 mod over_cycles;
 mod partial_slip;
