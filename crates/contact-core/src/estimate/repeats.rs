@@ -12,9 +12,9 @@ impl Repeats {
         let branches = &path.branches;
         let from = |k: usize| k.checked_sub(1).map(|before| branches[before].to);
         let alike = |k: usize, other: usize| {
-            let ([a, b], froms) = ([k, other].map(|n| &branches[n]), [k, other].map(from));
+            let [a, b] = [k, other].map(|n| &branches[n]);
             a.to == b.to
-                && froms[0] == froms[1]
+                && from(k) == from(other)
                 && (open[k], a.increments, a.spacing) == (open[other], b.increments, b.spacing)
         };
         let first = |k| (0..k).find(|&other| alike(k, other)).unwrap_or(k);
