@@ -10,6 +10,7 @@
 //! (`sliding`). Each jump is made whole and in two halves, extrapolated to second order; the
 //! difference controls its length (`run`).
 
+mod attempt;
 mod block;
 mod border;
 mod compliant;

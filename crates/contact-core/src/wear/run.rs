@@ -3,10 +3,11 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::attempt::Attempt;
 use super::events::EventKind;
 use super::events::{crossing, events, passed};
 use super::jump::Jump;
-use super::loss::{Loss, Worn};
+use super::loss::Worn;
 use super::model::Model;
 use super::on_grid;
 use super::passage::Passage;
@@ -305,51 +306,14 @@ impl WearRun {
         !matches!(self.wear.jumps, Jumps::Explicit(_)) && n > SHORTEST * self.wear.cycles
     }
 
-    /// A jump of n cycles whole and in two halves.
+    /// A jump of n cycles from the present state.
     fn attempt(&mut self, n: f64) -> Result<Attempt, Error> {
-        let worn = &self.state.worn;
+        let WearState { worn, model, .. } = &self.state;
         if matches!(self.wear.jumps, Jumps::Explicit(_)) {
-            let loss = self.model.jump(worn, n, false)?;
-            let none = loss.depth.each_ref().map(|d| vec![0.0; d.len()]);
-            let half = |d: &Vec<f64>| d.iter().map(|w| 0.5 * w).collect();
-            return Ok(Attempt {
-                half: loss.depth.each_ref().map(half),
-                loss,
-                error: 0.0,
-                pressure_error: 0.0,
-                moved: none,
-            });
+            Attempt::explicit(&mut self.model, worn, n)
+        } else {
+            Attempt::implicit(&mut self.model, model, worn, n)
         }
-        let whole = self.model.jump(worn, n, true)?;
-        let pressure = self.model.pressures();
-        self.model.restore(&self.state.model);
-        let first = self.model.jump(worn, 0.5 * n, true)?;
-        let mut middle = worn.clone();
-        middle.add(&first);
-        let second = self.model.jump(&middle, 0.5 * n, true)?;
-        let pressure_error = distance(&pressure, &self.model.pressures());
-        let one_half = first.depth.clone();
-        let halves = first.with(&second);
-        let moved: [Vec<f64>; 2] = [0, 1].map(|b| {
-            let both = halves.depth[b].iter().zip(&whole.depth[b]);
-            both.map(|(halves, whole)| halves - whole).collect()
-        });
-        let (loss, error) = halves.extrapolated(&whole, worn);
-        // The second-order correction of a first half is half of that of the whole jump.
-        let half = [0, 1].map(|b| {
-            let cells = one_half[b].iter().zip(&moved[b]).zip(&loss.depth[b]);
-            let to = |((half, moved), whole): ((&f64, &f64), &f64)| {
-                (half + 0.5 * moved).clamp(0.25 * whole, 0.75 * whole)
-            };
-            cells.map(to).collect::<Vec<f64>>()
-        });
-        Ok(Attempt {
-            loss,
-            half,
-            error,
-            pressure_error,
-            moved,
-        })
     }
 
     fn accept(
@@ -437,24 +401,4 @@ impl WearRun {
     pub fn wear(&self) -> &Wear {
         &self.wear
     }
-}
-
-/// An attempted jump.
-struct Attempt {
-    loss: Loss,
-    /// Loss in its first half \[m\].
-    half: [Vec<f64>; 2],
-    error: f64,
-    pressure_error: f64,
-    moved: [Vec<f64>; 2],
-}
-
-/// Root mean square of the difference of two fields over that of the second.
-fn distance(a: &[f64], b: &[f64]) -> f64 {
-    let (mut differs, mut size) = (0.0, 0.0);
-    for (a, b) in a.iter().zip(b) {
-        differs += (a - b).powi(2);
-        size += b * b;
-    }
-    (differs / f64::max(size, f64::MIN_POSITIVE)).sqrt()
 }
