@@ -51,7 +51,9 @@ def test_the_trailing_edge_pulls_as_hamilton_says(n: int) -> None:
     largest = below.maximum("s_xx")
     assert (largest.at, largest.z) == ("rim", 0.0)
     assert largest.value == pytest.approx(tension, abs=max(0.01, largest.error))
-    assert largest.error == pytest.approx(np.nansum(largest.errors))
+    assert largest.error == pytest.approx(
+        np.nansum([error for error in largest.errors if error is not None])
+    )
     assert largest.errors.tractions > 0.0
     assert below.stick_borders().s_xx.size == 0
     # Samples beside the rim are right as well.
@@ -91,7 +93,7 @@ def test_the_error_of_the_largest_stress_has_that_of_the_tractions() -> None:
         return found
 
     right = largest(768, error=False)
-    assert np.isnan(right.errors.solution)
+    assert right.errors.solution is None
     for n in (64, 128, 256):
         found = largest(n, error=True)
         assert abs(found.value - right.value) <= found.error < 0.05 * found.value

@@ -110,11 +110,12 @@ VALUES: list[Any] = [
     fret.fit.Indentation.of([1.0, 2.0], [1e-7, 2e-7]),
     fret.fit.Scar.of(TURN, np.cos(TURN), wear={"cycles": 1e3, "body2": LAW}),
     fret.fit.Lives(1e3 * TURN, [{"mu": 0.3}] * TURN.size, {"body2": LAW}),
+    fret.fit.Posterior({"mu": 0.3 + 0.01 * np.cos(TURN)}, 0.1, 12),
 ]
 #: Classes whose values may change or hold what may, which are no keys of a dict.
 NO_KEYS = (
     *("Springs", "Material", "Assessment", "Materials", "Cracking", "Cracks", "Wear"),
-    *("Averaged", "Limits", "Experiment", "Loops", "Indentation", "Scar", "Lives"),
+    *("Averaged", "Limits", "Experiment", "Loops", "Indentation", "Scar", "Lives", "Posterior"),
 )
 
 

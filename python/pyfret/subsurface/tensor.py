@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -37,9 +36,9 @@ class Errors(NamedTuple):
     #: By how much the value differs under the tractions of cells twice as large; NaN where that was
     #: not looked at.
     tractions: float
-    #: The error of the tractions themselves, by the error bars of the fields p and q; NaN where the
-    #: run has none (``solve(..., error=True)``).
-    solution: float
+    #: The error of the tractions themselves, by the error bars of the fields p and q; None without
+    #: these (``solve(..., error=True)``).
+    solution: float | None
 
 
 class Extreme(NamedTuple):
@@ -179,9 +178,9 @@ class Stress(Labelled):
             raise ValueError("the section holds no number")
         value, x, y, z, in_layer, at, errors = found
         part = self.dataset.attrs.get("tractions_error")
-        solution = math.nan if part is None else part * abs(value)
-        by_source = Errors(*errors, solution)
-        return Extreme(value, x, y, z, in_layer, at, float(np.nansum(by_source)), by_source)
+        by_source = Errors(*errors, None if part is None else part * abs(value))
+        known = [error for error in by_source if error is not None]
+        return Extreme(value, x, y, z, in_layer, at, float(np.nansum(known)), by_source)
 
     def on_surface(self) -> Stress:
         """Give the stress at the first depth alone."""
