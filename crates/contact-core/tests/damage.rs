@@ -31,7 +31,7 @@ path = [
 ]
 "#;
 /// Stores of each kind; one run of thousands has gone through the same.
-const STORES: usize = 150;
+const STORES: usize = 60;
 
 type Files = BTreeMap<PathBuf, Vec<u8>>;
 
