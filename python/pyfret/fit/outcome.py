@@ -71,7 +71,7 @@ class Found(HoldsArrays):
         Root mean square of the residuals.
     solves : int
         Contacts solved.
-    grid_known : bool
+    solver_known : bool
         Whether cells twice as wide and half of the increments told what these leave; else the
         confidence holds none of it.
     converged : bool
@@ -90,7 +90,7 @@ class Found(HoldsArrays):
     sets: list[Measured]
     noise: list[float]
     solves: int
-    grid_known: bool
+    solver_known: bool
     converged: bool
     scene: Scene
     posterior: Posterior | None = None
@@ -137,7 +137,7 @@ class Found(HoldsArrays):
                 said.append(
                     f"{key} is not resolved by these data: {known.low:.3g} to {known.high:.3g}"
                 )
-        if not self.grid_known:
+        if not self.solver_known:
             said.append(
                 "cells twice as wide, or half of the increments, could not be solved: what they "
                 "leave is not in the confidence; give more cells"

@@ -27,6 +27,7 @@ from pyfret.fit.data import Data
 from pyfret.fit.models import Model, model_of, split
 from pyfret.fit.outcome import Found, Known
 from pyfret.fit.posterior import Posterior, sampled
+from pyfret.fit.ranges import Range, ranges
 from pyfret.study.design import varied
 
 if TYPE_CHECKING:
@@ -36,8 +37,6 @@ if TYPE_CHECKING:
 
 __all__ = ["fit"]
 
-#: Step of the differences, of ln of an unknown or of its range.
-STEP = 0.02
 #: Steps of the search, each a solve and one more for each unknown.
 MOST = 13
 #: Half-width of a confidence, of ln of an unknown or of its range, beyond which its profile is
@@ -96,6 +95,8 @@ def fit(
     >>> fit("scene.toml", loops, unknown={"mu": (0.1, 1.5)})  # doctest: +SKIP
     """
     optimize = needed("scipy.optimize", "fit")
+    if posterior < 0:
+        raise ValueError(f"posterior = {posterior}: must be a number of samples, 0 for none")
     if not isinstance(scene, Scene):
         scene = Scene.from_file(scene)
     sets: list[Data] = list(data) if isinstance(data, Sequence) else [data]
@@ -119,59 +120,6 @@ def fit(
         return search.with_posterior(told, best, posterior, seed) if posterior else told
 
 
-@dataclass(frozen=True)
-class Range:
-    """Where an unknown is searched: u from 0 to 1 between its ends, by the logarithm if so."""
-
-    key: str
-    low: float
-    start: float
-    high: float
-
-    @property
-    def by_log(self) -> bool:
-        """Whether the logarithm is searched."""
-        return self.low > 0 and self.high / self.low > 1.5
-
-    @property
-    def width(self) -> float:
-        """Length of the range, in what is searched."""
-        return float(np.log(self.high / self.low)) if self.by_log else self.high - self.low
-
-    @property
-    def step(self) -> float:
-        """Step of a difference, in u."""
-        return STEP / self.width if self.by_log else STEP
-
-    def value(self, u: float) -> float:
-        """The unknown at u."""
-        if self.by_log:
-            return float(self.low * np.exp(u * self.width))
-        return float(self.low + u * self.width)
-
-    def at(self, value: float) -> float:
-        """Where a value lies."""
-        way = np.log(value / self.low) if self.by_log else value - self.low
-        return float(way / self.width)
-
-
-def ranges(unknown: Mapping[str, tuple[float, ...]]) -> list[Range]:
-    """The ranges of the unknowns, checked."""
-    if not unknown:
-        raise ValueError('unknown: none, give some, such as {"mu": (0.1, 1.5)}')
-    found = []
-    for key, given in unknown.items():
-        ends = tuple(float(v) for v in given)
-        if len(ends) == 2:
-            low, high = ends
-            middle = np.sqrt(low * high) if low > 0 else 0.5 * (low + high)
-            ends = (low, float(middle), high)
-        if len(ends) != 3 or not ends[0] <= ends[1] <= ends[2] or not ends[0] < ends[2]:
-            raise ValueError(f"unknown: {key} = {given}: must be (low, high) or (low, start, high)")
-        found.append(Range(key, *ends))
-    return found
-
-
 @dataclass
 class Search:
     """Residuals and their derivatives, each contact solved once."""
@@ -182,7 +130,7 @@ class Search:
     workers: int
     solves: int = 0
     #: Whether cells twice as wide and half of the increments could be solved, too.
-    grid_known: bool = True
+    solver_known: bool = True
     known: dict[tuple[float, ...], list[Any]] = field(default_factory=dict)
 
     def start(self) -> NDArray[np.float64]:
@@ -332,7 +280,7 @@ class Search:
             sets=[model.without() for model in self.models],
             noise=[float(np.sqrt(np.mean(r**2))) for r in rest],
             solves=self.solves,
-            grid_known=self.grid_known,
+            solver_known=self.solver_known,
             converged=converged,
             scene=varied(self.scene, values) if values else self.scene,
         )
@@ -425,7 +373,7 @@ class Search:
                 predictions = self.predictions(scene, u, finer)
             except (RuntimeError, ValueError):
                 # On cells that are too wide for the contact there is no telling.
-                self.grid_known = False
+                self.solver_known = False
                 changes.append(np.zeros_like(here))
             else:
                 changes.append(self.weighted(predictions, gauges) - here)

@@ -36,8 +36,7 @@ def style() -> Iterator[None]:
             # The first figure starts the backend, and that of a notebook turns this on: it is no
             # matter of looks, and without it no later cell shows its figures.
             interactive = plt.isinteractive()
-    interactive_again = plt.ion if interactive else plt.ioff
-    interactive_again()
+    (plt.ion if interactive else plt.ioff)()
 
 
 if TYPE_CHECKING:

@@ -77,8 +77,9 @@ class Study(Labelled):
         """Give the part of a measure's variance over the study that each parameter makes alone.
 
         The variance of the mean over all other parameters, over that of all points, which count
-        alike: the first-order Sobol index of the values studied. What the parts leave to 1 is
-        interaction. Points without a value are refused, since they would weigh on one side.
+        alike: the first-order index of I. M. Sobol' (Math. Model. Comput. Exp. 1 (1993) 407-414) of
+        the values studied. What the parts leave to 1 is interaction. Points without a value are
+        refused, since they would weigh on one side.
 
         Parameters
         ----------

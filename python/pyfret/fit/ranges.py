@@ -1,0 +1,66 @@
+"""Where the unknowns of a fit are searched."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+__all__ = ["Range", "ranges"]
+
+#: Step of the differences, of ln of an unknown or of its range.
+STEP = 0.02
+
+
+@dataclass(frozen=True)
+class Range:
+    """Where an unknown is searched: u from 0 to 1 between its ends, by the logarithm if so."""
+
+    key: str
+    low: float
+    start: float
+    high: float
+
+    @property
+    def by_log(self) -> bool:
+        """Whether the logarithm is searched."""
+        return self.low > 0 and self.high / self.low > 1.5
+
+    @property
+    def width(self) -> float:
+        """Length of the range, in what is searched."""
+        return float(np.log(self.high / self.low)) if self.by_log else self.high - self.low
+
+    @property
+    def step(self) -> float:
+        """Step of a difference, in u."""
+        return STEP / self.width if self.by_log else STEP
+
+    def value(self, u: float) -> float:
+        """The unknown at u."""
+        if self.by_log:
+            return float(self.low * np.exp(u * self.width))
+        return float(self.low + u * self.width)
+
+    def at(self, value: float) -> float:
+        """Where a value lies."""
+        way = np.log(value / self.low) if self.by_log else value - self.low
+        return float(way / self.width)
+
+
+def ranges(unknown: Mapping[str, tuple[float, ...]]) -> list[Range]:
+    """The ranges of the unknowns, checked."""
+    if not unknown:
+        raise ValueError('unknown: none, give some, such as {"mu": (0.1, 1.5)}')
+    found = []
+    for key, given in unknown.items():
+        ends = tuple(float(v) for v in given)
+        if len(ends) == 2:
+            low, high = ends
+            middle = np.sqrt(low * high) if low > 0 else 0.5 * (low + high)
+            ends = (low, float(middle), high)
+        if len(ends) != 3 or not ends[0] <= ends[1] <= ends[2] or not ends[0] < ends[2]:
+            raise ValueError(f"unknown: {key} = {given}: must be (low, high) or (low, start, high)")
+        found.append(Range(key, *ends))
+    return found
