@@ -65,7 +65,11 @@ pub(crate) fn half_a_cell(
     let drive = pressing.under(p.iter().sum::<f64>() * pressing.cell_area());
     let mut recessed = p.clone();
     pressing.begin();
-    pressing.solve(&h, &compliance, drive, &mut recessed, ROUGHLY)?;
+    match pressing.solve(&h, &compliance, drive, &mut recessed, ROUGHLY) {
+        // An estimate that fails ends no run: nothing is known of the depth.
+        Err(Error::NotConverged { .. }) => return Ok(worn.deepest()),
+        solved => solved?,
+    };
     pressing.begin();
     let change: Vec<f64> = p.iter().zip(&recessed).map(|(p, r)| p - r).collect();
     let change = pressing.response(&change);
