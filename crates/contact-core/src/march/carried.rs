@@ -109,8 +109,8 @@ impl<'a> Change<'a> {
         for c in 0..2 {
             let u = self.cubic.of(&difference(&i.u[c], &j.u[c]), HALVES[c]);
             add(&mut carried.interface.u[c], &u);
-            let slip = self.of(&now.slip[c], &then.slip[c], HALVES[c]);
-            add(&mut carried.slip[c], &slip);
+            let slip = self.of(&now.total_slip[c], &then.total_slip[c], HALVES[c]);
+            add(&mut carried.total_slip[c], &slip);
         }
         let u_z = self.cubic.of(&difference(&i.u_z, &j.u_z), Half::Even);
         add(&mut carried.interface.u_z, &u_z);
@@ -145,24 +145,24 @@ impl<'a> Change<'a> {
     fn shear(&self, carried: &mut State, mu: impl Fn(usize) -> f64, ratio: usize) {
         let (now, then) = (self.now, self.then);
         let (i, j) = (&now.interface, &then.interface);
-        let slips = self.masked(|n| is(i.slip[n]), Half::Even);
+        let slipping = self.masked(|n| is(i.slips[n]), Half::Even);
         let at_limit = self.masked(|n| is(now.at_limit[n]), Half::Even);
         let direction = [0, 1].map(|c| self.masked(|n| i.q[c][n], HALVES[c]));
         let change = [0, 1].map(|c| self.of(&i.q[c], &j.q[c], HALVES[c]));
         let last = [0, 1].map(|c| self.of(&i.q[c], &now.q_before[c], HALVES[c]));
-        let Interface { p, q, slip, .. } = &mut carried.interface;
+        let Interface { p, q, slips, .. } = &mut carried.interface;
         let sums = [0, 1].map(|c| {
             let [now, then] = [i, j].map(|of| total(&of.q[c]));
             total(&q[c]) + (ratio * ratio) as f64 * (now - then)
         });
         for n in (0..p.len()).filter(|&n| p[n] > 0.0) {
             if self.within[n] > 0.0 {
-                slip[n] = slips[n] > 0.5;
+                slips[n] = slipping[n] > 0.5;
                 carried.at_limit[n] = at_limit[n] > 0.5;
             }
             let along = [direction[0][n], direction[1][n]];
             let bound = mu(n) * p[n];
-            let onto_bound = slip[n] && size(along) > 0.0 && bound.is_finite();
+            let onto_bound = slips[n] && size(along) > 0.0 && bound.is_finite();
             for c in 0..2 {
                 let q = &mut q[c][n];
                 *q = if onto_bound {
@@ -174,7 +174,7 @@ impl<'a> Change<'a> {
             }
         }
         // The sum of the shear is that of the loads: sticking cells share the difference.
-        let sticking: Vec<usize> = (0..p.len()).filter(|&n| p[n] > 0.0 && !slip[n]).collect();
+        let sticking: Vec<usize> = (0..p.len()).filter(|&n| p[n] > 0.0 && !slips[n]).collect();
         for (q, sum) in q.iter_mut().zip(sums) {
             let share = (sum - total(q)) / sticking.len().max(1) as f64;
             for &n in &sticking {

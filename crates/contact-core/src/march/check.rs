@@ -69,7 +69,7 @@ pub(super) fn residuals(
     let tractions = [&now.p[..], &now.q[0], &now.q[1], setup.mu];
     let moved = [&now.u[0][..], &now.u[1], x_0, y_0];
     let heights = [&now.u_z[..], &setup.geometry.h_init];
-    let fields = ((tractions, moved), (heights, &now.slip[..]));
+    let fields = ((tractions, moved), (heights, &now.slips[..]));
     let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
     let (sums, largest) = survey(fields, |n, ((tractions, moved), ([u_z, h], slips))| {
         let ([p, q_x, q_y, mu], [u_x, u_y, x_0, y_0]) = (tractions, moved);

@@ -87,7 +87,7 @@ impl March {
             let field: Vec<f64> = mask.iter().map(|&yes| f64::from(u8::from(yes))).collect();
             unfold(&field, Half::Even).mapv(|yes| yes > 0.0)
         };
-        let (slips, at_limit) = (mask(&now.slip), mask(&s.at_limit));
+        let (slips, at_limit) = (mask(&now.slips), mask(&s.at_limit));
         let contact = p.mapv(|p| p > 0.0);
         let stick = ndarray::Zip::from(&contact)
             .and(&slips)
@@ -103,8 +103,8 @@ impl March {
             q_y,
             u_x,
             u_y: u_y / stretch,
-            slip_x: unfold(&s.slip[0], Half::Even),
-            slip_y: unfold(&s.slip[1], Half::Odd) / stretch,
+            slip_x: unfold(&s.total_slip[0], Half::Even),
+            slip_y: unfold(&s.total_slip[1], Half::Odd) / stretch,
             dissipated: unfold(&s.dissipated, Half::Even),
             p,
             u_z,

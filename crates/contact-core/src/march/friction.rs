@@ -28,7 +28,7 @@ pub(super) fn update(
     let last = setup.last();
     let origin = |n: usize| setup.roll.origin(geometry, setup.problem.plan.mirror, n);
     for (n, (mu, before)) in mu.iter_mut().zip(before).enumerate() {
-        let slipped = friction.kinetic.filter(|_| last.slip[n]);
+        let slipped = friction.kinetic.filter(|_| last.slips[n]);
         let map = geometry.friction_map.get(n).copied().unwrap_or(1.0);
         let at = |field: &[f64]| origin(n).map_or(0.0, |n| field[n]);
         let factors = friction.history.as_ref().map_or([1.0; 2], |history| {

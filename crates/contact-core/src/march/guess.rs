@@ -27,7 +27,7 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
             extrapolate_shear(&mut guess, &state.q_before, setup.mu, factor);
         }
         Some(_) => {}
-        None => guess.slip.fill(false),
+        None => guess.slips.fill(false),
     }
     let [sum] = sweep([], [&mut guess.p], |_, [], [p]| {
         ([p.max(0.0)], [p.max(0.0)])
@@ -46,15 +46,15 @@ pub(super) fn first_guess(setup: &Setup<'_>, extrapolates: bool) -> Interface {
 /// from the moving slip front (Cattaneo: g - q ~ (c^2 - r^2)^(1/2)), so that the square of the
 /// shortfall is extrapolated linearly; where that is not positive the cell starts to slip.
 fn extrapolate_shear(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64], factor: f64) {
-    let Interface { p, q, slip, .. } = guess;
+    let Interface { p, q, slips, .. } = guess;
     let [q_x, q_y] = q;
     let chunks = (
         q_x.par_chunks_mut(CHUNK),
         q_y.par_chunks_mut(CHUNK),
-        slip.par_chunks_mut(CHUNK),
+        slips.par_chunks_mut(CHUNK),
     );
     let chunks = chunks.into_par_iter().enumerate();
-    chunks.for_each(|(chunk, (q_x, q_y, slip))| {
+    chunks.for_each(|(chunk, (q_x, q_y, slips))| {
         for (i, n) in (chunk * CHUNK..).take(q_x.len()).enumerate() {
             let bound = friction_bound(mu[n], p[n]);
             if bound <= 0.0 {
@@ -65,12 +65,12 @@ fn extrapolate_shear(guess: &mut Interface, q_before: &[Vec<f64>; 2], mu: &[f64]
             let moved = size(change);
             let inside = bound * bound - q[0] * q[0] - q[1] * q[1];
             let mut part = factor;
-            if !slip[i] && inside > 0.0 && inside.is_finite() && moved > 0.0 {
+            if !slips[i] && inside > 0.0 && inside.is_finite() && moved > 0.0 {
                 let along = (q[0] * change[0] + q[1] * change[1]) / moved;
                 let left = (along * along + inside).sqrt() - along;
                 let before = left + moved;
                 let square = left * left + factor * (left * left - before * before);
-                slip[i] = square <= 0.0;
+                slips[i] = square <= 0.0;
                 part = (left - square.max(0.0).sqrt()) / moved;
             }
             q_x[i] += part * change[0];

@@ -18,7 +18,7 @@ pub(super) fn lifted(setup: &Setup<'_>, now: &Interface) -> Option<Error> {
         return None;
     }
     let zone: Vec<bool> = now.p.iter().map(|&p| p > 0.0).collect();
-    let slips = |&n: &usize| zone[n] && now.slip[n] && setup.mu[n].is_infinite();
+    let slips = |&n: &usize| zone[n] && now.slips[n] && setup.mu[n].is_infinite();
     let contact = zone.iter().filter(|&&inside| inside).count();
     let lifted = (0..zone.len()).filter(slips).count();
     if lifted == 0 {

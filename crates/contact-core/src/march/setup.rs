@@ -203,5 +203,5 @@ impl Solver<'_> {
 /// Cells in contact, and those of them that slip.
 pub(super) fn count(now: &Interface) -> (usize, usize) {
     let contact = now.p.iter().filter(|&&p| p > 0.0).count();
-    (contact, now.slip.iter().filter(|&&slips| slips).count())
+    (contact, now.slips.iter().filter(|&&slips| slips).count())
 }

@@ -22,7 +22,7 @@ pub struct State {
     /// Rigid-body motion.
     pub motion: Motion,
     /// Slip added up over the path \[m\].
-    pub slip: [Vec<f64>; 2],
+    pub total_slip: [Vec<f64>; 2],
     /// Length of the way slipped over the path \[m\].
     pub slip_length: Vec<f64>,
     /// Energy dissipated per area over the path \[J/m^2\].
@@ -67,7 +67,7 @@ impl State {
                 delta_z: touching,
                 ..Motion::default()
             },
-            slip: pair(),
+            total_slip: pair(),
             slip_length: field(),
             dissipated: field(),
             history_step: field(),
@@ -91,7 +91,13 @@ impl State {
             return false;
         }
         let cells = nx * mirror.rows(ny);
-        let Interface { p, q, u, u_z, slip } = &self.interface;
+        let Interface {
+            p,
+            q,
+            u,
+            u_z,
+            slips,
+        } = &self.interface;
         let State {
             slip_length,
             dissipated,
@@ -100,9 +106,9 @@ impl State {
             ..
         } = self;
         let fields = [p, u_z, slip_length, dissipated, history_step, p_before];
-        let pairs = [q, u, &self.slip, &self.q_before, &self.residual];
+        let pairs = [q, u, &self.total_slip, &self.q_before, &self.residual];
         let fields = fields.into_iter().chain(pairs.into_iter().flatten());
-        let masks = [slip, &self.at_limit];
+        let masks = [slips, &self.at_limit];
         fields.into_iter().all(|f| f.len() == cells) && masks.into_iter().all(|f| f.len() == cells)
     }
 

@@ -17,7 +17,7 @@ pub struct Interface {
     /// Relative normal displacement u_z \[m\].
     pub u_z: Vec<f64>,
     /// Contact cells that slip.
-    pub slip: Vec<bool>,
+    pub slips: Vec<bool>,
 }
 
 impl Interface {
@@ -29,7 +29,7 @@ impl Interface {
             q: [field(), field()],
             u: [field(), field()],
             u_z: field(),
-            slip: vec![false; cells],
+            slips: vec![false; cells],
         }
     }
 
@@ -37,7 +37,7 @@ impl Interface {
     pub(crate) fn map(
         &self,
         field: impl Fn(&[f64]) -> Vec<f64>,
-        slip: impl Fn(&[bool]) -> Vec<bool>,
+        marks: impl Fn(&[bool]) -> Vec<bool>,
     ) -> Self {
         let pair = |fields: &[Vec<f64>; 2]| [field(&fields[0]), field(&fields[1])];
         Self {
@@ -45,7 +45,7 @@ impl Interface {
             q: pair(&self.q),
             u: pair(&self.u),
             u_z: field(&self.u_z),
-            slip: slip(&self.slip),
+            slips: marks(&self.slips),
         }
     }
 
@@ -60,7 +60,7 @@ impl Interface {
         Shear {
             q: [q_x, q_y],
             u: [u_x, u_y],
-            slip: &mut self.slip,
+            slips: &mut self.slips,
         }
     }
 
@@ -91,7 +91,7 @@ pub struct Shear<'a> {
     /// Total u_x, u_y \[m\], belonging to q on entry and on exit.
     pub u: [&'a mut [f64]; 2],
     /// Contact cells that slip; on entry a guess.
-    pub slip: &'a mut [bool],
+    pub slips: &'a mut [bool],
 }
 
 /// Largest shear under the pressure p, mu p \[Pa\].

@@ -80,7 +80,7 @@ pub(super) fn areas(
     let rim = if partial { cells.rim() } else { Vec::new() };
     let contact = area(&cells.contact, &rim);
     let cells_per_radius = cells_per_radius(cells.lattice, &cells.contact);
-    if !now.slip.contains(&true) {
+    if !now.slips.contains(&true) {
         return Areas {
             contact,
             cells_per_radius,
@@ -167,7 +167,7 @@ impl<'a> Cells<'a> {
     fn new(setup: &'a Setup<'_>, now: &'a Interface, slip: impl Fn(usize) -> f64) -> Self {
         let contact: Vec<bool> = now.p.iter().map(|&p| p > 0.0).collect();
         let lattice = Lattice::new(&setup.geometry.grid, setup.problem.plan.mirror);
-        let marked: Vec<bool> = (contact.iter().zip(&now.slip))
+        let marked: Vec<bool> = (contact.iter().zip(&now.slips))
             .map(|(&c, &s)| c && s)
             .collect();
         let mut at_limit = at_limit(setup, lattice, &marked, slip);
@@ -207,7 +207,7 @@ impl<'a> Cells<'a> {
         let beta = dundurs_beta(scene.body1.outermost(), scene.body2.outermost());
         let laws = |line: &mut Line| {
             let at = line.outermost();
-            let ring = line.cells().iter().take_while(|&&n| now.slip[n]).count();
+            let ring = line.cells().iter().take_while(|&&n| now.slips[n]).count();
             if beta != 0.0 && ring > RING {
                 line.shorten((ring - 1).max(FEWEST_CELLS));
             }
@@ -305,7 +305,7 @@ impl<'a> Cells<'a> {
     fn grew(&self, stuck: usize, slipping: usize) -> bool {
         let before = self.setup.last();
         let short = |at| self.shortfall(at, stuck, slipping);
-        let rests = before.slip[stuck] && self.setup.goes_on.is_some();
+        let rests = before.slips[stuck] && self.setup.goes_on.is_some();
         before.p[stuck] > 0.0 && (rests || short(self.now) > short(before))
     }
 }

@@ -116,7 +116,7 @@ pub(super) fn dissipated(
     if bound <= 0.0 {
         return (-0.5 * power(&last.q)).max(0.0);
     }
-    if !now.slip[n] {
+    if !now.slips[n] {
         return 0.0;
     }
     let mean = if bound.is_finite() {

@@ -49,7 +49,7 @@ pub(in crate::march) fn close(
     keep_residual(state, increment.status, &now, closing);
     if closing.roll.cells != 0 {
         let field = |f: &Vec<f64>| closing.roll.field(closing.geometry, closing.mirror, f);
-        state.slip = state.slip.each_ref().map(field);
+        state.total_slip = state.total_slip.each_ref().map(field);
         state.slip_length = field(&state.slip_length);
         state.dissipated = field(&state.dissipated);
     }
@@ -83,7 +83,7 @@ pub(in crate::march) fn growth(
 ) -> Vec<f64> {
     let (last, arms) = (setup.last(), &setup.geometry.arms);
     let grows = |n: usize| {
-        if now.p[n] <= 0.0 || !now.slip[n] {
+        if now.p[n] <= 0.0 || !now.slips[n] {
             return 0.0;
         }
         let (slip, _) = slip_of(no_slip, now, last, arms.in_plane(shift, n), n);
@@ -116,7 +116,7 @@ fn keep_residual(state: &mut State, status: Status, now: &Interface, closing: &C
     let [x, y] = &mut state.residual;
     let tractions = [&now.p[..], &now.q[0], &now.q[1]];
     let moved = [&now.u[0][..], &now.u[1], x_0, y_0];
-    let fields = ((tractions, moved), &now.slip[..]);
+    let fields = ((tractions, moved), &now.slips[..]);
     set(fields, [x, y], |n, ((tractions, moved), slips), _| {
         let ([p, q_x, q_y], [u_x, u_y, x_0, y_0]) = (tractions, moved);
         if !keeps || p <= 0.0 {
@@ -136,7 +136,7 @@ fn add_slip(state: &mut State, last: &Interface, closing: &Closing<'_>) {
     let now = &state.interface;
     let before = closing.rolled.map_or(last, |rolled| &rolled.interface);
     let (arms, [mu, mu_before]) = (&closing.geometry.arms, closing.mu);
-    let [slip_x, slip_y] = &mut state.slip;
+    let [slip_x, slip_y] = &mut state.total_slip;
     let histories = [
         &mut slip_x[..],
         slip_y,
@@ -152,7 +152,7 @@ fn add_slip(state: &mut State, last: &Interface, closing: &Closing<'_>) {
         let rigid = arms.in_plane(closing.shift, n);
         let (slip, _) = slip_of(closing.no_slip, now, before, rigid, n);
         let energy = energy + dissipated([mu[n], mu_before[n]], now, before, slip, n);
-        if !(p > 0.0 && now.slip[n]) {
+        if !(p > 0.0 && now.slips[n]) {
             return [x, y, length, energy];
         }
         let way = size([slip[0], slip[1] / arms.stretch]);

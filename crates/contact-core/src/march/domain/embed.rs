@@ -41,7 +41,7 @@ pub(super) fn interface(
 ) -> Interface {
     now.map(
         |field| embedded(field, from, to, mirror, 0.0),
-        |slip| embedded(slip, from, to, mirror, false),
+        |slips| embedded(slips, from, to, mirror, false),
     )
 }
 
@@ -55,7 +55,7 @@ pub(in crate::march) fn state(
     let field = |f: &Vec<f64>| embedded(f, from, to, mirror, 0.0);
     State {
         interface: interface(&state.interface, from, to, mirror),
-        slip: state.slip.each_ref().map(field),
+        total_slip: state.total_slip.each_ref().map(field),
         slip_length: field(&state.slip_length),
         dissipated: field(&state.dissipated),
         history_step: field(&state.history_step),

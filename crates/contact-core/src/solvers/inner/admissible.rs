@@ -15,14 +15,14 @@ const MOST_ROUNDS: usize = 8;
 /// force. Where they cannot carry it, one more cell is made to stick, chosen by its slip under the
 /// rigid motion `shift` \[m\]; failing that, the nearest admissible shear is taken.
 pub(crate) fn admissible(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
-    if share_force(problem, &mut shear.q, shear.slip) {
+    if share_force(problem, &mut shear.q, shear.slips) {
         return;
     }
-    if hold_one(problem, shear, shift) && share_force(problem, &mut shear.q, shear.slip) {
+    if hold_one(problem, shear, shift) && share_force(problem, &mut shear.q, shear.slips) {
         return;
     }
     project(problem, &mut shear.q, &mut [0.0; 3]);
-    mark_circle(problem, &shear.q, shear.slip);
+    mark_circle(problem, &shear.q, shear.slips);
 }
 
 /// Where every cell slips, no cell can take up the difference between the sum of the bounds and the
@@ -33,9 +33,9 @@ fn hold_one(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64;
     if !(free_x || free_y) {
         return false;
     }
-    mark_circle(problem, &shear.q, shear.slip);
-    let Shear { q, u, slip, .. } = shear;
-    if (0..slip.len()).any(|n| problem.bound[n] > 0.0 && !slip[n]) {
+    mark_circle(problem, &shear.q, shear.slips);
+    let Shear { q, u, slips, .. } = shear;
+    if (0..slips.len()).any(|n| problem.bound[n] > 0.0 && !slips[n]) {
         return false;
     }
     let [x, y] = sums([&*q[0], &*q[1]], |_, q| q);
@@ -45,12 +45,12 @@ fn hold_one(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64;
     if rest[0].hypot(rest[1]) <= rounding(problem) {
         return false;
     }
-    let least = (0..slip.len())
+    let least = (0..slips.len())
         .filter(|&n| q[0][n] * rest[0] + q[1][n] * rest[1] > 0.0)
         .map(|n| (n, size(problem.slip(u, shift, n))))
         .min_by(|(_, a), (_, b)| a.total_cmp(b));
     if let Some((n, _)) = least {
-        slip[n] = false;
+        slips[n] = false;
     }
     least.is_some()
 }
@@ -61,10 +61,10 @@ fn hold_one(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64;
 fn share_force(
     problem: &TangentialProblem<'_>,
     q: &mut [&mut [f64]; 2],
-    slip: &mut [bool],
+    slips: &mut [bool],
 ) -> bool {
     let (bound, arms) = (problem.bound, problem.arms);
-    set_cells(slip, |n, slips| {
+    set_cells(slips, |n, slips| {
         slips && (bound[n] <= 0.0 || q[0][n] * q[0][n] + q[1][n] * q[1][n] > 0.0)
     });
     let enough = rounding(problem);
@@ -82,7 +82,7 @@ fn share_force(
     };
     for _ in 0..MOST_ROUNDS {
         let [q_x, q_y] = q;
-        let from = ([bound], &*slip);
+        let from = ([bound], &*slips);
         let sums = if problem.drive.free[2] {
             let from = (from, [&arms.x[..], &arms.y]);
             sweep(from, [q_x, q_y], |n, (([g], slips), [x, y]), q| {
@@ -145,8 +145,12 @@ pub(crate) fn rounding(problem: &TangentialProblem<'_>) -> f64 {
 const ON_CIRCLE: f64 = 1.0 - 1e-9;
 
 /// Marks the cells on the circle |q| = g as slipping; cells with g = 0 keep their flag.
-pub(crate) fn mark_circle(problem: &TangentialProblem<'_>, q: &[&mut [f64]; 2], slip: &mut [bool]) {
-    set_cells(slip, |n, slips| {
+pub(crate) fn mark_circle(
+    problem: &TangentialProblem<'_>,
+    q: &[&mut [f64]; 2],
+    slips: &mut [bool],
+) {
+    set_cells(slips, |n, slips| {
         let g = problem.bound[n];
         if g > 0.0 {
             size([q[0][n], q[1][n]]) >= ON_CIRCLE * g

@@ -17,7 +17,7 @@ pub(crate) struct ContactShear {
     arms: Arms,
     q: Pair,
     u: Pair,
-    slip: Vec<bool>,
+    slips: Vec<bool>,
 }
 
 impl ContactShear {
@@ -41,8 +41,8 @@ impl ContactShear {
             (shear.u[0], u_x),
             (shear.u[1], u_y),
         ]);
-        self.slip.resize(cells.count(), false);
-        cells.pack(shear.slip, &mut self.slip);
+        self.slips.resize(cells.count(), false);
+        cells.pack(shear.slips, &mut self.slips);
     }
 
     /// The problem and the shear in the solver's form.
@@ -58,7 +58,7 @@ impl ContactShear {
         let shear = Shear {
             q: [q_x, q_y],
             u: [u_x, u_y],
-            slip: &mut self.slip,
+            slips: &mut self.slips,
         };
         (problem, shear)
     }
@@ -71,7 +71,7 @@ impl Shear<'_> {
             cells.pack(grid.q[c], self.q[c]);
             cells.pack(grid.u[c], self.u[c]);
         }
-        cells.pack(grid.slip, self.slip);
+        cells.pack(grid.slips, self.slips);
     }
 
     /// Puts shear and slip set back; the displacements of the grid are kept up to date all along.
@@ -79,7 +79,7 @@ impl Shear<'_> {
         for c in 0..2 {
             cells.unpack(self.q[c], grid.q[c]);
         }
-        cells.unpack(self.slip, grid.slip);
+        cells.unpack(self.slips, grid.slips);
     }
 }
 

@@ -152,7 +152,7 @@ impl NewtonSystem {
             r_x,
             r_y,
         ];
-        set((from, &*shear.slip), to, |n, (cell, slips), _| {
+        set((from, &*shear.slips), to, |n, (cell, slips), _| {
             let [u_x, u_y, x, y, q_x, q_y, g, turning] = cell;
             let slip = slip([u_x, u_y], [x, y], problem.arms.in_plane(shift, n));
             let e = if slips { [q_x / g, q_y / g] } else { [0.0; 2] };

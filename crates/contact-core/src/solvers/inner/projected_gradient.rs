@@ -78,7 +78,7 @@ impl ProjectedGradient {
             momentum = next;
             self.look_ahead(shear, beta);
         }
-        mark_circle(problem, &shear.q, shear.slip);
+        mark_circle(problem, &shear.q, shear.slips);
         add(problem.drive.given, shift.map(|s| -s / stiffness))
     }
 

@@ -64,11 +64,11 @@ pub struct TangentialInfo {
 /// The shift that fits the stick cells best, or all contact cells where none sticks.
 pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) -> [f64; 3] {
     let cells = problem.bound.len();
-    let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slip[n];
+    let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slips[n];
     let any_sticks = (0..cells).any(sticks);
     let given = problem.drive.given;
     let ([u_x, u_y], [x, y]) = (&shear.u, problem.no_slip);
-    let fields = ([u_x, u_y, x, y, problem.bound], &*shear.slip);
+    let fields = ([u_x, u_y, x, y, problem.bound], &*shear.slips);
     let of_cell = |n: usize, ([u_x, u_y, x, y, bound], slips): ([f64; 5], bool)| {
         let counts = bound > 0.0 && !(slips && any_sticks);
         let rigid = problem.arms.in_plane(given, n);

@@ -110,7 +110,7 @@ impl GradientBuffers {
         shift: [f64; 3],
         last_product: f64,
     ) {
-        let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slip[n];
+        let sticks = |n: usize| problem.bound[n] > 0.0 && !shear.slips[n];
         let mut fresh = 0.0;
         for n in 0..problem.bound.len() {
             let slip = problem.slip(&shear.u, shift, n);
@@ -162,14 +162,14 @@ impl GradientBuffers {
             let slip = problem.slip(&shear.u, shift, n);
             for c in 0..2 {
                 self.q_before[c][n] = shear.q[c][n];
-                shear.q[c][n] += if shear.slip[n] {
+                shear.q[c][n] += if shear.slips[n] {
                     -slip_step * slip[c]
                 } else {
                     step * self.direction[c][n]
                 };
             }
             if g > 0.0 {
-                shear.slip[n] = size([shear.q[0][n], shear.q[1][n]]) > g;
+                shear.slips[n] = size([shear.q[0][n], shear.q[1][n]]) > g;
             }
         }
         admissible(problem, shear, shift);
@@ -193,7 +193,7 @@ fn misfit(problem: &TangentialProblem<'_>, shear: &Shear<'_>, shift: [f64; 3]) -
         }
         count += 1;
         let slip = problem.slip(&shear.u, shift, n);
-        if shear.slip[n] {
+        if shear.slips[n] {
             let e = [shear.q[0][n] / g, shear.q[1][n] / g];
             let along = slip[0] * e[0] + slip[1] * e[1];
             let across = slip[0] * e[1] - slip[1] * e[0];

@@ -252,8 +252,8 @@ impl<'a> Newton<'a> {
 
 /// Stick cells beyond the bound start to slip; slip cells whose slip goes along q stick.
 fn mark_slip(problem: &TangentialProblem<'_>, shear: &mut Shear<'_>, shift: [f64; 3]) {
-    let Shear { q, u, slip, .. } = shear;
-    set_cells(slip, |n, slips| {
+    let Shear { q, u, slips, .. } = shear;
+    set_cells(slips, |n, slips| {
         let q = [q[0][n], q[1][n]];
         if slips {
             power(q, problem.slip(u, shift, n)) <= 0.0
@@ -270,9 +270,9 @@ fn release(
     shift: [f64; 3],
     tolerance: f64,
 ) -> bool {
-    let Shear { q, u, slip, .. } = shear;
+    let Shear { q, u, slips, .. } = shear;
     let released = AtomicBool::new(false);
-    set_cells(slip, |n, slips| {
+    set_cells(slips, |n, slips| {
         let along = |slip| power([q[0][n], q[1][n]], slip) > tolerance * problem.bound[n];
         if slips && along(problem.slip(u, shift, n)) {
             released.store(true, Ordering::Relaxed);

@@ -33,7 +33,7 @@ pub(super) fn bring_within_bound(
     });
     ws.lifted.limit(&mut ws.bound);
     let (p, bound) = (&now.p, &ws.bound);
-    set_cells(&mut now.slip, |n, slips| {
+    set_cells(&mut now.slips, |n, slips| {
         if bound[n] > 0.0 {
             slips && bound[n].is_finite()
         } else {
@@ -44,7 +44,7 @@ pub(super) fn bring_within_bound(
     let slides = sliding(&shear);
     if slides.is_full() {
         for n in 0..now.p.len() {
-            now.slip[n] = now.p[n] > 0.0;
+            now.slips[n] = now.p[n] > 0.0;
             let along = problem.arms.in_plane(slides.motion, n);
             let size = size(along).max(f64::MIN_POSITIVE);
             for c in 0..2 {
@@ -84,7 +84,7 @@ pub(super) fn let_new_cells_slip(
         let slip = slip(u, [x_0[n], y_0[n]], problem.arms.in_plane(shift, n));
         let (moved, bound) = (size(slip), friction_bound(problem.mu[n], now.p[n]));
         if moved > 2.0 * c_xx * bound {
-            now.slip[n] = true;
+            now.slips[n] = true;
             for c in 0..2 {
                 now.q[c][n] = -bound * slip[c] / moved;
             }

@@ -126,7 +126,7 @@ impl<'a> NoSlip<'a> {
         let Some(earlier) = self.start.earlier else {
             return false;
         };
-        if !(0..now.p.len()).any(|n| now.p[n] > 0.0 && !now.slip[n]) {
+        if !(0..now.p.len()).any(|n| now.p[n] > 0.0 && !now.slips[n]) {
             self.straighten();
             return false;
         }
@@ -138,7 +138,7 @@ impl<'a> NoSlip<'a> {
             ..
         } = self.start;
         let turned = |n: usize| -> ([f64; 2], f64) {
-            if !(now.p[n] > 0.0 && now.slip[n]) {
+            if !(now.p[n] > 0.0 && now.slips[n]) {
                 return ([0.0; 2], 0.0);
             }
             let at = |u: &[Vec<f64>; 2]| [u[0][n], u[1][n]];
@@ -171,7 +171,7 @@ impl<'a> NoSlip<'a> {
                 }
                 let (to, follows) = turned(n);
                 // A cell that sticks has t = 0 at once, without relaxation.
-                let part = if now.slip[n] { part } else { 1.0 };
+                let part = if now.slips[n] { part } else { 1.0 };
                 x[i] += part * (to[0] - x[i]);
                 y[i] += part * (to[1] - y[i]);
                 u_x[i] = last.u[0][n] - residual[0][n] + x[i];

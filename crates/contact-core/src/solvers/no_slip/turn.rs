@@ -97,7 +97,7 @@ pub(super) fn turn(
     if bound == 0.0 {
         return None;
     }
-    let (e, w, known) = match last.slip[n] {
+    let (e, w, known) = match last.slips[n] {
         true if earlier.p[n] <= 0.0 => return None,
         true => goes_on(last, earlier, e_1, n),
         false => starts(at(earlier.q), at(&last.q), e_1, bound)?,
