@@ -3,20 +3,23 @@
 //! Writes a table in Markdown to standard output (`make ablation` writes `docs/ablation.md`).
 //! Errors are those against the same scene with many more increments and a tolerance of 1e-7, with
 //! all methods: of the shear in the L2 norm, over the largest of the path, and of radii in cells.
-//! Times are the least of three runs, as ratios to the least of three with all methods, run in turn
-//! with them; convolutions are counted.
+//! Times are those of the processor on one thread, the least of three runs as a ratio to the least of
+//! three with all methods, run in turn with them; of busy threads elapsed times on all threads.
+//! Convolutions are counted.
 #![allow(clippy::print_stdout)]
 
 mod scenes;
 
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use contact_core::Error;
 use contact_core::march::{Increment, March, Tractions};
 use contact_core::plan::{Methods, Plan};
 use contact_core::scene::Scene;
+use cpu_time::ProcessTime;
 use ndarray::Array2;
+use rayon::ThreadPoolBuilder;
 
 use scenes::{Trial, trials};
 
@@ -25,6 +28,13 @@ struct Method {
     name: &'static str,
     off: fn(&mut Methods),
     files: &'static [&'static str],
+}
+
+impl Method {
+    /// Whether it is there for several threads.
+    fn is_of_threads(&self) -> bool {
+        self.name == "busy threads"
+    }
 }
 
 const METHODS: [Method; 15] = [
@@ -77,7 +87,7 @@ const METHODS: [Method; 15] = [
         files: &[
             "march/entry/mod.rs",
             "march/entry/first_contact.rs",
-            "march/entry/asked.rs",
+            "march/entry/equations.rs",
             "march/entry/kept_contact.rs",
             "march/entry/motion.rs",
         ],
@@ -134,14 +144,15 @@ const METHODS: [Method; 15] = [
 struct Run {
     increments: Vec<Increment>,
     ends: Vec<Tractions>,
-    seconds: f64,
+    elapsed: Duration,
+    processor: Duration,
 }
 
 fn run(scene: &Scene, off: impl Fn(&mut Methods)) -> Result<Run, Error> {
     let mut plan = Plan::new(scene);
     off(&mut plan.methods);
     let mut march = March::planned(scene, plan, &Arc::default())?;
-    let begun = Instant::now();
+    let (begun, processor) = (Instant::now(), ProcessTime::now());
     let (mut increments, mut ends) = (Vec::new(), Vec::new());
     while let Some(increment) = march.advance() {
         let increment = increment?;
@@ -153,7 +164,8 @@ fn run(scene: &Scene, off: impl Fn(&mut Methods)) -> Result<Run, Error> {
     Ok(Run {
         increments,
         ends,
-        seconds: begun.elapsed().as_secs_f64(),
+        elapsed: begun.elapsed(),
+        processor: processor.elapsed(),
     })
 }
 
@@ -161,14 +173,30 @@ fn run(scene: &Scene, off: impl Fn(&mut Methods)) -> Result<Run, Error> {
 const REPETITIONS: usize = 3;
 
 /// A run with a method switched off, and its time over that with all methods.
-fn timed(scene: &Scene, off: fn(&mut Methods)) -> Result<(Run, f64), Error> {
-    let (mut best, mut with_all) = (run(scene, off)?, f64::INFINITY);
-    for _ in 0..REPETITIONS {
-        with_all = with_all.min(run(scene, |_| {})?.seconds);
-        best.seconds = best.seconds.min(run(scene, off)?.seconds);
-    }
-    let ratio = best.seconds / with_all;
-    Ok((best, ratio))
+fn timed(scene: &Scene, method: &Method) -> Result<(Run, f64), Error> {
+    let threads = ThreadPoolBuilder::new();
+    let pool = if method.is_of_threads() {
+        threads.build()
+    } else {
+        threads.num_threads(1).build()
+    };
+    let pool = pool.expect("threads");
+    let time = |run: &Run| {
+        if method.is_of_threads() {
+            run.elapsed
+        } else {
+            run.processor
+        }
+    };
+    pool.install(|| {
+        let off = run(scene, method.off)?;
+        let (mut least, mut with_all) = (time(&off), Duration::MAX);
+        for _ in 0..REPETITIONS {
+            with_all = with_all.min(time(&run(scene, |_| {})?));
+            least = least.min(time(&run(scene, method.off)?));
+        }
+        Ok((off, least.as_secs_f64() / with_all.as_secs_f64()))
+    })
 }
 
 /// Squares of the shear.
@@ -216,11 +244,8 @@ impl Run {
 /// Lines of code of files under `src`.
 fn lines(files: &[&str]) -> usize {
     let source = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    files
-        .iter()
-        .filter_map(|file| std::fs::read_to_string(source.join(file)).ok())
-        .map(|text| text.lines().count())
-        .sum()
+    let text = |file: &&str| std::fs::read_to_string(source.join(file)).expect("a file of a method");
+    files.iter().map(|file| text(file).lines().count()).sum()
 }
 
 fn table(trial: &Trial) -> Result<(), Error> {
@@ -248,7 +273,7 @@ fn table(trial: &Trial) -> Result<(), Error> {
     row("nothing", 0, &all, 1.0);
     for method in &METHODS {
         let lines = lines(method.files);
-        match timed(&trial.scene, method.off) {
+        match timed(&trial.scene, method) {
             Ok((run, time)) => row(method.name, lines, &run, time),
             Err(failure) => println!("| {} | {lines} | {failure} | | | | | |", method.name),
         }

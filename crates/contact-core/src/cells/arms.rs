@@ -48,7 +48,17 @@ impl Arms {
         if m[2] == 0.0 {
             return [m[0], m[1]];
         }
-        [m[0] - self.y[n] * m[2], m[1] + self.turn_x(n) * m[2]]
+        self.motion_at([self.x[n], self.y[n]], m)
+    }
+
+    /// B m in the plane of a cell at these arms \[m\].
+    pub(crate) fn motion_at(&self, [x, y]: [f64; 2], m: [f64; 3]) -> [f64; 2] {
+        [m[0] - y * m[2], m[1] + self.stretch * x * m[2]]
+    }
+
+    /// x and y of the cells over the length, for sweeps.
+    pub(crate) fn fields(&self) -> [&[f64]; 2] {
+        [&self.x, &self.y]
     }
 
     /// B m across the plane at cell n \[m\].

@@ -18,6 +18,10 @@ pub(crate) trait Fields: Copy + Sync {
     type Cell;
     /// Those of [`BLOCK`] cells.
     type Block;
+    /// The last cells, filled up to a block.
+    type Last;
+    /// Fields of other cells.
+    type Other<'b>: Fields<Cell = Self::Cell>;
 
     /// Whether all have so many cells.
     fn have(self, cells: usize) -> bool;
@@ -29,13 +33,23 @@ pub(crate) trait Fields: Copy + Sync {
     fn block(self, n: usize) -> Option<Self::Block>;
     /// Cell i of a block.
     fn of_block(block: &Self::Block, i: usize) -> Self::Cell;
-    /// Cell n.
-    fn cell(self, n: usize) -> Self::Cell;
+    /// The cells from n on, less than a block of them, the last one repeated.
+    fn last(self, n: usize) -> Self::Last;
+    /// These as fields of one block.
+    fn of_last(last: &Self::Last) -> Self::Other<'_>;
+}
+
+/// The cells of a field from n on, less than a block of them, the last one repeated.
+fn last_of<T: Copy + Default>(field: &[T], n: usize) -> [T; BLOCK] {
+    let rest = &field[n..];
+    std::array::from_fn(|i| rest.get(i).or(rest.last()).copied().unwrap_or_default())
 }
 
 impl<'a, const R: usize> Fields for [&'a [f64]; R] {
     type Cell = [f64; R];
     type Block = [&'a [f64; BLOCK]; R];
+    type Last = [[f64; BLOCK]; R];
+    type Other<'b> = [&'b [f64]; R];
 
     fn have(self, cells: usize) -> bool {
         self.iter().all(|f| f.len() == cells)
@@ -64,9 +78,12 @@ impl<'a, const R: usize> Fields for [&'a [f64]; R] {
         block.map(|f| f[i])
     }
 
-    #[inline]
-    fn cell(self, n: usize) -> Self::Cell {
-        self.map(|f| f[n])
+    fn last(self, n: usize) -> Self::Last {
+        self.map(|f| last_of(f, n))
+    }
+
+    fn of_last(last: &Self::Last) -> Self::Other<'_> {
+        last.each_ref().map(|f| &f[..])
     }
 }
 
@@ -74,6 +91,8 @@ impl<'a, const R: usize> Fields for [&'a [f64]; R] {
 impl<'a> Fields for &'a [bool] {
     type Cell = bool;
     type Block = &'a [bool; BLOCK];
+    type Last = [bool; BLOCK];
+    type Other<'b> = &'b [bool];
 
     fn have(self, cells: usize) -> bool {
         self.len() == cells
@@ -97,15 +116,20 @@ impl<'a> Fields for &'a [bool] {
         block[i]
     }
 
-    #[inline]
-    fn cell(self, n: usize) -> bool {
-        self[n]
+    fn last(self, n: usize) -> Self::Last {
+        last_of(self, n)
+    }
+
+    fn of_last(last: &Self::Last) -> Self::Other<'_> {
+        last
     }
 }
 
 impl<A: Fields, B: Fields> Fields for (A, B) {
     type Cell = (A::Cell, B::Cell);
     type Block = (A::Block, B::Block);
+    type Last = (A::Last, B::Last);
+    type Other<'b> = (A::Other<'b>, B::Other<'b>);
 
     fn have(self, cells: usize) -> bool {
         self.0.have(cells) && self.1.have(cells)
@@ -129,9 +153,12 @@ impl<A: Fields, B: Fields> Fields for (A, B) {
         (A::of_block(&block.0, i), B::of_block(&block.1, i))
     }
 
-    #[inline]
-    fn cell(self, n: usize) -> Self::Cell {
-        (self.0.cell(n), self.1.cell(n))
+    fn last(self, n: usize) -> Self::Last {
+        (self.0.last(n), self.1.last(n))
+    }
+
+    fn of_last((a, b): &Self::Last) -> Self::Other<'_> {
+        (A::of_last(a), B::of_last(b))
     }
 }
 
@@ -231,18 +258,55 @@ fn part<F: Fields, const W: usize, const K: usize, const M: usize>(
         (0..M).for_each(|m| largest[m] = largest[m].max(larger[m]));
         return (sums, largest);
     }
+    let (whole, rest) = (count / BLOCK * BLOCK, count % BLOCK);
+    let (mut sums, mut largest) = blocks(
+        cells.clone(),
+        from,
+        to.each_mut().map(|to| &mut **to),
+        values,
+    );
+    if rest > 0 {
+        // Filled up to a block, so that `values` is compiled at one place alone, into the loop over
+        // several cells.
+        let last = from.last(whole);
+        let mut new = to.each_ref().map(|to| last_of(to, whole));
+        let here = cells.start + whole..cells.end;
+        let one = new.each_mut().map(|new| &mut new[..]);
+        let (more, larger) = blocks(here, F::of_last(&last), one, values);
+        for i in 0..rest {
+            (0..K).for_each(|k| sums[k][i] += more[k][i]);
+            (0..M).for_each(|m| largest[m][i] = largest[m][i].max(larger[m][i]));
+        }
+        for (to, new) in to.iter_mut().zip(&new) {
+            to[whole..].copy_from_slice(&new[..rest]);
+        }
+    }
+    let of_block = |sizes: [f64; BLOCK]| sizes.into_iter().fold(0.0, f64::max);
+    (sums.map(|sums| sums.iter().sum()), largest.map(of_block))
+}
+
+/// The whole blocks of some cells: sums and largest values, one of each for every place in a block.
+/// Behind the end of the cells the last one is meant.
+#[inline(never)]
+fn blocks<F: Fields, const W: usize, const K: usize, const M: usize>(
+    cells: Range<usize>,
+    from: F,
+    to: [&mut [f64]; W],
+    values: &(impl Fn(usize, F::Cell, [f64; W]) -> ([f64; W], [f64; K], [f64; M]) + Sync),
+) -> ([[f64; BLOCK]; K], [[f64; BLOCK]; M]) {
     let (mut sums, mut largest) = ([[0.0; BLOCK]; K], [[0.0_f64; BLOCK]; M]);
-    let mut blocks_to = to.map(|to| to.as_chunks_mut::<BLOCK>());
+    let count = to.first().map_or(from.cells(), |to| to.len());
+    let mut to = to.map(|to| to.as_chunks_mut::<BLOCK>().0);
     for b in 0..count / BLOCK {
         let Some(from) = from.block(b * BLOCK) else {
             break;
         };
-        let mut to = blocks_to.each_mut().map(|(to, _)| &mut to[b]);
+        let mut to = to.each_mut().map(|to| &mut to[b]);
         // No field is changed while another is read.
         let mut new = [[0.0; BLOCK]; W];
         for i in 0..BLOCK {
             let old = std::array::from_fn(|w| to[w][i]);
-            let n = cells.start + b * BLOCK + i;
+            let n = (cells.start + b * BLOCK + i).min(cells.end - 1);
             let (cell, summed, size) = values(n, F::of_block(&from, i), old);
             (0..W).for_each(|w| new[w][i] = cell[w]);
             (0..K).for_each(|k| sums[k][i] += summed[k]);
@@ -250,17 +314,7 @@ fn part<F: Fields, const W: usize, const K: usize, const M: usize>(
         }
         to.iter_mut().zip(new).for_each(|(to, new)| **to = new);
     }
-    let whole = count / BLOCK * BLOCK;
-    for i in 0..count % BLOCK {
-        let old = std::array::from_fn(|w| blocks_to[w].1[i]);
-        let n = cells.start + whole + i;
-        let (cell, summed, size) = values(n, from.cell(whole + i), old);
-        (0..W).for_each(|w| blocks_to[w].1[i] = cell[w]);
-        (0..K).for_each(|k| sums[k][i] += summed[k]);
-        (0..M).for_each(|m| largest[m][i] = largest[m][i].max(size[m]));
-    }
-    let of_block = |sizes: [f64; BLOCK]| sizes.into_iter().fold(0.0, f64::max);
-    (sums.map(|sums| sums.iter().sum()), largest.map(of_block))
+    (sums, largest)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::stop::unless;
 
 /// Frequencies k_x that are worked on together.
-pub(crate) const LANES: usize = 4;
+pub(crate) const LANES: usize = 8;
 
 /// Spectra of a group of kernels that are used together: (line, block of k_x, kernel, frequency
 /// k_y of the line), [`LANES`] frequencies k_x each, so that a product reads memory in one go.

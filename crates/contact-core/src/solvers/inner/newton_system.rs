@@ -40,6 +40,8 @@ pub(crate) struct NewtonSystem {
     turning: Vec<f64>,
     /// D \[m/Pa\].
     diagonal: Vec<f64>,
+    /// C_xx(0,0) \[m/Pa\].
+    c_xx: f64,
     /// S \[1\] and A \[Pa/m\] of the preconditioner S P S + A ~ (C + D)^-1.
     scale: Vec<f64>,
     alone: Vec<f64>,
@@ -67,6 +69,7 @@ impl NewtonSystem {
             tangent: Tangent::new(cells),
             turning: field(),
             diagonal: field(),
+            c_xx: 0.0,
             scale: field(),
             alone: field(),
             x: pair(),
@@ -134,54 +137,62 @@ impl NewtonSystem {
         shift: [f64; 3],
         c_xx: f64,
     ) -> [f64; 3] {
+        self.c_xx = c_xx;
         let t = &mut self.tangent;
-        let right = RIGHT * c_xx;
-        // The square root of the number of contact cells is about their number across.
-        let limit = 2.0 * c_xx * (problem.bound.len() as f64).powf(0.25);
+        let ([t_x, t_y], [r_x, r_y]) = (&mut t.across, &mut self.residual);
         let ([x, y], [q_x, q_y], [u_x, u_y]) = (problem.no_slip, &shear.q, &shear.u);
         let from = [u_x, u_y, x, y, q_x, q_y, problem.bound, &self.turning];
-        let [t_x, t_y] = &mut t.across;
-        let [r_x, r_y] = &mut self.residual;
+        let from = ((from, problem.arms.fields()), &*shear.slips);
         let to = [
             &mut t_x[..],
             t_y,
             &mut t.weight,
             &mut self.diagonal,
-            &mut self.scale,
-            &mut self.alone,
             r_x,
             r_y,
         ];
-        set((from, &*shear.slips), to, |n, (cell, slips), _| {
+        let sums = sweep(from, to, |_, ((cell, arms), slips), _| {
             let [u_x, u_y, x, y, q_x, q_y, g, turning] = cell;
-            let slip = slip([u_x, u_y], [x, y], problem.arms.in_plane(shift, n));
-            let e = if slips { [q_x / g, q_y / g] } else { [0.0; 2] };
+            let slip = slip([u_x, u_y], [x, y], problem.arms.motion_at(arms, shift));
+            let of_bound = if slips { 1.0 / g } else { 0.0 };
+            let e = [q_x * of_bound, q_y * of_bound];
             let against = -(slip[0] * e[0] + slip[1] * e[1]);
-            let curvature = if slips {
-                (1.0 - turning) * against.max(0.0) / g
-            } else {
-                0.0
-            };
+            let curvature = (1.0 - turning) * against.max(0.0) * of_bound;
+            let [t_x, t_y] = [-e[1], e[0]];
             let weight = 1.0 / (1.0 + curvature / c_xx);
-            let shared = ((1.0 - curvature / limit) / (1.0 + curvature / right)).max(0.0);
-            let alone = (1.0 - shared) / (right + curvature.max(limit));
-            let (scale, r) = (shared.sqrt(), [-slip[0], -slip[1]]);
-            [-e[1], e[0], weight, curvature, scale, alone, r[0], r[1]]
+            let cell = Admitted::of([t_x, t_y, problem.arms.stretch * arms[0], arms[1], weight]);
+            let r = cell.project([-slip[0], -slip[1]]);
+            let ([xx, xy, yy, xr, yr, rr], [x, y, turn]) =
+                (cell.gram(), cell.weighted_motion_of(r));
+            (
+                [t_x, t_y, weight, curvature, r[0], r[1]],
+                [xx, xy, yy, xr, yr, rr, x, y, turn],
+            )
         });
-        t.inverse_sum = inverse(t.gram(), problem.drive.free);
+        let [xx, xy, yy, xr, yr, rr, x, y, turn] = sums;
+        let gram = [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]];
+        t.inverse_sum = inverse(gram, problem.drive.free);
+        let behind = product(&t.inverse_sum, [x, y, turn]);
         let [r_x, r_y] = &mut self.residual;
-        let sums = sweep(t.fields(), [r_x, r_y], |_, of_cell, r| {
-            let cell = Admitted::of(of_cell);
-            let r = cell.project(r);
-            (r, cell.weighted_motion_of(r))
-        });
-        let behind = product(&t.inverse_sum, sums);
         let [squares] = sweep(t.fields(), [r_x, r_y], |_, of_cell, r| {
             let r = Admitted::of(of_cell).without(behind, r);
             (r, [r[0] * r[0] + r[1] * r[1]])
         });
         self.residual_norm = squares.sqrt();
         add(shift, behind.map(|s| -s))
+    }
+
+    /// S and A of the preconditioner.
+    fn scale(&mut self) {
+        let right = RIGHT * self.c_xx;
+        // The square root of the number of contact cells is about their number across.
+        let limit = 2.0 * self.c_xx * (self.diagonal.len() as f64).powf(0.25);
+        let to = [&mut self.scale[..], &mut self.alone];
+        set([&self.diagonal[..]], to, |_, [curvature], _| {
+            let shared = ((1.0 - curvature / limit) / (1.0 + curvature / right)).max(0.0);
+            let alone = (1.0 - shared) / (right + curvature.max(limit));
+            [shared.sqrt(), alone]
+        });
     }
 
     /// Norm of the residual \[m\], root of the sum of squares.
@@ -199,6 +210,7 @@ impl NewtonSystem {
         max_passes: usize,
     ) -> usize {
         self.restart();
+        self.scale();
         let mut last_product = 0.0;
         for pass in 0..max_passes {
             if self.residual_norm <= target || response.stopped() {
@@ -336,8 +348,8 @@ impl NewtonSystem {
         squares
     }
 
-    /// Adds x and C x to the shear; returns the shift that the equations of the tangent space ask
-    /// for there.
+    /// Adds x and C x to the shear, which [`Self::change`] keeps; returns the shift that the equations
+    /// of the tangent space ask for there.
     pub(crate) fn take(
         &mut self,
         contact: &ContactCells,
@@ -349,19 +361,19 @@ impl NewtonSystem {
         let ([x, y], [z_x, z_y]) = (&self.x, &self.z);
         let [x_0, y_0] = problem.no_slip;
         let from = [&x[..], y, z_x, z_y, x_0, y_0, &self.diagonal];
-        let ([q_x, q_y], [u_x, u_y]) = (&mut shear.q, &mut shear.u);
+        let from = (from, problem.arms.fields());
         let from = (self.tangent.fields(), from);
-        let sums = sweep(from, [q_x, q_y, u_x, u_y], |n, (of_cell, from), old| {
+        let ([q_x, q_y], [u_x, u_y]) = (&mut shear.q, &mut shear.u);
+        let [kept_x, kept_y] = &mut self.change;
+        let to = [&mut **q_x, q_y, u_x, u_y, kept_x, kept_y];
+        let sums = sweep(from, to, |_, (of_cell, (from, arms)), old| {
             let [x, y, z_x, z_y, x_0, y_0, diagonal] = from;
-            let [q_x, q_y, u_x, u_y] = old;
-            let u = [u_x + z_x, u_y + z_y];
-            let slip = slip(u, [x_0, y_0], problem.arms.in_plane(given, n));
+            let (q, u) = ([old[0] + x, old[1] + y], [old[2] + z_x, old[3] + z_y]);
+            let slip = slip(u, [x_0, y_0], problem.arms.motion_at(arms, given));
             let cell = Admitted::of(of_cell);
             let turned = cell.project([slip[0] + diagonal * x, slip[1] + diagonal * y]);
-            (
-                [q_x + x, q_y + y, u[0], u[1]],
-                cell.weighted_motion_of(turned),
-            )
+            let new = [q[0], q[1], u[0], u[1], q[0], q[1]];
+            (new, cell.weighted_motion_of(turned))
         });
         add(given, product(&self.tangent.inverse_sum, sums))
     }

@@ -68,10 +68,11 @@ pub(crate) fn first_shift(problem: &TangentialProblem<'_>, shear: &Shear<'_>) ->
     let any_sticks = (0..cells).any(sticks);
     let given = problem.drive.given;
     let ([u_x, u_y], [x, y]) = (&shear.u, problem.no_slip);
-    let fields = ([u_x, u_y, x, y, problem.bound], &*shear.slips);
-    let of_cell = |n: usize, ([u_x, u_y, x, y, bound], slips): ([f64; 5], bool)| {
+    let [arm_x, arm_y] = problem.arms.fields();
+    let fields = ([u_x, u_y, x, y, problem.bound, arm_x, arm_y], &*shear.slips);
+    let of_cell = |_, ([u_x, u_y, x, y, bound, arm_x, arm_y], slips): ([f64; 7], bool)| {
         let counts = bound > 0.0 && !(slips && any_sticks);
-        let rigid = problem.arms.in_plane(given, n);
+        let rigid = problem.arms.motion_at([arm_x, arm_y], given);
         (f64::from(u8::from(counts)), slip([u_x, u_y], [x, y], rigid))
     };
     let fitted = problem

@@ -1,6 +1,6 @@
 //! The tangent space of the tangential problem: the admissible changes of the shear, cell by cell.
 
-use crate::cells::{product, sums, sweep};
+use crate::cells::{product, sweep};
 
 /// A field of two components.
 pub(super) type Pair = [Vec<f64>; 2];
@@ -44,7 +44,7 @@ impl Tangent {
         }
     }
 
-    /// Directions and lever arms. Where the rotation is not free any field does for the arms:
+    /// Directions, lever arms, weights. Where the rotation is not free any field does for the arms:
     /// [`Self::inverse_sum`] has no part of it.
     pub(super) fn fields(&self) -> [&[f64]; 5] {
         let [t_x, t_y] = &self.across;
@@ -54,19 +54,6 @@ impl Tangent {
             &self.arms
         };
         [t_x, t_y, a_x, a_y, &self.weight]
-    }
-
-    /// B^T w Pi B
-    pub(super) fn gram(&self) -> [[f64; 3]; 3] {
-        let [xx, xy, yy, xr, yr, rr] = sums(self.fields(), |_, of_cell| {
-            let cell = Admitted::of(of_cell);
-            let [x, y] = cell.arm;
-            let (of_x, of_y) = (cell.project([1.0, 0.0]), cell.project([0.0, 1.0]));
-            let turn = cell.project([-y, x]);
-            let of_turn = x * turn[1] - y * turn[0];
-            [of_x[0], of_x[1], of_y[1], turn[0], turn[1], of_turn].map(|of| cell.weight * of)
-        });
-        [[xx, xy, xr], [xy, yy, yr], [xr, yr, rr]]
     }
 
     /// v = Pi `value(v, from)` in each cell, and the sum of v times the second result of `value`.
@@ -113,6 +100,15 @@ impl Admitted {
     pub(super) fn motion_of(self, [a, b]: [f64; 2]) -> [f64; 3] {
         let [x, y] = self.arm;
         [a, b, x * b - y * a]
+    }
+
+    /// Its part of B^T w Pi B: xx, xy, yy, xr, yr, rr.
+    pub(super) fn gram(self) -> [f64; 6] {
+        let [x, y] = self.arm;
+        let (of_x, of_y) = (self.project([1.0, 0.0]), self.project([0.0, 1.0]));
+        let turn = self.project([-y, x]);
+        let of_turn = x * turn[1] - y * turn[0];
+        [of_x[0], of_x[1], of_y[1], turn[0], turn[1], of_turn].map(|of| self.weight * of)
     }
 
     /// B^T w v

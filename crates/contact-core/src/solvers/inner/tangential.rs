@@ -225,11 +225,8 @@ impl<'a> Newton<'a> {
         let Self {
             system, now, cells, ..
         } = self;
-        let [x, y] = &mut system.change;
-        let [q_x, q_y] = &now.q;
-        let [] = sweep([&**q_x, q_y], [&mut x[..], y], |_, q, _| (q, []));
         admissible(&self.inside, now, self.info.shift);
-        let [q_x, q_y] = &now.q;
+        let ([x, y], [q_x, q_y]) = (&mut system.change, &now.q);
         let [squares] = sweep([&**q_x, q_y], [&mut x[..], y], |_, q, before| {
             let change = [q[0] - before[0], q[1] - before[1]];
             (change, [change[0] * change[0] + change[1] * change[1]])
