@@ -13,5 +13,6 @@ mod stress;
 
 #[path = "../kernel_tables/mod.rs"]
 mod kernel_tables;
+#[allow(dead_code, reason = "these tests draw no logarithms")]
 #[path = "../splitmix/mod.rs"]
 mod splitmix;
