@@ -84,10 +84,11 @@ wear: ## 300 random runs of wear, audited, and partial slip fully worn on 256 x 
 wear-jumps: ## implicit jumps over cycles beside the explicit ones that are as exact; the numbers go to docs/wear.md
 	cargo run --release --locked --package contact-core --example wear_jumps -- $(CURDIR)/docs/wear.md
 
+# In release mode, so that build scripts and macros are compiled once for checks, tests and wheel.
 check: setup ## formats, lints, circles of imports, types, spelling
 	cargo fmt --all --check
-	cargo clippy --workspace --all-targets --locked -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
+	cargo clippy --workspace --all-targets --locked --release -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --release --quiet
 	$(PY) tools/acyclic.py
 	$(BIN)/ruff format --check
 	$(BIN)/ruff check

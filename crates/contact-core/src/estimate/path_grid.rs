@@ -15,9 +15,10 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use super::repeats::Repeats;
 use super::two_runs::{PathError, TwoRuns};
 use crate::error::Error;
-use crate::scene::{Branch, Grid, PathGrid, SaveFields, Scene};
+use crate::scene::{Grid, PathGrid, SaveFields, Scene};
 
 /// Cells of the shorter side of the path grid that is tried.
 const TRIAL_CELLS: usize = 32;
@@ -52,7 +53,9 @@ pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Res
     if shorter < FEWEST_CELLS || ratios.is_empty() || !pays(scene) {
         return Ok(());
     }
-    let errors = match errors_of_trial(scene, telling(&scene.path.branches), stop) {
+    // Cycles repeat the ends of their branches.
+    let branches = Repeats::of_ends(&scene.path.branches).last() + 1;
+    let errors = match errors_of_trial(scene, branches, stop) {
         Ok(errors) => errors,
         Err(error @ Error::Interrupted { .. }) => return Err(error),
         // A coarse grid may be too coarse for the scene.
@@ -104,15 +107,6 @@ fn pays(scene: &Scene) -> bool {
     let taken_over: usize = taken_over.map(|k| branches[k].count() - 1).sum();
     scene.settings.save != SaveFields::All
         && taken_over as f64 >= TAKEN_OVER * scene.path.increments() as f64
-}
-
-/// The number of first branches whose ends are those of all branches: cycles repeat them.
-fn telling(branches: &[Branch]) -> usize {
-    let repeats = |of: &usize| {
-        let (seen, rest) = branches.split_at(*of);
-        rest.iter().all(|b| seen.iter().any(|seen| seen.to == b.to))
-    };
-    (1..branches.len()).find(repeats).unwrap_or(branches.len())
 }
 
 /// e(N, ratio N) over e(32, 64).

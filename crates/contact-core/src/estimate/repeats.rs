@@ -1,13 +1,13 @@
-//! Branches that repeat earlier ones: the increments of a cycle are chosen once.
+//! Branches that repeat earlier ones: the increments and the error of a cycle are found once.
 
 use crate::scene::{Branch, LoadPath};
 
-/// For each branch, the first one that leads from the same loads to the same loads in increments
-/// of the same kind.
+/// For each branch, the first one that it repeats; itself if it repeats none.
 pub(super) struct Repeats(Vec<usize>);
 
 impl Repeats {
-    /// Of a path with the increments of the first round, chosen in the `open` branches.
+    /// Branches that lead from the same loads to the same loads in increments of the same kind, of
+    /// a path with the increments of the first round, chosen in the `open` branches.
     pub(super) fn new(path: &LoadPath, open: &[bool]) -> Self {
         let branches = &path.branches;
         let from = |k: usize| k.checked_sub(1).map(|before| branches[before].to);
@@ -17,8 +17,19 @@ impl Repeats {
                 && from(k) == from(other)
                 && (open[k], a.increments, a.spacing) == (open[other], b.increments, b.spacing)
         };
+        Self::find(branches.len(), alike)
+    }
+
+    /// Branches that end at the same loads, wherever they begin.
+    pub(super) fn of_ends(branches: &[Branch]) -> Self {
+        Self::find(branches.len(), |k, other| {
+            branches[k].to == branches[other].to
+        })
+    }
+
+    fn find(branches: usize, alike: impl Fn(usize, usize) -> bool) -> Self {
         let first = |k| (0..k).find(|&other| alike(k, other)).unwrap_or(k);
-        Self((0..branches.len()).map(first).collect())
+        Self((0..branches).map(first).collect())
     }
 
     /// Where every branch is one of its own.

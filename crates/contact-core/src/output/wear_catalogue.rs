@@ -1,6 +1,7 @@
 //! The contents of the store of a run of wear.
 
-use crate::wear::Jump;
+use super::catalogue::FieldView;
+use crate::wear::{Block, Jump};
 
 /// Name, unit, meaning and value.
 pub(super) type Scalar = (&'static str, &'static str, &'static str, fn(&Jump) -> f64);
@@ -94,23 +95,71 @@ pub(super) const SCALARS: [Scalar; 21] = [
     ("index", "1", "jump, from 1", |j| j.index as f64),
 ];
 
-/// The other arrays: cycles of the blocks, the fields and the friction loops over `block`.
-const BLOCKS: [&str; 12] = [
-    "block_cycles",
-    "worn1",
-    "worn2",
-    "energy1",
-    "energy2",
-    "slid",
-    "p",
-    "stick",
-    "loop_delta_x",
-    "loop_T_x",
-    "loop_delta_y",
-    "loop_T_y",
+/// Name, unit, meaning and values.
+type Field = (
+    &'static str,
+    &'static str,
+    &'static str,
+    fn(&Block) -> FieldView<'_>,
+);
+
+/// Every field over `block`, `x`, `y`.
+pub(super) const FIELDS: [Field; 7] = [
+    (
+        "worn1",
+        "m",
+        "depth worn off body 1, in its own coordinates",
+        |b| FieldView::Real(&b.worn1),
+    ),
+    (
+        "worn2",
+        "m",
+        "depth worn off body 2, in its own coordinates",
+        |b| FieldView::Real(&b.worn2),
+    ),
+    (
+        "energy1",
+        "J/m^2",
+        "energy per area dissipated at body 1 so far, in its own coordinates",
+        |b| FieldView::Real(&b.energy1),
+    ),
+    (
+        "energy2",
+        "J/m^2",
+        "energy per area dissipated at body 2 so far, in its own coordinates",
+        |b| FieldView::Real(&b.energy2),
+    ),
+    ("slid", "m", "way slipped in contact so far", |b| {
+        FieldView::Real(&b.slid)
+    }),
+    (
+        "p",
+        "Pa",
+        "pressure: mean of the cycle, or that in the middle of the stroke",
+        |b| FieldView::Real(&b.p),
+    ),
+    (
+        "stick",
+        "1",
+        "contact cells that slip nowhere in a cycle",
+        |b| FieldView::Mask(&b.stick),
+    ),
+];
+
+/// The friction loops over `block`, `corner`, in the order of [`Block::friction_loop`]: name, unit
+/// of a contact of two directions and meaning.
+pub(super) const FRICTION_LOOP: [(&str, &str, &str); 4] = [
+    ("loop_delta_x", "m", "shift along x in the friction loop"),
+    ("loop_T_x", "N", "force along x in the friction loop"),
+    ("loop_delta_y", "m", "shift along y in the friction loop"),
+    ("loop_T_y", "N", "force along y in the friction loop"),
 ];
 
 /// Whether such a store has an array of that name, beside its coordinates x and y.
 pub(super) fn holds(name: &str) -> bool {
-    BLOCKS.contains(&name) || SCALARS.iter().any(|(scalar, ..)| *scalar == name)
+    let scalars = SCALARS.iter().map(|(name, ..)| *name);
+    let fields = FIELDS.iter().map(|(name, ..)| *name);
+    let friction_loop = FRICTION_LOOP.iter().map(|(name, ..)| *name);
+    let mut all = scalars.chain(fields).chain(friction_loop);
+    name == "block_cycles" || all.any(|other| other == name)
 }

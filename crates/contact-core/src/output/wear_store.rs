@@ -2,32 +2,28 @@
 //! loops of the blocks over `block`, `corner`.
 //!
 //! Beside the arrays lies the state after the last jump
-//! ([`wear_checkpoint`](super::wear_checkpoint)), from which [`resume_wear`] goes on. Fields of
+//! ([`wear_checkpoint`](super::wear_checkpoint)), from which [`resume_wear`](super::resume_wear) goes on. Fields of
 //! later blocks that a killed process has left are written again with the same bytes.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use serde_json::{Map, Value, json};
 
-use super::catalogue::Kind;
+use super::catalogue::{FieldView, Kind};
 use super::consolidated::{Consolidated, FILE};
 use super::folder::Folder;
-use super::given_law::with_law;
 use super::place::{Unfinished, is_free, is_store, mend};
 use super::schema::SCHEMA;
-use super::stored::Stored;
-use super::wear_catalogue::{SCALARS, Scalar};
-use super::wear_checkpoint::{Kept, read_checkpoint, write_checkpoint};
+use super::wear_catalogue::{FIELDS, FRICTION_LOOP, SCALARS, Scalar};
+use super::wear_checkpoint::{Kept, write_checkpoint};
 use super::{column::Column, variable::Variable, whole};
 use crate::error::Error;
-use crate::scene::{OwnFriction, Scene};
-use crate::wear::{Block, BodyWear, EventKind, Wear, WearRun};
+use crate::wear::{Block, EventKind, WearRun};
 
 /// Attributes of the store, its status among them.
-const ATTRIBUTES: &str = ".zattrs";
+pub(super) const ATTRIBUTES: &str = ".zattrs";
 
 /// Writes a run of wear while it goes on.
 pub struct WearStore {
@@ -55,6 +51,16 @@ impl WearStore {
             folder: None,
             kept: Kept::default(),
         })
+    }
+
+    /// Writes on in the store of a run that goes on, with what it has kept so far.
+    pub(super) fn go_on(folder: Arc<Folder>, lock: File, kept: Kept) -> Self {
+        Self {
+            place: folder.root().to_owned(),
+            overwrite: false,
+            folder: Some((folder, lock)),
+            kept,
+        }
     }
 
     /// Whether there is a run of wear at `path`.
@@ -177,7 +183,7 @@ impl WearStore {
 }
 
 /// The folder, locked; fails if another process writes it.
-fn locked(folder: &Arc<Folder>) -> Result<File, Error> {
+pub(super) fn locked(folder: &Arc<Folder>) -> Result<File, Error> {
     let lock = File::open(folder.root()).map_err(|e| folder.error(&e))?;
     is_free(&lock, folder)?;
     Ok(lock)
@@ -185,108 +191,44 @@ fn locked(folder: &Arc<Folder>) -> Result<File, Error> {
 
 /// Removes the checkpoint of a run that is done, which a process that died at its very end has
 /// left. What cannot be removed is no reason to fail: the store is whole.
-fn clear_checkpoint(folder: &Folder) {
+pub(super) fn clear_checkpoint(folder: &Folder) {
     let _ = std::fs::remove_dir_all(folder.root().join("checkpoint"));
 }
 
 /// The variables over `block`, and the values of a block.
-fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<(Variable, Vec<f64>)> {
-    let (nx, ny) = (run.scene().grid.nx as u64, run.scene().grid.ny as u64);
-    let field = |name, kind, words, values: Vec<f64>| {
-        let shape = vec![blocks as u64, nx, ny];
+pub(super) fn fields(run: &WearRun, block: &Block, blocks: usize) -> Vec<(Variable, Vec<f64>)> {
+    let grid = &run.scene().grid;
+    let (n, nx, ny) = (blocks as u64, grid.nx as u64, grid.ny as u64);
+    let corners = block.friction_loop.len() as u64;
+    let fields = FIELDS.iter().map(|(name, units, what, values)| {
+        let (kind, values) = match values(block) {
+            FieldView::Real(f) => (Kind::Real, f.iter().copied().collect()),
+            FieldView::Mask(f) => (
+                Kind::Flag,
+                f.iter().map(|s| f64::from(u8::from(*s))).collect(),
+            ),
+        };
+        let (shape, chunk) = (vec![n, nx, ny], vec![1, nx, ny]);
         let dims = ["block", "x", "y"];
         (
-            Variable::new(name, kind, words, &dims, shape, vec![1, nx, ny]),
+            Variable::new(name, kind, (units, what), &dims, shape, chunk),
             values,
         )
-    };
-    let force = run.scene().grid.unit_of("N");
-    let corners = block.friction_loop.len() as u64;
-    let corner = |name, words, c: usize| {
-        let shape = vec![blocks as u64, corners];
-        let variable = Variable::new(
-            name,
-            Kind::Real,
-            words,
-            &["block", "corner"],
-            shape,
-            vec![1, corners],
-        );
-        (
-            variable,
-            block.friction_loop.iter().map(|at| at[c]).collect(),
-        )
-    };
-    let stick = block
-        .stick
+    });
+    let friction_loop = FRICTION_LOOP
         .iter()
-        .map(|s| f64::from(u8::from(*s)))
-        .collect();
-    vec![
-        field(
-            "worn1",
-            Kind::Real,
-            ("m", "depth worn off body 1, in its own coordinates"),
-            block.worn1.iter().copied().collect(),
-        ),
-        field(
-            "worn2",
-            Kind::Real,
-            ("m", "depth worn off body 2, in its own coordinates"),
-            block.worn2.iter().copied().collect(),
-        ),
-        field(
-            "energy1",
-            Kind::Real,
+        .enumerate()
+        .map(|(c, (name, units, what))| {
+            let words = (grid.unit_of(units), *what);
+            let (shape, chunk) = (vec![n, corners], vec![1, corners]);
+            let dims = ["block", "corner"];
+            let values = block.friction_loop.iter().map(|at| at[c]).collect();
             (
-                "J/m^2",
-                "energy per area dissipated at body 1 so far, in its own coordinates",
-            ),
-            block.energy1.iter().copied().collect(),
-        ),
-        field(
-            "energy2",
-            Kind::Real,
-            (
-                "J/m^2",
-                "energy per area dissipated at body 2 so far, in its own coordinates",
-            ),
-            block.energy2.iter().copied().collect(),
-        ),
-        field(
-            "slid",
-            Kind::Real,
-            ("m", "way slipped in contact so far"),
-            block.slid.iter().copied().collect(),
-        ),
-        field(
-            "p",
-            Kind::Real,
-            (
-                "Pa",
-                "pressure: mean of the cycle, or that in the middle of the stroke",
-            ),
-            block.p.iter().copied().collect(),
-        ),
-        field(
-            "stick",
-            Kind::Flag,
-            ("1", "contact cells that slip nowhere in a cycle"),
-            stick,
-        ),
-        corner(
-            "loop_delta_x",
-            ("m", "shift along x in the friction loop"),
-            0,
-        ),
-        corner("loop_T_x", (force, "force along x in the friction loop"), 1),
-        corner(
-            "loop_delta_y",
-            ("m", "shift along y in the friction loop"),
-            2,
-        ),
-        corner("loop_T_y", (force, "force along y in the friction loop"), 3),
-    ]
+                Variable::new(name, Kind::Real, words, &dims, shape, chunk),
+                values,
+            )
+        });
+    fields.chain(friction_loop).collect()
 }
 
 fn attributes(run: &WearRun, status: &str) -> Value {
@@ -333,85 +275,4 @@ pub fn verify_wear(path: impl AsRef<Path>) -> Result<(), Error> {
         }
         consolidated = again;
     }
-}
-
-/// Takes up a run of wear where its store left it, to the same bytes; `None` if it is done. Fails
-/// if `path` holds no run of wear, one by a law of the user's own, or another one than that of a
-/// scene and its wear, where they are given, and if a file of it is missing or not as it was
-/// written.
-pub fn resume_wear(
-    path: impl AsRef<Path>,
-    of: Option<(&Scene, &Wear)>,
-    stop: &Arc<AtomicBool>,
-) -> Result<Option<(WearRun, WearStore)>, Error> {
-    let own = of.map_or([None, None], |(_, wear)| {
-        wear.bodies.each_ref().map(|body| Some(body.clone()))
-    });
-    let settled = of.map(|(scene, wear)| wear.settled(scene, stop));
-    let friction = of.and_then(|(scene, _)| scene.friction.law.as_ref());
-    take_up(path.as_ref(), settled.transpose()?, (&own, friction), stop)
-}
-
-/// The same for a run by laws of the user's own, which no store can hold: those of wear are given
-/// again for the bodies that have them, and that of friction.
-pub fn resume_wear_by(
-    path: impl AsRef<Path>,
-    own: &[Option<BodyWear>; 2],
-    friction: Option<&OwnFriction>,
-    stop: &Arc<AtomicBool>,
-) -> Result<Option<(WearRun, WearStore)>, Error> {
-    take_up(path.as_ref(), None, (own, friction), stop)
-}
-
-fn take_up(
-    path: &Path,
-    of: Option<(Scene, Wear)>,
-    (own, friction): (&[Option<BodyWear>; 2], Option<&OwnFriction>),
-    stop: &Arc<AtomicBool>,
-) -> Result<Option<(WearRun, WearStore)>, Error> {
-    let place = path.to_owned();
-    mend(&place);
-    let folder = Folder::new(&place);
-    let text = folder.read(ATTRIBUTES).map_err(|e| folder.error(&e))?;
-    let text = text.ok_or_else(|| folder.error(&"holds no run of wear"))?;
-    let attributes: Value = serde_json::from_slice(&text).map_err(|e| folder.error(&e))?;
-    let differs = |key: &str, given: String| attributes[key].as_str() != Some(&given);
-    if of.is_some_and(|(scene, wear)| {
-        differs("scene", scene.to_toml()) || differs("wear", wear.to_toml())
-    }) {
-        return Err(
-            folder.error(&"belongs to another scene: go on with that one, or choose another store")
-        );
-    }
-    if attributes["status"] == "done" {
-        verify_wear(&place)?;
-        clear_checkpoint(&folder);
-        return Ok(None);
-    }
-    let (Some(scene), Some(wear)) = (attributes["scene"].as_str(), attributes["wear"].as_str())
-    else {
-        return Err(folder.error(&"holds no run of wear"));
-    };
-    let name = place.display().to_string();
-    let (scene, wear) = Wear::from_store(&format!("{scene}{wear}"), &name, own)?;
-    let scene = with_law(&scene, friction)?;
-    let lock = locked(&folder)?;
-    let (state, kept) = read_checkpoint(&folder)?;
-    let run = WearRun::resume(&scene, &wear, state, stop)?;
-    for (variable, _) in fields(&run, &run.block(), kept.cycles.len()) {
-        let name = variable.name();
-        let sums = kept.checksums.get(name).map_or(&[][..], Vec::as_slice);
-        let stored = Stored::new(&folder, name, &variable.zarray(), sums)?;
-        let verified = stored.verify(&stored.all());
-        verified.map_err(|e| folder.error(&format!("{name}: {e}")))?;
-    }
-    Ok(Some((
-        run,
-        WearStore {
-            place,
-            overwrite: false,
-            folder: Some((folder, lock)),
-            kept,
-        },
-    )))
 }

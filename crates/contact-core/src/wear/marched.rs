@@ -22,12 +22,12 @@ use std::sync::atomic::AtomicBool;
 
 use serde::{Deserialize, Serialize};
 
-use super::border::Cut;
 use super::cycled::{Cycled, Sums};
 use super::law::CellCycle;
 use super::loss::{Loss, Worn};
 use super::outward::outward;
 use super::pressing::Pressing;
+use super::rates::Rates;
 use super::settings::{Jumps, Wear, thicknesses};
 use super::within_cell::half_a_cell;
 use crate::cells::Drive;
@@ -164,12 +164,13 @@ impl Marched {
     pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
         let mut rates = self.rates(worn, &self.state.cycled)?;
         let mut p = self.state.cycled.p.clone();
-        let area = self.pressing.cell_area();
+        let (area, shortest_waves) = (self.pressing.cell_area(), self.pressing.shortest_waves());
+        let opens = self.wear.opens();
         if !implicit {
-            return Ok(self.takes(n, &rates, worn, &p).loss(&rates, &p, area));
+            let in_jump = rates.in_jump(n, (worn, opens), &p, shortest_waves);
+            return Ok(in_jump.loss(&rates, &p, area));
         }
         self.pressing.begin();
-        let opens = self.wear.opens();
         let may_leave = AGREES_IN_ALL
             * match self.wear.jumps {
                 Jumps::Tolerance(tolerance) => tolerance,
@@ -177,22 +178,22 @@ impl Marched {
             };
         let mut last: Option<(Vec<f64>, Loss)> = None;
         for correction in 0..=CORRECTIONS {
-            let takes = self.takes(n, &rates, worn, &p);
+            let in_jump = rates.in_jump(n, (worn, opens), &p, shortest_waves);
             let cells = self.h.len();
             let compliance: Vec<f64> = (0..cells)
-                .map(|c| opens * (rates.k[0][c] + rates.k[1][c]) * takes.way[c])
+                .map(|c| opens * (rates.k[0][c] + rates.k[1][c]) * in_jump.way[c])
                 .collect();
             let gap = gap(&self.h, worn, opens);
             let h: Vec<f64> = (0..cells)
-                .map(|c| gap[c] + rates.u_q[c] - compliance[c] * takes.borne[c])
+                .map(|c| gap[c] + rates.u_q[c] - compliance[c] * in_jump.borne[c])
                 .collect();
             self.pressing
                 .solve(&h, &compliance, rates.drive, &mut p, 1.0)?;
-            let loss = takes.loss(&rates, &p, area);
+            let loss = in_jump.loss(&rates, &p, area);
             if let Some((last_p, last_loss)) = &last {
                 let change = moved(last_loss, &loss);
-                let in_jump = AGREES_IN_JUMP * size_of(&loss.depth);
-                let enough = in_jump.max(may_leave * size_of(&worn.depth));
+                let enough =
+                    (AGREES_IN_JUMP * size_of(&loss.depth)).max(may_leave * size_of(&worn.depth));
                 if agree(last_p, &p) && change <= enough {
                     self.p = p;
                     return Ok(loss);
@@ -236,24 +237,6 @@ impl Marched {
             &cuts[..]
         };
         half_a_cell(&mut self.pressing, stick, cuts, p, surfaces)
-    }
-
-    /// The coefficients of the loss in a jump on the present surfaces, near the pressure p.
-    fn takes(&self, n: f64, rates: &Rates, worn: &Worn, p: &[f64]) -> LossRate {
-        let mut way: Vec<f64> = rates.sigma.iter().map(|sigma| n * sigma).collect();
-        let mut borne = vec![0.0; way.len()];
-        let opens = self.wear.opens();
-        for cut in &rates.cuts {
-            let c = cut.cell;
-            let stiffness = cut.stiffness(self.pressing.shortest_waves());
-            borne[c] = stiffness * cut.deeper(worn, opens);
-            way[c] = if p[c] > borne[c] {
-                way[c] / (1.0 + stiffness * opens * (rates.k[0][c] + rates.k[1][c]) * way[c])
-            } else {
-                0.0
-            };
-        }
-        LossRate { n, way, borne }
     }
 
     /// The coefficient of friction after so many cycles, if uniform.
@@ -353,55 +336,6 @@ impl Marched {
             cuts: cycled.cuts.clone(),
             drive,
         })
-    }
-}
-
-/// Rates of wear of the cells.
-struct Rates {
-    /// Coefficient of each body \[1/Pa\].
-    k: [Vec<f64>; 2],
-    /// Pressed way over the mean pressure \[m\].
-    sigma: Vec<f64>,
-    /// Energy dissipated over the pressed way \[1\].
-    mu: Vec<f64>,
-    /// Way slipped in a cycle \[m\].
-    slips: Vec<f64>,
-    u_q: Vec<f64>,
-    cuts: Vec<Cut>,
-    drive: Drive,
-}
-
-/// Loss in a jump: k way (p - borne) of each body.
-struct LossRate {
-    /// Cycles.
-    n: f64,
-    /// Way slipped in all its cycles \[m\].
-    way: Vec<f64>,
-    /// Pressure on the sticking part of a cut cell, which does not wear \[Pa\].
-    borne: Vec<f64>,
-}
-
-impl LossRate {
-    /// The loss under the pressure p at the end of the jump.
-    fn loss(&self, rates: &Rates, p: &[f64], cell_area: f64) -> Loss {
-        let way = |c: usize| self.way[c] * (p[c] - self.borne[c]).max(0.0);
-        let depth = [0, 1].map(|b| (0..p.len()).map(|c| rates.k[b][c] * way(c)).collect());
-        let energy: Vec<f64> = (0..p.len()).map(|c| rates.mu[c] * way(c)).collect();
-        let dissipated: f64 = energy.iter().sum();
-        let slides = |c: usize| {
-            if p[c] > 0.0 {
-                self.n * rates.slips[c]
-            } else {
-                0.0
-            }
-        };
-        Loss {
-            cycles: self.n,
-            depth,
-            slid: (0..p.len()).map(slides).collect(),
-            energy: [energy.clone(), energy],
-            dissipated: dissipated * cell_area,
-        }
     }
 }
 

@@ -25,6 +25,7 @@ mod on_grid;
 mod outward;
 mod passage;
 mod pressing;
+mod rates;
 mod run;
 mod settings;
 mod settled;

@@ -79,21 +79,12 @@ impl WearRun {
         }
         let model = Model::new(&scene, &wear, None, &worn, stop)?;
         let mut run = Self {
-            state: WearState {
-                jumps: 0,
-                cycles: worn.cycles,
-                began: worn.cycles,
-                lost_before: [[0.0; 2]; 2],
-                dissipated: start.map_or(0.0, |start| start.dissipated),
-                events,
-                moved: worn.depth.each_ref().map(|d| vec![0.0; d.len()]),
-                model: model.state(),
-                kept_at: worn.cycles,
+            state: WearState::new(
                 worn,
-                history: Vec::new(),
-                next: 0.0,
-                ended: false,
-            },
+                start.map_or(0.0, |start| start.dissipated),
+                events,
+                model.state(),
+            ),
             scene,
             wear,
             model,
@@ -161,14 +152,9 @@ impl WearRun {
         Ok(self.wear.opens() * deepest)
     }
 
-    /// Cycles that are left.
-    fn left(&self) -> f64 {
-        self.state.began + self.wear.cycles - self.state.cycles
-    }
-
     /// Does the next jump; `None` at the end. After an error the state is that of the last jump.
     pub fn advance(&mut self) -> Option<Result<Jump, Error>> {
-        let left = self.left();
+        let left = self.state.left(&self.wear);
         if self.state.ended || left <= SHORTEST * self.wear.cycles {
             return None;
         }
@@ -376,18 +362,13 @@ impl WearRun {
         &self.state.history
     }
 
-    /// Whether the fields after the last jump are to be stored: after a growth of the cycles by a
-    /// fifth or by a fiftieth of all, and at the end. Records that they are.
+    /// Whether the fields after the last jump are to be stored: where the cycles have grown, and at
+    /// the end. Records that they are.
     pub fn keeps(&mut self) -> bool {
-        let (cycles, all) = (self.state.cycles, self.wear.cycles);
-        let (done, kept_at) = (
-            cycles - self.state.began,
-            self.state.kept_at - self.state.began,
-        );
-        let ends = self.state.ended || self.left() <= SHORTEST * all;
-        let keeps = ends || done >= 1.2 * kept_at || done >= kept_at + all / 50.0;
+        let ends = self.state.ended || self.state.left(&self.wear) <= SHORTEST * self.wear.cycles;
+        let keeps = ends || self.state.has_grown(&self.wear);
         if keeps {
-            self.state.kept_at = cycles;
+            self.state.kept_at = self.state.cycles;
         }
         keeps
     }

@@ -6,6 +6,7 @@ use super::events::Event;
 use super::jump::Jump;
 use super::loss::Worn;
 use super::model::{Model, ModelState};
+use super::settings::Wear;
 
 /// The state on which the next jump depends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,6 +36,36 @@ pub struct WearState {
 }
 
 impl WearState {
+    /// The state before the first jump, on surfaces worn so far.
+    pub(super) fn new(worn: Worn, dissipated: f64, events: Vec<Event>, model: ModelState) -> Self {
+        Self {
+            jumps: 0,
+            cycles: worn.cycles,
+            began: worn.cycles,
+            lost_before: [[0.0; 2]; 2],
+            dissipated,
+            events,
+            moved: worn.depth.each_ref().map(|d| vec![0.0; d.len()]),
+            model,
+            kept_at: worn.cycles,
+            worn,
+            history: Vec::new(),
+            next: 0.0,
+            ended: false,
+        }
+    }
+
+    /// Cycles of the run that are left.
+    pub(super) fn left(&self, wear: &Wear) -> f64 {
+        self.began + wear.cycles - self.cycles
+    }
+
+    /// Whether the cycles have grown by a fifth, or by a fiftieth of all, since fields were stored.
+    pub(super) fn has_grown(&self, wear: &Wear) -> bool {
+        let [done, kept_at] = [self.cycles, self.kept_at].map(|cycles| cycles - self.began);
+        done >= 1.2 * kept_at || done >= kept_at + wear.cycles / 50.0
+    }
+
     /// The present values of a [`Jump`]; its errors, length and retries are zero. `kept`: part of
     /// the loss that is debris.
     pub(super) fn seen(&self, model: &Model, kept: f64) -> Jump {

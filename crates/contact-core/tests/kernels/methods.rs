@@ -1,8 +1,6 @@
 //! The paper's conversion, the frequency-domain operator and a user's own response, against the
 //! exact coefficients and against each other.
 
-#![allow(clippy::unwrap_used)]
-
 use contact_core::convolution::{
     DcFft, Displacements, FrequencyDomain, SurfaceOperator, Tractions,
 };

@@ -1,7 +1,5 @@
 //! Graded coatings as stacks of layers.
 
-#![allow(clippy::unwrap_used)]
-
 use contact_core::kernels::{Graded, Profile, Stack};
 use contact_core::scene::{Body, Elastic, Shape};
 

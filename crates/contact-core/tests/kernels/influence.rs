@@ -1,12 +1,8 @@
 //! Influence coefficients against tables made with multi-precision arithmetic, and their limits.
 
-#![allow(clippy::unwrap_used)]
-
-mod kernel_tables;
-
+use crate::kernel_tables::{body, load, matrix, number, whole};
 use contact_core::kernels::influence_coefficients;
 use contact_core::scene::{Grid, KernelSettings};
-use kernel_tables::{body, load, matrix, number, whole};
 
 /// What the tables are good to and the conversion promises: 1e-11 of C33(0,0).
 const TOLERANCE: f64 = 1e-11;

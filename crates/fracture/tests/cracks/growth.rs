@@ -1,16 +1,12 @@
 //! Arrest and life against the tables, direction against closed cases.
 
-#![allow(clippy::unwrap_used)]
-
-mod truth;
-
 use std::f64::consts::PI;
 
+use crate::truth::Fretting;
 use fracture::{
     Crack, Curve, Direction, End, Error, Extremes, Growing, Growth, Intensity, LoadRatio, Path,
     PlaneStress, Rate, Threshold, Verdict, ellipse_factor, grow, kinked,
 };
-use truth::Fretting;
 
 /// Al-4%Cu after Araujo and Nowell.
 fn aluminium() -> Threshold {

@@ -1,12 +1,8 @@
 //! Stress below one loaded cell, against a table made with multi-precision arithmetic.
 
-#![allow(clippy::unwrap_used)]
-
-mod kernel_tables;
-
+use crate::kernel_tables::{body, load, matrix, number, whole};
 use contact_core::kernels::{StressCoefficients, stress_at, stress_coefficients};
 use contact_core::scene::{Body, Coating, Elastic, Grid, Shape};
-use kernel_tables::{body, load, matrix, number, whole};
 
 /// The table's own accuracy is 2.5e-12 of the largest component.
 const TOLERANCE: f64 = 1e-11;

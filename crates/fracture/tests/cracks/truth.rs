@@ -1,6 +1,5 @@
 //! Tables of `tests/data/cracks.json`: dislocations and a Schwarz-Christoffel map agree on them to
 //! 3e-10; F = K/(s sqrt(pi l)).
-#![allow(dead_code, clippy::unwrap_used)]
 
 use std::f64::consts::PI;
 

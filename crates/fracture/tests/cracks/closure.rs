@@ -1,13 +1,9 @@
 //! Faces in contact, against the tables: K 1e-3, borders of the parts 2e-2 (one of them 2.3e-2).
 
-#![allow(clippy::unwrap_used)]
-
-mod truth;
-
 use std::collections::BTreeMap;
 
+use crate::truth::{Fretting, numbers, shape, tables};
 use fracture::{Crack, Faces, Path, State};
-use truth::{Fretting, numbers, shape, tables};
 
 #[test]
 fn closed_and_partly_open_cracks_with_and_without_friction() {

@@ -1,17 +1,11 @@
 //! Bonds that give way: limits, closed forms, the jump at every interface of random stacks; nu =
 //! 1/2.
 
-#![allow(clippy::print_stdout, clippy::unwrap_used)]
-
-mod kernel_tables;
-#[expect(dead_code, reason = "numbers of the unit interval suffice here")]
-mod splitmix;
-
+use crate::kernel_tables::{load, number, off, whole};
+use crate::splitmix::Draw;
 use contact_core::kernels::{Complex64, RadialResponse, Stack, influence_coefficients, stress_at};
 use contact_core::scene::{Body, Bond, Coating, Elastic, Grid, KernelSettings, Shape};
-use kernel_tables::{load, number, off, whole};
 use serde_json::Value;
-use splitmix::Draw;
 
 const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
 
@@ -165,7 +159,7 @@ fn random_stacks_against_a_direct_solution_in_many_digits() {
     assert_eq!((stacks.len(), entries.len()), (40, 120));
     let mut worst: f64 = 0.0;
     for entry in &entries {
-        let mut body = kernel_tables::body(entry);
+        let mut body = crate::kernel_tables::body(entry);
         let bond = |v: &Value| Bond {
             normal: number(v, "normal"),
             shear: number(v, "shear"),

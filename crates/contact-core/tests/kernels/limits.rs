@@ -1,7 +1,5 @@
 //! What influence coefficients must do whatever the stack: limits, symmetries, superposition.
 
-#![allow(clippy::unwrap_used)]
-
 use contact_core::kernels::{InfluenceCoefficients, Quadrant, influence_coefficients};
 use contact_core::scene::{Body, Coating, Elastic, Grid, KernelSettings, Shape};
 

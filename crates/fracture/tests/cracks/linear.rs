@@ -1,14 +1,10 @@
 //! K with faces that may pass through each other, against the tables: 1e-5 of the larger component,
 //! and within the error that is told.
 
-#![allow(clippy::unwrap_used)]
-
-mod truth;
-
 use std::collections::BTreeMap;
 
+use crate::truth::{Fretting, numbers, shape, tables};
 use fracture::{Crack, Path, PlaneStress, Point};
-use truth::{Fretting, numbers, shape, tables};
 
 /// A stress whose traction on the crack is (normal, shear).
 fn on_faces(point: &Point, normal: f64, shear: f64) -> PlaneStress {

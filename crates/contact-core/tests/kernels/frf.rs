@@ -1,11 +1,7 @@
 //! Frequency responses against a table made with multi-precision arithmetic.
 
-#![allow(clippy::unwrap_used)]
-
-mod kernel_tables;
-
+use crate::kernel_tables::{body, load, number, off, whole};
 use contact_core::kernels::Stack;
-use kernel_tables::{body, load, number, off, whole};
 
 /// Relative to the largest entry of the same kind: rounding of a few hundred operations.
 const TOLERANCE: f64 = 1e-12;

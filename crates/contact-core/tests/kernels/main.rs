@@ -1,0 +1,18 @@
+//! Influence coefficients, frequency responses and stress below a loaded cell: against tables made
+//! with multi-precision arithmetic, in their limits, and against each other.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod bonds;
+mod frf;
+mod graded;
+mod influence;
+mod limits;
+mod methods;
+mod stress;
+
+#[path = "../kernel_tables/mod.rs"]
+mod kernel_tables;
+#[allow(dead_code, reason = "these tests draw no logarithms")]
+#[path = "../splitmix/mod.rs"]
+mod splitmix;

@@ -1,0 +1,10 @@
+//! Short cracks from a surface, against tables and closed cases: intensities, closure, growth and
+//! arrest, films.
+
+#![allow(clippy::unwrap_used)]
+
+mod closure;
+mod film;
+mod growth;
+mod linear;
+mod truth;
