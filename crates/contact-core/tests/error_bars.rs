@@ -294,3 +294,50 @@ fn error_bars_are_honest() {
     report(scenes, &lines).expect("a report");
     assert!(dishonest.is_empty(), "{}", dishonest.join("\n"));
 }
+
+/// In the second cycle of unlike bodies cells come back to the limit of friction without slipping;
+/// how many of them count as sticking falls slowly with the increments.
+#[test]
+fn bar_of_the_stick_ratio_covers_cells_at_the_limit() {
+    for stiffness in [2.0, 4.0] {
+        let in_increments = |n: usize| {
+            let mut text = format!(
+                "schema = 1\nfriction.mu = 0.3\ngrid = {{ n = @N@, extent = {{ a_H = 2.4 }} }}\n\
+                 [body1]\nshape.sphere.R = 0.018\nE = 210e9\nnu = 0.3\n\
+                 [body2]\nshape = \"flat\"\nE = 210e9\nnu = 0.3\n\
+                 [[body2.coatings]]\nE = {{ E_substrate = {stiffness} }}\nnu = 0.3\n\
+                 thickness = {{ a_H = 1.0 }}\n\
+                 [[path]]\nW = 1000.0\nincrements = 20\n"
+            );
+            for part in [0.9, -0.9, 0.9, -0.9] {
+                let _ = write!(
+                    text,
+                    "[[path]]\nT_x = {{ mu_W = {part} }}\nincrements = {n}\n"
+                );
+            }
+            let (scene, mut nobody) = (scene(&text, 64), ());
+            let mut ends = BranchEnds::beside(&mut nobody);
+            let increments = solve(&scene, &mut ends).expect("a solution");
+            (scene, increments, ends.tractions)
+        };
+        let (scene, increments, tractions) = in_increments(10);
+        let bars = error_bars(&scene, &increments, &tractions, &Arc::default()).expect("bars");
+        let (_, truth, _) = in_increments(160);
+        let ends = summarise(&increments).into_iter().zip(summarise(&truth));
+        for ((ours, truth), bar) in ends.zip(&bars) {
+            let (error, bar) = (
+                (ours.stick_ratio - truth.stick_ratio).abs(),
+                bar.stick_ratio,
+            );
+            println!(
+                "E ratio {stiffness}, branch {}: {error:.4} of {bar:?}",
+                ours.branch
+            );
+            assert!(
+                error <= bar.total,
+                "{error} in branch {}: {bar:?}",
+                ours.branch
+            );
+        }
+    }
+}

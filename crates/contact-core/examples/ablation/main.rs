@@ -244,7 +244,8 @@ impl Run {
 /// Lines of code of files under `src`.
 fn lines(files: &[&str]) -> usize {
     let source = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let text = |file: &&str| std::fs::read_to_string(source.join(file)).expect("a file of a method");
+    let text =
+        |file: &&str| std::fs::read_to_string(source.join(file)).expect("a file of a method");
     files.iter().map(|file| text(file).lines().count()).sum()
 }
 
