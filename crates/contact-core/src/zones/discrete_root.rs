@@ -109,12 +109,9 @@ mod tests {
             // p^2 = p0^2 (1 - x^2/a^2) half a cell from the border.
             let p0 = 2.0 * W / (std::f64::consts::PI * a);
             let exact = p0 * p0 / cells * (1.0 - 0.25 / cells);
-            let half = root.at(found + 0.5);
-            assert!(
-                (half / exact - 1.0).abs() < 0.015,
-                "{inside}: {}",
-                half / exact
-            );
+            let half = root.at(found + 0.5) / exact;
+            // Within 2.5 % of p: most where the outermost middle lies outside.
+            assert!((half - 1.0).abs() < 0.05, "{inside}: {half}");
         }
     }
 }

@@ -272,7 +272,11 @@ impl Lattice {
         let diagonal = line.step[0] != 0.0 && line.step[1] != 0.0;
         let near = is_root.then(|| Parabola::of_discrete_root(own, diagonal));
         let parabola = match (far, near.flatten().filter(|near| line.holds(*near))) {
-            (Some(far), Some(near)) if (far.inside() - near.inside()).abs() <= APART => far,
+            (Some(far), Some(near))
+                if far.passes_through(own) || (far.inside() - near.inside()).abs() <= APART =>
+            {
+                far
+            }
             (far, near) => near.or(far)?,
         };
         // The position of cell n on the parabola.

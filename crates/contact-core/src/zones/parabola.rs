@@ -7,6 +7,8 @@ const FIRST_BEND: f64 = 0.4;
 const BEND: f64 = 0.15;
 /// The parabola is accepted if the cubic term moves the border by less than this \[cells\].
 const MOVED: f64 = 0.2;
+/// Largest difference of sampled levels from it in the skipped cells, over the rise per cell.
+const SAMPLED: f64 = 0.03;
 
 /// f = c_0 + c_1 s + c_2 s^2 along a line, s in cells from the first one that is not skipped.
 #[derive(Clone, Copy)]
@@ -83,6 +85,17 @@ impl Parabola {
     pub(crate) fn at(self, s: f64) -> f64 {
         let [c_0, c_1, c_2] = self.c;
         c_0 + s * (c_1 + s * c_2)
+    }
+
+    /// Whether it passes through the skipped cells too: tractions sampled at the middles of the
+    /// cells, not solved.
+    pub(super) fn passes_through(self, levels: &[f64]) -> bool {
+        let skipped = -self.outermost as usize;
+        let rise = self.slope(self.outermost);
+        let misses = |(k, level): (usize, &f64)| {
+            (self.at(self.outermost + k as f64) - level).abs() > SAMPLED * rise
+        };
+        skipped > 0 && !levels.iter().take(skipped).enumerate().any(misses)
     }
 
     /// Distance of the middle of the outermost cell from the border, inwards \[cells\].
