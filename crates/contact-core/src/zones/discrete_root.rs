@@ -10,7 +10,7 @@
 //! ```
 //!
 //! r being the distance at which the parabola through the three vanishes. Where a layer a few cells
-//! thick or a narrow slip ring bends the square, this border is right to 0.03 of a cell, and one
+//! thick or a narrow slip ring bends the square, this border is right to 0.06 of a cell, and one
 //! extrapolated from cells further in is off by up to half a cell.
 
 use super::parabola::Parabola;

@@ -8,7 +8,7 @@ const BEND: f64 = 0.15;
 /// The parabola is accepted if the cubic term moves the border by less than this \[cells\].
 const MOVED: f64 = 0.2;
 /// Largest difference of sampled levels from it in the skipped cells, over the rise per cell.
-const SAMPLED: f64 = 0.03;
+const SAMPLED: f64 = 0.01;
 
 /// f = c_0 + c_1 s + c_2 s^2 along a line, s in cells from the first one that is not skipped.
 #[derive(Clone, Copy)]
