@@ -2650,13 +2650,23 @@ class Subsurface:
         x: float | None = None,
         y: float | None = None,
         only: int | None = None,
+        error_bars: tuple[float, float] | None = None,
     ) -> (
-        tuple[float, float, float, float, int, str | None, tuple[float, float, float, float]] | None
+        tuple[
+            float,
+            float,
+            float,
+            float,
+            int,
+            str | None,
+            tuple[float, float, float, float, float | None],
+        ]
+        | None
     ):
         """Largest value of a measure on a section, between its samples; in the layer `only`.
 
         Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y
-        and z and of the tractions.
+        and z, of the tractions and, from the `error_bars` of p and q as fields, of the solution.
         """
     @property
     def rim(self) -> bool:

@@ -12,6 +12,8 @@ pub(crate) struct Largest<'a> {
     /// Coatings of the body.
     pub(crate) layers: usize,
     pub(crate) increment: usize,
+    /// Error bars of p and q as fields, over their largest.
+    pub(crate) errors: Option<[f64; 2]>,
     /// Whether lines are JSON objects, for programs.
     pub(crate) json: bool,
 }
@@ -20,23 +22,32 @@ impl Largest<'_> {
     /// The largest value of a probe with its error, and where it is; `axes` are those that were
     /// looked along.
     pub(crate) fn line(&self, probe: &Probe, m: &Extreme, axes: &[&str]) -> String {
+        let m = self.errors.map_or(*m, |[p, q]| m.with_error_bars(p, q));
         let Extreme {
             value,
             depth,
             error,
             ..
-        } = *m;
+        } = m;
         let along = |axis: &str| if axis == "x" { m.x } else { m.y };
         let on = m.at.map(|zone| match zone {
             Zone::Contact => "rim",
             Zone::Stick => "stick border",
         });
         if self.json {
-            let Errors { x, y, z, tractions } = error;
+            let Errors {
+                x,
+                y,
+                z,
+                tractions,
+                solution,
+            } = error;
             return serde_json::json!({
                 "increment": self.increment, "name": probe.name(), "unit": probe.unit(),
                 "value": value, "error": error.sum(),
-                "errors": {"x": x, "y": y, "z": z, "tractions": tractions},
+                "errors": {
+                    "x": x, "y": y, "z": z, "tractions": tractions, "solution": solution
+                },
                 "x": m.x, "y": m.y, "z": depth.z, "layer": depth.layer, "at": on,
             })
             .to_string();

@@ -248,6 +248,7 @@ impl Task {
             scene: &self.scene,
             layers: self.body().coatings.len(),
             increment: self.loads.increment,
+            errors: self.loads.errors,
             json: self.json,
         }
     }

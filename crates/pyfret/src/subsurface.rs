@@ -165,7 +165,7 @@ type Found = (
     f64,
     usize,
     Option<&'static str>,
-    (f64, f64, f64, f64),
+    (f64, f64, f64, f64, Option<f64>),
 );
 
 fn zone_name(zone: core::Zone) -> &'static str {
@@ -341,8 +341,10 @@ impl Subsurface {
     /// Largest value of a measure on a section, between its samples; in the layer `only`.
     ///
     /// Value, x, y, z, layer, the border that it lies on, and the parts of its error along x, y
-    /// and z and of the tractions.
-    #[pyo3(signature = (of, samples, z, layer, *, x = None, y = None, only = None))]
+    /// and z, of the tractions and, from the `error_bars` of p and q as fields, of the solution.
+    #[pyo3(signature = (
+        of, samples, z, layer, *, x = None, y = None, only = None, error_bars = None
+    ))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn maximum(
         &self,
@@ -354,6 +356,7 @@ impl Subsurface {
         x: Option<f64>,
         y: Option<f64>,
         only: Option<usize>,
+        error_bars: Option<(f64, f64)>,
     ) -> PyResult<Option<Found>> {
         let (depths, line) = (Self::depths(&z, &layer)?, line(x, y)?);
         let grid = &self.grid.0;
@@ -378,8 +381,15 @@ impl Subsurface {
             })
         })?;
         Ok(found.map_err(to_python)?.map(|m| {
-            let core::Errors { x, y, z, tractions } = m.error;
-            let error = (x, y, z, tractions.unwrap_or(f64::NAN));
+            let m = error_bars.map_or(m, |(p, q)| m.with_error_bars(p, q));
+            let core::Errors {
+                x,
+                y,
+                z,
+                tractions,
+                solution,
+            } = m.error;
+            let error = (x, y, z, tractions.unwrap_or(f64::NAN), solution);
             let at = m.at.map(zone_name);
             (m.value, m.x, m.y, m.depth.z, m.depth.layer, at, error)
         }))

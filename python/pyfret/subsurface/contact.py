@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from pyfret.scene.warnings import doubt_layers
@@ -52,13 +51,13 @@ def stress_below(
     return below.assign_attrs(yardsticks | tractions_error(state))
 
 
-def tractions_error(state: State) -> dict[str, float]:
-    """The error of pressure and shear as fields over the largest, where the run has error bars."""
+def tractions_error(state: State) -> dict[str, tuple[float, float]]:
+    """The errors of p and q as fields over their largest, where the run has error bars."""
     bars = state.dataset.attrs.get("error_bars")
     if not bars:
         return {}
     of_branch = bars[int(state.dataset.branch_of_increment)]
-    return {"tractions_error": math.hypot(*(of_branch[name]["total"] for name in ("p", "q")))}
+    return {"tractions_error": (of_branch["p"]["total"], of_branch["q"]["total"])}
 
 
 def displacement_below(

@@ -170,6 +170,7 @@ class Stress(Labelled):
             depths,
             layers,
             only=layer,
+            error_bars=self.dataset.attrs.get("tractions_error"),
             **{across: float(self.dataset[across])},
         )
         if found is None and of.startswith("interface"):
@@ -177,8 +178,7 @@ class Stress(Labelled):
         if found is None:
             raise ValueError("the section holds no number")
         value, x, y, z, in_layer, at, errors = found
-        part = self.dataset.attrs.get("tractions_error")
-        by_source = Errors(*errors, None if part is None else part * abs(value))
+        by_source = Errors(*errors)
         known = [error for error in by_source if error is not None]
         return Extreme(value, x, y, z, in_layer, at, float(np.nansum(known)), by_source)
 

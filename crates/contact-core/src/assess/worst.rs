@@ -122,6 +122,7 @@ pub fn worst<J: Judge>(
                 y: y_error,
                 z: left[1],
                 tractions: coarse.map(|coarse| (score - coarse).abs()),
+                solution: None,
             },
         },
     }))

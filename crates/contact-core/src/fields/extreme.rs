@@ -33,16 +33,28 @@ pub struct Errors {
     /// Of the tractions: change of the value under the tractions on cells twice as large, within
     /// four cells of a border on a layer thinner than that 2.4 times that; `None` if not computed.
     pub tractions: Option<f64>,
+    /// Of the solution: the error of its pressure and shear ([`Extreme::with_error_bars`]); `None`
+    /// without error bars.
+    pub solution: Option<f64>,
 }
 
 impl Errors {
     /// The sum of all.
     pub fn sum(&self) -> f64 {
-        self.x + self.y + self.z + self.tractions.unwrap_or_default()
+        let known = [self.tractions, self.solution].into_iter().flatten();
+        self.x + self.y + self.z + known.sum::<f64>()
     }
 }
 
 impl Extreme {
+    /// With the error of the solution, from the error bars of pressure and shear as fields over
+    /// their largest ([`crate::estimate::ErrorBars::p`] and `q`): the stress is off by that part.
+    #[must_use]
+    pub fn with_error_bars(mut self, p: f64, q: f64) -> Self {
+        self.error.solution = Some(p.hypot(q) * self.value.abs());
+        self
+    }
+
     /// The larger of two.
     #[must_use]
     pub fn or_larger(self, other: Self) -> Self {

@@ -125,6 +125,7 @@ fn between_samples(
             y: along_y,
             z: left,
             tractions: None,
+            solution: None,
         },
     })
 }

@@ -257,6 +257,7 @@ impl Search {
                 y: left[1],
                 z: left[2],
                 tractions: Some(part * (value - coarse).abs()),
+                solution: None,
             },
         }))
     }

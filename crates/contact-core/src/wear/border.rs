@@ -71,7 +71,7 @@ impl Cut {
             inside[n] = false;
         }
         let cut = |zone: &[bool]| -> Vec<Self> {
-            let stencils = [Stencil::ROOT, Stencil::LINEAR];
+            let stencils = [Stencil::ROOT.of_inner_zone(), Stencil::LINEAR];
             let edges = lattice.edges(zone, stencils, |_| (STICK, |n: usize| signs.short[n]));
             let outside = edges.into_iter().filter(|(n, _)| !zone[*n]);
             outside

@@ -6,8 +6,10 @@
 //! those further in by less than 1/100. So f is extrapolated from the cells further in: along the
 //! line of cells, out of eight directions, closest to the normal of the border, by the parabola
 //! through the next cells (`parabola`), or from the cells before the middle of the zone if f is no
-//! parabola. A linear law needs no cells left out, and slip is extrapolated from the cells next to
-//! its border. The border is the straight line f = 0 within a cell.
+//! parabola. Where f bends within a few cells, as on a layer of that thickness or in a narrow slip
+//! ring, the outermost cells themselves tell the border (`discrete_root`). A linear law needs no
+//! cells left out, and slip is extrapolated from the cells next to its border. The border is the
+//! straight line f = 0 within a cell.
 
 use super::laws::Power;
 use super::parabola::Parabola;
@@ -28,6 +30,10 @@ const STRAIGHT: f64 = 0.1;
 /// cells).
 const OFF: f64 = 0.12;
 
+/// Distance of two borders, one from the cells further in and one from the outermost, up to which
+/// the first is taken \[cells\]: the other is off by up to 0.08 where a smooth border runs askew.
+const APART: f64 = 0.1;
+
 /// The cells of a line from which a level is extrapolated.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stencil {
@@ -43,6 +49,8 @@ pub(crate) struct Stencil {
     /// it: c/a of the coupled indentation (nu = 0.3, mu = 0.2, 40 increments) is off by 0.30, 0.025
     /// and 0.001 % on 64, 128 and 256 cells with it, by 0.45, 0.10 and 0.04 % without.
     bias: f64,
+    /// Whether the outermost cells are those at the border of a root.
+    at_border: bool,
 }
 
 impl Stencil {
@@ -52,6 +60,7 @@ impl Stencil {
         most: ALONG,
         before_middle: false,
         bias: 0.010,
+        at_border: true,
     };
     /// For a linear law, or for a root where only the law is asked for.
     pub(crate) const LINEAR: Self = Self {
@@ -59,6 +68,7 @@ impl Stencil {
         most: ALONG,
         before_middle: false,
         bias: 0.0,
+        at_border: false,
     };
     /// For slip, which changes over the width of a slip ring: the cells next to its border.
     pub(crate) const SLIP: Self = Self {
@@ -66,6 +76,7 @@ impl Stencil {
         most: 3,
         before_middle: false,
         bias: 0.024,
+        at_border: false,
     };
 
     /// The same for a level that may have a kink in the middle of the zone, like the shortfall of
@@ -73,6 +84,14 @@ impl Stencil {
     pub(crate) const fn before_the_middle(self) -> Self {
         Self {
             before_middle: true,
+            ..self
+        }
+    }
+
+    /// The same for a zone whose border lies beyond its outermost cells.
+    pub(crate) const fn of_inner_zone(self) -> Self {
+        Self {
+            at_border: false,
             ..self
         }
     }
@@ -153,6 +172,14 @@ impl Line {
     /// The first cell of the zone.
     pub(crate) fn outermost(&self) -> usize {
         self.cells[0]
+    }
+
+    /// Whether a parabola has its border near the outermost cell and grows inwards.
+    fn holds(&self, parabola: Parabola) -> bool {
+        let at = parabola.outermost;
+        (0.5 - parabola.inside()).abs() <= FARTHEST
+            && parabola.slope(at) > 0.0
+            && parabola.slope(at - self.first) > 0.0
     }
 
     /// Keeps the first `count` cells for the extrapolation.
@@ -238,17 +265,23 @@ impl Lattice {
             line.count
         };
         let (law, levels) = line.straightest(&powers, &value, checked);
-        let (levels, skipped, sloping) = stencils[law].choose(&levels[..line.count], line.half);
-        let parabola = Parabola::through(levels, skipped)?;
-        // The positions of the outermost cell and of cell n on the parabola.
-        let outermost = -(skipped as f64);
-        let place = 0.5 - parabola.at(outermost) / parabola.slope(outermost);
-        let here = outermost - line.first;
+        let own = &levels[..line.count];
+        let (levels, skipped, sloping) = stencils[law].choose(own, line.half);
+        let far = Parabola::through(levels, skipped).filter(|far| line.holds(*far));
+        let is_root = stencils[law].at_border && matches!(powers[law], Power::Two);
+        let diagonal = line.step[0] != 0.0 && line.step[1] != 0.0;
+        let near = is_root.then(|| Parabola::of_discrete_root(own, diagonal));
+        let parabola = match (far, near.flatten().filter(|near| line.holds(*near))) {
+            (Some(far), Some(near))
+                if far.passes_through(own) || (far.inside() - near.inside()).abs() <= APART =>
+            {
+                far
+            }
+            (far, near) => near.or(far)?,
+        };
+        // The position of cell n on the parabola.
+        let here = parabola.outermost - line.first;
         let slope = parabola.slope(here);
-        let usable = place.abs() <= FARTHEST && parabola.slope(outermost) > 0.0 && slope > 0.0;
-        if !usable {
-            return None;
-        }
         let sloping = line.cells().get(sloping);
         let gradient = sloping.map_or([0.0; 2], |&m| {
             self.gradient(m, zone, |m| powers[law].of(value(m)))

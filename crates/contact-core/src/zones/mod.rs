@@ -2,6 +2,7 @@
 //! them.
 
 mod continued;
+mod discrete_root;
 mod edge;
 mod laws;
 mod level;

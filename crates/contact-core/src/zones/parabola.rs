@@ -7,12 +7,26 @@ const FIRST_BEND: f64 = 0.4;
 const BEND: f64 = 0.15;
 /// The parabola is accepted if the cubic term moves the border by less than this \[cells\].
 const MOVED: f64 = 0.2;
+/// Largest difference of sampled levels from it in the skipped cells, over the rise per cell.
+const SAMPLED: f64 = 0.01;
 
 /// f = c_0 + c_1 s + c_2 s^2 along a line, s in cells from the first one that is not skipped.
 #[derive(Clone, Copy)]
-pub(crate) struct Parabola([f64; 3]);
+pub(crate) struct Parabola {
+    c: [f64; 3],
+    /// The place s of the outermost cell.
+    pub(super) outermost: f64,
+}
 
 impl Parabola {
+    /// From c_0, c_1, c_2 with some cells skipped.
+    pub(super) fn new(c: [f64; 3], skipped: usize) -> Self {
+        Self {
+            c,
+            outermost: -(skipped as f64),
+        }
+    }
+
     /// From the levels of the outermost cell and the next ones, `skipped` left out: least squares
     /// through five, the parabola through three, or the straight line through two, whichever the
     /// smooth part of the line allows.
@@ -38,20 +52,21 @@ impl Parabola {
         } else {
             smooth.count() + 2 - before
         };
-        Some(match (cells, used) {
+        let c = match (cells, used) {
             // About the middle sample, with the orthogonal polynomials 1, s, s^2 - 2.
             (5.., &[a, b, c, d, e, ..]) => {
                 let c_2 = (2.0 * (a + e) - (b + d) - 2.0 * c) / 14.0;
                 let c_1 = (2.0 * (e - a) + d - b) / 10.0;
                 let c_0 = (a + b + c + d + e) / 5.0 - 2.0 * c_2;
-                Self([c_0 - 2.0 * c_1 + 4.0 * c_2, c_1 - 4.0 * c_2, c_2])
+                [c_0 - 2.0 * c_1 + 4.0 * c_2, c_1 - 4.0 * c_2, c_2]
             }
-            (3.., &[a, b, c, ..]) => Self([a, 2.0 * b - 1.5 * a - 0.5 * c, 0.5 * (a + c) - b]),
-            (2.., &[a, b, ..]) => Self([a, b - a, 0.0]),
+            (3.., &[a, b, c, ..]) => [a, 2.0 * b - 1.5 * a - 0.5 * c, 0.5 * (a + c) - b],
+            (2.., &[a, b, ..]) => [a, b - a, 0.0],
             // The straight line through the last skipped cell and the first used one.
-            (_, &[a, ..]) => Self([a, y_2 - y_1, 0.0]),
+            (_, &[a, ..]) => [a, y_2 - y_1, 0.0],
             (_, []) => return None,
-        })
+        };
+        Some(Self::new(c, skipped))
     }
 
     /// Whether the cubic term through five cells is small at the border, about half a cell outside
@@ -68,12 +83,28 @@ impl Parabola {
     }
 
     pub(crate) fn at(self, s: f64) -> f64 {
-        let Self([c_0, c_1, c_2]) = self;
+        let [c_0, c_1, c_2] = self.c;
         c_0 + s * (c_1 + s * c_2)
     }
 
+    /// Whether it passes through the skipped cells too: tractions sampled at the middles of the
+    /// cells, not solved.
+    pub(super) fn passes_through(self, levels: &[f64]) -> bool {
+        let skipped = -self.outermost as usize;
+        let rise = self.slope(self.outermost);
+        let misses = |(k, level): (usize, &f64)| {
+            (self.at(self.outermost + k as f64) - level).abs() > SAMPLED * rise
+        };
+        skipped > 0 && !levels.iter().take(skipped).enumerate().any(misses)
+    }
+
+    /// Distance of the middle of the outermost cell from the border, inwards \[cells\].
+    pub(crate) fn inside(self) -> f64 {
+        self.at(self.outermost) / self.slope(self.outermost)
+    }
+
     pub(crate) fn slope(self, s: f64) -> f64 {
-        let Self([_, c_1, c_2]) = self;
+        let [_, c_1, c_2] = self.c;
         c_1 + 2.0 * c_2 * s
     }
 }

@@ -170,6 +170,41 @@ fn rims_of_line_contacts_are_right_on_every_grid() {
     }
 }
 
+/// On a layer a few cells thick the square of the pressure bends next to the rim, outwards on soft
+/// layers, inwards on hard ones: the rims are those of a grid eight times as fine.
+#[test]
+fn rims_on_layers_are_right_within_an_eighth_of_a_cell() {
+    let n = 128;
+    for (ratio, thickness) in [0.3, 0.5, 1.5, 4.0].into_iter().flat_map(|ratio| {
+        let thicknesses = [0.04, 0.05, 0.08];
+        thicknesses.map(|thickness| (ratio, thickness))
+    }) {
+        for k in 0..4 {
+            let rims = [n, 8 * n].map(|n| {
+                let (mut scene, line) = cylinder(0.0, n, LoadPath::start().normal(1e5, 1));
+                let extent = 2.8 + 0.017 * f64::from(k);
+                scene.grid = Grid::strip(extent * line.a, n, 1.0).unwrap();
+                scene.body2.coatings = vec![Coating {
+                    material: Elastic::new(ratio * STEEL.E, 0.25).unwrap(),
+                    thickness: thickness * line.a,
+                }];
+                let fields = solved(&scene).remove(0);
+                let rims = borders(&scene.grid, &tractions(&fields), None, None).unwrap();
+                assert!(rims.len() == 2 && rims.iter().all(|rim| rim.within_cell));
+                (rims[1].x, scene.grid.dx)
+            });
+            let [(rim, cell), (right, _)] = rims;
+            let off = (rim - right) / cell;
+            println!("E1/E2 = {ratio}, h = {thickness} a, {k}: off by {off:.3} cells");
+            let allowed = if thickness < 0.06 { 0.06 } else { 0.125 };
+            assert!(
+                off.abs() < allowed,
+                "E1/E2 = {ratio}, h = {thickness} a: {off}"
+            );
+        }
+    }
+}
+
 /// A sphere on a coated flat without friction, against a dual integral equation and Hankel
 /// quadrature.
 #[test]
