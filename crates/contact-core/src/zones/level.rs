@@ -233,9 +233,17 @@ pub(crate) struct Level {
     pub(crate) middle: f64,
     /// Its gradient per cell along x and y.
     pub(crate) gradient: [f64; 2],
+    /// Half of its second derivative along the line, per step.
+    pub(crate) bend: f64,
 }
 
 impl Level {
+    /// How far the parabola lies from its tangent, so many columns and rows away.
+    pub(crate) fn off_tangent(&self, [x, y]: [f64; 2]) -> f64 {
+        let [a, b] = self.line.step;
+        self.bend * ((x * a + y * b) / (a * a + b * b)).powi(2)
+    }
+
     /// Whether it agrees with the own level of the cell.
     pub(crate) fn agrees(&self, own: f64) -> bool {
         agree(self.middle, self.gradient, own)
@@ -300,6 +308,7 @@ impl Lattice {
             bias: stencils[law].bias,
             middle: parabola.at(here),
             gradient,
+            bend: parabola.bend(),
         })
     }
 

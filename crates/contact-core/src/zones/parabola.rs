@@ -103,6 +103,11 @@ impl Parabola {
         self.at(self.outermost) / self.slope(self.outermost)
     }
 
+    /// Half of the second derivative.
+    pub(crate) fn bend(self) -> f64 {
+        self.c[2]
+    }
+
     pub(crate) fn slope(self, s: f64) -> f64 {
         let [_, c_1, c_2] = self.c;
         c_1 + 2.0 * c_2 * s

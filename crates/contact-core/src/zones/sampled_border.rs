@@ -39,7 +39,7 @@ impl SampledBorder {
         let mut level = own.clone();
         let (mut known, mut unknown) = (Vec::new(), Vec::new());
         for (cell, plane) in planes.cells() {
-            let (mean, count) = planes.mean_around(cell, |_, _| true);
+            let (mean, count) = planes.mean_around(cell, false, |_, _| true);
             match plane {
                 Some(plane) => level[cell] = plane.middle,
                 None if own[cell] <= 0.0 && count >= FEWEST_NEIGHBOURS => level[cell] = mean,
@@ -58,7 +58,7 @@ impl SampledBorder {
             .filter(|(cell, plane)| plane.is_some_and(|plane| thin(*cell, plane)));
         for cell in thin_cells.flat_map(|(cell, _)| around(cell, own.dim())) {
             if own[cell] > 0.0 && planes.find(cell).is_none() {
-                let (mean, count) = planes.mean_around(cell, thin);
+                let (mean, count) = planes.mean_around(cell, true, thin);
                 if count > 0 {
                     level[cell] = mean;
                 }
@@ -130,17 +130,23 @@ impl<'a> Planes<'a> {
         agree(plane.middle, plane.slope, self.own[cell])
     }
 
-    /// The mean level of a cell by the planes of its neighbours with `of`, and their number.
+    /// The mean level of a cell by the planes of its neighbours with `of`, or by the parabolas that
+    /// they are tangent to, and their number.
     fn mean_around(
         &self,
         cell: (usize, usize),
+        parabolas: bool,
         of: impl Fn((usize, usize), Plane) -> bool,
     ) -> (f64, usize) {
         let levels: Vec<f64> = around(cell, self.own.dim())
             .filter_map(|at| {
-                let plane = self.planes[self.find(at)?].filter(|plane| of(at, *plane))?;
+                let k = self.find(at)?;
+                let plane = self.planes[k].filter(|plane| of(at, *plane))?;
                 let offset = [cell.0 as f64 - at.0 as f64, cell.1 as f64 - at.1 as f64];
-                let middle = plane.middle + plane.slope[0] * offset[0] + plane.slope[1] * offset[1];
+                let level = self.edges[k].1.level.filter(|_| parabolas);
+                let bent = level.map_or(0.0, |level| level.off_tangent(offset));
+                let linear = plane.middle + plane.slope[0] * offset[0] + plane.slope[1] * offset[1];
+                let middle = linear + bent;
                 self.agrees(cell, Plane { middle, ..plane })
                     .then_some(middle)
             })
