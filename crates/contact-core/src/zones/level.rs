@@ -238,10 +238,10 @@ pub(crate) struct Level {
 }
 
 impl Level {
-    /// How far the parabola lies from its tangent, so many columns and rows away.
-    pub(crate) fn off_tangent(&self, [x, y]: [f64; 2]) -> f64 {
-        let [a, b] = self.line.step;
-        self.bend * ((x * a + y * b) / (a * a + b * b)).powi(2)
+    /// The columns and rows to the next cell of the line inwards, and the level there.
+    pub(crate) fn next(&self) -> ([f64; 2], f64) {
+        let ([a, b], [of_x, of_y]) = (self.line.step, self.gradient);
+        ([a, b], self.middle + a * of_x + b * of_y + self.bend)
     }
 
     /// Whether it agrees with the own level of the cell.

@@ -39,7 +39,7 @@ impl SampledBorder {
         let mut level = own.clone();
         let (mut known, mut unknown) = (Vec::new(), Vec::new());
         for (cell, plane) in planes.cells() {
-            let (mean, count) = planes.mean_around(cell, false, |_, _| true);
+            let (mean, count) = planes.mean_around(cell);
             match plane {
                 Some(plane) => level[cell] = plane.middle,
                 None if own[cell] <= 0.0 && count >= FEWEST_NEIGHBOURS => level[cell] = mean,
@@ -50,17 +50,26 @@ impl SampledBorder {
             }
             known.push(cell);
         }
-        // A cell of the zone whose centre lies outside makes its inner neighbours the outermost
-        // ones: their own level is wrong, too.
-        let thin = |at: (usize, usize), plane: Plane| own[at] > 0.0 && plane.middle < 0.0;
-        let thin_cells = planes
-            .cells()
-            .filter(|(cell, plane)| plane.is_some_and(|plane| thin(*cell, plane)));
-        for cell in thin_cells.flat_map(|(cell, _)| around(cell, own.dim())) {
-            if own[cell] > 0.0 && planes.find(cell).is_none() {
-                let (mean, count) = planes.mean_around(cell, true, thin);
-                if count > 0 {
-                    level[cell] = mean;
+        // A cell of the zone whose centre lies outside makes the next one inwards the outermost: its
+        // own level is wrong, too.
+        for (n, edge) in edges {
+            let cell = planes.place(*n);
+            let Some(found) = edge.level.filter(|found| found.middle < 0.0) else {
+                continue;
+            };
+            let ([columns, rows], next) = found.next();
+            let inner = (
+                (cell.0 as f64 + columns) as usize,
+                (cell.1 as f64 + rows) as usize,
+            );
+            let is_inner = own.get(inner).is_some_and(|own| *own > 0.0);
+            if own[cell] > 0.0 && is_inner && planes.find(inner).is_none() {
+                let plane = Plane {
+                    middle: next,
+                    slope: found.gradient,
+                };
+                if planes.agrees(inner, plane) {
+                    level[inner] = next;
                 }
             }
         }
@@ -130,23 +139,13 @@ impl<'a> Planes<'a> {
         agree(plane.middle, plane.slope, self.own[cell])
     }
 
-    /// The mean level of a cell by the planes of its neighbours with `of`, or by the parabolas that
-    /// they are tangent to, and their number.
-    fn mean_around(
-        &self,
-        cell: (usize, usize),
-        parabolas: bool,
-        of: impl Fn((usize, usize), Plane) -> bool,
-    ) -> (f64, usize) {
+    /// The mean level of a cell by the planes of its neighbours, and their number.
+    fn mean_around(&self, cell: (usize, usize)) -> (f64, usize) {
         let levels: Vec<f64> = around(cell, self.own.dim())
             .filter_map(|at| {
-                let k = self.find(at)?;
-                let plane = self.planes[k].filter(|plane| of(at, *plane))?;
+                let plane = self.planes[self.find(at)?]?;
                 let offset = [cell.0 as f64 - at.0 as f64, cell.1 as f64 - at.1 as f64];
-                let level = self.edges[k].1.level.filter(|_| parabolas);
-                let bent = level.map_or(0.0, |level| level.off_tangent(offset));
-                let linear = plane.middle + plane.slope[0] * offset[0] + plane.slope[1] * offset[1];
-                let middle = linear + bent;
+                let middle = plane.middle + plane.slope[0] * offset[0] + plane.slope[1] * offset[1];
                 self.agrees(cell, Plane { middle, ..plane })
                     .then_some(middle)
             })
