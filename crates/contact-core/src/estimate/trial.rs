@@ -3,7 +3,6 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::numbers::STICK_RATIO;
 use super::two_runs::{PathError, TwoRuns, of_trial};
 use crate::error::Error;
 use crate::march::March;
@@ -16,10 +15,6 @@ const KINETIC_ORDER: f64 = 1.0;
 /// The same near full sliding: the shift of unlike bodies at 0.999 mu W in 161 and 400 increments
 /// differs by 8 %.
 const SLIDING_ORDER: f64 = 1.0;
-/// The same of the stick ratio where cells that do not slip lie at the limit of friction: in the
-/// second cycle of unlike bodies on 64 x 64 cells it is 0.013, 0.009, 0.007 too large for 10, 20, 40
-/// increments a branch.
-const STICK_ORDER_AT_LIMIT: f64 = 0.5;
 /// Solver tolerance of these runs over the tolerance of the path: the errors of the increments add
 /// up.
 const SOLVER_SHARE: f64 = 4e-3;
@@ -124,23 +119,12 @@ impl Trial {
             } else {
                 usual
             };
-            let factor = |order: f64| {
-                let part = if halves {
-                    order.exp2() - 1.0
-                } else {
-                    1.0 - (-order).exp2()
-                };
-                missed / part
-            };
-            let stick_ratio = change.numbers[STICK_RATIO];
-            let of_stick_ratio = if change.at_limit {
-                STICK_ORDER_AT_LIMIT
+            let part = if halves {
+                order.exp2() - 1.0
             } else {
-                order
+                1.0 - (-order).exp2()
             };
-            let mut error = change.times(factor(order));
-            error.numbers[STICK_RATIO] = factor(of_stick_ratio) * stick_ratio;
-            error
+            change.times(missed / part)
         };
         Ok(change.into_iter().map(of_path).collect())
     }

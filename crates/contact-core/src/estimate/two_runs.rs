@@ -27,8 +27,6 @@ pub(crate) struct PathError {
     pub(crate) motion: f64,
     /// Whether the shift follows from a force.
     pub(crate) driven: bool,
-    /// Whether cells lie at the limit of friction there without slipping.
-    pub(crate) at_limit: bool,
     /// The shear there over the largest of the path (L2).
     pub(crate) reached: f64,
     /// The shear that friction can bear there over the largest of the path (L2).
@@ -137,7 +135,6 @@ impl TwoRuns {
                     p: off(0) / p,
                     numbers: std::array::from_fn(|n| f[n] - m[n]),
                     driven: given.delta_x.is_none() && given.delta_y.is_none(),
-                    at_limit: [few, many].iter().any(|end| end.has_cells_at_limit()),
                     reached: many.q() / q,
                     bearable: self.mu * many.p() / q,
                 }
@@ -216,10 +213,6 @@ fn unjudged(branch: &Branch) -> Branch {
 }
 
 impl End {
-    fn has_cells_at_limit(&self) -> bool {
-        self.state.at_limit.contains(&true)
-    }
-
     fn p(&self) -> f64 {
         norm(&self.tractions[0])
     }
