@@ -105,6 +105,9 @@ def test_the_largest_stress_in_partial_slip_is_within_its_error(n: int) -> None:
         assert found.errors.solution == pytest.approx(part * abs(found.value))
         assert abs(found.value - right) <= found.error
         assert abs(found.value - right) <= (0.01 if n >= 64 else 0.02) * line.p0
+    if n >= 64:
+        largest = below.maximum()
+        assert largest.error < 0.05 * largest.value
 
 
 def test_the_largest_stress_of_a_layer(coated: fret.Result) -> None:
