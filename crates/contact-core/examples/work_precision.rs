@@ -1,4 +1,5 @@
-//! Work against error of a load path: time, work counters and error of p and q, as CSV.
+//! Work against error of a load path: time of the choice of increments and of all, work counters
+//! and error of p and q, as CSV.
 //!
 //! Runs a scene under several settings and compares the tractions at the ends of its branches with
 //! those of the last run, the reference. Arguments: the scene file, settings common to all runs
@@ -37,7 +38,8 @@ impl Observer for Ends {
 
 struct Run {
     settings: String,
-    seconds: f64,
+    /// Time of the choice of increments, and of all.
+    seconds: [f64; 2],
     increments: Vec<Increment>,
     ends: Ends,
 }
@@ -47,10 +49,11 @@ fn run(file: &str, settings: &[String], name: String) -> Result<Run, Error> {
     let mut ends = Ends::default();
     let start = Instant::now();
     let scene = choose_increments(&scene, &std::sync::Arc::default())?;
+    let chosen = start.elapsed().as_secs_f64();
     let increments = solve(&scene, &mut ends)?;
     Ok(Run {
         settings: name,
-        seconds: start.elapsed().as_secs_f64(),
+        seconds: [chosen, start.elapsed().as_secs_f64()],
         increments,
         ends,
     })
@@ -88,9 +91,10 @@ impl Run {
         // In convolutions on the grid of the scene.
         let work = |i: &Increment| i.work.convolutions * (i.path_grid as f64 / cells).powi(2);
         println!(
-            "\"{}\",{count},{:.3},{:.0},{:.2},{:.2},{:.2},{:.2},{p:.2e},{q:.2e},{q_first:.2e}",
+            "\"{}\",{count},{:.3},{:.3},{:.0},{:.2},{:.2},{:.2},{:.2},{p:.2e},{q:.2e},{q_first:.2e}",
             self.settings.replace('"', "\"\""),
-            self.seconds,
+            self.seconds[0],
+            self.seconds[1],
             sum(&work),
             sum(&work) / count as f64,
             sum(&|i| i.work.alternations as f64) / count as f64,
@@ -114,7 +118,7 @@ fn main() -> Result<(), Error> {
         runs.push(run(file, &settings, group.join(" "))?);
     }
     println!(
-        "settings,increments,seconds,convolutions,per_increment,alternations,normal,tangential,\
+        "settings,increments,choice,seconds,convolutions,per_increment,alternations,normal,tangential,\
          error_p,error_q,error_q_first"
     );
     if let Some(reference) = runs.last() {

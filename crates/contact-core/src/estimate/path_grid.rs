@@ -1,8 +1,9 @@
 //! The grid that the path is solved on, and the error that it leaves at the ends of the branches.
 //!
 //! The path on 32 cells carried to a grid of 64 is compared with the same path on all of the 64,
-//! both with half of the increments: the shear differs by e(32, 64). The error falls with the cells
-//! N of the path grid, and a path carried over k halvings has the error of each:
+//! both with half of the increments and of the substeps of growth: the shear differs by e(32, 64).
+//! The error falls with the cells N of the path grid, and a path carried over k halvings has the
+//! error of each:
 //!
 //! ```text
 //! e(N, 2^k N) = e(32, 64) (32/N)^m (1 + 2^-m + ... + 2^-(k - 1) m),   m = 3/2
@@ -30,8 +31,6 @@ const FEWEST_PATH_CELLS: usize = 64;
 const RATIOS: [usize; 2] = [4, 2];
 /// Order m of the error in the cells of the path grid.
 const ORDER: f64 = 1.5;
-/// Tolerance of the trial over that of the scene: the solver's error does not fall with the cells.
-const SOLVED: f64 = 0.25;
 /// Fewest increments that the path grid can take over, as a part of all.
 const TAKEN_OVER: f64 = 0.5;
 
@@ -131,7 +130,7 @@ fn errors_of_trial(
         branch.set_equal_increments(branch.equal_increments().div_ceil(2));
     }
     trial.settings.save = SaveFields::Branches;
-    trial.settings.solver.tolerance = Some(SOLVED * scene.tolerance());
+    trial.settings.solver.tolerance = Some(scene.tolerance());
     trial.settings.solver.path_grid = PathGrid::Same;
     trial.grid = Grid {
         nx: cells(nx),
@@ -141,7 +140,12 @@ fn errors_of_trial(
         ..scene.grid
     };
     let carried = on_path_grid(&trial, trial.grid.nx / 2);
-    TwoRuns::new(&carried, &trial, stop)?.change(&trial.path, &trial.path)
+    let mut runs = TwoRuns::new(&carried, &trial, stop)?;
+    let substeps = runs.growth_steps() / 2;
+    runs.grow_in([substeps; 2]);
+    // While the contact grows, both are solved on the finer grid.
+    runs.share(&trial.path, 1)?;
+    runs.change(&trial.path, &trial.path)
 }
 
 /// The scene with its path on so many cells along x.

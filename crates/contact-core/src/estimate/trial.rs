@@ -17,7 +17,7 @@ const KINETIC_ORDER: f64 = 1.0;
 const SLIDING_ORDER: f64 = 1.0;
 /// Solver tolerance of these runs over the tolerance of the path: the errors of the increments add
 /// up.
-const SOLVER_SHARE: f64 = 4e-3;
+const SOLVER_SHARE: f64 = 1e-2;
 /// A grid is not halved below CELLS cells.
 const CELLS: usize = 32 * 32;
 /// Error of the increments on a grid of RESOLVED_CELLS cells or more, over that on coarser ones: coarser

@@ -99,6 +99,16 @@ impl TwoRuns {
         self.many.grow_in(many);
     }
 
+    /// Solves the first branches of a path, which are the same in both runs but for the grid of
+    /// their path, once.
+    pub(crate) fn share(&mut self, path: &LoadPath, branches: usize) -> Result<(), Error> {
+        let mut first = path.clone();
+        first.branches.truncate(branches);
+        let ends = self.few.along(&first)?.iter().cloned();
+        self.many.ends = ends.map(End::on_the_grid_alone).collect();
+        Ok(())
+    }
+
     /// The change at the end of each branch from few increments to many, side by side.
     pub(crate) fn change(
         &mut self,
@@ -151,6 +161,7 @@ struct Run {
 }
 
 /// The end of a branch.
+#[derive(Clone)]
 struct End {
     branch: Branch,
     state: State,
@@ -213,6 +224,12 @@ fn unjudged(branch: &Branch) -> Branch {
 }
 
 impl End {
+    /// Without the state of a path grid.
+    fn on_the_grid_alone(mut self) -> Self {
+        self.state.along = None;
+        self
+    }
+
     fn p(&self) -> f64 {
         norm(&self.tractions[0])
     }
