@@ -64,8 +64,11 @@ pub(super) fn choose_path_grid(scene: &mut Scene, stop: &Arc<AtomicBool>) -> Res
     for ratio in ratios {
         let of_grid = worst * extrapolation(shorter / ratio, ratio);
         let mut branches = scene.path.branches.clone();
-        for branch in &mut branches {
-            branch.path_error = branch.path_error.map(|error| error.hypot(of_grid));
+        for (k, branch) in branches.iter_mut().enumerate() {
+            // Branches that are solved on both grids, as the contact grows, have no such error.
+            if errors.get(k).is_none_or(|error| error.q > 0.0) {
+                branch.path_error = branch.path_error.map(|error| error.hypot(of_grid));
+            }
         }
         let largest = branches.iter().filter_map(|of| of.path_error);
         if largest.fold(0.0, f64::max) <= scene.settings.solver.path_tolerance {
