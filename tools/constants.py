@@ -21,6 +21,18 @@ SOURCE = Path("crates/contact-core/src")
 
 # File, constant, the values tried. Those in BUILT take a build for each value.
 SCAN = [
+    ("estimate/choice.rs", "EXPECTED", ("1.25", "2.0")),
+    ("estimate/choice.rs", "AIM", ("0.7", "1.0")),
+    ("estimate/choice.rs", "ACCEPTED", ("0.7", "1.1")),
+    ("estimate/choice.rs", "GROWN", ("3.0", "12.0")),
+    ("estimate/choice.rs", "KEPT", ("0.65", "0.95")),
+    ("estimate/choice.rs", "MOST_REFINEMENT", ("2.5", "6.0")),
+    ("estimate/choice.rs", "OWN", ("1.4", "2.8")),
+    ("estimate/trial.rs", "ORDER", ("1.25", "2.0")),
+    ("estimate/trial.rs", "GROWTH_ORDER", ("0.75", "1.5")),
+    ("estimate/trial.rs", "SOLVER_SHARE", ("5e-3", "2e-2")),
+    ("estimate/trial.rs", "MISSED", ("1.0", "1.5")),
+    ("estimate/trial.rs", "CONTACT", ("150", "600")),
     ("march/problem.rs", "PREDICTED_SHARE", ("0.4", "1.0")),
     ("march/problem.rs", "NORMAL_SHARE", ("0.2", "0.8")),
     ("march/problem.rs", "TANGENTIAL_SHARE", ("0.3", "0.9")),
