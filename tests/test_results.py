@@ -30,6 +30,8 @@ SCALARS = [
     "contact_radius",
     "p_max",
     "q_max",
+    "q_rms",
+    "q_scatter",
     "work",
     "elastic",
     "dissipated",

@@ -993,7 +993,8 @@ class Branch:
     t : float
         Path time at its end.
     path_error : float, optional
-        Estimated error that the increments leave in the shear.
+        Estimated error that the increments leave in the shear, as known before a run; that of
+        :meth:`Result.branches` contains what the run shows of it.
     """
 
     def __new__(

@@ -10,12 +10,14 @@ use crate::words::{state, word};
 /// A run: its branches and its cycles.
 pub(crate) fn run(scene: &Scene, increments: &[Increment]) -> Value {
     let mut done = 0;
+    let reached = Reached::of(increments);
+    let errors = reached.shear_errors(scene);
     let branches = summarise(increments);
     let branches: Vec<Value> = branches
         .iter()
         .map(|b| {
             done += b.increments;
-            branch(scene, b, &increments[done - 1])
+            branch(scene, b, &increments[done - 1], errors[b.branch])
         })
         .collect();
     let cycles: Vec<Value> = cycles(scene, increments)
@@ -32,7 +34,7 @@ pub(crate) fn run(scene: &Scene, increments: &[Increment]) -> Value {
         "units": units(scene),
         "branches": branches,
         "cycles": cycles,
-        "doubts": Reached::of(increments).doubts(scene),
+        "doubts": reached.doubts(scene),
     })
 }
 
@@ -57,7 +59,7 @@ fn length_of(scene: &Scene) -> &'static str {
     }
 }
 
-fn branch(scene: &Scene, b: &BranchSummary, last: &Increment) -> Value {
+fn branch(scene: &Scene, b: &BranchSummary, last: &Increment, error: Option<f64>) -> Value {
     let mut of = Map::new();
     let mut set = |key: &str, value: Value| of.insert(key.to_owned(), value);
     set("branch", json!(b.branch));
@@ -74,6 +76,7 @@ fn branch(scene: &Scene, b: &BranchSummary, last: &Increment) -> Value {
     set("dissipated", json!(b.dissipated));
     set("increments", json!(b.increments));
     set("convolutions", json!(b.work.convolutions));
+    set("path_error", json!(error));
     Value::Object(of)
 }
 

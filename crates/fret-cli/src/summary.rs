@@ -6,7 +6,7 @@ use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
 use contact_core::estimate::{Bar, ErrorBars};
 use contact_core::fields::{Cycle, Direction};
-use contact_core::march::{BranchSummary, Increment, summarise};
+use contact_core::march::{BranchSummary, Increment, Reached, summarise};
 use contact_core::scene::{Branch, RigidMotion};
 
 use crate::json;
@@ -184,7 +184,7 @@ fn columns(scene: &Scene, increments: &[Increment], wide: bool) -> Vec<Column> {
         }),
         column("incre-\nments", |b, _| b.increments.to_string()),
     ]);
-    let errors: Vec<Option<f64>> = scene.path.branches.iter().map(|b| b.path_error).collect();
+    let errors = Reached::of(increments).shear_errors(scene);
     if errors.iter().any(Option::is_some) {
         columns.push(column("error\nof q", move |b, _| {
             let error = errors.get(b.branch).copied().flatten();

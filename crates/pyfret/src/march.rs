@@ -73,7 +73,7 @@ impl March {
 
     /// What the increments so far came to that is hardly meant, one sentence each.
     fn doubts(&mut self) -> Vec<String> {
-        let reached = self.reached;
+        let reached = self.reached.clone();
         reached.doubts(self.inner().scene())
     }
 
@@ -89,7 +89,7 @@ impl March {
         march.stop_on(stop.clone());
         match interruptible(py, &stop, || march.advance())? {
             None => {
-                let (reached, scene) = (self.reached, self.inner().scene().clone());
+                let (reached, scene) = (self.reached.clone(), self.inner().scene().clone());
                 reached.check(&scene).map_err(to_python)?;
                 Ok(None)
             }

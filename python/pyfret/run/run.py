@@ -178,7 +178,13 @@ class Run(OfRun):
         return table
 
     def branches(self) -> xr.Dataset:
-        """Scalars at the end of every branch; energies and work are sums over the branch."""
+        """Scalars at the end of every branch; energies and work are sums over the branch.
+
+        Where the increments were chosen, ``path_error`` is the estimated error that they leave in
+        the shear there: L2 norm, over the largest of the path. On fine grids it contains what the
+        run shows of it, and may be more than the ``path_error`` of the branch of the scene, which
+        was known before.
+        """
         of = self.dataset.branch_of_increment.values
         starts = np.flatnonzero(np.diff(of, prepend=of[0] - 1))
         ends = np.append(starts[1:], of.size) - 1
@@ -188,6 +194,9 @@ class Run(OfRun):
                 values = variable.values
                 kept = np.add.reduceat(values, starts) if name in SUMMED else values[ends]
                 table[name] = ("branch", kept, variable.attrs)
+        if errors := self.dataset.attrs.get("path_error"):
+            about = {"units": "1", "long_name": "estimated error of the shear from the increments"}
+            table["path_error"] = ("branch", np.asarray(errors, float)[of[ends]], about)
         return table
 
     def loops(self, *, direction: Literal["x", "y", "torsion"] = "x") -> xr.Dataset:

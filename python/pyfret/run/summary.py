@@ -64,6 +64,8 @@ def columns(result: Run, ends: xr.Dataset) -> list[list[str]]:
         else:
             cells = [in_words(value) for value in values]
         table.append([title, *cells])
+    if "path_error" in ends:
+        table.append(["error of q", *(f"{100 * e:.2f} %" for e in ends.path_error.values)])
     return [*table, ["state", *(STATUS[int(code)] for code in ends.status)]]
 
 

@@ -34,6 +34,7 @@ ENDS = {
     "p_max": "p<sub>max</sub>",
     "stick_ratio": "stick ratio",
     "dissipated": "dissipated",
+    "path_error": "error of q",
 }
 #: Units that people read numbers in, with their factors, by those of the numbers.
 SHOWN_IN = {

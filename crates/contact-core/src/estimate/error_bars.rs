@@ -35,7 +35,9 @@ use super::numbers::{
 use super::path_error::path_errors;
 use super::two_runs::PathError;
 use crate::error::Error;
-use crate::march::{BranchSummary, Increment, TANGENTIAL_SHARE, Tractions, summarise};
+use crate::march::{
+    BranchSummary, Increment, TANGENTIAL_SHARE, Tractions, shear_errors, summarise,
+};
 use crate::plan::Plan;
 use crate::scene::{Branch, Scene};
 
@@ -132,7 +134,10 @@ pub fn error_bars(
     stop: &Arc<AtomicBool>,
 ) -> Result<Vec<ErrorBars>, Error> {
     let scene = &choose_increments(scene, stop)?;
-    let along_path = path_errors(scene, stop)?;
+    let mut along_path = path_errors(scene, stop)?;
+    for (error, seen) in along_path.iter_mut().zip(shear_errors(scene, increments)) {
+        error.q = error.q.max(seen);
+    }
     let fine = summarise(increments);
     let coarser = coarser_grids(scene, &fine, tractions, stop)?;
     let finer = Finer::solve(scene, stop)?;

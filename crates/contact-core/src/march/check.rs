@@ -61,7 +61,7 @@ pub(super) fn residuals(
     no_slip: &NoSlipTerms,
     now: &Interface,
     info: &AlternationInfo,
-) -> (Residuals, [f64; 2]) {
+) -> (Residuals, [f64; 3]) {
     let mu = setup.problem.scene.friction.scale();
     let approach = setup.problem.approach;
     let arms = &setup.geometry.arms;
@@ -77,18 +77,28 @@ pub(super) fn residuals(
         let bound = friction_bound(mu, p);
         let (stretched, excess) = (size([q_x, arms.stretch * q_y]), size([q_x, q_y]) - bound);
         if p <= 0.0 {
-            return ([0.0; 6], [p, stretched, excess, -gap]);
+            return ([0.0; 7], [p, stretched, excess, -gap]);
         }
         let largest = [p, stretched, excess, 0.0];
+        let q = [q_x, q_y];
         let slip = slip([u_x, u_y], [x_0, y_0], arms.in_plane(info.shift, n));
         if !slips {
-            return ([1.0, 0.0, gap * gap, square(slip), 0.0, 0.0], largest);
+            let squares = [1.0, 0.0, gap * gap, square(slip), 0.0, 0.0, square(q)];
+            return (squares, largest);
         }
-        let off = not_opposite(slip, [q_x, q_y]);
-        let squares = [1.0, 1.0, gap * gap, 0.0, square(off), square(slip)];
-        (squares, largest)
+        let off = not_opposite(slip, q);
+        let (off, slip) = (square(off), square(slip));
+        ([1.0, 1.0, gap * gap, 0.0, off, slip, square(q)], largest)
     });
-    let [contact, slipping, gap_squares, stick, direction, slipped] = sums;
+    let [
+        contact,
+        slipping,
+        gap_squares,
+        stick,
+        direction,
+        slipped,
+        q_squares,
+    ] = sums;
     let [p_max, q_max, excess, overlap] = largest;
     let mut r = Residuals {
         coulomb: excess,
@@ -110,7 +120,7 @@ pub(super) fn residuals(
         r.coulomb = excess / (mu * p_max);
     }
     r.balance = missing_loads(setup, now);
-    (r, [p_max, q_max])
+    (r, [p_max, q_max, rms(q_squares, contact)])
 }
 
 /// Largest error of the balances of given loads over their scale: W for the normal force, the sum

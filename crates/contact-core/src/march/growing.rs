@@ -80,7 +80,7 @@ fn radii(problem: &Problem, state: &State, point: &LoadPoint) -> [f64; 2] {
 }
 
 /// Whether the contact grows from a point: smooth convex shapes.
-fn are_paraboloids(scene: &Scene) -> bool {
+pub(super) fn are_paraboloids(scene: &Scene) -> bool {
     let smooth = |shape: &Shape| {
         matches!(
             shape,

@@ -27,6 +27,7 @@ mod retry;
 mod rolled;
 mod run;
 mod setup;
+mod shear_errors;
 mod state;
 #[cfg(test)]
 mod tests;
@@ -39,6 +40,7 @@ pub(crate) use problem::TANGENTIAL_SHARE;
 pub use reached::Reached;
 pub use results::{Energy, Increment, Motion, Residuals, Status, Work};
 pub use run::{BranchSummary, Observer, solve, summarise};
+pub use shear_errors::shear_errors;
 pub use state::State;
 
 use std::sync::Arc;

@@ -207,6 +207,7 @@ impl March {
             cells_per_radius: fine.cells_per_radius,
             p_max: moved(|i| i.p_max),
             q_max: moved(|i| i.q_max),
+            q_rms: moved(|i| i.q_rms),
             ..*coarse
         };
         state.step = point.loads.since(&state.loads, state.motion.motions());

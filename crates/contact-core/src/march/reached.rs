@@ -1,6 +1,6 @@
 //! Largest values of a run, and warnings that follow from them.
 
-use super::Increment;
+use super::{Increment, shear_errors};
 use crate::error::Error;
 use crate::scene::{FEW_CELLS, FEWEST_CELLS, LARGE_STRAIN, Scene};
 
@@ -13,12 +13,14 @@ const NOTABLE_RATIO: f64 = 2.0;
 const YIELDS: f64 = 1e9;
 
 /// Largest values over the increments of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reached {
     /// Cells across the radius of the contact.
     pub cells_per_radius: f64,
     /// Pressure \[Pa\].
     pub p_max: f64,
+    /// The increments that ended branches.
+    pub ends: Vec<Increment>,
 }
 
 impl Reached {
@@ -35,6 +37,9 @@ impl Reached {
     pub fn see(&mut self, increment: &Increment) {
         self.cells_per_radius = self.cells_per_radius.max(increment.cells_per_radius);
         self.p_max = self.p_max.max(increment.p_max);
+        if increment.point.ends_branch {
+            self.ends.push(*increment);
+        }
     }
 
     /// Fails if the contact has fewer than [`FEWEST_CELLS`] across its radius where it is largest.
@@ -45,6 +50,15 @@ impl Reached {
         Ok(())
     }
 
+    /// The estimated error of the shear at the end of every branch whose increments were chosen
+    /// ([`shear_errors`]).
+    pub fn shear_errors(&self, scene: &Scene) -> Vec<Option<f64>> {
+        let branches = scene.path.branches.iter();
+        let errors = branches.zip(shear_errors(scene, &self.ends));
+        let estimated = errors.map(|(branch, error)| branch.path_error.map(|_| error));
+        estimated.collect()
+    }
+
     /// Warnings that need the results of a run, beyond those of [`Scene::doubts`]; one sentence
     /// each.
     pub fn doubts(&self, scene: &Scene) -> Vec<String> {
@@ -53,16 +67,12 @@ impl Reached {
             doubts.push(scene.grid.coarse(self.cells_per_radius));
         }
         let allowed = scene.settings.solver.path_tolerance;
-        let errors = scene
-            .path
-            .branches
-            .iter()
-            .map(|branch| branch.path_error.unwrap_or(0.0));
-        if let Some((k, error)) = errors.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
+        let errors = shear_errors(scene, &self.ends).into_iter().enumerate();
+        if let Some((k, error)) = errors.max_by(|a, b| a.1.total_cmp(&b.1))
             && error > NOTABLE_RATIO * allowed
         {
             doubts.push(format!(
-                "branch {} of the path, in {} increments, leaves the shear {:.1} % off, the path tolerance is {:.1} %",
+                "branch {} of the path, in {} increments, leaves the shear {:.1} % off, the path tolerance is {:.1} %: it falls with more increments",
                 k + 1,
                 scene.path.branches[k].count(),
                 100.0 * error,

@@ -168,6 +168,15 @@ pub struct Increment {
     pub p_max: f64,
     /// Largest shear traction |q| \[Pa\].
     pub q_max: f64,
+    /// Shear traction |q|, root mean square over the contact \[Pa\].
+    pub q_rms: f64,
+    /// Scatter of the shear from cell to cell where the bodies stick, root mean square over the
+    /// contact \[Pa\]: at the end of a branch, where enough cells in a line stick. It contains the
+    /// error that too few increments leave in a contact that grows ([`shear_errors`]), and, once the
+    /// shear has turned, the bends that earlier borders of the stick zone left.
+    ///
+    /// [`shear_errors`]: super::shear_errors
+    pub q_scatter: Option<f64>,
     /// Cells along x of the grid that it was solved on; fewer than those of the scene's grid where
     /// it was solved for the path alone (`solver.path_grid`).
     pub path_grid: usize,

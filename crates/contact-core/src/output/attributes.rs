@@ -2,7 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
-use super::schema::{CONVENTIONS, SCHEMA};
+use super::schema::{CONVENTIONS, DOUBTS, SCHEMA};
+use crate::error::Error;
+use crate::march::Reached;
 use crate::plan::Plan;
 use crate::scene::Scene;
 
@@ -30,4 +32,27 @@ pub fn group_attributes(scene: &Scene, plan: &Plan) -> Map<String, Value> {
     }
     set("status", json!("running"));
     attributes
+}
+
+/// Adds what is known at the end of a run: how it ended, the errors of its shear, what is to be
+/// doubted of it.
+pub(super) fn conclude(
+    attributes: &mut Map<String, Value>,
+    scene: &Scene,
+    reached: &Reached,
+    failure: Option<&Error>,
+) {
+    let mut set = |key: &str, value: Value| attributes.insert(key.to_owned(), value);
+    set(
+        "status",
+        json!(failure.map_or("done".to_owned(), ToString::to_string)),
+    );
+    let errors: Option<Vec<f64>> = reached.shear_errors(scene).into_iter().collect();
+    if let Some(errors) = errors {
+        set("path_error", json!(errors));
+    }
+    let doubts = reached.doubts(scene);
+    if !doubts.is_empty() {
+        set(DOUBTS, json!(doubts.join("\n")));
+    }
 }

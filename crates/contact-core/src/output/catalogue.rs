@@ -251,6 +251,18 @@ pub const SCALARS: &[Scalar] = &[
     real("p_max", "Pa", "largest pressure", |i| i.p_max),
     real("q_max", "Pa", "largest shear traction", |i| i.q_max),
     real(
+        "q_rms",
+        "Pa",
+        "shear traction, root mean square over the contact",
+        |i| i.q_rms,
+    ),
+    real(
+        "q_scatter",
+        "Pa",
+        "scatter of the shear from cell to cell where the bodies stick, at the end of a branch",
+        |i| i.q_scatter.unwrap_or(f64::NAN),
+    ),
+    real(
         "work",
         "J",
         "work of the applied forces in the increment",

@@ -1,12 +1,11 @@
 //! A run kept in memory, with the contents of a store.
 
 use ndarray::Array2;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
-use super::attributes::group_attributes;
+use super::attributes::{conclude, group_attributes};
 use super::catalogue::{FIELDS, FieldView, SCALARS};
 use super::error_bars::{doubt_bars, told};
-use super::schema::DOUBTS;
 use crate::error::Error;
 use crate::estimate::ErrorBars;
 use crate::march::{Fields, Increment, March, Observer, Reached};
@@ -99,13 +98,7 @@ impl Observer for Columns {
         {
             self.keep(index, point.t, &march.fields());
         }
-        let status = failure.map_or("done".to_owned(), ToString::to_string);
-        self.attributes.insert("status".into(), json!(status));
-        let doubts = self.reached.doubts(march.scene());
-        if !doubts.is_empty() {
-            self.attributes
-                .insert(DOUBTS.into(), json!(doubts.join("\n")));
-        }
+        conclude(&mut self.attributes, march.scene(), &self.reached, failure);
         Ok(())
     }
 }

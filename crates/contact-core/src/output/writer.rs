@@ -3,14 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use serde_json::json;
-
+use super::attributes::conclude;
 use super::checkpoint::Checkpoints;
 use super::folder::Folder;
 use super::open::Open;
 use super::place::{has_nothing_else, mend, place};
 use super::reader::Store;
-use super::schema::DOUBTS;
 use crate::error::Error;
 use crate::march::{Increment, March, Observer};
 use crate::scene::Grid;
@@ -134,13 +132,7 @@ impl Observer for StoreWriter {
         } else {
             Ok(())
         };
-        let status = failure.map_or("done".to_owned(), ToString::to_string);
-        open.attributes.insert("status".into(), json!(status));
-        let doubts = open.reached.doubts(march.scene());
-        if !doubts.is_empty() {
-            open.attributes
-                .insert(DOUBTS.into(), json!(doubts.join("\n")));
-        }
+        conclude(&mut open.attributes, march.scene(), &open.reached, failure);
         // A disk too full for the fields may hold the rest.
         if failure.is_some() {
             return open.checkpoint(march.state()).and(last_fields);

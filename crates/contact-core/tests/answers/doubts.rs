@@ -96,6 +96,7 @@ fn a_pressure_that_no_metal_bears_is_told() {
         Reached {
             cells_per_radius: 20.0,
             p_max,
+            ..Reached::default()
         }
         .doubts(&scene)
     };

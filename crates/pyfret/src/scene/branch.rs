@@ -62,7 +62,8 @@ impl From<core::Spacing> for Spacing {
 /// t : float
 ///     Path time at its end.
 /// path_error : float, optional
-///     Estimated error that the increments leave in the shear.
+///     Estimated error that the increments leave in the shear, as known before a run; that of
+///     :meth:`Result.branches` contains what the run shows of it.
 #[pyclass(frozen, eq, from_py_object, module = "pyfret")]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Branch(pub(super) core::Branch);

@@ -3,8 +3,10 @@
 mod areas;
 mod energy;
 mod history;
+mod scatter;
 
 pub(super) use self::history::{Closing, Stuck, close, growth};
+pub(super) use self::scatter::SAMPLES;
 use super::setup::{Setup, count};
 use super::transmitted::transmitted;
 use super::{Increment, Motion, Status, Work, check};
@@ -28,7 +30,7 @@ pub(super) fn draw_up(
         loads: transmitted(setup, setup.point, now),
         ..*setup.point
     };
-    let ((energy, (residuals, [p_max, q_max])), zones) = both(
+    let ((energy, (residuals, [p_max, q_max, q_rms])), zones) = both(
         now.p.len(),
         || {
             let energy = energy::energies(setup, no_slip, &point, now, info, &motion);
@@ -59,6 +61,13 @@ pub(super) fn draw_up(
             .radius_of(zones.contact * cell_area),
         p_max,
         q_max,
+        q_rms,
+        q_scatter: (setup.point.ends_branch)
+            .then(|| {
+                let cells = zones.cells_per_radius;
+                scatter::scatter(setup.geometry, setup.problem.plan.mirror, now, cells)
+            })
+            .flatten(),
         path_grid: setup.problem.scene.grid.nx,
         energy,
         residuals,

@@ -72,7 +72,8 @@ pub struct Branch {
     /// Path time at the end of the branch; only a label, the contact is quasi-static.
     pub t_end: f64,
     /// Estimated error of the shear at the end of the branch that its increments leave: relative to
-    /// the largest shear of the path (L2). `None` without an estimate.
+    /// the largest shear of the path (L2), as known before a run
+    /// ([`shear_errors`](crate::march::shear_errors) after it). `None` without an estimate.
     pub path_error: Option<f64>,
 }
 
