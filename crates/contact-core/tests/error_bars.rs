@@ -6,6 +6,7 @@
 
 #![allow(clippy::print_stdout, reason = "a report for people")]
 
+mod document;
 mod splitmix;
 
 use std::fmt::Write as _;
@@ -230,38 +231,6 @@ fn summary(name: &str, ratios: &[f64]) -> ([usize; 2], String) {
     ([below, above], line)
 }
 
-/// The numbers of a run of the whole test, for `FRET_ERROR_BARS_REPORT`.
-fn report(scenes: usize, lines: &[String]) -> std::io::Result<()> {
-    let Ok(path) = std::env::var("FRET_ERROR_BARS_REPORT") else {
-        return Ok(());
-    };
-    let text = format!(
-        "# Error bars against true errors\n\nHow large is a true error where a run says `+- 1 \
-         %`? Measured by `make error-bars` on {scenes} random scenes with default\nsettings: \
-         either body coated or not, smooth, rough or off the middle of the grid, fretted, \
-         twisted, loaded obliquely or\nonly pressed, on {CELLS} x {CELLS} cells with the chosen \
-         increments. The truth is the same scene on {FINE} x {FINE} cells with {FINER} times \
-         the\nincrements. A ratio is true error over error bar (`total`): for fields the largest \
-         over the branches of a scene, for numbers\none of every \
-         branch.\n\n```text\n{}\n```\n\n**Why ratios scatter.** The position of the rim and of \
-         the border of the stick zone within the cells makes errors of random\nsign, different \
-         on every grid. Coarser grids give their scale only: of a normally distributed error \
-         whose scale is known\nexactly, three in four have a ratio between 0.2 and 1.5. For the \
-         sign, the path is solved in at most 24 increments a branch\non the grid itself and on \
-         one of three times its cells each way (twice from 171 cells on, none beyond 256, where \
-         numbers\nhave the scale only). On the grid itself the rim lies where it lies in the \
-         run, so that the difference is its error.\n\n**Why bars may be too large.** Errors of \
-         cells and of increments add up where they have the same sign. Where the signs \
-         are\nopposite they are not taken to cancel, since neither is known well \
-         enough.\n\n**Where bars may be too small.** A slip ring narrower than half a cell may \
-         be missed as a whole, or found where there is\nnone. In the indentation of dissimilar \
-         bodies, whose only dissipation is in that ring, the dissipated energy may then \
-         be\nmissed, too.\n",
-        lines.join("\n")
-    );
-    std::fs::write(path, text)
-}
-
 #[test]
 fn error_bars_are_honest() {
     let asked = std::env::var("FRET_ERROR_BARS").ok();
@@ -291,6 +260,9 @@ fn error_bars_are_honest() {
     }
     lines.push(summary("all numbers", &all).1);
     println!("{}", lines.join("\n"));
-    report(scenes, &lines).expect("a report");
+    if let Ok(document) = std::env::var("FRET_ERROR_BARS_REPORT") {
+        let table = format!("```text\n{}\n```\n", lines.join("\n"));
+        document::insert(&document, "error-bars", &table);
+    }
     assert!(dishonest.is_empty(), "{}", dishonest.join("\n"));
 }

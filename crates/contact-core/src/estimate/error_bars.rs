@@ -41,9 +41,8 @@ use crate::march::{
 use crate::plan::Plan;
 use crate::scene::{Branch, Scene};
 
-/// Error of the position of the border of a stick zone, at least \[cells\]; reached for wide slip
-/// rings.
-const BORDER: f64 = 0.07;
+/// Error of the position of the border of a stick zone, at least \[cells\].
+const BORDER: f64 = 0.04;
 /// The same under a layer thinner than THIN cells, which alone sets the shear at the border: the
 /// root mean square of 16 grids of 64 to 512 cells under a stiff layer (titanium and 4 um of TiN,
 /// plane strain, bulk stress in phase).
