@@ -56,6 +56,8 @@ class State(OfRun):
     cells_per_radius: xr.DataArray
     p_max: xr.DataArray
     q_max: xr.DataArray
+    q_rms: xr.DataArray
+    q_scatter: xr.DataArray
     work: xr.DataArray
     elastic: xr.DataArray
     dissipated: xr.DataArray
