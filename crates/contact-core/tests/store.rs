@@ -152,13 +152,14 @@ fn everything_comes_back() {
     assert_eq!(*store.scene(), solved);
     assert_eq!(store.increments(), 12);
     for scalar in SCALARS {
-        let expected: Vec<_> = increments.iter().map(scalar.value).collect();
-        assert_eq!(
-            store.column(scalar.name).unwrap(),
-            expected,
-            "{}",
-            scalar.name
-        );
+        let expected: Vec<_> = increments
+            .iter()
+            .map(scalar.value)
+            .map(f64::to_bits)
+            .collect();
+        let column = store.column(scalar.name).unwrap();
+        let bits: Vec<_> = column.into_iter().map(f64::to_bits).collect();
+        assert_eq!(bits, expected, "{}", scalar.name);
     }
     let ends: Vec<_> = witness
         .kept
