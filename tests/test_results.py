@@ -260,3 +260,53 @@ def test_an_exception_of_an_observer_stops_the_run(tmp_path: Path) -> None:
     with pytest.raises(LookupError, match="enough"):
         fret._core.solve(scene, store=tmp_path / "run.zarr", on_increment=stop)
     assert fret.open(tmp_path / "run.zarr").dataset.sizes["increment"] == 3
+
+
+#: An indentation with a ring of slip that is narrower than a cell of 32 x 32.
+NARROW_RING = """
+schema = 1
+[body1]
+shape.sphere.R = 0.01
+E = 210e9
+nu = 0.22
+[body2]
+shape = "flat"
+E = 112e9
+nu = 0.09
+[[body2.coatings]]
+E = 52.5e9
+nu = 0.13
+thickness = { a_H = 0.1345 }
+[friction]
+mu = 0.33
+[grid]
+n = 128
+extent = { a_H = 3.0 }
+[solver]
+path_tolerance = 8e-3
+[[path]]
+W = 100.0
+[[path]]
+T_x = { mu_W = 0.56 }
+"""
+
+
+def test_the_error_of_the_shear_is_told_where_no_coarse_grid_sees_it(tmp_path: Path) -> None:
+    scene = fret.Scene.from_toml(NARROW_RING)
+    with pytest.warns(fret.errors.SceneWarning, match="leaves the shear"):
+        result = fret.solve(scene, out=tmp_path / "narrow.zarr", progress=False)
+    told = result.branches().path_error.values
+    chosen = result.scene.path.branches
+    finer = [b.replace(increments=8 * (b.increments or 0), path_error=None) for b in chosen]
+    truth = fret.solve(scene, result.scene.path.replace(branches=finer), progress=False)
+    shears = [
+        np.array([[run.at(t).q_x, run.at(t).q_y] for t in (1.0, 2.0)]) for run in (result, truth)
+    ]
+    largest = max(np.linalg.norm(shears[1][k]) for k in range(2))
+    for k in range(2):
+        error = np.linalg.norm(shears[0][k] - shears[1][k]) / largest
+        assert told[k] > 2 * (chosen[k].path_error or 0.0)
+        assert 0.2 < error / told[k] < 1.5
+        assert f"{100 * told[k]:.2f} %" in result.summary()
+    again = fret.open(tmp_path / "narrow.zarr").branches()
+    np.testing.assert_array_equal(again.path_error, told)

@@ -89,8 +89,8 @@ impl March {
         march.stop_on(stop.clone());
         match interruptible(py, &stop, || march.advance())? {
             None => {
-                let (reached, scene) = (self.reached.clone(), self.inner().scene().clone());
-                reached.check(&scene).map_err(to_python)?;
+                let scene = self.inner().scene().clone();
+                self.reached.check(&scene).map_err(to_python)?;
                 Ok(None)
             }
             Some(Err(error)) => Err(to_python(error)),

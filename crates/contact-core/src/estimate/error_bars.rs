@@ -41,7 +41,9 @@ use crate::march::{
 use crate::plan::Plan;
 use crate::scene::{Branch, Scene};
 
-/// Error of the position of the border of a stick zone, at least \[cells\].
+/// Error of the position of the border of a stick zone, at least \[cells\]. With it 99 % of the
+/// errors of the stick ratio in 160 random scenes (`make error-bars`) are at most 1.5 times, 81 %
+/// at least 0.2 times the bar.
 const BORDER: f64 = 0.04;
 /// The same under a layer thinner than THIN cells, which alone sets the shear at the border: the
 /// root mean square of 16 grids of 64 to 512 cells under a stiff layer (titanium and 4 um of TiN,

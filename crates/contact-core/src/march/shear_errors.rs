@@ -6,14 +6,14 @@
 //! random indentations of dissimilar bodies, 42 cells across their radius, the error over the
 //! scatter is between 0.4 and 1.6.
 //!
-//! While bodies are pressed alone, it is the scatter of that time. Afterwards a cell that sticks keeps
-//! the error, one that slips loses it, and the scatter grows by the bends of a shear that turns: the
-//! least scatter since is a bound.
+//! While bodies are only pressed, it is the scatter of that time. Afterwards a cell that sticks
+//! keeps the error, one that slips loses it, and the scatter grows by the bends of a shear that
+//! turns: the least scatter since is a bound.
 
 use super::Increment;
 use super::accounts::SAMPLES;
 use super::growing::are_paraboloids;
-use crate::scene::{Branch, Scene};
+use crate::scene::Scene;
 
 /// For every branch of a scene, the error of the shear at its end: L2 norm over the largest of the
 /// path. Its `path_error` (0 if it has none) and, where smooth bodies came into contact on
@@ -31,13 +31,14 @@ pub fn shear_errors(scene: &Scene, increments: &[Increment]) -> Vec<f64> {
     let over_contact = |rms: f64, end: &Increment| rms * end.contact_area.sqrt();
     let shears = ends.clone().map(|end| over_contact(end.q_rms, end));
     let largest = shears.fold(f64::MIN_POSITIVE, f64::max);
+    let branches = scene.path.branches.iter();
+    let pressed = branches.take_while(|branch| branch.only_presses()).count();
     let mut kept = f64::INFINITY;
     for end in ends {
         let scatter = over_contact(end.q_scatter.unwrap_or(0.0), end);
-        let mut until = scene.path.branches.iter().take(end.point.branch + 1);
         kept = if end.contact_area <= 0.0 {
             f64::INFINITY
-        } else if until.all(Branch::only_presses) {
+        } else if end.point.branch < pressed {
             scatter
         } else {
             kept.min(scatter)

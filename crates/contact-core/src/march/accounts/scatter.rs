@@ -1,9 +1,9 @@
 //! How much the shear scatters from cell to cell where the bodies stick.
 //!
-//! Where a contact grows, a cell that comes to stick within an increment is taken to have stuck from
-//! its start. The slip that is missing differs from ring to ring of cells, and so does the error of
-//! the shear, while the shear itself has a smooth course. The sixth difference of samples along rows and
-//! columns of cells leaves the errors alone:
+//! Where a contact grows, a cell that comes to stick within an increment is taken to have stuck
+//! from its start. The slip that is missing differs from ring to ring of cells, and so does the
+//! error of the shear, while the shear itself has a smooth course. The sixth difference of samples
+//! along rows and columns of cells leaves the errors alone:
 //!
 //! ```text
 //! s^2 = mean of (D q)^2/924,   D q = q_-3 - 6 q_-2 + 15 q_-1 - 20 q_0 + 15 q_1 - 6 q_2 + q_3
