@@ -306,3 +306,31 @@ def test_a_run_with_chosen_increments_knows_how_many_there_are(tmp_path: Path) -
     fret._core.solve(scene, store=tmp_path / "run.zarr", on_increment=lambda *at: told.append(at))
     count = fret.open(tmp_path / "run.zarr").dataset.sizes["increment"]
     assert told == [(n, count) for n in range(1, count + 1)]
+
+
+TEMPLATES = Path(__file__).parents[1] / "crates" / "fret-cli" / "templates"
+
+
+@pytest.mark.parametrize("of", ["sphere", "cylinder"])
+@pytest.mark.parametrize(
+    ("slip", "says"),
+    [
+        ("body1.E=210", "smaller than the bodies' radius R = "),
+        ("body1.shape.{of}.R=50", "R = 50 m is large"),
+        ("path.0.W=3e8", "W = 3"),
+        ("grid.extent=1e-5", "the grid is 1.0000e-5 m"),
+    ],
+)
+def test_slips_of_units_are_told_of_a_line_as_of_a_ball(of: str, slip: str, says: str) -> None:
+    name = {"sphere": "uncoated_ball", "cylinder": "cylinder"}[of]
+    text = (TEMPLATES / f"{name}.toml").read_text()
+    with warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        try:
+            fret.Scene.from_toml(text, set=[slip.format(of=of)]).check()
+            told = ""
+        except fret.errors.InvalidSceneError as refused:
+            told = str(refused)
+    told += " ".join(str(doubt.message) for doubt in doubts)
+    assert says in told
+    assert "approach" not in told

@@ -83,9 +83,11 @@ impl Scene {
         Ok(())
     }
 
-    /// The same for the scales that follow from them.
+    /// The same for the scales that follow from them. The approach of a line contact is negative on
+    /// a grid shorter than 0.3 of its half-width, on which it does not fit
+    /// ([`Self::check_fit`]).
     pub(super) fn check_yardsticks(&self) -> Result<(), Error> {
-        let approach = self.approach();
+        let approach = self.approach().abs();
         if approach == 0.0 || (SMALLEST..=LARGEST).contains(&approach) {
             return Ok(());
         }

@@ -144,8 +144,8 @@ impl Scene {
                 return Err(Error::invalid(format!("path.{key}"), stress, allowed));
             }
         }
-        self.check_yardsticks()?;
         self.check_sense()?;
+        self.check_yardsticks()?;
         self.settings.check()?;
         self.check_path_grid()?;
         self.check_saved()
