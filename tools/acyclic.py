@@ -15,8 +15,10 @@ from pathlib import Path
 
 CRATES = (
     "crates/contact-core/src",
+    "crates/eigenstrain/src",
     "crates/fatigue/src",
     "crates/fracture/src",
+    "crates/plasticity/src",
     "crates/pyfret/src",
     "crates/fret-cli/src",
 )
