@@ -118,3 +118,23 @@ def test_a_sliding_cylinder_shakes_down_where_johnson_says(mu: float) -> None:
         assert limits[0.3] == pytest.approx(4.0, rel=1e-3)
     # Otherwise the range of s_yy takes its part of von Mises' stress.
     assert limits[0.3] <= limits[0.4999] * (1 + 1e-9)
+
+
+def test_a_stress_that_does_not_change_has_no_limit_of_shakedown() -> None:
+    # Without friction a shift changes nothing: the layer is pressed once and stays so.
+    steel = fret.Elastic(E=210e9, nu=0.3)
+    path = fret.LoadPath.start().normal(W, increments=1)
+    path = path.displace(delta_x=[1e-6, -1e-6, 1e-6], increments=2)
+    a = fret.reference.hertz(R=R, bodies=(steel, steel), W=W).a
+    scene = fret.Scene(
+        body1=fret.Body(steel, shape=fret.Sphere(R=R)),
+        body2=fret.Body(steel),
+        mu=0.0,
+        grid=fret.Grid.centred(extent=3 * a, n=32),
+        path=path,
+    )
+    factors = fret.solve(scene, save="all", progress=False).load_factors(S_Y)
+    least = factors.least("shakedown")
+    assert least.factor == np.inf
+    assert least.error == 0.0
+    assert 0.0 < factors.least("von_mises").factor < np.inf

@@ -20,6 +20,11 @@
 //! criterion is a smooth function of the plane, a piece, whose maximum Newton's method finds; if
 //! other instants decide there, their piece is next. The criterion is the largest of these smooth
 //! functions, so that its maximum is found to rounding, far closer than the proved bound.
+//!
+//! Two planes whose normals are n and the direction of the shear amplitude on n are complementary:
+//! n.dS.s is the shear amplitude on both if two instants, which differ by 2 dS, decide. If the
+//! first part is the shear amplitude and decides alone, the search may find one of the two. The
+//! other one is always compared with it.
 
 use crate::hemisphere::{Face, midway};
 use crate::lanes::LANES;
@@ -284,8 +289,8 @@ impl Buffers {
         }
     }
 
-    /// Of the planes found, that of the largest first part; of equal ones, that of the larger
-    /// second part.
+    /// Of the planes found and their complementary planes, that of the largest first part; of equal
+    /// ones, that of the larger second part.
     fn of_the_first_part(&mut self, f: &mut impl PlaneFunction, best: &mut Peak) {
         let enough = best.value - f.tie() * best.value.abs();
         let mut found: Option<([f64; 3], [f64; 2])> = None;
@@ -303,16 +308,20 @@ impl Buffers {
                     (n, parts) = (top, higher);
                 }
             }
-            let better = found.is_none_or(|(_, [first, second])| {
-                let equal = (parts[0] - first).abs() <= EQUAL * first;
-                if equal {
-                    parts[1] > second
-                } else {
-                    parts[0] > first
+            let other = f.deciding(n).complementary(n);
+            let other = other.map(|other| (other, f.parts(other)));
+            for (n, parts) in [Some((n, parts)), other].into_iter().flatten() {
+                let better = found.is_none_or(|(_, [first, second])| {
+                    let equal = (parts[0] - first).abs() <= EQUAL * first;
+                    if equal {
+                        parts[1] > second
+                    } else {
+                        parts[0] > first
+                    }
+                });
+                if better {
+                    found = Some((n, parts));
                 }
-            });
-            if better {
-                found = Some((n, parts));
             }
         }
         if let Some((n, _)) = found {

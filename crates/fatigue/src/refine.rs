@@ -69,6 +69,25 @@ impl Deciding {
         [first, normal(&self.second)]
     }
 
+    /// The normal of the complementary plane: the direction of the largest change of the shear
+    /// between deciding instants on the plane n. If two instants decide on n, the shear amplitude
+    /// there is not smaller than on n. None without shear.
+    pub(crate) fn complementary(&self, n: [f64; 3]) -> Option<[f64; 3]> {
+        let First::Shear(on) = &self.first else {
+            return None;
+        };
+        let shear = |[a, b]: [usize; 2]| {
+            let change = traction(&difference(&on[b], &on[a]), n);
+            let along = dot(change, n);
+            std::array::from_fn(|d| change[d] - along * n[d])
+        };
+        let changes = [[0, 1], [1, 2], [2, 0]].map(shear);
+        let largest = changes
+            .into_iter()
+            .max_by(|a, b| dot(*a, *a).total_cmp(&dot(*b, *b)))?;
+        (dot(largest, largest) > 0.0).then(|| unit(largest))
+    }
+
     fn with_circle(&self, n: [f64; 3], radius: impl Fn([[f64; 2]; 3]) -> f64) -> [f64; 2] {
         let normal = normal_weights(n);
         let of = |weights: &[f64; 6], s: &StressTensor| -> f64 {

@@ -46,6 +46,8 @@ Factor = Literal["von_mises", "tresca", "shakedown"]
 #: A yield stress [Pa] for all layers, a material that has one for the substrate, or one for each
 #: layer from the surface down, the substrate's last; layers of ``None`` are not judged.
 YieldStresses = float | Material | Sequence[float | Material | None]
+#: Load over limit below this part is rounding: the stress does not change, the factor is infinite.
+NO_USE = 1e-12
 
 
 class Least(NamedTuple):
@@ -109,13 +111,15 @@ class LoadFactors(Labelled):
         if found is None:
             raise ValueError("the section holds no number")
         use, error = found["score"], Errors(*found["errors"]).sum
+        if use < NO_USE:
+            use, error = 0.0, 0.0
         return Least(
             1.0 / use if use > 0.0 else np.inf,
             found["x"],
             found["y"],
             found["z"],
             found["layer"],
-            error / max(use, 1e-300) ** 2,
+            error / use**2 if use > 0.0 else 0.0,
         )
 
     def least(self, of: Factor = "von_mises") -> Least:

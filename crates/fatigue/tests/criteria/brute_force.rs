@@ -17,7 +17,7 @@ pub(crate) fn normals(count: usize) -> impl Iterator<Item = [f64; 3]> {
 }
 
 /// Traction on a plane.
-fn traction(s: &Tensor, n: [f64; 3]) -> [f64; 3] {
+pub(crate) fn traction(s: &Tensor, n: [f64; 3]) -> [f64; 3] {
     [
         s[0] * n[0] + s[3] * n[1] + s[4] * n[2],
         s[3] * n[0] + s[1] * n[1] + s[5] * n[2],
@@ -25,7 +25,7 @@ fn traction(s: &Tensor, n: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 

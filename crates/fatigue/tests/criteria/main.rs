@@ -12,6 +12,7 @@ mod refused;
 #[path = "../splitmix/mod.rs"]
 mod splitmix;
 mod symmetries;
+mod ties;
 mod yielding;
 
 use std::sync::atomic::AtomicBool;
