@@ -65,11 +65,11 @@ def test_every_page_is_in_the_contents() -> None:
     assert {source.resolve() for source in PAGES} == reached
 
 
-def test_eleven_questions_are_answered_within_two_clicks() -> None:
+def test_questions_are_answered_within_two_clicks() -> None:
     text = (DOCS / "index.md").read_text(encoding="utf-8")
-    table = text[text.index("## Eleven questions") :]
+    table = text[text.index("## Questions") :]
     rows = re.findall(r"\| ([^|]+[?.]) \| \[[^]]+\]\(([^)]+)\) \|", table)
-    assert len(rows) == 11
+    assert len(rows) >= 12
     for question, target in rows:
         assert page(DOCS / "index.md", target).is_file(), question
 

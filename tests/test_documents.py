@@ -114,7 +114,18 @@ def test_its_keywords_exist(document: Path) -> None:
 @pytest.mark.parametrize("document", DOCUMENTS, ids=ids)
 def test_its_options_exist(document: Path) -> None:
     commands = ("new", "run", "resume", "check", "stress", "wear", "completions", "man")
-    commands += ("study", "life", "crack", "export", "fit", "threshold", "report", "verify", "cite")
+    commands += (
+        "study",
+        "compare",
+        "life",
+        "crack",
+        "export",
+        "fit",
+        "threshold",
+        "report",
+        "verify",
+        "cite",
+    )
     environment = {**os.environ, "FRET_PYTHON": sys.executable}
     helps = {
         command: subprocess.run(

@@ -1,8 +1,8 @@
-"""Write the page of all figures, docs/reference/figures.md, with a thumbnail of each.
+"""Write the page of all figures, docs/reference/figures.md, with a picture of each.
 
     python tools/plot_page.py
 
-The code below a thumbnail is the one that drew it.
+The code above a picture is the one that drew it.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from pyfret import plot
 
 DOCS = Path(__file__).parents[1] / "docs"
 PICTURES = DOCS / "figures" / "plots"
-#: Pixels of a thumbnail's width, and its colours.
-WIDTH, COLOURS = 300, 96
+#: Pixels of a picture for one inch of its figure, the most across, and its colours.
+PIXELS, WIDTH, COLOURS = 110, 900, 64
 
 #: What is drawn of what, by what a reader looks for.
 FIGURES: dict[str, dict[str, str]] = {
@@ -72,6 +72,7 @@ FIGURES: dict[str, dict[str, str]] = {
         "temperature_map": 'fret.plot.temperature_map(hot, of="flash")',
     },
     "Many runs": {
+        "comparison": "fret.plot.comparison(compared)",
         "study_map": 'fret.plot.study_map(study, "loop_energy")',
         "running_map": "fret.plot.running_map(table)",
         "fretting_map": "fret.plot.fretting_map(table)",
@@ -180,6 +181,19 @@ def names() -> dict[str, Any]:
     running = fret.study.running_conditions(
         bare, W=np.linspace(3, W, 4), delta=np.linspace(0.1e-6, 1.2e-6, 5), executor=1
     )
+    coated = fret.Body(titanium, coatings=nitride)
+    compared = fret.compare(
+        {
+            "bare": fret.study.Candidate(line.body2, materials=table["titanium_6Al4V"]),
+            "nitride": fret.study.Candidate(
+                coated, mu=0.5, materials=table["titanium_6Al4V"], toughness=90.0
+            ),
+        },
+        line,
+        rig_path,
+        executor=1,
+        progress=False,
+    )
     return {
         "fret": fret,
         "result": result,
@@ -195,19 +209,18 @@ def names() -> dict[str, Any]:
         "study": study,
         "table": running,
         "stopping": stopping,
+        "compared": compared,
         "first": first,
     }
 
 
-def thumbnail(drawn: Any, place: Path) -> None:
-    """A small picture of a figure, of few colours."""
+def picture(drawn: Any, place: Path) -> None:
+    """A picture of a figure at the size at which it is read, of few colours."""
     figure = drawn if hasattr(drawn, "savefig") else drawn.get_figure()
     file = io.BytesIO()
-    figure.savefig(file, dpi=2.0 * WIDTH / figure.get_size_inches()[0])
+    figure.savefig(file, dpi=min(PIXELS, WIDTH / figure.get_size_inches()[0]))
     plt.close(figure)
-    image = Image.open(file).convert("RGB")
-    size = (WIDTH, round(WIDTH * image.height / image.width))
-    image.resize(size, Image.Resampling.LANCZOS).quantize(COLOURS).save(place, optimize=True)
+    Image.open(file).convert("RGB").quantize(COLOURS).save(place, optimize=True)
 
 
 def summary(name: str) -> str:
@@ -225,30 +238,29 @@ def page() -> str:
         "",
         "Every figure takes `ax=` to be laid over others or into a figure of yours, and `units=`",
         "where it is over a_H and p_H; each is a method of what it shows, too, such as",
-        "`result.plot.fretting_loop()`. Parameters are in the [reference](plot.md). The code below",
+        "`result.plot.fretting_loop()`. Parameters are in the [reference](plot.md). The code above",
         "each is what drew it: `result` is the run of a coated ball, `rig` one of a cylinder on",
         "titanium with a bulk stress. Written by `tools/plot_page.py`.",
     ]
     for title, figures in FIGURES.items():
-        lines += ["", f"## {title}", "", "| | |", "|---|---|"]
+        lines += ["", f"## {title}"]
         for name, code in figures.items():
-            about = summary(name).replace("|", "\\|")
-            picture = f"![{name}](../figures/plots/{name}.png)"
-            lines.append(f"| {picture} | **{name}**: {about}<br>`{code}` |")
+            lines += ["", f"### {name}", "", summary(name), ""]
+            lines += ["```py", code, "```", "", f"![{name}](../figures/plots/{name}.png)"]
     lines += ["", "## And", "", "| | |", "|---|---|"]
     lines += [f"| `{name}` | {says} |" for name, says in OTHERS.items()]
     return "\n".join(lines) + "\n"
 
 
 def main() -> None:
-    """Draw the thumbnails and write the page."""
+    """Draw the pictures and write the page."""
     mpl.use("agg")
     warnings.simplefilter("ignore")
     PICTURES.mkdir(parents=True, exist_ok=True)
     given = names()
     for figures in FIGURES.values():
         for name, code in figures.items():
-            thumbnail(eval(code, given), PICTURES / f"{name}.png")
+            picture(eval(code, given), PICTURES / f"{name}.png")
     (DOCS / "reference" / "figures.md").write_text(page(), encoding="utf-8")
 
 

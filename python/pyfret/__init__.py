@@ -65,6 +65,7 @@ from pyfret.scene.surfaces import read_surface
 from pyfret.scene.tables import show_in_notebooks
 from pyfret.snapshot import Snapshot
 from pyfret.solution import march, resume, solve
+from pyfret.study.compare import compare
 from pyfret.verification import verify
 
 if TYPE_CHECKING:
@@ -93,6 +94,7 @@ __all__ = [
     "SurfaceMap",
     "SurfaceOperator",
     "cite",
+    "compare",
     "errors",
     "experiments",
     "export",

@@ -60,17 +60,45 @@ const STYLES: Styles = Styles::styled()
 
 #[derive(Subcommand)]
 enum Command {
+    // Scenes and their solution.
     /// Write a commented scene to begin with
     New(new::Options),
+    /// Say what a scene means and what its solution needs; solve nothing
+    Check(check::Options),
     /// Run through the load path of a scene and write a result store
     Run(run::Options),
     /// Go on with a run that ended early, through a load path or over cycles of wear; the result is
     /// that of the uninterrupted run, bit by bit
     Resume(resume::Options),
-    /// Say what a scene means and what its solution needs; solve nothing
-    Check(check::Options),
+    // What follows from a result.
     /// Stress below the contact of a result: its largest values, and files of it
     Stress(stress::Options),
+    /// Judge the stress below the contact of a result over a cycle by a fatigue criterion
+    Life(life::Options),
+    /// Say whether a crack below the contact of a result grows or stops (needs the Python package)
+    Crack(python::Options),
+    /// Wear the surfaces of a scene with a table [wear] over many cycles
+    Wear(wear::Options),
+    /// Write a result as one page for a browser (needs the Python package)
+    Report(python::Options),
+    /// Write tractions, forces on a mesh or stress at points for another program (needs the Python
+    /// package)
+    Export(python::Options),
+    // Many runs.
+    /// Solve a scene for many values of its parameters (needs the Python package)
+    Study(python::Options),
+    /// Put bodies side by side in one scene, such as several coatings (needs the Python package)
+    Compare(python::Options),
+    /// Find the load at which a fatigue criterion reaches its limit (needs the Python package)
+    Threshold(python::Options),
+    /// Find unknowns of a scene (mu, a rig, a coating, wear) from a measured table (needs the
+    /// Python package)
+    Fit(python::Options),
+    // The program itself.
+    /// Check this installation against closed forms in minutes (needs the Python package)
+    Verify(python::Options),
+    /// Say what to cite for a result (needs the Python package)
+    Cite(python::Options),
     /// Write the completions of a shell to the standard output
     Completions {
         /// Which shell
@@ -81,27 +109,6 @@ enum Command {
         /// Folder; it is made if it does not exist
         folder: PathBuf,
     },
-    /// Wear the surfaces of a scene with a table [wear] over many cycles
-    Wear(wear::Options),
-    /// Solve a scene for many values of its parameters (needs the Python package)
-    Study(python::Options),
-    /// Judge the stress below the contact of a result over a cycle by a fatigue criterion
-    Life(life::Options),
-    /// Write tractions, forces on a mesh or stress at points for another program (needs the Python
-    /// package)
-    Export(python::Options),
-    /// Say whether a crack below the contact of a result grows or stops (needs the Python package)
-    Crack(python::Options),
-    /// Write a result as one page for a browser (needs the Python package)
-    Report(python::Options),
-    /// Find unknowns of a scene (mu, a rig, a coating, wear) from a measured table
-    Fit(python::Options),
-    /// Find the load at which a fatigue criterion reaches its limit
-    Threshold(python::Options),
-    /// Check this installation against closed forms in minutes (needs the Python package)
-    Verify(python::Options),
-    /// Say what to cite for a result (needs the Python package)
-    Cite(python::Options),
 }
 
 /// Runs the command that the arguments name, the first of them the program's name, and gives the
@@ -134,6 +141,7 @@ pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Man { folder } => manual(&folder),
         Command::Wear(options) => wear::wear(&options),
         Command::Study(options) => return in_python("study", &options.arguments),
+        Command::Compare(options) => return in_python("compare", &options.arguments),
         Command::Life(options) => life::life(&options),
         Command::Export(options) => return in_python("export", &options.arguments),
         Command::Crack(options) => return in_python("crack", &options.arguments),

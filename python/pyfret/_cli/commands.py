@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pyfret import verification, wear
-from pyfret._cli import crack, export, fit, threshold
+from pyfret._cli import compare, crack, export, fit, threshold
 from pyfret._cli.parser import Parser, added
 from pyfret._core import __version__
 from pyfret.citation import cite as told
@@ -47,6 +47,7 @@ def parser() -> argparse.ArgumentParser:
     study.add_argument("--scheduler", help="address of a Dask cluster, such as tcp://host:8786")
     study.add_argument("--again", action="store_true", help="also points that failed before")
     study.add_argument("--map", metavar="FILE", help="figure of the first measure (.png, .svg)")
+    compare.add_options(commands)
     export.add_options(commands)
     crack.add_options(commands)
     fit.add_options(commands)
@@ -203,6 +204,7 @@ def run(arguments: Sequence[str] | None) -> int:
         return int(ended.code or 0)
     commands = {
         "study": study,
+        "compare": compare.run,
         "export": export.run,
         "crack": crack.run,
         "report": report,

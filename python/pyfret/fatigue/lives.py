@@ -28,6 +28,7 @@ from pyfret.fatigue.cycle_section import (
     over_cycle,
     side_by_side,
 )
+from pyfret.fatigue.ranges import Range, of_error
 from pyfret.fatigue.section import Section, for_each_layer
 from pyfret.scene.tables import table
 
@@ -188,6 +189,16 @@ class Life(Labelled):
                 found.get("inclination"),
             )
         return self._worst[layer]
+
+    def margin_of(self, layer: int) -> Range:
+        """Give the margin at the worst point of a layer, from the error of its stress alone.
+
+        The scatter of the material is no part of it: it is the same for two contacts of one
+        material that are compared.
+        """
+        worst, assessment = self.worst_of(layer), self._assessments[layer]
+        assert assessment is not None
+        return of_error(assessment, worst.value, worst.error)
 
     @property
     def worst(self) -> Worst:

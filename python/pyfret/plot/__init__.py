@@ -7,6 +7,7 @@ of the paper from its four runs in one call.
 
 from pyfret._util.names import listing
 from pyfret.plot.animation import animate
+from pyfret.plot.comparison import comparison
 from pyfret.plot.crack_section import crack_panels, crack_path
 from pyfret.plot.cracks import crack_arrest, intensity_history, kitagawa
 from pyfret.plot.design_chart import design_chart
@@ -39,6 +40,7 @@ from pyfret.plot.wear import depth_map, wear_history, wear_loops, wear_profiles
 __all__ = [
     "animate",
     "arrest_map",
+    "comparison",
     "crack_arrest",
     "crack_panels",
     "crack_path",

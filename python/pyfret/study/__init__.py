@@ -9,6 +9,9 @@ study of the load path that a map of running conditions needs. ::
 """
 
 from pyfret._util.names import called, listing
+from pyfret.study.candidate import Candidate
+from pyfret.study.compare import compare
+from pyfret.study.comparison import Comparison
 from pyfret.study.design import varied
 from pyfret.study.loads import arrest_map, running_conditions
 from pyfret.study.loop import solve
@@ -20,6 +23,8 @@ __all__ = [
     "MEASURES",
     "Arrest",
     "Averaged",
+    "Candidate",
+    "Comparison",
     "Cracking",
     "FirstToFail",
     "Limits",
@@ -27,6 +32,7 @@ __all__ = [
     "Threshold",
     "Wear",
     "arrest_map",
+    "compare",
     "fit_limits",
     "open",
     "running_conditions",

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
@@ -33,6 +33,15 @@ __all__ = ["Combine", "Design", "Source", "varied"]
 Combine: TypeAlias = Literal["grid", "zip"]
 #: A scene, its file, or a function that makes one of the values of the parameters.
 Source: TypeAlias = "Scene | str | PathLike[str] | Callable[[dict[str, Any]], Scene]"
+
+
+@runtime_checkable
+class Described(Protocol):
+    """A function that says what its scenes are made of, by which studies are told apart."""
+
+    def describe(self) -> str:
+        """All that its scenes follow from."""
+
 
 #: Parameters with a short name, and their keys in a scene file.
 SHORT = {"mu": "friction.mu"}
@@ -205,6 +214,8 @@ class Design:
         elif isinstance(source, str | PathLike):
             what = read_text(Path(source))
             files = self.files(Path(source), what)
+        elif isinstance(source, Described):
+            what = source.describe()
         else:
             what = function_name(source)
         design = {

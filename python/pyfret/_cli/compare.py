@@ -1,0 +1,56 @@
+"""``fret compare FILE``: which of these coatings."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from pyfret._cli.parser import added
+from pyfret.study.compare_file import run_file
+
+if TYPE_CHECKING:
+    import argparse
+
+__all__ = ["add_options", "run"]
+
+
+def add_options(commands: argparse._SubParsersAction[Any]) -> None:
+    """Add the command and its options."""
+    compare = added(commands, "compare", "put bodies side by side, such as several coatings")
+    compare.add_argument("file", help="file of the comparison (TOML)")
+    compare.add_argument("-o", "--out", help="store (default: that of the file, or NAME.zarr)")
+    compare.add_argument("--workers", type=int, help="processes (default: one for each processor)")
+    compare.add_argument("--again", action="store_true", help="also bodies that failed before")
+    compare.add_argument("--figure", metavar="FILE", help="figure of all numbers (.png, .svg)")
+    compare.add_argument("--report", metavar="FILE", help="page for a browser (.html)")
+    compare.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Compare and print the table; 1 where a body could not be solved."""
+    found, place = run_file(
+        options.file, out=options.out, executor=options.workers, again=options.again
+    )
+    if options.json:
+        d = found.dataset
+        numbers = {
+            name: {
+                "unit": d[name].attrs["units"],
+                "better": verdict.best,
+                "worse": verdict.worse,
+                "values": {
+                    of: [float(d[f"{name}{side}"][n]) for side in ("_low", "", "_high")]
+                    for n, of in enumerate(found.candidates)
+                },
+            }
+            for name, verdict in ((name, found.verdict(name)) for name in found.numbers)
+        }
+        answer = {"store": str(place), "numbers": numbers, "missing": found.missing}
+        print(json.dumps({**answer, "failed": found.failed}, indent=2))
+    else:
+        print(found.summary())
+    if options.figure:
+        found.plot().savefig(options.figure)
+    if options.report:
+        found.report(options.report)
+    return 1 if found.failed else 0

@@ -1,0 +1,40 @@
+"""A number that is known within a range: low, best, high."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from pyfret._core import Assessment
+
+__all__ = ["Range", "of_error"]
+
+
+class Range(NamedTuple):
+    """A number and the range that it lies in."""
+
+    low: float
+    best: float
+    high: float
+
+    @property
+    def factor(self) -> float:
+        """The highest over the lowest value."""
+        return self.high / self.low if self.low > 0.0 else math.inf
+
+    def __repr__(self) -> str:
+        """Give the best value and the range in two digits, since it is not known better."""
+        best, low, high = (f"{of:.2g}" for of in (self.best, self.low, self.high))
+        return (
+            f"{best} ({low} to {high})" if math.isfinite(self.high) else f"{best} ({low} or more)"
+        )
+
+
+def of_error(assessment: Assessment, value: float, error: float) -> Range:
+    """The margin, a life or a safety factor, of a value of a criterion and of its error.
+
+    The margin falls as the value grows: its lowest is that of the value and its error together.
+    """
+    margin = assessment.life if assessment.limit is None else assessment.safety_factor
+    return Range(margin(value + error), margin(value), margin(max(value - error, 0.0)))

@@ -1,0 +1,130 @@
+"""What is compared: a body, and what is known of its layers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, Literal
+
+from pyfret._core import Material
+from pyfret.fatigue.section import for_each_layer
+
+if TYPE_CHECKING:
+    from pyfret._core import Body
+    from pyfret._core import _WearLaw as WearLaw
+    from pyfret.fatigue.criteria import CriterionName
+    from pyfret.fatigue.factors import YieldStresses
+    from pyfret.fatigue.lives import Materials
+    from pyfret.fracture import Threshold
+    from pyfret.heat import Conductors
+
+__all__ = ["Candidate", "Duty", "candidate"]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A body that is compared with others, and what is known of its layers.
+
+    A question whose numbers are missing has no answer; the comparison says which are missing.
+    Layers count from the surface down, the substrate last.
+
+    Examples
+    --------
+    >>> from pyfret import Body, Coating, material
+    >>> titanium = material("titanium_6Al4V")
+    >>> coated = Body(titanium, coatings=[Coating(material("TiN"), thickness=3e-6)])
+    >>> Candidate(coated, mu=0.5, residual=(-2e9, 0.0)).mu
+    0.5
+    """
+
+    #: The body, with its coatings.
+    body: Body
+    #: Coefficient of friction (default: that of the scene).
+    mu: float | None = None
+    #: Material of the substrate, or of every layer, for lives.
+    materials: Materials | None = None
+    #: Yield stress of the substrate, or of every layer [Pa] (default: that of the materials).
+    s_y: YieldStresses | None = None
+    #: Residual stress of every layer [Pa], tension positive.
+    residual: Sequence[float] | None = None
+    #: Energy release rate at which a crack channels through the outermost coating [J/m^2].
+    toughness: float | None = None
+    #: Strengths of the interfaces [Pa].
+    peel_strength: float | None = None
+    shear_strength: float | None = None
+    #: Crack growth threshold of the substrate.
+    threshold: Threshold | None = None
+    #: How the body wears: one law, or one for every layer.
+    wear: WearLaw | list[WearLaw | None] | None = None
+    #: Conductors of heat, one for all layers or one for each.
+    conductor: Conductors | None = None
+
+    @property
+    def layers(self) -> int:
+        """Number of layers, the substrate among them."""
+        return len(self.body.coatings) + 1
+
+    @property
+    def of_layers(self) -> list[Material | None]:
+        """The material of every layer; None where nothing is known."""
+        if self.materials is None:
+            return [None] * self.layers
+        each: list[Material | None] = for_each_layer(
+            self.materials, self.layers, "material", "materials"
+        )
+        return each
+
+    @property
+    def yields(self) -> list[float | Material | None]:
+        """The yield stress of every layer; None where it is not known."""
+        if self.s_y is not None:
+            given = self.s_y
+            if not isinstance(given, Sequence | Material):
+                given = [*[None] * (self.layers - 1), given]
+            each: list[float | Material | None] = for_each_layer(
+                given, self.layers, "yield stress", "yield stresses"
+            )
+            return each
+        return [of if of and has(of, "s_y") else None for of in self.of_layers]
+
+    def describe(self) -> dict[str, Any]:
+        """All of it as text, to tell comparisons apart."""
+        return {of.name: repr(getattr(self, of.name)) for of in fields(self)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Duty:
+    """What all candidates go through, and what they run against."""
+
+    #: Which body is exchanged.
+    body_number: Literal[1, 2] = 2
+    #: Criterion of the lives.
+    criterion: CriterionName = "smith_watson_topper"
+    #: Cycles of wear.
+    cycles: float | None = None
+    #: As in :func:`pyfret.wear.solve`.
+    cycling: Literal["march", "sliding"] = "march"
+    #: How the other body wears.
+    other_wear: WearLaw | list[WearLaw | None] | None = None
+    #: Conductor of the other body.
+    other_conductor: Conductors | None = None
+    #: Cycles per second [Hz].
+    frequency: float | None = None
+
+    def pair(self, exchanged: Any, other: Any) -> tuple[Any, Any]:
+        """What belongs to body 1 and to body 2."""
+        return (other, exchanged) if self.body_number == 2 else (exchanged, other)
+
+    def describe(self) -> dict[str, Any]:
+        """All of it as text, to tell comparisons apart."""
+        return {of.name: repr(getattr(self, of.name)) for of in fields(self)}
+
+
+def has(material: Material, name: str) -> bool:
+    """Whether a number of a material is known."""
+    return any(key == name for key, _, _ in material.numbers())
+
+
+def candidate(of: Body | Candidate) -> Candidate:
+    """A candidate of which the body alone may be given."""
+    return of if isinstance(of, Candidate) else Candidate(of)

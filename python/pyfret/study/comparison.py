@@ -1,0 +1,319 @@
+"""What a comparison of bodies came to: numbers side by side, each with its error."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from pyfret._util import files
+from pyfret._util.labelled import Labelled
+from pyfret._util.lazy import xr
+from pyfret._util.numbers import in_words, length
+from pyfret.fatigue.ranges import Range
+from pyfret.run.summary import with_error
+from pyfret.scene.tables import table
+from pyfret.study.point import FAILED
+from pyfret.study.questions import NUMBERS, Number
+
+if TYPE_CHECKING:
+    import os
+
+    from matplotlib.figure import Figure
+
+    from pyfret.plot.comparison import Panel
+    from pyfret.study.outcome import Study
+
+__all__ = ["Comparison", "Verdict"]
+
+#: Digits of a number without an error.
+DIGITS = 4
+
+
+class Verdict(NamedTuple):
+    """Which of the candidates a number speaks for."""
+
+    #: Those that no other one is better than, beyond the errors.
+    best: list[str]
+    #: Those that are worse, beyond the errors.
+    worse: list[str]
+
+    def __str__(self) -> str:
+        """Say so in a few words."""
+        if not self.worse:
+            return "no difference" if len(self.best) > 1 else ""
+        alike = " (no difference)" if len(self.best) > 1 else ""
+        return f"best: {', '.join(self.best)}{alike}"
+
+
+class Comparison(Labelled):
+    """Candidates side by side.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Over ``candidate``: the numbers in SI units, such as ``tension`` [Pa], and of each the range
+        that its error leaves, ``tension_low`` and ``tension_high``; NaN where a candidate has none.
+    missing : mapping of str to str
+        What was not known, by candidate and question.
+    failed : mapping of str to str
+        Candidates without a solution, and why.
+    study : Study
+        The points that it was made of, on two grids.
+    """
+
+    def __init__(
+        self,
+        dataset: xr.Dataset,
+        missing: Mapping[str, str],
+        failed: Mapping[str, str],
+        study: Study | None = None,
+    ) -> None:
+        super().__init__(dataset)
+        self.missing, self.failed, self.study = dict(missing), dict(failed), study
+
+    @classmethod
+    def of(
+        cls,
+        study: Study,
+        missing: Mapping[str, str],
+        *,
+        title: str,
+        coatings: Sequence[int],
+        doubts: Mapping[str, Sequence[str]],
+    ) -> Comparison:
+        """What a study of the candidates on two grids says; a RuntimeError if none was solved.
+
+        `coatings` and `doubts` are the number of coatings of each, and what is doubted of it.
+        """
+        given = study.dataset
+        names = [str(name) for name in given["candidate"].values]
+        failed: dict[str, str] = {}
+        for point, reason in study.failed():
+            name = str(point["candidate"])
+            failed[unquoted(name)] = reason
+        fine = given.isel(coarser=0)
+        if (fine["status"] == FAILED).all():
+            reasons = "; ".join(f"{name}: {reason}" for name, reason in failed.items())
+            raise RuntimeError(f"no candidate could be solved: {reasons}")
+        dataset = xr.Dataset(
+            {"coatings": ("candidate", list(coatings))},
+            coords={"candidate": [unquoted(name) for name in names]},
+            attrs={"title": title},
+        )
+        for name, about in NUMBERS.items():
+            if name in given and bool(np.isfinite(fine[name]).any() | np.isinf(fine[name]).any()):
+                for suffix, values in ranges(given, name, about).items():
+                    dataset[f"{name}{suffix}"] = ("candidate", values, fine[name].attrs)
+        places = [str(v) for v in fine.data_vars if str(v).endswith(("_x", "_z", "_layer"))]
+        for name in places:
+            if bool(np.isfinite(fine[name]).any()):
+                dataset[name] = ("candidate", fine[name].values, fine[name].attrs)
+        told = [f"{name}: {doubt}" for name, of in doubts.items() for doubt in of]
+        if told:
+            dataset.attrs["doubts"] = "\n".join(told)
+        return cls(dataset, missing, failed, study)
+
+    @property
+    def candidates(self) -> list[str]:
+        """Names of the candidates."""
+        return [str(name) for name in self.dataset["candidate"].values]
+
+    @property
+    def layer_names(self) -> list[list[str]]:
+        """Names of the layers of every candidate, from the surface down."""
+        return [layer_names(int(count)) for count in self.dataset["coatings"].values]
+
+    @property
+    def numbers(self) -> list[str]:
+        """Names of the numbers that at least one candidate has."""
+        return [name for name in NUMBERS if name in self.dataset]
+
+    def verdict(self, of: str) -> Verdict:
+        """Give who is best in a number, and who is worse beyond the errors.
+
+        A candidate is worse where its range does not overlap with that of the best one.
+
+        Raises
+        ------
+        ValueError
+            No candidate has such a number.
+        """
+        if of not in self.numbers:
+            raise ValueError(f"of = {of!r}: must be one of {', '.join(self.numbers)}")
+        d = self.dataset
+        sign = 1.0 if NUMBERS[of].better == "larger" else -1.0
+        known = {
+            name: sorted((sign * float(d[f"{of}_low"][n]), sign * float(d[f"{of}_high"][n])))
+            for n, name in enumerate(self.candidates)
+            if not math.isnan(float(d[of][n]))
+        }
+        values = {name: sign * float(d[of].sel(candidate=name)) for name in known}
+        least = known[max(values, key=lambda name: values[name])][0]
+        best = [name for name, (_, most) in known.items() if most >= least]
+        return Verdict(best, [name for name in known if name not in best])
+
+    def rows(self) -> list[list[str]]:
+        """The table as text: a head, then a line for every number."""
+        lines = [["", "", *self.candidates, ""]]
+        for name in self.numbers:
+            lines.append(self.row(name))
+            if f"{name}_layer" in self.dataset:
+                places = [self.place(name, n) for n in range(len(self.candidates))]
+                lines.append(["  where", "", *places, ""])
+        return lines
+
+    def row(self, name: str) -> list[str]:
+        """A number of all candidates as text."""
+        about, d = NUMBERS[name], self.dataset
+        scale, unit = in_table(about, str(d[name].attrs["units"]))
+        cells = [
+            cell(about, *(float(d[f"{name}{side}"][n]) / scale for side in ("", "_low", "_high")))
+            for n in range(len(self.candidates))
+        ]
+        return [about.title, "" if unit == "1" else unit, *cells, str(self.verdict(name))]
+
+    def place(self, name: str, n: int) -> str:
+        """Where a number of a candidate is found: its layer, and the place in it."""
+        d = self.dataset
+        layer = float(d[f"{name}_layer"][n])
+        if math.isnan(layer):
+            return ""
+        x = f", x = {length(float(d[f'{name}_x'][n]))}" if f"{name}_x" in d else ""
+        z = float(d[f"{name}_z"][n])
+        below = f"z = {length(z)}" if z else "surface"
+        return f"{self.layer_names[n][int(layer)]}, {below}{x}"
+
+    def summary(self) -> str:
+        """The table as text, and what is missing or to be doubted."""
+        rows = self.rows()
+        widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+        lines = [
+            "  ".join(of.ljust(width) for of, width in zip(row, widths, strict=True)).rstrip()
+            for row in rows
+        ]
+        return "\n".join([str(self.dataset.attrs["title"] or "comparison"), *lines, *self.notes()])
+
+    def notes(self) -> list[str]:
+        """What has no answer, what failed and what is to be doubted."""
+        lines = [f"no answer for {name}: missing is {what}" for name, what in self.missing.items()]
+        lines += [f"{name} failed: {reason}" for name, reason in self.failed.items()]
+        doubts = str(self.dataset.attrs.get("doubts", ""))
+        return lines + [f"doubted: {doubt}" for doubt in doubts.splitlines()]
+
+    def panels(self) -> list[Panel]:
+        """The numbers as a figure has them: in the units of the table, ordered by the verdict."""
+        from pyfret.plot.comparison import Panel
+
+        found = []
+        for name in self.numbers:
+            about, d, verdict = NUMBERS[name], self.dataset, self.verdict(name)
+            scale, unit = in_table(about, str(d[name].attrs["units"]))
+            alike = not verdict.worse and len(verdict.best) > 1
+            order = [0 if alike else 1 if of in verdict.best else 2 for of in self.candidates]
+            values, low, high = (
+                d[f"{name}{side}"].values / scale for side in ("", "_low", "_high")
+            )
+            found.append(
+                Panel(
+                    about.title,
+                    unit,
+                    about.better,
+                    about.endless,
+                    about.logarithmic,
+                    values,
+                    low,
+                    high,
+                    order,
+                )
+            )
+        return found
+
+    def plot(self) -> Figure:
+        """Draw a panel for every number: :func:`pyfret.plot.comparison`."""
+        from pyfret.plot import comparison
+
+        return comparison(self)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the numbers to a Zarr folder (``.zarr``) or a NetCDF file (``.nc``)."""
+        files.write(self.dataset, path)
+
+    def report(self, path: str | os.PathLike[str]) -> None:
+        """Write a page for a browser: the table and the figure."""
+        import base64
+        import io
+
+        drawn = io.BytesIO()
+        self.plot().savefig(drawn, format="svg")
+        picture = base64.b64encode(drawn.getvalue()).decode()
+        title = escape(str(self.dataset.attrs["title"] or "comparison"))
+        Path(path).write_text(
+            f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>'
+            "<style>body{font-family:sans-serif;margin:2em}td,th{padding:.3em .8em;"
+            "text-align:left;border-bottom:1px solid #ddd}img{max-width:100%}</style>"
+            f'<h1>{title}</h1>{self._repr_html_()}<img alt="the same numbers with their errors" '
+            f'src="data:image/svg+xml;base64,{picture}"></html>',
+            encoding="utf-8",
+        )
+
+    def _repr_html_(self) -> str:
+        """The table for notebooks."""
+        head, *rows = self.rows()
+        body = [[escape(text) for text in row] for row in rows]
+        notes = "".join(f"<p>{escape(note)}</p>" for note in self.notes())
+        return f"{table([escape(text) for text in head], body)}{notes}"
+
+    def __repr__(self) -> str:
+        """Give the candidates and the numbers."""
+        return f"Comparison({', '.join(self.candidates)}: {', '.join(self.numbers)})"
+
+
+def layer_names(coatings: int) -> list[str]:
+    """Names of the layers of a body: coatings count from one, the outermost first."""
+    many = [f"coating {n + 1}" for n in range(coatings)]
+    return [*(["coating"] if coatings == 1 else many), "substrate"]
+
+
+def unquoted(name: str) -> str:
+    """The name of a candidate, which a study holds as text of TOML."""
+    return name[1:-1] if name.startswith('"') else name
+
+
+def ranges(study: xr.Dataset, name: str, about: Number) -> dict[str, np.ndarray]:
+    """A number on the finer cells with the range that the coarser ones and its own error leave."""
+    value = study[name].isel(coarser=0).values.astype(float)
+    low, high = (study[f"{name}_{side}"].isel(coarser=0).values for side in ("low", "high"))
+    other = study[name].isel(coarser=1).values.astype(float)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        if about.logarithmic:
+            # As far below as above, counted as a factor.
+            factor = np.nan_to_num(np.maximum(value / other, other / value), nan=1.0)
+            below, above = value / factor, value * factor
+        else:
+            error = np.nan_to_num(np.abs(value - other))
+            below, above = value - error, value + error
+    return {"": value, "_low": np.fmin(low, below), "_high": np.fmax(high, above)}
+
+
+def in_table(about: Number, unit: str) -> tuple[float, str]:
+    """Scale and unit of a number in the table; energies are those of the scene."""
+    if about.si:
+        return about.scale, about.unit
+    return (1e-3, "mJ/m") if unit == "J/m" else (1e-6, "uJ")
+
+
+def cell(about: Number, value: float, low: float, high: float) -> str:
+    """A number with its range as text."""
+    if math.isnan(value):
+        return "-"
+    if math.isinf(value):
+        return about.endless
+    if about.logarithmic:
+        return repr(Range(low, value, high))
+    error = max(value - low, high - value)
+    return with_error(value, error) if error > 0.0 else in_words(value, DIGITS)

@@ -1,0 +1,343 @@
+"""What is asked of every candidate: a row for every question, and one for every number."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from pyfret import fracture
+from pyfret._core import Scene
+from pyfret._util.lazy import xr
+from pyfret.fatigue.cycles import cycle_increments
+from pyfret.run.summary import directions
+from pyfret.wear.runs import solve
+
+if TYPE_CHECKING:
+    from pyfret.result import Result
+    from pyfret.study.candidate import Candidate, Duty
+
+__all__ = ["NUMBERS", "QUESTIONS", "Answer", "Answers", "Number", "Question"]
+
+
+class Answer(NamedTuple):
+    """A number, and the range that its own estimate of the error leaves."""
+
+    value: float
+    low: float
+    high: float
+
+    @classmethod
+    def within(cls, value: float, error: float = 0.0) -> Answer:
+        """A number and its error."""
+        return cls(value, value - error, value + error)
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number of the comparison."""
+
+    #: What it is.
+    title: str
+    #: Unit in SI; of energies none, since those of line contacts are per metre.
+    si: str
+    #: Unit of the tables, and how much it is in SI.
+    unit: str
+    scale: float
+    #: Which of two is better: the smaller or the larger one.
+    better: Literal["smaller", "larger"]
+    #: Whether its error is a factor, as that of a life.
+    logarithmic: bool = field(default=False, kw_only=True)
+    #: What an infinite value means.
+    endless: str = field(default="no limit", kw_only=True)
+
+
+#: What lives have in common.
+LIFE: dict[str, Any] = {"logarithmic": True, "endless": "endless"}
+#: All numbers, in the order of the table.
+NUMBERS: dict[str, Number] = {
+    "tension": Number("largest tension", "Pa", "MPa", 1e6, "smaller"),
+    "tension_in_substrate": Number("largest tension in the substrate", "Pa", "MPa", 1e6, "smaller"),
+    "first_yield": Number("load factor of first yield", "1", "1", 1.0, "larger"),
+    "film": Number("crack through the film, load over limit", "1", "1", 1.0, "smaller"),
+    "interface": Number("interface, load over limit", "1", "1", 1.0, "smaller"),
+    "crack": Number("crack in the substrate, load over limit", "1", "1", 1.0, "smaller"),
+    "life_of_substrate": Number("life of the substrate", "cycles", "cycles", 1.0, "larger", **LIFE),
+    "life_of_coating": Number("life of the coatings", "cycles", "cycles", 1.0, "larger", **LIFE),
+    "safety_of_substrate": Number("safety factor of the substrate", "1", "1", 1.0, "larger"),
+    "safety_of_coating": Number("safety factor of the coatings", "1", "1", 1.0, "larger"),
+    "wear_through": Number(
+        "coating worn through",
+        "cycles",
+        "cycles",
+        1.0,
+        "larger",
+        **{**LIFE, "endless": "outlives the run"},
+    ),
+    "worn_depth": Number("worn depth", "m", "um", 1e-6, "smaller"),
+    "energy": Number("energy dissipated in a cycle", "", "uJ", 1e-6, "smaller"),
+    "temperature": Number("largest rise of temperature", "K", "K", 1.0, "smaller"),
+}
+
+#: What answers a question: numbers by name, and places that belong to them.
+Found: TypeAlias = "tuple[dict[str, Answer], dict[str, float]]"
+
+
+@dataclass(frozen=True)
+class Question:
+    """A question: what it needs, and what answers it."""
+
+    #: What is missing, in words; nothing if it can be answered.
+    missing: Callable[[Candidate, Duty, Scene], str]
+    #: The answer.
+    ask: Callable[[Result, Candidate, Duty], Found]
+    #: Whether it needs the fields of the whole cycle.
+    fields: bool = True
+
+
+def ready(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """Nothing is needed."""
+    return ""
+
+
+def ends(result: Result) -> list[int]:
+    """Kept increments at the ends of the branches of the last closed cycle, or of the path."""
+    branch = result.dataset.branch_of_increment
+    last = np.flatnonzero(np.diff(branch.values, append=branch.values[-1] + 1))
+    found = set((last + 1).tolist()) & set(result.dataset.saved_increment.values.tolist())
+    try:
+        cycle = set(cycle_increments(result, -1).tolist())
+    except ValueError:
+        cycle = found
+    return sorted(found & cycle) or sorted(found)
+
+
+def tension(result: Result, candidate: Candidate, duty: Duty) -> Found:
+    """The largest principal stress of the plane y = 0 at the ends of the branches of the cycle."""
+    last = candidate.layers - 1
+    numbers: dict[str, Answer] = {}
+    places: dict[str, float] = {}
+    for name, layer in (("tension", None), ("tension_in_substrate", last)):
+        if last == 0 and layer is not None:
+            numbers[name] = numbers["tension"]
+            continue
+        found = [
+            result.at(n)
+            .stress(y=0.0, body_number=duty.body_number, residual=candidate.residual)
+            .maximum("s_1", layer=layer)
+            for n in ends(result)
+        ]
+        worst = max(found, key=lambda of: of.value)
+        numbers[name] = Answer.within(worst.value, worst.error)
+        if layer is None:
+            places = {
+                "tension_x": worst.x,
+                "tension_z": worst.z,
+                "tension_layer": float(worst.layer),
+            }
+    return numbers, places
+
+
+def first_yield(result: Result, candidate: Candidate, duty: Duty) -> Found:
+    """The least load factor of first yield over the cycle, by von Mises' condition."""
+    factors = result.load_factors(
+        candidate.yields, y=0.0, body_number=duty.body_number, residual=candidate.residual
+    )
+    least = factors.least("von_mises")
+    places = {"first_yield_layer": float(least.layer), "first_yield_z": least.z}
+    return {"first_yield": Answer.within(least.factor, least.error)}, places
+
+
+def no_yield_stress(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """A yield stress is needed."""
+    return "" if any(of is not None for of in candidate.yields) else "s_y of a layer"
+
+
+def adhesion(result: Result, candidate: Candidate, duty: Duty) -> Found:
+    """Film, interface and substrate: load over what each can bear."""
+    found = fracture.first_to_fail(
+        result,
+        toughness=candidate.toughness,
+        peel_strength=candidate.peel_strength,
+        shear_strength=candidate.shear_strength,
+        threshold=candidate.threshold,
+        residual=candidate.residual,
+        body_number=duty.body_number,
+    )
+    names = dict(zip(fracture.PARTS, ("film", "interface", "crack"), strict=True))
+    return {names[part]: Answer.within(getattr(found, part)) for part in fracture.PARTS}, {}
+
+
+def no_limits(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """A coating and one of its limits are needed."""
+    if candidate.layers == 1:
+        return "a coating"
+    given = (candidate.toughness, candidate.threshold, candidate.peel_strength)
+    if all(of is None for of in given):
+        return "toughness, peel_strength and shear_strength, or threshold"
+    return ""
+
+
+def life(result: Result, candidate: Candidate, duty: Duty) -> Found:
+    """Lives, or safety factors, of the substrate and of the coatings."""
+    found = result.life(
+        candidate.of_layers,
+        duty.criterion,
+        y=0.0,
+        body_number=duty.body_number,
+        residual=candidate.residual,
+    )
+    kind = "life" if found.margin.name == "life" else "safety"
+    substrate = candidate.layers - 1
+    numbers: dict[str, Answer] = {}
+    for part, layers in (
+        ("substrate", [n for n in found.layers if n == substrate]),
+        ("coating", [n for n in found.layers if n != substrate]),
+    ):
+        of = [found.margin_of(layer) for layer in layers]
+        if of:
+            low, best, high = (min(side) for side in zip(*of, strict=True))
+            numbers[f"{kind}_of_{part}"] = Answer(best, low, high)
+    return numbers, {}
+
+
+def no_materials(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """Materials with the numbers of the criterion are needed."""
+    if all(of is None for of in candidate.of_layers):
+        return "materials"
+    for material in (of for of in candidate.of_layers if of is not None):
+        try:
+            material.assessment(duty.criterion)
+        except ValueError as error:
+            return str(error)
+    return ""
+
+
+def wear(result: Result, candidate: Candidate, duty: Duty) -> Found:
+    """Cycles until the outermost coating is worn through, and depth after all cycles."""
+    assert duty.cycles is not None
+    body1, body2 = duty.pair(candidate.wear, duty.other_wear)
+    run = solve(
+        result.scene,
+        cycles=duty.cycles,
+        cycling=duty.cycling,
+        body1=body1,
+        body2=body2,
+        worn_through="go_on" if candidate.layers == 1 or layered(candidate.wear) else "stop",
+        progress=False,
+    )
+    part = float(run.depth_error[-1])
+    depth = float(run.dataset[f"depth{duty.body_number}"][-1])
+    numbers = {"worn_depth": Answer.within(depth, part * depth)}
+    if candidate.layers > 1:
+        cycles = run.cycles_to(part_of_coating=1.0, body=duty.body_number)
+        numbers["wear_through"] = Answer(cycles, cycles / (1.0 + part), cycles * (1.0 + part))
+        if float(run.cycles[-1]) < duty.cycles:
+            # The run ends where the coating does.
+            del numbers["worn_depth"]
+    return numbers, {}
+
+
+def layered(law: object) -> bool:
+    """Whether every layer has a law of its own."""
+    return isinstance(law, list)
+
+
+def no_law(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """A law of wear and a number of cycles are needed."""
+    return "wear" if candidate.wear is None else "cycles" if duty.cycles is None else ""
+
+
+def energy(result: Result, candidate: Candidate, duty: Duty) -> Found:
+    """The energy that the last cycle dissipates."""
+    loops = result.loops(direction=next(iter(directions(result)), "x"))
+    value = float(loops.dissipated[-1]) if loops.sizes["cycle"] else math.nan
+    return {"energy": Answer.within(value)}, {}
+
+
+def temperature(result: Result, candidate: Candidate, duty: Duty) -> Found:
+    """The largest rise of the surface temperature."""
+    assert duty.frequency is not None
+    conductors = duty.pair(candidate.conductor, duty.other_conductor)
+    table = result.temperature(*conductors, frequency=duty.frequency)
+    return {"temperature": Answer.within(float(table.attrs["maximum"]))}, {}
+
+
+def no_heat(candidate: Candidate, duty: Duty, scene: Scene) -> str:
+    """Conductors of both bodies and a frequency are needed."""
+    if scene.grid.plane_strain:
+        return "a contact that is not in plane strain"
+    needed = {
+        "conductor": candidate.conductor,
+        "other_conductor": duty.other_conductor,
+        "frequency": duty.frequency,
+    }
+    return ", ".join(name for name, of in needed.items() if of is None)
+
+
+#: All questions by name.
+QUESTIONS: dict[str, Question] = {
+    "tension": Question(ready, tension),
+    "yield": Question(no_yield_stress, first_yield),
+    "adhesion": Question(no_limits, adhesion),
+    "life": Question(no_materials, life),
+    "wear": Question(no_law, wear, fields=False),
+    "energy": Question(ready, energy, fields=False),
+    "temperature": Question(no_heat, temperature),
+}
+
+
+@dataclass(frozen=True)
+class Answers:
+    """A measure of a study: the answers of the candidate that the title of the scene names."""
+
+    candidates: Mapping[str, Candidate]
+    duty: Duty
+    questions: tuple[str, ...]
+
+    def __call__(self, result: Result) -> dict[str, xr.DataArray]:
+        """Ask all questions that the candidate can answer."""
+        of = self.candidates[result.scene.title]
+        table: dict[str, float] = {}
+        for name in self.questions:
+            if QUESTIONS[name].missing(of, self.duty, result.scene):
+                continue
+            numbers, places = QUESTIONS[name].ask(result, of, self.duty)
+            for number, answer in numbers.items():
+                table |= {f"{number}{side}": value for side, value in sides(answer)}
+            table |= places
+        energy = result.scene.grid.unit_of("J")
+        found = {}
+        for number, about in NUMBERS.items():
+            for side, which in (("", ""), ("_low", ", lowest"), ("_high", ", highest")):
+                attrs = {"units": about.si or energy, "long_name": f"{about.title}{which}"}
+                name = f"{number}{side}"
+                found[name] = xr.DataArray(table.get(name, math.nan), attrs=attrs)
+        for name, (unit, meaning) in PLACES.items():
+            attrs = {"units": unit, "long_name": meaning}
+            found[name] = xr.DataArray(table.get(name, math.nan), attrs=attrs)
+        return found
+
+    def needs_fields(self) -> bool:
+        """Whether the fields of all increments are needed."""
+        return any(QUESTIONS[name].fields for name in self.questions)
+
+
+#: Places that belong to numbers: unit and meaning.
+PLACES = {
+    "tension_x": ("m", "place of the largest tension"),
+    "tension_z": ("m", "depth of the largest tension"),
+    "tension_layer": ("1", "layer of the largest tension, from the surface down"),
+    "first_yield_z": ("m", "depth of first yield"),
+    "first_yield_layer": ("1", "layer of first yield, from the surface down"),
+}
+
+
+def sides(answer: Answer) -> Iterator[tuple[str, float]]:
+    """The suffixes of a number in the study, and their values."""
+    yield "", answer.value
+    yield "_low", answer.low
+    yield "_high", answer.high

@@ -1,0 +1,234 @@
+"""Bodies side by side: the numbers are those of single runs, errors decide what differs."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyfret as fret
+from conftest import ROOT
+from pyfret import fatigue, wear
+from pyfret.study import Candidate
+
+R, W = 6e-3, 20.0
+TITANIUM = fret.Elastic(E=117e9, nu=0.31)
+FILM = fret.Elastic(E=300e9, nu=0.25)
+ALLOY = fatigue.Materials()["titanium_6Al4V"]
+
+
+def contact(n: int = 14) -> tuple[fret.Scene, fret.LoadPath]:
+    """A ball on a flat, and a cycle of partial slip."""
+    ball = fret.Elastic(E=400e9, nu=0.23)
+    a = fret.reference.hertz(R=R, bodies=(ball, TITANIUM), W=W).a
+    scene = fret.Scene(
+        body1=fret.Body(ball, shape=fret.Sphere(R=R)),
+        body2=fret.Body(TITANIUM),
+        mu=0.5,
+        grid=fret.Grid.centred(extent=2.6 * a, n=n),
+        title="ball",
+    )
+    path = fret.LoadPath.start().normal(W, increments=2).cycles(1, T_x=6.0, increments=10)
+    return scene, path
+
+
+def bodies() -> dict[str, Candidate]:
+    """A bare flat, and one with 20 um of a hard coating."""
+    coated = fret.Body(TITANIUM, coatings=[fret.Coating(FILM, thickness=20e-6)])
+    return {
+        "bare": Candidate(fret.Body(TITANIUM), materials=ALLOY, wear=wear.Archard(1e-14)),
+        "film": Candidate(
+            coated,
+            materials=ALLOY,
+            mu=0.4,
+            residual=(-1e9, 0.0),
+            toughness=40.0,
+            wear=[wear.Archard(1e-15), wear.Archard(1e-14)],
+        ),
+    }
+
+
+@pytest.fixture(scope="module")
+def compared(tmp_path_factory: pytest.TempPathFactory) -> tuple[fret.study.Comparison, Path]:
+    place = tmp_path_factory.mktemp("compare") / "study.zarr"
+    scene, path = contact()
+    found = fret.compare(bodies(), scene, path, cycles=1e3, executor=1, out=place, progress=False)
+    return found, place
+
+
+def test_numbers_are_those_of_single_runs(compared: tuple[fret.study.Comparison, Path]) -> None:
+    found = compared[0].dataset
+    scene, path = contact()
+    for name, of in bodies().items():
+        mu = of.mu or scene.mu
+        result = fret.solve(scene.replace(body2=of.body, mu=mu), path, save="all", progress=False)
+        here = found.sel(candidate=name)
+        assert float(here.energy) == pytest.approx(float(result.loops().dissipated[-1]))
+        least = result.load_factors(of.yields, residual=of.residual).least("von_mises")
+        assert float(here.first_yield) == pytest.approx(least.factor)
+        ends = np.flatnonzero(np.diff(result.dataset.branch_of_increment.values, append=-1)) + 1
+        most = max(
+            result.at(int(n)).stress(y=0.0, residual=of.residual).maximum("s_1").value
+            for n in ends[-2:]
+        )
+        assert float(here.tension) == pytest.approx(most)
+        life = result.life(of.of_layers, "smith_watson_topper", residual=of.residual)
+        substrate = len(of.body.coatings)
+        assert float(here.life_of_substrate) == pytest.approx(life.worst_of(substrate).margin)
+
+
+def test_an_error_is_what_larger_cells_change(
+    compared: tuple[fret.study.Comparison, Path],
+) -> None:
+    found, _ = compared
+    scene, path = contact(n=7)
+    result = fret.solve(scene, path, progress=False)
+    here = found.dataset.sel(candidate="bare")
+    changed = abs(float(here.energy) - float(result.loops().dissipated[-1]))
+    assert float(here.energy_high - here.energy) == pytest.approx(changed)
+
+
+def test_missing_numbers_are_named(compared: tuple[fret.study.Comparison, Path]) -> None:
+    found, _ = compared
+    assert found.missing["bare, adhesion"] == "a coating"
+    assert "conductor" in found.missing["film, temperature"]
+    assert "no answer for bare, adhesion: missing is a coating" in found.summary()
+    assert np.isnan(float(found.dataset.film.sel(candidate="bare")))
+
+
+def test_alike_bodies_make_no_difference() -> None:
+    scene, path = contact(n=12)
+    body = fret.Body(TITANIUM)
+    found = fret.compare(
+        {"one": body, "other": body, "slippery": Candidate(body, mu=0.32)},
+        scene,
+        path,
+        questions=["energy"],
+        executor=1,
+        progress=False,
+    )
+    verdict = found.verdict("energy")
+    assert verdict.best == ["one", "other"]
+    assert verdict.worse == ["slippery"]
+    assert str(verdict) == "best: one, other (no difference)"
+    same = fret.compare(
+        {"one": body, "other": body}, scene, path, questions=["energy"], progress=False, executor=1
+    )
+    assert "no difference" in same.summary()
+
+
+def test_it_goes_on_after_an_interrupt(tmp_path: Path) -> None:
+    scene, path = contact(n=12)
+    place = tmp_path / "study.zarr"
+    some = {name: of.body for name, of in bodies().items()}
+
+    def stop(done: int, total: int) -> None:
+        if done == 2:
+            raise KeyboardInterrupt
+
+    options = {"questions": ["energy"], "executor": 1, "out": place, "progress": False}
+    with pytest.raises(KeyboardInterrupt):
+        fret.compare(some, scene, path, on_point=stop, **options)  # type: ignore[arg-type]
+    told: list[int] = []
+    found = fret.compare(
+        some, scene, path, on_point=lambda done, total: told.append(done), **options
+    )  # type: ignore[arg-type]
+    assert told == [3, 4]
+    alone = fret.compare(some, scene, path, **{**options, "out": None})  # type: ignore[arg-type]
+    assert found == alone
+    with pytest.raises(fret.errors.StoreError, match="another study"):
+        fret.compare(some, scene.replace(mu=0.3), path, **options)  # type: ignore[arg-type]
+
+
+def test_it_is_drawn_and_written(
+    compared: tuple[fret.study.Comparison, Path], tmp_path: Path
+) -> None:
+    found, _ = compared
+    figure = found.plot()
+    titles = {ax.get_title(loc="left") for ax in figure.axes}
+    assert {"largest tension", "energy dissipated in a cycle"} <= titles
+    found.report(tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "load factor of first yield" in page
+    assert "http://" not in page.replace("http://www.w3.org", "")
+    found.save(tmp_path / "numbers.nc")
+    assert (tmp_path / "numbers.nc").exists()
+
+
+def test_what_is_no_comparison_is_refused() -> None:
+    scene, path = contact(n=8)
+    with pytest.raises(ValueError, match="bodies"):
+        fret.compare({}, scene, path)
+    with pytest.raises(ValueError, match="must be one of tension"):
+        fret.compare({"bare": scene.body2}, scene, path, questions=["hardness"])
+
+
+FILE = """
+scene = "scene.toml"
+questions = ["tension", "energy", "wear", "yield"]
+cycles = 500
+
+[candidates.bare]
+material = "titanium_6Al4V"
+wear = { k = 1e-14 }
+
+[candidates.film]
+coatings = [{ E = 300e9, nu = 0.25, thickness = 20e-6 }]
+material = ["", "titanium_6Al4V"]
+mu = 0.4
+residual = [-1e9, 0.0]
+wear = [{ k = 1e-15 }, { k = 1e-14 }]
+"""
+
+
+def command(*arguments: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [ROOT / "target" / "release" / "fret", "compare", *arguments],
+        capture_output=True,
+        text=True,
+        cwd=folder,
+        check=False,
+        env={**os.environ, "FRET_PYTHON": sys.executable, "MPLBACKEND": "Agg"},
+    )
+
+
+def test_the_command_reads_a_file(tmp_path: Path) -> None:
+    scene, path = contact(n=12)
+    (tmp_path / "scene.toml").write_text(scene.replace(path=path).to_toml())
+    (tmp_path / "coatings.toml").write_text(FILE)
+    ran = command(
+        "coatings.toml", "--workers", "1", "--json", "--figure", "all.png", folder=tmp_path
+    )
+    assert ran.returncode == 0, ran.stderr
+    told = json.loads(ran.stdout)
+    low, best, high = told["numbers"]["energy"]["values"]["film"]
+    assert low < best < high
+    of = {"bare": bodies()["bare"], "film": bodies()["film"]}
+    same = fret.compare(of, scene, path, questions=["energy"], executor=1, progress=False)
+    assert best == pytest.approx(float(same.dataset.energy.sel(candidate="film")))
+    assert (tmp_path / "all.png").exists()
+    again = command("coatings.toml", folder=tmp_path)
+    assert "largest tension" in again.stdout
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "told"),
+    [
+        ("mu = 0.4", "muu = 0.4", "nearest valid key is `mu`"),
+        ("k = 1e-15", "kk = 1e-15", "nearest valid key is `k`"),
+        ("scene =", "scen =", "nearest valid key is `scene`"),
+        ("thickness = 20e-6", "thickness = -1.0", "candidates.film"),
+    ],
+)
+def test_a_wrong_file_says_where(tmp_path: Path, before: str, after: str, told: str) -> None:
+    scene, path = contact(n=8)
+    (tmp_path / "scene.toml").write_text(scene.replace(path=path).to_toml())
+    (tmp_path / "coatings.toml").write_text(FILE.replace(before, after))
+    ran = command("coatings.toml", folder=tmp_path)
+    assert ran.returncode == 2
+    assert told in ran.stderr
