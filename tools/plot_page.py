@@ -78,8 +78,7 @@ FIGURES: dict[str, dict[str, str]] = {
         "fretting_map": "fret.plot.fretting_map(table)",
         "arrest_map": "fret.plot.arrest_map(stopping)",
         "design_chart": (
-            'fret.plot.design_chart(first, "friction.mu", "body2.coatings.0.thickness", '
-            'labels=("friction coefficient", "thickness [m]"))'
+            'fret.plot.design_chart(first, "friction.mu", "body2.coatings.0.thickness", labels=axes)'
         ),
     },
 }
@@ -211,6 +210,7 @@ def names() -> dict[str, Any]:
         "stopping": stopping,
         "compared": compared,
         "first": first,
+        "axes": ("friction coefficient", "thickness [m]"),
     }
 
 
