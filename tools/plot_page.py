@@ -78,7 +78,7 @@ FIGURES: dict[str, dict[str, str]] = {
         "fretting_map": "fret.plot.fretting_map(table)",
         "arrest_map": "fret.plot.arrest_map(stopping)",
         "design_chart": (
-            'fret.plot.design_chart(first, "friction.mu", "body2.coatings.0.thickness", labels=axes)'
+            'fret.plot.design_chart(first, "friction.mu", "body2.coatings.0.thickness", labels=of)'
         ),
     },
 }
@@ -210,7 +210,7 @@ def names() -> dict[str, Any]:
         "stopping": stopping,
         "compared": compared,
         "first": first,
-        "axes": ("friction coefficient", "thickness [m]"),
+        "of": ("friction coefficient", "thickness [m]"),
     }
 
 
