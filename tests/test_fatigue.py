@@ -111,10 +111,10 @@ def test_bad_input() -> None:
     broken = np.ones((4, 3, 6))
     broken[2, 1, 4] = np.nan
     for stress, message in (
-        (broken, "finite stress"),
+        (broken, "finite number"),
         (np.ones((1, 3, 6)), "at least 2"),
         (np.zeros((4, 3, 6)), "other than zero"),
-        (np.ones((4, 3, 5)), "6 long"),
+        (np.ones((4, 3, 5)), "the last axis"),
         (np.ones(6), "time"),
     ):
         with pytest.raises(ValueError, match=message):

@@ -1,29 +1,238 @@
-"""Arrays that people give."""
+"""The door for arrays: what a caller gives becomes an array of finite numbers, or is refused.
+
+One rule for every module:
+
+- Booleans, complex numbers, texts, dates and objects are no numbers.
+- A masked value and a NaN are the same, a missing value. It is refused, or, where a function says
+  so, a hole. Infinity is refused.
+- An array with labels (xarray, pandas) is taken by its labels: axes by the names of its
+  dimensions, components by their names, points by their index. Where a label has no meaning, an
+  array of more than one axis is refused: its order is unknown. An array without labels is taken by
+  place.
+- What came in with labels goes out with them.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pyfret._util.lazy import xr
+
 if TYPE_CHECKING:
+    from collections.abc import Hashable
+
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["plain"]
+__all__ = ["COMPONENTS", "Histories", "histories", "number", "plain", "together"]
+
+#: The last axis of a stress history.
+COMPONENTS = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
+#: Names of the axis of a history along which time passes.
+TIMES = ("increment", "time", "t", "instant", "saved", "saved_increment", "moment", "load_step")
+#: Kinds of numpy's types that are numbers: integers and floating point.
+NUMBERS = "iuf"
 
 
-def plain(values: ArrayLike, name: str) -> NDArray[np.float64]:
-    """The numbers of an array; a ValueError if some are masked, whose values nobody means.
+def number(value: object, name: str) -> float:
+    """A finite number; a TypeError for what is none, a ValueError for one that is missing."""
+    found = plain(value, name)  # type: ignore[arg-type]
+    if found.ndim:
+        raise TypeError(f"{name}: must be a number, not an array of the shape {found.shape}")
+    return float(found)
 
-    `name` is that of the argument.
+
+def plain(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.float64]:
+    """The numbers of an array, by the rules of this module.
+
+    `name` is that of the argument. With `holes` missing values are allowed and are NaN.
     """
-    if np.ma.is_masked(values):
-        masked: Any = np.ma.getmaskarray(np.ma.asarray(values))
+    if labels(values) and np.ndim(values) > 1:
+        raise TypeError(
+            f"{name} has the axes {', '.join(map(str, labels(values)))}, whose order is not known "
+            f"here: put the axes in order and give {name}.values"
+        )
+    return numbers(values, name, holes=holes)
+
+
+def numbers(values: ArrayLike, name: str, *, holes: bool = False) -> NDArray[np.float64]:
+    """The numbers of an array whose labels have been looked at."""
+    masked = np.ma.isMaskedArray(values) and np.ma.is_masked(values)
+    if masked and not holes:
+        hidden: Any = np.ma.getmaskarray(np.ma.asarray(values))
         raise ValueError(
-            f"{name} has {np.count_nonzero(masked)} masked values of {masked.size}: must have a "
+            f"{name} has {np.count_nonzero(hidden)} masked values of {hidden.size}: must have a "
             "number everywhere; leave them out, or fill them"
         )
+    given: Any = values
+    if masked:
+        given = np.ma.MaskedArray(values, dtype=float).filled(np.nan)
+    if truths(given):
+        raise TypeError(f"{name}: True and False are no numbers")
     try:
-        return np.asarray(values, dtype=float)
+        found = np.asarray(given)
+        if found.dtype.kind not in NUMBERS and found.size:
+            kind = "texts or objects" if found.dtype.kind in "OSU" else f"of the type {found.dtype}"
+            raise TypeError(f"the values are {kind}")
+        found = found.astype(float, copy=False)
     except (TypeError, ValueError, OverflowError) as error:
         raise TypeError(f"{name}: must be an array of numbers: {error}") from error
+    bad = np.isinf(found) if holes else ~np.isfinite(found)
+    if bad.any():
+        where = [int(n) for n in np.argwhere(bad)[0]]
+        at = f"[{', '.join(map(str, where))}]" if where else ""
+        raise ValueError(f"{name}{at} = {found[tuple(where)]}: must be a finite number")
+    return found
+
+
+def truths(values: Any) -> bool:
+    """Whether some of the values are booleans."""
+    if isinstance(values, (list, tuple)):
+        return any(map(truths, values))
+    if isinstance(values, (bool, np.bool_)):
+        return True
+    return getattr(getattr(values, "dtype", None), "kind", "") == "b"
+
+
+def labels(values: object) -> tuple[Hashable, ...]:
+    """Names of the axes of an array with labels; none of another one."""
+    if hasattr(values, "dims") and hasattr(values, "sizes"):
+        return tuple(values.dims)
+    if hasattr(values, "iloc") and hasattr(values, "index"):
+        return ("index", "columns")[: getattr(values, "ndim", 1)]
+    return ()
+
+
+def index(values: Any) -> NDArray[Any] | None:
+    """The index along the one axis of an array with labels, if it has one."""
+    if not labels(values) or np.ndim(values) != 1:
+        return None
+    if hasattr(values, "iloc"):
+        return np.asarray(values.index)
+    axis = values.dims[0]
+    coords = getattr(values, "coords", {})
+    return np.asarray(coords[axis].values) if axis in coords else None
+
+
+def together(*, holes: bool = False, **arrays: ArrayLike) -> tuple[NDArray[np.float64], ...]:
+    """Arrays whose values belong together one by one, as rows of a table, in one dimension.
+
+    Where several have labels, their dimensions and their indices must be the same: nothing is
+    paired by place that has a name. With `holes` rows with a missing value are left out.
+    """
+    found = {name: plain(values, name, holes=holes).ravel() for name, values in arrays.items()}
+    first, *others = found
+    for other in others:
+        if found[other].size != found[first].size:
+            sizes = f"{found[first].size} values of {first} and {found[other].size} of {other}"
+            raise ValueError(f"{sizes}: must be as many")
+    named = [(name, labels(values), index(values)) for name, values in arrays.items()]
+    known = [(name, axes, at) for name, axes, at in named if axes]
+    for (one, axes, at), (other, other_axes, other_at) in pairwise(known):
+        unlike = at is not None and other_at is not None and not np.array_equal(at, other_at)
+        if axes != other_axes or unlike:
+            raise ValueError(
+                f"{one} and {other} have other labels, along {axes[0]} and {other_axes[0]}: "
+                "must be those of the same points in the same order"
+            )
+    rows = np.stack(list(found.values()))
+    whole = ~np.isnan(rows).any(axis=0)
+    return tuple(rows[:, whole])
+
+
+@dataclass(frozen=True)
+class Histories:
+    """Stress over time at points.
+
+    Attributes
+    ----------
+    values : array of shape (time, points, 6)
+        Stress [Pa], the points in C order.
+    shape : tuple of int
+        Numbers of points along their axes.
+    dims : tuple of str
+        Names of these axes, ``dim_0``, ``dim_1``, ... without labels.
+    coords : dict
+        Coordinates of the points, where they came with some.
+    """
+
+    values: NDArray[np.float64]
+    shape: tuple[int, ...]
+    dims: tuple[Hashable, ...]
+    coords: Mapping[Hashable, Any]
+
+    def whole(self) -> NDArray[np.float64]:
+        """Stress of the shape (time, ..., 6)."""
+        return self.values.reshape(len(self.values), *self.shape, len(COMPONENTS))
+
+    def labelled(
+        self,
+        values: NDArray[np.float64],
+        units: str,
+        long_name: str,
+        more: tuple[str, ...] = (),
+    ) -> xr.DataArray:
+        """An array (points, ...) with the labels of the points; `more` name the other axes."""
+        shape = (*self.shape, *values.shape[1:])
+        attrs = {"units": units, "long_name": long_name}
+        return xr.DataArray(
+            values.reshape(shape), dims=(*self.dims, *more), coords=self.coords, attrs=attrs
+        )
+
+
+def histories(stress: ArrayLike, name: str = "stress") -> Histories:
+    """The stress history that a caller gives.
+
+    Without labels its shape is (time, ..., 6). With labels one dimension is a time and one is
+    ``component`` with the names of the six components, in any order.
+    """
+    axes = labels(stress)
+    coords: dict[Hashable, Any] = {}
+    dims: tuple[Hashable, ...] | None = None
+    given: Any = stress
+    if axes:
+        given, dims, coords = in_order(given, name)
+    values = numbers(given, name)
+    if values.ndim < 2 or values.shape[-1] != len(COMPONENTS):
+        raise ValueError(
+            f"{name} has the shape {values.shape}: must be (time, ..., 6), "
+            "the last axis xx, yy, zz, xy, xz, yz"
+        )
+    shape = values.shape[1:-1]
+    if dims is None:
+        dims = tuple(f"dim_{n}" for n in range(len(shape)))
+    return Histories(values.reshape(len(values), -1, len(COMPONENTS)), shape, dims, coords)
+
+
+def in_order(
+    stress: Any, name: str
+) -> tuple[NDArray[np.float64], tuple[Hashable, ...], dict[Hashable, Any]]:
+    """A labelled history as (time, ..., component), names and coordinates of its points."""
+    axes = labels(stress)
+    times = [axis for axis in axes if axis in TIMES]
+    named = "component" in getattr(stress, "coords", {})
+    if len(times) != 1 or "component" not in axes or not named:
+        raise ValueError(
+            f"{name} has the axes {', '.join(map(str, axes))}: must have one of time "
+            f"({', '.join(TIMES)}) and `component` with the names {', '.join(COMPONENTS)}; or give "
+            f"{name}.values of the shape (time, ..., 6)"
+        )
+    here = [str(c) for c in stress.coords["component"].values]
+    if sorted(here) != sorted(COMPONENTS):
+        raise ValueError(
+            f"{name} has the components {', '.join(here)}: must be {', '.join(COMPONENTS)}"
+        )
+    others = tuple(axis for axis in axes if axis not in (times[0], "component"))
+    ordered = stress.transpose(times[0], *others, "component")
+    ordered = ordered.isel(component=[here.index(c) for c in COMPONENTS])
+    coords = {
+        key: of
+        for key, of in stress.coords.items()
+        if set(of.dims) <= set(others) and key not in axes
+    }
+    coords |= {axis: stress.coords[axis] for axis in others if axis in stress.coords}
+    return ordered.values, others, coords

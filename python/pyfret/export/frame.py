@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from pyfret._util.arrays import plain
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
@@ -39,8 +41,8 @@ class Frame:
         if self.unit not in UNITS:
             raise ValueError(f'unit = {self.unit!r}: must be "m" or "mm"')
         for name in ("origin", "x", "z"):
-            value = np.asarray(getattr(self, name), dtype=float)
-            if value.shape != (3,) or not np.isfinite(value).all():
+            value = plain(getattr(self, name), name)
+            if value.shape != (3,):
                 raise ValueError(f"{name} = {getattr(self, name)!r}: must be three finite numbers")
         lengths = [float(np.linalg.norm(axis)) for axis in (self.x, self.z)]
         if min(lengths) == 0.0 or abs(np.dot(self.x, self.z)) > SKEW * lengths[0] * lengths[1]:
@@ -64,23 +66,23 @@ class Frame:
 
     def place(self, points: ArrayLike) -> NDArray[np.float64]:
         """Places of the contact, shape (..., 3) [m], in the model and its unit."""
-        return np.asarray(self.origin) + self.per_metre * (np.asarray(points, float) @ self.axes)
+        return np.asarray(self.origin) + self.per_metre * (plain(points, "points") @ self.axes)
 
     def contact_place(self, points: ArrayLike) -> NDArray[np.float64]:
         """Places of the model, shape (..., 3), in the contact's axes [m]."""
-        away = np.asarray(points, float) - np.asarray(self.origin)
+        away = plain(points, "points") - np.asarray(self.origin)
         return np.asarray(away @ self.axes.T / self.per_metre)
 
     def vector(self, vectors: ArrayLike) -> NDArray[np.float64]:
         """Vectors along the contact's axes, shape (..., 3), along those of the model."""
-        return np.asarray(np.asarray(vectors, float) @ self.axes)
+        return np.asarray(plain(vectors, "vectors") @ self.axes)
 
     def contact_stress(self, stress: ArrayLike) -> NDArray[np.float64]:
         """Stresses of the model, shape (..., 3, 3), along the contact's axes [Pa]."""
-        turned = self.axes @ np.asarray(stress, float) @ self.axes.T
+        turned = self.axes @ plain(stress, "stress") @ self.axes.T
         return np.asarray(turned / self.per_pascal)
 
     def stress(self, stress: ArrayLike) -> NDArray[np.float64]:
         """Stresses along the contact's axes, shape (..., 3, 3) [Pa], along those of the model."""
-        turned = self.axes.T @ np.asarray(stress, float) @ self.axes
+        turned = self.axes.T @ plain(stress, "stress") @ self.axes
         return np.asarray(turned * self.per_pascal)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pyfret._util.arrays import plain
 from pyfret.export.frame import Frame
 from pyfret.export.meshes import faces_in_plane, read_mesh
 from pyfret.export.tables import body_sign, cells_of
@@ -71,7 +72,7 @@ def nodal_forces(
     """
     frame = Frame() if frame is None else frame
     sign = body_sign(body_number)
-    nodes = np.asarray(points, dtype=float)
+    nodes = plain(points, "points")
     at = frame.contact_place(nodes)[:, :2]
     tables = [np.asarray(rows, dtype=np.int64) for rows in faces]
     if not any(rows.size for rows in tables):

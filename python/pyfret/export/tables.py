@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.arrays import plain
 from pyfret.export.frame import Frame
 from pyfret.subsurface import fields
 
@@ -152,7 +153,7 @@ def stress(
     """
     frame = Frame() if frame is None else frame
     sign = body_sign(body_number)
-    places = np.atleast_2d(np.asarray(points, dtype=float))
+    places = np.atleast_2d(plain(points, "points"))
     if places.ndim != 2 or places.shape[1] != 3 or not np.isfinite(places).all():
         raise ValueError(f"points of shape {np.shape(points)}: must be finite, of shape (n, 3)")
     at = frame.contact_place(places)

@@ -10,7 +10,7 @@ import numpy as np
 
 from pyfret import _core
 from pyfret._core import Assessment, Criterion, Material
-from pyfret._util.arrays import plain
+from pyfret._util.arrays import COMPONENTS, histories, number, plain
 from pyfret._util.lazy import xr
 from pyfret.scene.warnings import SceneWarning
 
@@ -38,9 +38,6 @@ __all__ = [
     "rainflow",
     "to_pylife",
 ]
-
-#: The last axis of a stress history.
-COMPONENTS = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz")
 
 #: Names of the criteria.
 CriterionName = Literal[
@@ -93,25 +90,14 @@ class Materials(Mapping[str, Material]):
         return f"Materials({', '.join(self._materials)})"
 
 
-def _points(stress: ArrayLike) -> tuple[NDArray[np.float64], tuple[int, ...]]:
-    """A history as an array of shape (time, points, 6), and the shape of the points."""
-    stress = plain(stress, "stress")
-    if stress.ndim < 2:
-        raise ValueError(
-            f"stress has the shape {stress.shape}: must be (time, ..., 6), "
-            "the last axis xx, yy, zz, xy, xz, yz"
-        )
-    shape = stress.shape[1:-1]
-    return stress.reshape(stress.shape[0], -1, stress.shape[-1]), shape
-
-
 def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3) -> xr.Dataset:
     """Give the value of a criterion at every point, and the critical plane.
 
     Parameters
     ----------
     stress : array of shape (time, ..., 6)
-        Stress history [Pa]. The order of the instants does not matter.
+        Stress history [Pa]. The order of the instants does not matter. An array with labels, as
+        :func:`history` gives it, is taken by the names of its dimensions and components.
     criterion : Criterion
         With its numbers, such as ``Criterion.findley(k=0.3)``.
     tolerance : float
@@ -121,10 +107,10 @@ def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3
     Returns
     -------
     xarray.Dataset
-        Over the axes of the points, named ``dim_0``, ``dim_1``, ...: ``value``, and ``missed`` (no
-        plane has more than value + missed); ``normal`` of the critical plane (last dimension
-        ``axis``; NaN without a plane); there ``shear_amplitude`` by the smallest circle,
-        ``shear_chord`` (half of the longest chord of the shear path), ``normal_max``,
+        Over the axes of the points, with their labels or named ``dim_0``, ``dim_1``, ...:
+        ``value``, and ``missed`` (no plane has more than value + missed); ``normal`` of the
+        critical plane (last dimension ``axis``; NaN without a plane); there ``shear_amplitude``
+        by the smallest circle, ``shear_chord`` (half of the longest chord), ``normal_max``,
         ``normal_min``, ``normal_mean`` and ``normal_amplitude`` [Pa]. For Crossland's and Dang
         Van's criteria ``shear_amplitude`` is sqrt(J2,a), or the mesoscopic shear when it
         decides, and ``normal_max`` the hydrostatic stress that goes with it.
@@ -135,9 +121,8 @@ def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3
         The stress is not finite, has one instant only, is zero everywhere, or its last axis is not
         6 long.
     """
-    points, shape = _points(stress)
-    found = _core.criterion_on(criterion, points, tolerance=tolerance)
-    dims = tuple(f"dim_{n}" for n in range(len(shape)))
+    of = histories(stress)
+    found = _core.criterion_on(criterion, of.values, tolerance=number(tolerance, "tolerance"))
     labels = {
         "value": (criterion.unit, f"value of the criterion {criterion.name}"),
         "planes": ("1", "planes looked at"),
@@ -149,15 +134,14 @@ def evaluate(stress: ArrayLike, criterion: Criterion, *, tolerance: float = 1e-3
     }
     result = xr.Dataset(attrs={"criterion": criterion.name})
     for name, (unit, meaning) in labels.items():
-        attrs = {"units": unit, "long_name": meaning}
-        result[name] = (dims, found[name].reshape(shape), attrs)
+        result[name] = of.labelled(found[name], unit, meaning)
     most, least = result.normal_max, result.normal_min
     mean = {"units": "Pa", "long_name": "mean normal stress on the critical plane"}
     amplitude = {"units": "Pa", "long_name": "amplitude of the normal stress there"}
     result["normal_mean"] = ((most + least) / 2).assign_attrs(mean)
     result["normal_amplitude"] = ((most - least) / 2).assign_attrs(amplitude)
-    attrs = {"units": "1", "long_name": "normal of the critical plane"}
-    result["normal"] = ((*dims, "axis"), found["normal"].reshape(*shape, 3), attrs)
+    normal = found["normal"].reshape(-1, 3)
+    result["normal"] = of.labelled(normal, "1", "normal of the critical plane", ("axis",))
     return result.assign_coords(axis=["x", "y", "z"])
 
 
@@ -215,10 +199,10 @@ def first_yield(
         not asked that the ``residual`` stress of neighbouring points balances); infinite without
         stress.
     """
-    points, shape = _points(stress)
-    xx, yy, zz, xy, xz, yz = (float(s) for s in constant)
-    found = _core.yielding_on(points, s_y=s_y, constant=(xx, yy, zz, xy, xz, yz))
-    dims = tuple(f"dim_{n}" for n in range(len(shape)))
+    of = histories(stress)
+    xx, yy, zz, xy, xz, yz = plain(constant, "constant").tolist()
+    yields = number(s_y, "s_y")
+    found = _core.yielding_on(of.values, s_y=yields, constant=(xx, yy, zz, xy, xz, yz))
     labels = {
         "von_mises": "load factor of first yield, von Mises",
         "tresca": "load factor of first yield, Tresca",
@@ -226,10 +210,10 @@ def first_yield(
     }
     result = xr.Dataset(coords={"component": list(COMPONENTS)})
     for name, meaning in labels.items():
-        attrs = {"units": "1", "long_name": meaning}
-        result[name] = (dims, found[name].reshape(shape), attrs)
-    attrs = {"units": "Pa", "long_name": "deviatoric residual stress that serves best"}
-    result["residual"] = ((*dims, "component"), found["residual"].reshape(*shape, 6), attrs)
+        result[name] = of.labelled(found[name], "1", meaning)
+    about = "deviatoric residual stress that serves best"
+    residual = found["residual"].reshape(-1, len(COMPONENTS))
+    result["residual"] = of.labelled(residual, "Pa", about, ("component",))
     return result
 
 
@@ -255,7 +239,7 @@ def moving_load(stress: ArrayLike, *, s_y: float) -> NDArray[np.float64]:
     array of shape (...)
         Load factor of every place.
     """
-    stress = plain(stress, "stress")
+    stress = histories(stress).whole()
     mirrored = stress * np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
     both = np.concatenate([stress, mirrored])
     return np.asarray(first_yield(both, s_y=s_y).shakedown)
@@ -274,7 +258,10 @@ def dang_van_path(stress: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.fl
     tau, p_h : arrays of shape (time,)
         Mesoscopic shear and hydrostatic stress, tension positive [Pa].
     """
-    path = _core.dang_van_path(np.ascontiguousarray(plain(stress, "stress")))
+    of = histories(stress)
+    if of.shape:
+        raise ValueError(f"stress has points of the shape {of.shape}: must be that of one point")
+    path = _core.dang_van_path(np.ascontiguousarray(of.whole()))
     return path[:, 0], path[:, 1]
 
 
@@ -299,7 +286,7 @@ def to_pylife(stress: ArrayLike) -> pd.DataFrame:
     """
     import pandas as pd
 
-    points, _ = _points(stress)
+    points = histories(stress).values
     time, count, _ = points.shape
     index = pd.MultiIndex.from_product(
         [range(count), range(time)], names=["element_id", "load_step"]
@@ -311,7 +298,7 @@ def to_pylife(stress: ArrayLike) -> pd.DataFrame:
 def rainflow(signal: ArrayLike) -> NDArray[np.float64]:
     """Count the cycles of a signal: rows of range, mean, count (1 or 1/2).
 
-    Masked values of a signal are left out; a constant one has no cycle.
+    Missing values of a signal, masked or NaN, are left out; a constant one has no cycle.
 
     Needs the package ``rainflow`` (``pip install fretting[fatigue]``), which follows ASTM E1049-85.
     """
@@ -319,14 +306,10 @@ def rainflow(signal: ArrayLike) -> NDArray[np.float64]:
         import rainflow as counter
     except ImportError as error:
         raise ImportError("rainflow is missing: pip install fretting[fatigue]") from error
-    if np.ma.isMaskedArray(signal):
-        signal = np.ma.asarray(signal).compressed() if np.ndim(signal) == 1 else signal
-    values = plain(signal, "signal")
+    values = plain(signal, "signal", holes=True)
     if values.ndim != 1:
         raise ValueError(f"signal has the shape {values.shape}: must have one dimension, time")
-    if not np.all(np.isfinite(values)):
-        n = int(np.flatnonzero(~np.isfinite(values))[0])
-        raise ValueError(f"signal[{n}] = {values[n]}: must be a finite number")
+    values = values[~np.isnan(values)]
     changing = values[np.concatenate([[True], np.diff(values) != 0.0])] if values.size else values
     if changing.size < 2:
         return np.empty((0, 3))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycles import cycle_increments, moment_before
 from pyfret.subsurface.fields import coordinates, interfaces
@@ -72,7 +73,7 @@ def depths_of(
     if z is None:
         depths = _core.chosen_depths(body, a=result.length, deepest=2.0 * result.length)
     else:
-        depths = _core.depths(body, np.unique(np.asarray(z, dtype=float)).tolist())
+        depths = _core.depths(body, np.unique(plain(z, "z")).tolist())
     judged = [n for n, of in enumerate(each) if of is not None]
     if not set(judged) & set(depths[1]):
         tops = [0.0, *interfaces(body)]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.fatigue.criteria import COMPONENTS
 from pyfret.subsurface.contact import stress_below
@@ -99,7 +100,7 @@ def history(
         return _of_snapshots(result, kept, z, x, y, body_number, residual)
     scene = result.scene
     body = scene.body1 if body_number == 1 else scene.body2
-    given = np.atleast_1d(np.asarray(z, dtype=float)).tolist()
+    given = np.atleast_1d(plain(z, "z")).tolist()
     depths, layers = _core.depths(body, given)
     parts = []
     for some in np.array_split(kept, int(np.ceil(kept.size / TOGETHER))):

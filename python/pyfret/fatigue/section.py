@@ -9,6 +9,7 @@ from typing import Any, TypedDict
 import numpy as np
 
 from pyfret._core import Material
+from pyfret._util.arrays import plain
 
 __all__ = ["Section", "SectionOptions", "for_each_layer"]
 
@@ -83,7 +84,7 @@ class Section:
 
     def each(self) -> list[Section]:
         """The sections one by one."""
-        return [self.at(place) for place in np.atleast_1d(np.asarray(self.places, float)).tolist()]
+        return [self.at(place) for place in np.atleast_1d(plain(self.places, self.across)).tolist()]
 
 
 def for_each_layer(given: Any, layers: int, one: str, several: str) -> list[Any]:

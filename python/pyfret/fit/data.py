@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from pyfret._util.arrays import together
 from pyfret._util.holds_arrays import HoldsArrays
 from pyfret.fit import tables
 
@@ -70,14 +71,14 @@ class Loops(HoldsArrays):
     ) -> Loops:
         """Loops of points in the order of time; what is before the first turn is left out.
 
+        Points with a missing value, masked or NaN, are left out.
+
         Raises
         ------
         ValueError
             There is no closed loop.
         """
-        shift, force = (np.asarray(v, dtype=float).ravel() for v in (delta, T))
-        if shift.shape != force.shape:
-            raise ValueError(f"{shift.size} shifts and {force.size} forces: must be as many")
+        shift, force = together(delta=delta, T=T, holes=True)
         turns = turning(shift)
         if len(turns) < 2:
             raise ValueError(
@@ -114,8 +115,8 @@ class Indentation(HoldsArrays):
 
     @staticmethod
     def of(W: ArrayLike, delta_z: ArrayLike, *, noise: float | None = None) -> Indentation:
-        """A curve of points in any order; those without load are left out."""
-        force, approach = (np.asarray(v, dtype=float).ravel() for v in (W, delta_z))
+        """A curve of points in any order; those without load or with a hole are left out."""
+        force, approach = together(W=W, delta_z=delta_z, holes=True)
         loaded = force > 0
         return Indentation(force[loaded], approach[loaded], noise)
 
@@ -142,8 +143,8 @@ class Scar(HoldsArrays):
         body: int = 2,
         noise: float | None = None,
     ) -> Scar:
-        """A profile of points."""
-        place, worn = (np.asarray(v, dtype=float).ravel() for v in (x, depth))
+        """A profile of points; those with a missing value are left out."""
+        place, worn = together(x=x, depth=depth, holes=True)
         return Scar(place, worn, wear, body, noise)
 
 

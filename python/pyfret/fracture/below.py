@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.arrays import plain
 from pyfret._util.lazy import xr
 from pyfret.fatigue.cycles import cycle_increments
 from pyfret.fracture.growth import Cracks
@@ -89,7 +90,7 @@ def crack(
     x, azimuth = cycle_of.place(x, azimuth, angle, friction)
     if lengths is None:
         lengths = cycle_of.half_width * np.geomspace(SHORTEST, LONGEST, LENGTHS)
-    lengths = np.sort(np.atleast_1d(np.asarray(lengths, float)))
+    lengths = np.sort(np.atleast_1d(plain(lengths, "lengths")))
     found = cycle_of.intensity(
         x=x, lengths=lengths.tolist(), angle=angle, kink=kink, azimuth=azimuth, friction=friction
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pyfret import _core
+from pyfret._util.arrays import plain, together
 from pyfret._util.labelled import Labelled
 from pyfret._util.lazy import xr
 
@@ -83,7 +84,7 @@ class Threshold:
 
     def at(self, lengths: ArrayLike) -> NDArray[np.float64]:
         """Threshold of cracks of the lengths [m] at R = 0 [Pa m^0.5]."""
-        lengths = np.asarray(lengths, float)
+        lengths = plain(lengths, "lengths")
         found, _ = _core.threshold_at(self._numbers(), lengths.ravel().tolist())
         return np.reshape(found, lengths.shape)
 
@@ -168,9 +169,10 @@ class Cracks(Labelled):
     @classmethod
     def from_arrays(cls, lengths: ArrayLike, K_max: ArrayLike, K_min: ArrayLike) -> Cracks:
         """Take the largest and the smallest K_I [Pa m^0.5] at lengths [m] from elsewhere."""
-        K = np.stack([np.asarray(K_max, float), np.asarray(K_min, float)])
+        at, most, least = together(lengths=lengths, K_max=K_max, K_min=K_min)
+        K = np.stack([most, least])
         about = {"units": "m", "long_name": "crack length"}
-        length = ("length", np.asarray(lengths, float), about)
+        length = ("length", at, about)
         return cls(xr.Dataset({"K_I": (("increment", "length"), K)}, coords={"length": length}))
 
     @property

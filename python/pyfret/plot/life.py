@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from pyfret import _core, fatigue
+from pyfret._util.arrays import histories
 from pyfret._util.depths import interfaces, thin
 from pyfret.plot.depth_axis import stretch as stretch_axis
 from pyfret.plot.scales import scales
@@ -252,7 +253,7 @@ def critical_plane_rose(stress: ArrayLike, criterion: fatigue.Criterion) -> Axes
     """
     if not criterion.has_plane:
         raise ValueError(f"{criterion.name} has no critical plane")
-    stress = np.asarray(stress, dtype=float)
+    stress = histories(stress).whole()
     normal = fatigue.evaluate(stress, criterion).normal.values
     angle = np.radians(np.arange(0.0, 360.5, 1.0))
     c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]

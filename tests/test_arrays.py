@@ -1,0 +1,121 @@
+"""The door for arrays: labels, missing values, kinds, and what belongs together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+import pyfret as fret
+from pyfret import fatigue
+from pyfret._util.arrays import COMPONENTS, histories, plain, together
+
+HISTORY = 1e8 * np.random.default_rng(3).normal(size=(5, 2, 3, 6))
+LABELLED = xr.DataArray(
+    HISTORY,
+    dims=("increment", "depth", "x", "component"),
+    coords={
+        "increment": np.arange(5),
+        "z": ("depth", [0.0, 1e-5]),
+        "x": [0.0, 1e-5, 2e-5],
+        "component": list(COMPONENTS),
+    },
+)
+#: The same stress with its axes and components in other orders.
+ORDERS = {
+    "as it is": LABELLED,
+    "components by name": LABELLED.sortby("component"),
+    "depth first": LABELLED.transpose("depth", "increment", "x", "component"),
+    "component first": LABELLED.transpose("component", "x", "increment", "depth"),
+    "time by another name": LABELLED.rename(increment="time"),
+    "backwards in time": LABELLED.isel(increment=slice(None, None, -1)),
+}
+FINDLEY = fatigue.Criterion.findley(k=0.3)
+MATERIAL = fatigue.Materials()["steel_42CrMo4"]
+JUDGES: dict[str, Callable[[Any], Any]] = {
+    "evaluate": lambda s: fatigue.evaluate(s, FINDLEY).value,
+    "assess": lambda s: fatigue.assess(s, MATERIAL, "crossland").safety_factor,
+    "first_yield": lambda s: fatigue.first_yield(s, s_y=9e8).tresca,
+    "moving_load": lambda s: fatigue.moving_load(s, s_y=9e8),
+}
+
+
+@pytest.mark.parametrize("order", ORDERS)
+@pytest.mark.parametrize("judge", JUDGES)
+def test_a_history_is_taken_by_its_labels(judge: str, order: str) -> None:
+    found = JUDGES[judge](ORDERS[order])
+    if isinstance(found, xr.DataArray):
+        found = found.transpose("depth", "x").values
+    elif order == "component first":
+        # Without labels the axes are those that came in.
+        found = found.T
+    np.testing.assert_allclose(found, JUDGES[judge](HISTORY), rtol=1e-6)
+
+
+def test_results_keep_the_labels_that_came_in() -> None:
+    found = fatigue.evaluate(LABELLED, FINDLEY)
+    assert found.value.dims == ("depth", "x")
+    np.testing.assert_array_equal(found.x, LABELLED.x)
+    np.testing.assert_array_equal(found.z, LABELLED.z)
+    assert found.normal.dims == ("depth", "x", "axis")
+    assert fatigue.evaluate(HISTORY, FINDLEY).value.dims == ("dim_0", "dim_1")
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        LABELLED.drop_vars("component"),
+        LABELLED.rename(increment="load"),
+        LABELLED.assign_coords(component=list("abcdef")),
+        LABELLED.isel(component=slice(5)),
+    ],
+)
+def test_labels_that_say_nothing_are_refused(wrong: xr.DataArray) -> None:
+    with pytest.raises(ValueError, match="component"):
+        histories(wrong)
+
+
+@pytest.mark.parametrize(
+    ("values", "error"),
+    [
+        (True, TypeError),
+        ([1.0, True], TypeError),
+        (np.array([True, False]), TypeError),
+        (np.array([1.0 + 0.0j]), TypeError),
+        (np.array([1.0, None], dtype=object), TypeError),
+        (["1.0"], TypeError),
+        (np.array(["2020-01-01"], dtype="M8[D]"), TypeError),
+        ([1.0, np.nan], ValueError),
+        ([np.inf], ValueError),
+        (np.ma.masked_array([1.0, 2.0], mask=[False, True]), ValueError),
+        (xr.DataArray(np.zeros((2, 2)), dims=("a", "b")), TypeError),
+        (pd.DataFrame({"a": [1.0], "b": [2.0]}), TypeError),
+    ],
+)
+def test_no_numbers_are_refused(values: Any, error: type[Exception]) -> None:
+    with pytest.raises(error, match="value"):
+        plain(values, "value")
+
+
+def test_numbers_of_every_kind_are_taken() -> None:
+    for values in (1, 2.0, [1, 2.5], np.arange(3, dtype="i2"), np.float32(1.5), pd.Series([1, 2])):
+        np.testing.assert_array_equal(plain(values, "value"), np.asarray(values, dtype=float))
+
+
+def test_a_hole_is_masked_or_nan() -> None:
+    masked = np.ma.masked_array([1.0, 9.0, 3.0, 4.0], mask=[False, True, False, False])
+    one, other = together(holes=True, one=masked, other=[1.0, 2.0, np.nan, 4.0])
+    np.testing.assert_array_equal([one, other], [[1.0, 4.0], [1.0, 4.0]])
+
+
+def test_points_are_not_paired_by_place_where_they_have_names() -> None:
+    force = pd.Series([1.0, 2.0, 3.0], index=[0, 1, 2])
+    with pytest.raises(ValueError, match="other labels"):
+        fret.fit.Indentation.of(force, force.sort_index(ascending=False))
+    with pytest.raises(ValueError, match="as many"):
+        fret.fit.Scar.of([0.0, 1.0], [0.0], wear={})
+    assert fret.fit.Indentation.of(force, force).W.size == 3
