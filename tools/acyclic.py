@@ -13,15 +13,6 @@ import re
 import sys
 from pathlib import Path
 
-CRATES = (
-    "crates/contact-core/src",
-    "crates/eigenstrain/src",
-    "crates/fatigue/src",
-    "crates/fracture/src",
-    "crates/plasticity/src",
-    "crates/pyfret/src",
-    "crates/fret-cli/src",
-)
 PACKAGES = ("python/pyfret",)
 
 Graph = dict[Path, set[Path]]
@@ -257,7 +248,8 @@ def main() -> int:
     """Prints every circle; 1 if there is one."""
     root = Path(__file__).parent.parent
     bad = 0
-    graphs = [(root / src, Crate(root / src).dependencies()) for src in CRATES]
+    crates = sorted(root.glob("crates/*/src"))
+    graphs = [(src, Crate(src).dependencies()) for src in crates]
     graphs += [(root / src, package(root / src)) for src in PACKAGES]
     for src, graph in graphs:
         of_files = circles(graph)

@@ -7,7 +7,7 @@ mod stressed;
 
 use std::hint::black_box;
 
-use contact_core::fields::{Line, Points, Section, Side, Slices};
+use contact_subsurface::{Line, Points, Section, Side, Slices};
 use criterion::{Criterion, criterion_group, criterion_main};
 use rayon::prelude::*;
 use stressed::{Contact, coated};

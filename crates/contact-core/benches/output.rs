@@ -6,7 +6,7 @@ mod rig;
 use std::time::Duration;
 
 use contact_core::march::{Increment, March, Observer};
-use contact_core::output::StoreWriter;
+use contact_store::StoreWriter;
 use criterion::{BatchSize, Criterion, SamplingMode, criterion_group, criterion_main};
 use rig::{increments, paper_scene, stage};
 

@@ -12,8 +12,8 @@ mod stressed;
 
 use std::time::Instant;
 
-use contact_core::fields::{Line, Probe, Section, Side, Slices, States};
-use contact_core::output::{ImageData, write_volume};
+use contact_store::{ImageData, write_volume};
+use contact_subsurface::{Line, Probe, Section, Side, Slices, States};
 
 const N: usize = 256;
 

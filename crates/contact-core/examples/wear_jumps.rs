@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 use contact_core::Error;
 use contact_core::scene::Reach;
-use contact_core::wear::{Jumps, Wear, WearRun};
+use contact_wear::{Jumps, Wear, WearRun};
 use ndarray::Array2;
 
 /// Tolerance of the run that the others are compared with.

@@ -3,10 +3,10 @@
 use std::fmt::Display;
 use std::sync::Arc;
 
-/// What a law raises: its own error, which reaches the caller as it is.
+/// What a law or a step of another crate raises: its own error, which reaches the caller as it is.
 pub type LawError = Arc<dyn std::error::Error + Send + Sync>;
 
-/// An error of a law of the user's own; equal to itself alone.
+/// An error that was not made here; equal to itself alone.
 #[derive(Clone, Debug)]
 pub struct Raised(pub LawError);
 
@@ -247,9 +247,9 @@ pub enum Error {
         /// Bytes that there are.
         available: f64,
     },
-    /// A criterion, or the numbers of a material for it.
-    #[error(transparent)]
-    Criterion(fatigue::Error),
+    /// What a step of another crate within ours has raised, as it is: a fatigue criterion.
+    #[error("{0}")]
+    Other(Raised),
     /// The run was stopped from outside (Ctrl-C, an observer).
     #[error("stopped after increment {increment}")]
     Interrupted {

@@ -14,34 +14,31 @@
 //! `docs/conventions.md`. The modules stand in the order of the computation:
 //!
 //! [`scene`] -> [`plan`] -> [`kernels`] -> [`convolution`] -> [`cells`] -> [`zones`] ->
-//! [`solvers`] -> [`march`] -> [`fields`] -> [`output`]; [`estimate`] and [`wear`] run marches,
-//! [`heat`] (contact temperature) stands on convolution, [`mod@reference`] (closed forms) stands
-//! beside; [`fatigue`] (criteria on plain stress histories) is a crate of its own. The method is
-//! that of S. Spinu, Tribology in Industry 42 (2020) 131-145, doi:10.24874/ti.2020.42.01.13 ("the
-//! paper"); where we left it, the module says why.
+//! [`solvers`] -> [`march`] -> [`estimate`]. What follows from tractions stands in crates on this one:
+//! `contact-subsurface` (stress), `contact-assess` (criteria, cracks), `contact-wear`,
+//! `contact-heat` (temperature), `contact-store` (files), `contact-reference` (closed forms). The
+//! method is that of S. Spinu, Tribology in Industry 42 (2020) 131-145,
+//! doi:10.24874/ti.2020.42.01.13 ("the paper"); where we left it, the module says why.
 
 #![forbid(unsafe_code)]
 
-pub mod assess;
+pub mod bisection;
 pub mod cells;
 pub mod convolution;
 pub mod error;
 pub mod estimate;
-pub mod fields;
-mod gauss;
-pub mod heat;
+pub mod gauss;
+pub mod hertz;
 pub mod kernels;
-mod magnitude;
+pub mod linear_system;
+pub mod magnitude;
 pub mod march;
 mod material;
 pub mod memory;
-pub mod output;
 pub mod plan;
-pub mod reference;
 pub mod scene;
 pub mod solvers;
-mod stop;
-pub mod wear;
+pub mod stop;
 pub mod zones;
 
 /// The page on the use as a dependency, whose examples compile and run.
@@ -50,6 +47,4 @@ pub mod zones;
 struct UseAsADependency;
 
 pub use error::Error;
-#[doc(no_inline)]
-pub use fatigue;
 pub use scene::Scene;

@@ -6,6 +6,6 @@
 //! they result in is looked at too.
 
 /// The smallest size of a number that counts.
-pub(crate) const SMALLEST: f64 = 1e-75;
+pub const SMALLEST: f64 = 1e-75;
 /// The largest.
-pub(crate) const LARGEST: f64 = 1e75;
+pub const LARGEST: f64 = 1e75;

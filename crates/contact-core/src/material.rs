@@ -36,7 +36,7 @@ impl Elastic {
     }
 
     /// Fails if a property is out of its range; `key` says where the material stands in the scene.
-    pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
+    pub fn check(&self, key: &str) -> Result<(), Error> {
         if self.E.is_nan() || self.E <= 0.0 {
             return Err(Error::invalid(
                 format!("{key}.E"),

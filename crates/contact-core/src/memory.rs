@@ -39,7 +39,7 @@ fn system_memory() -> f64 {
 }
 
 /// Fails if that many bytes are not to be had.
-pub(crate) fn fits(what: &'static str, needed: f64) -> Result<(), Error> {
+pub fn fits(what: &'static str, needed: f64) -> Result<(), Error> {
     let available = available_memory();
     if needed <= available {
         return Ok(());

@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::error::Error;
 
 /// Why work that nobody can stop does not fail.
-pub(crate) const NOBODY: &str = "nobody stops it";
+pub const NOBODY: &str = "nobody stops it";
 
 /// Fails once `stop` is raised: [`Error::Interrupted`] after increment 0.
-pub(crate) fn unless(stop: &AtomicBool) -> Result<(), Error> {
+pub fn unless(stop: &AtomicBool) -> Result<(), Error> {
     if stop.load(Ordering::Relaxed) {
         return Err(Error::Interrupted { increment: 0 });
     }

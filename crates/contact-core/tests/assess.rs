@@ -5,16 +5,17 @@
 
 use std::sync::Arc;
 
-use contact_core::assess::{
-    Averaging, ByCriterion, ByYield, Distance, Judge, Judged, OverCycle, Recorded, Site, average,
-    inclination, judge, materials_of_layers, unsettled, worst,
+use contact_assess::{
+    Averaging, ByCriterion, ByYield, Distance, Judge, Judged, Site, average, inclination, judge,
+    materials_of_layers, worst,
 };
-use contact_core::fatigue::{AtPoint, Material, Search};
-use contact_core::fields::{Line, Side, chosen_depths, cycles};
 use contact_core::march::solve;
 use contact_core::scene::{
     Body, Coating, Elastic, Friction, Grid, LoadPath, Scene, Settings, Shape,
 };
+use contact_subsurface::{Line, Side, chosen_depths, cycles};
+use contact_subsurface::{OverCycle, Recorded, unsettled};
+use fatigue::{AtPoint, Material, Search};
 
 const TITANIUM: Elastic = Elastic { E: 116e9, nu: 0.33 };
 const TIN: Elastic = Elastic { E: 450e9, nu: 0.25 };

@@ -14,8 +14,8 @@ use std::time::Duration;
 
 use contact_core::estimate::{choose_increments, error_bars};
 use contact_core::march::{Increment, March, Observer, solve};
-use contact_core::output::{Resumed, Store, StoreWriter, resume};
 use contact_core::{Error, Scene};
+use contact_store::{Resumed, Store, StoreWriter, resume};
 use files::files;
 
 /// Unlike bodies, forces in both directions: everything that a state has is in use.

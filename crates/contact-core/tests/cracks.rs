@@ -2,13 +2,13 @@
 
 #![allow(clippy::unwrap_used)]
 
+use contact_assess::crack::{Below, Cracks, over_cycle};
 use contact_core::Scene;
-use contact_core::assess::crack::{Below, Cracks, over_cycle};
 use contact_core::convolution::Tractions;
-use contact_core::fields::{Side, States};
 use contact_core::march::March;
-use contact_core::reference::{line_contact, mcewen_pressure, mcewen_shear};
 use contact_core::scene::{Body, Elastic, Friction, Grid, LoadPath, Settings, Shape};
+use contact_reference::{line_contact, mcewen_pressure, mcewen_shear};
+use contact_subsurface::{Side, States};
 use fracture::{Crack, Path};
 
 const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };

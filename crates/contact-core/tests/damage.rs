@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use contact_core::march::{Increment, March, Observer, solve};
-use contact_core::output::{FIELDS, SCALARS, Store, StoreWriter, resume};
 use contact_core::{Error, Scene};
+use contact_store::{FIELDS, SCALARS, Store, StoreWriter, resume};
 use files::files;
 use splitmix::Draw;
 

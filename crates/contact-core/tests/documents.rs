@@ -5,8 +5,8 @@
 use std::fs;
 
 use contact_core::Scene;
-use contact_core::output::{FIELDS, SCALARS};
 use contact_core::scene::Settings;
+use contact_store::{FIELDS, SCALARS};
 
 fn document(name: &str) -> String {
     fs::read_to_string(format!("{}/../../docs/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()

@@ -14,8 +14,8 @@ use std::sync::Arc;
 
 use contact_core::estimate::{Bar, BranchEnds, ErrorBars, choose_increments, error_bars, means};
 use contact_core::march::{BranchSummary, Tractions, solve, summarise};
-use contact_core::reference::hertz;
 use contact_core::scene::{Elastic, Scene};
+use contact_reference::hertz;
 use ndarray::Array2;
 use splitmix::Draw;
 

@@ -17,8 +17,8 @@ use contact_core::Scene;
 use contact_core::estimate::{BranchEnds, choose_increments, error_bars, finest};
 use contact_core::kernels::clear_cache;
 use contact_core::march::solve;
-use contact_core::output::StoreWriter;
 use contact_core::plan::Plan;
+use contact_store::StoreWriter;
 
 #[global_allocator]
 static MEMORY: Cap<System> = Cap::new(System, usize::MAX);

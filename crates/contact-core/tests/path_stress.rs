@@ -4,14 +4,14 @@
 
 use contact_core::Error;
 use contact_core::convolution::Tractions;
-use contact_core::fields::{
+use contact_core::march::{Increment, March, Observer, Status, solve};
+use contact_core::scene::{Body, Elastic, Friction, Grid, LoadPath, Scene, Settings, Shape};
+use contact_reference::{CattaneoMindlin, hertz};
+use contact_store::{ImageData, StressStore, VolumeSink, write_volume};
+use contact_subsurface::{
     Direction, Envelope, Largest, Line, LoopPoint, Probe, Search, Section, Side, Slices, States,
     Stream, cycles, depths, largest_of_samples, loops, measure_named,
 };
-use contact_core::march::{Increment, March, Observer, Status, solve};
-use contact_core::output::{ImageData, StressStore, VolumeSink, write_volume};
-use contact_core::reference::{CattaneoMindlin, hertz};
-use contact_core::scene::{Body, Elastic, Friction, Grid, LoadPath, Scene, Settings, Shape};
 use ndarray::Array2;
 
 const STEEL: Elastic = Elastic { E: 210e9, nu: 0.0 };

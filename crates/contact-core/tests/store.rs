@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use contact_core::march::{Fields, Increment, March, Observer, solve};
-use contact_core::output::{FIELDS, FieldView, SCALARS, Store, StoreWriter};
 use contact_core::{Error, Scene};
+use contact_store::{FIELDS, FieldView, SCALARS, Store, StoreWriter};
 
 const SCENE: &str = r#"
 schema = 1

@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use ndarray::ArrayView3;
 use rayon::prelude::*;
+use stress_tensor::StressTensor;
 
 use crate::acting::Acting;
 use crate::at_point::AtPoint;
@@ -16,7 +17,6 @@ use crate::invariants::sphere;
 use crate::on_planes::{OnPlanes, ShearBuffers};
 use crate::path::Path;
 use crate::plane_function::PlaneFunction;
-use crate::tensor::StressTensor;
 
 /// Points whose histories are copied together: a few hundred kilobytes.
 const CHUNK: usize = 64;

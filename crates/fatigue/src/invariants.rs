@@ -1,10 +1,11 @@
 //! The criteria on invariants: the smallest sphere round the path of the deviatoric stress.
 
+use stress_tensor::{StressTensor, hydrostatic, tresca};
+
 use crate::at_point::AtPoint;
 use crate::ball::{Ball, Search as Balls};
 use crate::lanes::{LANES, Lanes};
 use crate::path::Path;
-use crate::tensor::{StressTensor, hydrostatic, tresca};
 
 /// sqrt 3.
 const ROOT3: f64 = 1.732_050_807_568_877_2;

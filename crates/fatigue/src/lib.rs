@@ -62,7 +62,6 @@ mod refine;
 mod shakedown;
 mod shear_bound;
 mod tangent;
-mod tensor;
 
 pub use allowed::Allowed;
 pub use assessment::Assessment;
@@ -78,6 +77,3 @@ pub use judge::{Judge, strain_life};
 pub use life::{Basquin, CoffinManson};
 pub use material::{Material, QUANTITIES, Quantity, Sourced, materials, materials_from, read};
 pub use shakedown::{Yield, yielding};
-pub use tensor::{
-    Principal, StressTensor, hydrostatic, principal, principal_values, tresca, von_mises,
-};

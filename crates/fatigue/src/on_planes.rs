@@ -6,6 +6,8 @@
 //! slope at most (1 + nu)/E D, D bounding Tresca's stress of the deviation of any instant from a
 //! constant stress (derived).
 
+use stress_tensor::StressTensor;
+
 use crate::circle::Circles;
 use crate::combination::Combination;
 use crate::critical_plane::Peak;
@@ -20,7 +22,6 @@ use crate::product_bound::product_bounds;
 use crate::refine::{Deciding, First};
 use crate::shear_bound::About;
 use crate::tangent::Tangent;
-use crate::tensor::StressTensor;
 
 /// [`PlaneFunction::lead`] of products, whose faces are large. Of 1000 cycles of two random
 /// harmonics 3 end on a plane that is not the best (by 3e-4 at most); with LEAD = 0 it is 16.

@@ -6,9 +6,9 @@
 )]
 
 use pulp::{Arch, Simd, WithSimd};
+use stress_tensor::{StressTensor, principal, principal_values, von_mises};
 
 use crate::lanes::{LANES, Lanes, Real, bottom, place_of, top};
-use crate::tensor::{StressTensor, principal, principal_values, von_mises};
 
 /// Tresca's equivalent stress is at most this times von Mises'.
 const TRESCA_OVER_MISES: f64 = 1.154_700_538_379_251_5;

@@ -1,8 +1,9 @@
 //! The maximum of a smooth function of the plane, by Newton's method.
 
+use stress_tensor::StressTensor;
+
 use crate::circle::{radius_of_three, radius_through};
 use crate::path::{Frame, dot, normal_weights, shear_weights, unit};
-use crate::tensor::StressTensor;
 
 /// Angle of the difference stencil \[rad\]: the truncation error of the slopes is its sixth power,
 /// their rounding error 1e-16 over it.

@@ -11,12 +11,12 @@
 use std::sync::atomic::AtomicBool;
 
 use ndarray::ArrayView3;
+use stress_tensor::{StressTensor, tresca, von_mises};
 
 use crate::ball::Search as Balls;
 use crate::error::Error;
 use crate::evaluate::over_points;
 use crate::invariants::{sphere, tensor};
-use crate::tensor::{StressTensor, tresca, von_mises};
 
 /// Load factors of a point: the loads times the factor just reach the limit; infinite without
 /// stress.

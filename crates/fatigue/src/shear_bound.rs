@@ -12,13 +12,14 @@
 //!
 //! For any s > 0 the amplitude is at most tau_a^2/(2 s) + s/2; s is that of the best plane.
 
+use stress_tensor::StressTensor;
+
 use crate::eight_planes::Instants;
 use crate::forms::{EDGES, Forms, corners_of, lower};
 use crate::hemisphere::Face;
 use crate::lanes::{Eight, LANES, ROUNDING};
 use crate::path::{Path, dot, normal_weights};
 use crate::plane_function::{BestPlane, Plane};
-use crate::tensor::StressTensor;
 
 /// Squares about the best plane.
 pub(crate) struct About {

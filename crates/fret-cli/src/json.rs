@@ -1,8 +1,8 @@
 //! Output of the commands for programs: SI units, names of the store.
 
-use contact_core::fields::{Cycle, Direction, LoopPoint, loops};
 use contact_core::march::{BranchSummary, Increment, Reached, summarise};
 use contact_core::scene::{RigidMotion, Scene};
+use contact_subsurface::{Cycle, Direction, LoopPoint, loops};
 use serde_json::{Map, Value, json};
 
 use crate::words::{state, word};

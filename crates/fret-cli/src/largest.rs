@@ -1,7 +1,7 @@
 //! The largest stress of a measure, as a line.
 
-use contact_core::fields::{Errors, Extreme, Probe, Zone};
 use contact_core::scene::Scene;
+use contact_subsurface::{Errors, Extreme, Probe, Zone};
 
 use crate::summary::short;
 use crate::units::{mega, um};

@@ -2,7 +2,7 @@
 
 use contact_core::Error;
 use contact_core::convolution::Tractions;
-use contact_core::output::Store;
+use contact_store::Store;
 use ndarray::Array2;
 
 /// The tractions of one increment.

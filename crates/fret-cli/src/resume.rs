@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use contact_core::Error;
-use contact_core::output::{Resumed, WearStore, resume as take_up};
+use contact_store::{Resumed, WearStore, resume as take_up};
 
 use crate::failure::Failure;
 use crate::run::Manner;

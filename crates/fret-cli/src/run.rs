@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use contact_core::estimate::{BranchEnds, choose_increments, coarsest, error_bars};
 use contact_core::march::{Increment, March, Observer, Reached, solve};
-use contact_core::output::{StoreWriter, write_error_bars, write_no_error_bars};
 use contact_core::{Error, Scene};
+use contact_store::{StoreWriter, write_error_bars, write_no_error_bars};
 
 use crate::failure::Failure;
 use crate::out::Out;

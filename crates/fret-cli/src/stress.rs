@@ -7,12 +7,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Args;
 use contact_core::Error;
 use contact_core::convolution::Tractions;
-use contact_core::fields::{
+use contact_core::scene::{Body, Scene};
+use contact_store::{ImageData, Store, StressStore, VolumeSink, write_volume};
+use contact_subsurface::{
     Depth, Line, Probe, Search, Section, Side, Slices, States, chosen_depths, depths,
     residual_of_layers,
 };
-use contact_core::output::{ImageData, Store, StressStore, VolumeSink, write_volume};
-use contact_core::scene::{Body, Scene};
 use ndarray::Axis;
 
 use crate::failure::Failure;

@@ -5,9 +5,9 @@ use std::time::Duration;
 use comfy_table::{CellAlignment, Table, presets};
 use contact_core::Scene;
 use contact_core::estimate::{Bar, ErrorBars};
-use contact_core::fields::{Cycle, Direction};
 use contact_core::march::{BranchSummary, Increment, Reached, summarise};
 use contact_core::scene::{Branch, RigidMotion};
+use contact_subsurface::{Cycle, Direction};
 
 use crate::json;
 use crate::words::{state, word};

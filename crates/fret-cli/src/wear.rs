@@ -7,9 +7,9 @@ use std::time::Instant;
 
 use clap::Args;
 use contact_core::Error;
-use contact_core::output::{WearStore, read_worn, resume_wear};
 use contact_core::scene::{Grid, Reach, Scene};
-use contact_core::wear::{Event, EventKind, Jump, Wear, WearRun};
+use contact_store::{WearStore, read_worn, resume_wear};
+use contact_wear::{Event, EventKind, Jump, Wear, WearRun};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 

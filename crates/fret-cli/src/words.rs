@@ -1,7 +1,7 @@
 //! Words for states and directions.
 
-use contact_core::fields::Direction;
 use contact_core::march::Status;
+use contact_subsurface::Direction;
 
 /// The state of the interface in words.
 pub(crate) fn state(status: Status) -> &'static str {

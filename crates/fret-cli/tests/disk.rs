@@ -9,7 +9,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use contact_core::output::Store;
+use contact_store::Store;
 
 const SCENE: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),

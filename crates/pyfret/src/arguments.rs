@@ -2,8 +2,8 @@
 
 use std::ops::Deref;
 
-use contact_core::fields::Side;
 use contact_core::memory::available_memory;
+use contact_subsurface::Side;
 use ndarray::{Dimension, Ix2};
 use numpy::{AllowTypeChange, PyArrayLike, PyReadonlyArray};
 use pyo3::conversion::FromPyObjectOwned;

@@ -1,6 +1,6 @@
 //! The table from errors of the core to Python exceptions.
 
-use contact_core::{Error, fatigue};
+use contact_core::Error;
 use pyo3::create_exception;
 use pyo3::exceptions::{
     PyKeyboardInterrupt, PyMemoryError, PyOSError, PyRuntimeError, PyTypeError, PyValueError,
@@ -75,7 +75,10 @@ pub(crate) fn to_python(error: Error) -> PyErr {
         Error::KernelInaccurate { .. }
         | Error::StressInaccurate { .. }
         | Error::TemperatureInaccurate { .. } => KernelInaccurateError::new_err(text),
-        Error::Criterion(error) => of_criterion(error),
+        Error::Other(raised) => match raised.0.downcast_ref::<fatigue::Error>() {
+            Some(error) => of_criterion(error.clone()),
+            None => PyRuntimeError::new_err(text),
+        },
         Error::FrictionLaw { raised } => match raised.0.downcast_ref::<PyErr>() {
             Some(own) => Python::attach(|py| own.clone_ref(py)),
             None => PyRuntimeError::new_err(text),

@@ -6,7 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use contact_core::fatigue as core;
+use fatigue as core;
 use ndarray::{Array1, Array2, Ix2, Ix3};
 use numpy::IntoPyArray;
 use pyo3::exceptions::{PyTypeError, PyValueError};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use contact_core::heat as core;
+use contact_heat as core;
 use ndarray::{Array2, Array3, ArrayView2, Axis, Ix2, Ix3, stack};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;

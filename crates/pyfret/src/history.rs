@@ -3,9 +3,9 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use contact_core::fields as core;
-use contact_core::fields::{Line, Stream};
 use contact_core::march;
+use contact_subsurface as core;
+use contact_subsurface::{Line, Stream};
 use ndarray::{Array1, Array2, Axis, Ix2};
 use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;

@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use contact_core::estimate::choose_increments;
 use contact_core::march as core;
-use contact_core::output::{FIELDS, Kind, SCALARS, group_attributes};
 use contact_core::scene::PathGrid;
+use contact_store::{FIELDS, Kind, SCALARS, group_attributes};
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

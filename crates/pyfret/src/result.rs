@@ -9,7 +9,7 @@ use std::time::Duration;
 use contact_core::Error;
 use contact_core::estimate::{BranchEnds, ErrorBars, choose_increments, coarsest, error_bars};
 use contact_core::march::{Increment, March, Observer};
-use contact_core::output::{self, Columns, Resumed, StoreWriter};
+use contact_store::{Columns, Resumed, StoreWriter};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
@@ -130,8 +130,8 @@ pub(crate) fn solve(
         .with_interval(interval(checkpoint)?);
     let run = |watch: &mut dyn Observer| {
         match whole(&scene, error, watch)? {
-            Some(Ok(bars)) => output::write_error_bars(&store, &bars)?,
-            Some(Err(why)) => drop(output::write_no_error_bars(&store, &why)?),
+            Some(Ok(bars)) => contact_store::write_error_bars(&store, &bars)?,
+            Some(Err(why)) => drop(contact_store::write_no_error_bars(&store, &why)?),
             None => {}
         }
         Ok(())
@@ -168,7 +168,9 @@ pub(crate) fn solve_in_memory(
 /// Checks a store and gives the attributes of its group as JSON.
 #[pyfunction]
 pub(crate) fn verify(py: Python<'_>, store: PathBuf) -> PyResult<String> {
-    let store = interruptible(py, &Arc::default(), || output::Store::open_whole(store))?;
+    let store = interruptible(py, &Arc::default(), || {
+        contact_store::Store::open_whole(store)
+    })?;
     Ok(store.map_err(to_python)?.attributes().to_string())
 }
 
@@ -189,7 +191,7 @@ pub(crate) fn resume(
         writer,
         increments,
     }) = interruptible(py, &stop, || {
-        output::resume_by(store, law.as_ref(), Some(&stop))
+        contact_store::resume_by(store, law.as_ref(), Some(&stop))
     })?
     .map_err(to_python)?
     else {

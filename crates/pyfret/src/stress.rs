@@ -2,12 +2,13 @@
 
 use std::collections::HashMap;
 
-use contact_core::fields as core;
-use contact_core::fields::Measure;
+use contact_subsurface as core;
+use contact_subsurface::Measure;
 use ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use stress_tensor::StressTensor;
 
 use crate::arguments::{Field, List};
 use crate::subsurface::Subsurface;
@@ -35,7 +36,7 @@ pub(crate) fn probe_labels() -> HashMap<&'static str, (&'static str, &'static st
 }
 
 /// The stresses of n points, from an array of shape (6, n).
-fn tensors(stress: &Field<'_>) -> PyResult<Vec<core::StressTensor>> {
+fn tensors(stress: &Field<'_>) -> PyResult<Vec<StressTensor>> {
     let stress = stress.as_array();
     if stress.nrows() != 6 {
         return Err(PyValueError::new_err(
@@ -67,7 +68,7 @@ pub(crate) fn principal<'py>(
     let mut values = Array2::zeros((stress.len(), 3));
     let mut directions = Array3::zeros((stress.len(), 3, 3));
     for (n, s) in stress.iter().enumerate() {
-        let of = core::principal(s);
+        let of = stress_tensor::principal(s);
         for i in 0..3 {
             values[(n, i)] = of.values[i];
             for j in 0..3 {

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::convolution::Tractions;
-use contact_core::fields as core;
-use contact_core::fields::{Depth, Line, Side};
-use contact_core::output::{ImageData, StressStore, VolumeSink, write_volume};
 use contact_core::scene;
+use contact_store::{ImageData, StressStore, VolumeSink, write_volume};
+use contact_subsurface as core;
+use contact_subsurface::{Depth, Line, Side};
 use ndarray::{Array2, Axis, Ix2, Ix3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4};
 use pyo3::exceptions::PyValueError;

@@ -1,10 +1,8 @@
 //! Variables of a run as xarray takes them: dimensions, values, attributes.
 
 use contact_core::march::{Fields, Increment};
-use contact_core::output::{
-    AXES, Columns, FIELDS, FieldView, KeptField, Kind, SCALARS, STATUS_MEANINGS,
-};
 use contact_core::scene::Grid;
+use contact_store::{AXES, Columns, FIELDS, FieldView, KeptField, Kind, SCALARS, STATUS_MEANINGS};
 use ndarray::{Array1, Array2, Array3, ArrayD, Axis, IxDyn};
 use numpy::{Element, IntoPyArray, PyArray1, ToPyArray};
 use pyo3::prelude::*;

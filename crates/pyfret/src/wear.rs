@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use contact_core::output::{WearStore, resume_wear_by as take_up, verify_wear as verify};
-use contact_core::wear::{
+use contact_store::{WearStore, resume_wear_by as take_up, verify_wear as verify};
+use contact_wear::{
     self as core, BodyWear, Cycling, Factor, Jumps, Law, Of, Varying, WearRun, WornStart,
     WornThrough,
 };

@@ -6,7 +6,7 @@ use crate::scene::Grid;
 
 /// Where the stored cells are.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lattice {
+pub struct Lattice {
     columns: isize,
     rows: isize,
     mirrored: bool,
@@ -15,7 +15,8 @@ pub(crate) struct Lattice {
 }
 
 impl Lattice {
-    pub(crate) fn new(grid: &Grid, mirror: Mirror) -> Self {
+    /// The cells of a grid that are solved for.
+    pub fn new(grid: &Grid, mirror: Mirror) -> Self {
         Self {
             columns: grid.nx as isize,
             rows: mirror.rows(grid.ny) as isize,
@@ -35,7 +36,7 @@ impl Lattice {
     }
 
     /// The cells that have neighbours of the other kind, in order.
-    pub(crate) fn border(self, zone: &[bool]) -> Vec<usize> {
+    pub fn border(self, zone: &[bool]) -> Vec<usize> {
         let (columns, rows) = (self.columns as usize, self.rows as usize);
         let near = |i: usize| zone[i * rows..(i + 1) * rows].windows(3);
         let (mut border, mut within) = (Vec::new(), Vec::new());

@@ -11,7 +11,8 @@ mod vector;
 
 pub use arms::{Arms, Drive};
 pub(crate) use arms::{add, inverse, product};
-pub(crate) use lattice::Lattice;
+pub use lattice::Lattice;
 pub(crate) use packing::ContactCells;
 pub(crate) use sweep::{Fields, largest, set, sums, survey, sweep};
-pub(crate) use vector::{CHUNK, add_scaled, both, copy, copy_to, dot, set_cells, size, sum};
+pub use vector::size;
+pub(crate) use vector::{CHUNK, add_scaled, both, copy, copy_to, dot, set_cells, sum};

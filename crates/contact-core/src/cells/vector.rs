@@ -41,7 +41,7 @@ pub(crate) fn sum(a: &[f64]) -> f64 {
 }
 
 /// Size of a vector.
-pub(crate) fn size(v: [f64; 2]) -> f64 {
+pub fn size(v: [f64; 2]) -> f64 {
     (v[0] * v[0] + v[1] * v[1]).sqrt()
 }
 

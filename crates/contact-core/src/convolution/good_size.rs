@@ -12,7 +12,7 @@ const ODD_PARTS: [(usize, f64); 6] = [
 ];
 
 /// The even length >= `n` that takes least time.
-pub(crate) fn good_size(n: usize) -> usize {
+pub fn good_size(n: usize) -> usize {
     let sizes = ODD_PARTS.map(|(odd, cost)| {
         let mut size = 2 * odd;
         while size < n {

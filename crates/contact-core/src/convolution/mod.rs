@@ -22,11 +22,9 @@ mod y_transform;
 pub use dc_fft::DcFft;
 pub use direct::Direct;
 pub use frequency_domain::FrequencyDomain;
-pub(crate) use good_size::good_size;
-pub use operator::of_bodies;
-pub(crate) use operator::{
-    approximate_inverse, normal_operator, scalar_operator, surface_operator,
-};
+pub use good_size::good_size;
+pub(crate) use operator::{approximate_inverse, surface_operator};
+pub use operator::{normal_operator, of_bodies, scalar_operator};
 pub use preconditioner::CirculantInverse;
 pub(crate) use spectra::Spectra;
 pub(crate) use spectral_product::{PARALLEL_FROM, SpectralProduct};

@@ -75,7 +75,7 @@ pub fn of_bodies(
 }
 
 /// u_z = C_zz * p on the kept cells, in double precision; ends when `stop` is raised.
-pub(crate) fn normal_operator(
+pub fn normal_operator(
     pair: &InfluenceCoefficients,
     mirror: Mirror,
     stop: &AtomicBool,
@@ -84,7 +84,7 @@ pub(crate) fn normal_operator(
 }
 
 /// The convolution of one scalar field with even coefficients `c`, as that of p to u_z.
-pub(crate) fn scalar_operator(c: Array2<f64>) -> Box<dyn SurfaceOperator> {
+pub fn scalar_operator(c: Array2<f64>) -> Box<dyn SurfaceOperator> {
     let one = InfluenceCoefficients {
         zz: c,
         ..InfluenceCoefficients::default()

@@ -7,13 +7,15 @@ const MOST_NODES: usize = 10;
 
 /// A rectangle of the contact plane, seen from the point where the effect is asked for.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cell {
+pub struct Cell {
     /// Middle \[m\].
-    pub(crate) x: f64,
-    pub(crate) y: f64,
+    pub x: f64,
+    /// See `x`.
+    pub y: f64,
     /// Half lengths of the sides \[m\].
-    pub(crate) half_x: f64,
-    pub(crate) half_y: f64,
+    pub half_x: f64,
+    /// See `half_x`.
+    pub half_y: f64,
 }
 
 impl Cell {
@@ -54,12 +56,7 @@ impl Cell {
     }
 
     /// The same over parts of the cell small enough for the function's scale zeta.
-    pub(crate) fn nodes_of_parts(
-        &self,
-        zeta: f64,
-        tolerance: f64,
-        f: &mut impl FnMut(f64, f64, f64),
-    ) {
+    pub fn nodes_of_parts(&self, zeta: f64, tolerance: f64, f: &mut impl FnMut(f64, f64, f64)) {
         if let Some(orders) = self.orders(zeta, tolerance) {
             self.nodes(orders, f);
             return;

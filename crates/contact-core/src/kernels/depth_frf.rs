@@ -32,18 +32,18 @@ pub struct FrequencyResponse {
 
 /// A depth and the material it lies in.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Place {
+pub struct Place {
     /// Depth \[m\].
     pub(crate) z: f64,
     /// Layer from the surface down; their number for the substrate.
-    pub(crate) layer: usize,
+    pub layer: usize,
     /// Depth below the top of the layer \[m\].
     pub(crate) below_top: f64,
 }
 
 /// The response at depth in the frame of the wave vector. Matrices act on (Q, p).
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct WaveFields {
+pub struct WaveFields {
     /// Tractions (Q, p) on a plane.
     pub(crate) traction: Matrix2,
     /// k (U, u_z) \[1/Pa\].
@@ -82,7 +82,7 @@ impl WaveFields {
 
 impl Stack {
     /// Where a depth lies; `layer` decides at an interface (default: the upper one).
-    pub(crate) fn place(&self, z: f64, layer: Option<usize>) -> Result<Place, Error> {
+    pub fn place(&self, z: f64, layer: Option<usize>) -> Result<Place, Error> {
         let height: f64 = self.layers.iter().map(|l| l.1).sum();
         let slack = ROUNDING * height;
         if !(z >= 0.0 && z.is_finite()) {

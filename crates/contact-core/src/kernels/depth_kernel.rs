@@ -26,7 +26,7 @@ const CUBATURE: f64 = 1e-13;
 const TOLERANCE: f64 = 1e-9;
 
 /// A quantity of R components under each of q_x, q_y, p, made of N radial functions.
-pub(crate) trait Quantity<const N: usize, const R: usize> {
+pub trait Quantity<const N: usize, const R: usize> {
     /// Orders of the Bessel functions in the Hankel integrals.
     const ORDERS: [usize; N];
 
@@ -57,7 +57,7 @@ pub(crate) trait Quantity<const N: usize, const R: usize> {
 }
 
 /// A quantity at a depth.
-pub(crate) struct DepthKernel<Q, const N: usize, const R: usize> {
+pub struct DepthKernel<Q, const N: usize, const R: usize> {
     pub(crate) place: Place,
     /// The outermost material where its closed form takes part.
     closed: Option<HalfSpace>,
@@ -78,12 +78,7 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
     /// at k d from the point make 1/s into g d [ln(d/e) + 2 sum (k + 1/2) ln((k + 1)/k)] and the
     /// traction g s into g d [2 + 2 sum 1], equal for ln(d/e) = 2 - 2 (1 - ln(2 pi)/2) = ln(2 pi)
     /// by Stirling's formula.
-    pub(crate) fn new(
-        stack: &Stack,
-        place: Place,
-        r_max: f64,
-        d: (f64, f64),
-    ) -> Result<Self, Error> {
+    pub fn new(stack: &Stack, place: Place, r_max: f64, d: (f64, f64)) -> Result<Self, Error> {
         let outermost = place.layer == 0;
         let mut kernel = Self {
             place,
@@ -127,7 +122,7 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
     }
 
     /// The response at the offset of the cell's middle to unit traction on the cell.
-    pub(crate) fn under(&self, cell: &Cell) -> [[f64; 3]; R] {
+    pub fn under(&self, cell: &Cell) -> [[f64; 3]; R] {
         let mut sum = [[0.0; 3]; R];
         if let Some(material) = &self.closed {
             let (x0, x1) = (cell.x - cell.half_x, cell.x + cell.half_x);
@@ -140,7 +135,7 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
     }
 
     /// The responses to unit traction on the cells at (i dx, y), i in `range`, of the sides `d`.
-    pub(crate) fn under_row(
+    pub fn under_row(
         &self,
         range: Range<usize>,
         y: f64,
@@ -152,7 +147,7 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
 
     /// The responses to unit traction on cells of the sides `d` at an offset y and at offsets along
     /// x, in cells and a cell apart, each with its index.
-    pub(crate) fn under_cells(
+    pub fn under_cells(
         &self,
         cells: impl Iterator<Item = (usize, f64)>,
         y: f64,
@@ -196,7 +191,7 @@ impl<Q: Quantity<N, R>, const N: usize, const R: usize> DepthKernel<Q, N, R> {
     }
 
     /// The response at the offset (x, y) from unit forces; not on the surface.
-    pub(crate) fn at_point(&self, x: f64, y: f64) -> [[f64; 3]; R] {
+    pub fn at_point(&self, x: f64, y: f64) -> [[f64; 3]; R] {
         let s = x * x + y * y;
         let mut g = match &self.closed {
             Some(material) => Q::radial(material, s, self.place.z),

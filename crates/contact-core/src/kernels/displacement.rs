@@ -16,7 +16,7 @@ use super::half_space_displacement::{self, DisplacementResponse};
 use super::layered_frf::{HalfSpace, Stack};
 
 /// The three displacements \[m/Pa\].
-pub(crate) struct Displacement;
+pub struct Displacement;
 
 impl Quantity<5, 3> for Displacement {
     const ORDERS: [usize; 5] = [0, 1, 0, 2, 1];

@@ -48,7 +48,7 @@ const SOFT: f64 = 1e4;
 
 /// The constants of a material: k times its half-space compliance.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct HalfSpace {
+pub struct HalfSpace {
     /// u_z/p and u_r/q_r: (1 - nu)/G \[1/Pa\].
     pub(crate) a: f64,
     /// u_r/(i p): (1 - 2 nu)/(2 G) \[1/Pa\].

@@ -28,21 +28,20 @@ mod stress;
 mod surface;
 
 pub use cache::clear_cache;
-pub(crate) use cell::Cell;
+pub use cell::Cell;
 pub(crate) use coefficients::norm;
 pub use coefficients::{InfluenceCoefficients, Quadrant};
 pub use convert::{Conversion, SurfaceFrf, convert};
 pub use depth_frf::FrequencyResponse;
-pub(crate) use depth_kernel::{DepthKernel, Quantity};
-pub(crate) use displacement::Displacement;
+pub use depth_kernel::{DepthKernel, Quantity};
+pub use displacement::Displacement;
 pub use graded::{Graded, Profile};
 pub use half_space_stress::StressResponse;
 pub use layered_frf::{RadialResponse, Stack};
-pub(crate) use radial_table::{Hankel, RadialTable};
+pub use radial_table::{Hankel, RadialTable};
 pub use rustfft::num_complex::Complex64;
 pub(crate) use sampled_frf::SampledFrf;
-pub(crate) use stress::{Stress, refuse_rigid};
-pub use stress::{StressCoefficients, stress_at, stress_coefficients};
+pub use stress::{Stress, StressCoefficients, refuse_rigid, stress_at, stress_coefficients};
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;

@@ -39,19 +39,19 @@ const LONGEST: f64 = 8.0;
 const NODES: usize = 20;
 
 /// The functions to be tabulated.
-pub(crate) struct Hankel<'a, const N: usize> {
+pub struct Hankel<'a, const N: usize> {
     /// The amplitudes A_n(k).
-    pub(crate) amplitude: &'a (dyn Fn(f64) -> [f64; N] + Sync),
+    pub amplitude: &'a (dyn Fn(f64) -> [f64; N] + Sync),
     /// Order m of the Bessel function of each, 0 to 3.
-    pub(crate) orders: [usize; N],
+    pub orders: [usize; N],
     /// Decay length of the amplitudes \[m\]: A_n ~ exp(-k zeta).
-    pub(crate) zeta: f64,
+    pub zeta: f64,
     /// Wave number below which the amplitudes are well resolved by low polynomials \[1/m\].
-    pub(crate) k_low: f64,
+    pub k_low: f64,
 }
 
 /// g_n(r)/r^m for s = r^2 from 0 to a largest one.
-pub(crate) struct RadialTable<const N: usize> {
+pub struct RadialTable<const N: usize> {
     /// End of the first panel, a power of four \[m^2\].
     s_first: f64,
     /// Chebyshev coefficients, `ORDER` per panel.
@@ -182,7 +182,7 @@ impl<const N: usize> Hankel<'_, N> {
     }
 
     /// Tabulates the functions for r <= `r_max`.
-    pub(crate) fn tabulate(&self, r_max: f64) -> RadialTable<N> {
+    pub fn tabulate(&self, r_max: f64) -> RadialTable<N> {
         let r_first = self.r_first(r_max);
         let mut coefficients = self.first_panel(r_first);
         // A radius at the very end of an octave belongs to the next one.
@@ -235,7 +235,7 @@ impl<const N: usize> Hankel<'_, N> {
 
     /// Largest deviation of the table from a finer integration, each function in the unit r^m,
     /// times `r`: one radius in each octave, off the nodes.
-    pub(crate) fn error(&self, table: &RadialTable<N>, r_max: f64) -> f64 {
+    pub fn error(&self, table: &RadialTable<N>, r_max: f64) -> f64 {
         let mut radii = vec![0.37 * table.s_first.sqrt()];
         let mut r = 1.23 * table.s_first.sqrt();
         while r < r_max {
@@ -258,7 +258,7 @@ impl<const N: usize> Hankel<'_, N> {
 
 impl<const N: usize> RadialTable<N> {
     /// g_n(r)/r^m at s = r^2, within the range tabulated.
-    pub(crate) fn at(&self, s: f64) -> [f64; N] {
+    pub fn at(&self, s: f64) -> [f64; N] {
         let ratio = s / self.s_first;
         let (panel, x) = if ratio < 1.0 {
             (0, 2.0 * ratio - 1.0)

@@ -33,7 +33,7 @@ use crate::scene::{Body, Grid};
 const NUMBERS: f64 = 36.0 * 8.0;
 
 /// The six stresses.
-pub(crate) struct Stress;
+pub struct Stress;
 
 /// The stresses at a depth as functions of the offset.
 pub(crate) type StressKernel = DepthKernel<Stress, 10, 6>;
@@ -213,7 +213,7 @@ pub fn stress_coefficients(
 }
 
 /// Fails for a rigid material, where stress has no meaning.
-pub(crate) fn refuse_rigid(body: &Body, layer: usize) -> Result<(), Error> {
+pub fn refuse_rigid(body: &Body, layer: usize) -> Result<(), Error> {
     if layer == body.coatings.len() && body.substrate.is_rigid() {
         return Err(Error::invalid(
             "layer",

@@ -5,14 +5,14 @@ use super::State;
 
 impl March {
     /// Sets the number of cycles done, of which friction may be a function.
-    pub(crate) fn after_cycles(&mut self, cycles: f64) {
+    pub fn after_cycles(&mut self, cycles: f64) {
         self.problem.cycles = cycles;
     }
 
     /// Sets the march to a state of its path, on surfaces with the gap `h_init` on the kept cells
     /// \[m\]. If wear has changed the gap, the next increment also brings the contact to the new
     /// surfaces. For scenes without a window (`skip.far = false`).
-    pub(crate) fn go_on_from(&mut self, state: State, h_init: &[f64]) {
+    pub fn go_on_from(&mut self, state: State, h_init: &[f64]) {
         debug_assert_eq!(state.window, self.domain.shape());
         self.state = state;
         self.domain.window.geometry.h_init.copy_from_slice(h_init);

@@ -6,7 +6,7 @@
 use super::shape::Shape;
 use super::{Body, Coating, Elastic, Grid, Prescribed, RigidMotion, Scene, SurfaceMap};
 use crate::error::Error;
-use crate::reference::Hertz;
+use crate::hertz::Hertz;
 
 /// Peak pressure over the contact modulus, or bulk strain, beyond which strains are not small.
 pub(crate) const LARGE_STRAIN: f64 = 0.1;

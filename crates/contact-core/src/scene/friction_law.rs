@@ -99,7 +99,7 @@ impl OwnFriction {
 }
 
 /// The refusal of a law of which only its name is known.
-pub(crate) fn is_missing() -> Error {
+pub fn is_missing() -> Error {
     Error::invalid(
         "friction.law",
         "own",

@@ -12,7 +12,7 @@ const FACTOR: f64 = 1e6;
 
 impl Body {
     /// The same checks as in a scene, but for the shape, where a body is used by itself.
-    pub(crate) fn check_alone(&self) -> Result<(), Error> {
+    pub fn check_alone(&self) -> Result<(), Error> {
         self.check("body")?;
         check_layers("body", self)
     }
@@ -20,7 +20,7 @@ impl Body {
 
 impl Grid {
     /// The same checks as in a scene, where a grid is used by itself.
-    pub(crate) fn check_alone(&self) -> Result<(), Error> {
+    pub fn check_alone(&self) -> Result<(), Error> {
         self.check()?;
         within(SMALLEST, "grid.dx", self.dx)?;
         within(SMALLEST, "grid.dy", self.dy)

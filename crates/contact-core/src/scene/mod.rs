@@ -22,12 +22,12 @@ mod settings;
 mod shape;
 mod surface_map;
 
-pub use crate::material::{Bond, Coating, Elastic};
+pub use crate::material::{Bond, Coating, Elastic, dundurs_beta};
 pub use body::Body;
-pub(crate) use case::{Fault, Section, read_with, text_of};
+pub use case::{Fault, Section, read_with, text_of};
 pub use files::Reach;
 pub use friction::{Friction, FrictionHistory, History};
-pub(crate) use friction_law::is_missing;
+pub use friction_law::is_missing;
 pub use friction_law::{CellHistory, FrictionLaw, OwnFriction};
 pub use grid::Grid;
 pub use load_path::{Branch, Increments, LoadPath, LoadPoint, Spacing};
@@ -48,8 +48,8 @@ pub(crate) use self::settings::MOST_ALIASES;
 use self::settings::{PATH_PART, TOLERANCE};
 use crate::error::Error;
 pub use crate::error::LawError;
+use crate::hertz::{Hertz, contact_modulus, hertz, hertz_ellipse, line_contact};
 use crate::memory::fits;
-use crate::reference::{Hertz, contact_modulus, hertz, hertz_ellipse, line_contact};
 
 /// Numbers per cell that laying out the surfaces takes: each of them, their sum, their making.
 const SURFACES: f64 = 6.0;
@@ -347,7 +347,7 @@ impl Scene {
 
     /// The larger and the smaller principal curvature of the gap between the nominal shapes
     /// \[1/m\].
-    pub(crate) fn principal_curvatures(&self) -> (f64, f64) {
+    pub fn principal_curvatures(&self) -> (f64, f64) {
         let (one, other) = (self.body1.shape.curvature(), self.body2.shape.curvature());
         let [xx, xy, yy]: [f64; 3] = std::array::from_fn(|i| one[i] + other[i]);
         let (mean, half) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));

@@ -6,7 +6,7 @@
 use super::doubts::{UNITS, softest};
 use super::{Grid, Scene};
 use crate::error::Error;
-use crate::reference::hertz_ellipse;
+use crate::hertz::hertz_ellipse;
 
 /// Fewer cells across the radius of a contact (its half width) give no usable numbers.
 pub const FEWEST_CELLS: f64 = 2.0;

@@ -30,7 +30,7 @@ const TAKEN: f64 = 0.75;
 
 /// The tractions of a contact as fields over a window of its cells.
 #[derive(Clone, Debug)]
-pub(crate) struct Continued {
+pub struct Continued {
     /// First column and row of the window.
     start: (usize, usize),
     /// The tractions q_x, q_y, p constant in each cell \[Pa\].
@@ -56,13 +56,13 @@ pub(crate) struct Continued {
 
 /// Where a line of cells crosses the border of a zone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Crossing {
+pub struct Crossing {
     /// Column and row of the grid, in cells from the middle of the first.
-    pub(crate) place: [f64; 2],
+    pub place: [f64; 2],
     /// Whether the zone is the stick zone; else the contact.
-    pub(crate) stick: bool,
+    pub stick: bool,
     /// Whether the border is extrapolated to a place within the cell; else it is assumed.
-    pub(crate) within_cell: bool,
+    pub within_cell: bool,
 }
 
 /// Which tractions vary within a cell.
@@ -80,7 +80,7 @@ impl Continued {
     /// From the tractions on a grid, each of shape (nx, ny) \[Pa\], in a window of columns and
     /// rows. Without `stick` all cells at the rim are taken to slip. On a layer as thin as the
     /// cells (`thin`) the tractions stay constant where no border can be extrapolated.
-    pub(crate) fn new(
+    pub fn new(
         grid: &Grid,
         tractions: &Tractions<'_>,
         stick: Option<&[bool]>,
@@ -145,7 +145,7 @@ impl Continued {
 
     /// The places where a line along x (`axis` 0) or y (1), at `at` rows or columns from the first,
     /// crosses the rim of the contact and the border of the stick zone.
-    pub(crate) fn crossings(&self, axis: usize, at: f64) -> Vec<Crossing> {
+    pub fn crossings(&self, axis: usize, at: f64) -> Vec<Crossing> {
         let across = 1 - axis;
         let start = [self.start.0, self.start.1];
         let shape = [self.level.nrows(), self.level.ncols()];
@@ -202,12 +202,12 @@ impl Continued {
     }
 
     /// Distance of a cell from those beside a border, in cells along or across.
-    pub(crate) fn distance(&self, cell: (usize, usize)) -> u8 {
+    pub fn distance(&self, cell: (usize, usize)) -> u8 {
         self.place(cell).map_or(u8::MAX, |at| self.distance[at])
     }
 
     /// Whether the tractions have a spurious step at the edges of a cell or of one next to it.
-    pub(crate) fn has_steps(&self, cell: (usize, usize)) -> bool {
+    pub fn has_steps(&self, cell: (usize, usize)) -> bool {
         if !self.steps {
             return false;
         }
@@ -220,14 +220,14 @@ impl Continued {
     }
 
     /// Whether a cell or one next to it is at an assumed rim.
-    pub(crate) fn rim_is_unknown(&self, cell: (usize, usize)) -> bool {
+    pub fn rim_is_unknown(&self, cell: (usize, usize)) -> bool {
         self.place(cell)
             .is_some_and(|at| around(at, self.taken.dim()).any(|at| self.taken[at]))
     }
 
     /// Change of q_x, q_y, p over the length and over the width of a cell far from borders \[Pa\];
     /// none where they are constant.
-    pub(crate) fn slopes(&self, cell: (usize, usize)) -> Option<[[f64; 3]; 2]> {
+    pub fn slopes(&self, cell: (usize, usize)) -> Option<[[f64; 3]; 2]> {
         let (i, j) = self.place(cell)?;
         if self.varying[(i, j)] == Varying::Nothing {
             return None;
@@ -246,7 +246,7 @@ impl Continued {
     }
 
     /// The tractions within a cell; none where they are constant.
-    pub(crate) fn within(&self, cell: (usize, usize)) -> Option<Within> {
+    pub fn within(&self, cell: (usize, usize)) -> Option<Within> {
         let at = self.place(cell)?;
         let varying = self.varying[at];
         if varying == Varying::Nothing {
@@ -292,10 +292,10 @@ impl Continued {
 }
 
 /// The tractions within a cell.
-pub(crate) struct Within {
+pub struct Within {
     varying: Varying,
     /// The constant tractions of the cell \[Pa\].
-    pub(crate) constant: [f64; 3],
+    pub constant: [f64; 3],
     lacking: [f64; 3],
     level: Around,
     ratios: [Around; 2],
@@ -304,12 +304,12 @@ pub(crate) struct Within {
 
 impl Within {
     /// Whether the shear varies, too.
-    pub(crate) fn shear_varies(&self) -> bool {
+    pub fn shear_varies(&self) -> bool {
         self.varying != Varying::Pressure
     }
 
     /// q_x, q_y, p at an offset from the middle in cells \[Pa\].
-    pub(crate) fn at(&self, offset: (f64, f64)) -> [f64; 3] {
+    pub fn at(&self, offset: (f64, f64)) -> [f64; 3] {
         let q = self.interpolated(offset);
         std::array::from_fn(|c| q[c] + self.lacking[c])
     }

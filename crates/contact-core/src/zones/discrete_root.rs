@@ -63,8 +63,8 @@ impl Parabola {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hertz::line_contact;
     use crate::march::March;
-    use crate::reference::line_contact;
     use crate::scene::{Body, Elastic, Friction, Grid, LoadPath, Scene, Settings, Shape};
 
     /// Hertz: every place of the border within a cell, and the pressure next to it.

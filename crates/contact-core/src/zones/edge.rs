@@ -6,9 +6,9 @@ use crate::cells::Lattice;
 
 /// A cell at the border of a zone.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Edge {
+pub struct Edge {
     /// The level of the zone; none where it cannot be extrapolated.
-    pub(crate) level: Option<Level>,
+    pub level: Option<Level>,
     /// Whether the cell is in the zone.
     pub(crate) inside: bool,
 }
@@ -44,7 +44,7 @@ impl Lattice {
     /// `laws` of a line of cells gives K powers and a function for the value of a cell. The value
     /// to one of the powers is linear in the distance from the border; the straightest is taken and
     /// extrapolated by its stencil.
-    pub(crate) fn edges<const K: usize, V: Fn(usize) -> f64>(
+    pub fn edges<const K: usize, V: Fn(usize) -> f64>(
         self,
         zone: &[bool],
         stencils: [Stencil; K],

@@ -3,7 +3,7 @@
 
 /// The power of a value that vanishes linearly at the border: the level.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Power {
+pub enum Power {
     One,
     Two,
     TwoThirds,
@@ -24,6 +24,6 @@ impl Power {
 }
 
 /// The laws of a stick zone's border, by the power of mu p - q . t that vanishes linearly.
-pub(crate) const STICK: [Power; 2] = [Power::Two, Power::TwoThirds];
+pub const STICK: [Power; 2] = [Power::Two, Power::TwoThirds];
 /// Index of the law of a zone that shrinks; the other is that of one that grows.
-pub(crate) const SHRINKS: usize = 0;
+pub const SHRINKS: usize = 0;

@@ -36,7 +36,7 @@ const APART: f64 = 0.1;
 
 /// The cells of a line from which a level is extrapolated.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stencil {
+pub struct Stencil {
     /// Outermost cells that are left out.
     skipped: usize,
     /// Most cells of a line, those included.
@@ -55,7 +55,7 @@ pub(crate) struct Stencil {
 
 impl Stencil {
     /// For a root of the distance.
-    pub(crate) const ROOT: Self = Self {
+    pub const ROOT: Self = Self {
         skipped: 2,
         most: ALONG,
         before_middle: false,
@@ -63,7 +63,7 @@ impl Stencil {
         at_border: true,
     };
     /// For a linear law, or for a root where only the law is asked for.
-    pub(crate) const LINEAR: Self = Self {
+    pub const LINEAR: Self = Self {
         skipped: 0,
         most: ALONG,
         before_middle: false,
@@ -89,7 +89,7 @@ impl Stencil {
     }
 
     /// The same for a zone whose border lies beyond its outermost cells.
-    pub(crate) const fn of_inner_zone(self) -> Self {
+    pub const fn of_inner_zone(self) -> Self {
         Self {
             at_border: false,
             ..self
@@ -126,7 +126,7 @@ impl Stencil {
 
 /// A line of cells that leads into a zone.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Line {
+pub struct Line {
     /// The last cell before the zone.
     pub(crate) outside: usize,
     /// The first ones of the zone, outermost first, and how many there are.
@@ -170,7 +170,7 @@ impl Line {
     }
 
     /// The first cell of the zone.
-    pub(crate) fn outermost(&self) -> usize {
+    pub fn outermost(&self) -> usize {
         self.cells[0]
     }
 
@@ -223,16 +223,17 @@ impl Line {
 
 /// A level extrapolated to a cell at the border of a zone.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Level {
-    /// The line that it is extrapolated along, and the law that it follows.
-    pub(crate) line: Line,
-    pub(crate) law: usize,
+pub struct Level {
+    /// The line that it is extrapolated along.
+    pub line: Line,
+    /// The law, by its number among those of its zone.
+    pub law: usize,
     /// [`Stencil::bias`]
     pub(crate) bias: f64,
     /// Its value at the cell's centre.
-    pub(crate) middle: f64,
+    pub middle: f64,
     /// Its gradient per cell along x and y.
-    pub(crate) gradient: [f64; 2],
+    pub gradient: [f64; 2],
     /// Half of its second derivative along the line, per step.
     pub(crate) bend: f64,
 }

@@ -13,9 +13,11 @@ mod sampled_border;
 mod spots;
 mod stick_zone;
 
-pub(crate) use continued::{Continued, Crossing, Within};
+pub use continued::{Continued, Crossing, Within};
 pub(crate) use edge::Edge;
-pub(crate) use laws::{Power, SHRINKS, STICK};
-pub(crate) use level::{Level, Line, Stencil};
+pub(crate) use laws::Power;
+pub use laws::{SHRINKS, STICK};
+pub(crate) use level::Line;
+pub use level::{Level, Stencil};
 pub use rim_pressure::continued_pressure;
 pub(crate) use spots::cells_per_radius;

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use contact_core::Scene;
 use contact_core::estimate::choose_increments;
 use contact_core::march::{March, Status};
-use contact_core::reference::line_contact;
 use contact_core::scene::{Body, Coating, Elastic, Friction, Grid, LoadPath, Settings, Shape};
+use contact_reference::line_contact;
 
 const TITANIUM: Elastic = Elastic { E: 116e9, nu: 0.33 };
 const R: f64 = 0.05;

@@ -15,8 +15,8 @@ mod stuck;
 
 use contact_core::Scene;
 use contact_core::march::{Increment, solve};
-use contact_core::reference::{Hertz, hertz};
 use contact_core::scene::{Body, Elastic, Friction, Grid, LoadPath, Settings, Shape};
+use contact_reference::{Hertz, hertz};
 
 const STEEL: Elastic = Elastic { E: 210e9, nu: 0.3 };
 const ALUMINIUM: Elastic = Elastic { E: 70e9, nu: 0.3 };

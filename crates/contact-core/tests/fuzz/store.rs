@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use contact_core::march::{Increment, March, Observer, solve};
-use contact_core::output::{FIELDS, SCALARS, Store, StoreWriter, resume};
 use contact_core::plan::Plan;
 use contact_core::{Error, Scene};
+use contact_store::{FIELDS, SCALARS, Store, StoreWriter, resume};
 use proptest::prelude::*;
 
 use crate::files::files;

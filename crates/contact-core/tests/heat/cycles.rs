@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
 
-use contact_core::heat::{Conduction, Conductor, Cycle, Layers, temperature};
 use contact_core::scene::Grid;
+use contact_heat::{Conduction, Conductor, Cycle, Layers, temperature};
 use ndarray::Array2;
 
 use super::{A, STEEL, close, disc, grid, steel};

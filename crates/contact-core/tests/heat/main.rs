@@ -4,9 +4,9 @@ mod cycles;
 mod sharing;
 mod sources;
 
-use contact_core::heat::{Conduction, Conductor, Layers};
 use contact_core::kernels::Complex64;
 use contact_core::scene::Grid;
+use contact_heat::{Conduction, Conductor, Layers};
 
 const STEEL: Conductor = Conductor {
     conductivity: 50.0,

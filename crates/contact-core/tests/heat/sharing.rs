@@ -1,7 +1,7 @@
 //! What either body takes of the heat.
 
-use contact_core::heat::{Conduction, Layers, partition};
 use contact_core::kernels::Complex64;
+use contact_heat::{Conduction, Layers, partition};
 
 use super::{A, STEEL, TITANIUM, close, coated, disc, grid, source, steel, titanium};
 

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use contact_core::heat::{Conductor, Layers, surface_response};
 use contact_core::kernels::Complex64;
 use contact_core::scene::Grid;
+use contact_heat::{Conductor, Layers, surface_response};
 
 use super::{
     A, STEEL, TITANIUM, close, coated, disc, grid, middle, respond, source, steel, titanium,

@@ -1,7 +1,7 @@
 //! W and T together along arbitrary paths: the one-dimensional springs.
 
-use contact_core::reference::{Springs, hertz};
 use contact_core::scene::{Branch, LoadPath, Loads, Scene, Spacing};
+use contact_reference::{Springs, hertz};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngSeed, TestRunner};

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use contact_core::march::{Increment, March};
 use contact_core::plan::Plan;
-use contact_core::reference::{Hertz, hertz};
 use contact_core::scene::{
     Body, Branch, Coating, Elastic, Friction, Grid, LoadPath, Loads, Scene, Settings, Shape,
     Spacing,
 };
+use contact_reference::{Hertz, hertz};
 use ndarray::{Array2, Zip};
 
 use crate::audit::{Audit, Violations};

@@ -1,8 +1,8 @@
 //! Similar bodies, constant W, T to and fro.
 
 use contact_core::march::{Increment, March};
-use contact_core::reference::CattaneoMindlin;
 use contact_core::scene::{Elastic, LoadPath, Scene};
+use contact_reference::CattaneoMindlin;
 use ndarray::Array2;
 
 use crate::bench::{

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use contact_core::estimate::choose_increments;
 use contact_core::march::Increment;
-use contact_core::reference::CattaneoMindlin;
 use contact_core::scene::{Elastic, LoadPath, Scene};
+use contact_reference::CattaneoMindlin;
 use ndarray::Array2;
 
 use crate::bench::{CORK, STEEL, W, coated, hertz_of, indentation, norm, run, sphere_on_flat};

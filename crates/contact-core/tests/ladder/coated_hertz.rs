@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use contact_core::reference::{CoatedIndentation, coated_indentation, hertz};
 use contact_core::scene::{Body, Coating, Elastic, Grid, LoadPath, Scene, Shape};
+use contact_reference::{CoatedIndentation, coated_indentation, hertz};
 use serde_json::Value;
 
 use crate::bench::{

@@ -1,7 +1,7 @@
 //! Dissimilar bodies, friction, W alone: the self-similar contact of Spence.
 
-use contact_core::reference::{coupled_indentation, dundurs_beta};
 use contact_core::scene::{Elastic, LoadPath};
+use contact_reference::{coupled_indentation, dundurs_beta};
 
 use crate::bench::{
     CORK, RIM, SMOOTH, STEEL, W, WHOLE_CELLS, cell, close, hertz_of, indentation, norm, run,

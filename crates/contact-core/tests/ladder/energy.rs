@@ -9,8 +9,8 @@
 //! over them scatters while an increment moves the rim by less than a cell.
 
 use contact_core::Scene;
-use contact_core::reference::CattaneoMindlin;
 use contact_core::scene::{Elastic, LoadPath};
+use contact_reference::CattaneoMindlin;
 
 use crate::bench::{
     CORK, FIELD, STEEL, W, cell, close, coated, hertz_of, indentation, run,

@@ -6,9 +6,9 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use contact_core::convolution::Tractions;
-use contact_core::fields::{Depth, Line, Probe, Search, Section, Side, States, chosen_depths};
 use contact_core::march::March;
 use contact_core::scene::{Scene, Spacing};
+use contact_subsurface::{Depth, Line, Probe, Search, Section, Side, States, chosen_depths};
 
 /// The paper's scene with its increments placed better.
 fn scene(ratio: f64, n: usize) -> Scene {

@@ -27,7 +27,7 @@ fn scene(friction: Friction, path: LoadPath) -> Scene {
 fn incipient() -> f64 {
     let scene = scene(Friction::coulomb(MU), indentation(1));
     let hertz = hertz_of(&scene);
-    contact_core::reference::CattaneoMindlin::new(hertz, CORK, CORK, MU).shift_limit()
+    contact_reference::CattaneoMindlin::new(hertz, CORK, CORK, MU).shift_limit()
 }
 
 /// Runs the path and checks what every law must keep.

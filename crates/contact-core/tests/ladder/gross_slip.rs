@@ -3,8 +3,8 @@
 use contact_core::Error;
 use contact_core::march::March;
 use contact_core::march::{Increment, Status};
-use contact_core::reference::CattaneoMindlin;
 use contact_core::scene::{LoadPath, Loads, Scene};
+use contact_reference::CattaneoMindlin;
 
 use crate::bench::{CORK, STEEL, W, close, hertz_of, indentation, run, sphere_on_flat};
 

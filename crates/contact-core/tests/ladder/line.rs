@@ -2,10 +2,10 @@
 
 use contact_core::Scene;
 use contact_core::convolution::Tractions;
-use contact_core::fields::{Depth, Line, Section, Side};
 use contact_core::march::{Fields, Increment};
-use contact_core::reference::{LineContact, line_contact};
 use contact_core::scene::{Coating, Elastic, Grid, LoadPath, Shape};
+use contact_reference::{LineContact, line_contact};
+use contact_subsurface::{Depth, Line, Section, Side};
 use ndarray::Array2;
 
 use crate::bench::{CORK, FIELD, R, SMOOTH, STEEL, close, norm, run, sphere_on_flat};

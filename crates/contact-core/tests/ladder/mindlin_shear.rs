@@ -3,8 +3,8 @@
 use contact_core::convolution::{DcFft, Displacements, SurfaceOperator, Tractions};
 use contact_core::kernels::influence_coefficients;
 use contact_core::plan::Mirror;
-use contact_core::reference::mindlin_shear_displacement;
 use contact_core::scene::{Body, Elastic, Grid, KernelSettings, Shape};
+use contact_reference::mindlin_shear_displacement;
 
 /// Largest error of (u_x, u_y) on r < 0.9 a, over the displacement in the middle.
 fn error(nu: f64, n: usize) -> f64 {

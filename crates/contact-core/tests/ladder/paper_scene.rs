@@ -1,8 +1,8 @@
 //! The paper's fretting contact, its section 4: a sphere on a coated flat, three tangential loads.
 
 use contact_core::march::{Fields, Increment, Motion};
-use contact_core::reference::CattaneoMindlin;
 use contact_core::scene::{Elastic, Scene};
+use contact_reference::CattaneoMindlin;
 
 use crate::bench::{
     FIELD, STEEL, W, cell, close, coated, hertz_of, indentation, radius, run_audited,

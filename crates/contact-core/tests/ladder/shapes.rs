@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use contact_core::Scene;
 use contact_core::march::{Fields, Increment};
-use contact_core::reference::{HertzEllipse, hertz_ellipse, line_contact};
 use contact_core::scene::{Grid, LoadPath, Rough, Shape};
+use contact_reference::{HertzEllipse, hertz_ellipse, line_contact};
 use ndarray::Array2;
 
 use crate::bench::{CORK, FIELD, R, RIM, STEEL, W, close, norm, run, sphere_on_flat};

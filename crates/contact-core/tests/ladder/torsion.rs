@@ -1,8 +1,8 @@
 //! Torsion under constant normal force: Lubkin, exact for every nu.
 
 use contact_core::march::Status;
-use contact_core::reference::Lubkin;
 use contact_core::scene::{LoadPath, Loads, Scene};
+use contact_reference::Lubkin;
 
 use crate::bench::{STEEL, W, cell, close, hertz_of, indentation, radius, run, sphere_on_flat};
 

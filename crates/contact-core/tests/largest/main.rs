@@ -10,14 +10,14 @@ mod document;
 mod random;
 
 use contact_core::convolution::Tractions;
-use contact_core::fields::{
-    Extreme, Line, Measure, Points, Probe, Search, Section, Side, States, Zone, borders,
-    chosen_depths, measure_named,
-};
 use contact_core::march::{Fields, March};
-use contact_core::reference::{HertzStress, LineContact, hertz, line_contact};
 use contact_core::scene::{
     Body, Coating, Elastic, Friction, Grid, LoadPath, Scene, Settings, Shape,
+};
+use contact_reference::{HertzStress, LineContact, hertz, line_contact};
+use contact_subsurface::{
+    Extreme, Line, Measure, Points, Probe, Search, Section, Side, States, Zone, borders,
+    chosen_depths, measure_named,
 };
 use serde_json::Value;
 
@@ -147,7 +147,7 @@ fn rims_of_line_contacts_are_right_on_every_grid() {
                     ..States::from(&states)
                 };
                 let points = Points::new(&scene.body2, Side::Body2, &scene.grid, states).unwrap();
-                let top = contact_core::fields::Depth { z: 0.0, layer: 0 };
+                let top = contact_subsurface::Depth { z: 0.0, layer: 0 };
                 let mut off = [0.0; 2];
                 for (off, rim) in off.iter_mut().zip(rims) {
                     let stress = points.stress(&[(rim.x, 0.0, top)]).unwrap()[0][0];

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use contact_core::reference::{
+use contact_reference::{
     HertzStress, PlaneStress, Stress, line_contact, mcewen_pressure, mcewen_shear,
 };
 

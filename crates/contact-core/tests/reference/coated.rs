@@ -1,10 +1,10 @@
 //! Coated bodies without friction.
 
-use contact_core::reference::{
+use contact_core::scene::{Coating, Elastic};
+use contact_reference::{
     CoatedIndentation, coated_indentation, confined_modulus, hertz, layered_normal_response,
     thin_compressible_layer, thin_incompressible_layer,
 };
-use contact_core::scene::{Coating, Elastic};
 use serde_json::Value;
 
 use crate::quadrature::integrate;

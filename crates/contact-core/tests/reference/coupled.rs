@@ -2,10 +2,8 @@
 
 use std::f64::consts::PI;
 
-use contact_core::reference::{
-    coupled_indentation, dundurs_beta, goodman_rate, goodman_stick_ratio,
-};
 use contact_core::scene::Elastic;
+use contact_reference::{coupled_indentation, dundurs_beta, goodman_rate, goodman_stick_ratio};
 
 use crate::quadrature::{integrate, over_disc};
 

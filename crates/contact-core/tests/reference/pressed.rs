@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use contact_core::reference::{hertz, hertz_ellipse, line_contact};
 use contact_core::scene::Elastic;
+use contact_reference::{hertz, hertz_ellipse, line_contact};
 
 use crate::quadrature::integrate;
 

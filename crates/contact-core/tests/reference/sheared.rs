@@ -2,10 +2,8 @@
 
 use std::f64::consts::PI;
 
-use contact_core::reference::{
-    CattaneoMindlin, Lubkin, Springs, hertz, mindlin_shear_displacement,
-};
 use contact_core::scene::Elastic;
+use contact_reference::{CattaneoMindlin, Lubkin, Springs, hertz, mindlin_shear_displacement};
 
 use crate::quadrature::{integrate, over_disc};
 

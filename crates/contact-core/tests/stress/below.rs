@@ -4,12 +4,13 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use contact_assess::{ByCriterion, ByYield, Judge, Site, judge, worst};
 use contact_core::Error;
-use contact_core::assess::{ByCriterion, ByYield, Judge, Moments, OverCycle, Site, judge, worst};
-use contact_core::fatigue::{Material, Search};
-use contact_core::fields::{Line, Side, chosen_depths};
 use contact_core::march::Fields;
 use contact_core::scene::Scene;
+use contact_subsurface::{Line, Side, chosen_depths};
+use contact_subsurface::{Moments, OverCycle};
+use fatigue::{Material, Search};
 
 /// Every so many scenes are looked at below.
 const EVERY: u64 = 16;

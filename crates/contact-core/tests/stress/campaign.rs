@@ -11,8 +11,8 @@ use contact_core::Error;
 use contact_core::kernels::Stack;
 use contact_core::march::Fields;
 use contact_core::march::{Increment, March};
-use contact_core::reference::hertz;
 use contact_core::scene::{Body, Scene, Shape};
+use contact_reference::hertz;
 use ndarray::{Array2, ArrayView2, s};
 
 use crate::audit::{Audit, Violations};

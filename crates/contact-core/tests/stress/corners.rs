@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::march::{Increment, March, Status};
-use contact_core::reference::coupled_indentation;
 use contact_core::{Error, Scene};
+use contact_reference::coupled_indentation;
 use ndarray::Array2;
 
 use crate::campaign::{End, audited};

@@ -1,11 +1,11 @@
 //! Random scenes over the whole space that a scene can describe.
 
 use contact_core::kernels::Stack;
-use contact_core::reference::hertz;
 use contact_core::scene::{
     Body, Branch, Coating, Elastic, Friction, Grid, LoadPath, Loads, Rough, Scene, Settings, Shape,
     Spacing,
 };
+use contact_reference::hertz;
 use fastrand::Rng;
 
 /// What a scene is drawn for.

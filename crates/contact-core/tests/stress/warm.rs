@@ -5,8 +5,8 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_core::Error;
-use contact_core::heat::{Conductor, Cycle, Layers, Temperature, temperature};
 use contact_core::scene::{Body, Grid, Scene};
+use contact_heat::{Conductor, Cycle, Layers, Temperature, temperature};
 use fastrand::Rng;
 use ndarray::Array2;
 

@@ -3,8 +3,8 @@
 #![allow(unreachable_pub)]
 
 use contact_core::convolution::Tractions;
-use contact_core::fields::{self, Depth};
 use contact_core::scene::{Body, Coating, Elastic, Grid, Shape};
+use contact_subsurface::Depth;
 use ndarray::Array2;
 
 /// Hertz radius of the paper's contact \[m\].
@@ -58,6 +58,6 @@ impl Contact {
     pub(crate) fn depths(&self, n: usize) -> Vec<Depth> {
         let last = (n.max(2) - 1) as f64;
         let z: Vec<f64> = (0..n).map(|i| 2.0 * A_H * (i as f64 / last)).collect();
-        fields::depths(&self.body, &z).expect("depths")
+        contact_subsurface::depths(&self.body, &z).expect("depths")
     }
 }

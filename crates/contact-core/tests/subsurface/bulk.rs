@@ -2,12 +2,12 @@
 
 use contact_core::Error;
 use contact_core::convolution::Tractions;
-use contact_core::fields::{
-    Accumulate, Depth, Line, Moment, Points, Section, Side, Slices, States, Stream, depths,
-};
 use contact_core::march::{March, Observer};
 use contact_core::scene::{
     Body, Coating, Elastic, Friction, Grid, LoadPath, Scene, Settings, Shape,
+};
+use contact_subsurface::{
+    Accumulate, Depth, Line, Moment, Points, Section, Side, Slices, States, Stream, depths,
 };
 use ndarray::Array2;
 

@@ -1,9 +1,9 @@
 //! The axis of a pressed sphere; McEwen's cylinder.
 
 use contact_core::convolution::Tractions;
-use contact_core::fields::{Depth, Line, Points, Section, Side, depths};
-use contact_core::reference::line_contact;
 use contact_core::scene::{Body, Elastic, Grid, Shape};
+use contact_reference::line_contact;
+use contact_subsurface::{Depth, Line, Points, Section, Side, depths};
 
 const NU: f64 = 0.3;
 

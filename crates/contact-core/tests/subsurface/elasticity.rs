@@ -1,7 +1,7 @@
 //! What elasticity asks for: continuity across interfaces, Hooke's law, equilibrium.
 
-use contact_core::fields::{Depth, Line, Points, Section, Side, depths};
 use contact_core::scene::Grid;
+use contact_subsurface::{Depth, Line, Points, Section, Side, depths};
 
 use crate::{coated, states, tractions};
 

@@ -1,8 +1,8 @@
 //! Where rims and stick borders are.
 
 use contact_core::convolution::Tractions;
-use contact_core::fields::{Border, Line, Zone, borders};
 use contact_core::scene::Grid;
+use contact_subsurface::{Border, Line, Zone, borders};
 use ndarray::Array2;
 
 /// Cattaneo's tractions with a stick zone of the radius c, a = p_H = 1, mu = 0.5, and the cells

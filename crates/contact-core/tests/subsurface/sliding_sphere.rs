@@ -1,11 +1,11 @@
 //! A sliding sphere: Hamilton, and the tension at the trailing edge.
 
 use contact_core::convolution::Tractions;
-use contact_core::fields::{
+use contact_core::scene::{Body, Elastic, Grid, Shape};
+use contact_reference::HertzStress;
+use contact_subsurface::{
     Depth, Extreme, Line, Points, Probe, Search, Section, Side, States, Zone, chosen_depths, depths,
 };
-use contact_core::reference::HertzStress;
-use contact_core::scene::{Body, Elastic, Grid, Shape};
 use ndarray::Array3;
 
 const NU: f64 = 0.3;

@@ -1,12 +1,12 @@
 //! Below solved contacts, with the rim followed: against superposed closed forms and finer grids.
 
 use contact_core::convolution::Tractions;
-use contact_core::fields::{Depth, Line, Points, Section, Side, States, depths};
 use contact_core::march::Fields;
-use contact_core::reference::{CattaneoMindlin, Hertz, HertzStress, hertz};
 use contact_core::scene::{
     Body, Coating, Elastic, Friction, Grid, LoadPath, Rough, Scene, Settings, Shape,
 };
+use contact_reference::{CattaneoMindlin, Hertz, HertzStress, hertz};
+use contact_subsurface::{Depth, Line, Points, Section, Side, States, depths};
 use ndarray::Array3;
 
 use crate::branch_ends::solved;

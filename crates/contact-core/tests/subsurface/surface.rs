@@ -1,9 +1,9 @@
 //! On the surface: the tractions, the surface displacement, borders between cells.
 
 use contact_core::convolution::{Direct, Displacements, SurfaceOperator, Tractions};
-use contact_core::fields::{Depth, Line, Points, Section, Side, Slices};
 use contact_core::kernels::influence_coefficients;
 use contact_core::scene::{Grid, KernelSettings};
+use contact_subsurface::{Depth, Line, Points, Section, Side, Slices};
 
 use crate::{coated, states, tractions};
 

@@ -1,9 +1,9 @@
 //! The three ways to ask against the direct sum and the table of single cells.
 
 use contact_core::convolution::Tractions;
-use contact_core::fields::{Depth, Line, Points, Section, Side, Slices, depths};
 use contact_core::kernels::stress_at;
 use contact_core::scene::{Body, Grid};
+use contact_subsurface::{Depth, Line, Points, Section, Side, Slices, depths};
 use ndarray::Array2;
 
 use crate::kernel_tables::{body, load, matrix, number, whole};

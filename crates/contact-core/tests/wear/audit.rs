@@ -7,7 +7,7 @@ use contact_core::convolution::{DcFft, Displacements, SurfaceOperator, Tractions
 use contact_core::kernels::pair_coefficients;
 use contact_core::plan::{KernelSet, Mirror, Plan};
 use contact_core::scene::{Scene, Shape};
-use contact_core::wear::{Block, Cycling, Jump, Wear, WearRun};
+use contact_wear::{Block, Cycling, Jump, Wear, WearRun};
 use ndarray::Array2;
 
 /// What sums over the cells and over the halves of a jump lose to rounding, and a margin.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use contact_core::scene::{Body, Elastic, Friction, Given, Grid, LoadPath, Scene, Settings, Shape};
-use contact_core::wear::{Archard, BodyWear, Cycling, Jump, Wear, WearRun};
+use contact_wear::{Archard, BodyWear, Cycling, Jump, Wear, WearRun};
 use ndarray::Array2;
 
 pub(crate) const STEEL: Elastic = Elastic { E: 200e9, nu: 0.3 };

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use contact_core::scene::{Coating, Elastic, Grid};
-use contact_core::wear::{Archard, BodyWear, Cycling, EventKind, Law, WornThrough};
+use contact_wear::{Archard, BodyWear, Cycling, EventKind, Law, WornThrough};
 
 use crate::bench::{archard, cylinder, run, scene, to_and_fro, wear};
 
@@ -44,7 +44,7 @@ fn a_run_ends_at_the_cycle_in_which_the_coating_is_through_or_goes_on_with_the_s
     let (_, soft) = run(&scene, &wear);
     wear.bodies[1] = archard(1e-14);
     let (_, alike) = run(&scene, &wear);
-    let depth = |jumps: &[contact_core::wear::Jump]| jumps.last().unwrap().depth[1];
+    let depth = |jumps: &[contact_wear::Jump]| jumps.last().unwrap().depth[1];
     assert!(
         depth(&soft) > 1.1 * depth(&alike),
         "{:e}, {:e}",

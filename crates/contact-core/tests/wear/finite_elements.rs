@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use contact_core::scene::{Elastic, Grid};
-use contact_core::wear::{Cycling, Jumps};
+use contact_wear::{Cycling, Jumps};
 
 use crate::bench::{STEEL, archard, cylinder, run, scene, to_and_fro, wear};
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use contact_core::scene::{Grid, Scene, Shape};
-use contact_core::wear::{Cycling, Jumps};
+use contact_wear::{Cycling, Jumps};
 
 use crate::bench::{archard, cylinder, half_width, run, scene, to_and_fro, wear};
 

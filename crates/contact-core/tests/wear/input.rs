@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use contact_core::wear::{Wear, WearRun};
+use contact_wear::{Wear, WearRun};
 
 const SCENE: &str = include_str!("../../../../scenes/wear_mccoll.toml");
 

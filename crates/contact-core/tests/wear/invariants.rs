@@ -1,7 +1,7 @@
 //! What holds for every wear scene, whatever its laws, strokes, layers and jumps.
 
 use contact_core::scene::{Elastic, Grid, Scene, Shape};
-use contact_core::wear::{BodyWear, Cycling, DissipatedEnergy, Jumps, Wear};
+use contact_wear::{BodyWear, Cycling, DissipatedEnergy, Jumps, Wear};
 
 use crate::audit::Audit;
 use crate::bench::{archard, cylinder, pulled, scene, to_and_fro, wear};

@@ -5,7 +5,7 @@
 //! the stick zone they touch by turns, on one side at each end of the stroke.
 
 use contact_core::scene::{Body, Coating, Elastic, Grid, Scene};
-use contact_core::wear::{Cycling, Jump, Jumps, WornThrough};
+use contact_wear::{Cycling, Jump, Jumps, WornThrough};
 
 use crate::bench::{STEEL, archard, cylinder, pulled, run, scene, wear};
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use contact_core::Error;
 use contact_core::scene::{Coating, Elastic, Grid, Shape};
-use contact_core::wear::{
+use contact_wear::{
     Archard, BodyWear, CellCycle, Cycling, DissipatedEnergy, Jumps, Law, Wear, WornThrough,
 };
 

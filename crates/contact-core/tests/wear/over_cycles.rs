@@ -4,12 +4,12 @@
 use std::sync::Arc;
 
 use contact_core::Error;
-use contact_core::output::{WearStore, read_worn, resume_wear, resume_wear_by};
 use contact_core::scene::{
     CellHistory, Coating, Elastic, Friction, FrictionHistory, FrictionLaw, Grid, History, LawError,
     LoadPath, Scene, Shape,
 };
-use contact_core::wear::{
+use contact_store::{WearStore, read_worn, resume_wear, resume_wear_by};
+use contact_wear::{
     Archard, BodyWear, CellCycle, Cycling, DissipatedEnergy, EventKind, Factor, Jumps, Law, Of,
     Varying, Wear, WearRun, WornStart,
 };
@@ -100,7 +100,7 @@ fn friction_that_changes_over_cycles_acts_over_jumps() {
         let (_, plain) = run(&scene, &wear);
         scene.friction.history = history(History::Cycles, &[(0.0, 1.0), (1000.0, 0.5)]);
         let (_, falls) = run(&scene, &wear);
-        let energy = |jumps: &[contact_core::wear::Jump]| jumps.last().unwrap().dissipated;
+        let energy = |jumps: &[contact_wear::Jump]| jumps.last().unwrap().dissipated;
         near(energy(&falls), 0.75 * energy(&plain), 0.02);
     }
     // By the way slipped: the factor is that of the way in all cycles so far, not of those solved.

@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use contact_core::scene::{Elastic, Grid, Scene, Shape};
-use contact_core::wear::{Block, Cycling, Jumps};
+use contact_wear::{Block, Cycling, Jumps};
 
 use crate::audit::Audit;
 use crate::bench::{archard, cylinder, pulled, run, scene, wear};

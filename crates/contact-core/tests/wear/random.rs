@@ -5,7 +5,7 @@ use contact_core::scene::{
     Body, Coating, Elastic, Friction, FrictionHistory, Given, Grid, History, LoadPath, Loads,
     Scene, Settings, Shape,
 };
-use contact_core::wear::{BodyWear, Cycling, Jumps, Wear, WornThrough};
+use contact_wear::{BodyWear, Cycling, Jumps, Wear, WornThrough};
 
 use crate::audit::Audit;
 use crate::bench::{STEEL, cylinder, to_and_fro};

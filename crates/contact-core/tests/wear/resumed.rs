@@ -3,9 +3,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use contact_core::output::{WearStore, resume_wear};
 use contact_core::scene::{Friction, Grid, Scene, Shape};
-use contact_core::wear::{Cycling, Jumps, Wear, WearRun, WearState};
+use contact_store::{WearStore, resume_wear};
+use contact_wear::{Cycling, Jumps, Wear, WearRun, WearState};
 
 use crate::bench::{archard, cylinder, pulled, scene, to_and_fro, wear};
 use crate::files::files;

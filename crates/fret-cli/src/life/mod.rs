@@ -4,13 +4,13 @@ mod options;
 mod rows;
 mod table;
 
+use contact_assess::{ByCriterion, Site, judge, materials_of_layers, of_criteria};
 use contact_core::Error;
-use contact_core::assess::{
-    ByCriterion, OverCycle, Site, StoredCycle, judge, materials_of_layers, unsettled,
-};
-use contact_core::fatigue::{Material, Search, materials, materials_from};
-use contact_core::fields::{Line, Side, chosen_depths, depths, residual_of_layers};
-use contact_core::output::Store;
+use contact_store::Store;
+use contact_store::StoredCycle;
+use contact_subsurface::{Line, Side, chosen_depths, depths, residual_of_layers};
+use contact_subsurface::{OverCycle, unsettled};
+use fatigue::{Material, Search, materials, materials_from};
 use serde_json::json;
 
 pub(crate) use self::options::Options;
@@ -123,7 +123,7 @@ fn given_materials(options: &Options) -> Result<Vec<Option<Material>>, Error> {
     let mut table = materials();
     let mut names = options.material.clone();
     if let Some(file) = &options.materials {
-        let own = materials_from(file).map_err(Error::Criterion)?;
+        let own = materials_from(file).map_err(of_criteria)?;
         if names.is_empty() && own.len() == 1 {
             names = own.keys().cloned().collect();
         }

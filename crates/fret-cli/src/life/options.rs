@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use contact_core::assess::Averaging;
-use contact_core::fatigue::CRITERIA;
+use contact_assess::Averaging;
+use fatigue::CRITERIA;
 
 /// Options of `fret life`.
 #[derive(Args)]

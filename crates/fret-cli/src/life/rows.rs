@@ -3,13 +3,13 @@
 use crate::units::{mega, um};
 use std::fmt::Write as _;
 
-use contact_core::Error;
-use contact_core::assess::{
+use contact_assess::{
     Averaging, ByCriterion, Distance, Judged, Site, Worst, average, inclination, worst,
 };
-use contact_core::fatigue::{Assessment, AtPoint};
-use contact_core::fields::{Line, Zone};
+use contact_core::Error;
 use contact_core::scene::Body;
+use contact_subsurface::{Line, Zone};
+use fatigue::{Assessment, AtPoint};
 use serde_json::json;
 
 use super::options::Options;

@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use contact_assess::{ByCriterion, Judged};
 use contact_core::Error;
-use contact_core::assess::{ByCriterion, Judged};
-use contact_core::fatigue::AtPoint;
-use contact_core::fields::Line;
+use contact_subsurface::Line;
+use fatigue::AtPoint;
 
 use super::options::Options;
 

@@ -3,7 +3,7 @@
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use contact_core::output::Store;
+use contact_store::Store;
 
 use crate::{SCENE, free, run, text};
 

@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use contact_core::output::Store;
+use contact_store::Store;
 use files::files;
 
 /// A scene of the repository, made small enough for a moment.

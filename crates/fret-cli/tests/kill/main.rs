@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use contact_core::output::Store;
+use contact_store::Store;
 
 use files::files;
 use victim::{Chance, Moment, Victim};

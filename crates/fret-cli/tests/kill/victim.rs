@@ -6,7 +6,7 @@ use std::process::Child;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use contact_core::output::Store;
+use contact_store::Store;
 
 use crate::{files, free, fret, new_run};
 

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use contact_core::assess::{self as core, Judged, Site};
-use contact_core::fields::{Depth, Line, Side, Zone};
+use contact_assess::{self as core, Judged, Site};
 use contact_core::{Error, scene};
+use contact_subsurface::{Depth, Line, Side, Zone};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

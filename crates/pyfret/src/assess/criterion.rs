@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use contact_core::assess::{self as core, ByCriterion, Judged};
-use contact_core::fatigue::AtPoint;
+use contact_assess::{self as core, ByCriterion, Judged};
+use fatigue::AtPoint;
 use ndarray::{Array2, Array3};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
@@ -79,7 +79,7 @@ impl CriterionBelow {
 pub(super) fn arrays<'py, 'a>(
     py: Python<'py>,
     rows: &[Option<Vec<Option<AtPoint>>>],
-    assessment: impl Fn(usize) -> Option<&'a contact_core::fatigue::Assessment>,
+    assessment: impl Fn(usize) -> Option<&'a fatigue::Assessment>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let places = rows.iter().flatten().map(Vec::len).next().unwrap_or(0);
     let at = |row: usize, place: usize| rows[row].as_ref().and_then(|row| row[place]);

@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 
 use contact_core::Error;
-use contact_core::assess::{Moments, OverCycle};
+use contact_subsurface::{Moments, OverCycle};
 use ndarray::Ix2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

@@ -7,9 +7,9 @@ mod yielding;
 
 use std::sync::{Arc, Mutex};
 
-use contact_core::assess::{self as core, Averaging, ByCriterion, ByYield, Distance, Judged};
-use contact_core::fatigue::{AtPoint, Search};
-use contact_core::fields::residual_of_layers;
+use contact_assess::{self as core, Averaging, ByCriterion, ByYield, Distance, Judged};
+use contact_subsurface::residual_of_layers;
+use fatigue::{AtPoint, Search};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -70,7 +70,8 @@ impl CycleSection {
 
     /// Part of the largest traction by which the cycle ends off its start, if that was kept.
     fn unsettled(&self, py: Python<'_>) -> PyResult<Option<f64>> {
-        self.below.at(py, true, |site| core::unsettled(site.cycle))
+        self.below
+            .at(py, true, |site| contact_subsurface::unsettled(site.cycle))
     }
 
     /// Judge the section by criteria for the materials of the layers, all by the same stress.

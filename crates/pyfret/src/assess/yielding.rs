@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use contact_core::assess::{self as core, ByYield, Judge as _, Judged};
-use contact_core::fatigue::Yield;
+use contact_assess::{self as core, ByYield, Judge as _, Judged};
+use fatigue::Yield;
 use ndarray::Array2;
 use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;

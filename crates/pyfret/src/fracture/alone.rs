@@ -1,7 +1,7 @@
 //! A crack under any stress.
 
 use ::fracture as of_cracks;
-use contact_core::assess::crack as core;
+use contact_assess::crack as core;
 use ndarray::{Array1, Array2, Ix3};
 use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use ::fracture as of_cracks;
-use contact_core::assess::crack as core;
+use contact_assess::crack as core;
 use contact_core::convolution::Tractions;
-use contact_core::fields::States;
+use contact_subsurface::States;
 use ndarray::{Array2, Ix3};
 use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
@@ -62,8 +62,7 @@ fn below_contact<T: Send>(
     let tractions: Vec<_> = (0..shape.0).map(tractions).collect();
     let stick: Vec<&[bool]> = stick.chunks(cells).collect();
     let residual = given.residual.unwrap_or_default();
-    let residual =
-        contact_core::fields::residual_of_layers(&body.0, &residual).map_err(to_python)?;
+    let residual = contact_subsurface::residual_of_layers(&body.0, &residual).map_err(to_python)?;
     let below = core::Below {
         body: &body.0,
         side: side(body_number)?,

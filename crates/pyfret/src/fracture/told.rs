@@ -1,7 +1,7 @@
 //! What the core says of cracks, in the words of Python.
 
 use ::fracture as of_cracks;
-use contact_core::assess::crack as core;
+use contact_assess::crack as core;
 use ndarray::Array1;
 use numpy::IntoPyArray;
 use pyo3::prelude::*;

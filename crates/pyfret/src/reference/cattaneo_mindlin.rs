@@ -1,8 +1,8 @@
 //! Partial slip of a sphere under a tangential force.
 
 use contact_core::Error;
-use contact_core::reference as core;
-use contact_core::reference::domain::{between, positive};
+use contact_reference as core;
+use contact_reference::domain::{between, positive};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 

@@ -1,7 +1,7 @@
 //! Hertz: circular and elliptical contacts.
 
-use contact_core::reference as core;
-use contact_core::reference::domain::{between, positive};
+use contact_reference as core;
+use contact_reference::domain::{between, positive};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 

@@ -1,7 +1,7 @@
 //! Stress below a sphere that presses and slides.
 
-use contact_core::reference as core;
-use contact_core::reference::domain::{between, positive};
+use contact_reference as core;
+use contact_reference::domain::{between, positive};
 use numpy::{PyArrayDyn, ToPyArray};
 use pyo3::prelude::*;
 

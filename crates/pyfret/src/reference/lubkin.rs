@@ -1,8 +1,8 @@
 //! Torsion of a sphere in partial slip.
 
 use contact_core::Error;
-use contact_core::reference as core;
-use contact_core::reference::domain::{between, positive};
+use contact_reference as core;
+use contact_reference::domain::{between, positive};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Closed forms of `contact_core::reference`.
+//! Closed forms of `contact_reference`.
 
 mod cattaneo_mindlin;
 mod hertz_contact;
@@ -9,8 +9,8 @@ mod plane_strain;
 mod springs;
 
 use contact_core::Error;
-use contact_core::reference::domain;
 use contact_core::scene as core;
+use contact_reference::domain;
 use ndarray::IxDyn;
 use numpy::{PyArrayDyn, ToPyArray};
 use pyo3::prelude::*;

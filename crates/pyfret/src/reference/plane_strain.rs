@@ -1,7 +1,7 @@
 //! Line contact of cylinders, in partial slip, under a bulk stress, in rolling.
 
-use contact_core::reference as core;
-use contact_core::reference::domain::{between, positive};
+use contact_reference as core;
+use contact_reference::domain::{between, positive};
 use numpy::{PyArrayDyn, ToPyArray};
 use pyo3::prelude::*;
 

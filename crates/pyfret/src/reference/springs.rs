@@ -1,7 +1,7 @@
 //! The one-dimensional springs that answer every path of W and T.
 
-use contact_core::reference as core;
-use contact_core::reference::domain::{between, count, positive};
+use contact_reference as core;
+use contact_reference::domain::{between, count, positive};
 use pyo3::prelude::*;
 
 use super::{Hertz, pair};

@@ -3,8 +3,8 @@
 use std::ffi::CString;
 use std::path::PathBuf;
 
-use contact_core::fields::Side;
 use contact_core::scene as core;
+use contact_subsurface::Side;
 use pyo3::prelude::*;
 
 use super::{AnyFriction, Body, Friction, Grid, LoadPath, Save, Settings};

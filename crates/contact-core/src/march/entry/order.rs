@@ -294,13 +294,13 @@ fn law(contact: &KeptContact, views: &[Option<View>], n: usize, view: &View) -> 
 mod tests {
     use ndarray::{Array2, Axis};
 
+    use crate::linear_system::solve;
     use crate::march::entry::kept_contact::KeptContact;
     use crate::march::entry::neighbours::Neighbours;
     use crate::march::entry::screened::Screened;
     use crate::march::entry::screened::tests::{half_space, of_all};
     use crate::march::entry::view::{REACH, View};
     use crate::plan::Mirror;
-    use crate::reference::linear_system::solve;
     use crate::scene::Grid;
 
     /// Strips, the first of them in contact, and those that enter.

@@ -85,10 +85,10 @@ pub(super) mod tests {
 
     use super::Screened;
     use crate::kernels::{Quadrant, influence_coefficients};
+    use crate::linear_system::solve;
     use crate::march::entry::neighbours::Neighbours;
     use crate::march::entry::view::{REACH, View};
     use crate::plan::Mirror;
-    use crate::reference::linear_system::solve;
     use crate::scene::{Body, Elastic, Grid, KernelSettings, Shape};
 
     /// C_zz of a half-space \[m/Pa\].

@@ -6,7 +6,7 @@ use crate::error::Error;
 
 /// What is wrong, and at which key.
 #[derive(Debug)]
-pub(crate) struct Fault {
+pub struct Fault {
     /// The key, `body2.coatings[0].E`; it may be missing from the file.
     pub(super) key: String,
     /// One sentence.
@@ -14,7 +14,8 @@ pub(crate) struct Fault {
 }
 
 impl Fault {
-    pub(crate) fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
+    /// A fault of the value at a key.
+    pub fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
             key: key.into(),
             message: message.into(),

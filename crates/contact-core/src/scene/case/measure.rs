@@ -6,7 +6,7 @@ use super::fault::Fault;
 
 /// A measure that a number may be given in.
 #[derive(Clone, Copy)]
-pub(crate) struct Measure {
+pub struct Measure {
     /// Name, such as `a_H`.
     name: &'static str,
     /// Its value in SI, or why it has none.

@@ -21,8 +21,8 @@ mod write;
 
 use std::path::Path;
 
-pub(crate) use fault::Fault;
-pub(crate) use section::Section;
+pub use fault::Fault;
+pub use section::Section;
 
 use document::Document;
 
@@ -66,7 +66,7 @@ impl Scene {
 }
 
 /// The text of a scene file, and its name in errors.
-pub(crate) fn text_of(path: &Path) -> Result<(String, String), Error> {
+pub fn text_of(path: &Path) -> Result<(String, String), Error> {
     let file = path.display().to_string();
     match strict(files::read(path)?) {
         Ok(text) => Ok((text, file)),
@@ -79,7 +79,7 @@ pub(crate) fn text_of(path: &Path) -> Result<(String, String), Error> {
 
 /// Reads and checks a scene, and what else its file says of it: `more` gets the file's root and the
 /// scene.
-pub(crate) fn read_with<T>(
+pub fn read_with<T>(
     text: &str,
     file: &str,
     settings: &[String],

@@ -6,7 +6,7 @@ use super::fault::Fault;
 use super::measure::{self, Measure};
 
 /// A table of the file with its place in it.
-pub(crate) struct Section<'a> {
+pub struct Section<'a> {
     key: String,
     table: &'a Table,
 }
@@ -64,7 +64,7 @@ impl<'a> Section<'a> {
     }
 
     /// The full key of an entry.
-    pub(crate) fn path(&self, name: &str) -> String {
+    pub fn path(&self, name: &str) -> String {
         if self.key.is_empty() {
             name.to_owned()
         } else {
@@ -72,7 +72,8 @@ impl<'a> Section<'a> {
         }
     }
 
-    pub(crate) fn get(&self, name: &str) -> Option<&'a Value> {
+    /// The value of a key, if it is there.
+    pub fn get(&self, name: &str) -> Option<&'a Value> {
         self.table.get(name)
     }
 
@@ -85,20 +86,20 @@ impl<'a> Section<'a> {
     }
 
     /// A table inside; the empty one where it is missing.
-    pub(crate) fn section(&self, name: &str, allowed: &[&str]) -> Result<Option<Self>, Fault> {
+    pub fn section(&self, name: &str, allowed: &[&str]) -> Result<Option<Self>, Fault> {
         self.get(name)
             .map(|value| Self::from_value(self.path(name), value, allowed))
             .transpose()
     }
 
     /// A table inside, which must be there.
-    pub(crate) fn need_section(&self, name: &str, allowed: &[&str]) -> Result<Self, Fault> {
+    pub fn need_section(&self, name: &str, allowed: &[&str]) -> Result<Self, Fault> {
         let value = self.need(name, &format!("a table of {}", allowed.join(", ")))?;
         Self::from_value(self.path(name), value, allowed)
     }
 
     /// The tables of a list; none where it is missing.
-    pub(crate) fn sections(&self, name: &str, allowed: &[&str]) -> Result<Vec<Self>, Fault> {
+    pub fn sections(&self, name: &str, allowed: &[&str]) -> Result<Vec<Self>, Fault> {
         let Some(value) = self.get(name) else {
             return Ok(Vec::new());
         };
@@ -113,7 +114,7 @@ impl<'a> Section<'a> {
     }
 
     /// A list of pairs of numbers.
-    pub(crate) fn pairs(&self, name: &str, what: &str) -> Result<Vec<(f64, f64)>, Fault> {
+    pub fn pairs(&self, name: &str, what: &str) -> Result<Vec<(f64, f64)>, Fault> {
         let (key, value) = (self.path(name), self.need(name, what)?);
         let wrong = || Fault::value(&key, value, what);
         let table = value.as_array().ok_or_else(wrong)?;
@@ -128,31 +129,24 @@ impl<'a> Section<'a> {
         pairs.collect()
     }
 
-    pub(crate) fn number(
-        &self,
-        name: &str,
-        what: &str,
-        measures: &[Measure],
-    ) -> Result<f64, Fault> {
+    /// A number that has to be there, in one of its measures; `what` says what it is.
+    pub fn number(&self, name: &str, what: &str, measures: &[Measure]) -> Result<f64, Fault> {
         measure::number(&self.path(name), self.need(name, what)?, measures)
     }
 
-    pub(crate) fn number_or(
-        &self,
-        name: &str,
-        default: f64,
-        measures: &[Measure],
-    ) -> Result<f64, Fault> {
+    /// A number, or what it is where it is left out.
+    pub fn number_or(&self, name: &str, default: f64, measures: &[Measure]) -> Result<f64, Fault> {
         Ok(self.number_if(name, measures)?.unwrap_or(default))
     }
 
-    pub(crate) fn number_if(&self, name: &str, measures: &[Measure]) -> Result<Option<f64>, Fault> {
+    /// A number that may be left out.
+    pub fn number_if(&self, name: &str, measures: &[Measure]) -> Result<Option<f64>, Fault> {
         let number = |value| measure::number(&self.path(name), value, measures);
         self.get(name).map(number).transpose()
     }
 
     /// A whole number of at least `least`.
-    pub(crate) fn count(&self, name: &str, least: i64) -> Result<usize, Fault> {
+    pub fn count(&self, name: &str, least: i64) -> Result<usize, Fault> {
         let what = format!("a whole number >= {least}");
         count(&self.path(name), self.need(name, &what)?, least)
     }
@@ -171,7 +165,7 @@ impl<'a> Section<'a> {
     }
 
     /// One of several words; the first stands for a missing key.
-    pub(crate) fn choice<T: Copy>(&self, name: &str, choices: &[(&str, T)]) -> Result<T, Fault> {
+    pub fn choice<T: Copy>(&self, name: &str, choices: &[(&str, T)]) -> Result<T, Fault> {
         let Some(value) = self.get(name) else {
             return Ok(choices[0].1);
         };

@@ -90,7 +90,7 @@ impl Branch {
     }
 
     /// Increments, one where the number is yet to be chosen.
-    pub(crate) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.increments.unwrap_or(1)
     }
 

@@ -1,0 +1,153 @@
+//! A fatigue criterion as a judge of layers.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use contact_core::Error;
+use contact_core::error::Raised;
+use contact_core::scene::Body;
+use contact_subsurface::Line;
+use fatigue::{Assessment, AtPoint, Material, Search, evaluate};
+use ndarray::ArrayView3;
+
+use super::judged::Judge;
+
+/// Relative difference of an elastic constant of a material from that of the scene above which a
+/// note is added.
+const NOTABLE_DIFFERENCE: f64 = 0.05;
+
+/// A criterion with the numbers of the material of every layer.
+#[derive(Clone, Debug)]
+pub struct ByCriterion {
+    /// Of every layer from the surface down, the substrate's last; none where it is not judged.
+    pub assessments: Vec<Option<Assessment>>,
+    /// Settings of the search for the critical plane.
+    pub search: Search,
+    /// Notes for the reader: materials whose elastic constants differ from those of the scene.
+    pub notes: Vec<String>,
+}
+
+impl ByCriterion {
+    /// The criterion of a name for the materials of the layers of a body. Strains follow from the
+    /// stress by the E and nu of the scene.
+    pub fn new(
+        name: &str,
+        body: &Body,
+        materials: &[Option<Material>],
+        search: Search,
+    ) -> Result<Self, Error> {
+        let mut notes = Vec::new();
+        let mut assessments = Vec::new();
+        for (layer, material) in materials.iter().enumerate() {
+            let Some(material) = material else {
+                assessments.push(None);
+                continue;
+            };
+            let coating = body.coatings.get(layer);
+            let elastic = coating.map_or(body.substrate, |coating| coating.material);
+            let mut of = Assessment::of(name, material).map_err(of_criteria)?;
+            for (number, value, digits) in [("E", elastic.E, 1e-9), ("nu", elastic.nu, 1.0)] {
+                let Some(own) = of.criterion.number(number) else {
+                    continue;
+                };
+                if (own - value).abs() > NOTABLE_DIFFERENCE * value.abs() {
+                    let unit = if number == "E" { " GPa" } else { "" };
+                    notes.push(format!(
+                        "layer {layer}: strains follow from the scene's {number} = {:.4}{unit}; that of `{}` is \
+                         {:.4}{unit}",
+                        digits * value,
+                        material.name,
+                        digits * own
+                    ));
+                }
+                let changed = of.criterion.with_number(number, value);
+                of.criterion = changed.map_err(of_criteria)?;
+            }
+            assessments.push(Some(of));
+        }
+        Ok(Self {
+            assessments,
+            search,
+            notes,
+        })
+    }
+
+    /// The assessment of a layer that is judged.
+    pub fn of(&self, layer: usize) -> Option<&Assessment> {
+        self.assessments.get(layer).and_then(Option::as_ref)
+    }
+}
+
+impl Judge for ByCriterion {
+    type Found = AtPoint;
+
+    fn judges(&self, layer: usize) -> bool {
+        self.of(layer).is_some()
+    }
+
+    fn judge(
+        &self,
+        layer: usize,
+        stress: &ArrayView3<'_, f64>,
+        stop: &AtomicBool,
+    ) -> Result<Vec<AtPoint>, Error> {
+        let Some(of) = self.of(layer) else {
+            return Ok(Vec::new());
+        };
+        evaluate(&of.criterion, stress, &self.search, stop).map_err(of_criteria)
+    }
+
+    fn score(&self, found: &AtPoint) -> f64 {
+        found.value
+    }
+}
+
+/// The core's error of one of the criteria.
+pub fn of_criteria(error: fatigue::Error) -> Error {
+    match error {
+        fatigue::Error::Stopped => Error::Interrupted { increment: 0 },
+        error => Error::Other(Raised(Arc::new(error))),
+    }
+}
+
+/// The material of every layer: those given from the surface down, or one, which is the
+/// substrate's.
+pub fn materials_of_layers(
+    body: &Body,
+    given: Vec<Option<Material>>,
+) -> Result<Vec<Option<Material>>, Error> {
+    let layers = body.coatings.len() + 1;
+    let mut each = given;
+    if each.len() == 1 {
+        let mut coatings = vec![None; layers - 1];
+        coatings.append(&mut each);
+        each = coatings;
+    }
+    if each.len() != layers {
+        let allowed = format!(
+            "one, the substrate's, or one for each of the {layers} layers from the surface down"
+        );
+        return Err(Error::invalid("materials", each.len(), allowed));
+    }
+    if each.iter().all(Option::is_none) {
+        let allowed = "at least one that is a material: nothing is judged";
+        return Err(Error::invalid("materials", "none", allowed));
+    }
+    Ok(each)
+}
+
+/// Angle from the surface normal, into the body, to the trace of a plane of this normal in a
+/// section \[rad\]: positive where the trace leans towards the end of the line with depth. NaN
+/// where the plane is the section.
+pub fn inclination(normal: [f64; 3], line: Line) -> f64 {
+    let along = match line {
+        Line::AlongX(_) => normal[0],
+        Line::AlongY(_) => normal[1],
+    };
+    if along.hypot(normal[2]) < 1e-9 {
+        return f64::NAN;
+    }
+    // (n_z, -n_along) lies in the plane; downwards.
+    let sign = if along > 0.0 { -1.0 } else { 1.0 };
+    (sign * normal[2]).atan2(along.abs())
+}

@@ -1,0 +1,101 @@
+//! A crack that chooses its direction below a contact.
+
+use contact_core::Error;
+use contact_subsurface::States;
+use fracture::{Crack, Direction, End, Growing, Path, PlaneStress, Point, grow};
+use rayon::prelude::*;
+
+use super::along::{Line, Which};
+use super::intensity::{Below, NEAREST, OverCycle, QUADRATURE, on_line, refused};
+
+/// How a crack grows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Growth {
+    /// Place of the mouth along x, or along the plane of the crack \[m\].
+    pub x: f64,
+    /// Angle of the first crack from the inward normal, positive towards +x \[rad\].
+    pub angle: f64,
+    /// Angle of the plane of the crack, about the axis of depth from that of x \[rad\].
+    pub azimuth: f64,
+    /// Length of the first crack \[m\].
+    pub start: f64,
+    /// What decides the direction, the length to grow to, the friction of the faces, the tolerance.
+    pub growing: Growing,
+}
+
+/// A grown crack.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grown {
+    /// Tips on the way, that of the first crack first; x is along the plane of the crack.
+    pub tips: Vec<Point>,
+    /// K over the states with the tip at each.
+    pub over: Vec<OverCycle>,
+    /// Distance between the last tip and that of the path with half of the pieces \[m\].
+    pub error: f64,
+    /// Why it ends.
+    pub end: End,
+}
+
+/// What ends the growth, of this crate or of the crack.
+struct Refused(Error);
+
+impl From<Error> for Refused {
+    fn from(error: Error) -> Self {
+        Self(error)
+    }
+}
+
+impl From<fracture::Error> for Refused {
+    fn from(error: fracture::Error) -> Self {
+        Self(refused(error))
+    }
+}
+
+/// Grows a crack below a contact in the direction of the largest range over the states.
+pub fn grown(below: &Below<'_>, states: &States<'_>, growth: &Growth) -> Result<Grown, Error> {
+    let start = growth.start;
+    if !(start > 0.0 && start.is_finite()) {
+        return Err(Error::invalid(
+            "length of the first crack",
+            start,
+            "above 0 m",
+        ));
+    }
+    let mut along = below.along(states, growth.azimuth, NEAREST * start)?;
+    let stress = |crack: &Crack| -> Result<Vec<Vec<PlaneStress>>, Refused> {
+        let line: Line = along.on(crack.path())?;
+        let points = crack.points();
+        let of_state = |state| line.stress(Which::Continued, state, &points);
+        Ok((0..line.states()).map(of_state).collect())
+    };
+    let first = Path::straight(growth.x, start, growth.angle);
+    let found = grow(&first, &growth.growing, stress).map_err(|Refused(error)| error)?;
+    let line = along.on(&found.path)?;
+    let of = |tip: &fracture::Tip| {
+        let crack = Crack::with_step(found.path.up_to(tip.at.s), QUADRATURE).map_err(refused)?;
+        on_line(below.body, &line, &crack, growth.growing.friction)
+    };
+    let over = found
+        .tips
+        .par_iter()
+        .map(of)
+        .collect::<Result<_, Error>>()?;
+    Ok(Grown {
+        tips: found.tips.iter().map(|tip| tip.at).collect(),
+        over,
+        error: found.error,
+        end: found.end,
+    })
+}
+
+/// The direction called by its name.
+pub fn direction_named(name: &str) -> Result<Direction, Error> {
+    match name {
+        "tangential_stress" => Ok(Direction::TangentialStress),
+        "opening_intensity" => Ok(Direction::OpeningIntensity),
+        other => {
+            let allowed = "tangential_stress or opening_intensity";
+            Err(Error::invalid("direction", other, allowed))
+        }
+    }
+}

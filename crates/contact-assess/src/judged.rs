@@ -1,0 +1,88 @@
+//! A judge applied to a section.
+
+use std::sync::atomic::AtomicBool;
+
+use contact_core::Error;
+use contact_subsurface::{Depth, Line};
+use ndarray::ArrayView3;
+use rayon::prelude::*;
+
+use super::site::Site;
+
+/// A rule that judges the stress history of points.
+pub trait Judge: Sync {
+    /// The judgement of a point.
+    type Found: Copy + Send + Sync;
+    /// Whether it judges a layer, from the surface down.
+    fn judges(&self, layer: usize) -> bool;
+    /// The judgements of stresses of shape (moments, points, 6) in a layer that it judges \[Pa\].
+    fn judge(
+        &self,
+        layer: usize,
+        stress: &ArrayView3<'_, f64>,
+        stop: &AtomicBool,
+    ) -> Result<Vec<Self::Found>, Error>;
+    /// The severity of a judgement: the larger the worse.
+    fn score(&self, found: &Self::Found) -> f64;
+}
+
+/// The judgements on a section.
+#[derive(Clone, Debug)]
+pub struct Judged<F> {
+    /// The line that the section is below.
+    pub line: Line,
+    /// Places on it \[m\].
+    pub along: Vec<f64>,
+    /// Depths.
+    pub depths: Vec<Depth>,
+    /// The judgements at each depth along the line; `None` in layers that are not judged.
+    pub found: Vec<Option<Vec<F>>>,
+}
+
+/// Applies judges to the section below a line, all to the same stress.
+pub fn judge<J: Judge>(
+    site: &Site<'_>,
+    line: Line,
+    depths: &[Depth],
+    judges: &[J],
+) -> Result<Vec<Judged<J::Found>>, Error> {
+    let along = site.along(line);
+    let wanted: Vec<usize> = (0..depths.len())
+        .filter(|n| judges.iter().any(|judge| judge.judges(depths[*n].layer)))
+        .collect();
+    let some: Vec<Depth> = wanted.iter().map(|n| depths[*n]).collect();
+    let mut found: Vec<Vec<Option<Vec<J::Found>>>> = vec![vec![None; depths.len()]; judges.len()];
+    site.on_line(line, &some, |first, histories| {
+        let of_depth = |(k, history): (usize, &super::site::History)| {
+            let layer = some[first + k].layer;
+            let of_judge = |judge: &J| {
+                judge
+                    .judges(layer)
+                    .then(|| judge.judge(layer, &history.view(), &site.stop))
+                    .transpose()
+            };
+            judges
+                .iter()
+                .map(of_judge)
+                .collect::<Result<Vec<_>, Error>>()
+        };
+        let here: Vec<_> = histories
+            .par_iter()
+            .enumerate()
+            .map(of_depth)
+            .collect::<Result<_, Error>>()?;
+        for (k, of_judges) in here.into_iter().enumerate() {
+            for (found, of_judge) in found.iter_mut().zip(of_judges) {
+                found[wanted[first + k]] = of_judge;
+            }
+        }
+        Ok(())
+    })?;
+    let judged = |found| Judged {
+        line,
+        along: along.clone(),
+        depths: depths.to_vec(),
+        found,
+    };
+    Ok(found.into_iter().map(judged).collect())
+}

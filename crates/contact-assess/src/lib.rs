@@ -1,0 +1,28 @@
+//! Stage 7: FROM STRESS TO DECISION: does it crack, yield or shake down, over a closed cycle of a
+//! contact.
+//!
+//! A [`Judge`] judges the stress history of a point: [`ByCriterion`] by a fatigue criterion,
+//! [`ByYield`] by load factors of first yield and shakedown. [`judge`] applies it to a section, a
+//! few depths at a time, so that memory is bounded for any number of increments ([`OverCycle`]
+//! gives them, from a store or from arrays); [`worst`] finds the worst point of a layer, between
+//! the samples and on the rim of the contact, by judging the stress there; [`average`] judges means
+//! over a critical distance of the material. [`crack`] gives the stress intensity of a crack under
+//! the stress below a contact.
+
+#![forbid(unsafe_code)]
+
+mod average;
+mod by_criterion;
+mod by_yield;
+mod climb;
+pub mod crack;
+mod judged;
+mod site;
+mod worst;
+
+pub use average::{Averaging, Distance, average};
+pub use by_criterion::{ByCriterion, inclination, materials_of_layers, of_criteria};
+pub use by_yield::ByYield;
+pub use judged::{Judge, Judged, judge};
+pub use site::Site;
+pub use worst::{Worst, worst};

@@ -1,0 +1,130 @@
+//! The worst point of a layer on a section, between the samples and on borders of the contact.
+//!
+//! Starting points are the local maxima of the samples (hills) and the places where the rim of the
+//! contact and the border of the stick zone cross the line. From the worst of these the search
+//! ascends ([`Climb`]). Every value is that of a history at a point; none is extrapolated, and none
+//! is below the worst sample.
+
+use contact_core::Error;
+use contact_subsurface::{Errors, Extreme, Line};
+
+use super::climb::Climb;
+use super::judged::{Judge, Judged};
+use super::site::Site;
+
+/// Hills below this part of the highest are ignored.
+const LOWEST: f64 = 0.8;
+/// First step along the line in cells, and in depth over the distance to the neighbouring one.
+const STEP: f64 = 0.5;
+
+/// The worst point of a layer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worst<F> {
+    /// The judgement there.
+    pub found: F,
+    /// Its score and place.
+    pub extreme: Extreme,
+}
+
+/// The worst point of a layer from the judgements on a section; `None` if the layer has no number.
+pub fn worst<J: Judge>(
+    site: &Site<'_>,
+    judged: &Judged<J::Found>,
+    judge: &J,
+    layer: usize,
+) -> Result<Option<Worst<J::Found>>, Error> {
+    let climb = Climb {
+        site,
+        judge,
+        layer,
+        line: judged.line,
+    };
+    let mut starts = climb.hills(judged);
+    let Some(highest) = starts.first().copied() else {
+        return Ok(None);
+    };
+    starts.retain(|(_, score)| *score >= LOWEST * highest.1);
+    let of_layer = || {
+        judged
+            .depths
+            .iter()
+            .filter(|d| d.layer == layer)
+            .map(|d| d.z)
+    };
+    let top = of_layer().fold(f64::INFINITY, f64::min);
+    let deepest = of_layer().fold(0.0, f64::max);
+    let known = climb.borders()?;
+    let moments = climb.moments(highest.0)?;
+    let at = site.under(&moments)?;
+    if layer == 0 && top <= 0.0 {
+        let beside = climb.beside(&known, judged);
+        let scores = climb.scores(&at, &beside)?;
+        starts.extend(beside.into_iter().zip(scores));
+    }
+    let whole = moments.tractions.len() == site.cycle.count();
+    let best = starts.iter().copied().fold(
+        highest,
+        |best, start| if start.1 > best.1 { start } else { best },
+    );
+    // The neighbouring depths of the start.
+    let gap = of_layer()
+        .map(|z| (z - best.0[1]).abs())
+        .filter(|gap| *gap > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    let half_cell = STEP * climb.cell();
+    let steps = [half_cell, if gap.is_finite() { STEP * gap } else { 0.0 }];
+    let (place, left) = climb.climbed(&at, best, steps, [top, deepest])?;
+    let point = climb.point(place);
+    let history = if whole {
+        at.history(&[point])?
+    } else {
+        site.whole(&[point], false)?
+    };
+    let Some(mut found) = climb.judged(&history)?.first().copied() else {
+        return Ok(None);
+    };
+    let (mut place, mut point, mut score) = (place, point, judge.score(&found));
+    // A sample is the stress of the whole section: the point may lie below it where rims within the
+    // cells or steps of the tractions count.
+    let missing = (highest.1 - score).max(0.0);
+    if missing > 0.0
+        && let Some(sample) = climb.sample(judged, highest.0)
+    {
+        (place, point) = (highest.0, climb.point(highest.0));
+        (found, score) = (sample, highest.1);
+    }
+    let border = climb.on_border(place, &known);
+    let coarse = climb.on_coarser_cells(place, border, &moments)?;
+    // An assumed rim may be half a cell off.
+    let beside = if at.rim_is_unknown(point) {
+        [-half_cell, half_cell]
+            .map(|by| [place[0] + by, place[1]])
+            .into()
+    } else {
+        Vec::new()
+    };
+    let beside = climb.scores(&at, &beside)?.into_iter();
+    let unsure = beside.map(|beside| (score - beside).abs());
+    let along = unsure.fold(left[0].max(missing), f64::max);
+    let (x_error, y_error) = match judged.line {
+        Line::AlongX(_) => (along, 0.0),
+        Line::AlongY(_) => (0.0, along),
+    };
+    Ok(Some(Worst {
+        found,
+        extreme: Extreme {
+            value: score,
+            x: point.0,
+            y: point.1,
+            depth: point.2,
+            at: border.map(|b| b.zone),
+            error: Errors {
+                x: x_error,
+                y: y_error,
+                z: left[1],
+                tractions: coarse.map(|coarse| (score - coarse).abs()),
+                solution: None,
+            },
+        },
+    }))
+}

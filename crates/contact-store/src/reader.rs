@@ -1,0 +1,155 @@
+//! A store being read.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use contact_core::Error;
+use contact_core::scene::Scene;
+use ndarray::Array2;
+use serde_json::Value;
+use zarrs::array::ArraySubset;
+
+use super::consolidated::{Consolidated, FILE};
+use super::folder::Folder;
+use super::stored::Stored;
+use super::whole;
+
+/// A result store as it was when it was opened.
+pub struct Store {
+    folder: Arc<Folder>,
+    consolidated: Consolidated,
+    scene: Scene,
+    increments: usize,
+    saved: usize,
+}
+
+impl Store {
+    /// Opens a store; fails if there is none, one of another layout, or one whose metadata are
+    /// damaged. What is read of it later is checked then; [`Self::verify`] checks all of it.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let folder = Folder::new(path.as_ref());
+        let consolidated = whole::consolidated(&folder)?;
+        let damaged = |e: &dyn std::fmt::Display| folder.error(&format!("{FILE} is damaged: {e}"));
+        let attributes = consolidated.document(".zattrs");
+        let scene = attributes["scene"]
+            .as_str()
+            .ok_or_else(|| folder.error(&"holds no scene"))?;
+        let file = format!("scene in {}", folder.root().display());
+        let scene = Scene::from_toml_str(scene, &file, &[])?;
+        // A store that has only been begun holds no variable.
+        let length = |name: &str| consolidated.length(name);
+        let (increments, saved) = (length("increment"), length("saved_increment"));
+        if saved > increments || increments > scene.path.increments() {
+            return Err(damaged(&format!(
+                "fields of {saved} and scalars of {increments} increments, for a path of {}",
+                scene.path.increments()
+            )));
+        }
+        Ok(Self {
+            folder,
+            consolidated,
+            scene,
+            increments,
+            saved,
+        })
+    }
+
+    /// Fails if a file of the store is missing, or is not as it was written; the error names it.
+    pub fn verify(&self) -> Result<(), Error> {
+        whole::verify(&self.folder, &self.consolidated)
+    }
+
+    /// Opens a store and checks all of it; a store that is being written meanwhile is looked at
+    /// again.
+    pub fn open_whole(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let mut store = Self::open(path)?;
+        loop {
+            let Err(error) = store.verify() else {
+                return Ok(store);
+            };
+            let again = Self::open(path)?;
+            if again.consolidated == store.consolidated {
+                return Err(error);
+            }
+            store = again;
+        }
+    }
+
+    /// The attributes of the group: the scene, the version, how the run ended.
+    pub fn attributes(&self) -> &Value {
+        self.consolidated.document(".zattrs")
+    }
+
+    pub(super) fn folder(&self) -> &Arc<Folder> {
+        &self.folder
+    }
+
+    /// The metadata documents of the group and the arrays, and the checksums.
+    pub(super) fn consolidated(&self) -> &Consolidated {
+        &self.consolidated
+    }
+
+    /// The scene that was solved.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// `running`, `done` or the sentence that says why the run stopped.
+    pub fn status(&self) -> &str {
+        self.consolidated.document(".zattrs")["status"]
+            .as_str()
+            .unwrap_or_default()
+    }
+
+    /// Increments solved.
+    pub fn increments(&self) -> usize {
+        self.increments
+    }
+
+    /// Increments whose fields are saved.
+    pub fn saved(&self) -> usize {
+        self.saved
+    }
+
+    /// A variable over `increment`, `saved`, `x` or `y`.
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
+        let failed = |e: &dyn std::fmt::Display| self.folder.error(&format!("{name}: {e}"));
+        let stored = self.array(name)?;
+        let grid = &self.scene.grid;
+        let longest = self.increments.max(grid.nx).max(grid.ny) as u64;
+        let shape = stored.shape();
+        if shape.len() != 1 || shape[0] > longest {
+            return Err(failed(&format!("is of shape {shape:?}, no column")));
+        }
+        stored.numbers(&stored.all()).map_err(|e| failed(&e))
+    }
+
+    /// A field of the `saved`-th increment whose fields are saved, from 0; a mask is 0 and 1.
+    pub fn field(&self, name: &str, saved: usize) -> Result<Array2<f64>, Error> {
+        let failed = |e: &dyn std::fmt::Display| self.folder.error(&format!("{name}: {e}"));
+        let stored = self.array(name)?;
+        let (nx, ny) = (self.scene.grid.nx, self.scene.grid.ny);
+        let part = saved as u64..saved as u64 + 1;
+        let part = ArraySubset::new_with_ranges(&[part, 0..nx as u64, 0..ny as u64]);
+        let values = stored.numbers(&part).map_err(|e| failed(&e))?;
+        Array2::from_shape_vec((nx, ny), values).map_err(|e| failed(&e))
+    }
+
+    /// The error bars of pressure and shear as fields, over their largest, of the branch of an
+    /// increment, from 1; `None` where the run has none.
+    pub fn field_errors(&self, increment: usize) -> Result<Option<[f64; 2]>, Error> {
+        let bars = &self.attributes()["error_bars"];
+        if bars.is_null() {
+            return Ok(None);
+        }
+        let branches = self.column("branch_of_increment")?;
+        let branch = increment.checked_sub(1).and_then(|row| branches.get(row));
+        let bar = |name: &str| bars[*branch? as usize][name]["total"].as_f64();
+        Ok(bar("p").zip(bar("q")).map(|(p, q)| [p, q]))
+    }
+
+    fn array(&self, name: &str) -> Result<Stored<'_>, Error> {
+        whole::array(&self.folder, &self.consolidated, name)
+    }
+}

@@ -1,0 +1,125 @@
+//! Resuming a run that has ended early.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use contact_core::Error;
+use contact_core::march::{Increment, March};
+use contact_core::scene::OwnFriction;
+use serde_json::json;
+
+use super::catalogue::{FIELDS, Kind};
+use super::checkpoint::{Checkpoints, Found};
+use super::column::Column;
+use super::consolidated::Consolidated;
+use super::folder::Folder;
+use super::given_law::with_law;
+use super::open::Open;
+use super::place::{mend, place};
+use super::reader::Store;
+use super::wear_store::WearStore;
+use super::writer::StoreWriter;
+
+/// The columns over the increments whose fields are kept.
+const SAVED: [(&str, Kind); 2] = [("saved_increment", Kind::Count), ("saved_t", Kind::Real)];
+
+/// A run taken up where its last checkpoint left it: `march.run(increments, &mut writer)`.
+pub struct Resumed {
+    /// The load path after the last increment of the checkpoint.
+    pub march: March,
+    /// Writes on in the store.
+    pub writer: StoreWriter,
+    /// The increments up to there.
+    pub increments: Vec<Increment>,
+}
+
+/// Takes up the run of a store; `None` if it is done.
+///
+/// The result will be that of the run without the interruption, bit by bit. What the store holds
+/// stays there meanwhile; only fields that were saved because the run stopped are dropped. Fails
+/// if there is no store, if another process writes it, if a file of it is missing or damaged, or if
+/// its checkpoint is of another version, and ends when `stop` is raised, if there is one
+/// ([`Error::Interrupted`]); then nothing is changed.
+pub fn resume(
+    path: impl AsRef<Path>,
+    stop: Option<&Arc<AtomicBool>>,
+) -> Result<Option<Resumed>, Error> {
+    resume_by(path, None, stop)
+}
+
+/// The same for a run by a friction law of the user's own, which no store can hold: it is given
+/// again. Fails if the run has such a law and none is given, or the other way about.
+pub fn resume_by(
+    path: impl AsRef<Path>,
+    law: Option<&OwnFriction>,
+    stop: Option<&Arc<AtomicBool>>,
+) -> Result<Option<Resumed>, Error> {
+    let stop = stop.cloned().unwrap_or_default();
+    let path = place(path.as_ref())?;
+    mend(&path);
+    if WearStore::is_at(&path) {
+        let message = "holds a run of wear: `fret resume` or pyfret.wear.resume goes on with it";
+        return Err(Folder::new(&path).error(&message));
+    }
+    let store = Store::open(&path)?;
+    if Checkpoints::in_use(store.folder()) {
+        return Err(store.folder().error(&"is being written by another process"));
+    }
+    store.verify()?;
+    if store.status() == "done" {
+        Checkpoints::clear(store.folder());
+        return Ok(None);
+    }
+    let text = store.consolidated().document(".zattrs")["scene"].as_str();
+    let Found {
+        checkpoints,
+        state,
+        increments,
+    } = Checkpoints::find(store.folder(), text.unwrap_or_default())?;
+    let scene = &with_law(store.scene(), law)?;
+    let march = match state {
+        Some(state) => March::resume_until(scene, state, &stop)?,
+        None => March::until(scene, &stop)?,
+    };
+    let points = march.points();
+    let keeps = |index: usize| {
+        let save = &scene.settings.save;
+        save.keeps(&points[index - 1], index, index == points.len())
+    };
+    let kept = (1..=store.increments()).filter(|&index| keeps(index));
+    let kept = kept.count().min(store.saved());
+    let metadata = begun_again(&store, kept)?;
+    let mut open = Open::new(store.folder().clone(), scene, march.plan());
+    let on_disk = (store.increments(), &metadata.checksums);
+    open.take_up(checkpoints, &increments, on_disk, |increment| {
+        keeps(increment.index)
+    });
+    open.write_metadata(metadata)?;
+    Ok(Some(Resumed {
+        march,
+        writer: StoreWriter::go_on(open),
+        increments,
+    }))
+}
+
+/// The metadata of a store whose run is resumed: without the fields that were saved only because it
+/// had stopped.
+fn begun_again(store: &Store, kept: usize) -> Result<Consolidated, Error> {
+    let mut metadata = store.consolidated().clone();
+    metadata.documents[".zattrs"]["status"] = json!("running");
+    let of_saved = FIELDS.iter().map(|f| f.name);
+    for name in of_saved.chain(SAVED.map(|(name, _)| name)) {
+        if let Some(array) = metadata.documents.get_mut(&format!("{name}/.zarray")) {
+            array["shape"][0] = json!(kept);
+        }
+    }
+    for (name, kind) in SAVED {
+        if store.saved() > 0 {
+            let column = store.column(name)?;
+            let checksums = Column::checksums_of(kind, &column[..kept]);
+            metadata.checksums.insert(name.to_owned(), checksums);
+        }
+    }
+    Ok(metadata)
+}

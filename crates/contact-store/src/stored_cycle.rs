@@ -1,0 +1,129 @@
+//! A closed cycle of a result store.
+
+use contact_core::Error;
+use contact_core::scene::Branch;
+use contact_subsurface::{Moments, OverCycle, Side, cycles};
+
+use crate::Store;
+
+/// The kept increments of a closed cycle of a store.
+pub struct StoredCycle<'a> {
+    store: &'a Store,
+    /// Indices among the stored increments.
+    kept: Vec<usize>,
+    /// Index of the increment before the cycle.
+    before: Option<usize>,
+    /// Bulk stress of the body at every increment \[Pa\].
+    sigma_B: Vec<f64>,
+    /// Increment of every index, from 1.
+    increments: Vec<usize>,
+}
+
+impl<'a> StoredCycle<'a> {
+    /// A closed cycle of the load path, from 0 or from the end if negative; without one all
+    /// increments that were kept. Fails where there is no such cycle, or fewer than two of its
+    /// increments were kept.
+    pub fn of(store: &'a Store, cycle: Option<i64>, side: Side) -> Result<Self, Error> {
+        let whole = |name: &str| -> Result<Vec<usize>, Error> {
+            let column = store.column(name)?;
+            Ok(column.into_iter().map(|v| v as usize).collect())
+        };
+        let increments = whole("saved_increment")?;
+        let branches = whole("branch_of_increment")?;
+        let name = if side == Side::Body1 {
+            "sigma_B1"
+        } else {
+            "sigma_B"
+        };
+        let sigma_B = store.column(name)?;
+        let branch = |increment: usize| branches.get(increment.wrapping_sub(1)).copied();
+        let (mut kept, mut before) = ((0..increments.len()).collect::<Vec<_>>(), None);
+        if let Some(cycle) = cycle {
+            let (first, last) = named(store, &branches, cycle)?;
+            let inside = |k: &usize| {
+                branch(increments[*k]).is_some_and(|branch| (first..=last).contains(&branch))
+            };
+            kept.retain(inside);
+            let start = branches.iter().position(|branch| *branch == first);
+            // Increments count from 1: the one before the first of the cycle.
+            before = start.and_then(|start| increments.iter().position(|n| *n == start));
+        }
+        if kept.len() < 2 {
+            let of = if cycle.is_none() { "path" } else { "cycle" };
+            return Err(Error::invalid(
+                format!("kept increments of the {of}"),
+                kept.len(),
+                "at least 2: solve with save = \"all\" or more of them",
+            ));
+        }
+        Ok(Self {
+            store,
+            kept,
+            before,
+            sigma_B,
+            increments,
+        })
+    }
+
+    /// The increments, from 1.
+    pub fn increments(&self) -> Vec<usize> {
+        self.kept.iter().map(|k| self.increments[*k]).collect()
+    }
+
+    fn at(&self, places: &[usize]) -> Result<Moments, Error> {
+        let mut moments = Moments::default();
+        for &place in places {
+            let field = |name: &str| self.store.field(name, place);
+            moments
+                .tractions
+                .push([field("q_x")?, field("q_y")?, field("p")?]);
+            moments.stick.push(field("stick")?.mapv(|v| v != 0.0));
+            let row = self.increments[place].wrapping_sub(1);
+            let sigma_B = self.sigma_B.get(row).copied().ok_or_else(|| {
+                let allowed = "one of the increments of the store";
+                Error::invalid("saved_increment", self.increments[place], allowed)
+            })?;
+            moments.sigma_B.push(sigma_B);
+        }
+        Ok(moments)
+    }
+}
+
+impl OverCycle for StoredCycle<'_> {
+    fn count(&self) -> usize {
+        self.kept.len()
+    }
+
+    fn moments(&self, which: &[usize]) -> Result<Moments, Error> {
+        let places: Vec<_> = which.iter().map(|n| self.kept[*n]).collect();
+        self.at(&places)
+    }
+
+    fn start(&self) -> Result<Option<Moments>, Error> {
+        self.before.map(|place| self.at(&[place])).transpose()
+    }
+}
+
+/// First and last branch of a cycle that the run has gone through to its end.
+fn named(store: &Store, branches: &[usize], cycle: i64) -> Result<(usize, usize), Error> {
+    let path = &store.scene().path;
+    let finished = |(_, last): &(usize, usize)| {
+        let increments: usize = path.branches[..=*last].iter().map(Branch::count).sum();
+        branches.len() >= increments
+    };
+    let all: Vec<_> = cycles(path).into_iter().filter(finished).collect();
+    if all.is_empty() {
+        return Err(Error::invalid(
+            "cycle",
+            cycle,
+            "a closed cycle of the load path, and it has none: end where a cycle began",
+        ));
+    }
+    let count = all.len() as i64;
+    let n = if cycle < 0 { count + cycle } else { cycle };
+    let found = usize::try_from(n).ok().and_then(|n| all.get(n).copied());
+    found.ok_or_else(|| {
+        let allowed = format!("{} to {}, a cycle of the path", -count, count - 1);
+        Error::invalid("cycle", cycle, allowed)
+    })
+}

@@ -1,0 +1,166 @@
+//! The contents of the store of a run of wear.
+
+use contact_wear::{Block, Jump};
+
+use super::catalogue::FieldView;
+
+/// Name, unit, meaning and value.
+pub(super) type Scalar = (&'static str, &'static str, &'static str, fn(&Jump) -> f64);
+
+/// Every scalar over `jump`.
+pub(super) const SCALARS: [Scalar; 21] = [
+    ("cycles", "1", "cycles at the end of the jump", |j| j.cycles),
+    ("length", "1", "cycles that the jump is long", |j| j.length),
+    ("volume1", "m^3", "volume that body 1 has lost", |j| {
+        j.volume[0]
+    }),
+    ("volume2", "m^3", "volume that body 2 has lost", |j| {
+        j.volume[1]
+    }),
+    ("depth1", "m", "deepest worn depth of body 1", |j| {
+        j.depth[0]
+    }),
+    ("depth2", "m", "deepest worn depth of body 2", |j| {
+        j.depth[1]
+    }),
+    (
+        "volume1_halfway",
+        "m^3",
+        "volume that body 1 had lost half of the jump earlier",
+        |j| j.volume_halfway[0],
+    ),
+    (
+        "volume2_halfway",
+        "m^3",
+        "volume that body 2 had lost half of the jump earlier",
+        |j| j.volume_halfway[1],
+    ),
+    (
+        "depth1_halfway",
+        "m",
+        "deepest worn depth of body 1 half of the jump earlier",
+        |j| j.depth_halfway[0],
+    ),
+    (
+        "depth2_halfway",
+        "m",
+        "deepest worn depth of body 2 half of the jump earlier",
+        |j| j.depth_halfway[1],
+    ),
+    (
+        "debris",
+        "m^3",
+        "volume that stays in the contact as debris",
+        |j| j.debris,
+    ),
+    (
+        "dissipated",
+        "J",
+        "energy dissipated by friction so far",
+        |j| j.dissipated,
+    ),
+    (
+        "dissipated_per_cycle",
+        "J",
+        "energy dissipated in one cycle on the worn surfaces",
+        |j| j.dissipated_per_cycle,
+    ),
+    ("p_max", "Pa", "largest pressure", |j| j.p_max),
+    ("contact_area", "m^2", "area of the contact", |j| {
+        j.contact_area
+    }),
+    (
+        "stick_ratio",
+        "1",
+        "area that sticks all through a cycle over that of the contact",
+        |j| j.stick_ratio,
+    ),
+    (
+        "error",
+        "1",
+        "estimated error of the depth that the jump adds, over the depth (root mean squares)",
+        |j| j.error,
+    ),
+    ("pressure_error", "1", "the same of the pressure", |j| {
+        j.pressure_error
+    }),
+    (
+        "depth_error",
+        "1",
+        "bound of the error that the jumps leave of the deepest depth, over it",
+        |j| j.depth_error,
+    ),
+    ("retries", "1", "times that the jump was tried anew", |j| {
+        j.retries as f64
+    }),
+    ("index", "1", "jump, from 1", |j| j.index as f64),
+];
+
+/// Name, unit, meaning and values.
+type Field = (
+    &'static str,
+    &'static str,
+    &'static str,
+    fn(&Block) -> FieldView<'_>,
+);
+
+/// Every field over `block`, `x`, `y`.
+pub(super) const FIELDS: [Field; 7] = [
+    (
+        "worn1",
+        "m",
+        "depth worn off body 1, in its own coordinates",
+        |b| FieldView::Real(&b.worn1),
+    ),
+    (
+        "worn2",
+        "m",
+        "depth worn off body 2, in its own coordinates",
+        |b| FieldView::Real(&b.worn2),
+    ),
+    (
+        "energy1",
+        "J/m^2",
+        "energy per area dissipated at body 1 so far, in its own coordinates",
+        |b| FieldView::Real(&b.energy1),
+    ),
+    (
+        "energy2",
+        "J/m^2",
+        "energy per area dissipated at body 2 so far, in its own coordinates",
+        |b| FieldView::Real(&b.energy2),
+    ),
+    ("slid", "m", "way slipped in contact so far", |b| {
+        FieldView::Real(&b.slid)
+    }),
+    (
+        "p",
+        "Pa",
+        "pressure: mean of the cycle, or that in the middle of the stroke",
+        |b| FieldView::Real(&b.p),
+    ),
+    (
+        "stick",
+        "1",
+        "contact cells that slip nowhere in a cycle",
+        |b| FieldView::Mask(&b.stick),
+    ),
+];
+
+/// The friction loops over `block`, `corner`, in the order of [`Block::friction_loop`]: name, unit
+/// of a contact of two directions and meaning.
+pub(super) const FRICTION_LOOP: [(&str, &str, &str); 4] = [
+    ("loop_delta_x", "m", "shift along x in the friction loop"),
+    ("loop_T_x", "N", "force along x in the friction loop"),
+    ("loop_delta_y", "m", "shift along y in the friction loop"),
+    ("loop_T_y", "N", "force along y in the friction loop"),
+];
+
+/// Whether such a store has an array of that name, beside its coordinates x and y.
+pub(super) fn holds(name: &str) -> bool {
+    let scalars = SCALARS.iter().map(|(name, ..)| *name);
+    let fields = FIELDS.iter().map(|(name, ..)| *name);
+    let friction_loop = FRICTION_LOOP.iter().map(|(name, ..)| *name);
+    let mut all = scalars.chain(fields).chain(friction_loop);
+    name == "block_cycles" || all.any(|other| other == name)
+}

@@ -1,0 +1,92 @@
+//! Whether a store is whole: its consolidated metadata, and every file that they speak of.
+
+use std::sync::Arc;
+
+use contact_core::Error;
+use rayon::prelude::*;
+use serde_json::Value;
+
+use super::consolidated::{Consolidated, FILE};
+use super::folder::Folder;
+use super::schema::SCHEMA;
+use super::stored::Stored;
+
+/// The consolidated metadata of a store; fails if there is none, one of another layout or damaged
+/// ones.
+pub(super) fn consolidated(folder: &Folder) -> Result<Consolidated, Error> {
+    let text = folder
+        .read(FILE)
+        .map_err(|e| folder.error(&format!("{FILE}: {e}")))?
+        .ok_or_else(|| folder.error(&"is not a result store (it has no .zmetadata)"))?;
+    let damaged = |e: &dyn std::fmt::Display| folder.error(&format!("{FILE} is damaged: {e}"));
+    let (consolidated, whole) = Consolidated::decode(&text).map_err(|e| damaged(&e))?;
+    match consolidated.document(".zattrs")["schema"] {
+        Value::Null => Err(folder.error(&"is not a result store (it has no schema)")),
+        ref schema if *schema != SCHEMA => Err(folder.error(&format!(
+            "is a store of schema {schema}: this version reads schema {SCHEMA}; solve its scene again \
+             (the attribute `scene` holds it)"
+        ))),
+        _ if !whole && !text_has_sums(&text) => Err(folder.error(
+            &"is a copy without checksums, as `save` or xarray write one: it can be opened in Python, but not be gone on \
+              with; the store itself has them",
+        )),
+        _ if !whole => Err(damaged(&"it is not what was written")),
+        _ => Ok(consolidated),
+    }
+}
+
+/// Whether metadata hold any checksum, their own or those of the arrays.
+fn text_has_sums(text: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(text);
+    text.contains("\"checksums\"") || text.contains("\"crc32\"")
+}
+
+/// Fails if a file of the store is missing, or is not as it was written; the error names it.
+pub(super) fn verify(folder: &Arc<Folder>, consolidated: &Consolidated) -> Result<(), Error> {
+    for key in [".zgroup", ".zattrs"] {
+        document(folder, consolidated, key)
+            .map_err(|e| folder.error(&format!("the file {key} {e}")))?;
+    }
+    let arrays = consolidated.documents.keys();
+    let arrays: Vec<_> = arrays
+        .filter_map(|key| key.strip_suffix("/.zarray"))
+        .collect();
+    arrays.par_iter().try_for_each(|name| {
+        let stored = array(folder, consolidated, name)?;
+        let verified = stored.verify(&stored.all());
+        verified.map_err(|e| folder.error(&format!("{name}: {e}")))
+    })
+}
+
+/// An array of the store.
+pub(super) fn array<'a>(
+    folder: &Arc<Folder>,
+    consolidated: &'a Consolidated,
+    name: &str,
+) -> Result<Stored<'a>, Error> {
+    let zarray = consolidated.document(&format!("{name}/.zarray"));
+    if zarray.is_null() {
+        return Err(folder.error(&format!("holds no {name}")));
+    }
+    let checksums = consolidated.checksums.get(name);
+    Stored::new(folder, name, zarray, checksums.map_or(&[], Vec::as_slice))
+}
+
+/// Fails if a document of the group is not the one that the consolidated metadata have, but for
+/// how the run ended: a process may have died between the two.
+fn document(folder: &Folder, consolidated: &Consolidated, key: &str) -> Result<(), String> {
+    let bytes = folder.read(key).map_err(|e| e.to_string())?;
+    let bytes = bytes.ok_or("is missing")?;
+    let read: Value = serde_json::from_slice(&bytes).map_err(|e| format!("is damaged: {e}"))?;
+    let what_stays = |document: &Value| {
+        let mut document = document.clone();
+        if let Value::Object(entries) = &mut document {
+            entries.retain(|key, _| key != "status" && key != "error_bars");
+        }
+        document
+    };
+    if what_stays(&read) != what_stays(consolidated.document(key)) {
+        return Err(format!("is damaged: it is not that of {FILE}"));
+    }
+    Ok(())
+}

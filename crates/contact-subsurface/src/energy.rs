@@ -1,0 +1,270 @@
+//! Energy and stiffness of fretting loops.
+//!
+//! S. Fouvry, P. Kapsa, L. Vincent, Analysis of sliding behaviour for fretting loadings:
+//! determination of transition criteria, Wear 185 (1995) 35-46: with the half ranges T* and
+//! delta* of force and shift and the energy E_d dissipated in a cycle, the energy ratio is
+//! E_d/(4 T* delta*), the sliding ratio half the opening of the loop over delta*. Partial slip
+//! turns into gross slip at an energy ratio of 0.2 and a sliding ratio of 0.26.
+
+use contact_core::march::{Increment, Status};
+use contact_core::scene::{Branch, LoadPath, Loads, Prescribed, RigidMotion};
+
+/// Loads that agree to this share of the largest are the same.
+const SAME: f64 = 1e-9;
+
+/// A tangential motion and the load that drives it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Direction {
+    /// T_x and delta_x.
+    #[default]
+    X,
+    /// T_y and delta_y.
+    Y,
+    /// M_z and phi_z: moments \[N m\] take the place of forces, rotations \[rad\] that of shifts.
+    Torsion,
+}
+
+/// A closed part of the load path: the loads at its end are those at its start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cycle {
+    /// First and last branch, from 0.
+    pub branches: (usize, usize),
+    /// Energy dissipated by friction \[J\].
+    pub dissipated: f64,
+    /// Half the range of the force T \[N\].
+    pub T: f64,
+    /// Half the range of the shift \[m\].
+    pub delta: f64,
+    /// Stiffness right after the reversals \[N/m\]: the steepest increment of each branch,
+    /// averaged.
+    pub stiffness: f64,
+    /// Half the opening of the loop where the force passes the middle of its range \[m\].
+    pub opening: f64,
+    /// Gross slip if the interface slid in any increment.
+    pub status: Status,
+}
+
+impl Cycle {
+    /// E_d/(4 T* delta*); 0 where nothing moves.
+    pub fn energy_ratio(&self) -> f64 {
+        ratio(self.dissipated, 4.0 * self.T * self.delta)
+    }
+
+    /// Half the opening over half the range of the shift; 0 where nothing moves.
+    pub fn sliding_ratio(&self) -> f64 {
+        ratio(self.opening, self.delta)
+    }
+
+    /// Stiffness of the whole loop \[N/m\], T*/delta*.
+    pub fn secant_stiffness(&self) -> f64 {
+        ratio(self.T, self.delta)
+    }
+}
+
+fn ratio(a: f64, b: f64) -> f64 {
+    if b > 0.0 { a / b } else { 0.0 }
+}
+
+/// First and last branch of every cycle of a load path: from a turning point, the first time that
+/// its loads, the motions given in place of loads and the bulk stresses return; cycles follow each
+/// other and do not overlap. A branch that changes nothing is no cycle.
+pub fn cycles(path: &LoadPath) -> Vec<(usize, usize)> {
+    let ends: Vec<Loads> = std::iter::once(Loads::default())
+        .chain(path.branches.iter().map(|b| b.to))
+        .collect();
+    // Largest load and largest motion that is prescribed; moments and rotations have their own.
+    let kind = |of: RigidMotion, prescribed: Prescribed| {
+        (
+            usize::from(of.is_rotation()),
+            usize::from(prescribed.is_motion()),
+        )
+    };
+    let mut largest = [[0.0_f64; 2]; 2];
+    for end in &ends {
+        for of in RigidMotion::ALL {
+            let prescribed = end.prescribed(of);
+            let (rotation, motion) = kind(of, prescribed);
+            let largest = &mut largest[rotation][motion];
+            *largest = largest.max(prescribed.value().abs());
+        }
+    }
+    let pulls = |l: &Loads| [l.sigma_B, l.sigma_B1];
+    let bulk = ends
+        .iter()
+        .flat_map(pulls)
+        .fold(0.0, |m: f64, s| m.max(s.abs()));
+    let same = |a: &Loads, b: &Loads| {
+        let (a_pulls, b_pulls) = (pulls(a), pulls(b));
+        let pulled_alike = (0..2).all(|k| (a_pulls[k] - b_pulls[k]).abs() <= SAME * bulk);
+        let driven_alike = RigidMotion::ALL.into_iter().all(|of| {
+            let (a, b) = (a.prescribed(of), b.prescribed(of));
+            let (rotation, motion) = kind(of, a);
+            a.is_motion() == b.is_motion()
+                && (a.value() - b.value()).abs() <= SAME * largest[rotation][motion]
+        });
+        pulled_alike && driven_alike
+    };
+    let mut found = Vec::new();
+    let mut start = 0;
+    while start < ends.len() {
+        let back = (start + 2..ends.len()).find(|end| same(&ends[start], &ends[*end]));
+        match back {
+            // Branch n ends at the n + 1st of the turning points.
+            Some(end) => {
+                found.push((start, end - 1));
+                start = end;
+            }
+            None => start += 1,
+        }
+    }
+    found
+}
+
+/// A point of a loop: force and shift at the end of an increment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoopPoint {
+    /// Branch of the load path, from 0.
+    pub branch: usize,
+    /// Tangential force \[N\].
+    pub T: f64,
+    /// Tangential shift \[m\].
+    pub delta: f64,
+    /// Energy dissipated by friction in the increment \[J\].
+    pub dissipated: f64,
+    /// State of the interface.
+    pub status: Status,
+}
+
+impl LoopPoint {
+    /// The force and shift of an increment along a direction.
+    pub fn new(increment: &Increment, direction: Direction) -> Self {
+        let (loads, motion) = (&increment.point.loads, &increment.motion);
+        let (T, delta) = match direction {
+            Direction::X => (loads.T_x, motion.delta_x),
+            Direction::Y => (loads.T_y, motion.delta_y),
+            Direction::Torsion => (loads.M_z, motion.phi_z),
+        };
+        Self {
+            branch: increment.point.branch,
+            T,
+            delta,
+            dissipated: increment.energy.dissipated,
+            status: increment.status,
+        }
+    }
+}
+
+/// The loops of the cycles of a path that the history contains completely.
+pub fn loops(path: &LoadPath, history: &[LoopPoint]) -> Vec<Cycle> {
+    let upto = |branch: usize| -> usize {
+        let before = path.branches.iter().take(branch);
+        before.map(Branch::count).sum()
+    };
+    let done = cycles(path).into_iter().filter_map(|(first, last)| {
+        let (start, end) = (upto(first), upto(last + 1));
+        // With the turning point that the cycle starts from, unless that is the unloaded state.
+        let curve = history.get(start.saturating_sub(1)..end)?;
+        Some(cycle((first, last), history.get(start..end)?, curve))
+    });
+    done.collect()
+}
+
+fn cycle(branches: (usize, usize), part: &[LoopPoint], curve: &[LoopPoint]) -> Cycle {
+    let range = |f: fn(&LoopPoint) -> f64| {
+        let values = curve.iter().map(f);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        })
+    };
+    let (force, shift) = (range(|p| p.T), range(|p| p.delta));
+    let worst = |a: Status, b: Status| if b.code() > a.code() { b } else { a };
+    Cycle {
+        branches,
+        dissipated: part.iter().map(|p| p.dissipated).sum(),
+        T: (force.1 - force.0) / 2.0,
+        delta: (shift.1 - shift.0) / 2.0,
+        stiffness: reversal_stiffness(curve),
+        opening: opening(curve, f64::midpoint(force.0, force.1)),
+        status: part.iter().map(|p| p.status).fold(Status::NoContact, worst),
+    }
+}
+
+/// Mean over the branches of the steepest increment \[N/m\].
+fn reversal_stiffness(curve: &[LoopPoint]) -> f64 {
+    let mut steepest: Vec<(usize, f64)> = Vec::new();
+    for pair in curve.windows(2) {
+        let (rise, run) = (pair[1].T - pair[0].T, pair[1].delta - pair[0].delta);
+        if rise == 0.0 || run == 0.0 {
+            continue;
+        }
+        let slope = (rise / run).abs();
+        match steepest.last_mut() {
+            Some((branch, s)) if *branch == pair[1].branch => *s = s.max(slope),
+            _ => steepest.push((pair[1].branch, slope)),
+        }
+    }
+    let sum: f64 = steepest.iter().map(|s| s.1).sum();
+    ratio(sum, steepest.len() as f64)
+}
+
+/// Half the distance between the outermost shifts at which the force passes `middle` \[m\].
+fn opening(curve: &[LoopPoint], middle: f64) -> f64 {
+    let mut range = (f64::INFINITY, f64::NEG_INFINITY);
+    for pair in curve.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        if (from.T - middle) * (to.T - middle) <= 0.0 && from.T.to_bits() != to.T.to_bits() {
+            let share = (middle - from.T) / (to.T - from.T);
+            let at = from.delta + (to.delta - from.delta) * share;
+            range = (range.0.min(at), range.1.max(at));
+        }
+    }
+    ((range.1 - range.0) / 2.0).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cycles_start_where_the_loads_return() {
+        let path = LoadPath::start()
+            .normal(10.0, 1)
+            .tangential(&[2.0, -2.0, 2.0, -2.0, 2.0], 10);
+        assert_eq!(cycles(&path), [(2, 3), (4, 5)]);
+        let repeated = LoadPath::start()
+            .normal(1.0, 1)
+            .normal(0.0, 1)
+            .normal(2.0, 1);
+        assert_eq!(cycles(&repeated), [(0, 1)]);
+        assert!(cycles(&LoadPath::start().normal(1.0, 1)).is_empty());
+        let held = LoadPath::start().normal(1.0, 1).normal(1.0, 3);
+        assert!(cycles(&held).is_empty());
+        let torsion = LoadPath::start()
+            .normal(10.0, 1)
+            .torsion(&[0.2, -0.2, 0.2], 10);
+        assert_eq!(cycles(&torsion), [(2, 3)]);
+    }
+
+    #[test]
+    fn cycles_of_given_motions() {
+        let shifted = |path: LoadPath, by: f64| path.to(|l| l.given.delta_x = Some(by), 2);
+        let path = [1e-6, -1e-6, 1e-6, 0.0]
+            .into_iter()
+            .fold(LoadPath::start().normal(10.0, 1), shifted);
+        // The force that was given before the shifts is no end of a cycle of shifts.
+        assert_eq!(cycles(&path), [(2, 3)]);
+        let lower = |path: LoadPath, by: f64| path.to(|l| l.sigma_B = by, 2);
+        let upper = |path: LoadPath, by: f64| path.to(|l| l.sigma_B1 = by, 2);
+        for pulled in [lower, upper] {
+            let path = [1e8, -1e8, 1e8]
+                .into_iter()
+                .fold(LoadPath::start().normal(10.0, 1), pulled);
+            assert_eq!(cycles(&path), [(2, 3)]);
+        }
+        let rocking = |path: LoadPath, by: f64| path.to(|l| l.given.phi_y = Some(by), 2);
+        let path = [1e-4, -1e-4, 0.0]
+            .into_iter()
+            .fold(LoadPath::start().normal(10.0, 1), rocking);
+        assert_eq!(cycles(&path), [(1, 3)]);
+    }
+}

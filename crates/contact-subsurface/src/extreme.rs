@@ -1,0 +1,73 @@
+//! The largest value of a number below a contact, its place and its error.
+
+use super::{Depth, Zone};
+
+/// The largest value of a number below a contact and where it is: a value at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extreme {
+    /// Value \[Pa or m\].
+    pub value: f64,
+    /// Place \[m\].
+    pub x: f64,
+    /// Place \[m\].
+    pub y: f64,
+    /// Depth and layer; at an interface that of the side named.
+    pub depth: Depth,
+    /// The border on which it lies, if any. At the rim of the contact a value depends on the
+    /// accuracy of the tractions there; a fatigue criterion should be averaged over a critical
+    /// distance.
+    pub at: Option<Zone>,
+    /// Error of the value.
+    pub error: Errors,
+}
+
+/// Error of a largest value by source, in the unit of the value.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Errors {
+    /// Of the search along x.
+    pub x: f64,
+    /// Of the search along y.
+    pub y: f64,
+    /// Of the search along depth.
+    pub z: f64,
+    /// Of the tractions: change of the value under the tractions on cells twice as large, within
+    /// four cells of a border on a layer thinner than that 2.4 times that; `None` if not computed.
+    pub tractions: Option<f64>,
+    /// Of the solution: the error of its pressure and shear ([`Extreme::with_error_bars`]); `None`
+    /// without error bars.
+    pub solution: Option<f64>,
+}
+
+impl Errors {
+    /// The sum of all.
+    pub fn sum(&self) -> f64 {
+        let known = [self.tractions, self.solution].into_iter().flatten();
+        self.x + self.y + self.z + known.sum::<f64>()
+    }
+}
+
+impl Extreme {
+    /// With the error of the solution, from the error bars of pressure and shear as fields over
+    /// their largest ([`contact_core::estimate::ErrorBars::p`] and `q`): the stress is off by that part.
+    #[must_use]
+    pub fn with_error_bars(mut self, p: f64, q: f64) -> Self {
+        self.error.solution = Some(p.hypot(q) * self.value.abs());
+        self
+    }
+
+    /// The larger of two.
+    #[must_use]
+    pub fn or_larger(self, other: Self) -> Self {
+        if other.value > self.value {
+            other
+        } else {
+            self
+        }
+    }
+
+    /// The largest of several; `None` if all are NaN.
+    pub fn largest(of: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let numbers = of.into_iter().filter(|e| !e.value.is_nan());
+        numbers.reduce(Self::or_larger)
+    }
+}

@@ -1,0 +1,163 @@
+//! The largest stress at every increment of a load path, with its place.
+
+use ndarray::{Array2, ArrayView2};
+use stress_tensor::StressTensor;
+
+use super::depth::{every_other, on_interfaces};
+use super::maximum::{hills, top_of_line};
+use super::{Accumulate, Border, Depth, Errors, Extreme, Line, Measure, Moment, Top};
+
+/// Records the largest value of measures of stress below a line at every increment: value and place
+/// per depth, by a parabola between the samples, and on the surface at the rims and stick borders.
+#[derive(Clone, Debug)]
+pub struct Largest {
+    /// The measures of which the largest value is sought.
+    pub measures: Vec<Measure>,
+    /// The line.
+    pub line: Line,
+    /// Places of the samples along the line \[m\].
+    pub along: Vec<f64>,
+}
+
+/// The tops on the line at one depth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DepthTops {
+    /// The depth.
+    pub depth: Depth,
+    /// By moment.
+    pub tops: Vec<MomentTops>,
+}
+
+/// The tops of a moment, by measure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MomentTops {
+    /// The moment.
+    pub moment: Moment,
+    /// Between the samples.
+    pub between: Vec<Option<Top<1>>>,
+    /// On the highest border.
+    pub on_border: Vec<Option<(f64, Border)>>,
+}
+
+impl Largest {
+    /// The largest values over all depths, by moment and measure, from the accumulators of the
+    /// depths. Their errors: the difference between parabola and sample, and the change of the
+    /// value if every other depth of each layer is left out.
+    pub fn over_depths(&self, kept: &[DepthTops]) -> Vec<(Moment, Vec<Option<Extreme>>)> {
+        let Some(first) = kept.first() else {
+            return Vec::new();
+        };
+        let moments = first.tops.iter().enumerate().map(|(n, of)| {
+            let of_measure = |m: usize| self.extreme(m, n, kept);
+            (
+                of.moment,
+                (0..self.measures.len()).map(of_measure).collect(),
+            )
+        });
+        moments.collect()
+    }
+
+    /// Of a measure at a moment.
+    fn extreme(&self, m: usize, n: usize, kept: &[DepthTops]) -> Option<Extreme> {
+        let depths: Vec<Depth> = kept.iter().map(|k| k.depth).collect();
+        let of_interfaces = self.measures[m].of_interfaces;
+        let tops: Vec<_> = kept.iter().map(|k| k.tops[n].between[m]).collect();
+        let border = kept[0].tops[n].on_border[m].filter(|_| !of_interfaces);
+        let on_border = border.map(|(value, Border { x, y, zone, .. })| Extreme {
+            value,
+            x,
+            y,
+            depth: depths[0],
+            at: Some(zone),
+            error: Errors::default(),
+        });
+        let between = between_samples(&tops, &depths, of_interfaces, self.line);
+        Extreme::largest(on_border.into_iter().chain(between))
+    }
+}
+
+/// The largest value of a sampled field, shape (depths, places), below a line at the places `along`
+/// it \[m\], by parabolas between the samples. Its errors: the difference between parabola and
+/// sample, and the change of the value if every other depth of each layer is left out.
+pub fn largest_of_samples(
+    values: &ArrayView2<'_, f64>,
+    depths: &[Depth],
+    line: Line,
+    along: &[f64],
+) -> Option<Extreme> {
+    let lines = values.rows().into_iter();
+    let tops: Vec<_> = lines.map(|line| top_of_line(&line, along)).collect();
+    between_samples(&tops, depths, false, line)
+}
+
+fn between_samples(
+    tops: &[Option<Top<1>>],
+    depths: &[Depth],
+    of_interfaces: bool,
+    line: Line,
+) -> Option<Extreme> {
+    let highest = |present: &[bool]| {
+        let kept = (0..depths.len()).filter(|k| present[*k]);
+        let (tops, depths): (Vec<_>, Vec<Depth>) = kept.map(|k| (tops[k], depths[k])).unzip();
+        hills(&tops, &depths, !of_interfaces).into_iter().next()
+    };
+    let all = if of_interfaces {
+        on_interfaces(depths)
+    } else {
+        vec![true; depths.len()]
+    };
+    let hill = highest(&all)?;
+    let coarser = highest(&every_other(depths)).filter(|_| !of_interfaces);
+    let left = coarser.map_or(0.0, |coarser| (hill.top.value - coarser.top.value).abs());
+    let added = hill.top.left.max((hill.top.value - hill.top.sampled).abs());
+    let [s] = hill.top.place;
+    let ((x, y), [along_x, along_y]) = match line {
+        Line::AlongX(y) => ((s, y), [added, 0.0]),
+        Line::AlongY(x) => ((x, s), [0.0, added]),
+    };
+    Some(Extreme {
+        value: hill.top.value,
+        x,
+        y,
+        depth: hill.depth,
+        at: None,
+        error: Errors {
+            x: along_x,
+            y: along_y,
+            z: left,
+            tractions: None,
+            solution: None,
+        },
+    })
+}
+
+impl Accumulate for Largest {
+    type Kept = DepthTops;
+
+    fn start(&self, depth: Depth, _: usize) -> DepthTops {
+        let tops = Vec::new();
+        DepthTops { depth, tops }
+    }
+
+    fn add(&self, kept: &mut DepthTops, moment: Moment, stress: &Array2<f64>) {
+        let measures = self.measures.iter();
+        let top = |m: &Measure| top_of_line(&m.on(&stress.view()).view(), &self.along);
+        kept.tops.push(MomentTops {
+            moment,
+            between: measures.map(top).collect(),
+            on_border: vec![None; self.measures.len()],
+        });
+    }
+
+    fn add_borders(&self, kept: &mut DepthTops, borders: &[(Border, StressTensor)]) {
+        let Some(last) = kept.tops.last_mut() else {
+            return;
+        };
+        for (measure, highest) in self.measures.iter().zip(&mut last.on_border) {
+            let values = borders
+                .iter()
+                .map(|(at, stress)| ((measure.value)(stress), *at));
+            *highest = values.max_by(|(a, _), (b, _)| a.total_cmp(b));
+        }
+    }
+}

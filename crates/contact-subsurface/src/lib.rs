@@ -1,0 +1,67 @@
+//! Stage 6: BELOW THE SURFACE: stress and displacement under the tractions; energy of the loops.
+//!
+//! [`Search`] finds the largest value of a number, an [`Extreme`], as a value at a point;
+//! [`borders`] gives the rim of the contact and the border of the stick zone.
+//!
+//! Three ways to ask, each computing that and nothing else: [`Section`], lines along x or y at any
+//! depths, by one-dimensional transforms; [`Slices`], whole planes parallel to the surface, by
+//! two-dimensional ones; [`Points`], single points anywhere, by summation. One transform of each
+//! traction serves all depths and components, and several states of a load path share the kernels.
+//!
+//! Depth z is counted into the body; components are those of the axes of `docs/conventions.md`, in
+//! body 1 as well. At an interface s_xx, s_yy and s_xy have two values: a [`Depth`] names the
+//! layer. The stress is that of the tractions plus, if given, the bulk stress of the body and the
+//! residual stress of its layers; displacements are those of the tractions alone.
+//!
+//! From a depth of eight cells on, the uniform load of a cell is replaced by point loads
+//! on it and its neighbours that act alike to 1e-9 of the traction there; nearer to the surface it
+//! is integrated over the cell.
+
+#![forbid(unsafe_code)]
+
+mod borders;
+mod climb;
+mod coarser;
+mod depth;
+mod divided;
+mod energy;
+mod envelope;
+mod extreme;
+mod largest;
+mod line_transform;
+mod loads;
+mod maximum;
+mod measure;
+mod moments;
+mod near_rim;
+mod parity;
+mod plane_transform;
+mod points;
+mod probe;
+mod recorded;
+mod search;
+mod section;
+mod slices;
+mod states;
+mod stream;
+mod uniform;
+
+pub use borders::{Border, Zone, borders};
+pub use coarser::TwiceAsLarge;
+pub use depth::{Depth, Side, chosen_depths, depths};
+pub use energy::{Cycle, Direction, LoopPoint, cycles, loops};
+pub use envelope::{DepthEnvelope, Envelope, Extremes};
+pub use extreme::{Errors, Extreme};
+pub use largest::{DepthTops, Largest, MomentTops, largest_of_samples};
+pub use maximum::{Top, top_of_line, top_of_plane};
+pub use measure::{MEASURES, Measure, measure_named};
+pub use moments::{Moments, OverCycle, unsettled};
+pub use points::{Point, Points};
+pub use probe::{Component, DISPLACEMENTS, Probe};
+pub use recorded::Recorded;
+pub use search::{Probed, Search};
+pub use section::{Line, Section};
+pub use slices::Slices;
+pub use states::States;
+pub use stream::{Accumulate, Moment, Stream};
+pub use uniform::residual_of_layers;

@@ -1,0 +1,113 @@
+//! The states of a contact at moments of a cycle.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use contact_core::Error;
+use contact_core::convolution::Tractions;
+use ndarray::Array2;
+
+use crate::{States, TwiceAsLarge};
+
+/// Tractions and bulk stress at several moments.
+#[derive(Clone, Debug, Default)]
+pub struct Moments {
+    /// Tractions q_x, q_y, p \[Pa\] of each moment, of shape (nx, ny).
+    pub tractions: Vec<[Array2<f64>; 3]>,
+    /// The cells that stick.
+    pub stick: Vec<Array2<bool>>,
+    /// Bulk stress of the body \[Pa\].
+    pub sigma_B: Vec<f64>,
+}
+
+/// The moments of a cycle, read a few at a time.
+pub trait OverCycle: Sync {
+    /// How many there are.
+    fn count(&self) -> usize;
+    /// The moments of these numbers, from 0.
+    fn moments(&self, which: &[usize]) -> Result<Moments, Error>;
+    /// The start of the cycle: the moment before its first, if stored.
+    fn start(&self) -> Result<Option<Moments>, Error>;
+}
+
+impl Moments {
+    /// The states of the body that they are, with the residual stress of its layers \[Pa\].
+    pub fn with_states<T>(
+        &self,
+        residual: &[f64],
+        stop: &Arc<AtomicBool>,
+        f: impl FnOnce(States<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let tractions: Vec<_> = self
+            .tractions
+            .iter()
+            .map(|[q_x, q_y, p]| Tractions {
+                q_x: q_x.as_slice(),
+                q_y: q_y.as_slice(),
+                p: p.as_slice(),
+            })
+            .collect();
+        let stick: Vec<&[bool]> = self
+            .stick
+            .iter()
+            .map(|stick| stick.as_slice().unwrap_or_default())
+            .collect();
+        f(States {
+            tractions: &tractions,
+            sigma_B: &self.sigma_B,
+            residual,
+            stick: Some(&stick),
+            stop: stop.clone(),
+        })
+    }
+
+    /// On cells twice as large.
+    pub fn on_coarser(&self, cells: &TwiceAsLarge) -> Self {
+        let shape = (cells.grid.nx, cells.grid.ny);
+        let mean = |field: &Array2<f64>| {
+            let means = cells.mean(&field.iter().copied().collect::<Vec<_>>());
+            Array2::from_shape_fn(shape, |(i, j)| means[i * shape.1 + j])
+        };
+        let any = |field: &Array2<bool>| {
+            let marked = cells.any(&field.iter().copied().collect::<Vec<_>>());
+            Array2::from_shape_fn(shape, |(i, j)| marked[i * shape.1 + j])
+        };
+        Self {
+            tractions: self
+                .tractions
+                .iter()
+                .map(|t| t.each_ref().map(mean))
+                .collect(),
+            stick: self.stick.iter().map(any).collect(),
+            sigma_B: self.sigma_B.clone(),
+        }
+    }
+}
+
+/// Difference of the tractions at the end and at the start of a cycle, over the largest at the end:
+/// 0 for a steady cycle. A large value means that later cycles differ from this one. `None` if the
+/// increment before the cycle was not stored.
+pub fn unsettled(cycle: &dyn OverCycle) -> Result<Option<f64>, Error> {
+    let Some(start) = cycle.start()? else {
+        return Ok(None);
+    };
+    let end = cycle.moments(&[cycle.count() - 1])?;
+    let (Some(before), Some(after)) = (start.tractions.first(), end.tractions.first()) else {
+        return Ok(None);
+    };
+    let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+    // Pressure and shear are scaled separately.
+    let mut worst = 0.0_f64;
+    for (n, (before, after)) in before.iter().zip(after).enumerate() {
+        for (a, b) in before.iter().zip(after) {
+            change = change.max((a - b).abs());
+            largest = largest.max(a.abs()).max(b.abs());
+        }
+        // q_x and q_y together.
+        if n != 0 {
+            worst = worst.max(if largest > 0.0 { change / largest } else { 0.0 });
+            (change, largest) = (0.0, 0.0);
+        }
+    }
+    Ok(Some(worst))
+}

@@ -1,0 +1,323 @@
+//! Stress near the surface of a contact: contribution of the variation of the tractions within the
+//! cells.
+//!
+//! Beside the rim, and beside the border of the stick zone, the stress of constant tractions is off
+//! by the root of the cell size. There the cells around a sample are divided into parts, smaller
+//! near the sample, and the difference of the continued and the constant tractions is added on each
+//! part. The parts' responses depend on offsets and depth alone: all samples of a depth share them.
+
+use std::cell::RefCell;
+use std::ops::Range;
+
+use contact_core::convolution::Tractions;
+use contact_core::kernels::{DepthKernel, Stress};
+use contact_core::scene::{Body, Grid};
+use contact_core::zones::{Continued, Within};
+
+use super::divided::{Divided, Division, Fineness, Part, slopes};
+use super::loads::{Plane, snapped};
+use super::{Depth, Side};
+
+/// Deepest samples, in cells.
+const DEEPEST: f64 = 6.0;
+/// Largest distance from a border, in cells along or across, of cells in which the tractions are
+/// not linear, and of samples below the surface at which the correction is computed. Near the
+/// surface it is computed everywhere: there the slope of the tractions counts.
+const FARTHEST: u8 = 3 + DIVIDED_CELLS as u8;
+/// Distance of a sample from the borders beyond which the slope around it stands for that of the
+/// cells which are not divided.
+const SMOOTH: u8 = 12;
+/// Depth in cells down to which the slope counts: variations of the period of a cell decay like
+/// exp(-2 pi z).
+const AT_SURFACE: f64 = 1.0;
+/// Tractions are not continued to an assumed rim on a layer thinner than THIN cells with E/E_below
+/// above CONTRAST or below 1/CONTRAST.
+const THIN: f64 = 2.0;
+const CONTRAST: f64 = 2.0;
+/// Cells on each side of a sample that are divided.
+const DIVIDED_CELLS: usize = 3;
+/// Rows of s_zz, s_xz, s_yz with the traction whose negative they are on the surface.
+const OF_TRACTIONS: [(usize, usize); 3] = [(2, 2), (4, 0), (5, 1)];
+
+/// The tractions of the states around some cells.
+pub(super) struct NearRim {
+    plane: Plane,
+    side: Side,
+    states: Vec<Continued>,
+}
+
+/// Parts of the cells around a sample.
+pub(super) struct Parts {
+    cells: Vec<Divided>,
+    /// The stress at the sample under unit slopes of the tractions, along and across, in all cells
+    /// beyond.
+    beyond: [[[f64; 3]; 6]; 2],
+    /// From the middle of the sample's cell, in cells.
+    offset: (f64, f64),
+    /// Whether the sample is on the surface, where s_zz, s_xz, s_yz are the tractions themselves.
+    on_surface: bool,
+}
+
+impl NearRim {
+    /// For samples in the cells of these columns and rows.
+    pub(super) fn new(
+        body: &Body,
+        grid: &Grid,
+        side: Side,
+        states: &[Tractions<'_>],
+        stick: &[&[bool]],
+        (columns, rows): (Range<usize>, Range<usize>),
+    ) -> Self {
+        // One more cell on each side for the interpolation, one for samples on a border.
+        let wider = |cells: Range<usize>, count: usize| {
+            cells.start.saturating_sub(DIVIDED_CELLS + 2)
+                ..(cells.end + DIVIDED_CELLS + 2).min(count)
+        };
+        let window = (wider(columns, grid.nx), wider(rows, grid.ny));
+        let cell = if grid.ny == 1 {
+            grid.dx
+        } else {
+            grid.dx.max(grid.dy)
+        };
+        let below = body.coatings.iter().skip(1).map(|layer| layer.material);
+        let below = below.chain([body.substrate]);
+        let thin = body.coatings.iter().zip(below).any(|(layer, below)| {
+            let ratio = layer.material.E / below.E;
+            layer.thickness < THIN * cell && !(1.0 / CONTRAST..=CONTRAST).contains(&ratio)
+        });
+        let of_state = |(n, tractions): (usize, &Tractions<'_>)| {
+            Continued::new(grid, tractions, stick.get(n).copied(), &window, thin)
+        };
+        Self {
+            plane: Plane::new(grid, false),
+            side,
+            states: states.iter().enumerate().map(of_state).collect(),
+        }
+    }
+
+    /// The nearest cell to a place, and the offset from its middle in cells.
+    pub(super) fn locate(grid: &Grid, x: f64, y: f64) -> ((usize, usize), (f64, f64)) {
+        let Plane { n, d, .. } = Plane::new(grid, false);
+        let along = |v: f64, n: usize, d: f64| {
+            let place = v / d + (n - 1) as f64 / 2.0;
+            let cell = place.round().clamp(0.0, (n - 1) as f64);
+            (cell as usize, snapped(place - cell))
+        };
+        let ((i, s), (j, t)) = (along(x, n.0, d.0), along(y, n.1, d.1));
+        ((i, j), (s, t))
+    }
+
+    /// The parts around samples at a depth and an `offset` in cells from the middle of their cell;
+    /// none where they are too deep.
+    pub(super) fn parts(
+        &self,
+        kernel: &DepthKernel<Stress, 10, 6>,
+        depth: Depth,
+        offset: (f64, f64),
+    ) -> Option<Parts> {
+        self.cut(kernel, depth, offset, Fineness::shared(self.is_flat()))
+    }
+
+    /// The same for one point, which may lie on a border.
+    pub(super) fn parts_of_a_point(
+        &self,
+        kernel: &DepthKernel<Stress, 10, 6>,
+        depth: Depth,
+        offset: (f64, f64),
+    ) -> Option<Parts> {
+        self.cut(kernel, depth, offset, Fineness::of_a_point(self.is_flat()))
+    }
+
+    fn is_flat(&self) -> bool {
+        self.plane.n.1 == 1
+    }
+
+    fn cut(
+        &self,
+        kernel: &DepthKernel<Stress, 10, 6>,
+        depth: Depth,
+        offset: (f64, f64),
+        fineness: Fineness,
+    ) -> Option<Parts> {
+        let Plane { n, d, .. } = self.plane;
+        let z = self.depth_in_cells(depth);
+        if z >= DEEPEST {
+            return None;
+        }
+        let reach = DIVIDED_CELLS as f64;
+        let within = |f: f64, n: usize| {
+            let most = if n == 1 {
+                0
+            } else {
+                DIVIDED_CELLS as isize + 1
+            };
+            (-most..=most).filter(move |k| (*k as f64 - f).abs() <= reach + 0.5)
+        };
+        let cells = within(offset.0, n.0).flat_map(|k| within(offset.1, n.1).map(move |l| (k, l)));
+        let known = RefCell::default();
+        let cut = |(k, l): (isize, isize)| {
+            let cut = Division {
+                kernel,
+                side: self.side,
+                d,
+                flat: self.is_flat(),
+                sample: (offset.0 - k as f64, offset.1 - l as f64),
+                z,
+                fineness,
+                known: &known,
+            };
+            let mut parts = Vec::new();
+            cut.thirds(&mut parts, (0.0, 0.0), 1.0, 1);
+            Divided {
+                from: (k, l),
+                slopes: slopes(&parts),
+                parts,
+            }
+        };
+        let cells: Vec<Divided> = cells.map(cut).collect();
+        Some(Parts {
+            beyond: self.beyond(kernel, &cells, offset, fineness, z),
+            cells,
+            offset,
+            on_surface: depth.z <= 0.0,
+        })
+    }
+
+    /// The response to unit slopes along and across beyond some cells around a sample. In a row of
+    /// cells k with the middles x_k and the length d the slope g adds g (s - x_k)/d to the traction
+    /// at s, a dipole of g d^2/12: with the response K to a line of load the cells to the right of
+    /// x_R sum up to
+    ///
+    /// ```text
+    /// -g/12 sum_k K'(x - x_k) d^2 = -g/12 K(x - x_R) d,
+    /// ```
+    ///
+    /// the response to -g/12 on one cell in whose middle they begin; those to the left to that of
+    /// g/12. Rows without a divided cell add nothing.
+    fn beyond(
+        &self,
+        kernel: &DepthKernel<Stress, 10, 6>,
+        cells: &[Divided],
+        offset: (f64, f64),
+        fineness: Fineness,
+        z: f64,
+    ) -> [[[f64; 3]; 6]; 2] {
+        const DIPOLE: f64 = 1.0 / 12.0;
+        let mut beyond = [[[0.0; 3]; 6]; 2];
+        let axes = if self.is_flat() { 1 } else { 2 };
+        let known = RefCell::default();
+        for (axis, sum) in beyond.iter_mut().enumerate().take(axes) {
+            let along = |d: &Divided| [d.from.0, d.from.1][axis];
+            let ends = [cells.iter().map(along).min(), cells.iter().map(along).max()];
+            for (end, sign) in ends.into_iter().flatten().zip([1.0, -1.0]) {
+                for Divided { from, .. } in cells.iter().filter(|d| along(d) == end) {
+                    let mut middle = [from.0 as f64, from.1 as f64];
+                    middle[axis] -= 0.5 * sign;
+                    let cut = Division {
+                        kernel,
+                        side: self.side,
+                        d: self.plane.d,
+                        flat: self.is_flat(),
+                        sample: (offset.0 - middle[0], offset.1 - middle[1]),
+                        z,
+                        fineness,
+                        known: &known,
+                    };
+                    let response = cut.response(cut.sample.0, cut.sample.1, 1.0);
+                    for (sum, v) in sum.iter_mut().flatten().zip(response.iter().flatten()) {
+                        *sum += sign * DIPOLE * v;
+                    }
+                }
+            }
+        }
+        beyond
+    }
+
+    /// Whether the correction is computed at samples in a cell at a depth.
+    pub(super) fn is_near(&self, state: usize, depth: Depth, cell: (usize, usize)) -> bool {
+        self.depth_in_cells(depth) < AT_SURFACE || self.states[state].distance(cell) <= FARTHEST
+    }
+
+    fn depth_in_cells(&self, depth: Depth) -> f64 {
+        let d = self.plane.d;
+        depth.z / if self.is_flat() { d.0 } else { d.0.max(d.1) }
+    }
+
+    /// The place itself; next to a step of constant tractions, where the stress is infinite, the
+    /// middle of its cell.
+    pub(super) fn away_from_steps(&self, grid: &Grid, x: f64, y: f64) -> (f64, f64) {
+        let (cell, (s, t)) = Self::locate(grid, x, y);
+        let Plane { d, .. } = self.plane;
+        if self.states.iter().any(|state| state.has_steps(cell)) {
+            (x - s * d.0, y - t * d.1)
+        } else {
+            (x, y)
+        }
+    }
+
+    /// Whether a place less than a cell deep lies beside an assumed rim in any state.
+    pub(super) fn is_unknown(&self, grid: &Grid, depth: Depth, (x, y): (f64, f64)) -> bool {
+        let (cell, _) = Self::locate(grid, x, y);
+        let unknown = |state: &Continued| state.rim_is_unknown(cell);
+        self.depth_in_cells(depth) < 1.0 && self.states.iter().any(unknown)
+    }
+
+    /// The tractions of a state.
+    pub(super) fn continued(&self, state: usize) -> Option<&Continued> {
+        self.states.get(state)
+    }
+
+    /// Adds the correction to the stress of a state at a sample in a cell \[Pa\].
+    pub(super) fn add(
+        &self,
+        parts: &Parts,
+        state: usize,
+        (i, j): (usize, usize),
+        stress: &mut [f64; 6],
+    ) {
+        let state = &self.states[state];
+        let mut more = [0.0; 6];
+        let mut add = |response: &[[f64; 3]; 6], q: [f64; 3]| {
+            for (stress, row) in more.iter_mut().zip(response) {
+                *stress += row[0] * q[0] + row[1] * q[1] + row[2] * q[2];
+            }
+        };
+        let slopes = |cell| state.slopes(cell).into_iter().flatten();
+        if state.distance((i, j)) > SMOOTH {
+            let beyond = parts.beyond.iter().zip(slopes((i, j)));
+            beyond.for_each(|(response, q)| add(response, q));
+        }
+        for divided in &parts.cells {
+            let (columns, rows) = divided.from;
+            let cell = i
+                .checked_add_signed(columns)
+                .zip(j.checked_add_signed(rows));
+            let Some(cell) = cell else { continue };
+            if state.distance(cell) > FARTHEST {
+                let within = divided.slopes.iter().zip(slopes(cell));
+                within.for_each(|(response, q)| add(response, q));
+            } else if let Some(within) = state.within(cell) {
+                for Part { at, response } in &divided.parts {
+                    add(response, excess(&within, *at));
+                }
+            }
+        }
+        let own = state.within((i, j)).filter(|_| parts.on_surface);
+        for (row, (stress, more)) in stress.iter_mut().zip(more).enumerate() {
+            let traction = OF_TRACTIONS.iter().find(|(of, _)| *of == row);
+            match (traction.filter(|_| parts.on_surface), &own) {
+                (None, _) => *stress += more,
+                (Some((_, c)), Some(own)) if *c == 2 || own.shear_varies() => {
+                    *stress = -own.at(parts.offset)[*c];
+                }
+                (Some(_), _) => (),
+            }
+        }
+    }
+}
+
+/// Continued less constant tractions at an offset in a cell \[Pa\].
+fn excess(within: &Within, offset: (f64, f64)) -> [f64; 3] {
+    let q = within.at(offset);
+    std::array::from_fn(|c| q[c] - within.constant[c])
+}

@@ -1,0 +1,254 @@
+//! Single points, by summation over the loaded cells; all states share the kernel's values.
+
+use std::collections::BTreeMap;
+
+use contact_core::Error;
+use contact_core::kernels::{DepthKernel, Displacement, Quantity};
+use contact_core::scene::{Body, Grid};
+use contact_core::stop::unless;
+use rayon::prelude::*;
+
+use super::loads::{Loads, Patch, Plane, Source, snapped};
+use super::near_rim::NearRim;
+use super::states::Loaded;
+use super::{Border, Depth, Line, Side, States};
+
+/// Stress and displacement at single points; each costs one kernel value per cell that is loaded in
+/// any state.
+pub struct Points {
+    loaded: Loaded,
+    plane: Plane,
+    /// By state, for loads on cells and for point loads, on the patch that holds the loads of all
+    /// states.
+    loads: Vec<[Loads; 2]>,
+    patches: [Patch; 2],
+}
+
+/// A point: x, y \[m\] and the depth.
+pub type Point = (f64, f64, Depth);
+
+impl Points {
+    /// In the body `side` under each of the `states`.
+    pub fn new<'a>(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        states: impl Into<States<'a>>,
+    ) -> Result<Self, Error> {
+        let states = states.into();
+        let window = || Ok((0..grid.nx, 0..grid.ny));
+        let loaded = Loaded::new(body, side, grid, &states, window)?;
+        let plane = Plane::new(grid, false);
+        let patches = Source::ALL.map(|source| plane.patch(states.tractions, source));
+        let loads = states.tractions.iter().map(|state| {
+            Source::ALL.map(|source| plane.loads(state, side, source, patches[source.index()]))
+        });
+        Ok(Self {
+            loaded,
+            plane,
+            loads: loads.collect(),
+            patches,
+        })
+    }
+
+    /// Stress of each state at each point \[Pa\]: xx, yy, zz, xy, xz, yz.
+    ///
+    /// Under the tractions of contacts ([`States::stick`]) it is continuous, except for s_xx, s_yy,
+    /// s_xy across interfaces, and near an assumed rim on a layer as thin as the cells, where it is
+    /// taken in the middle of the cell. Under constant tractions it jumps on the surface at the
+    /// border of a cell: there it is the mean of both sides, and infinite terms are evaluated 1/(2
+    /// pi) of a cell beside the border.
+    pub fn stress(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 6]>>, Error> {
+        self.stress_of(points, false)
+    }
+
+    /// The stress of each state, and that which tractions constant in each cell would cause: the
+    /// difference is what the cells leave open of the tractions within them. Without
+    /// [`States::stick`] both are the same.
+    pub fn stress_and_constant(&self, points: &[Point]) -> Result<[Vec<Vec<[f64; 6]>>; 2], Error> {
+        let mut all = self.stress_of(points, true)?;
+        let constant = all.split_off(self.loads.len());
+        Ok([all, constant])
+    }
+
+    /// The stress of each state, then, if asked for, that of constant tractions.
+    fn stress_of(&self, points: &[Point], constant_too: bool) -> Result<Vec<Vec<[f64; 6]>>, Error> {
+        let states = self.loads.len();
+        let away = |&(x, y, depth): &Point| {
+            let rim = self
+                .loaded
+                .rim
+                .as_ref()
+                .filter(|_| x.is_finite() && y.is_finite());
+            let (x, y) = rim.map_or((x, y), |rim| rim.away_from_steps(&self.loaded.grid, x, y));
+            (x, y, depth)
+        };
+        let points: Vec<Point> = points.iter().map(away).collect();
+        let points = points.as_slice();
+        let mut all = self.gather(points, |kernel, depth, n, values: &mut Vec<[f64; 6]>| {
+            if constant_too {
+                values.extend_from_within(..);
+            }
+            let Some(rim) = &self.loaded.rim else { return };
+            let (cell, offset) = NearRim::locate(&self.loaded.grid, points[n].0, points[n].1);
+            let near = |(state, _): &(usize, _)| rim.is_near(*state, depth, cell);
+            let values = &mut values[..states];
+            let mut near = values.iter_mut().enumerate().filter(near).peekable();
+            let parts = near
+                .peek()
+                .and_then(|_| rim.parts_of_a_point(kernel, depth, offset));
+            let Some(parts) = parts else { return };
+            for (state, stress) in near {
+                rim.add(&parts, state, cell, stress);
+            }
+        })?;
+        for (state, stresses) in all.iter_mut().enumerate() {
+            for (stress, (_, _, depth)) in stresses.iter_mut().zip(points) {
+                let uniform = self.loaded.uniform(state % states, *depth);
+                for (s, uniform) in stress.iter_mut().zip(uniform) {
+                    *s += uniform;
+                }
+            }
+        }
+        Ok(all)
+    }
+
+    /// Displacement of each state at each point relative to infinity \[m\].
+    pub fn displacement(&self, points: &[Point]) -> Result<Vec<Vec<[f64; 3]>>, Error> {
+        self.gather(points, |_: &DepthKernel<Displacement, 5, 3>, _, _, _| {})
+    }
+
+    /// Whether a point lies on the surface beside an assumed rim.
+    pub fn rim_is_unknown(&self, (x, y, depth): Point) -> bool {
+        let rim = self.loaded.rim.as_ref();
+        rim.is_some_and(|rim| rim.is_unknown(&self.loaded.grid, depth, (x, y)))
+    }
+
+    /// The crossings of `line` with the rim of the contact and the border of the stick zone in a
+    /// state; without a line those of the lines through the middles of all rows and columns of
+    /// cells. Empty under constant tractions.
+    pub fn borders(&self, state: usize, line: Option<Line>) -> Vec<Border> {
+        let rim = self.loaded.rim.as_ref();
+        let continued = rim.and_then(|rim| rim.continued(state));
+        continued.map_or_else(Vec::new, |continued| {
+            super::borders::of(continued, &self.loaded.grid, line)
+        })
+    }
+
+    fn gather<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
+        &self,
+        points: &[Point],
+        more: impl Fn(&DepthKernel<Q, N, R>, Depth, usize, &mut Vec<[f64; R]>) + Sync,
+    ) -> Result<Vec<Vec<[f64; R]>>, Error> {
+        // Points at one depth share its kernel.
+        let mut by_depth: BTreeMap<(u64, usize), Vec<usize>> = BTreeMap::new();
+        for (n, (x, y, depth)) in points.iter().enumerate() {
+            for (key, v) in [("x", x), ("y", y)] {
+                if !v.is_finite() {
+                    return Err(Error::invalid(key, v, "a finite place in m"));
+                }
+            }
+            let key = (depth.z.to_bits(), depth.layer);
+            by_depth.entry(key).or_default().push(n);
+        }
+        let groups: Vec<_> = by_depth
+            .into_values()
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(|group| {
+                let values = self.at_depth(points, &group, &more)?;
+                Ok((group, values))
+            })
+            .collect::<Result<_, Error>>()?;
+        let of_first = groups
+            .iter()
+            .find_map(|(_, values): &(_, Vec<Vec<_>>)| values.first());
+        let states = of_first.map_or(self.loads.len(), Vec::len);
+        let mut all = vec![vec![[0.0; R]; points.len()]; states];
+        for (group, values) in groups {
+            for (n, of_states) in group.into_iter().zip(values) {
+                for (state, value) in all.iter_mut().zip(of_states) {
+                    state[n] = value;
+                }
+            }
+        }
+        Ok(all)
+    }
+
+    /// The values of every state at the points of a group, which share their depth; `more` is
+    /// added.
+    fn at_depth<Q: Quantity<N, R> + Sync, const N: usize, const R: usize>(
+        &self,
+        points: &[Point],
+        group: &[usize],
+        more: &(impl Fn(&DepthKernel<Q, N, R>, Depth, usize, &mut Vec<[f64; R]>) + Sync),
+    ) -> Result<Vec<Vec<[f64; R]>>, Error> {
+        let depth = points[group[0]].2;
+        let farthest = group
+            .iter()
+            .map(|n| points[*n].0.hypot(points[*n].1))
+            .fold(0.0, f64::max);
+        let reach = self.plane.reach() + farthest;
+        let kernel: DepthKernel<Q, N, R> = self.loaded.kernel(depth, reach)?;
+        let source = Source::at(depth.z, self.plane.d);
+        let at = |n: &usize| {
+            let (x, y, _) = points[*n];
+            let mut values = self.sums(&kernel, source, (x, y))?;
+            more(&kernel, depth, *n, &mut values);
+            Ok(values)
+        };
+        group.par_iter().map(at).collect()
+    }
+
+    /// What the loads of each state cause at a place.
+    fn sums<Q: Quantity<N, R>, const N: usize, const R: usize>(
+        &self,
+        kernel: &DepthKernel<Q, N, R>,
+        source: Source,
+        (x, y): (f64, f64),
+    ) -> Result<Vec<[f64; R]>, Error> {
+        let Plane { n, d, .. } = self.plane;
+        let patch = self.patches[source.index()];
+        // From the middle of a cell, in cells.
+        let from = |v: f64, i: usize, start: isize, n: usize, d: f64| {
+            let middle = (i as isize + start) as f64 - (n - 1) as f64 / 2.0;
+            snapped(v / d - middle)
+        };
+        let from_x = from(x, 0, patch.start.0, n.0, d.0);
+        let mut sums = vec![[0.0; R]; self.loads.len()];
+        for j in 0..patch.rows {
+            unless(&self.loaded.stop)?;
+            let rows = self.loads.iter().map(|loads| &loads[source.index()]);
+            let rows: Vec<_> = rows
+                .map(|loads| [0, 1, 2].map(|component| loads.row(component, j)))
+                .collect();
+            let from_y = from(y, j, patch.start.1, n.1, d.1) * d.1;
+            let holds = |i: &usize| rows.iter().flatten().any(|row| row[*i] != 0.0);
+            let offsets = (0..patch.columns)
+                .filter(holds)
+                .map(|i| (i, from_x - i as f64));
+            let mut add = |i: usize, response: [[f64; 3]; R]| {
+                for (sums, rows) in sums.iter_mut().zip(&rows) {
+                    for (sum, row) in sums.iter_mut().zip(&response) {
+                        *sum += row[0] * rows[0][i] + row[1] * rows[1][i] + row[2] * rows[2][i];
+                    }
+                }
+            };
+            match source {
+                Source::Cells => kernel.under_cells(offsets, from_y, d, add),
+                Source::Points => {
+                    for (i, from_x) in offsets {
+                        let response = kernel.at_point(from_x * d.0, from_y);
+                        add(i, response.map(|row| row.map(|v| d.0 * d.1 * v)));
+                    }
+                }
+            }
+        }
+        for (row, sum) in sums.iter_mut().flat_map(|sums| sums.iter_mut().enumerate()) {
+            if Q::has_one_z(row) {
+                *sum *= self.loaded.side.sign();
+            }
+        }
+        Ok(sums)
+    }
+}

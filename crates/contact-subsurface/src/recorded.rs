@@ -1,0 +1,74 @@
+//! A closed cycle of a march, recorded during the march.
+
+use contact_core::Error;
+use contact_core::march::{Increment, March, Observer};
+
+use crate::Side;
+use crate::moments::{Moments, OverCycle};
+
+/// Records the states of a body in the increments of some branches of a march.
+pub struct Recorded {
+    side: Side,
+    branches: (usize, usize),
+    moments: Moments,
+    start: Option<Moments>,
+}
+
+impl Recorded {
+    /// Of the first to the last of these branches, from 0, such as [`crate::cycles`] gives
+    /// them.
+    pub fn new(side: Side, branches: (usize, usize)) -> Self {
+        Self {
+            side,
+            branches,
+            moments: Moments::default(),
+            start: None,
+        }
+    }
+}
+
+impl Observer for Recorded {
+    fn on_increment(&mut self, march: &March, increment: &Increment) -> Result<(), Error> {
+        let (first, last) = self.branches;
+        let branch = increment.point.branch;
+        if branch > last || branch + 1 < first {
+            return Ok(());
+        }
+        let (fields, loads) = (march.fields(), &increment.point.loads);
+        let mut before = Moments::default();
+        let moments = if branch < first {
+            &mut before
+        } else {
+            &mut self.moments
+        };
+        moments.tractions.push([fields.q_x, fields.q_y, fields.p]);
+        moments.stick.push(fields.stick);
+        moments.sigma_B.push(match self.side {
+            Side::Body1 => loads.sigma_B1,
+            Side::Body2 => loads.sigma_B,
+        });
+        if branch < first {
+            self.start = Some(before);
+        }
+        Ok(())
+    }
+}
+
+impl OverCycle for Recorded {
+    fn count(&self) -> usize {
+        self.moments.tractions.len()
+    }
+
+    fn moments(&self, which: &[usize]) -> Result<Moments, Error> {
+        let of = &self.moments;
+        Ok(Moments {
+            tractions: which.iter().map(|n| of.tractions[*n].clone()).collect(),
+            stick: which.iter().map(|n| of.stick[*n].clone()).collect(),
+            sigma_B: which.iter().map(|n| of.sigma_B[*n]).collect(),
+        })
+    }
+
+    fn start(&self) -> Result<Option<Moments>, Error> {
+        Ok(self.start.clone())
+    }
+}

@@ -1,0 +1,389 @@
+//! The largest value of a number below a contact: a value at a point.
+//!
+//! Starting points are the local maxima of the samples (hills) and the places where rims and stick
+//! borders cross the line. From the highest of these the search ascends ([`climb`]). No value is
+//! extrapolated.
+
+use contact_core::Error;
+use contact_core::scene::{Body, Grid};
+use ndarray::{Array2, ArrayView2, Axis};
+
+use super::climb::{Start, climb, point};
+use super::coarser::Coarser;
+use super::depth::on_interfaces;
+use super::maximum::{Hill, hills, top_of_line};
+use super::{
+    Border, Depth, Errors, Extreme, Line, Point, Points, Probe, Section, Side, States, Top,
+};
+
+/// Most hills and most places on borders that are evaluated.
+const HILLS: usize = 3;
+const BORDERS: usize = 6;
+/// Hills below this part of the highest are not evaluated: the field between samples exceeds them
+/// by little.
+const LOWEST: f64 = 0.8;
+/// First steps along x and y in cells, from a hill and from a border.
+const STEP: f64 = 0.5;
+const STEP_AT_BORDER: f64 = 0.25;
+/// A point is on a border if it is at most this many cells from it.
+const ON_BORDER: f64 = 0.1;
+/// A layer at the surface thinner than so many cells has its rim law within a few of them: as many
+/// cells around a border the error of a value falls like the root of the cell, and is 1/(2^(1/2) -
+/// 1) times the change to cells twice as large.
+const RESOLVED: f64 = 4.0;
+const OF_ROOT: f64 = 1.0 + std::f64::consts::SQRT_2;
+
+/// Looks for the largest values below a contact.
+pub struct Search {
+    points: Points,
+    coarser: Coarser,
+    borders: Vec<Border>,
+    line: Option<Line>,
+    d: (f64, f64),
+    /// Whether there is one row of cells.
+    flat: bool,
+    /// Whether the layer at the surface is too thin for the cells ([`RESOLVED`]).
+    thin: bool,
+}
+
+impl Search {
+    /// In the body `side` under the first of the states, below `line` or anywhere.
+    pub fn new(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        line: Option<Line>,
+        states: &States<'_>,
+    ) -> Result<Self, Error> {
+        let first = [states.tractions.first().copied().unwrap_or_default()];
+        let states = States {
+            tractions: &first,
+            ..states.clone()
+        };
+        let coarser = Coarser::new(body, side, grid, line, &states)?;
+        let points = Points::new(body, side, grid, states)?;
+        let cell = if grid.ny == 1 {
+            grid.dx
+        } else {
+            grid.dx.max(grid.dy)
+        };
+        let outermost = body.coatings.first();
+        Ok(Self {
+            thin: outermost.is_some_and(|layer| layer.thickness < RESOLVED * cell),
+            borders: points.borders(0, line),
+            coarser,
+            points,
+            line,
+            d: (grid.dx, grid.dy),
+            flat: grid.ny == 1,
+        })
+    }
+
+    /// The largest value on a section, from its samples of shape (depths, places) at the places
+    /// `along` the line \[m\]; in one `layer` if given. `None` if all samples are NaN.
+    pub fn on_section(
+        &self,
+        probe: &Probe,
+        samples: &ArrayView2<'_, f64>,
+        (depths, along): (&[Depth], &[f64]),
+        layer: Option<usize>,
+    ) -> Result<Option<Extreme>, Error> {
+        let Some(line) = self.line else {
+            return Ok(None);
+        };
+        let lines = samples.rows().into_iter();
+        let tops: Vec<_> = lines.map(|line| top_of_line(&line, along)).collect();
+        let hills = hills_of(probe, &tops, depths, layer);
+        let axis = usize::from(matches!(line, Line::AlongY(_)));
+        let step = STEP * [self.d.0, self.d.1][axis];
+        let start = |hill: &Hill<1>, s: f64, z: f64, known: Option<f64>| {
+            let (place, steps) = match line {
+                Line::AlongX(y) => ([s, y, z], [step, 0.0, 0.5 * hill.step]),
+                Line::AlongY(x) => ([x, s, z], [0.0, step, 0.5 * hill.step]),
+            };
+            Start {
+                place,
+                layer: hill.depth.layer,
+                steps,
+                known,
+            }
+        };
+        let both = |hill: &Hill<1>| {
+            let Top {
+                place,
+                sample,
+                sampled,
+                ..
+            } = hill.top;
+            [
+                start(hill, place[0], hill.depth.z, None),
+                start(hill, along[sample[0]], hill.sampled_z, Some(sampled)),
+            ]
+        };
+        let starts = hills.iter().flat_map(both).collect();
+        let surface = samples.rows().into_iter().next();
+        let near = |border: &Border| {
+            let s = [border.x, border.y][axis];
+            let nearest = (0..along.len())
+                .min_by(|&a, &b| (along[a] - s).abs().total_cmp(&(along[b] - s).abs()));
+            nearest
+                .zip(surface.as_ref())
+                .map_or(f64::NAN, |(n, row)| row[n])
+        };
+        self.climbed(probe, starts, depths, layer, &near)
+    }
+
+    /// The largest value in a volume, from the tops of the planes at its depths and the samples on
+    /// the first of them, shape (nx, ny); in one `layer` if given. `None` if all samples are NaN.
+    pub fn in_volume(
+        &self,
+        probe: &Probe,
+        tops: &[Option<Top<2>>],
+        surface: &Array2<f64>,
+        depths: &[Depth],
+        layer: Option<usize>,
+    ) -> Result<Option<Extreme>, Error> {
+        let (nx, ny) = surface.dim();
+        let across = if self.flat { 0.0 } else { STEP * self.d.1 };
+        let both = |hill: &Hill<2>| {
+            let Top {
+                place: [x, y],
+                sample: [i, j],
+                sampled,
+                ..
+            } = hill.top;
+            let middle = |i: usize, n: usize, d: f64| (i as f64 - (n - 1) as f64 / 2.0) * d;
+            let sample = [
+                middle(i, nx, self.d.0),
+                middle(j, ny, self.d.1),
+                hill.sampled_z,
+            ];
+            [([x, y, hill.depth.z], None), (sample, Some(sampled))].map(|(place, known)| Start {
+                place,
+                layer: hill.depth.layer,
+                steps: [STEP * self.d.0, across, 0.5 * hill.step],
+                known,
+            })
+        };
+        let hills = hills_of(probe, tops, depths, layer);
+        let starts = hills.iter().flat_map(both).collect();
+        let cell = |v: f64, n: usize, d: f64| {
+            (v / d + (n - 1) as f64 / 2.0)
+                .round()
+                .clamp(0.0, (n - 1) as f64) as usize
+        };
+        let near =
+            |border: &Border| surface[(cell(border.x, nx, self.d.0), cell(border.y, ny, self.d.1))];
+        self.climbed(probe, starts, depths, layer, &near)
+    }
+
+    /// The result of the ascent from the highest of the starts and, if the surface is included, of
+    /// the borders; `near` gives the sample next to a border.
+    fn climbed(
+        &self,
+        probe: &Probe,
+        mut starts: Vec<Start>,
+        depths: &[Depth],
+        layer: Option<usize>,
+        near: &dyn Fn(&Border) -> f64,
+    ) -> Result<Option<Extreme>, Error> {
+        let at_surface = depths.first().is_some_and(|d| d.z <= 0.0 && d.layer == 0);
+        if at_surface && layer.is_none_or(|layer| layer == 0) && !lives_on_interfaces(probe) {
+            starts.extend(self.border_starts(depths, near));
+        }
+        let values = |points: &[Point]| -> Result<Vec<f64>, Error> {
+            match probe {
+                Probe::Stress(m) => {
+                    let stress = self.points.stress(points)?.swap_remove(0);
+                    Ok(stress.iter().map(m.value).collect())
+                }
+                Probe::Displacement(c) => {
+                    let u = self.points.displacement(points)?.swap_remove(0);
+                    Ok(u.iter().map(|u| u[c.axis()]).collect())
+                }
+            }
+        };
+        let unknown = starts.iter().filter(|s| s.known.is_none());
+        let points: Vec<Point> = unknown.map(|s| point(s.place, s.layer)).collect();
+        let mut found = values(&points)?.into_iter();
+        let Some((start, value)) = starts
+            .iter()
+            .map(|start| {
+                (
+                    start,
+                    start.known.or_else(|| found.next()).unwrap_or(f64::NAN),
+                )
+            })
+            .filter(|(_, value)| !value.is_nan())
+            .max_by(|(_, a), (_, b)| a.total_cmp(b))
+        else {
+            return Ok(None);
+        };
+        let of_layer = || {
+            depths
+                .iter()
+                .filter(|d| d.layer == start.layer)
+                .map(|d| d.z)
+        };
+        let bounds = (
+            of_layer().fold(f64::INFINITY, f64::min),
+            of_layer().fold(0.0, f64::max),
+        );
+        let (place, value, left) = climb(&values, start, value, bounds)?;
+        let at = point(place, start.layer);
+        let border = self.border_at(at);
+        let unsure = self.points.rim_is_unknown(at);
+        let inwards = if unsure { self.beside(at) } else { Vec::new() };
+        let inwards = values(&inwards)?.into_iter();
+        let unsure = inwards.map(|beside| (value - beside).abs());
+        let unsure = unsure.fold(0.0, f64::max);
+        let coarse = match probe {
+            Probe::Stress(m) => (m.value)(&self.coarser.stress(at, border)?),
+            Probe::Displacement(c) => self.coarser.displacement(at.0, at.1, at.2)?[c.axis()],
+        };
+        let part = if self.thin && self.is_near_border(at) {
+            OF_ROOT
+        } else {
+            1.0
+        };
+        Ok(Some(Extreme {
+            value,
+            x: at.0,
+            y: at.1,
+            depth: at.2,
+            at: border.map(|b| b.zone),
+            error: Errors {
+                x: left[0].max(unsure),
+                y: left[1],
+                z: left[2],
+                tractions: Some(part * (value - coarse).abs()),
+                solution: None,
+            },
+        }))
+    }
+
+    /// The borders beside which the samples are largest.
+    fn border_starts(&self, depths: &[Depth], near: &dyn Fn(&Border) -> f64) -> Vec<Start> {
+        let mut by_sample: Vec<(f64, &Border)> = self
+            .borders
+            .iter()
+            .map(|border| (near(border), border))
+            .filter(|(sample, _)| !sample.is_nan())
+            .collect();
+        by_sample.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let below = depths.get(1).filter(|d| d.layer == 0).map_or(0.0, |d| d.z);
+        let free = |free: bool, d: f64| if free { STEP_AT_BORDER * d } else { 0.0 };
+        let along_x = !matches!(self.line, Some(Line::AlongY(_)));
+        let along_y = !matches!(self.line, Some(Line::AlongX(_)));
+        let start = |(_, border): &(f64, &Border)| Start {
+            place: [border.x, border.y, 0.0],
+            layer: 0,
+            steps: [
+                free(along_x, self.d.0),
+                free(along_y && !self.flat, self.d.1),
+                0.5 * below,
+            ],
+            known: None,
+        };
+        by_sample.iter().take(BORDERS).map(start).collect()
+    }
+
+    /// The points half a cell to both sides: the value there bounds the effect of an uncertain rim.
+    fn beside(&self, (x, y, depth): Point) -> Vec<Point> {
+        let steps = match self.line {
+            Some(Line::AlongY(_)) => [(0.0, STEP * self.d.1), (0.0, -STEP * self.d.1)],
+            _ => [(STEP * self.d.0, 0.0), (-STEP * self.d.0, 0.0)],
+        };
+        steps.map(|(s, t)| (x + s, y + t, depth)).into()
+    }
+
+    /// The border that a point lies on.
+    fn border_at(&self, at: Point) -> Option<&Border> {
+        let nearest = self.nearest_border(at);
+        let on_it = nearest.filter(|(_, away)| away[0].max(away[1]) < ON_BORDER);
+        on_it.map(|(border, _)| border)
+    }
+
+    /// Whether a border is within [`RESOLVED`] cells.
+    fn is_near_border(&self, at: Point) -> bool {
+        let nearest = self.nearest_border(at);
+        nearest.is_some_and(|(_, away)| away[0].max(away[1]) < RESOLVED)
+    }
+
+    /// The nearest border and the distances from it along the surface and in depth \[cells\].
+    fn nearest_border(&self, (x, y, depth): Point) -> Option<(&Border, [f64; 2])> {
+        let cell = if self.flat {
+            self.d.0
+        } else {
+            self.d.0.min(self.d.1)
+        };
+        let across = |v: f64| if self.flat { 0.0 } else { v / self.d.1 };
+        let away = |b: &Border| ((b.x - x) / self.d.0).hypot(across(b.y - y));
+        let by_distance = self.borders.iter().map(|b| (b, [away(b), depth.z / cell]));
+        by_distance.min_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]))
+    }
+}
+
+fn lives_on_interfaces(probe: &Probe) -> bool {
+    matches!(probe, Probe::Stress(m) if m.of_interfaces)
+}
+
+/// The hills of a layer, or of all, that are evaluated.
+fn hills_of<const D: usize>(
+    probe: &Probe,
+    tops: &[Option<Top<D>>],
+    depths: &[Depth],
+    layer: Option<usize>,
+) -> Vec<Hill<D>> {
+    let of_interfaces = lives_on_interfaces(probe);
+    let on_one = on_interfaces(depths);
+    let asked = |k: usize| {
+        layer.is_none_or(|layer| depths[k].layer == layer) && (!of_interfaces || on_one[k])
+    };
+    let asked_for = |(k, top): (usize, &Option<Top<D>>)| top.filter(|_| asked(k));
+    let tops: Vec<_> = tops.iter().enumerate().map(asked_for).collect();
+    // Interfaces are not samples of a continuous field: no interpolation between two of them.
+    let mut hills = hills(&tops, depths, !of_interfaces);
+    let highest = hills.first().map_or(0.0, |hill| hill.top.value);
+    let spread = highest.abs() * (1.0 - LOWEST);
+    hills.retain(|hill| hill.top.value >= highest - spread);
+    hills.truncate(HILLS);
+    hills
+}
+
+/// A probe on a section, shape (depths, places), and its largest value.
+pub type Probed = (Array2<f64>, Option<Extreme>);
+
+impl Section {
+    /// The probes under the first state, with the largest value of each by `search` below the same
+    /// line; the samples are at the places `along` it \[m\]. Stress and displacement are computed
+    /// only if a probe needs them.
+    pub fn probe(
+        &self,
+        depths: &[Depth],
+        along: &[f64],
+        probes: &[Probe],
+        search: &Search,
+    ) -> Result<Vec<Probed>, Error> {
+        let (mut stress, mut u) = (None, None);
+        if probes.iter().any(|p| matches!(p, Probe::Stress(_))) {
+            stress = self.stress(depths)?.into_iter().next();
+        }
+        if probes.iter().any(|p| matches!(p, Probe::Displacement(_))) {
+            u = self.displacement(depths)?.into_iter().next();
+        }
+        let one = |probe: &Probe| {
+            let values = match probe {
+                Probe::Stress(m) => stress.as_ref().map(|stress| m.on_lines(stress)),
+                Probe::Displacement(c) => u
+                    .as_ref()
+                    .map(|u| u.index_axis(Axis(0), c.axis()).to_owned()),
+            };
+            values.map(|values| {
+                let largest = search.on_section(probe, &values.view(), (depths, along), None)?;
+                Ok((values, largest))
+            })
+        };
+        probes.iter().filter_map(one).collect()
+    }
+}

@@ -1,0 +1,218 @@
+//! Lines at any depths below a straight line on the surface.
+
+use contact_core::Error;
+use contact_core::kernels::{DepthKernel, Displacement, Quantity, Stress};
+use contact_core::scene::{Body, Grid};
+use ndarray::{Array2, Array3, ArrayView1};
+use rayon::prelude::*;
+
+use super::line_transform::LineTransform;
+use super::loads::{Plane, Source};
+use super::near_rim::NearRim;
+use super::states::Loaded;
+use super::{Depth, Side, States};
+
+/// A straight line on the surface, through the middles of cells or anywhere between.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Line {
+    /// Along x at this y \[m\].
+    AlongX(f64),
+    /// Along y at this x \[m\].
+    AlongY(f64),
+}
+
+impl Line {
+    /// y of a line along x, x of one along y \[m\].
+    fn place(self) -> f64 {
+        match self {
+            Self::AlongX(place) | Self::AlongY(place) => place,
+        }
+    }
+}
+
+/// Stress and displacement below a line, at the places of the grid's cells along it.
+pub struct Section {
+    loaded: Loaded,
+    line: Line,
+    plane: Plane,
+    /// For loads on cells and for point loads; the latter may serve all depths asked for.
+    rows: [LineTransform; 2],
+}
+
+impl Section {
+    /// Below `line` in the body `side` under each of the `states`.
+    pub fn new<'a>(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        line: Line,
+        states: impl Into<States<'a>>,
+    ) -> Result<Self, Error> {
+        let states = states.into();
+        let window = || {
+            let plane = Plane::new(grid, matches!(line, Line::AlongY(_)));
+            let half = plane.n.1 as f64 * plane.d.1 / 2.0;
+            let place = line.place();
+            if place.is_nan() || place.abs() > half * (1.0 + 1e-9) {
+                let allowed = format!("a place above the grid, {:e} to {half:e} m", -half);
+                return Err(match line {
+                    Line::AlongX(y) => Error::invalid("y", y, allowed),
+                    Line::AlongY(x) => Error::invalid("x", x, allowed),
+                });
+            }
+            Ok(match line {
+                Line::AlongX(y) => {
+                    let ((_, j), _) = NearRim::locate(grid, 0.0, y);
+                    (0..grid.nx, j..j + 1)
+                }
+                Line::AlongY(x) => {
+                    let ((i, _), _) = NearRim::locate(grid, x, 0.0);
+                    (i..i + 1, 0..grid.ny)
+                }
+            })
+        };
+        let loaded = Loaded::new(body, side, grid, &states, window)?;
+        let plane = Plane::new(grid, matches!(line, Line::AlongY(_)));
+        let [cells, points] = Source::ALL.map(|source| {
+            LineTransform::new(
+                &plane,
+                side,
+                line.place(),
+                states.tractions,
+                source,
+                &states.stop,
+            )
+        });
+        Ok(Self {
+            loaded,
+            line,
+            plane,
+            rows: [cells?, points?],
+        })
+    }
+
+    /// Stress of each state \[Pa\], shape (6, depths, cells along the line): xx, yy, zz, xy, xz,
+    /// yz.
+    pub fn stress(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
+        self.gather::<6>(depths, |depth| self.stress_at(depth))
+    }
+
+    /// Displacement of each state relative to infinity \[m\], shape (3, depths, cells along the
+    /// line).
+    pub fn displacement(&self, depths: &[Depth]) -> Result<Vec<Array3<f64>>, Error> {
+        self.gather::<3>(depths, |depth| {
+            let kernel = self
+                .loaded
+                .kernel::<Displacement, 5, 3>(depth, self.plane.reach())?;
+            self.at(&kernel, depth)
+        })
+    }
+
+    /// Hands the stresses of all states on each line, of shape (6, cells along the line), to `f`
+    /// as soon as they are known, with the accumulator of that depth; depths in parallel.
+    pub fn pass_stress<T: Send>(
+        &self,
+        depths: &[Depth],
+        kept: &mut [T],
+        f: impl Fn(&mut T, Depth, &[Array2<f64>]) + Sync,
+    ) -> Result<(), Error> {
+        depths.par_iter().zip(kept).try_for_each(|(depth, kept)| {
+            f(kept, *depth, &self.stress_at(*depth)?);
+            Ok(())
+        })
+    }
+
+    /// The lines at all depths, by state.
+    fn gather<const R: usize>(
+        &self,
+        depths: &[Depth],
+        lines: impl Fn(Depth) -> Result<Vec<Array2<f64>>, Error> + Sync,
+    ) -> Result<Vec<Array3<f64>>, Error> {
+        let lines: Vec<_> = depths
+            .par_iter()
+            .map(|depth| lines(*depth))
+            .collect::<Result<_, _>>()?;
+        let of_state = |state: usize| {
+            Array3::from_shape_fn((R, depths.len(), self.plane.n.0), |(r, depth, i)| {
+                lines[depth][state][(r, i)]
+            })
+        };
+        Ok((0..self.loaded.states).map(of_state).collect())
+    }
+
+    /// The stress of all states at one depth, each of shape (6, cells along the line).
+    fn stress_at(&self, depth: Depth) -> Result<Vec<Array2<f64>>, Error> {
+        let kernel = self
+            .loaded
+            .kernel::<Stress, 10, 6>(depth, self.plane.reach())?;
+        let mut lines = self.at(&kernel, depth)?;
+        self.add_rim(&kernel, depth, &mut lines);
+        for (state, line) in lines.iter_mut().enumerate() {
+            let uniform = self.loaded.uniform(state, depth);
+            for (mut row, uniform) in line.rows_mut().into_iter().zip(uniform) {
+                row += uniform;
+            }
+        }
+        Ok(lines)
+    }
+
+    /// Adds the correction of [`NearRim`] to the stress of all states at a depth.
+    fn add_rim(
+        &self,
+        kernel: &DepthKernel<Stress, 10, 6>,
+        depth: Depth,
+        lines: &mut [Array2<f64>],
+    ) {
+        let Some(rim) = &self.loaded.rim else { return };
+        let (first, offset) = match self.line {
+            Line::AlongX(y) => NearRim::locate(&self.loaded.grid, self.loaded.grid.x(0), y),
+            Line::AlongY(x) => NearRim::locate(&self.loaded.grid, x, self.loaded.grid.y(0)),
+        };
+        let Some(parts) = rim.parts(kernel, depth, offset) else {
+            return;
+        };
+        for (state, line) in lines.iter_mut().enumerate() {
+            for (n, mut stress) in line.columns_mut().into_iter().enumerate() {
+                let cell = match self.line {
+                    Line::AlongX(_) => (n, first.1),
+                    Line::AlongY(_) => (first.0, n),
+                };
+                if rim.is_near(state, depth, cell) {
+                    let mut with_rim = std::array::from_fn(|c| stress[c]);
+                    rim.add(&parts, state, cell, &mut with_rim);
+                    stress.assign(&ArrayView1::from(&with_rim));
+                }
+            }
+        }
+    }
+
+    /// The lines of all states at one depth, each of shape (R, cells along the line).
+    fn at<Q: Quantity<N, R>, const N: usize, const R: usize>(
+        &self,
+        kernel: &DepthKernel<Q, N, R>,
+        depth: Depth,
+    ) -> Result<Vec<Array2<f64>>, Error> {
+        let source = Source::at(depth.z, self.plane.d);
+        let rows = &self.rows[source.index()];
+        let shape = (self.loaded.states, self.plane.n.0);
+        let own = rows.convolve(kernel, self.plane.d, shape, &self.loaded.stop)?;
+        let exchanged = matches!(self.line, Line::AlongY(_));
+        let turn = |own: Array2<f64>| {
+            Array2::from_shape_fn(own.dim(), |(row, i)| {
+                let from = if exchanged {
+                    Q::exchanged(row, 0).0
+                } else {
+                    row
+                };
+                // A component with one index z changes its sign between the bodies.
+                let sign = if Q::has_one_z(row) {
+                    self.loaded.side.sign()
+                } else {
+                    1.0
+                };
+                sign * own[(from, i)]
+            })
+        };
+        Ok(own.into_iter().map(turn).collect())
+    }
+}

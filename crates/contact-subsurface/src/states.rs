@@ -1,0 +1,114 @@
+//! The states that act on a body, and the shared data of sections, slices and points.
+
+use std::ops::Range;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use contact_core::Error;
+use contact_core::convolution::Tractions;
+use contact_core::kernels::{DepthKernel, Quantity, Stack, refuse_rigid};
+use contact_core::scene::{Body, Grid};
+use contact_core::stop::unless;
+
+use super::near_rim::NearRim;
+use super::uniform::Uniform;
+use super::{Depth, Side};
+
+/// Tractions and uniform stresses of a body in one or several states of a contact. A slice or array
+/// of [`Tractions`] converts to states with all else at its default.
+#[derive(Clone, Debug, Default)]
+pub struct States<'a> {
+    /// Tractions of each state \[Pa\], each field of shape (nx, ny) of the grid.
+    pub tractions: &'a [Tractions<'a>],
+    /// Bulk stress of the body in each state \[Pa\] (default: 0, also for states beyond the list).
+    /// In each layer it enters with that layer's modulus.
+    pub sigma_B: &'a [f64],
+    /// Residual stress of every layer from the surface down, the substrate's last \[Pa\], tension
+    /// positive: [`super::residual_of_layers`] (default: none).
+    pub residual: &'a [f64],
+    /// The cells that stick in each state. If given, the tractions are taken for those of contacts
+    /// (states beyond the list slip at their rim) and vary within the cells near the rim, the stick
+    /// zone and the surface (default: `None`, tractions constant in each cell).
+    pub stick: Option<&'a [&'a [bool]]>,
+    /// Once raised, ends the computation with [`Error::Interrupted`] (default: never).
+    pub stop: Arc<AtomicBool>,
+}
+
+impl<'a> From<&'a [Tractions<'a>]> for States<'a> {
+    fn from(tractions: &'a [Tractions<'a>]) -> Self {
+        Self {
+            tractions,
+            ..Self::default()
+        }
+    }
+}
+
+impl<'a, const N: usize> From<&'a [Tractions<'a>; N]> for States<'a> {
+    fn from(tractions: &'a [Tractions<'a>; N]) -> Self {
+        tractions.as_slice().into()
+    }
+}
+
+impl<'a> From<&'a Vec<Tractions<'a>>> for States<'a> {
+    fn from(tractions: &'a Vec<Tractions<'a>>) -> Self {
+        tractions.as_slice().into()
+    }
+}
+
+/// A body under states of a contact.
+pub(super) struct Loaded {
+    pub(super) body: Body,
+    pub(super) side: Side,
+    pub(super) grid: Grid,
+    /// How many states there are.
+    pub(super) states: usize,
+    /// The correction for tractions that vary within the cells, if any.
+    pub(super) rim: Option<NearRim>,
+    pub(super) stop: Arc<AtomicBool>,
+    stack: Stack,
+    uniform: Uniform,
+}
+
+impl Loaded {
+    /// For samples in a window of columns and rows of the grid.
+    pub(super) fn new(
+        body: &Body,
+        side: Side,
+        grid: &Grid,
+        states: &States<'_>,
+        window: impl FnOnce() -> Result<(Range<usize>, Range<usize>), Error>,
+    ) -> Result<Self, Error> {
+        body.check_alone()?;
+        grid.check_alone()?;
+        let window = window()?;
+        let near = |stick| NearRim::new(body, grid, side, states.tractions, stick, window);
+        Ok(Self {
+            stack: Stack::new(body),
+            body: body.clone(),
+            side,
+            grid: *grid,
+            states: states.tractions.len(),
+            uniform: Uniform::new(body, states.sigma_B, states.residual, grid)?,
+            rim: states.stick.map(near),
+            stop: states.stop.clone(),
+        })
+    }
+
+    /// The kernel at a depth, out to a distance from the load \[m\].
+    pub(super) fn kernel<Q: Quantity<N, R>, const N: usize, const R: usize>(
+        &self,
+        depth: Depth,
+        reach: f64,
+    ) -> Result<DepthKernel<Q, N, R>, Error> {
+        refuse_rigid(&self.body, depth.layer)?;
+        unless(&self.stop)?;
+        let place = self.stack.place(depth.z, Some(depth.layer))?;
+        let (dx, dy) = (self.grid.dx, self.grid.dy);
+        DepthKernel::new(&self.stack, place, reach, (dx, dy))
+    }
+
+    /// s_xx and s_yy of a state at a depth that are the same all over the layer \[Pa\].
+    pub(super) fn uniform(&self, state: usize, depth: Depth) -> [f64; 2] {
+        self.uniform.stress(&self.body, state, depth.layer)
+    }
+}

@@ -1,0 +1,85 @@
+//! The fields at the end of a block of cycles.
+
+use contact_core::convolution::Convolutions;
+use contact_core::plan::Half;
+use ndarray::Array2;
+
+use super::WearRun;
+use super::worn_start::WornStart;
+
+/// Worn surfaces and the contact on them after a number of cycles, each field of shape (nx, ny).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    /// Cycles done.
+    pub cycles: f64,
+    /// Depth worn off body 1 \[m\], in its own coordinates: those of the grid at no shift.
+    pub worn1: Array2<f64>,
+    /// Depth worn off body 2 \[m\].
+    pub worn2: Array2<f64>,
+    /// Energy per area dissipated at body 1 so far, in its own coordinates \[J/m^2\].
+    pub energy1: Array2<f64>,
+    /// The same at body 2 \[J/m^2\].
+    pub energy2: Array2<f64>,
+    /// Way slipped in contact so far \[m\].
+    pub slid: Array2<f64>,
+    /// Pressure \[Pa\]: in a march the mean of the cycle, weighted with the energy dissipated in
+    /// each increment; in gross slip that in the middle of the stroke.
+    pub p: Array2<f64>,
+    /// Shift of body 1 against body 2 along x at which p acts and the two worn surfaces lie \[m\];
+    /// zero in a march.
+    pub shift: f64,
+    /// Contact cells that slip nowhere in the cycle; none in gross slip.
+    pub stick: Array2<bool>,
+    /// Friction loop of one cycle: shift delta_x \[m\], force T_x \[N\], shift delta_y, force T_y,
+    /// at the ends of its increments. The shifts are those of the rig.
+    pub friction_loop: Vec<[f64; 4]>,
+}
+
+impl Block {
+    /// The start of another run on these surfaces, given the energy dissipated so far \[J\].
+    pub fn start(&self, dissipated: f64) -> WornStart {
+        WornStart {
+            cycles: self.cycles,
+            dissipated,
+            worn: [self.worn1.clone(), self.worn2.clone()],
+            energy: [self.energy1.clone(), self.energy2.clone()],
+            slid: self.slid.clone(),
+        }
+    }
+}
+
+impl WearRun {
+    /// The fields after the last jump.
+    pub fn block(&self) -> Block {
+        let pressing = self.model.pressing();
+        let grid = &pressing.grid;
+        let whole = |field: &[f64]| pressing.mirror.unfold(field, grid.nx, grid.ny, Half::Even);
+        let seen = self.model.seen();
+        let stick = match seen.stick {
+            Some(stick) => {
+                let ones: Vec<f64> = stick.iter().map(|s| f64::from(u8::from(*s))).collect();
+                whole(&ones).mapv(|s| s > 0.5)
+            }
+            None => Array2::from_elem((grid.nx, grid.ny), false),
+        };
+        let worn = &self.state().worn;
+        let ([worn1, worn2], [energy1, energy2]) = (&worn.depth, &worn.energy);
+        Block {
+            cycles: self.state().cycles,
+            worn1: whole(worn1),
+            worn2: whole(worn2),
+            energy1: whole(energy1),
+            energy2: whole(energy2),
+            slid: whole(&worn.slid),
+            p: whole(seen.p),
+            shift: seen.shift,
+            stick,
+            friction_loop: seen.corners,
+        }
+    }
+
+    /// Work of the normal problems and cycles solved so far.
+    pub fn work(&self) -> (Convolutions, usize) {
+        self.model.work()
+    }
+}

@@ -1,0 +1,290 @@
+//! Wear laws: the depth that a cycle takes from each cell of a surface.
+
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use contact_core::Error;
+
+/// Loading of each cell of a surface in one cycle, in the coordinates of its own body.
+#[derive(Clone, Copy, Debug)]
+pub struct CellCycle<'a> {
+    /// Integral of the pressure over the way slipped, `int p |ds|` \[Pa m\] = \[J/m^2\] per unit of
+    /// mu.
+    pub pressed_way: &'a [f64],
+    /// Way slipped in contact, `int |ds|` \[m\].
+    pub way: &'a [f64],
+    /// Energy dissipated by friction per area, `-int q . ds` \[J/m^2\].
+    pub dissipated: &'a [f64],
+    /// Depth worn so far \[m\].
+    pub worn: &'a [f64],
+    /// Energy dissipated per area so far \[J/m^2\].
+    pub energy: &'a [f64],
+    /// Cycles done so far.
+    pub cycles: f64,
+    /// Cycles per second \[Hz\]; not a number where none is given.
+    pub frequency: f64,
+}
+
+/// A law of wear. The user's own is any type with this trait.
+pub trait Law: Debug + Send + Sync {
+    /// Writes the depth \[m\], >= 0, that one cycle takes from each cell. Where nothing is pressed
+    /// or nothing slips (`pressed_way` = 0) it is ignored: nothing wears there.
+    fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error>;
+
+    /// Fails with the key, the value and what is allowed if a parameter is out of its range.
+    fn check(&self, _key: &str) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Whether it needs a frequency.
+    fn needs_frequency(&self) -> bool {
+        false
+    }
+
+    /// The law as a table of a scene file; `None` if a file cannot represent it.
+    fn written(&self) -> Option<String> {
+        None
+    }
+}
+
+/// J. F. Archard's law (J. Appl. Phys. 24 (1953) 981-988), taken cell by cell: `dh = k p |ds|`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Archard {
+    /// Local wear coefficient k \[m^2/N\] = \[1/Pa\]; 1e-8 per MPa is 1e-14.
+    pub k: f64,
+    /// Way slipped per cycle below which a cell does not wear, and beyond which only the rest
+    /// counts \[m\] (default 0).
+    pub threshold: f64,
+}
+
+impl Law for Archard {
+    fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
+        for (n, depth) in depth.iter_mut().enumerate() {
+            let counts = beyond(cycle.way[n], self.threshold);
+            *depth = self.k * counts * cycle.pressed_way[n];
+        }
+        Ok(())
+    }
+
+    fn check(&self, key: &str) -> Result<(), Error> {
+        not_negative(&format!("{key}.k"), self.k, "m^2/N")?;
+        not_negative(
+            &format!("{key}.threshold"),
+            self.threshold,
+            "m of slip per cycle",
+        )
+    }
+
+    fn written(&self) -> Option<String> {
+        Some(format!(
+            "{{ k = {:?}, threshold = {:?} }}",
+            self.k, self.threshold
+        ))
+    }
+}
+
+/// Wear by the energy dissipated (S. Fouvry, P. Kapsa, L. Vincent, Wear 200 (1996) 186-205), taken
+/// cell by cell: `dh = -alpha q . ds`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DissipatedEnergy {
+    /// Energy wear coefficient alpha \[m^3/J\] = \[1/Pa\].
+    pub alpha: f64,
+    /// Energy per area and cycle below which a cell does not wear, and beyond which only the rest
+    /// counts \[J/m^2\] (default 0).
+    pub threshold: f64,
+}
+
+impl Law for DissipatedEnergy {
+    fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
+        for (n, depth) in depth.iter_mut().enumerate() {
+            let energy = cycle.dissipated[n];
+            *depth = self.alpha * beyond(energy, self.threshold) * energy;
+        }
+        Ok(())
+    }
+
+    fn check(&self, key: &str) -> Result<(), Error> {
+        not_negative(&format!("{key}.alpha"), self.alpha, "m^3/J")?;
+        not_negative(
+            &format!("{key}.threshold"),
+            self.threshold,
+            "J/m^2 per cycle",
+        )
+    }
+
+    fn written(&self) -> Option<String> {
+        Some(format!(
+            "{{ alpha = {:?}, threshold = {:?} }}",
+            self.alpha, self.threshold
+        ))
+    }
+}
+
+/// The part of a quantity that lies beyond its threshold; all of it without one.
+fn beyond(value: f64, threshold: f64) -> f64 {
+    if threshold > 0.0 {
+        if value > threshold {
+            1.0 - threshold / value
+        } else {
+            0.0
+        }
+    } else {
+        1.0
+    }
+}
+
+fn not_negative(key: &str, value: f64, unit: &str) -> Result<(), Error> {
+    if value >= 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(Error::invalid(
+        key,
+        value,
+        format!("a finite number >= 0 in {unit}"),
+    ))
+}
+
+/// How one body wears: a law for each of its layers.
+#[derive(Clone, Debug, Default)]
+pub struct BodyWear {
+    /// A law for each coating, the outermost first, then one for the substrate; a single one is
+    /// that of all layers; none: the body does not wear.
+    pub laws: Vec<Arc<dyn Law>>,
+    /// Factor of the depths of the laws for this body (default 1): how the wear of the pair is
+    /// divided between its bodies.
+    pub share: Option<f64>,
+}
+
+impl BodyWear {
+    /// A body of one law, whatever its layers.
+    pub fn of(law: impl Law + 'static) -> Self {
+        Self {
+            laws: vec![Arc::new(law)],
+            share: None,
+        }
+    }
+
+    /// The law of a layer, 0 the outermost.
+    fn law(&self, layer: usize) -> Option<&dyn Law> {
+        let only = if self.laws.len() == 1 { 0 } else { layer };
+        self.laws.get(only).map(|law| &**law)
+    }
+
+    pub(crate) fn wears(&self) -> bool {
+        !self.laws.is_empty()
+    }
+
+    pub(crate) fn check(&self, key: &str, layers: usize) -> Result<(), Error> {
+        if self.laws.len() > 1 && self.laws.len() != layers {
+            return Err(Error::invalid(
+                format!("{key}.laws"),
+                format!("{} laws", self.laws.len()),
+                format!(
+                    "one law, or one for each of the {layers} layers (coatings, then substrate)"
+                ),
+            ));
+        }
+        if let Some(share) = self.share.filter(|share| !(0.0..=1.0).contains(share)) {
+            return Err(Error::invalid(
+                format!("{key}.share"),
+                share,
+                "between 0 and 1",
+            ));
+        }
+        self.laws.iter().try_for_each(|law| law.check(key))
+    }
+
+    /// The coefficient k of each cell, `depth = k pressed_way` per cycle \[1/Pa\], by the law of
+    /// the layer that is bare there; `thickness` of the coatings \[m\].
+    pub(crate) fn coefficients(
+        &self,
+        cycle: &CellCycle<'_>,
+        thickness: &[f64],
+        k: &mut [f64],
+    ) -> Result<(), Error> {
+        k.fill(0.0);
+        let mut depth = vec![0.0; k.len()];
+        for layer in 0..=thickness.len() {
+            let bare = |n: usize| layer_at(cycle.worn[n], thickness) == layer;
+            let Some(law) = self.law(layer) else { continue };
+            if !(0..k.len()).any(bare) {
+                continue;
+            }
+            law.depth(cycle, &mut depth)?;
+            for n in (0..k.len()).filter(|&n| bare(n)) {
+                let way = cycle.pressed_way[n];
+                if way > 0.0 {
+                    k[n] = self.share.unwrap_or(1.0) * depth[n] / way;
+                }
+            }
+        }
+        match k.iter().find(|k| !(**k >= 0.0 && k.is_finite())) {
+            Some(bad) => Err(Error::invalid(
+                "wear.law",
+                format!("a depth of {bad:e} per Pa m"),
+                "finite and >= 0 in every cell: nothing grows",
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The layer that is bare at a worn depth, 0 the outermost coating.
+pub(crate) fn layer_at(worn: f64, thickness: &[f64]) -> usize {
+    let mut bottom = 0.0;
+    for (layer, h) in thickness.iter().enumerate() {
+        bottom += h;
+        if worn < bottom {
+            return layer;
+        }
+    }
+    thickness.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Archard, BodyWear, CellCycle, DissipatedEnergy, layer_at};
+    use std::sync::Arc;
+
+    #[test]
+    fn the_bare_layer_says_how_fast_a_cell_wears() {
+        let archard = |k| Archard { k, threshold: 0.0 };
+        let body = BodyWear {
+            laws: vec![Arc::new(archard(1.0)), Arc::new(archard(5.0))],
+            share: Some(0.5),
+        };
+        let cycle = CellCycle {
+            pressed_way: &[2.0, 2.0, 0.0],
+            way: &[1.0; 3],
+            dissipated: &[0.2; 3],
+            worn: &[0.5, 1.0, 3.0],
+            energy: &[0.0; 3],
+            cycles: 0.0,
+            frequency: f64::NAN,
+        };
+        let mut k = [9.0; 3];
+        body.coefficients(&cycle, &[1.0], &mut k).unwrap();
+        assert_eq!(k, [0.5, 2.5, 0.0]);
+        assert_eq!(layer_at(1.5, &[1.0, 2.0]), 1);
+    }
+
+    #[test]
+    fn below_the_threshold_nothing_wears() {
+        let law = DissipatedEnergy {
+            alpha: 2.0,
+            threshold: 1.0,
+        };
+        let cycle = CellCycle {
+            pressed_way: &[1.0; 3],
+            way: &[1.0; 3],
+            dissipated: &[0.5, 1.0, 3.0],
+            worn: &[0.0; 3],
+            energy: &[0.0; 3],
+            cycles: 0.0,
+            frequency: f64::NAN,
+        };
+        let mut depth = [9.0; 3];
+        super::Law::depth(&law, &cycle, &mut depth).unwrap();
+        assert_eq!(depth, [0.0, 0.0, 4.0]);
+    }
+}

@@ -1,0 +1,51 @@
+//! Wear of the surfaces over cycles. Stands above the march and runs marches.
+//!
+//! A cycle of the load path wears each cell of each body by a depth that a [`Law`] computes from
+//! the pressed way `int p |ds|`, the way slipped and the energy dissipated there. Thousands of
+//! cycles are done in jumps: a jump of n cycles wears n times the depth of one cycle at the
+//! pressure of its end. `n k s` is then a compliance in series with the half-space in every cell
+//! (`compliant`), and jumps of any length are stable. Two ways to solve a cycle ([`Cycling`]):
+//! increment by increment through the march (`marched`), or, in gross slip with any stroke, the
+//! normal problem alone at each place of the stroke, the worn surfaces read where they then lie
+//! (`sliding`). Each jump is made whole and in two halves, extrapolated to second order; the
+//! difference controls its length (`run`).
+
+#![forbid(unsafe_code)]
+
+mod attempt;
+mod block;
+mod border;
+mod compliant;
+mod cycled;
+mod events;
+mod jump;
+mod law;
+mod loss;
+mod marched;
+mod model;
+mod on_grid;
+mod outward;
+mod passage;
+mod pressing;
+mod rates;
+mod run;
+mod settings;
+mod settled;
+mod shift;
+mod sliding;
+mod state;
+mod stroke;
+mod table;
+mod varying;
+mod within_cell;
+mod worn_start;
+
+pub use block::Block;
+pub use events::{Event, EventKind};
+pub use jump::Jump;
+pub use law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};
+pub use run::WearRun;
+pub use settings::{Cycling, Jumps, Wear, WornThrough};
+pub use state::WearState;
+pub use varying::{Factor, Of, Varying};
+pub use worn_start::WornStart;

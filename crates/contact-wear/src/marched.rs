@@ -1,0 +1,386 @@
+//! Cycles of any load path, solved increment by increment.
+//!
+//! One cycle through [`March`] on given surfaces gives for every cell the pressed way
+//! `P = int p |ds|`, the way slipped and the energy dissipated. A jump of n cycles is implicit in
+//! the pressure:
+//!
+//! ```text
+//! w = n k sigma p,   sigma = P/p_m                      of the cycle
+//! g = h + (1 - kept)(w_0 + w) + C p + u_q - delta_z >= 0,  p >= 0,  p g = 0
+//! ```
+//!
+//! p_m being the mean pressure of the cycle, weighted with the energy dissipated in its increments,
+//! and u_q the mean normal displacement under the shear with the same weights, less the mean gap of
+//! cells that are in contact in a part of the cycle only, so that p = p_m for n = 0. `kept` is the
+//! part of the worn volume that stays in the contact as debris. The normal problem has the
+//! compliance (1 - kept) n k sigma, whatever the loads within the cycle. Predictor: sigma of the
+//! last cycle. Corrector: a cycle is solved on the predicted surfaces and the jump repeated with
+//! its sigma, until pressure and worn depth no longer change.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use contact_core::Error;
+use contact_core::cells::Drive;
+use contact_core::march::{Increment, March, Reached, State};
+use contact_core::scene::{Branch, Friction, FrictionHistory, History, PathGrid, Scene};
+use serde::{Deserialize, Serialize};
+
+use super::cycled::{Cycled, Sums};
+use super::law::CellCycle;
+use super::loss::{Loss, Worn};
+use super::outward::outward;
+use super::pressing::Pressing;
+use super::rates::Rates;
+use super::settings::{Jumps, Wear, thicknesses};
+use super::within_cell::half_a_cell;
+
+/// Change of the pressure between two corrections (root mean square, over the pressure) that ends
+/// them.
+const AGREES: f64 = 0.02;
+/// Change of the worn depth between two corrections (root mean square) that ends them: over that
+/// worn in the jump, or over the part of the worn depth that the jump may leave as an error
+/// (`USUAL` where jumps are given).
+const AGREES_IN_JUMP: f64 = 0.05;
+const AGREES_IN_ALL: f64 = 0.1;
+const USUAL: f64 = 0.01;
+/// Most corrections of a jump; one that has not converged by then is too long.
+const CORRECTIONS: usize = 8;
+
+/// The state on which the next jump depends.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct MarchedState {
+    /// The state of the march at the start of a cycle.
+    start: State,
+    cycled: Cycled,
+}
+
+/// Cycles through the march.
+pub(crate) struct Marched {
+    pub(crate) pressing: Pressing,
+    march: March,
+    wear: Wear,
+    coatings: [Vec<f64>; 2],
+    /// Gap between the unworn surfaces \[m\].
+    h: Vec<f64>,
+    /// Increments before the cycle.
+    lead_in: usize,
+    gives_approach: bool,
+    /// The coefficient of friction, if uniform, before its dependence on cycles.
+    plain_mu: Option<f64>,
+    /// Its dependence on history.
+    history: Option<FrictionHistory>,
+    /// Whether it depends on what a cell has been through, by a history or a law of the user's own.
+    remembers: bool,
+    pub(crate) state: MarchedState,
+    /// Mean pressure at the end of the last jump \[Pa\].
+    pub(crate) p: Vec<f64>,
+    /// Cycles solved so far.
+    pub(crate) cycles_solved: usize,
+}
+
+impl Marched {
+    /// Solves the lead-in and a cycle on the unworn surfaces, or continues from a state.
+    pub(crate) fn new(
+        scene: &Scene,
+        wear: &Wear,
+        state: Option<MarchedState>,
+        worn: &Worn,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        let (mut scene, first_branch) = (scene.clone(), wear.first_branch(scene)?);
+        let settles = Branch {
+            increments: Some(1),
+            path_error: None,
+            ..scene.path.branches[first_branch - 1]
+        };
+        // A branch without a change of loads, in which the contact adapts to the worn surfaces.
+        scene.path.branches.insert(first_branch, settles);
+        for (i, branch) in scene.path.branches.iter_mut().enumerate() {
+            branch.t_end = (i + 1) as f64;
+        }
+        scene.settings.skip.far = false;
+        scene.settings.solver.path_grid = PathGrid::Same;
+        if wear.rig_stiffness.is_finite() {
+            scene.path.rig_stiffness = Some(wear.rig_stiffness);
+        }
+        let mut march = March::until(&scene, stop)?;
+        let scene = march.scene().clone();
+        let points = march.points();
+        let lead_in = points
+            .iter()
+            .take_while(|p| p.branch < first_branch)
+            .count();
+        let plan = march.plan().clone();
+        let h = plan.mirror.fold(&scene.h_init());
+        let mut reached = Reached::default();
+        let goes_on = state.is_some();
+        if !goes_on {
+            if worn.deepest() > 0.0 {
+                let gap = gap(&h, worn, wear.opens());
+                march.go_on_from(march.state().clone(), &gap);
+            }
+            for _ in 0..lead_in {
+                reached.see(&advance(&mut march)?);
+            }
+        }
+        reached.check(&scene)?;
+        let begins = || MarchedState {
+            start: march.state().clone(),
+            cycled: Cycled::default(),
+        };
+        let state = state.unwrap_or_else(begins);
+        let pressing = Pressing::new(&scene, &plan, stop)?;
+        let mut marched = Self {
+            h,
+            coatings: [thicknesses(&scene.body1), thicknesses(&scene.body2)],
+            gives_approach: scene.path.branches[first_branch].to.given.delta_z.is_some(),
+            plain_mu: plain(&scene.friction),
+            history: scene.friction.history.clone(),
+            remembers: scene.friction.history.is_some() || scene.friction.law.is_some(),
+            p: Vec::new(),
+            state,
+            wear: wear.clone(),
+            pressing,
+            march,
+            lead_in,
+            cycles_solved: 0,
+        };
+        if !goes_on {
+            marched.settle(worn)?;
+        }
+        Ok(marched)
+    }
+
+    /// Solves a cycle on surfaces worn so far; the next one starts from its end.
+    pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
+        let (cycled, mut start) = self.cycle(worn)?;
+        start.increments = self.lead_in;
+        self.state = MarchedState { start, cycled };
+        Ok(())
+    }
+
+    /// The loss of both bodies in n cycles.
+    pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
+        let mut rates = self.rates(worn, &self.state.cycled)?;
+        let mut p = self.state.cycled.p.clone();
+        let (area, shortest_waves) = (self.pressing.cell_area(), self.pressing.shortest_waves());
+        let opens = self.wear.opens();
+        if !implicit {
+            let in_jump = rates.in_jump(n, (worn, opens), &p, shortest_waves);
+            return Ok(in_jump.loss(&rates, &p, area));
+        }
+        self.pressing.begin();
+        let may_leave = AGREES_IN_ALL
+            * match self.wear.jumps {
+                Jumps::Tolerance(tolerance) => tolerance,
+                Jumps::Number(_) | Jumps::Explicit(_) => USUAL,
+            };
+        let mut last: Option<(Vec<f64>, Loss)> = None;
+        for correction in 0..=CORRECTIONS {
+            let in_jump = rates.in_jump(n, (worn, opens), &p, shortest_waves);
+            let cells = self.h.len();
+            let compliance: Vec<f64> = (0..cells)
+                .map(|c| opens * (rates.k[0][c] + rates.k[1][c]) * in_jump.way[c])
+                .collect();
+            let gap = gap(&self.h, worn, opens);
+            let h: Vec<f64> = (0..cells)
+                .map(|c| gap[c] + rates.u_q[c] - compliance[c] * in_jump.borne[c])
+                .collect();
+            self.pressing
+                .solve(&h, &compliance, rates.drive, &mut p, 1.0)?;
+            let loss = in_jump.loss(&rates, &p, area);
+            if let Some((last_p, last_loss)) = &last {
+                let change = moved(last_loss, &loss);
+                let enough =
+                    (AGREES_IN_JUMP * size_of(&loss.depth)).max(may_leave * size_of(&worn.depth));
+                if agree(last_p, &p) && change <= enough {
+                    self.p = p;
+                    return Ok(loss);
+                }
+                if correction == CORRECTIONS {
+                    return Err(Error::NotConverged {
+                        increment: 0,
+                        solver: "wear",
+                        residual: change,
+                        tolerance: enough,
+                        iterations: CORRECTIONS,
+                        why: String::new(),
+                    });
+                }
+            }
+            let mut end = worn.clone();
+            end.add(&loss);
+            last = Some((p.clone(), loss));
+            let (cycled, _) = self.cycle(&end)?;
+            rates = self.rates(worn, &cycled)?;
+            self.state.cycled = cycled;
+        }
+        unreachable!("the last correction returns")
+    }
+
+    /// The results of the last cycle.
+    pub(crate) fn cycled(&self) -> &Cycled {
+        &self.state.cycled
+    }
+
+    /// Error of the worn depth by the place of the border of the stick zone within its cell, were
+    /// the contact worn until nothing changes \[m\].
+    pub(crate) fn border_error(&mut self, worn: &Worn) -> Result<f64, Error> {
+        let Cycled { stick, cuts, p, .. } = &self.state.cycled;
+        let surfaces = (worn, self.wear.opens());
+        // Of bare and like bodies the shortfall is a root at the border to the end.
+        let coated = self.coatings.iter().any(|layers| !layers.is_empty());
+        let cuts = if coated || self.march.plan().coupling {
+            &[]
+        } else {
+            &cuts[..]
+        };
+        half_a_cell(&mut self.pressing, stick, cuts, p, surfaces)
+    }
+
+    /// The coefficient of friction after so many cycles, if uniform.
+    fn mu(&self, cycles: f64) -> Option<f64> {
+        let factor = self.history.as_ref().map_or(1.0, |h| h.factor(cycles));
+        self.plain_mu.map(|mu| mu * factor)
+    }
+
+    /// One cycle on worn surfaces, and the state of the march at its end.
+    fn cycle(&mut self, worn: &Worn) -> Result<(Cycled, State), Error> {
+        let gap = gap(&self.h, worn, self.wear.opens());
+        let mut start = self.state.start.clone();
+        if self.remembers {
+            // The history that friction depends on includes all cycles so far.
+            start.slip_length.clone_from(&worn.slid);
+            start.dissipated.clone_from(&worn.energy[0]);
+        }
+        self.march.go_on_from(start, &gap);
+        self.march.after_cycles(worn.cycles);
+        // The contact adapts to the worn surfaces; the slip of this increment belongs to no cycle.
+        advance(&mut self.march)?;
+        let cells = self.h.len();
+        let mut sums = Sums::new(cells, self.mu(worn.cycles));
+        let increments = self.march.points().len() - self.lead_in - 1;
+        for _ in 0..increments {
+            let before = self.march.state().clone();
+            let increment = advance(&mut self.march)?;
+            sums.add(&before, self.march.state(), &increment);
+        }
+        self.cycles_solved += 1;
+        let state = self.march.state().clone();
+        let coupling = self.march.plan().coupling;
+        Ok((
+            sums.cycled(
+                &mut self.pressing,
+                coupling,
+                (worn, self.wear.opens()),
+                &gap,
+            ),
+            state,
+        ))
+    }
+
+    /// Rates of wear of every cell; cells outside the contact have those of their neighbours.
+    fn rates(&self, worn: &Worn, cycled: &Cycled) -> Result<Rates, Error> {
+        let cells = self.h.len();
+        let largest = cycled.p.iter().fold(0.0, |m: f64, p| m.max(*p));
+        let pressed = |c: usize| cycled.p[c] > 1e-6 * largest && cycled.pressed_way[c] >= 0.0;
+        let rows = self.pressing.rows();
+        let mut sigma = outward(rows, cells, |c| {
+            pressed(c).then(|| cycled.pressed_way[c] / cycled.p[c])
+        });
+        let mut mu = outward(rows, cells, |c| {
+            let slips = pressed(c) && cycled.pressed_way[c] > 0.0;
+            slips.then(|| cycled.dissipated[c] / cycled.pressed_way[c])
+        });
+        let mut way = outward(rows, cells, |c| pressed(c).then(|| cycled.way[c]));
+        for cut in &cycled.cuts {
+            let c = cut.cell;
+            mu[c] = self.mu(worn.cycles).unwrap_or(mu[c]);
+            if let Some(own) = cut.way {
+                (sigma[c], way[c]) = (own, own);
+            }
+        }
+        let pressed_way: Vec<f64> = (0..cells)
+            .map(|c| sigma[c] * cycled.p[c].max(1e-6 * largest))
+            .collect();
+        let dissipated: Vec<f64> = (0..cells).map(|c| mu[c] * pressed_way[c]).collect();
+        let mut k = [vec![0.0; cells], vec![0.0; cells]];
+        for b in 0..2 {
+            let cycle = CellCycle {
+                pressed_way: &pressed_way,
+                way: &way,
+                dissipated: &dissipated,
+                worn: &worn.depth[b],
+                energy: &worn.energy[b],
+                cycles: worn.cycles,
+                frequency: self.wear.frequency.unwrap_or(f64::NAN),
+            };
+            self.wear.bodies[b].coefficients(&cycle, &self.coatings[b], &mut k[b])?;
+        }
+        let [W, approach] = cycled.mean;
+        let drive = if self.gives_approach {
+            Drive {
+                given: [approach, 0.0, 0.0],
+                ..Drive::default()
+            }
+        } else {
+            self.pressing.under(W)
+        };
+        Ok(Rates {
+            k,
+            sigma,
+            mu,
+            slips: way,
+            u_q: cycled.u_q.clone(),
+            cuts: cycled.cuts.clone(),
+            drive,
+        })
+    }
+}
+
+/// The coefficient of friction, if uniform apart from a dependence on cycles.
+fn plain(friction: &Friction) -> Option<f64> {
+    let of_cycles = |h: &FrictionHistory| h.of == History::Cycles;
+    let mut level = friction.clone();
+    level.history = level.history.filter(|h| !of_cycles(h));
+    (level == Friction::coulomb(friction.mu)).then_some(friction.mu)
+}
+
+/// Gap between worn surfaces: h plus the part `opens` of the worn depths \[m\].
+fn gap(h: &[f64], worn: &Worn, opens: f64) -> Vec<f64> {
+    let [one, two] = &worn.depth;
+    let cells = h.iter().zip(one.iter().zip(two));
+    cells
+        .map(|(h, (one, two))| h + opens * one + opens * two)
+        .collect()
+}
+
+/// Whether two pressures agree within [`AGREES`].
+fn agree(last: &[f64], now: &[f64]) -> bool {
+    let (mut moved, mut size) = (0.0, 0.0);
+    for (last, now) in last.iter().zip(now) {
+        moved += (now - last).powi(2);
+        size += now * now;
+    }
+    moved <= AGREES * AGREES * size
+}
+
+/// Root mean square of the worn depths of both bodies, times a common factor.
+fn size_of(depth: &[Vec<f64>; 2]) -> f64 {
+    depth.iter().flatten().map(|w| w * w).sum::<f64>().sqrt()
+}
+
+/// The same of the change of the loss.
+fn moved(last: &Loss, now: &Loss) -> f64 {
+    let both = last.depth.iter().flatten().zip(now.depth.iter().flatten());
+    both.map(|(last, now)| (now - last).powi(2))
+        .sum::<f64>()
+        .sqrt()
+}
+
+fn advance(march: &mut March) -> Result<Increment, Error> {
+    march.advance().unwrap_or(Err(Error::Interrupted {
+        increment: march.state().increments,
+    }))
+}

@@ -1,0 +1,183 @@
+//! The two ways to solve a cycle, behind one interface.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use contact_core::Error;
+use contact_core::convolution::Convolutions;
+use contact_core::scene::Scene;
+use serde::{Deserialize, Serialize};
+
+use super::loss::{Loss, Worn};
+use super::marched::{Marched, MarchedState};
+use super::pressing::Pressing;
+use super::settings::{Cycling, Wear};
+use super::sliding::Sliding;
+
+/// How the contact of a cycle is solved.
+pub(crate) enum Model {
+    Sliding(Box<Sliding>),
+    Marched(Box<Marched>),
+}
+
+/// The state of a model between jumps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) enum ModelState {
+    /// Pressures at the places of the stroke \[Pa\].
+    Sliding(Vec<Vec<f64>>),
+    Marched(Box<MarchedState>),
+}
+
+impl ModelState {
+    fn sliding(self) -> Result<Vec<Vec<f64>>, Error> {
+        match self {
+            Self::Sliding(p) => Ok(p),
+            Self::Marched(_) => Err(Self::of_another_way()),
+        }
+    }
+
+    fn marched(self) -> Result<MarchedState, Error> {
+        match self {
+            Self::Sliding(_) => Err(Self::of_another_way()),
+            Self::Marched(state) => Ok(*state),
+        }
+    }
+
+    fn of_another_way() -> Error {
+        Error::invalid("state", "of another way to cycle", "one of this run")
+    }
+}
+
+/// The results of the last cycle.
+pub(crate) struct Seen<'a> {
+    /// Pressure in the middle of the stroke, or the mean one of the cycle \[Pa\].
+    pub(crate) p: &'a [f64],
+    /// Shift of the bodies at that pressure \[m\].
+    pub(crate) shift: f64,
+    pub(crate) stick: Option<&'a [bool]>,
+    pub(crate) stick_ratio: f64,
+    pub(crate) dissipated_per_cycle: f64,
+    /// delta_x, T_x, delta_y, T_y along the loop \[m, N\].
+    pub(crate) corners: Vec<[f64; 4]>,
+}
+
+impl Model {
+    /// Solves the first cycle on surfaces worn so far, or continues from a state.
+    pub(crate) fn new(
+        scene: &Scene,
+        wear: &Wear,
+        state: Option<ModelState>,
+        worn: &Worn,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        match wear.cycling {
+            Cycling::Sliding => {
+                let p = state.map(ModelState::sliding).transpose()?;
+                let sliding = Sliding::new(scene, wear, p, worn, stop)?;
+                Ok(Self::Sliding(Box::new(sliding)))
+            }
+            Cycling::March => {
+                let state = state.map(ModelState::marched).transpose()?;
+                let marched = Marched::new(scene, wear, state, worn, stop)?;
+                Ok(Self::Marched(Box::new(marched)))
+            }
+        }
+    }
+
+    pub(crate) fn pressing(&self) -> &Pressing {
+        match self {
+            Self::Sliding(s) => &s.pressing,
+            Self::Marched(m) => &m.pressing,
+        }
+    }
+
+    pub(crate) fn cells(&self) -> usize {
+        self.pressing().cells()
+    }
+
+    pub(crate) fn state(&self) -> ModelState {
+        match self {
+            Self::Sliding(s) => ModelState::Sliding(s.p.clone()),
+            Self::Marched(m) => ModelState::Marched(Box::new(m.state.clone())),
+        }
+    }
+
+    pub(crate) fn restore(&mut self, state: &ModelState) {
+        match (self, state) {
+            (Self::Sliding(s), ModelState::Sliding(p)) => s.p.clone_from(p),
+            (Self::Marched(m), ModelState::Marched(state)) => m.state.clone_from(state),
+            _ => {}
+        }
+    }
+
+    pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
+        match self {
+            Self::Sliding(s) => s.settle(worn),
+            Self::Marched(m) => m.settle(worn),
+        }
+    }
+
+    pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
+        match self {
+            Self::Sliding(s) => s.jump(worn, n, implicit),
+            Self::Marched(m) => m.jump(worn, n, implicit),
+        }
+    }
+
+    /// Error of the worn depth by the place of the border of the stick zone within its cell, were
+    /// the contact worn until nothing changes \[m\].
+    pub(crate) fn border_error(&mut self, worn: &Worn) -> Result<f64, Error> {
+        match self {
+            Self::Sliding(_) => Ok(0.0),
+            Self::Marched(m) => m.border_error(worn),
+        }
+    }
+
+    /// The pressures at the end of the last jump.
+    pub(crate) fn pressures(&self) -> Vec<f64> {
+        match self {
+            Self::Sliding(s) => s.p.concat(),
+            Self::Marched(m) => m.p.clone(),
+        }
+    }
+
+    /// Work of the normal problems, cycles solved.
+    pub(crate) fn work(&self) -> (Convolutions, usize) {
+        match self {
+            Self::Sliding(s) => (s.pressing.work(), 0),
+            Self::Marched(m) => (m.pressing.work(), m.cycles_solved),
+        }
+    }
+
+    pub(crate) fn seen(&self) -> Seen<'_> {
+        match self {
+            Self::Sliding(s) => {
+                let middle = s.middle();
+                Seen {
+                    p: &s.p[middle],
+                    shift: s.places[middle].shift,
+                    stick: None,
+                    stick_ratio: 0.0,
+                    dissipated_per_cycle: s.dissipated_per_cycle(),
+                    corners: s
+                        .corners
+                        .iter()
+                        .map(|[u, _, T]| [*u, *T, 0.0, 0.0])
+                        .collect(),
+                }
+            }
+            Self::Marched(m) => {
+                let cycled = m.cycled();
+                let area = m.pressing.cell_area();
+                Seen {
+                    p: &cycled.p,
+                    shift: 0.0,
+                    stick: Some(&cycled.stick),
+                    stick_ratio: cycled.stick_ratio,
+                    dissipated_per_cycle: cycled.dissipated.iter().sum::<f64>() * area,
+                    corners: cycled.corners.clone(),
+                }
+            }
+        }
+    }
+}

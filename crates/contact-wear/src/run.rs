@@ -1,0 +1,386 @@
+//! The jumps of a run: their length, their errors, their end at an event.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use contact_core::Error;
+use contact_core::plan::Plan;
+use contact_core::scene::Scene;
+
+use super::attempt::Attempt;
+use super::events::EventKind;
+use super::events::{crossing, events, passed};
+use super::jump::Jump;
+use super::loss::Worn;
+use super::model::Model;
+use super::on_grid;
+use super::passage::Passage;
+use super::settings::{Jumps, Wear, WornThrough};
+use super::state::WearState;
+use super::worn_start::WornStart;
+
+/// The next length is CAUTIOUS (tol/error)^(1/2) times the last one, within SHORTER to LONGER.
+const CAUTIOUS: f64 = 0.9;
+const LONGER: f64 = 4.0;
+const SHORTER: f64 = 0.2;
+/// Depth of the first jump over the approach, about.
+const FIRST_JUMP: f64 = 0.05;
+/// Allowed change of the end pressure between a whole jump and two halves, over the tolerance of
+/// the depth. It bounds the change of the pressure within a jump only: on the accepted surfaces the
+/// pressure is solved anew.
+const PRESSURE: f64 = 20.0;
+/// Least length of a jump over all cycles.
+const SHORTEST: f64 = 1e-9;
+/// Most attempts of a jump, for its error and for the cycle of an event.
+const TRIES: usize = 60;
+
+/// A run over all cycles, jump by jump.
+pub struct WearRun {
+    pub(crate) scene: Scene,
+    pub(crate) wear: Wear,
+    pub(crate) model: Model,
+    state: WearState,
+    stop: Arc<AtomicBool>,
+}
+
+impl WearRun {
+    /// Checks, chooses the open settings ([`Wear::settled`]), solves the lead-in and the first
+    /// cycle; ends when `stop` is raised.
+    pub fn new(scene: &Scene, wear: &Wear, stop: &Arc<AtomicBool>) -> Result<Self, Error> {
+        Self::begin(scene, wear, None, stop)
+    }
+
+    /// The same on worn surfaces, whose cycles are counted further.
+    pub fn from_worn(
+        scene: &Scene,
+        wear: &Wear,
+        start: &WornStart,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        Self::begin(scene, wear, Some(start), stop)
+    }
+
+    fn begin(
+        scene: &Scene,
+        wear: &Wear,
+        start: Option<&WornStart>,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        let (scene, wear) = wear.settled(scene, stop)?;
+        let mirror = Plan::new(&scene).mirror;
+        let worn = match start {
+            Some(start) => start.kept(&scene.grid, mirror)?,
+            None => Worn::none(mirror.fold(&scene.h_init()).len()),
+        };
+        let events = passed(&scene, &wear, &worn);
+        let through = events.iter().any(|e| e.kind == EventKind::WornThrough);
+        if through && wear.worn_through == WornThrough::Stop {
+            let allowed = "\"go_on\" where a coating is worn through at the start";
+            return Err(Error::invalid("wear.worn_through", "stop", allowed));
+        }
+        let model = Model::new(&scene, &wear, None, &worn, stop)?;
+        let mut run = Self {
+            state: WearState::new(
+                worn,
+                start.map_or(0.0, |start| start.dissipated),
+                events,
+                model.state(),
+            ),
+            scene,
+            wear,
+            model,
+            stop: stop.clone(),
+        };
+        let before = run.state.seen(&run.model, 0.0);
+        run.state.lost_before = [before.depth, before.volume];
+        run.state.next = run.first_jump()?;
+        Ok(run)
+    }
+
+    /// Continues from a state of the same scene and wear, with the same bits as without the
+    /// interruption.
+    pub fn resume(
+        scene: &Scene,
+        wear: &Wear,
+        state: WearState,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        let (scene, wear) = wear.settled(scene, stop)?;
+        let model = Model::new(&scene, &wear, Some(state.model.clone()), &state.worn, stop)?;
+        if state.worn.depth.iter().any(|d| d.len() != model.cells()) {
+            return Err(Error::invalid(
+                "state",
+                "of other cells",
+                "one of this scene",
+            ));
+        }
+        Ok(Self {
+            scene,
+            wear,
+            model,
+            state,
+            stop: stop.clone(),
+        })
+    }
+
+    /// The state after the last jump.
+    pub fn state(&self) -> &WearState {
+        &self.state
+    }
+
+    /// Cycles of a jump for a given number of jumps, else of the first jump.
+    fn first_jump(&mut self) -> Result<f64, Error> {
+        let all = self.wear.cycles;
+        match self.wear.jumps {
+            Jumps::Number(n) | Jumps::Explicit(n) => Ok(all / n as f64),
+            Jumps::Tolerance(_) => {
+                let rate = self.rate()?;
+                let first = if rate > 0.0 {
+                    FIRST_JUMP * self.scene.approach() / rate
+                } else {
+                    all
+                };
+                Ok(first.clamp(SHORTEST * all, all))
+            }
+        }
+    }
+
+    /// Largest growth of the gap in one cycle by the wear of one body \[m\].
+    fn rate(&mut self) -> Result<f64, Error> {
+        let one = self.model.jump(&self.state.worn, 1.0, false)?;
+        self.model.restore(&self.state.model);
+        let deepest = one.depth.iter().flatten().fold(0.0, |m: f64, w| m.max(*w));
+        Ok(self.wear.opens() * deepest)
+    }
+
+    /// Does the next jump; `None` at the end. After an error the state is that of the last jump.
+    pub fn advance(&mut self) -> Option<Result<Jump, Error>> {
+        let left = self.state.left(&self.wear);
+        if self.state.ended || left <= SHORTEST * self.wear.cycles {
+            return None;
+        }
+        let jump = self.jump(left);
+        if jump.is_err() {
+            self.model.restore(&self.state.model);
+        }
+        Some(jump.map_err(|error| self.at_cycle(error)))
+    }
+
+    /// Completes an error with the cycles done or the physical cause.
+    fn at_cycle(&mut self, error: Error) -> Error {
+        match error {
+            Error::NotConverged {
+                increment,
+                solver,
+                residual,
+                tolerance,
+                iterations,
+                why,
+            } if why.is_empty() => Error::NotConverged {
+                why: self.why(),
+                increment,
+                solver,
+                residual,
+                tolerance,
+                iterations,
+            },
+            Error::OffGrid {
+                extent_x,
+                extent_y,
+                needed,
+                ..
+            } => Error::WornOffGrid {
+                cycles: self.state.cycles,
+                extent_x,
+                extent_y,
+                needed,
+            },
+            error => error,
+        }
+    }
+
+    /// The physical cause of jumps that do not converge, as the end of a sentence: large wear in
+    /// one cycle.
+    fn why(&mut self) -> String {
+        let (rate, approach) = (self.rate().unwrap_or(0.0), self.scene.approach());
+        if rate < FIRST_JUMP * approach {
+            return String::new();
+        }
+        format!(
+            ": one cycle wears {rate:.1e} m, of an approach of {approach:.1e} m (k is in m^2/N, alpha in \
+             m^3/J)"
+        )
+    }
+
+    fn jump(&mut self, left: f64) -> Result<Jump, Error> {
+        let mut n = self.state.next.min(left);
+        // A negligible rest is included in this jump.
+        if left - n < 1e-6 * n {
+            n = left;
+        }
+        let (mut for_error, mut for_event) = (n, None);
+        for retries in 0..TRIES {
+            if self.stop.load(Ordering::Relaxed) {
+                return Err(Error::Interrupted {
+                    increment: self.state.jumps,
+                });
+            }
+            self.model.restore(&self.state.model);
+            let tried = self.attempt(n).and_then(|tried| self.on_grid(tried));
+            let tried = match tried {
+                Err(Error::NotConverged { .. }) if self.may_be_cut(n) => {
+                    n *= SHORTER;
+                    for_event = None;
+                    continue;
+                }
+                tried => tried?,
+            };
+            if let Jumps::Tolerance(tolerance) = self.wear.jumps {
+                let error = tried.error.max(tried.pressure_error / PRESSURE);
+                let factor = CAUTIOUS * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt();
+                if error > tolerance && self.may_be_shorter(n) {
+                    n *= factor.clamp(SHORTER, CAUTIOUS);
+                    for_event = None;
+                    continue;
+                }
+                for_error = n * factor.clamp(SHORTER, LONGER);
+            }
+            let stops = self.wear.worn_through == WornThrough::Stop;
+            let passage = Passage {
+                worn: &self.state.worn,
+                half: &tried.half,
+                whole: &tried.loss.depth,
+            };
+            if let Some(part) = crossing(&self.scene, &self.state.events, &passage) {
+                // Iterates towards the cycle at which the first cell is worn through, from both
+                // sides.
+                let last = for_event.replace(n);
+                if part < 1.0 - 1e-3 && retries + 1 < TRIES && last != Some(n * part) {
+                    n *= part * (1.0 + 1e-4);
+                    continue;
+                }
+                return self.accept(n, &tried, for_error, retries, stops);
+            }
+            return self.accept(n, &tried, for_error, retries, false);
+        }
+        Err(Error::NotConverged {
+            increment: self.state.jumps + 1,
+            solver: "wear",
+            residual: n,
+            tolerance: self.state.next,
+            iterations: TRIES,
+            why: String::new(),
+        })
+    }
+
+    /// Fails if a jump wears cells at the border of the grid: the scar goes on beyond it, whatever the
+    /// pressure at the ends of the jump.
+    fn on_grid(&self, tried: Attempt) -> Result<Attempt, Error> {
+        let rows = self.model.pressing().rows();
+        for depth in &tried.loss.depth {
+            on_grid::check(&self.scene.grid, rows, depth, &[])?;
+        }
+        Ok(tried)
+    }
+
+    /// Whether the run chooses the length of its jumps and may take less than n cycles.
+    fn may_be_shorter(&self, n: f64) -> bool {
+        matches!(self.wear.jumps, Jumps::Tolerance(_)) && n > SHORTEST * self.wear.cycles
+    }
+
+    /// Whether a jump of n cycles that does not converge may be divided.
+    fn may_be_cut(&self, n: f64) -> bool {
+        !matches!(self.wear.jumps, Jumps::Explicit(_)) && n > SHORTEST * self.wear.cycles
+    }
+
+    /// A jump of n cycles from the present state.
+    fn attempt(&mut self, n: f64) -> Result<Attempt, Error> {
+        let WearState { worn, model, .. } = &self.state;
+        if matches!(self.wear.jumps, Jumps::Explicit(_)) {
+            Attempt::explicit(&mut self.model, worn, n)
+        } else {
+            Attempt::implicit(&mut self.model, model, worn, n)
+        }
+    }
+
+    fn accept(
+        &mut self,
+        n: f64,
+        tried: &Attempt,
+        next: f64,
+        retries: usize,
+        ends: bool,
+    ) -> Result<Jump, Error> {
+        let mut worn = self.state.worn.clone();
+        worn.add(&tried.loss);
+        self.model.settle(&worn)?;
+        let cycles = self.state.cycles + n;
+        let passage = Passage {
+            worn: &self.state.worn,
+            half: &tried.half,
+            whole: &tried.loss.depth,
+        };
+        let new = events(&self.scene, &self.wear, &self.state.events, &passage, n);
+        let mut middle = self.state.worn.depth.clone();
+        for (middle, half) in middle.iter_mut().zip(&tried.half) {
+            middle.iter_mut().zip(half).for_each(|(w, half)| *w += half);
+        }
+        let area = self.model.pressing().cell_area();
+        let by_border = self.model.border_error(&worn)?;
+        let state = &mut self.state;
+        for (sum, moved) in state.moved.iter_mut().zip(&tried.moved) {
+            sum.iter_mut()
+                .zip(moved)
+                .for_each(|(sum, moved)| *sum += moved);
+        }
+        state.events.extend(new);
+        (state.worn, state.model) = (worn, self.model.state());
+        state.jumps += 1;
+        state.cycles = cycles;
+        state.dissipated += tried.loss.dissipated;
+        state.next = next;
+        state.ended = ends;
+        let seen = state.seen(&self.model, self.wear.debris_kept);
+        let by_border = state.lost_by_slip(&seen) * by_border;
+        let jump = Jump {
+            depth_error: seen.depth_error + by_border / state.worn.deepest().max(f64::MIN_POSITIVE),
+            length: n,
+            error: tried.error,
+            pressure_error: tried.pressure_error,
+            retries,
+            volume_halfway: middle.each_ref().map(|w| w.iter().sum::<f64>() * area),
+            depth_halfway: middle
+                .each_ref()
+                .map(|w| w.iter().fold(0.0, |m: f64, w| m.max(*w))),
+            ..seen
+        };
+        state.history.push(jump.clone());
+        Ok(jump)
+    }
+
+    /// Every jump so far.
+    pub fn history(&self) -> &[Jump] {
+        &self.state.history
+    }
+
+    /// Whether the fields after the last jump are to be stored: where the cycles have grown, and at
+    /// the end. Records that they are.
+    pub fn keeps(&mut self) -> bool {
+        let ends = self.state.ended || self.state.left(&self.wear) <= SHORTEST * self.wear.cycles;
+        let keeps = ends || self.state.has_grown(&self.wear);
+        if keeps {
+            self.state.kept_at = self.state.cycles;
+        }
+        keeps
+    }
+
+    /// The scene that wears.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The wear settings.
+    pub fn wear(&self) -> &Wear {
+        &self.wear
+    }
+}

@@ -1,0 +1,258 @@
+//! The wear settings of a user: laws, cycles, jumps, events.
+
+use contact_core::Error;
+use contact_core::scene::{Body, Branch, FrictionHistory, History, Scene};
+
+use super::law::BodyWear;
+use super::stroke::stroke;
+
+/// Part of its largest value by which a load may differ at the two ends of a cycle.
+const ROUNDING: f64 = 1e-12;
+/// Most cycles of a run.
+const MOST_CYCLES: f64 = 1e15;
+
+/// How the contact of a cycle is solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Cycling {
+    /// Increment by increment through the load path, with stick, partial slip and gross slip
+    /// ([`March`](contact_core::march::March)) (default). The surfaces lie still: for slips that are small
+    /// against the contact.
+    #[default]
+    March,
+    /// Gross slip along x under given shifts: every cell slips by the motion of the bodies, |q| =
+    /// mu p, and the pressure is solved at every place of the stroke, with the worn surfaces in
+    /// their shifted positions.
+    Sliding,
+}
+
+/// How long the jumps over cycles are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Jumps {
+    /// Implicit, as long as the error of one stays below this part of the worn depth, and a
+    /// twentieth of that of the pressure (root mean squares); of second order.
+    Tolerance(f64),
+    /// Implicit, that many of equal length, and more where one does not converge; of second order.
+    Number(usize),
+    /// Explicit, that many of equal length, with the pressure at the start of each: of first order,
+    /// and unstable where they are long. The usual method, for comparison.
+    Explicit(usize),
+}
+
+impl Default for Jumps {
+    fn default() -> Self {
+        Self::Tolerance(0.01)
+    }
+}
+
+/// Action when a coating is worn through somewhere.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum WornThrough {
+    /// It ends there (default).
+    #[default]
+    Stop,
+    /// It continues; where the next layer is bare it wears by that layer's law. The elastic
+    /// response stays that of the full coating.
+    GoOn,
+}
+
+/// Laws of wear, number of cycles, and method.
+#[derive(Clone, Debug)]
+pub struct Wear {
+    /// How body 1 and body 2 wear.
+    pub bodies: [BodyWear; 2],
+    /// Cycles, > 0.
+    pub cycles: f64,
+    /// The first branch of the load path that belongs to the cycle, from 0 (default `None`: that of
+    /// its last closed cycle): what is before leads in and is run through once, the rest is the
+    /// cycle and ends where it begins.
+    pub first_branch: Option<usize>,
+    /// Cycles per second \[Hz\], for coefficients that are functions of a power (default none).
+    pub frequency: Option<f64>,
+    /// How the contact of a cycle is solved.
+    pub cycling: Cycling,
+    /// Stiffness of the rig along x, a spring in series with the contact through which shifts
+    /// are given \[N/m\]; infinite (default): the bodies themselves are moved.
+    pub rig_stiffness: f64,
+    /// How long the jumps are.
+    pub jumps: Jumps,
+    /// Action when a coating is worn through.
+    pub worn_through: WornThrough,
+    /// Part of the worn volume of both bodies that stays in the contact as debris, 0 to 1 (default
+    /// 0): the gap grows by the rest. Debris lies where it was worn off and is as stiff as the
+    /// body. A worn scar that fits its counterbody is then `(1 - kept) depth = b^2/(2 R)` deep (the
+    /// geometry of P. Arnaud, S. Baydoun, S. Fouvry, Tribol. Int. 161 (2021) 107077).
+    pub debris_kept: f64,
+    /// Worn depth over the thickness of the coatings from which the event `thinned` is reported
+    /// (default 0.1): the elastic response is that of constant thickness.
+    pub tell_from: f64,
+}
+
+impl Wear {
+    /// Wear of both bodies over so many cycles, all else by default.
+    pub fn new(bodies: [BodyWear; 2], cycles: f64) -> Self {
+        Self {
+            bodies,
+            cycles,
+            first_branch: None,
+            frequency: None,
+            cycling: Cycling::default(),
+            rig_stiffness: f64::INFINITY,
+            jumps: Jumps::default(),
+            worn_through: WornThrough::default(),
+            debris_kept: 0.0,
+            tell_from: 0.1,
+        }
+    }
+
+    /// Fails with the key, the value and what is allowed if this has no meaning for a scene.
+    pub fn check(&self, scene: &Scene) -> Result<(), Error> {
+        if !(1.0..=MOST_CYCLES).contains(&self.cycles) {
+            let allowed = format!("1 to {MOST_CYCLES:e}");
+            return Err(Error::invalid("wear.cycles", self.cycles, allowed));
+        }
+        let bodies = [("body1", &scene.body1), ("body2", &scene.body2)];
+        for ((name, body), wear) in bodies.into_iter().zip(&self.bodies) {
+            wear.check(&format!("wear.{name}"), body.coatings.len() + 1)?;
+        }
+        if !self.bodies.iter().any(BodyWear::wears) {
+            return Err(Error::invalid(
+                "wear",
+                "no law",
+                "a law for one of the bodies at least",
+            ));
+        }
+        let needs = |body: &BodyWear| body.laws.iter().any(|law| law.needs_frequency());
+        match self.frequency {
+            Some(f) if !(f > 0.0 && f.is_finite()) => {
+                return Err(Error::invalid("wear.frequency", f, "above 0 Hz"));
+            }
+            None if self.bodies.iter().any(needs) => {
+                let allowed = "given in Hz: a coefficient is a function of the power density";
+                return Err(Error::invalid("wear.frequency", "nothing", allowed));
+            }
+            _ => {}
+        }
+        let branches = scene.path.branches.len();
+        if self
+            .first_branch
+            .is_some_and(|first| first == 0 || first >= branches)
+        {
+            return Err(Error::invalid(
+                "wear.first_branch",
+                self.first_branch.unwrap_or_default(),
+                format!(
+                    "1 to {}: a branch of the path after one that presses",
+                    branches.max(2) - 1
+                ),
+            ));
+        }
+        if !(self.rig_stiffness > 0.0) {
+            return Err(Error::invalid(
+                "wear.rig_stiffness",
+                self.rig_stiffness,
+                "above 0 N/m",
+            ));
+        }
+        if !(0.0..=1.0).contains(&self.debris_kept) {
+            return Err(Error::invalid(
+                "wear.debris_kept",
+                self.debris_kept,
+                "between 0 and 1",
+            ));
+        }
+        if !(self.tell_from > 0.0 && self.tell_from <= 1.0) {
+            return Err(Error::invalid(
+                "wear.tell_from",
+                self.tell_from,
+                "above 0, at most 1",
+            ));
+        }
+        if scene.friction.mu == 0.0 || scene.friction.mu.is_infinite() {
+            let allowed = "a finite coefficient above 0 for wear";
+            return Err(Error::invalid("friction.mu", scene.friction.mu, allowed));
+        }
+        let of_increments = |h: &FrictionHistory| h.of == History::Increment;
+        if scene.friction.history.as_ref().is_some_and(of_increments) {
+            let allowed = "\"cycles\", \"slip\" or \"dissipated\" over cycles of wear";
+            return Err(Error::invalid("friction.history.of", "increment", allowed));
+        }
+        let first_branch = self.first_branch(scene)?;
+        Self::closed(scene, first_branch)?;
+        if self.cycling == Cycling::Sliding {
+            stroke(scene, first_branch, self.rig_stiffness)?;
+        }
+        self.jumps.check()
+    }
+
+    /// 1 - kept: growth of the gap over the worn depth.
+    pub(crate) fn opens(&self) -> f64 {
+        1.0 - self.debris_kept
+    }
+
+    /// Fails if the cycle that starts with a branch is not closed.
+    pub(super) fn closed(scene: &Scene, first_branch: usize) -> Result<(), Error> {
+        let branches = &scene.path.branches;
+        let (before, last) = (
+            &branches[first_branch - 1].to,
+            &branches[branches.len() - 1].to,
+        );
+        if before.rolled != last.rolled {
+            return Err(Error::invalid(
+                "path.rolled",
+                last.rolled,
+                "the same at both ends of a cycle",
+            ));
+        }
+        let (from, to) = (before.forces(), last.forces());
+        let (given, ends) = (before.given.motions(), last.given.motions());
+        for k in 0..6 {
+            let name = if ends[k].is_some() {
+                contact_core::scene::RigidMotion::ALL.map(contact_core::scene::RigidMotion::name)
+            } else {
+                contact_core::scene::RigidMotion::ALL.map(contact_core::scene::RigidMotion::load)
+            }[k];
+            // Closed up to rounding.
+            let largest = |of: &dyn Fn(&Branch) -> f64| {
+                let sizes = branches.iter().map(|branch| of(branch).abs());
+                ROUNDING * sizes.fold(0.0, f64::max)
+            };
+            let given_of = |branch: &Branch| branch.to.given.motions()[k].unwrap_or(0.0);
+            let same = match (given[k], ends[k]) {
+                (Some(a), Some(b)) => a == b || (a - b).abs() <= largest(&given_of),
+                (None, None) => (from[k] - to[k]).abs() <= largest(&|b| b.to.forces()[k]),
+                _ => false,
+            };
+            if !same {
+                return Err(Error::invalid(
+                    format!("path[{}].{name}", branches.len() - 1),
+                    ends[k].unwrap_or(to[k]),
+                    format!(
+                        "what it is at the end of path[{}] ({}), where the cycle begins",
+                        first_branch - 1,
+                        given[k].unwrap_or(from[k]),
+                    ),
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Jumps {
+    fn check(self) -> Result<(), Error> {
+        match self {
+            Self::Tolerance(tolerance) if !(1e-6..=0.5).contains(&tolerance) => Err(
+                Error::invalid("wear.tolerance", tolerance, "between 1e-6 and 0.5"),
+            ),
+            Self::Number(n) | Self::Explicit(n) if !(1..=10_000_000).contains(&n) => {
+                Err(Error::invalid("wear.jumps", n, "1 to 10000000"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Thicknesses of the coatings of a body, the outermost first \[m\].
+pub(crate) fn thicknesses(body: &Body) -> Vec<f64> {
+    body.coatings.iter().map(|c| c.thickness).collect()
+}

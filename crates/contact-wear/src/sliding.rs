@@ -1,0 +1,360 @@
+//! Gross slip: the implicit jump of a stroke.
+//!
+//! With d_i the places of the stroke, s_i the way slipped at each per cycle and p_i the pressure
+//! there, n cycles wear body b (k_b being the coefficient of its law in its own coordinates, S_bi
+//! the shift of the grid against it, [`shift`](super::shift)) by
+//!
+//! ```text
+//! w_b = n k_b sum_i s_i S_bi p_i                                             depth
+//! g_i = h + C p_i + o sum_b S_bi^T (w_b0 + w_b) - delta_i >= 0,  p_i >= 0,  p_i g_i = 0
+//! ```
+//!
+//! with the pressures at the end of the jump; o = 1 - kept is the growth of the gap over the worn
+//! depth, the rest being debris. These are the conditions of the minimum of
+//!
+//! ```text
+//! sum_i s_i [ 1/2 p_i.C p_i + p_i.(h + o S_bi^T w_b0) ] + 1/2 o n sum_b k_b |sum_i s_i S_bi p_i|^2
+//! ```
+//!
+//! over p_i >= 0 of given sums: convex for any n, so that a solution exists for jumps of any
+//! length. The places are solved one by one, each as if the pressure changed alike at all others:
+//! by Cauchy's inequality `|sum s_i x_i|^2 <= s sum s_i x_i^2`, s being the sum of the s_i, this
+//! majorises the energy, which therefore falls in every round (D. R. Hunter, K. Lange, Am. Stat. 58
+//! (2004) 30-37). The normal problem of a place has the compliance `o n s sum_b S_bi^T k_b`. One
+//! place needs one round; for more the rounds are accelerated (Y. Nesterov; A. Beck, M. Teboulle,
+//! SIAM J. Imaging Sci. 2 (2009) 183-202), and restarted where a step reverses (B. O'Donoghue, E.
+//! Candes, Found. Comput. Math. 15 (2015) 715-732).
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use contact_core::Error;
+use contact_core::plan::Plan;
+use contact_core::scene::{FrictionHistory, Scene, Shape};
+
+use super::law::CellCycle;
+use super::loss::{Loss, Worn};
+use super::on_grid;
+use super::pressing::Pressing;
+use super::settings::{Wear, thicknesses};
+use super::shift::Shift;
+use super::stroke::{Corner, Place, stroke};
+
+/// Change of the pressures in a round (root mean square, over that of the pressures) that ends the
+/// rounds.
+const LEAST_CHANGE: f64 = 1e-3;
+/// Times the tolerance of the scene to which the pressures of a round are solved.
+const ROUGH: f64 = 10.0;
+/// Most rounds; a remaining error enters the estimate of the jump's error.
+const MOST_ROUNDS: usize = 60;
+
+/// The gross slip of a stroke.
+pub(crate) struct Sliding {
+    pub(crate) pressing: Pressing,
+    pub(crate) places: Vec<Place>,
+    pub(crate) corners: Vec<Corner>,
+    /// Shift of the grid against body 1 and body 2 at each place.
+    shifts: Vec<[Shift; 2]>,
+    wear: Wear,
+    coatings: [Vec<f64>; 2],
+    /// Coefficient of friction, and its dependence on cycles.
+    mu: f64,
+    history: Option<FrictionHistory>,
+    /// Cycles done.
+    cycles: f64,
+    /// Gap between the unworn surfaces \[m\].
+    h: Vec<f64>,
+    /// Pressures at the places \[Pa\].
+    pub(crate) p: Vec<Vec<f64>>,
+}
+
+impl Sliding {
+    /// On unworn surfaces, or with the pressures of a state.
+    pub(crate) fn new(
+        scene: &Scene,
+        wear: &Wear,
+        state: Option<Vec<Vec<f64>>>,
+        worn: &Worn,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, Error> {
+        let (places, corners) = stroke(scene, wear.first_branch(scene)?, wear.rig_stiffness)?;
+        let plan = Plan::new(scene);
+        plan.check_memory(scene)?;
+        let pressing = Pressing::new(scene, &plan, stop)?;
+        let on_body2 = scene.body1.shape == Shape::Flat;
+        let of = |place: &Place| {
+            let cells = place.shift / scene.grid.dx;
+            let still = Shift::new(0.0);
+            if on_body2 {
+                [Shift::new(-cells), still]
+            } else {
+                [still, Shift::new(cells)]
+            }
+        };
+        let h = plan.mirror.fold(&scene.h_init());
+        // Hertz's pressure at first, up to a factor.
+        let lowest = h.iter().fold(f64::INFINITY, |m, h| m.min(*h));
+        let approach = scene.approach();
+        let guess: Vec<f64> = h
+            .iter()
+            .map(|h| (1.0 - 2.0 * (h - lowest) / approach).max(0.0).sqrt())
+            .collect();
+        let goes_on = state.is_some();
+        let mut sliding = Self {
+            shifts: places.iter().map(of).collect(),
+            p: state.unwrap_or_else(|| vec![guess; places.len()]),
+            places,
+            corners,
+            pressing,
+            wear: wear.clone(),
+            coatings: [thicknesses(&scene.body1), thicknesses(&scene.body2)],
+            mu: scene.friction.mu,
+            history: scene.friction.history.clone(),
+            cycles: worn.cycles,
+            h,
+        };
+        if !goes_on {
+            sliding.settle(worn)?;
+        }
+        Ok(sliding)
+    }
+
+    /// Solves the pressures at all places of surfaces worn so far.
+    pub(crate) fn settle(&mut self, worn: &Worn) -> Result<(), Error> {
+        self.cycles = worn.cycles;
+        self.pressing.begin();
+        let none = vec![0.0; self.h.len()];
+        let mut h = none.clone();
+        for i in 0..self.places.len() {
+            self.gap(worn, i, &mut h);
+            self.press(i, &h, &none, 1.0)?;
+            let (grid, rows) = (&self.pressing.grid, self.pressing.rows());
+            on_grid::check(grid, rows, &self.p[i], &self.shifts[i])?;
+        }
+        Ok(())
+    }
+
+    /// The loss of both bodies in n cycles; sets the pressures at the end.
+    pub(crate) fn jump(&mut self, worn: &Worn, n: f64, implicit: bool) -> Result<Loss, Error> {
+        self.cycles = worn.cycles;
+        let ways = self.summed(&self.p);
+        let k = self.coefficients(worn, &ways)?;
+        if !implicit {
+            return Ok(self.loss(n, &k, &ways));
+        }
+        self.pressing.begin();
+        let mut momentum = 1.0_f64;
+        let (mut around, mut last) = (self.p.clone(), self.p.clone());
+        let mut buffers = Buffers::of(self.h.len());
+        for _ in 0..MOST_ROUNDS {
+            last.clone_from(&self.p);
+            self.round(worn, n, &k, &around, &mut buffers)?;
+            let (mut left, mut size, mut turned) = (0.0, 0.0, 0.0);
+            for i in 0..self.places.len() {
+                for (c, p) in self.p[i].iter().enumerate() {
+                    let step = p - around[i][c];
+                    left += step * step;
+                    size += p * p;
+                    turned -= self.places[i].way * step * (p - last[i][c]);
+                }
+            }
+            if left <= LEAST_CHANGE * LEAST_CHANGE * size || self.places.len() == 1 {
+                break;
+            }
+            let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
+            let ahead = if turned > 0.0 {
+                0.0
+            } else {
+                (momentum - 1.0) / next
+            };
+            momentum = if turned > 0.0 { 1.0 } else { next };
+            for (around, (now, last)) in around.iter_mut().zip(self.p.iter().zip(&last)) {
+                for (around, (now, last)) in around.iter_mut().zip(now.iter().zip(last)) {
+                    *around = now + ahead * (now - last);
+                }
+            }
+        }
+        let ways = self.summed(&self.p);
+        Ok(self.loss(n, &k, &ways))
+    }
+
+    /// One round over the places: minimises the majorant of the energy at the pressures `around`.
+    fn round(
+        &mut self,
+        worn: &Worn,
+        n: f64,
+        k: &[Vec<f64>; 2],
+        around: &[Vec<f64>],
+        buffers: &mut Buffers,
+    ) -> Result<(), Error> {
+        let (s, opens) = (self.way(), self.wear.opens());
+        let Buffers {
+            ways,
+            end,
+            h,
+            compliance,
+        } = buffers;
+        self.sum(around, ways);
+        for b in 0..2 {
+            let cells = worn.depth[b].iter().zip(k[b].iter().zip(&ways[b]));
+            for (end, (worn, (k, way))) in end.depth[b].iter_mut().zip(cells) {
+                *end = worn + n * k * way;
+            }
+        }
+        for i in 0..self.places.len() {
+            self.read(k, i, compliance);
+            for d in compliance.iter_mut() {
+                *d *= opens * n * s;
+            }
+            self.gap(end, i, h);
+            for (h, (d, p)) in h.iter_mut().zip(compliance.iter().zip(&around[i])) {
+                *h -= d * p;
+            }
+            self.press(i, h, compliance, ROUGH)?;
+        }
+        Ok(())
+    }
+
+    /// The place next to the middle of the stroke.
+    pub(crate) fn middle(&self) -> usize {
+        let off = |i: &usize| self.places[*i].shift.abs();
+        (0..self.places.len())
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
+            .unwrap_or(0)
+    }
+
+    /// Energy dissipated in a cycle with the present pressures \[J\].
+    pub(crate) fn dissipated_per_cycle(&self) -> f64 {
+        let slid = |i: usize| self.places[i].way * self.p[i].iter().sum::<f64>();
+        let slid: f64 = (0..self.places.len()).map(slid).sum();
+        self.mu() * slid * self.pressing.cell_area()
+    }
+
+    /// The coefficient of friction after the cycles so far.
+    fn mu(&self) -> f64 {
+        let factor = self.history.as_ref().map_or(1.0, |h| h.factor(self.cycles));
+        self.mu * factor
+    }
+
+    fn loss(&self, n: f64, k: &[Vec<f64>; 2], ways: &[Vec<f64>; 2]) -> Loss {
+        let depth = [0, 1].map(|b| {
+            let cells = k[b].iter().zip(&ways[b]);
+            cells.map(|(k, way)| n * k * way).collect()
+        });
+        let mu = self.mu();
+        let energy = [0, 1].map(|b| ways[b].iter().map(|way| n * mu * way).collect::<Vec<f64>>());
+        let slides = |p: &f64| if *p > 0.0 { n * self.way() } else { 0.0 };
+        Loss {
+            cycles: n,
+            depth,
+            slid: self.p[self.middle()].iter().map(slides).collect(),
+            energy,
+            dissipated: n * self.dissipated_per_cycle(),
+        }
+    }
+
+    /// Way slipped in a cycle \[m\].
+    fn way(&self) -> f64 {
+        self.places.iter().map(|place| place.way).sum()
+    }
+
+    /// The integral of a field over the way slipped in a cycle, in the coordinates of each body.
+    fn summed(&self, field: &[Vec<f64>]) -> [Vec<f64>; 2] {
+        let mut sums = [vec![0.0; self.h.len()], vec![0.0; self.h.len()]];
+        self.sum(field, &mut sums);
+        sums
+    }
+
+    /// The same into given buffers.
+    fn sum(&self, field: &[Vec<f64>], sums: &mut [Vec<f64>; 2]) {
+        for sum in sums.iter_mut() {
+            sum.fill(0.0);
+        }
+        for (i, place) in self.places.iter().enumerate() {
+            for b in 0..2 {
+                self.shifts[i][b].put(&field[i], place.way, self.pressing.rows(), &mut sums[b]);
+            }
+        }
+    }
+
+    fn coefficients(&self, worn: &Worn, ways: &[Vec<f64>; 2]) -> Result<[Vec<f64>; 2], Error> {
+        let touches = |p: &f64| f64::from(u8::from(*p > 0.0));
+        let touched: Vec<Vec<f64>> = self
+            .p
+            .iter()
+            .map(|p| p.iter().map(touches).collect())
+            .collect();
+        let (touched, s) = (self.summed(&touched), self.way());
+        let mut k = [vec![0.0; self.h.len()], vec![0.0; self.h.len()]];
+        for b in 0..2 {
+            // Cells that come into contact within the jump need a coefficient, too: they get a
+            // small pressed way.
+            let least = 1e-9 * ways[b].iter().fold(0.0, |m: f64, w| m.max(*w));
+            let pressed: Vec<f64> = ways[b].iter().map(|w| w.max(least)).collect();
+            let way: Vec<f64> = touched[b]
+                .iter()
+                .map(|w| if *w > 0.0 { *w } else { s })
+                .collect();
+            let dissipated: Vec<f64> = pressed.iter().map(|w| self.mu() * w).collect();
+            let cycle = CellCycle {
+                pressed_way: &pressed,
+                way: &way,
+                dissipated: &dissipated,
+                worn: &worn.depth[b],
+                energy: &worn.energy[b],
+                cycles: worn.cycles,
+                frequency: self.wear.frequency.unwrap_or(f64::NAN),
+            };
+            self.wear.bodies[b].coefficients(&cycle, &self.coatings[b], &mut k[b])?;
+        }
+        Ok(k)
+    }
+
+    /// The sum of fields of both bodies, shifted to the grid at a place.
+    fn read(&self, fields: &[Vec<f64>; 2], i: usize, into: &mut [f64]) {
+        into.fill(0.0);
+        for (shift, field) in self.shifts[i].iter().zip(fields) {
+            shift.read(field, self.pressing.rows(), into);
+        }
+    }
+
+    /// Gap between the worn surfaces at a place, filled by debris \[m\].
+    fn gap(&self, worn: &Worn, i: usize, into: &mut [f64]) {
+        self.read(&worn.depth, i, into);
+        let opens = self.wear.opens();
+        into.iter_mut()
+            .zip(&self.h)
+            .for_each(|(gap, h)| *gap = opens * *gap + h);
+    }
+
+    /// Solves the pressure at a place to `times` the tolerance of the scene.
+    fn press(&mut self, i: usize, h: &[f64], compliance: &[f64], times: f64) -> Result<(), Error> {
+        let drive = self.pressing.under(self.places[i].W);
+        self.pressing
+            .solve(h, compliance, drive, &mut self.p[i], times)?;
+        Ok(())
+    }
+}
+
+/// Buffers of the rounds of a jump.
+struct Buffers {
+    /// Pressed ways of a cycle in the coordinates of each body \[Pa m\].
+    ways: [Vec<f64>; 2],
+    /// Worn depth at the end of the jump \[m\].
+    end: Worn,
+    /// Gap at a place \[m\].
+    h: Vec<f64>,
+    /// Compliance at a place \[m/Pa\].
+    compliance: Vec<f64>,
+}
+
+impl Buffers {
+    fn of(cells: usize) -> Self {
+        Self {
+            ways: [vec![0.0; cells], vec![0.0; cells]],
+            end: Worn::none(cells),
+            h: vec![0.0; cells],
+            compliance: vec![0.0; cells],
+        }
+    }
+}

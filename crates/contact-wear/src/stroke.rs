@@ -1,0 +1,159 @@
+//! The places of a stroke: shifts of the bodies and the way slipped at each.
+
+use contact_core::Error;
+use contact_core::scene::{FrictionHistory, History, Scene, Shape};
+
+/// Places closer than this part of a cell are the same.
+const SAME: f64 = 1e-9;
+
+/// A place of the stroke, the middle of an increment of the cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    /// Shift of body 1 against body 2 along x \[m\].
+    pub(crate) shift: f64,
+    /// Way slipped here per cycle \[m\].
+    pub(crate) way: f64,
+    /// Normal force \[N\].
+    pub(crate) W: f64,
+}
+
+/// The corners of the loop: shift of the rig \[m\], shift of the contact \[m\], force T_x \[N\].
+pub(crate) type Corner = [f64; 3];
+
+/// The places of the cycle, which begins with the branch `first_branch`, and the corners of its
+/// loop.
+///
+/// A rig of stiffness K \[N/m\] drives the contact through a spring (a Prandtl element): with u the
+/// shift of the rig and d that of the contact, each increment moves d by the least amount to
+/// `|u - d| <= mu W/K`.
+pub(crate) fn stroke(
+    scene: &Scene,
+    first_branch: usize,
+    rig_stiffness: f64,
+) -> Result<(Vec<Place>, Vec<Corner>), Error> {
+    check(scene, first_branch, rig_stiffness.is_infinite())?;
+    let mu = scene.friction.mu;
+    let points = scene.path.points();
+    let lead_in = points
+        .iter()
+        .take_while(|p| p.branch < first_branch)
+        .count();
+    let cycle = points.len() - lead_in;
+    let u_of = |k: usize| {
+        points[k]
+            .loads
+            .given
+            .delta_x
+            .filter(|u| u.is_finite())
+            .unwrap_or(0.0)
+    };
+    let play =
+        |d: f64, u: f64, W: f64| d.clamp(u - mu * W / rig_stiffness, u + mu * W / rig_stiffness);
+    let (mut d, mut W) = (0.0, 0.0);
+    for k in 0..lead_in {
+        W = points[k].loads.W;
+        d = play(d, u_of(k), W);
+    }
+    let mut places: Vec<Place> = Vec::new();
+    let (mut corners, mut force) = (Vec::new(), 0.0);
+    // The first pass leads to the closed cycle, the second runs through it.
+    for pass in 0..2 {
+        for k in lead_in..points.len() {
+            let (before, W_before) = (d, W);
+            W = points[k].loads.W;
+            d = play(d, u_of(k), W);
+            let way = (d - before).abs();
+            let slips = mu * W_before * (d - before).signum();
+            let turns = way > 0.0 && (force - slips).abs() > 1e-9 * mu * W_before;
+            if way > 0.0 {
+                force = mu * W * (d - before).signum();
+            } else if rig_stiffness.is_finite() {
+                force = rig_stiffness * (u_of(k) - d);
+            }
+            if pass == 0 {
+                continue;
+            }
+            if turns {
+                // Onset of sliding within the increment.
+                corners.push([before + force / rig_stiffness, before, force]);
+            }
+            corners.push([u_of(k), d, force]);
+            let (shift, W) = (0.5 * (d + before), 0.5 * (W + W_before));
+            if way == 0.0 {
+                continue;
+            }
+            let near = SAME * scene.grid.dx;
+            let known = places
+                .iter_mut()
+                .find(|p| (p.shift - shift).abs() < near && (p.W - W).abs() <= 1e-12 * W);
+            match known {
+                Some(place) => place.way += way,
+                None => places.push(Place { shift, way, W }),
+            }
+        }
+    }
+    if places.is_empty() {
+        return Err(Error::invalid(
+            "wear.cycling",
+            format!("\"sliding\" with {cycle} increments in which nothing slides"),
+            "a stroke longer than the spring of the rig gives way under mu W",
+        ));
+    }
+    Ok((places, corners))
+}
+
+fn check(scene: &Scene, first_branch: usize, rigid: bool) -> Result<(), Error> {
+    let refuse =
+        |key: String, value: String, allowed: &str| Err(Error::invalid(key, value, allowed));
+    let friction = &scene.friction;
+    let of_cycles = |h: &FrictionHistory| h.of == History::Cycles && rigid;
+    let changes = friction.history.as_ref().is_some_and(|h| !of_cycles(h));
+    let own = friction.law.is_some();
+    if friction.map.is_some() || changes || friction.kinetic.is_some() || own {
+        let allowed = "one coefficient mu where wear.cycling = \"sliding\", or, without a spring of the rig, one with a \
+                       history of cycles; wear.cycling = \"march\" takes all of them";
+        let value = if own {
+            "a law of your own"
+        } else {
+            "a law of place or history"
+        };
+        return refuse("friction".into(), value.into(), allowed);
+    }
+    if scene.body1.shape != Shape::Flat && scene.body2.shape != Shape::Flat {
+        let allowed = "flat where wear.cycling = \"sliding\" and body 1 is not";
+        return refuse(
+            "body2.shape".into(),
+            format!("{:?}", scene.body2.shape),
+            allowed,
+        );
+    }
+    for (b, branch) in scene.path.branches.iter().enumerate() {
+        let to = &branch.to;
+        let given = to.given.motions();
+        let allowed = "W and the shift delta_x alone where wear.cycling = \"sliding\"";
+        let others = [
+            to.T_y,
+            to.M_z,
+            to.M_x,
+            to.M_y,
+            to.sigma_B,
+            to.sigma_B1,
+            to.rolled,
+        ];
+        let moves = [1, 2, 4, 5].iter().any(|&k| given[k].unwrap_or(0.0) != 0.0);
+        if given[0].is_some() || moves || others.iter().any(|f| *f != 0.0) {
+            return refuse(format!("path[{b}]"), "other loads".into(), allowed);
+        }
+        if b >= first_branch && given[3].is_none() {
+            return refuse(format!("path[{b}].T_x"), to.T_x.to_string(), allowed);
+        }
+        if b + 1 >= first_branch && !(to.W > 0.0) {
+            return refuse(
+                format!("path[{b}].W"),
+                to.W.to_string(),
+                "above 0 all through the cycle",
+            );
+        }
+    }
+    Ok(())
+}

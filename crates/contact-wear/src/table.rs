@@ -1,0 +1,234 @@
+//! The table `[wear]` of a scene file.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::sync::Arc;
+
+use contact_core::Error;
+use contact_core::scene::{Fault, Reach, Scene, Section, read_with, text_of};
+
+use super::law::{Archard, BodyWear, CellCycle, DissipatedEnergy, Law};
+use super::settings::{Cycling, Jumps, Wear, WornThrough};
+use super::varying::{Factor, Of, Varying};
+
+const KEYS: [&str; 13] = [
+    "cycles",
+    "first_branch",
+    "cycling",
+    "frequency",
+    "rig_stiffness",
+    "tolerance",
+    "jumps",
+    "explicit_jumps",
+    "worn_through",
+    "debris_kept",
+    "tell_from",
+    "body1",
+    "body2",
+];
+const BODY: [&str; 6] = ["k", "alpha", "threshold", "factor", "laws", "share"];
+const LAW: [&str; 5] = ["k", "alpha", "threshold", "factor", "own"];
+
+impl Wear {
+    /// Reads and checks a scene file with a table `[wear]`, as [`Scene::from_file_reaching`].
+    pub fn from_file(
+        path: impl AsRef<Path>,
+        settings: &[String],
+        reach: Reach,
+    ) -> Result<(Scene, Self), Error> {
+        let (text, file) = text_of(path.as_ref())?;
+        read(&text, &file, settings, reach)
+    }
+
+    /// Reads and checks a scene with a table `[wear]`; `file` is its name in errors.
+    pub fn from_toml_str(
+        text: &str,
+        file: &str,
+        settings: &[String],
+    ) -> Result<(Scene, Self), Error> {
+        read(text, file, settings, Reach::Folder)
+    }
+
+    /// Reads a scene and its wear back from a store, with the laws of the user's own for bodies
+    /// that have them.
+    pub fn from_store(
+        text: &str,
+        file: &str,
+        own: &[Option<BodyWear>; 2],
+    ) -> Result<(Scene, Self), Error> {
+        let (scene, mut wear) = read_with(text, file, &[], Reach::Folder, |root, _| wear(root))?;
+        for (body, own) in wear.bodies.iter_mut().zip(own) {
+            if let Some(own) = own {
+                body.laws.clone_from(&own.laws);
+            }
+        }
+        wear.check(&scene)?;
+        Ok((scene, wear))
+    }
+
+    /// The table `[wear]` in SI, every number in full. A law of the user's own, which a file cannot
+    /// represent, is written `{ own = true }`: to read the file, it has to be given again.
+    pub fn to_toml(&self) -> String {
+        let mut text = format!("\n[wear]\ncycles = {:?}\n", self.cycles);
+        if let Some(first) = self.first_branch {
+            let _ = writeln!(text, "first_branch = {first}");
+        }
+        if let Some(frequency) = self.frequency {
+            let _ = writeln!(text, "frequency = {frequency:?}");
+        }
+        let cycling = match self.cycling {
+            Cycling::March => "march",
+            Cycling::Sliding => "sliding",
+        };
+        let through = match self.worn_through {
+            WornThrough::Stop => "stop",
+            WornThrough::GoOn => "go_on",
+        };
+        // Writing to a text cannot fail.
+        let _ = writeln!(
+            text,
+            "cycling = \"{cycling}\"\nworn_through = \"{through}\"\ndebris_kept = {:?}\ntell_from = {:?}",
+            self.debris_kept, self.tell_from
+        );
+        if self.rig_stiffness.is_finite() {
+            let _ = writeln!(text, "rig_stiffness = {:?}", self.rig_stiffness);
+        }
+        let _ = match self.jumps {
+            Jumps::Tolerance(tolerance) => writeln!(text, "tolerance = {tolerance:?}"),
+            Jumps::Number(n) => writeln!(text, "jumps = {n}"),
+            Jumps::Explicit(n) => writeln!(text, "explicit_jumps = {n}"),
+        };
+        for (name, body) in ["body1", "body2"].into_iter().zip(&self.bodies) {
+            if body.laws.is_empty() {
+                continue;
+            }
+            let own = || "{ own = true }".to_owned();
+            let laws = body
+                .laws
+                .iter()
+                .map(|law| law.written().unwrap_or_else(own));
+            let laws: Vec<String> = laws.collect();
+            let _ = writeln!(text, "\n[wear.{name}]\nlaws = [{}]", laws.join(", "));
+            if let Some(share) = body.share {
+                let _ = writeln!(text, "share = {share:?}");
+            }
+        }
+        text
+    }
+}
+
+fn read(text: &str, file: &str, settings: &[String], reach: Reach) -> Result<(Scene, Wear), Error> {
+    let (scene, wear) = read_with(text, file, settings, reach, |root, _| wear(root))?;
+    wear.check(&scene)?;
+    Ok((scene, wear))
+}
+
+fn wear(root: &Section<'_>) -> Result<Wear, Fault> {
+    let section = root.need_section("wear", &KEYS)?;
+    let bodies = [body(&section, "body1")?, body(&section, "body2")?];
+    let cycles = section.number("cycles", "a number of cycles above 0", &[])?;
+    let default = Wear::new(bodies, cycles);
+    let ways = ["tolerance", "jumps", "explicit_jumps"];
+    let mut given = ways.iter().filter(|key| section.get(key).is_some());
+    let jumps = match given.next() {
+        None => default.jumps,
+        Some(&"tolerance") => Jumps::Tolerance(section.number("tolerance", "a number", &[])?),
+        Some(&"jumps") => Jumps::Number(section.count("jumps", 1)?),
+        Some(_) => Jumps::Explicit(section.count("explicit_jumps", 1)?),
+    };
+    if let Some(other) = given.next() {
+        let key = section.path(other);
+        let message = format!("{key}: one of {} at most", ways.join(", "));
+        return Err(Fault::new(key, message));
+    }
+    Ok(Wear {
+        first_branch: match section.get("first_branch") {
+            Some(_) => Some(section.count("first_branch", 1)?),
+            None => None,
+        },
+        frequency: section.number_if("frequency", &[])?,
+        cycling: section.choice(
+            "cycling",
+            &[("march", Cycling::March), ("sliding", Cycling::Sliding)],
+        )?,
+        rig_stiffness: section.number_or("rig_stiffness", default.rig_stiffness, &[])?,
+        jumps,
+        worn_through: section.choice(
+            "worn_through",
+            &[("stop", WornThrough::Stop), ("go_on", WornThrough::GoOn)],
+        )?,
+        debris_kept: section.number_or("debris_kept", default.debris_kept, &[])?,
+        tell_from: section.number_or("tell_from", default.tell_from, &[])?,
+        ..default
+    })
+}
+
+fn body(wear: &Section<'_>, name: &str) -> Result<BodyWear, Fault> {
+    let Some(section) = wear.section(name, &BODY)? else {
+        return Ok(BodyWear::default());
+    };
+    let share = section.number_if("share", &[])?;
+    let laws = section.sections("laws", &LAW)?;
+    if laws.is_empty() {
+        return Ok(BodyWear {
+            laws: vec![law(&section)?],
+            share,
+        });
+    }
+    if let Some(key) = LAW.iter().find(|key| section.get(key).is_some()) {
+        let key = section.path(key);
+        return Err(Fault::new(
+            &key,
+            format!("{key}: not beside `laws`, which has one law per layer"),
+        ));
+    }
+    let laws = laws.iter().map(law).collect::<Result<_, _>>()?;
+    Ok(BodyWear { laws, share })
+}
+
+fn law(section: &Section<'_>) -> Result<Arc<dyn Law>, Fault> {
+    if section.get("own").is_some() {
+        return Ok(Arc::new(Missing));
+    }
+    let threshold = section.number_or("threshold", 0.0, &[])?;
+    let law: Arc<dyn Law> = match (
+        section.number_if("k", &[])?,
+        section.number_if("alpha", &[])?,
+    ) {
+        (Some(k), None) => Arc::new(Archard { k, threshold }),
+        (None, Some(alpha)) => Arc::new(DissipatedEnergy { alpha, threshold }),
+        _ => {
+            let key = section.path("k");
+            let what = "either k (Archard, m^2/N) or alpha (dissipated energy, m^3/J)";
+            return Err(Fault::new(&key, format!("{key}: give {what}")));
+        }
+    };
+    Ok(match factor(section)? {
+        Some(factor) => Arc::new(Varying { law, factor }),
+        None => law,
+    })
+}
+
+fn factor(law: &Section<'_>) -> Result<Option<Factor>, Fault> {
+    let Some(section) = law.section("factor", &["of", "table"])? else {
+        return Ok(None);
+    };
+    let of = section.choice("of", &Of::ALL)?;
+    let table = section.pairs("table", "a list of pairs [value, factor]")?;
+    Ok(Some(Factor { of, table }))
+}
+
+/// Placeholder of a law of the user's own in a file.
+#[derive(Debug)]
+struct Missing;
+
+impl Law for Missing {
+    fn depth(&self, _: &CellCycle<'_>, _: &mut [f64]) -> Result<(), Error> {
+        self.check("wear")
+    }
+
+    fn check(&self, key: &str) -> Result<(), Error> {
+        let allowed = "given again with the run: a function, which no file can hold";
+        Err(Error::invalid(format!("{key}.laws"), "own", allowed))
+    }
+}

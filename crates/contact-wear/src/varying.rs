@@ -1,0 +1,191 @@
+//! A wear coefficient that is not constant: a law times a factor by a table.
+
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+use contact_core::Error;
+use contact_core::scene::{FrictionHistory, History};
+
+use super::law::{CellCycle, Law};
+
+/// The variable of the factor of a wear coefficient.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Of {
+    /// Cycles done so far, the same for all cells.
+    Cycles,
+    /// Mean pressure of a cell over the way that it slips \[Pa\].
+    Pressure,
+    /// Energy dissipated per area and time: that of a cycle times the frequency \[W/m^2\].
+    PowerDensity,
+    /// Energy dissipated per area so far \[J/m^2\].
+    Energy,
+}
+
+impl Of {
+    /// All of them, with their names in scene files.
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("cycles", Self::Cycles),
+        ("pressure", Self::Pressure),
+        ("power_density", Self::PowerDensity),
+        ("energy", Self::Energy),
+    ];
+
+    /// Its name in scene files.
+    pub fn name(self) -> &'static str {
+        Self::ALL
+            .iter()
+            .find(|(_, of)| *of == self)
+            .map_or("", |(name, _)| name)
+    }
+}
+
+/// A factor of a wear coefficient, piecewise linear, level beyond its ends.
+///
+/// Within a jump it is evaluated at the surfaces and pressures of the jump's start; the comparison
+/// with two halves shows its change. A factor that changes faster than in proportion to the
+/// pressure makes the pressure of long jumps oscillate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Factor {
+    /// The variable.
+    pub of: Of,
+    /// Pairs of the variable, ascending, and the factor.
+    pub table: Vec<(f64, f64)>,
+}
+
+impl Factor {
+    /// Fails if the table has no meaning.
+    pub(crate) fn check(&self, key: &str) -> Result<(), Error> {
+        let key = format!("{key}.factor.table");
+        if self.table.is_empty() {
+            return Err(Error::invalid(key, "empty", "at least one pair"));
+        }
+        let grows = |w: &[(f64, f64)]| w[1].0.partial_cmp(&w[0].0) == Some(Ordering::Greater);
+        if let Some(pair) = self.table.windows(2).find(|w| !grows(w)) {
+            let allowed = format!(
+                "more than {:e}: the first numbers of the pairs grow",
+                pair[0].0
+            );
+            return Err(Error::invalid(key, pair[1].0, allowed));
+        }
+        let bad =
+            |(at, factor): &&(f64, f64)| !(at.is_finite() && *factor >= 0.0 && factor.is_finite());
+        match self.table.iter().find(bad) {
+            Some((at, factor)) => Err(Error::invalid(
+                key,
+                format!("[{at:?}, {factor:?}]"),
+                "finite numbers, the factor >= 0",
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// The factor of every cell.
+    fn times(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) {
+        let table = FrictionHistory {
+            of: History::Cycles,
+            table: self.table.clone(),
+        };
+        let everywhere = table.factor(cycle.cycles);
+        for (n, depth) in depth.iter_mut().enumerate() {
+            *depth *= match self.of {
+                Of::Cycles => everywhere,
+                Of::Pressure if cycle.way[n] > 0.0 => {
+                    table.factor(cycle.pressed_way[n] / cycle.way[n])
+                }
+                Of::Pressure => table.factor(0.0),
+                Of::PowerDensity => table.factor(cycle.dissipated[n] * cycle.frequency),
+                Of::Energy => table.factor(cycle.energy[n]),
+            };
+        }
+    }
+
+    /// As a table of a scene file.
+    fn written(&self) -> String {
+        let pairs: Vec<String> = self
+            .table
+            .iter()
+            .map(|(at, f)| format!("[{at:?}, {f:?}]"))
+            .collect();
+        format!(
+            "{{ of = \"{}\", table = [{}] }}",
+            self.of.name(),
+            pairs.join(", ")
+        )
+    }
+}
+
+/// A law whose coefficient changes by a factor.
+#[derive(Clone, Debug)]
+pub struct Varying {
+    /// The law where the factor is 1.
+    pub law: Arc<dyn Law>,
+    /// The factor.
+    pub factor: Factor,
+}
+
+impl Law for Varying {
+    fn depth(&self, cycle: &CellCycle<'_>, depth: &mut [f64]) -> Result<(), Error> {
+        self.law.depth(cycle, depth)?;
+        self.factor.times(cycle, depth);
+        Ok(())
+    }
+
+    fn check(&self, key: &str) -> Result<(), Error> {
+        self.law.check(key)?;
+        self.factor.check(key)
+    }
+
+    fn written(&self) -> Option<String> {
+        let law = self.law.written()?;
+        let keys = law.strip_suffix(" }")?;
+        Some(format!("{keys}, factor = {} }}", self.factor.written()))
+    }
+
+    fn needs_frequency(&self) -> bool {
+        self.factor.of == Of::PowerDensity || self.law.needs_frequency()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Factor, Of, Varying};
+    use crate::{Archard, CellCycle, Law};
+    use std::sync::Arc;
+
+    #[test]
+    fn the_coefficient_follows_its_table() {
+        let cycle = CellCycle {
+            pressed_way: &[2.0, 4.0],
+            way: &[1.0, 1.0],
+            dissipated: &[1.0, 3.0],
+            worn: &[0.0; 2],
+            energy: &[10.0, 20.0],
+            cycles: 5.0,
+            frequency: 10.0,
+        };
+        for (of, table, asked) in [
+            (Of::Cycles, vec![(0.0, 1.0), (10.0, 2.0)], [3.0, 6.0]),
+            (Of::Pressure, vec![(2.0, 1.0), (4.0, 0.5)], [2.0, 2.0]),
+            (Of::PowerDensity, vec![(10.0, 3.0), (20.0, 1.0)], [6.0, 4.0]),
+            (Of::Energy, vec![(0.0, 0.0), (20.0, 2.0)], [2.0, 8.0]),
+        ] {
+            let law = Arc::new(Archard {
+                k: 1.0,
+                threshold: 0.0,
+            });
+            let law = Varying {
+                law,
+                factor: Factor { of, table },
+            };
+            let mut depth = [0.0; 2];
+            law.depth(&cycle, &mut depth).unwrap();
+            assert_eq!(depth, asked, "{of:?}");
+            assert!(law.check("wear.body1").is_ok());
+        }
+        let wrong = Factor {
+            of: Of::Cycles,
+            table: vec![(1.0, 1.0), (1.0, 2.0)],
+        };
+        assert!(wrong.check("wear.body1").is_err());
+    }
+}

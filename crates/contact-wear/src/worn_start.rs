@@ -1,0 +1,73 @@
+//! A run that starts from worn surfaces.
+
+use contact_core::Error;
+use contact_core::plan::{Half, Mirror};
+use contact_core::scene::Grid;
+use ndarray::Array2;
+
+use super::loss::Worn;
+
+/// Worn surfaces from which a run starts, for example with another stroke; fields of shape (nx,
+/// ny).
+#[derive(Clone, Debug, PartialEq)]
+pub struct WornStart {
+    /// Cycles done.
+    pub cycles: f64,
+    /// Energy dissipated in them \[J\].
+    pub dissipated: f64,
+    /// Depth worn off body 1 and body 2, each in its own coordinates \[m\].
+    pub worn: [Array2<f64>; 2],
+    /// Energy per area dissipated at body 1 and body 2 \[J/m^2\].
+    pub energy: [Array2<f64>; 2],
+    /// Way slipped in contact \[m\].
+    pub slid: Array2<f64>,
+}
+
+impl WornStart {
+    /// On the kept cells of a grid.
+    pub(super) fn kept(&self, grid: &Grid, mirror: Mirror) -> Result<Worn, Error> {
+        let field = |key: &str, field: &Array2<f64>| {
+            let key = format!("wear.start.{key}");
+            if field.dim() != (grid.nx, grid.ny) {
+                let allowed = format!("of shape {} x {}, that of the grid", grid.nx, grid.ny);
+                return Err(Error::invalid(
+                    key,
+                    format!("of shape {:?}", field.dim()),
+                    allowed,
+                ));
+            }
+            let bad = |v: &&f64| !(v.is_finite() && **v >= 0.0);
+            if let Some(bad) = field.iter().find(bad) {
+                return Err(Error::invalid(key, bad, "finite, >= 0 in every cell"));
+            }
+            let kept = mirror.fold(field);
+            let whole = mirror.unfold(&kept, grid.nx, grid.ny, Half::Even);
+            let largest = field.iter().fold(0.0, |m: f64, v| m.max(*v));
+            let alike = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * largest;
+            if !whole.iter().zip(field).all(alike) {
+                let allowed = "alike on both sides of y = 0 as the scene is (skip.mirror = false solves both sides)";
+                return Err(Error::invalid(key, "unlike on both sides", allowed));
+            }
+            Ok(kept)
+        };
+        if !(self.cycles >= 0.0 && self.cycles.is_finite() && self.dissipated.is_finite()) {
+            return Err(Error::invalid(
+                "wear.start.cycles",
+                self.cycles,
+                "finite, >= 0",
+            ));
+        }
+        Ok(Worn {
+            cycles: self.cycles,
+            depth: [
+                field("worn1", &self.worn[0])?,
+                field("worn2", &self.worn[1])?,
+            ],
+            energy: [
+                field("energy1", &self.energy[0])?,
+                field("energy2", &self.energy[1])?,
+            ],
+            slid: field("slid", &self.slid)?,
+        })
+    }
+}
