@@ -112,7 +112,7 @@ def test_headers_say_spacing_and_unit(tmp_path: Path) -> None:
         "1e-9 2e-9 3e-9\n4e-9 5e-9 6e-9\n"
     )
     np.testing.assert_allclose(
-        fret.read_surface(grid).values, 1e-9 * np.array([[1, 4], [2, 5], [3, 6]])
+        fret.read_surface(grid).values, 1e-9 * np.array([[4, 1], [5, 2], [6, 3]])
     )
     grid.write_text(grid.read_text().replace("5e-9", "-99"))
     with pytest.raises(StoreError, match="1 of 6 points have no number"):

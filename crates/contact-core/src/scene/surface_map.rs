@@ -40,7 +40,11 @@ impl SurfaceMap {
             path: path.display().to_string(),
             message: message.split_whitespace().collect::<Vec<_>>().join(" "),
         };
-        let Heights { values, spacing } = heights(files::read(path)?, format).map_err(failed)?;
+        let has_points = path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("xyz"));
+        let Heights { values, spacing } =
+            heights(files::read(path)?, format, has_points).map_err(failed)?;
         let (values, filled) = completed(values, format.missing).map_err(failed)?;
         let map = Self {
             values: Arc::new(values),

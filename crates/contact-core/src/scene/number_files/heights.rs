@@ -41,8 +41,13 @@ const POINTS: usize = 16;
 /// Relative difference of two lengths that are the same: headers have few digits.
 const SAME: f64 = 1e-3;
 
-/// The numbers of a file; the error says what is wrong and what to give.
-pub(in crate::scene) fn heights(bytes: Vec<u8>, format: &FileOfNumbers) -> Result<Heights, String> {
+/// The numbers of a file; the error says what is wrong and what to give. The ending `.xyz` of its
+/// name `has_points`.
+pub(in crate::scene) fn heights(
+    bytes: Vec<u8>,
+    format: &FileOfNumbers,
+    has_points: bool,
+) -> Result<Heights, String> {
     let reader = Reader {
         format,
         unit: format.unit.as_deref().map(length).transpose()?,
@@ -60,15 +65,16 @@ pub(in crate::scene) fn heights(bytes: Vec<u8>, format: &FileOfNumbers) -> Resul
         let scale = reader.unit.unwrap_or(1.0);
         return reader.with_pitch(values * scale, (x * scale, y * scale));
     }
-    let table = Table::of(&text)?;
+    let mut table = Table::of(&text)?;
     if table.rows() == 0 {
         return Err("holds no number".into());
     }
     if let Some(header) = Header::of(&table.comments)? {
         return reader.picture(&table, &header);
     }
+    table.leave_out_index()?;
     let (names, units) = unit::of_titles(&table.titles(), table.columns);
-    if let Some(columns) = Columns::of(&table, &names, format)? {
+    if let Some(columns) = Columns::of(&table, &names, format, has_points)? {
         return reader.points(&table, &columns, &units);
     }
     check_map(&table, &names)?;
@@ -130,7 +136,7 @@ fn check_map(table: &Table, names: &[String]) -> Result<(), String> {
              place of an even grid, each along x and y; interpolate them to one"
         ));
     }
-    Ok(())
+    table.check_no_index()
 }
 
 /// Whether a title names an axis: `x`, `X_pos`, `x-position`.
@@ -152,7 +158,12 @@ struct Columns {
 
 impl Columns {
     /// The columns, if the table is a list of points.
-    fn of(table: &Table, names: &[String], format: &FileOfNumbers) -> Result<Option<Self>, String> {
+    fn of(
+        table: &Table,
+        names: &[String],
+        format: &FileOfNumbers,
+        has_points: bool,
+    ) -> Result<Option<Self>, String> {
         let (rows, columns) = (table.rows(), table.columns);
         let named = |axis| names.iter().position(|name| is_axis(name, axis));
         let lattice = |x, y| Lattice::of(table.column(x), table.column(y), rows);
@@ -166,14 +177,7 @@ impl Columns {
             }))
         };
         if let (Some(x), Some(y), true) = (named('x'), named('y'), columns > 2) {
-            let lattice = lattice(x, y).ok_or_else(|| {
-                format!(
-                    "columns {} and {}: {rows} points x and y on no even grid: must be one point for each place of an \
-                     even grid; interpolate them to one",
-                    x + 1,
-                    y + 1
-                )
-            })?;
+            let lattice = lattice(x, y).ok_or_else(|| no_lattice((x, y), rows))?;
             return of(x, y, lattice);
         }
         let pairs: &[(usize, usize)] = match columns {
@@ -184,8 +188,27 @@ impl Columns {
         let found = pairs
             .iter()
             .find_map(|&(x, y)| Some((x, y, lattice(x, y)?)));
-        found.map_or(Ok(None), |(x, y, lattice)| of(x, y, lattice))
+        if let Some((x, y, lattice)) = found {
+            return of(x, y, lattice);
+        }
+        let near =
+            |&&(x, y): &&(usize, usize)| Lattice::is_near(table.column(x), table.column(y), rows);
+        match pairs.iter().find(near) {
+            Some((x, y)) => Err(no_lattice((*x, *y), rows)),
+            None if has_points => Err(no_lattice((0, 1), rows)),
+            None => Ok(None),
+        }
     }
+}
+
+/// What is said of points that lie on no lattice.
+fn no_lattice((x, y): (usize, usize), rows: usize) -> String {
+    format!(
+        "columns {} and {}: {rows} points x and y on no even grid: must be one point for each place of an \
+         even grid, at most a tenth of a step off it; interpolate them to one",
+        x + 1,
+        y + 1
+    )
 }
 
 /// The column of the values of points whose x and y have theirs.

@@ -5,6 +5,7 @@
 
 mod field;
 mod heights;
+mod index;
 mod npy;
 mod points;
 mod profile;

@@ -11,28 +11,52 @@ struct Line {
 }
 
 /// Part of the distance of two points by which a coordinate may be off the lattice: what rounding
-/// leaves of few digits.
+/// leaves of few digits, and what a stage leaves of its steps.
 const OFF: f64 = 0.1;
+/// The same of points that were meant to lie on a lattice, and are too far off it to be taken so.
+const NEAR: f64 = 0.35;
+/// Least ratio of the distance of two lines over the scatter within one.
+const PARTED: f64 = 1.5;
 /// Part of the range below which two coordinates are one.
 const SAME: f64 = 1e-6;
 /// Part of a lattice that has points at least.
 const FILLED: f64 = 0.5;
 
 impl Line {
-    /// The line through some coordinates, or `None` if they lie on no even one.
-    fn through(coordinates: impl Iterator<Item = f64>) -> Option<Self> {
+    /// The line through some coordinates, each at most the part `off` of the distance away from it,
+    /// or `None` if they lie on no even one.
+    ///
+    /// The coordinates of one line of the lattice scatter. Which gaps are those between lines is
+    /// tried from the widest on.
+    fn through(coordinates: impl Iterator<Item = f64>, off: f64) -> Option<Self> {
         let mut sorted: Vec<f64> = coordinates.collect();
         if sorted.iter().any(|x| x.is_nan()) {
             return None;
         }
         sorted.sort_unstable_by(f64::total_cmp);
         let range = sorted.last()? - sorted.first()?;
-        sorted.dedup_by(|later, kept| *later - *kept <= SAME * range);
         let mut gaps: Vec<f64> = sorted.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let middle = gaps.len() / 2;
+        gaps.retain(|gap| *gap > SAME * range);
+        gaps.sort_unstable_by(|a, b| b.total_cmp(a));
+        let narrowest = *gaps.last()?;
+        let steps = gaps.windows(2).filter(|pair| pair[0] > PARTED * pair[1]);
+        let least = steps.map(|pair| (pair[0] * pair[1]).sqrt());
+        let mut least = least.chain([0.5 * narrowest]);
+        least.find_map(|least| Self::of_clusters(&sorted, least, off))
+    }
+
+    /// The line through the middles of sorted coordinates that gaps wider than `least` part.
+    fn of_clusters(sorted: &[f64], least: f64, off: f64) -> Option<Self> {
+        let clusters = sorted.chunk_by(|a, b| b - a <= least);
+        let middles: Vec<f64> = clusters
+            .map(|of| 0.5 * (of[0] + of[of.len() - 1]))
+            .collect();
+        let range = middles.last()? - middles.first()?;
+        let mut gaps: Vec<f64> = middles.windows(2).map(|pair| pair[1] - pair[0]).collect();
         if gaps.is_empty() {
             return None;
         }
+        let middle = gaps.len() / 2;
         let (_, median, _) = gaps.select_nth_unstable_by(middle, f64::total_cmp);
         let median = *median;
         // Lines without a point leave gaps of several pitches.
@@ -40,12 +64,12 @@ impl Line {
         let (sum, n) = single.fold((0.0, 0_usize), |(sum, n), gap| (sum + gap, n + 1));
         let steps = (range * n as f64 / sum).round();
         let line = Self {
-            first: sorted[0],
+            first: middles[0],
             pitch: range / steps,
             n: steps as usize + 1,
         };
-        let off = |x: &f64| ((x - line.first) / line.pitch - line.place(*x) as f64).abs();
-        sorted.iter().all(|x| off(x) < OFF).then_some(line)
+        let away = |x: &f64| ((x - line.first) / line.pitch - line.place(*x) as f64).abs();
+        sorted.iter().all(|x| away(x) < off).then_some(line)
     }
 
     fn place(&self, x: f64) -> usize {
@@ -63,7 +87,16 @@ pub(super) struct Lattice {
 impl Lattice {
     /// The lattice that points lie on, if at least half of it has points and it is no line.
     pub(super) fn of<I: Iterator<Item = f64>>(x: I, y: I, points: usize) -> Option<Self> {
-        let (x, y) = (Line::through(x)?, Line::through(y)?);
+        Self::within(x, y, points, OFF)
+    }
+
+    /// Whether points were meant to lie on a lattice, which they miss by too much.
+    pub(super) fn is_near<I: Iterator<Item = f64>>(x: I, y: I, points: usize) -> bool {
+        Self::within(x, y, points, NEAR).is_some()
+    }
+
+    fn within<I: Iterator<Item = f64>>(x: I, y: I, points: usize, off: f64) -> Option<Self> {
+        let (x, y) = (Line::through(x, off)?, Line::through(y, off)?);
         let filled = points as f64 / (x.n as f64 * y.n as f64);
         (x.n > 1 && y.n > 1 && filled >= FILLED).then_some(Self { x, y })
     }
@@ -114,6 +147,24 @@ mod tests {
         assert_eq!(values.dim(), (1000, 3));
         assert!(values[(999, 2)] == 2999.0 && values[(6, 1)].is_nan() && values[(7, 1)] == 1007.0);
         assert!(Lattice::of(of(0), of(2), points.len()).is_none());
+        // A stage that misses its places, by less and by more.
+        for (miss, found) in [(1e-3, true), (0.02, true), (0.09, true), (0.2, false)] {
+            let off = |n: usize| miss * (2.0 * ((n * 7919) as f64 * 0.618).fract() - 1.0);
+            let all = (0..130_usize).filter(|n| n % 13 != 4);
+            let (x, y) = (|n: usize| (n % 13) as f64, |n: usize| (n / 13) as f64);
+            let points: Vec<[f64; 3]> = all
+                .map(|n| [x(n) + off(n), y(n) + off(3 * n + 1), n as f64])
+                .collect();
+            let of = |n: usize| points.iter().map(move |point| point[n]);
+            let on = Lattice::of(of(0), of(1), points.len());
+            assert_eq!(on.is_some(), found, "{miss}");
+            assert!(Lattice::is_near(of(0), of(1), points.len()));
+            if let Some(lattice) = on {
+                let values = lattice.lay_out(points.iter().copied()).expect("places");
+                assert!(values.dim() == (13, 10) && values[(3, 2)] == 29.0);
+                assert!(values[(4, 2)].is_nan());
+            }
+        }
         let twice = [[0.0, 0.0, 1.0], [0.0, 0.0, 2.0]];
         assert_eq!(lattice.lay_out(twice.into_iter()), Err((0, 1)));
     }

@@ -1,7 +1,8 @@
 //! Text with a header of its own: Gwyddion's export and ESRI's ASCII grid. Their lines run along x,
-//! from the top of the picture, where y is smallest: z points into the picture.
+//! from the top. There y is smallest in a picture of Gwyddion, in which z points into the picture,
+//! and largest on a map of ESRI.
 
-use ndarray::Array2;
+use ndarray::{Array2, Axis};
 
 use super::field::{Parting, number};
 use super::table::{Lines, Signs, Table, no_number};
@@ -87,7 +88,7 @@ pub(super) struct EsriGrid {
     pub(super) pitch: (f64, f64),
 }
 
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 12] = [
     "ncols",
     "nrows",
     "xllcorner",
@@ -98,7 +99,17 @@ const KEYS: [&str; 11] = [
     "dx",
     "dy",
     "nodata_value",
+    "nodata",
     "byteorder",
+];
+/// First words of grids of other programs, whose lines begin elsewhere or have other headers.
+const OTHERS: [(&str, &str); 6] = [
+    ("dsaa", "Surfer (DSAA)"),
+    ("dsbb", "Surfer (DSBB)"),
+    ("dsrb", "Surfer (DSRB)"),
+    ("north:", "GRASS"),
+    ("proj:", "GRASS"),
+    ("isnm", "SurfStand"),
 ];
 /// What stands for no number where the header does not say it.
 const NODATA: f64 = -9999.0;
@@ -107,10 +118,13 @@ impl EsriGrid {
     /// The grid of a text, if it begins as one.
     pub(super) fn of(text: &str) -> Option<Result<Self, String>> {
         let Lines { lines, .. } = Lines::of(text);
-        let first = lines.first()?.1.split_whitespace().next()?;
-        first
-            .eq_ignore_ascii_case("ncols")
-            .then(|| Self::read(&lines))
+        let first = lines.first()?.1.split_whitespace().next()?.to_lowercase();
+        if let Some((_, program)) = OTHERS.iter().find(|(mark, _)| **mark == first) {
+            return Some(Err(format!(
+                "is a grid of {program}: export it as an ESRI ASCII grid, or as points x, y and height"
+            )));
+        }
+        KEYS.contains(&first.as_str()).then(|| Self::read(&lines))
     }
 
     fn read(lines: &[(usize, &str)]) -> Result<Self, String> {
@@ -123,6 +137,9 @@ impl EsriGrid {
                 break;
             };
             let word = words.next().unwrap_or_default();
+            if key == "byteorder" {
+                return Err("header: byteorder belongs to a binary grid (.hdr, .flt): export it as an ASCII grid".into());
+            }
             entries[place] = Some(number(word).ok_or_else(|| no_number(n, 1, word))?);
             rest = after;
         }
@@ -143,7 +160,7 @@ impl EsriGrid {
             length.ok_or_else(|| "header: cellsize must be a positive length".to_owned())
         };
         let pitch = (length("dx")?, length("dy")?);
-        let nodata = entry("nodata_value").unwrap_or(NODATA);
+        let nodata = entry("nodata_value").or(entry("nodata")).unwrap_or(NODATA);
         let parting = Parting::of(rest);
         let (mut numbers, mut signs) = (Vec::new(), Signs::default());
         for &(n, line) in rest {
@@ -154,8 +171,10 @@ impl EsriGrid {
             }
         }
         let found = numbers.len();
-        let rows = Array2::from_shape_vec((ny, nx), numbers)
+        let mut rows = Array2::from_shape_vec((ny, nx), numbers)
             .map_err(|_| format!("has {found} numbers: must have ncols x nrows = {nx} x {ny}"))?;
+        // The first line is the northernmost.
+        rows.invert_axis(Axis(0));
         Ok(Self {
             values: rows.reversed_axes(),
             pitch,

@@ -10,7 +10,7 @@ pub(in crate::scene) struct Table {
     /// Lines that begin with #, without it.
     pub(in crate::scene) comments: Vec<String>,
     /// Lines before the first number in which no field is one.
-    titles: Vec<Vec<String>>,
+    pub(super) titles: Vec<Vec<String>>,
     /// The numbers, row by row; NaN where there is none.
     pub(in crate::scene) numbers: Vec<f64>,
     /// Numbers in a row.
@@ -132,15 +132,31 @@ impl Table {
 
     fn leave_out_last_column(&mut self) {
         let columns = self.columns;
-        let mut place = 0;
-        self.numbers.retain(|_| {
-            place += 1;
-            place % columns != 0
-        });
-        self.columns -= 1;
+        self.leave_out(columns - 1);
         for titles in &mut self.titles {
             titles.truncate(columns - 1);
         }
+    }
+
+    pub(super) fn leave_out_first_column(&mut self) {
+        let columns = self.columns;
+        self.leave_out(0);
+        for titles in &mut self.titles {
+            if titles.len() == columns {
+                titles.remove(0);
+            }
+        }
+    }
+
+    /// Leaves the numbers of a column out.
+    fn leave_out(&mut self, column: usize) {
+        let columns = self.columns;
+        let mut place = 0;
+        self.numbers.retain(|_| {
+            place += 1;
+            (place - 1) % columns != column
+        });
+        self.columns -= 1;
     }
 }
 
